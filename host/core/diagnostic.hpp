@@ -1,0 +1,48 @@
+// What is wrong with a text that a person wrote (scene or shader), shown the way compilers show it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace eyeray {
+
+// A place in a text; line and column count from 1, 0 where unknown.
+struct SourcePosition {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+enum class Severity { warning, error };
+
+struct Diagnostic {
+  Severity severity = Severity::error;
+  SourcePosition position;
+  std::string message;
+  std::string source_line;  // the line as written, shown with a caret; may be empty
+  int source_column = 1;    // the column at which source_line starts, where a long line was cut
+};
+
+// "scene.toml:12:5: error: message", then the source line and a caret under the column, without a final
+// newline.
+std::string format_diagnostic(const Diagnostic& diagnostic);
+
+// Everything wrong with an input, thrown in one go; what() is all diagnostics, a line or more each.
+class InputError : public Error {
+ public:
+  explicit InputError(std::vector<Diagnostic> diagnostics);
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+};
+
+// The candidate that `word` is most likely a slip for (Damerau-Levenshtein distance of at most a third of its
+// length, at least 1), or "" when none is near.
+std::string nearest_name(std::string_view word, std::span<const std::string_view> candidates);
+
+}  // namespace eyeray

@@ -1,0 +1,58 @@
+// Faults of the world (file, device, shader, memory) are thrown as Error; broken promises inside the
+// program end it through CHECK. Nothing else is thrown across a layer.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace eyeray {
+
+// What the process answers to its caller; docs/command-line.md lists the same numbers.
+enum class ExitCode : int {
+  ok = 0,
+  comparison_failed = 1,
+  bad_input = 2,  // usage, scene or shader
+  no_device = 3,  // no usable Vulkan device, or it was lost
+  file_io = 4,
+  timed_out = 5,
+  interrupted = 130,
+};
+
+// A fault with the exit code it leads to. what() is one sentence: what failed, why, what to do.
+class Error : public std::runtime_error {
+ public:
+  Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+
+  template <typename... Args>
+  Error(ExitCode code, fmt::format_string<Args...> format, Args&&... args)
+      : Error(code, fmt::format(format, std::forward<Args>(args)...)) {}
+
+  ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+namespace detail {
+[[noreturn]] void check_failed(const char* file, int line, const char* expression, const std::string& values);
+}
+
+// Ends the program with both values when a promise inside it is broken; on in every build.
+#define CHECK(condition) \
+  ((condition) ? void() : ::eyeray::detail::check_failed(__FILE__, __LINE__, #condition, ""))
+#define CHECK_OP_(a, b, op)                                                                \
+  do {                                                                                     \
+    const auto& check_a_ = (a);                                                            \
+    const auto& check_b_ = (b);                                                            \
+    if (!(check_a_ op check_b_))                                                           \
+      ::eyeray::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b,                \
+                                     fmt::format(" ({} against {})", check_a_, check_b_)); \
+  } while (false)
+#define CHECK_EQ(a, b) CHECK_OP_(a, b, ==)
+#define CHECK_LT(a, b) CHECK_OP_(a, b, <)
+#define CHECK_LE(a, b) CHECK_OP_(a, b, <=)
+
+}  // namespace eyeray

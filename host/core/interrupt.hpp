@@ -1,0 +1,12 @@
+// Ctrl-C as a flag that long work looks at between pieces.
+#pragma once
+
+namespace eyeray {
+
+// Makes SIGINT and SIGTERM set the flag; a second signal ends the process at once with exit code 130.
+void catch_interrupts();
+
+// Whether the user asked to stop. Safe from any thread.
+bool interrupted();
+
+}  // namespace eyeray

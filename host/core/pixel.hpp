@@ -1,0 +1,37 @@
+// What executors produce for a pixel: the currency in which they are compared.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "core/vec.hpp"
+
+namespace eyeray {
+
+// One sample of one pixel. Float32 executors widen exactly, so that bits survive.
+struct PixelSample {
+  Vec3 color{0.0};     // linear RGB, unclipped
+  uint32_t rays = 0;   // rays traced for it: eye, reflected, refracted and shadow rays
+  uint32_t hits = 0;   // surfaces struck by its eye, reflected and refracted rays
+  uint32_t flags = 0;  // SampleFlag bits; 0 when nothing went wrong
+};
+
+// Why a sample's colour may be incomplete. A flag is shown to the user and fails `verify`; it is never
+// silent.
+enum SampleFlag : uint32_t {
+  media_overflow = 1u << 0,  // more than four media nested
+  stack_overflow = 1u << 1,  // more rays pending than the shader's stack holds
+  loop_budget = 1u << 2,     // the driver's cap on loop iterations was near (docs/lavapipe.md)
+};
+
+// What the eye ray through the centre of a pixel meets first.
+struct FirstHit {
+  double t = std::numeric_limits<double>::infinity();  // infinity where nothing is hit
+  Vec3 position{0.0};                                  // world
+  Vec3 normal{0.0};                                    // world, unit, shading normal as the shape defines it
+  Vec2 uv{0.0};
+  int32_t primitive = -1;  // index in Scene::shapes; −1 where nothing is hit
+  int32_t material = -1;   // index in Scene::materials
+};
+
+}  // namespace eyeray

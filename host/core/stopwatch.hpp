@@ -1,0 +1,49 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace eyeray {
+
+// Seconds since construction, on the monotonic clock.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+// Seconds spent in named stages, in the order of their first appearance; the same name adds up.
+class StageTimes {
+ public:
+  void add(const std::string& stage, double seconds) {
+    for (auto& [name, total] : stages_) {
+      if (name == stage) {
+        total += seconds;
+        return;
+      }
+    }
+    stages_.emplace_back(stage, seconds);
+  }
+  // Runs `work` and adds its time to `stage`.
+  template <typename Work>
+  auto measure(const std::string& stage, const Work& work) {
+    struct Adder {
+      StageTimes& times;
+      const std::string& stage;
+      Stopwatch watch;
+      ~Adder() { times.add(stage, watch.seconds()); }
+    } adder{*this, stage, {}};
+    return work();
+  }
+  const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
+
+ private:
+  std::vector<std::pair<std::string, double>> stages_;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,102 @@
+#include "core/atomic_file.hpp"
+
+#include "support/process.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using eyeray::test::read_text;
+using eyeray::test::TemporaryFolder;
+using eyeray::test::write_text;
+
+namespace {
+
+// The exit code that `action` fails with; ok when it does not.
+template <typename Action>
+ExitCode failure(const Action& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.code();
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+TEST_CASE("a file is written whole, in the place of an older one, and nothing else is left") {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "a", std::string_view("first, and longer"));
+  write_file_atomically(folder / "a", std::string_view("second"));
+  CHECK(read_text(folder / "a") == "second");
+  CHECK(read_file(folder / "a") == "second");
+  CHECK(folder.names() == std::set<std::string>{"a"});
+}
+
+TEST_CASE("bytes survive, zeros and all, beyond one write's and one read's size") {
+  const TemporaryFolder folder;
+  std::string bytes(3'000'001, '\0');
+  for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = char(i * 7 % 251);
+  write_file_atomically(folder / "a", bytes);
+  CHECK(read_file(folder / "a") == bytes);
+}
+
+TEST_CASE("a name without a folder lies in the current one") {
+  const TemporaryFolder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  write_file_atomically("plain", std::string_view("x"));
+  std::filesystem::current_path(before);
+  CHECK(folder.names() == std::set<std::string>{"plain"});
+}
+
+TEST_CASE("what cannot be written is a file error that says why, and leaves everything as it was") {
+  const TemporaryFolder folder;
+  CHECK(failure([&] { write_file_atomically(folder / "no/such/folder", std::string_view("x")); }) ==
+        ExitCode::file_io);
+  CHECK(failure([&] { check_writable(folder / "no/such/folder"); }) == ExitCode::file_io);
+  CHECK(failure([&] { read_file(folder / "nothing"); }) == ExitCode::file_io);
+  CHECK(failure([&] { read_file(folder.path()); }) == ExitCode::file_io);
+
+  // A folder and a device are no files to replace, whoever may write to them.
+  CHECK(failure([&] { write_file_atomically(folder.path(), std::string_view("x")); }) == ExitCode::file_io);
+  CHECK(failure([] { write_file_atomically("/dev/null", std::string_view("x")); }) == ExitCode::file_io);
+  CHECK(std::filesystem::is_character_file("/dev/null"));
+
+  // The reason is the operating system's.
+  try {
+    read_file(folder / "nothing");
+  } catch (const Error& error) {
+    CHECK(std::string(error.what()).find("No such file or directory") != std::string::npos);
+  }
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("a full disk leaves the old file and no part of the new one") {
+  // /dev/full is no place to rename in; a file size limit fails the write in the same way.
+  const TemporaryFolder folder;
+  write_text(folder / "a", "old");
+  const std::string script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" --test-case='write much' --no-skip";
+  const auto result =
+      run_process({"/bin/sh", "-c", script, std::filesystem::read_symlink("/proc/self/exe").string()},
+                  {{"EYERAY_TEST_FILE", folder / "a"}});
+  CHECK(result.code == 0);
+  CHECK(read_text(folder / "a") == "old");
+  CHECK(folder.names() == std::set<std::string>{"a"});
+}
+
+TEST_CASE("write much" * doctest::skip()) {
+  const char* path = std::getenv("EYERAY_TEST_FILE");
+  REQUIRE(path != nullptr);
+  const std::string much(1 << 20, 'x');
+  CHECK(failure([&] { write_file_atomically(path, much); }) == ExitCode::file_io);
+}
+
+TEST_CASE("check_writable leaves no trace, and the file that is there") {
+  const TemporaryFolder folder;
+  check_writable(folder / "new");
+  CHECK(folder.names().empty());
+  write_text(folder / "old", "kept");
+  check_writable(folder / "old");
+  CHECK(read_text(folder / "old") == "kept");
+}

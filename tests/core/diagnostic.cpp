@@ -1,0 +1,46 @@
+#include "core/diagnostic.hpp"
+
+#include <array>
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+TEST_CASE("a diagnostic shows where, what and the line") {
+  CHECK(format_diagnostic({Severity::error, {"a.toml", 12, 5}, "wrong", "x = 1.2", 1}) ==
+        "a.toml:12:5: error: wrong\n  x = 1.2\n      ^");
+  CHECK(format_diagnostic({Severity::warning, {"a.toml", 12, 0}, "odd", "x = 1.2", 1}) ==
+        "a.toml:12: warning: odd\n  x = 1.2");
+  CHECK(format_diagnostic({Severity::error, {"-D x=1", 0, 0}, "wrong", "", 1}) == "-D x=1: error: wrong");
+  CHECK(format_diagnostic({Severity::error, {"", 0, 0}, "wrong", "", 1}) == "error: wrong");
+}
+
+TEST_CASE("the caret stands under the column, past tabs, long characters and a cut") {
+  CHECK(format_diagnostic({Severity::error, {"a", 1, 4}, "m", "\t\"é\" 1", 1}) ==
+        "a:1:4: error: m\n  \t\"é\" 1\n  \t  ^");
+  CHECK(format_diagnostic({Severity::error, {"a", 1, 103}, "m", "12345", 101}) ==
+        "a:1:103: error: m\n  …12345\n     ^");
+  CHECK(format_diagnostic({Severity::error, {"a", 1, 99}, "m", "12", 1}) == "a:1:99: error: m\n  12\n    ^");
+}
+
+TEST_CASE("an InputError tells everything") {
+  const InputError error(
+      {{Severity::error, {"a", 1, 1}, "x", "", 1}, {Severity::error, {"b", 2, 1}, "y", "", 1}});
+  CHECK(std::string(error.what()) == "a:1:1: error: x\nb:2:1: error: y");
+  CHECK(error.code() == ExitCode::bad_input);
+  CHECK(error.diagnostics().size() == 2);
+}
+
+TEST_CASE("the nearest name") {
+  constexpr std::array<std::string_view, 5> names = {"radius", "center", "material", "up", "eye"};
+  CHECK(nearest_name("radis", names) == "radius");
+  CHECK(nearest_name("centre", names) == "center");  // neighbours swapped count once
+  CHECK(nearest_name("matrial", names) == "material");
+  CHECK(nearest_name("matreail", names) == "material");
+  CHECK(nearest_name("op", names) == "up");
+  CHECK(nearest_name("radius", names) == "radius");
+  CHECK(nearest_name("diameter", names) == "");
+  CHECK(nearest_name("xy", names) == "");
+  CHECK(nearest_name("", names) == "");
+  CHECK(nearest_name(std::string(100000, 'a'), names) == "");
+}

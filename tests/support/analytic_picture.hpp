@@ -1,0 +1,85 @@
+// A picture known in closed form at every point, to try the comparisons on: what a reference renderer would
+// be, with one discontinuity of each kind. All edges lie 0.00003 pixels beyond a row or column of pixel
+// centres, so that rays moved by 0.00005 pixels cross them: a small honest difference, as
+// float32 makes them.
+#pragma once
+
+#include <cmath>
+
+#include "compare/explain.hpp"
+
+namespace eyeray::test {
+
+inline constexpr int picture_width = 96;
+inline constexpr int picture_height = 72;
+inline constexpr double beyond = 3e-5;
+// Pixels along each of the four edges.
+inline constexpr int edge_pixels = 8;
+
+// The picture at a point in pixels from its top left corner: a ball (primitive 1) before a wall (primitive
+// 0), an opening in the wall, a shadow and a checker's edge on it, and a mirror (primitive 2) in which two
+// colours meet.
+inline Probe picture_at(double x, double y) {
+  const auto between = [](double value, double low, double high) { return value >= low && value < high; };
+  Probe probe;
+  probe.hits = 1;
+
+  // The wall, lit a little unevenly.
+  probe.color = Vec3(0.5, 0.4, 0.3) * (1 + 0.1 * std::sin(x / 20) * std::cos(y / 20));
+  probe.first_hit = {1000, {x, -y, 0}, {0, 0, 1}, {x, y}, 0, 0};
+
+  // The ball.
+  const double radius = 25, dx = x - 48, dy = y - 34, r2 = dx * dx + dy * dy;
+  if (r2 < radius * radius) {
+    const double z = std::sqrt(radius * radius - r2);
+    const Vec3 n = Vec3(dx, -dy, z) / radius;
+    const double light = std::max(0.0, glm::dot(n, glm::normalize(Vec3(1, 2, 3))));
+    probe.color = Vec3(0.1) + light * Vec3(0.9, 0.5, 0.2);
+    probe.first_hit = {900 - z, {x, -y, z}, n, {n.x, n.y}, 1, 1};
+  }
+  // The opening, through which nothing is met.
+  if (between(x, 88.5 + beyond, 96) && between(y, 4, 4 + edge_pixels)) {
+    probe = {};
+    probe.color = Vec3(0.1, 0.2, 0.9);
+  }
+  // The shadow.
+  if (between(y, 60.5 + beyond, 65) && between(x, 4, 4 + edge_pixels)) probe.color *= 0.4;
+  // The checker.
+  if (between(x, 20.5 + beyond, 24) && between(y, 60, 60 + edge_pixels)) {
+    probe.color *= Vec3(0.2, 0.9, 0.2);
+    probe.first_colors = 1;
+  }
+  // The mirror.
+  if (between(x, 4, 4 + edge_pixels) && between(y, 4, 16)) {
+    probe.color = y < 10.5 + beyond ? Vec3(0.8, 0.1, 0.1) : Vec3(0.1, 0.1, 0.8);
+    probe.first_hit = {800, {x, -y, 5}, {0, 0.6, 0.8}, {x, y}, 2, 2};
+    probe.hits = 2;
+    probe.direct = false;
+  }
+  probe.first_surfaces = uint64_t(probe.first_hit.primitive);
+  return probe;
+}
+
+inline Probe picture_reference(int x, int y, const Vec2& shift) {
+  return picture_at(x + 0.5 + shift.x, y + 0.5 + shift.y);
+}
+
+// The picture as an executor would give it, rays moved by `shift`.
+inline Frame picture_frame(const Vec2& shift = Vec2(0.0), const Reference& picture = picture_reference) {
+  Frame frame;
+  frame.area = {0, 0, picture_width, picture_height};
+  frame.color = Image(picture_width, picture_height, 3);
+  frame.hits = Image(picture_width, picture_height, 1);
+  frame.rays = 2u * picture_width * picture_height;
+  for (int y = 0; y < picture_height; ++y) {
+    for (int x = 0; x < picture_width; ++x) {
+      const Probe probe = picture(x, y, shift);
+      for (int c = 0; c < 3; ++c) frame.color.pixel(x, y)[c] = float(probe.color[c]);
+      *frame.hits.pixel(x, y) = float(probe.hits);
+      frame.first_hits.push_back(probe.first_hit);
+    }
+  }
+  return frame;
+}
+
+}  // namespace eyeray::test
