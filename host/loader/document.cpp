@@ -1,0 +1,176 @@
+#include "loader/document.hpp"
+
+#include <algorithm>
+
+#include "loader/sections.hpp"
+#include "loader/toml_file.hpp"
+#include "scene/value.hpp"
+
+namespace eyeray {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t deepest_include = 16;
+
+// Lays `over` upon `below`: its keys win, and it says where the table is.
+void merge_settings(toml::table& over, toml::table& below) {
+  for (auto&& [key, node] : below) {
+    if (!over.contains(key.str())) over.insert_or_assign(key, std::move(node));
+  }
+}
+
+// Moves the well-formed sections of `file` onto `root`.
+void merge(toml::table& root, toml::table& file, DiagnosticLog& log) {
+  for (auto&& [key, node] : file) {
+    if (key.str() == include_key) continue;
+    const SourcePosition at = position_of(key.source());
+    const Section* section = find_section(key.str());
+    if (!section) {
+      const char* brackets = node.is_table() || node.is_array_of_tables() ? "table" : "key";
+      log.error(at, fmt::format("unknown {} `{}`; {}", brackets, key.str(), suggest_section(key.str())));
+      continue;
+    }
+
+    // A single table.
+    toml::node* known = root.get(key.str());
+    if (!section->many()) {
+      if (!node.is_table()) {
+        log.error(at, fmt::format("write {}, in single brackets: a scene has one", section->title));
+        continue;
+      }
+      if (known) merge_settings(*node.as_table(), *known->as_table());
+      root.erase(key.str());
+      root.insert_or_assign(key, std::move(node));
+      continue;
+    }
+
+    // A list of tables. One that lacks its second brackets is read on, for what else is wrong in it.
+    if (!known) known = &root.insert_or_assign(key, toml::array()).first->second;
+    if (node.is_table()) {
+      log.error(at, fmt::format("write {}, in double brackets: a scene may have many", section->title));
+      known->as_array()->push_back(std::move(node));
+      continue;
+    }
+    toml::array* list = node.as_array();
+    if (!list) {
+      log.error(at, fmt::format("`{}` must be a table, written {}", key.str(), section->title));
+      continue;
+    }
+    for (toml::node& element : *list) {
+      if (element.is_table()) {
+        known->as_array()->push_back(std::move(element));
+      } else {
+        log.error(position_of(element.source()), fmt::format("every {} must be a table", section->title));
+      }
+    }
+  }
+}
+
+// Whether `path` lies in the folder tree of `folder`; both canonical.
+bool lies_in(const fs::path& path, const fs::path& folder) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
+class Includer {
+ public:
+  Includer(Document& document, DiagnosticLog& log) : document_(document), log_(log) {}
+
+  void allow(const fs::path& folder) {
+    std::error_code error;
+    const fs::path whole = fs::canonical(folder.empty() ? "." : folder, error);
+    if (!error) allowed_.push_back(whole);
+  }
+
+  // Merges what `file` includes, then the file itself.
+  void add(const fs::path& file, std::string text) {
+    std::error_code error;
+    chain_.push_back(fs::weakly_canonical(file, error));
+    done_.push_back(chain_.back());
+    document_.files.push_back(file);
+
+    const std::string name = file.string();
+    toml::table tree = parse_toml(log_.add_source(name, std::move(text)), name, log_);
+    if (const toml::node* include = tree.get(include_key)) include_all(*include, file);
+    merge(document_.root, tree, log_);
+    chain_.pop_back();
+  }
+
+ private:
+  void include_all(const toml::node& node, const fs::path& from) {
+    if (node.is_string()) return include_one(node, from);
+    const toml::array* list = node.as_array();
+    if (!list || std::ranges::any_of(*list, [](const toml::node& element) { return !element.is_string(); })) {
+      log_.error(position_of(node.source()), "`include` must be a file name or a list of them");
+      return;
+    }
+    for (const toml::node& element : *list) include_one(element, from);
+  }
+
+  void include_one(const toml::node& node, const fs::path& from) {
+    const SourcePosition at = position_of(node.source());
+    const std::string name = node.value_or(std::string());
+    if (name.empty() || name.find('\0') != std::string::npos)
+      return log_.error(at, "`include` needs the name of a file");
+    const fs::path file = (from.parent_path() / name).lexically_normal();
+
+    // Follow links before asking whether the file may be read.
+    std::error_code error;
+    const fs::path whole = fs::weakly_canonical(fs::absolute(file), error);
+    if (error ||
+        std::ranges::none_of(allowed_, [&](const fs::path& folder) { return lies_in(whole, folder); })) {
+      return log_.error(
+          at, fmt::format("{} lies outside the scene's folder; --allow-path DIR allows other ones", name));
+    }
+    if (std::ranges::find(chain_, whole) != chain_.end()) return log_.error(at, cycle(whole));
+    if (std::ranges::find(done_, whole) != done_.end()) return;  // once is enough
+    if (chain_.size() > deepest_include) {
+      return log_.error(at, fmt::format("includes are nested more than {} deep", deepest_include));
+    }
+    try {
+      add(file, read_scene_text(file));
+    } catch (const Error& unreadable) {
+      log_.error(at, unreadable.what());
+    }
+  }
+
+  // "a.toml includes itself: a.toml → b.toml → a.toml".
+  std::string cycle(const fs::path& again) const {
+    std::string text = again.filename().string() + " includes itself: ";
+    for (auto link = std::ranges::find(chain_, again); link != chain_.end(); ++link) {
+      text += link->filename().string() + " → ";
+    }
+    return text + again.filename().string();
+  }
+
+  Document& document_;
+  DiagnosticLog& log_;
+  std::vector<fs::path> allowed_;
+  std::vector<fs::path> chain_;  // the files being read, from the scene down
+  std::vector<fs::path> done_;
+};
+
+}  // namespace
+
+Document read_document(const fs::path& scene, std::span<const fs::path> allowed_folders, DiagnosticLog& log) {
+  Document document;
+  Includer includer(document, log);
+  std::string text = read_scene_text(scene);
+  includer.allow(scene.parent_path());
+  for (const fs::path& folder : allowed_folders) includer.allow(folder);
+  includer.add(scene, std::move(text));
+  return document;
+}
+
+Document parse_document(std::string_view text, const std::string& name, DiagnosticLog& log) {
+  Document document;
+  toml::table tree = parse_toml(log.add_source(name, std::string(text)), name, log);
+  if (const toml::node* include = tree.get(include_key)) {
+    log.error(position_of(include->source()), "only a scene in a file can include others");
+  }
+  merge(document.root, tree, log);
+  return document;
+}
+
+}  // namespace eyeray

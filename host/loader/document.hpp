@@ -1,0 +1,27 @@
+// A scene's files laid over each other: the scene itself, and what it includes. Private to the loader.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "scene/diagnostic_log.hpp"
+
+namespace eyeray {
+
+// One TOML tree in which every top table is a known section: [name] a table, [[name]] a list of tables. What
+// is not is reported and left out.
+struct Document {
+  toml::table root;
+  std::vector<std::filesystem::path> files;  // the scene first
+};
+
+// Error (file_io) when the scene itself cannot be read; all else goes to the log.
+Document read_document(const std::filesystem::path& scene,
+                       std::span<const std::filesystem::path> allowed_folders, DiagnosticLog& log);
+// A document without files; includes are refused.
+Document parse_document(std::string_view text, const std::string& name, DiagnosticLog& log);
+
+}  // namespace eyeray

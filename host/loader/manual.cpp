@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include "loader/scene_file.hpp"
+#include "loader/sections.hpp"
+#include "scene/table.hpp"
+
+namespace eyeray {
+
+namespace {
+
+std::string default_of(const Key& key) {
+  if (!key.fallback.empty()) return fmt::format("`{}`", key.fallback);
+  return key.optional ? "–" : "**required**";
+}
+
+// The keys as a Markdown table.
+std::string key_table(std::initializer_list<std::span<const Key>> groups) {
+  std::string text = "| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
+  for (const std::span<const Key> keys : groups) {
+    for (const Key& key : keys) {
+      text += fmt::format("| `{}` | {} | {} | {} |\n", key.name, describe(key), default_of(key), key.doc);
+    }
+  }
+  return text + "\n";
+}
+
+std::string trimmed(std::string_view text) {
+  while (text.ends_with('\n')) text.remove_suffix(1);
+  return std::string(text) + "\n\n";
+}
+
+}  // namespace
+
+std::string scene_manual() {
+  using enum Section::Kind;
+  std::string text =
+      "# Scene file: every table and key\n\n"
+      "Made from the keys that eyeray checks scenes by (`host/loader/manual.cpp`); a test compares the two. "
+      "[scene-file.md](scene-file.md) is the introduction.\n\n";
+
+  // The tables, then what their types and values add.
+  for (const Section& section : sections()) {
+    text += fmt::format("## `{}`\n\n", section.title);
+    if (section.shape) {
+      text += trimmed(section.shape->manual) + key_table({section.shape->keys, section.keys});
+      continue;
+    }
+    text += std::string(section.doc) + "\n\n" + key_table({section.keys});
+    if (section.kind != material) continue;
+    for (const MaterialType* type : material_types()) {
+      text += fmt::format("### `type = \"{}\"`\n\n", type->name) + trimmed(type->manual) +
+              key_table({type->keys});
+    }
+    text += "### `{ checker = … }`\n\nA checkerboard in uv, wherever a color may vary over a surface.\n\n";
+    text += key_table({checker_table_keys()});
+  }
+  text +=
+      "## `transform`\n\nEach step is a table with one of these keys; steps are applied in the order "
+      "written.\n\n";
+  text += key_table({transform_step_keys()});
+  text += "A rotation is a table of two:\n\n" + key_table({rotation_keys()});
+  text +=
+      "## `batch`\n\nMany shapes from one table: each key of `batch` holds a list with one value a shape, "
+      "all lists equally "
+      "long. The table's other keys are common to all.\n\n"
+      "```toml\n[[sphere]]\nmaterial = \"glass\"\n"
+      "batch = { center = [[0, 0, 0], [3, 0, 0]], radius = [1, 0.5] }\n```\n";
+  text +=
+      "\n## `include`\n\nA file name or a list of them, above all tables; relative to the file it stands in. "
+      "See [scene-file.md](scene-file.md#several-files).\n";
+  return text;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,167 @@
+#include "loader/overrides.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "loader/sections.hpp"
+#include "loader/statements.hpp"
+#include "loader/toml_file.hpp"
+#include "scene/value.hpp"
+
+namespace eyeray {
+
+namespace {
+
+bool is_word(std::string_view text) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const auto inner = [&](char c) {
+    return letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '/';
+  };
+  return !text.empty() && letter(text[0]) && std::ranges::all_of(text, inner);
+}
+
+std::optional<size_t> as_index(std::string_view text) {
+  size_t index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return index;
+}
+
+class Assignment {
+ public:
+  Assignment(std::string_view text, toml::table& root, DiagnosticLog& log)
+      : text_(text), name_(fmt::format("-D {}", printable(text))), root_(root), log_(log) {}
+
+  void apply() {
+    if (!parse()) return;
+    if (toml::node* section = enter_section()) assign(*section);
+  }
+
+ private:
+  void fail(std::string message) { log_.error({name_, 0, 0}, std::move(message)); }
+
+  // Reads KEY=VALUE as the TOML it is; a bare word gets its quotes.
+  bool parse() {
+    const size_t equals = text_.find('=');
+    const bool one_line = text_.find('\n') == std::string_view::npos && !find_deep_key(text_);
+    if (equals == std::string_view::npos || !one_line)
+      return fail("write KEY=VALUE, such as render.max_depth=3"), false;
+    try {
+      tree_ = toml::parse(text_, name_);
+    } catch (const toml::parse_error& error) {
+      const std::string_view value = text_.substr(equals + 1);
+      const std::string reason = "syntax: " + explain_syntax(error.description());
+      if (!is_word(value)) return fail(reason), false;
+      try {
+        tree_ = toml::parse(fmt::format("{}=\"{}\"", text_.substr(0, equals), value), name_);
+      } catch (const toml::parse_error&) {
+        return fail(reason), false;
+      }
+    }
+
+    // Walk down the parts of the key to the value.
+    toml::node* node = &tree_;
+    while (node->is_table() && !node->as_table()->is_inline()) {
+      if (node->as_table()->size() != 1) return fail("write KEY=VALUE, such as render.max_depth=3"), false;
+      const auto entry = node->as_table()->begin();
+      path_.push_back(entry->first);
+      node = &entry->second;
+    }
+    value_ = node;
+    return true;
+  }
+
+  // The table that the first one or two parts name; null, with an error, where there is none.
+  toml::node* enter_section() {
+    const std::string_view name = path_[0].str();
+    const Section* section = find_section(name);
+    if (name == include_key) return fail("`include` can stand in a file only"), nullptr;
+    if (!section) return fail(fmt::format("unknown table `{}`; {}", name, suggest_section(name))), nullptr;
+    next_ = section->many() ? 2 : 1;
+    if (path_.size() <= next_) {
+      fail(fmt::format("name the key too: {}{}.KEY=VALUE", section->name, section->many() ? ".INDEX" : ""));
+      return nullptr;
+    }
+    toml::node* found = root_.get(section->name);
+    if (!section->many()) {
+      return found ? found : &root_.insert_or_assign(section->name, toml::table()).first->second;
+    }
+    return find_element(*section, found ? found->as_array() : nullptr);
+  }
+
+  // An element of a list of tables, by index or by its `name`.
+  toml::node* find_element(const Section& section, toml::array* list) {
+    const std::string_view wanted = path_[1].str();
+    const size_t count = list ? list->size() : 0;
+    std::vector<std::string_view> names;
+    for (size_t i = 0; i < count; ++i) {
+      const toml::node* name = list->get(i)->as_table()->get("name");
+      if (!name || !name->is_string()) continue;
+      names.push_back(name->as_string()->get());
+      if (names.back() == wanted) return list->get(i);
+    }
+    const auto index = as_index(wanted);
+    if (index && *index < count) return list->get(*index);
+
+    const std::string nearest = nearest_name(wanted, names);
+    if (count == 0) {
+      fail(fmt::format("the scene has no {}", section.title));
+    } else if (!index && !nearest.empty()) {
+      fail(fmt::format("no {} is named `{}`; did you mean `{}`?", section.title, wanted, nearest));
+    } else {
+      fail(fmt::format("there is no {}.{}: the scene has {} {}, from 0 to {}", section.name, wanted, count,
+                       section.title, count - 1));
+    }
+    return nullptr;
+  }
+
+  // Goes down the other parts, and sets the last.
+  void assign(toml::node& section) {
+    toml::node* node = &section;
+    for (; next_ < path_.size(); ++next_) {
+      const toml::key& part = path_[next_];
+      const bool last = next_ + 1 == path_.size();
+      if (toml::table* table = node->as_table()) {
+        if (last) {
+          table->erase(part.str());
+          table->insert_or_assign(part, std::move(*value_));
+          return;
+        }
+        node = table->get(part.str());
+        if (!node) node = &table->insert_or_assign(part, toml::table()).first->second;
+      } else if (toml::array* list = node->as_array()) {
+        const auto index = as_index(part.str());
+        if (!index || *index >= list->size()) {
+          return fail(fmt::format("`{}` has {} elements, counted from 0; `{}` is none of them",
+                                  path_[next_ - 1].str(), list->size(), part.str()));
+        }
+        if (last) {
+          list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(*index), std::move(*value_));
+          return;
+        }
+        node = list->get(*index);
+      } else {
+        return fail(
+            fmt::format("`{}` holds a single value, so it has no `{}`", path_[next_ - 1].str(), part.str()));
+      }
+    }
+  }
+
+  std::string_view text_;
+  std::string name_;
+  toml::table& root_;
+  DiagnosticLog& log_;
+  toml::table tree_;
+  std::vector<toml::key> path_;
+  size_t next_ = 0;  // the first part of the path that was not followed yet
+  toml::node* value_ = nullptr;
+};
+
+}  // namespace
+
+void apply_overrides(toml::table& root, std::span<const Override> overrides, DiagnosticLog& log) {
+  for (const Override& change : overrides) Assignment(change.text, root, log).apply();
+}
+
+}  // namespace eyeray

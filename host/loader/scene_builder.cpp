@@ -1,0 +1,209 @@
+#include "loader/scene_builder.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "loader/sections.hpp"
+#include "loader/settings.hpp"
+#include "scene/table.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
+
+// A batch of a shape's values, as it was checked.
+struct Batch {
+  const toml::table* lists = nullptr;  // null: the table is one shape
+  size_t count = 1;                    // 0 after an error
+};
+
+class Builder {
+ public:
+  Builder(const toml::table& root, DiagnosticLog& log) : root_(root), log_(log) {}
+
+  Scene build() {
+    TableReader image = read_single("image");
+    scene_.image = read_image(image);
+    TableReader camera = read_single("camera");
+    scene_.camera = read_camera(camera);
+    TableReader render = read_single("render");
+    scene_.render = read_render(render);
+
+    for_each("light", [&](const Section& section, const toml::table& table) {
+      TableReader light = read_table({section.title, &table, {section.keys}}, log_);
+      scene_.lights.push_back(read_light(light));
+    });
+    for_each("material",
+             [&](const Section& section, const toml::table& table) { add_material(section, table); });
+    for (const ShapeType* type : shape_types()) {
+      for_each(type->name,
+               [&](const Section& section, const toml::table& table) { add_shapes(section, table); });
+    }
+    check_whole();
+    return std::move(scene_);
+  }
+
+ private:
+  struct NamedMaterial {
+    int index;  // in Scene::materials; -1 after an error
+    SourcePosition position;
+    bool used = false;
+  };
+
+  TableReader read_single(std::string_view name) {
+    const Section& section = *find_section(name);
+    const toml::node* node = root_.get(name);
+    return read_table({section.title, node ? node->as_table() : nullptr, {section.keys}}, log_);
+  }
+
+  template <typename Visit>
+  void for_each(std::string_view name, const Visit& visit) {
+    const toml::node* list = root_.get(name);
+    if (!list) return;
+    for (const toml::node& node : *list->as_array()) visit(*find_section(name), *node.as_table());
+  }
+
+  void add_material(const Section& section, const toml::table& table);
+  void add_shapes(const Section& section, const toml::table& table);
+  Batch read_batch(const Section& section, const toml::table& table);
+  int find_material(TableReader& shape);
+  void check_whole();
+
+  const toml::table& root_;
+  DiagnosticLog& log_;
+  Scene scene_;
+  std::map<std::string, NamedMaterial, std::less<>> materials_;
+  size_t media_ = 0;
+  bool tried_shapes_ = false;
+};
+
+// The type comes first, for it decides which other keys there are.
+void Builder::add_material(const Section& section, const toml::table& table) {
+  const MaterialType* type = nullptr;
+  if (const toml::node* written = table.get("type"); written && written->is_string()) {
+    const auto found = std::ranges::find(material_types(), written->as_string()->get(), &MaterialType::name);
+    if (found != material_types().end()) type = *found;
+  }
+  const std::string title = type ? fmt::format("[[material]] of type {}", type->name) : section.title;
+  TableReader reader = read_table({.title = title,
+                                   .table = &table,
+                                   .keys = {section.keys, type ? type->keys : std::span<const Key>()},
+                                   .open = !type},
+                                  log_);
+  std::unique_ptr<Material> material = type ? type->parse(reader) : nullptr;
+
+  // Enter the name even after an error, so that its users are not reported too.
+  const std::string name = reader.string("name");
+  if (!reader.valid("name")) return;
+  if (name.empty()) return reader.error("name", "a material's name must not be empty");
+  const auto [entry, fresh] = materials_.try_emplace(name, NamedMaterial{-1, reader.position()});
+  if (!fresh) {
+    const SourcePosition& first = entry->second.position;
+    return reader.error("name", fmt::format("material \"{}\" is defined twice; the first is at {}:{}", name,
+                                            first.file, first.line));
+  }
+  if (!material) return;
+  if (material->medium() && ++media_ > most_media) {
+    reader.error("type",
+                 fmt::format("a scene can have at most {} materials that light passes through", most_media));
+  }
+  material->name = name;
+  entry->second.index = static_cast<int>(scene_.materials.size());
+  scene_.materials.push_back(std::move(material));
+}
+
+// Checks that all lists of a batch are lists of the shape's values, and equally long.
+Batch Builder::read_batch(const Section& section, const toml::table& table) {
+  const toml::node* node = table.get(batch_key);
+  if (!node) return {};
+  const toml::table* lists = node->as_table();
+  if (!lists || lists->empty()) {
+    log_.error(position_of(node->source()), "`batch` must be a table of lists, such as { KEY = [value, …] }");
+    return {nullptr, 0};
+  }
+  std::vector<std::string_view> names;
+  for (const std::span<const Key> keys : {section.keys, section.shape->keys}) {
+    for (const Key& key : keys) names.push_back(key.name);
+  }
+  Batch batch{lists, 0};
+  bool ok = true;
+  const auto fail = [&](const toml::source_region& at, std::string message) {
+    log_.error(position_of(at), std::move(message));
+    ok = false;
+  };
+  const toml::key* first = nullptr;
+  for (const auto& [key, list] : *lists) {
+    if (std::ranges::find(names, key.str()) == names.end()) {
+      const std::string nearest = nearest_name(key.str(), names);
+      fail(key.source(), fmt::format("unknown key `{}` in the batch of {}{}", key.str(), section.title,
+                                     nearest.empty() ? "" : fmt::format("; did you mean `{}`?", nearest)));
+    } else if (table.contains(key.str())) {
+      fail(key.source(), fmt::format("`{}` stands in the table and in its batch", key.str()));
+    } else if (!list.is_array()) {
+      fail(list.source(), fmt::format("`{}` in a batch must be a list, one value a shape", key.str()));
+    } else if (!first) {
+      first = &key;
+      batch.count = list.as_array()->size();
+    } else if (list.as_array()->size() != batch.count) {
+      fail(list.source(),
+           fmt::format("`{}` has {} values, `{}` has {}: the lists of a batch are equally long", key.str(),
+                       list.as_array()->size(), first->str(), batch.count));
+    }
+  }
+  return ok ? batch : Batch{nullptr, 0};
+}
+
+void Builder::add_shapes(const Section& section, const toml::table& table) {
+  tried_shapes_ = true;
+  const Batch batch = read_batch(section, table);
+  for (size_t i = 0; i < batch.count; ++i) {
+    TableReader reader = read_table(
+        {section.title, &table, {section.shape->keys, section.keys}, batch.lists, i, batch_key}, log_);
+    const int material = find_material(reader);
+    std::unique_ptr<Shape> shape = section.shape->parse(reader, reader.transform("transform"));
+    if (!shape) continue;
+    shape->material = material;
+    shape->position = reader.position();
+    scene_.shapes.push_back(std::move(shape));
+  }
+}
+
+int Builder::find_material(TableReader& shape) {
+  if (!shape.valid("material")) return 0;
+  const std::string name = shape.string("material");
+  const auto found = materials_.find(name);
+  if (found != materials_.end()) {
+    found->second.used = true;
+    return std::max(0, found->second.index);
+  }
+  if (log_.damaged()) return 0;
+  std::vector<std::string_view> names;
+  for (const auto& [known, material] : materials_) names.push_back(known);
+  const std::string nearest = nearest_name(name, names);
+  shape.error("material", fmt::format("no [[material]] is named \"{}\"{}", name,
+                                      nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+  return 0;
+}
+
+// Warns of what is legal but hardly meant.
+void Builder::check_whole() {
+  if (scene_.shapes.empty() && !tried_shapes_)
+    log_.warning({}, "the scene has no shapes: only background will be seen");
+  if (scene_.lights.empty() && scene_.render.integrator == IntegratorType::whitted &&
+      !scene_.shapes.empty()) {
+    log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");
+  }
+  for (const auto& [name, material] : materials_) {
+    if (!material.used) log_.warning(material.position, fmt::format("material \"{}\" is not used", name));
+  }
+}
+
+}  // namespace
+
+Scene build_scene(const toml::table& root, DiagnosticLog& log) {
+  return Builder(root, log).build();
+}
+
+}  // namespace eyeray

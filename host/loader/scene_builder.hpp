@@ -1,0 +1,14 @@
+// From the tree of a scene's files to a Scene. Private to the loader.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include "scene/diagnostic_log.hpp"
+#include "scene/scene.hpp"
+
+namespace eyeray {
+
+// Everything but Scene::file, files and warnings; only whole when the log has no errors.
+Scene build_scene(const toml::table& root, DiagnosticLog& log);
+
+}  // namespace eyeray

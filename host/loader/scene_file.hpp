@@ -1,0 +1,34 @@
+// Scene files: TOML, strict. docs/scene-file.md is the manual, docs/scene.schema.json the schema for editors.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scene/scene.hpp"
+
+namespace eyeray {
+
+// "render.max_depth=3", "image.width=64", "sphere.0.radius=2", "material.glass.ior=1.3",
+// "light.1.intensity=[1,1,1]": a value laid over the file, the same as if it stood there. The right side is
+// TOML; a bare word is taken as a string.
+struct Override {
+  std::string text;
+};
+
+// Reads, includes, overrides and checks a scene. Included files may lie in the scene file's folder tree and
+// in those of `allowed_folders`. Throws InputError with every error at once, or Error (file_io) when the file
+// itself cannot be read.
+Scene load_scene(const std::filesystem::path& file, std::span<const Override> overrides = {},
+                 std::span<const std::filesystem::path> allowed_folders = {});
+// The same from memory, for tests; `name` stands in messages. It cannot include.
+Scene parse_scene(std::string_view text, const std::string& name, std::span<const Override> overrides = {});
+
+// The JSON Schema of scene files, made from the same Keys that the loader checks by; docs/scene.schema.json.
+std::string scene_schema();
+
+// Every table and key of scene files as Markdown, made from the same Keys; docs/scene-reference.md.
+std::string scene_manual();
+
+}  // namespace eyeray

@@ -1,0 +1,83 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <vector>
+
+#include "core/error.hpp"
+#include "loader/toml_file.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr size_t most_bytes = size_t{256} << 20;
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+// "; did you mean `scenes/whitted.toml`?", or "".
+std::string suggest_file(const std::filesystem::path& file) {
+  constexpr size_t most_looked_at = 1000;
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::vector<std::string> names;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().extension() == ".toml") names.push_back(entry->path().filename().string());
+    if (names.size() == most_looked_at) break;
+  }
+  const std::string nearest =
+      nearest_name(file.filename().string(), std::vector<std::string_view>(names.begin(), names.end()));
+  return nearest.empty() ? "" : fmt::format("; did you mean {}?", (file.parent_path() / nearest).string());
+}
+
+}  // namespace
+
+std::string read_scene_text(const std::filesystem::path& file) {
+  const auto fail = [&](const std::string& why) {
+    return Error(ExitCode::file_io, "cannot read the scene {}: {}", file.string(), why);
+  };
+
+  // Look before reading: a device never ends, a pipe without a writer never begins.
+  const Descriptor descriptor(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (descriptor.get() < 0) {
+    const int reason = errno;
+    throw fail(std::strerror(reason) + (reason == ENOENT ? suggest_file(file) : ""));
+  }
+  struct stat status;
+  if (fstat(descriptor.get(), &status) != 0) throw fail(std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) throw fail("it is a folder");
+  if (!S_ISREG(status.st_mode)) throw fail("it is not a regular file");
+  if (static_cast<size_t>(status.st_size) > most_bytes) {
+    throw fail(fmt::format("it has {} bytes; the most is {} (256 MiB)", status.st_size, most_bytes));
+  }
+
+  // Read it piece by piece.
+  std::string text(static_cast<size_t>(status.st_size), '\0');
+  size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t count = read(descriptor.get(), text.data() + done, text.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw fail(std::strerror(errno));
+    if (count == 0) break;
+    done += static_cast<size_t>(count);
+  }
+  text.resize(done);
+  return text;
+}
+
+}  // namespace eyeray

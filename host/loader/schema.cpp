@@ -1,0 +1,190 @@
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+#include "loader/scene_file.hpp"
+#include "loader/sections.hpp"
+#include "scene/table.hpp"
+
+namespace eyeray {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json from_toml(const toml::node& node) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* integer = node.as_integer()) return integer->get();
+  if (const auto* number = node.as_floating_point()) return number->get();
+  if (const auto* boolean = node.as_boolean()) return boolean->get();
+  Json list = Json::array();
+  if (const auto* array = node.as_array()) {
+    for (const toml::node& element : *array) list.push_back(from_toml(element));
+  }
+  return list;
+}
+
+// Integers as such, so that the schema reads 1 and not 1.0.
+Json bound(double value) {
+  if (std::fabs(value) < 1e15 && std::trunc(value) == value) return static_cast<int64_t>(value);
+  return value;
+}
+
+Json number_schema(const Key& key, std::string_view type) {
+  Json schema = {{"type", type}};
+  if (std::isfinite(key.min)) schema[key.above_min ? "exclusiveMinimum" : "minimum"] = bound(key.min);
+  if (std::isfinite(key.max)) schema[key.below_max ? "exclusiveMaximum" : "maximum"] = bound(key.max);
+  return schema;
+}
+
+Json list_schema(Json items) {
+  return {{"type", "array"}, {"items", std::move(items)}};
+}
+
+Json vector_schema(const Key& key, int size) {
+  Json schema = list_schema(number_schema(key, "number"));
+  schema["minItems"] = schema["maxItems"] = size;
+  return schema;
+}
+
+Json either(Json a, Json b) {
+  return {{"anyOf", {std::move(a), std::move(b)}}};
+}
+
+Json table_schema(std::span<const Key> keys);
+
+// What a value of the key may be, without its description.
+Json value_schema(const Key& key) {
+  Key positive = key;
+  positive.min = std::max(key.min, 0.0);
+  switch (key.type) {
+    case KeyType::boolean:
+      return {{"type", "boolean"}};
+    case KeyType::integer:
+      return number_schema(key, "integer");
+    case KeyType::number:
+      return number_schema(key, "number");
+    case KeyType::string:
+      return {{"type", "string"}};
+    case KeyType::choice:
+      return {{"enum", key.choices}};
+    case KeyType::vec2:
+      return vector_schema(key, 2);
+    case KeyType::vec3:
+      return vector_schema(key, 3);
+    case KeyType::vec2_list:
+      return list_schema(vector_schema(key, 2));
+    case KeyType::vec3_list:
+      return list_schema(vector_schema(key, 3));
+    case KeyType::color:
+      return either(number_schema(positive, "number"), vector_schema(positive, 3));
+    case KeyType::scale2:
+      return either(number_schema(key, "number"), vector_schema(key, 2));
+    case KeyType::scale3:
+      return either(number_schema(key, "number"), vector_schema(key, 3));
+    case KeyType::rotation:
+      return table_schema(rotation_keys());
+    case KeyType::transform: {
+      Json step = table_schema(transform_step_keys());
+      step["minProperties"] = step["maxProperties"] = 1;
+      return list_schema(std::move(step));
+    }
+    case KeyType::matrix: {
+      Json rows = list_schema(vector_schema(key, 4));
+      rows["minItems"] = rows["maxItems"] = 3;
+      return rows;
+    }
+    case KeyType::texture: {
+      Json checker = {{"type", "object"},
+                      {"properties", {{"checker", table_schema(checker_table_keys())}}},
+                      {"required", {"checker"}},
+                      {"additionalProperties", false}};
+      Json schema = either(number_schema(positive, "number"), vector_schema(positive, 3));
+      schema["anyOf"].push_back(std::move(checker));
+      return schema;
+    }
+  }
+  return {};
+}
+
+void add_keys(Json& schema, std::span<const Key> keys) {
+  for (const Key& key : keys) {
+    Json value = {{"description", key.doc}};
+    value.update(value_schema(key));
+    if (!key.fallback.empty()) value["default"] = from_toml(fallback_of(key));
+    schema["properties"][std::string(key.name)] = std::move(value);
+    if (key.fallback.empty() && !key.optional) schema["required"].push_back(key.name);
+  }
+}
+
+Json table_schema(std::span<const Key> keys) {
+  Json schema = {{"type", "object"}, {"properties", Json::object()}};
+  add_keys(schema, keys);
+  schema["additionalProperties"] = false;
+  return schema;
+}
+
+// One alternative a type, each with its own keys.
+Json material_schema(const Section& section) {
+  Json alternatives = Json::array();
+  for (const MaterialType* type : material_types()) {
+    Json schema = table_schema(section.keys);
+    add_keys(schema, type->keys);
+    schema["properties"]["type"] = {{"const", type->name}};
+    alternatives.push_back(std::move(schema));
+  }
+  return {{"oneOf", std::move(alternatives)}};
+}
+
+// A shape's required keys may stand in its batch instead.
+Json shape_schema(const Section& section) {
+  Json schema = table_schema(section.keys);
+  add_keys(schema, section.shape->keys);
+  Json lists = Json::object();
+  for (const auto& [name, value] : schema["properties"].items()) {
+    Json one = value;
+    one.erase("default");
+    one.erase("description");
+    lists[name] = list_schema(std::move(one));
+  }
+  schema["properties"][std::string(batch_key)] = {
+      {"description", "Lists of values, one a shape; the table's other keys are common to all."},
+      {"type", "object"},
+      {"properties", std::move(lists)},
+      {"minProperties", 1},
+      {"additionalProperties", false}};
+  schema["anyOf"] = {{{"required", schema["required"]}}, {{"required", {batch_key}}}};
+  schema.erase("required");
+  return schema;
+}
+
+Json section_schema(const Section& section) {
+  using enum Section::Kind;
+  if (section.kind == material) return list_schema(material_schema(section));
+  if (section.kind == shape) return list_schema(shape_schema(section));
+  return section.many() ? list_schema(table_schema(section.keys)) : table_schema(section.keys);
+}
+
+}  // namespace
+
+std::string scene_schema() {
+  const Json file_name = {{"type", "string"}};
+  Json properties;
+  properties[std::string(include_key)] = {{"description", "Scene files to take in, relative to this one."},
+                                          {"anyOf", {file_name, list_schema(file_name)}}};
+  for (const Section& section : sections()) {
+    Json described = section.doc.empty() ? Json::object() : Json{{"description", section.doc}};
+    described.update(section_schema(section));
+    properties[std::string(section.name)] = std::move(described);
+  }
+  const Json schema = {
+      {"$schema", "https://json-schema.org/draft/2020-12/schema"},
+      {"title", "eyeray scene"},
+      {"description", "Made from the keys that eyeray checks scenes by; docs/scene-file.md."},
+      {"type", "object"},
+      {"properties", std::move(properties)},
+      {"additionalProperties", false}};
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace eyeray

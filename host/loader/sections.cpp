@@ -1,0 +1,79 @@
+#include "loader/sections.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/diagnostic.hpp"
+#include "loader/settings.hpp"
+
+namespace eyeray {
+
+namespace {
+
+std::span<const std::string_view> material_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const MaterialType* type : material_types()) all.push_back(type->name);
+    return all;
+  }();
+  return names;
+}
+
+std::span<const Key> material_keys() {
+  static const Key keys[] = {
+      {.name = "name",
+       .type = KeyType::string,
+       .doc = "The name by which shapes refer to it, unique in the scene."},
+      {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = material_names()},
+  };
+  return keys;
+}
+
+constexpr Key shape_keys[] = {
+    {.name = "material", .type = KeyType::string, .doc = "The `name` of a [[material]]."},
+    {.name = "transform",
+     .type = KeyType::transform,
+     .doc = "Steps that move the shape, applied in the order written.",
+     .fallback = "[]"},
+};
+
+std::vector<Section> make_sections() {
+  using enum Section::Kind;
+  std::vector<Section> all = {
+      {image, "image", "[image]", "The picture.", image_keys()},
+      {camera, "camera", "[camera]", "Where from and how the scene is seen.", camera_keys()},
+      {render, "render", "[render]", "How the picture is computed.", render_keys()},
+      {light, "light", "[[light]]", "A light.", light_keys()},
+      {material, "material", "[[material]]", "What surfaces are made of.", material_keys()},
+  };
+  for (const ShapeType* type : shape_types()) {
+    all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", shape_keys, type});
+  }
+  return all;
+}
+
+}  // namespace
+
+std::span<const Section> sections() {
+  static const std::vector<Section> all = make_sections();
+  return all;
+}
+
+const Section* find_section(std::string_view name) {
+  for (const Section& section : sections()) {
+    if (section.name == name) return &section;
+  }
+  return nullptr;
+}
+
+std::string suggest_section(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const Section& section : sections()) names.push_back(section.name);
+  names.push_back(include_key);
+  const std::string nearest = nearest_name(name, names);
+  if (nearest.empty()) return fmt::format("a scene has {}", fmt::join(names, ", "));
+  const Section* section = find_section(nearest);
+  return fmt::format("did you mean {}?", section ? section->title : nearest);
+}
+
+}  // namespace eyeray

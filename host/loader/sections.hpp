@@ -1,0 +1,38 @@
+// Every table that may stand in a scene file: the one list from which reading, the schema and the manual go.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/material.hpp"
+#include "scene/shape.hpp"
+
+namespace eyeray {
+
+struct Section {
+  enum class Kind { image, camera, render, light, material, shape };
+
+  Kind kind;
+  std::string_view name;
+  std::string title;  // "[camera]", "[[sphere]]"
+  std::string_view doc;
+  std::span<const Key> keys;         // of every such table …
+  const ShapeType* shape = nullptr;  // … and where set, the shape's own
+
+  bool many() const { return title.starts_with("[["); }
+};
+
+// In the order in which the manual shows them; shapes in registry order.
+std::span<const Section> sections();
+// Null when there is no such table.
+const Section* find_section(std::string_view name);
+// "did you mean [[sphere]]?", or the names of all.
+std::string suggest_section(std::string_view name);
+
+// The key that lists the files to include, and the one that holds a shape's batch.
+inline constexpr std::string_view include_key = "include";
+inline constexpr std::string_view batch_key = "batch";
+
+}  // namespace eyeray

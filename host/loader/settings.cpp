@@ -1,0 +1,266 @@
+#include "loader/settings.hpp"
+
+#include <cmath>
+
+namespace eyeray {
+
+namespace {
+
+constexpr int64_t most_pixels = int64_t{1} << 28;
+
+constexpr std::string_view patterns[] = {"regular", "jittered"};
+constexpr std::string_view camera_types[] = {"perspective", "orthographic"};
+constexpr std::string_view fov_axes[] = {"horizontal", "vertical", "shorter", "diagonal"};
+constexpr std::string_view integrators[] = {"raycast", "whitted"};
+constexpr std::string_view triangle_methods[] = {"woop", "moller-trumbore"};
+constexpr std::string_view light_types[] = {"point", "directional"};
+constexpr std::string_view falloffs[] = {"inverse_square", "none"};
+
+constexpr Key image_table[] = {
+    {.name = "width",
+     .type = KeyType::integer,
+     .doc = "Pixels across.",
+     .fallback = "640",
+     .min = 1,
+     .max = 65536},
+    {.name = "height",
+     .type = KeyType::integer,
+     .doc = "Pixels down. The picture has at most 2^28 pixels.",
+     .fallback = "480",
+     .min = 1,
+     .max = 65536},
+    {.name = "samples",
+     .type = KeyType::integer,
+     .doc = "Samples a pixel, a square number: they lie on an n × n grid.",
+     .fallback = "1",
+     .min = 1,
+     .max = 65536},
+    {.name = "pattern",
+     .type = KeyType::choice,
+     .doc = "Samples at the centres of the grid's cells, or at a random place of each.",
+     .fallback = "\"regular\"",
+     .choices = patterns},
+};
+
+constexpr Key camera_table[] = {
+    {.name = "type",
+     .type = KeyType::choice,
+     .doc = "Rays from one point, or parallel ones.",
+     .fallback = "\"perspective\"",
+     .choices = camera_types},
+    {.name = "eye", .type = KeyType::vec3, .doc = "Where the camera stands.", .fallback = "[0, 0, 5]"},
+    {.name = "target",
+     .type = KeyType::vec3,
+     .doc = "The point it looks at, not the eye.",
+     .fallback = "[0, 0, 0]"},
+    {.name = "up",
+     .type = KeyType::vec3,
+     .doc = "What is up in the picture; not parallel to the way it looks.",
+     .fallback = "[0, 1, 0]"},
+    {.name = "fov",
+     .type = KeyType::number,
+     .doc = "Full angle of view along `fov_axis`, in degrees; perspective only.",
+     .fallback = "45",
+     .min = 0,
+     .max = 180,
+     .above_min = true,
+     .below_max = true},
+    {.name = "fov_axis",
+     .type = KeyType::choice,
+     .doc = "The side of the picture that `fov` spans; perspective only.",
+     .fallback = "\"horizontal\"",
+     .choices = fov_axes},
+    {.name = "size",
+     .type = KeyType::number,
+     .doc = "Half the width of what is seen; orthographic only.",
+     .fallback = "1",
+     .min = 0,
+     .above_min = true},
+};
+
+constexpr Key render_table[] = {
+    {.name = "integrator",
+     .type = KeyType::choice,
+     .doc = "Eye rays only, or with shadows, reflections and refractions.",
+     .fallback = "\"whitted\"",
+     .choices = integrators},
+    {.name = "max_depth",
+     .type = KeyType::integer,
+     .doc = "Reflections and refractions in a row; 0: eye and shadow rays only.",
+     .fallback = "8",
+     .min = 0,
+     .max = 64},
+    {.name = "min_weight",
+     .type = KeyType::number,
+     .doc = "A reflected or refracted ray that would count for less is not traced.",
+     .fallback = "0.001",
+     .min = 0,
+     .max = 1},
+    {.name = "seed",
+     .type = KeyType::integer,
+     .doc = "Starts the random numbers of `pattern = \"jittered\"`.",
+     .fallback = "0",
+     .min = 0,
+     .max = 4294967295},
+    {.name = "triangle",
+     .type = KeyType::choice,
+     .doc = "How triangles are intersected; see [[triangle]].",
+     .fallback = "\"woop\"",
+     .choices = triangle_methods},
+    {.name = "background",
+     .type = KeyType::color,
+     .doc = "What a ray that meets nothing sees.",
+     .fallback = "0"},
+    {.name = "ambient",
+     .type = KeyType::color,
+     .doc = "Light that reaches every point from everywhere.",
+     .fallback = "0"},
+};
+
+constexpr Key light_table[] = {
+    {.name = "type",
+     .type = KeyType::choice,
+     .doc = "A point that shines, or the sun.",
+     .choices = light_types},
+    {.name = "position",
+     .type = KeyType::vec3,
+     .doc = "Where a point light stands; point only.",
+     .optional = true},
+    {.name = "direction",
+     .type = KeyType::vec3,
+     .doc = "The way the light travels, of any length but 0; directional only.",
+     .optional = true},
+    {.name = "intensity",
+     .type = KeyType::color,
+     .doc = "The light that arrives, at distance 1 from a point light.",
+     .fallback = "1"},
+    {.name = "falloff",
+     .type = KeyType::choice,
+     .doc = "Weaker with the square of the distance, or the same everywhere; point only.",
+     .fallback = "\"inverse_square\"",
+     .choices = falloffs},
+};
+
+// Reports `key` if it is written, for it means something only with another `type`.
+void refuse(TableReader& table, std::string_view key, std::string_view only, std::string_view instead) {
+  if (table.has(key)) table.error(key, fmt::format("`{}` is for type = \"{}\" only{}", key, only, instead));
+}
+
+void check_samples(TableReader& table, int samples) {
+  const int root = static_cast<int>(std::sqrt(static_cast<double>(samples)));
+  if (root * root == samples) return;
+  table.error("samples", fmt::format("`samples` must be a square number; the nearest to {} are {} and {}",
+                                     samples, root * root, (root + 1) * (root + 1)));
+}
+
+void check_view(TableReader& table, const Camera& camera) {
+  const Vec3 view = camera.target - camera.eye;
+  const double reach = std::max(glm::length(camera.eye), glm::length(camera.target));
+  if (!(glm::length(view) > 1e-12 * reach)) {
+    table.error(table.has("target") ? "target" : "eye",
+                "`eye` and `target` are the same point: the camera looks nowhere");
+    return;
+  }
+  if (camera.up == Vec3(0)) {
+    table.error("up", "`up` has no length");
+    return;
+  }
+  // The sine of the angle between them must be a number that survives normalising.
+  const double sine = glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up)));
+  if (!(sine > 1e-9)) {
+    table.error(
+        table.has("up") ? "up" : "target",
+        "`up` is parallel to the way the camera looks (target − eye); choose another, such as [0, 0, 1]");
+  }
+}
+
+}  // namespace
+
+std::span<const Key> image_keys() {
+  return image_table;
+}
+std::span<const Key> camera_keys() {
+  return camera_table;
+}
+std::span<const Key> render_keys() {
+  return render_table;
+}
+std::span<const Key> light_keys() {
+  return light_table;
+}
+
+ImageSettings read_image(TableReader& table) {
+  ImageSettings image;
+  image.width = static_cast<int>(table.integer("width"));
+  image.height = static_cast<int>(table.integer("height"));
+  image.samples = static_cast<int>(table.integer("samples"));
+  image.pattern = static_cast<SamplePattern>(table.choice("pattern"));
+  check_samples(table, image.samples);
+  const int64_t pixels = int64_t{image.width} * image.height;
+  if (pixels > most_pixels) {
+    table.error(table.has("width") ? "width" : "height",
+                fmt::format("{} × {} is {} pixels; a picture has at most {} (16384 × 16384)", image.width,
+                            image.height, pixels, most_pixels));
+  }
+  return image;
+}
+
+Camera read_camera(TableReader& table) {
+  Camera camera;
+  camera.type = static_cast<CameraType>(table.choice("type"));
+  camera.eye = table.vec3("eye");
+  camera.target = table.vec3("target");
+  camera.up = table.vec3("up");
+  camera.fov_degrees = table.number("fov");
+  camera.fov_axis = static_cast<FovAxis>(table.choice("fov_axis"));
+  camera.size = table.number("size");
+  if (!table.valid("type")) {
+    // Which keys belong is not known.
+  } else if (camera.type == CameraType::perspective) {
+    refuse(table, "size", "orthographic", "; a perspective camera has `fov`");
+  } else {
+    refuse(table, "fov", "perspective", "; an orthographic camera has `size`");
+    refuse(table, "fov_axis", "perspective", "");
+  }
+  if (table.valid("eye") && table.valid("target") && table.valid("up")) check_view(table, camera);
+  return camera;
+}
+
+RenderSettings read_render(TableReader& table) {
+  RenderSettings render;
+  render.integrator = static_cast<IntegratorType>(table.choice("integrator"));
+  render.max_depth = static_cast<int>(table.integer("max_depth"));
+  render.min_weight = table.number("min_weight");
+  render.seed = static_cast<uint32_t>(table.integer("seed"));
+  render.triangle_method = static_cast<TriangleMethod>(table.choice("triangle"));
+  render.background = table.color("background");
+  render.ambient = table.color("ambient");
+  return render;
+}
+
+Light read_light(TableReader& table) {
+  Light light;
+  light.type = static_cast<LightType>(table.choice("type"));
+  light.position = table.vec3("position");
+  light.intensity = table.color("intensity");
+  light.falloff = static_cast<Falloff>(table.choice("falloff"));
+  if (!table.valid("type")) return light;
+  if (light.type == LightType::point) {
+    if (!table.has("position")) table.error("position", "a point light needs `position`");
+    refuse(table, "direction", "directional", "; a point light has `position`");
+    return light;
+  }
+  refuse(table, "position", "point", "; a directional light has `direction`");
+  refuse(table, "falloff", "point", "");
+  const Vec3 direction = table.vec3("direction");
+  const double length = glm::length(direction);
+  if (!table.has("direction")) {
+    table.error("direction", "a directional light needs `direction`, the way the light travels");
+  } else if (!(length > 1e-15)) {
+    table.error("direction", "`direction` has no length");
+  }
+  light.to_light = length > 1e-15 ? -direction / length : Vec3(0, 1, 0);
+  return light;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,21 @@
+// The tables that are not shapes or materials: their keys, and their values as the scene holds them.
+#pragma once
+
+#include <span>
+
+#include "scene/scene.hpp"
+
+namespace eyeray {
+
+std::span<const Key> image_keys();
+std::span<const Key> camera_keys();
+std::span<const Key> render_keys();
+std::span<const Key> light_keys();
+
+// What the table says; what is wrong between its values is reported to it.
+ImageSettings read_image(TableReader& table);
+Camera read_camera(TableReader& table);
+RenderSettings read_render(TableReader& table);
+Light read_light(TableReader& table);
+
+}  // namespace eyeray

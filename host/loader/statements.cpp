@@ -1,0 +1,168 @@
+#include "loader/statements.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+namespace eyeray {
+
+namespace {
+
+bool is_space(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+bool is_bare(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
+
+void skip_space(std::string_view& text) {
+  while (!text.empty() && is_space(text[0])) text.remove_prefix(1);
+}
+
+// Takes `a."b c".d` off the front of `text`; empty where there is no such thing.
+std::vector<std::string> take_key(std::string_view& text) {
+  std::vector<std::string> parts;
+  for (;;) {
+    skip_space(text);
+    size_t length = 0;
+    if (!text.empty() && (text[0] == '"' || text[0] == '\'')) {
+      const size_t close = text.find(text[0], 1);
+      if (close == std::string_view::npos) return {};
+      parts.emplace_back(text.substr(1, close - 1));
+      length = close + 1;
+    } else {
+      while (length < text.size() && is_bare(text[length])) ++length;
+      if (length == 0) return {};
+      parts.emplace_back(text.substr(0, length));
+    }
+    text.remove_prefix(length);
+    skip_space(text);
+    if (text.empty() || text[0] != '.') return parts;
+    text.remove_prefix(1);
+  }
+}
+
+// What a line starts, if it starts a statement.
+struct Start {
+  bool is_header = false;
+  std::vector<std::string> parts;
+};
+std::optional<Start> parse_start(std::string_view line) {
+  skip_space(line);
+  const bool header = line.starts_with('[');
+  if (header) line.remove_prefix(line.starts_with("[[") ? 2 : 1);
+
+  // Lists of numbers may start lines inside of values: names of tables do not start with a digit or a sign.
+  skip_space(line);
+  if (header && !line.empty() && !(is_bare(line[0]) && line[0] != '-' && !(line[0] >= '0' && line[0] <= '9')))
+    return {};
+  std::vector<std::string> parts = take_key(line);
+  if (parts.empty()) return {};
+  if (header) return line.starts_with(',') ? std::nullopt : std::optional(Start{true, std::move(parts)});
+  return line.starts_with('=') ? std::optional(Start{false, std::move(parts)}) : std::nullopt;
+}
+
+bool parses(std::string_view text) {
+  try {
+    (void)toml::parse(text);
+    return true;
+  } catch (const toml::parse_error&) {
+    return false;
+  }
+}
+
+// The whole text as statements; what stands before the first belongs to none.
+std::vector<Statement> split(std::string_view text) {
+  std::vector<Statement> all;
+  std::vector<std::string> header;
+  int line = 0;
+  for (size_t begin = 0; begin < text.size();) {
+    ++line;
+    const size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    const std::string_view row = text.substr(begin, end - begin);
+    if (const auto start = parse_start(row)) {
+      if (start->is_header) header = start->parts;
+      const auto indent = std::ranges::find_if_not(row, is_space) - row.begin();
+      all.push_back({begin, text.size(), line, static_cast<int>(indent) + 1, start->is_header, header,
+                     start->is_header ? std::vector<std::string>() : start->parts});
+      if (all.size() > 1) all[all.size() - 2].end = begin;
+    }
+    begin = end;
+  }
+  return all;
+}
+
+Statement whole_line(std::string_view text, int line) {
+  size_t begin = 0;
+  for (int i = 1; i < line && begin < text.size(); ++i)
+    begin = std::min(text.find('\n', begin), text.size() - 1) + 1;
+  return {begin, std::min(text.find('\n', begin), text.size()), line, 1, false, {}, {}};
+}
+
+}  // namespace
+
+Statement statement_at(std::string_view text, int line) {
+  const std::vector<Statement> all = split(text);
+  auto found = std::ranges::upper_bound(all, line, {}, &Statement::line);
+  if (found == all.begin()) return whole_line(text, line);
+  --found;
+
+  // Where a statement starts in spite of an error, the one before may still be open.
+  if (found != all.begin() && found->line == line) {
+    const Statement& before = *std::prev(found);
+    if (!parses(text.substr(before.begin, before.end - before.begin))) return before;
+  }
+
+  // What follows a statement that is whole is no part of it.
+  const Statement rest = whole_line(text, line);
+  if (found->line < line && parses(text.substr(found->begin, rest.begin - found->begin))) return rest;
+
+  // A table goes as a whole: its keys would fall into the table before.
+  Statement statement = *found;
+  if (statement.is_header) {
+    const auto next =
+        std::find_if(found + 1, all.end(), [](const Statement& other) { return other.is_header; });
+    statement.end = next == all.end() ? text.size() : next->begin;
+  }
+  return statement;
+}
+
+void blank(std::string& text, const Statement& statement) {
+  for (size_t i = statement.begin; i < statement.end; ++i) {
+    if (text[i] != '\n') text[i] = ' ';
+  }
+}
+
+std::optional<TextPosition> find_deep_key(std::string_view text) {
+  TextPosition at{1, 1};
+  int dots = 0;
+  const auto advance = [&](size_t count) {
+    for (const char c : text.substr(0, count)) {
+      if (c == '\n') at = {at.line + 1, 0};
+      ++at.column;
+    }
+    text.remove_prefix(std::min(count, text.size()));
+  };
+  while (!text.empty()) {
+    const char c = text[0];
+    if (c == '#') {
+      advance(std::min(text.find('\n'), text.size()));
+    } else if (c == '"' || c == '\'') {
+      // Step over a string, in one or three quotes.
+      const std::string_view quotes = text.substr(0, text.starts_with(std::string(3, c)) ? 3 : 1);
+      size_t end = quotes.size();
+      while (end < text.size() && !text.substr(end).starts_with(quotes) &&
+             (quotes.size() == 3 || text[end] != '\n')) {
+        end += c == '"' && text[end] == '\\' ? 2 : 1;
+      }
+      advance(std::min(end + quotes.size(), text.size()));
+    } else {
+      if (c == '.' && ++dots >= most_key_parts) return at;
+      if (c == '\n' || c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '}') dots = 0;
+      advance(1);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace eyeray

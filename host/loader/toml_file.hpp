@@ -1,0 +1,25 @@
+// TOML text from disk to a tree, with every syntax error in the log. Private to the loader.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "scene/diagnostic_log.hpp"
+
+namespace eyeray {
+
+// The whole of a regular file of at most 256 MiB. Error (file_io) with the system's reason, and a name in the
+// same folder that the user may have meant.
+std::string read_scene_text(const std::filesystem::path& file);
+
+// The tree of `text`, whose positions bear `name`. A statement with a syntax error is reported and left out,
+// and the log marked as damaged.
+toml::table parse_toml(std::string_view text, const std::string& name, DiagnosticLog& log);
+
+// What the parser says of a statement, in the words of somebody who wants to mend it.
+std::string explain_syntax(std::string_view description, std::string_view statement = {});
+
+}  // namespace eyeray

@@ -1,0 +1,56 @@
+// Collects what is wrong with the files of one scene, so that everything is reported in one go.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+
+namespace eyeray {
+
+class DiagnosticLog {
+ public:
+  // Keeps the text that positions in `file` point into, for as long as the log lives.
+  std::string_view add_source(std::string file, std::string text);
+
+  // Adds a diagnostic; the same one at the same place counts once. A position in a file that was not added
+  // (an override) loses its line and column; one without a file is in the first.
+  void error(SourcePosition position, std::string message);
+  void warning(SourcePosition position, std::string message);
+
+  // Some statement could not be parsed and was skipped: what seems to be missing may stand there, so nothing
+  // is reported as missing.
+  void set_damaged() { damaged_ = true; }
+  bool damaged() const { return damaged_; }
+
+  bool has_errors() const { return errors_ > 0; }
+  // The errors, or if there are none the warnings: by file, in the order they were added, then by line.
+  std::vector<Diagnostic> sorted() const;
+
+ private:
+  struct Source {
+    std::string file;
+    std::string text;
+    std::vector<size_t> lines;  // where each line starts; built when first asked for
+  };
+
+  void add(Severity severity, SourcePosition position, std::string message);
+  size_t source_index(std::string_view file) const;
+  // Fills source_line: printable, and cut to a window around the column when long.
+  void show_line(Diagnostic& diagnostic);
+
+  std::deque<Source> sources_;  // a deque, so that texts never move
+  std::vector<Diagnostic> diagnostics_;
+  std::unordered_set<std::string> seen_;
+  size_t errors_ = 0;
+  bool damaged_ = false;
+};
+
+// `text` as valid UTF-8 without control characters (tabs stay), so that it can be shown on any terminal and
+// in JSON.
+std::string printable(std::string_view text);
+
+}  // namespace eyeray

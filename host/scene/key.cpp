@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cmath>
+
+#include "scene/table_reader.hpp"
+
+namespace eyeray {
+
+namespace {
+
+// As short as it can be written: 1e12, 65536, 0.001.
+std::string show(double value) {
+  std::string text = fmt::format("{:g}", value);
+  if (std::stod(text) != value) return fmt::format("{}", value);
+  if (const size_t plus = text.find("e+"); plus != std::string::npos) text.erase(plus + 1, 1);
+  return text;
+}
+
+// " above 0 and below 180", " from 1 to 65536", " of at least 0"; "" where every number will do.
+std::string describe_range(const Key& key) {
+  const bool low = std::isfinite(key.min);
+  const bool high = std::isfinite(key.max);
+  if (low && high && !key.above_min && !key.below_max) {
+    return fmt::format(" from {} to {}", show(key.min), show(key.max));
+  }
+  const std::string least = low ? (key.above_min ? " above " : " of at least ") + show(key.min) : "";
+  const std::string most = high ? (key.below_max ? " below " : " of at most ") + show(key.max) : "";
+  return least + (low && high ? " and" : "") + most;
+}
+
+std::string each(const Key& key) {
+  std::string range = describe_range(key);
+  if (range.starts_with(" of ")) range.erase(0, 3);
+  return range.empty() ? "" : ", each" + range;
+}
+
+std::string describe_choices(std::span<const std::string_view> choices) {
+  std::string text;
+  for (size_t i = 0; i < choices.size(); ++i) {
+    if (i > 0) text += i + 1 == choices.size() ? " or " : ", ";
+    text += fmt::format("\"{}\"", choices[i]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string describe(const Key& declared) {
+  Key key = declared;
+  if (key.type == KeyType::color || key.type == KeyType::texture) key.min = std::max(key.min, 0.0);
+  switch (key.type) {
+    case KeyType::boolean:
+      return "true or false";
+    case KeyType::integer:
+      return "an integer" + describe_range(key);
+    case KeyType::number:
+      return "a number" + describe_range(key);
+    case KeyType::string:
+      return "a string";
+    case KeyType::choice:
+      return describe_choices(key.choices);
+    case KeyType::vec2:
+      return "two numbers [x, y]" + each(key);
+    case KeyType::vec3:
+      return "three numbers [x, y, z]" + each(key);
+    case KeyType::vec2_list:
+      return "a list of points [[x, y], …]" + each(key);
+    case KeyType::vec3_list:
+      return "a list of points [[x, y, z], …]" + each(key);
+    case KeyType::color:
+      return "a color [r, g, b] or one number for all three" + each(key);
+    case KeyType::texture:
+      return "a color [r, g, b], one number for all three, or { checker = … }" + each(key);
+    case KeyType::scale2:
+      return "two numbers [u, v] or one for both" + each(key);
+    case KeyType::scale3:
+      return "three numbers [x, y, z] or one for all" + each(key);
+    case KeyType::transform:
+      return "a list of steps such as { translate = [x, y, z] }";
+    case KeyType::rotation:
+      return "{ axis = [x, y, z], degrees = a }";
+    case KeyType::matrix:
+      return "three rows of four numbers [[…], […], […]]";
+  }
+  return "";
+}
+
+}  // namespace eyeray

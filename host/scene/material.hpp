@@ -1,0 +1,70 @@
+// What every material answers, in float64. A material is one .cpp in host/materials, one .glsl in
+// shaders/materials and one row in materials/registry.h.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/vec.hpp"
+#include "scene/table_reader.hpp"
+
+namespace eyeray {
+
+class Packer;  // records/packer.hpp
+
+// What fills a closed shape.
+struct Medium {
+  double ior = 1.0;
+  Vec3 absorption{0.0};  // per unit of length: light is weakened by exp(−absorption · distance)
+};
+
+// How a surface point scatters light towards the viewer, after Whitted 1980.
+struct Scattering {
+  Vec3 ambient{0.0};   // × the scene's ambient light
+  Vec3 diffuse{0.0};   // × light · cos θ
+  Vec3 specular{0.0};  // × light · (highlight lobe), see HighlightModel
+  double shininess = 1.0;
+  bool blinn = false;     // lobe (n·h)^shininess instead of Phong's (r·l)^shininess
+  Vec3 reflected{0.0};    // × what the mirror direction sees
+  Vec3 transmitted{0.0};  // × what the refracted direction sees; 0 under total internal reflection
+};
+
+// What a material may depend on at a point.
+struct ScatteringContext {
+  Vec2 uv;
+  double cos_view;  // cosine between the shading normal and the direction back along the ray, in [0, 1]
+  double ior_from;  // of the medium the ray comes through
+  double ior_to;    // of the medium behind the surface
+};
+
+class Material {
+ public:
+  virtual ~Material() = default;
+
+  virtual Scattering scattering(const ScatteringContext& context) const = 0;
+  // The colour that `raycast` shades.
+  virtual Vec3 base_color(const Vec2& uv) const = 0;
+  // Set for materials that fill their shape and let rays through.
+  virtual std::optional<Medium> medium() const { return std::nullopt; }
+  // The share of a shadow ray's light that passes a shape of this material, however often it crosses it.
+  virtual double shadow_transmittance() const { return 0.0; }
+  // Appends the material's one record (and its textures).
+  virtual void pack(Packer& packer) const = 0;
+
+  std::string name;
+};
+
+struct MaterialType {
+  std::string_view name;  // `type` in a [[material]] table, and its .glsl
+  std::string_view manual;
+  std::span<const Key> keys;  // beside `name` and `type`
+  std::unique_ptr<Material> (*parse)(TableReader& table);
+};
+
+// Every kind of material, in registry order.
+std::span<const MaterialType* const> material_types();
+
+}  // namespace eyeray

@@ -1,0 +1,77 @@
+// The scene: checked float64 values, as the file says them.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/vec.hpp"
+#include "scene/material.hpp"
+#include "scene/shape.hpp"
+
+namespace eyeray {
+
+enum class SamplePattern { regular, jittered };
+
+struct ImageSettings {
+  int width = 640;
+  int height = 480;
+  int samples = 1;  // a pixel; a square number n², laid out n × n
+  SamplePattern pattern = SamplePattern::regular;
+};
+
+enum class CameraType { perspective, orthographic };
+enum class FovAxis { horizontal, vertical, shorter, diagonal };
+
+struct Camera {
+  CameraType type = CameraType::perspective;
+  Vec3 eye{0, 0, 5};
+  Vec3 target{0, 0, 0};
+  Vec3 up{0, 1, 0};
+  double fov_degrees = 45;  // perspective: full angle along fov_axis
+  FovAxis fov_axis = FovAxis::horizontal;
+  double size = 1;  // orthographic: half the width of what is seen
+};
+
+enum class IntegratorType { raycast, whitted };
+enum class TriangleMethod { woop, moller_trumbore };
+
+struct RenderSettings {
+  IntegratorType integrator = IntegratorType::whitted;
+  int max_depth = 8;          // reflections and refractions in a row; 0: eye and shadow rays only
+  double min_weight = 0.001;  // a reflected or refracted ray that would count for less is not traced
+  uint32_t seed = 0;
+  TriangleMethod triangle_method = TriangleMethod::woop;
+  Vec3 background{0.0};  // what a ray that meets nothing sees
+  Vec3 ambient{0.0};     // light that reaches every point from everywhere
+};
+
+enum class LightType { point, directional };
+enum class Falloff { inverse_square, none };
+
+struct Light {
+  LightType type = LightType::point;
+  Vec3 position{0.0};      // point
+  Vec3 to_light{0, 1, 0};  // directional: unit, from the scene towards the light
+  Vec3 intensity{1.0};
+  Falloff falloff = Falloff::inverse_square;  // point
+};
+
+struct Scene {
+  std::filesystem::path file;
+  std::vector<std::filesystem::path> files;  // every file read, the scene first: what a watcher watches
+
+  ImageSettings image;
+  Camera camera;
+  RenderSettings render;
+  std::vector<Light> lights;
+  std::vector<std::unique_ptr<Material>> materials;
+  // In registry order, within a kind in file order (an included file's where its name stands). The index here
+  // is the primitive index of every executor, and decides exact ties.
+  std::vector<std::unique_ptr<Shape>> shapes;
+
+  std::vector<Diagnostic> warnings;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,64 @@
+// What every shape answers, in float64. A shape is one .cpp in host/shapes (manual page, parse, bounds,
+// float64 intersection, pack), one .glsl in shaders/shapes, one scene in scenes/shapes and one row in
+// shapes/registry.h.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "core/diagnostic.hpp"
+#include "core/vec.hpp"
+#include "scene/bounds.hpp"
+#include "scene/table_reader.hpp"
+
+namespace eyeray {
+
+class Packer;  // records/packer.hpp
+
+// Where a ray meets a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
+// …).
+struct Intersection {
+  double t = 0;
+  double u = 0;
+  double v = 0;
+};
+
+// The surface at an intersection, world space.
+struct SurfacePoint {
+  Vec3 position;          // projected onto the surface
+  double position_error;  // a bound on its distance from the true surface, in float64 arithmetic
+  Vec3 normal_geometric;  // unit; outward for closed shapes, by counter-clockwise winding for open ones
+  Vec3 normal;            // unit shading normal, on the side of normal_geometric
+  Vec2 uv;
+};
+
+class Shape {
+ public:
+  virtual ~Shape() = default;
+
+  // The nearest intersection with t > 0, if there is one.
+  virtual std::optional<Intersection> intersect(const Ray& ray) const = 0;
+  virtual SurfacePoint surface(const Ray& ray, const Intersection& hit) const = 0;
+  virtual Bounds bounds() const = 0;
+  // Appends the shape's one Primitive (and what it refers to).
+  virtual void pack(Packer& packer) const = 0;
+
+  int material = 0;         // index in Scene::materials
+  SourcePosition position;  // of its table in the scene file
+};
+
+// A row of the registry: what the loader and the manual know of a kind of shape.
+struct ShapeType {
+  std::string_view name;      // its table in a scene, its .glsl, its scene file
+  std::string_view manual;    // equation, parameters' meaning, the numeric trap, the source; Markdown
+  std::span<const Key> keys;  // beside `material` and `transform`, which every shape has
+  // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
+  std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform);
+};
+
+// Every kind of shape, in registry order: the order of Scene::shapes, hence of primitive indices.
+std::span<const ShapeType* const> shape_types();
+
+}  // namespace eyeray

@@ -1,0 +1,202 @@
+#include "scene/table_reader.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "core/error.hpp"
+#include "scene/table.hpp"
+
+namespace eyeray {
+
+namespace {
+
+struct Row {
+  const Key* key;
+  const toml::node* node;  // null: not written
+  Value value;             // checked; a stand-in after an error
+  bool failed;
+};
+
+}  // namespace
+
+struct TableReader::Table {
+  Table(const TableSource& from, DiagnosticLog& to) : source(from), log(to) {
+    for (const std::span<const Key> keys : source.keys) {
+      for (const Key& key : keys) rows.push_back(read(key));
+    }
+    check_names();
+  }
+
+  const Row& row(std::string_view name) const;
+  template <typename T>
+  const T& get(std::string_view name) const;
+
+  SourcePosition position() const;
+  void error(const SourcePosition& at, std::string message);
+
+  TableSource source;
+  DiagnosticLog& log;
+  std::vector<Row> rows;
+  bool failed = false;
+
+ private:
+  const toml::node* find(std::string_view name) const;
+  SourcePosition header() const {
+    return source.table ? position_of(source.table->source()) : SourcePosition{};
+  }
+  Row read(const Key& key);
+  void check_names();
+};
+
+// Looks a key up in the batch, then in the table.
+const toml::node* TableReader::Table::find(std::string_view name) const {
+  if (source.batch) {
+    const toml::node* list = source.batch->get(name);
+    if (list) return list->as_array()->get(source.element);
+  }
+  return source.table ? source.table->get(name) : nullptr;
+}
+
+Row TableReader::Table::read(const Key& key) {
+  const toml::node* node = find(key.name);
+  if (!node && key.fallback.empty()) {
+    const bool wrong = !key.optional && !log.damaged();
+    if (wrong) error(header(), fmt::format("{} needs `{}`, {}", source.title, key.name, describe(key)));
+    failed = failed || !key.optional;
+    return {&key, nullptr, stand_in(key), !key.optional};
+  }
+  if (node) {
+    if (auto value = read_value(key, *node, log)) return {&key, node, std::move(*value), false};
+    failed = true;
+  }
+
+  // Take the default, for want of a value or of a right one.
+  const bool wrong = node != nullptr;
+  if (key.fallback.empty()) return {&key, node, stand_in(key), wrong};
+  auto value = read_value(key, fallback_of(key), log);
+  CHECK(value.has_value());
+  return {&key, node, std::move(*value), wrong};
+}
+
+// Reports keys that were not declared.
+void TableReader::Table::check_names() {
+  if (!source.table || source.open) return;
+  std::vector<std::string_view> names;
+  for (const Row& row : rows) names.push_back(row.key->name);
+  if (!source.extra_key.empty()) names.push_back(source.extra_key);
+  for (const auto& [written, node] : *source.table) {
+    if (std::ranges::find(names, written.str()) != names.end()) continue;
+    const std::string nearest = nearest_name(written.str(), names);
+    const std::string hint = nearest.empty() ? fmt::format("; its keys are {}", fmt::join(names, ", "))
+                                             : fmt::format("; did you mean `{}`?", nearest);
+    error(position_of(written.source()),
+          fmt::format("unknown key `{}` in {}{}", written.str(), source.title, hint));
+  }
+}
+
+SourcePosition TableReader::Table::position() const {
+  if (source.batch && !source.batch->empty())
+    return position_of(find(source.batch->begin()->first)->source());
+  return header();
+}
+
+void TableReader::Table::error(const SourcePosition& at, std::string message) {
+  failed = true;
+  log.error(at, std::move(message));
+}
+
+const Row& TableReader::Table::row(std::string_view name) const {
+  const auto found = std::ranges::find(rows, name, [](const Row& row) { return row.key->name; });
+  if (found == rows.end())
+    detail::check_failed(__FILE__, __LINE__, "key is declared", fmt::format(" ({})", name));
+  return *found;
+}
+
+template <typename T>
+const T& TableReader::Table::get(std::string_view name) const {
+  const T* value = std::get_if<T>(&row(name).value);
+  if (!value) detail::check_failed(__FILE__, __LINE__, "key is read as its type", fmt::format(" ({})", name));
+  return *value;
+}
+
+TableReader::TableReader(std::unique_ptr<Table> table) : table_(std::move(table)) {}
+TableReader::~TableReader() = default;
+
+bool TableReader::has(std::string_view key) const {
+  return table_->row(key).node != nullptr;
+}
+bool TableReader::boolean(std::string_view key) const {
+  return table_->get<bool>(key);
+}
+int64_t TableReader::integer(std::string_view key) const {
+  return table_->get<int64_t>(key);
+}
+double TableReader::number(std::string_view key) const {
+  return table_->get<double>(key);
+}
+std::string TableReader::string(std::string_view key) const {
+  return table_->get<std::string>(key);
+}
+int TableReader::choice(std::string_view key) const {
+  return static_cast<int>(table_->get<int64_t>(key));
+}
+Vec2 TableReader::vec2(std::string_view key) const {
+  return table_->get<Vec2>(key);
+}
+Vec3 TableReader::vec3(std::string_view key) const {
+  return table_->get<Vec3>(key);
+}
+std::vector<Vec2> TableReader::vec2_list(std::string_view key) const {
+  return table_->get<std::vector<Vec2>>(key);
+}
+std::vector<Vec3> TableReader::vec3_list(std::string_view key) const {
+  return table_->get<std::vector<Vec3>>(key);
+}
+Vec3 TableReader::color(std::string_view key) const {
+  return table_->get<Vec3>(key);
+}
+Texture TableReader::texture(std::string_view key) const {
+  return table_->get<Texture>(key);
+}
+Vec2 TableReader::scale2(std::string_view key) const {
+  return table_->get<Vec2>(key);
+}
+Vec3 TableReader::scale3(std::string_view key) const {
+  return table_->get<Vec3>(key);
+}
+Mat4 TableReader::transform(std::string_view key) const {
+  return table_->get<Mat4>(key);
+}
+
+void TableReader::error(std::string_view key, std::string message) {
+  const Row& row = table_->row(key);
+  if (row.failed) return;
+  if (!row.node && table_->log.damaged()) {  // it may stand in what could not be parsed
+    table_->failed = true;
+    return;
+  }
+  table_->error(row.node ? position_of(row.node->source()) : position(), std::move(message));
+}
+
+bool TableReader::valid(std::string_view key) const {
+  return !table_->row(key).failed;
+}
+bool TableReader::failed() const {
+  return table_->failed;
+}
+SourcePosition TableReader::position() const {
+  return table_->position();
+}
+
+TableReader read_table(const TableSource& source, DiagnosticLog& log) {
+  return TableReader(std::make_unique<TableReader::Table>(source, log));
+}
+
+const toml::node& fallback_of(const Key& key) {
+  thread_local std::map<std::string_view, toml::table> parsed;
+  auto [entry, fresh] = parsed.try_emplace(key.fallback);
+  if (fresh) entry->second = toml::parse(fmt::format("value = {}", key.fallback));
+  return *entry->second.get("value");
+}
+
+}  // namespace eyeray

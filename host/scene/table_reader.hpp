@@ -1,0 +1,96 @@
+// Strict reading of one table of a scene file. Each key is declared once, as a Key; from that one row come
+// the type, range and default checks, "did you mean", the JSON Schema and the manual.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+#include "core/vec.hpp"
+#include "scene/texture.hpp"
+
+namespace eyeray {
+
+enum class KeyType {
+  boolean,
+  integer,
+  number,
+  string,
+  choice,     // a string out of Key::choices
+  vec2,       // [x, y]
+  vec3,       // [x, y, z]
+  vec2_list,  // [[x, y], …]
+  vec3_list,  // [[x, y, z], …]
+  color,      // [r, g, b], each ≥ 0, or one number for all three
+  texture,    // a color, or { checker = { even = color, odd = color, size = number or [u, v] } }
+  scale2,     // [u, v], or one number for both
+  scale3,     // [x, y, z], or one number for all three
+  transform,  // [ { translate = [x,y,z] }, { rotate = { axis = [x,y,z], degrees = a } }, { scale = number or
+              // [x,y,z] },
+              //   { matrix = [[4], [4], [4]] } ], applied in the order written
+  rotation,   // { axis = [x, y, z], degrees = a }, of a transform
+  matrix,     // [[4], [4], [4]], of a transform
+};
+
+struct Key {
+  static constexpr double inf = std::numeric_limits<double>::infinity();
+
+  std::string_view name;
+  KeyType type;
+  std::string_view doc;            // one line, with the unit
+  std::string_view fallback = {};  // the default, as TOML; empty: the key must be given, unless `optional`
+  double min = -inf;               // of every number in the value; NaN and infinities are always errors
+  double max = inf;
+  bool above_min = false;  // the minimum itself is out of range
+  std::span<const std::string_view> choices = {};
+  bool optional = false;   // may be absent without a default: ask has()
+  bool below_max = false;  // the maximum itself is out of range
+};
+
+// What a value of this key is, for messages and the manual: "an integer from 1 to 65536", "a number above 0".
+std::string describe(const Key& key);
+
+class TableReader {
+ public:
+  // The readers of declared keys. Each value has been checked against its Key; after an error a valid
+  // stand-in comes back, so that reading goes on and all errors are reported together. Asking for an
+  // undeclared key is a CHECK.
+  bool has(std::string_view key) const;  // written in the table (not defaulted)
+  bool boolean(std::string_view key) const;
+  int64_t integer(std::string_view key) const;
+  double number(std::string_view key) const;
+  std::string string(std::string_view key) const;
+  int choice(std::string_view key) const;  // index in Key::choices
+  Vec2 vec2(std::string_view key) const;
+  Vec3 vec3(std::string_view key) const;
+  std::vector<Vec2> vec2_list(std::string_view key) const;
+  std::vector<Vec3> vec3_list(std::string_view key) const;
+  Vec3 color(std::string_view key) const;
+  Texture texture(std::string_view key) const;
+  Vec2 scale2(std::string_view key) const;
+  Vec3 scale3(std::string_view key) const;
+  Mat4 transform(std::string_view key) const;
+
+  // Adds an error at the key's value, or at the table where the key is absent; nothing when the value already
+  // had one.
+  void error(std::string_view key, std::string message);
+  // Whether the key's value, written or default, is right: false after an error in it, or where it is
+  // missing.
+  bool valid(std::string_view key) const;
+  // Whether this table has had an error so far.
+  bool failed() const;
+  SourcePosition position() const;
+
+  struct Table;  // the parsed TOML behind it; scene/table_reader.cpp
+  explicit TableReader(std::unique_ptr<Table> table);
+  ~TableReader();
+
+ private:
+  std::unique_ptr<Table> table_;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,109 @@
+#include "scene/transform.hpp"
+
+#include <cmath>
+#include <glm/ext/matrix_transform.hpp>
+
+#include "scene/table.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr Key step_keys[] = {
+    {.name = "translate", .type = KeyType::vec3, .doc = "Moves by [x, y, z].", .optional = true},
+    {.name = "rotate",
+     .type = KeyType::rotation,
+     .doc = "Turns about an axis through the origin.",
+     .optional = true},
+    {.name = "scale",
+     .type = KeyType::scale3,
+     .doc = "Stretches from the origin; negative numbers mirror.",
+     .optional = true},
+    {.name = "matrix",
+     .type = KeyType::matrix,
+     .doc = "Any affine map, three rows of four numbers.",
+     .optional = true},
+};
+
+constexpr Key turn_keys[] = {
+    {.name = "axis", .type = KeyType::vec3, .doc = "Direction of the axis, of any length but 0."},
+    {.name = "degrees",
+     .type = KeyType::number,
+     .doc = "Angle, counter-clockwise when the axis points at the viewer."},
+};
+
+// How much the map stretches one direction more than another is at most this (Frobenius norms of it and its
+// inverse). Beyond, the float32 inverse that the shaders use has no correct digit left.
+constexpr double worst_condition = 1e7;
+
+double frobenius(const glm::dmat3& m) {
+  return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
+// Why the map cannot be undone in float32, or "".
+std::string why_singular(const Mat4& map) {
+  const glm::dmat3 linear(map);
+  const double size = frobenius(linear);
+  const double determinant = glm::determinant(linear);
+  if (!std::isfinite(size) || !std::isfinite(determinant) || size > largest_number)
+    return "its numbers are too large";
+  if (!(size >= 1 / largest_number)) return "it shrinks everything to a point";
+  if (determinant == 0) return "it flattens space (its determinant is 0)";
+  const double condition = size * frobenius(glm::inverse(linear));
+  if (!(condition <= worst_condition))
+    return fmt::format("it all but flattens space (condition number {:.1e})", condition);
+  if (!(glm::length(Vec3(map[3])) <= largest_number)) return "it moves things too far";
+  return "";
+}
+
+}  // namespace
+
+std::span<const Key> transform_step_keys() {
+  return step_keys;
+}
+std::span<const Key> rotation_keys() {
+  return turn_keys;
+}
+
+std::optional<Mat4> read_rotation(const toml::table& table, DiagnosticLog& log) {
+  TableReader reader = read_table({"rotate", &table, {turn_keys}}, log);
+  const Vec3 axis = reader.vec3("axis");
+  if (!(glm::length(axis) >= 1 / largest_number)) reader.error("axis", "the rotation axis has no length");
+  if (reader.failed()) return std::nullopt;
+  return glm::rotate(Mat4(1.0), glm::radians(reader.number("degrees")), glm::normalize(axis));
+}
+
+std::optional<Mat4> read_transform(const toml::array& steps, DiagnosticLog& log) {
+  Mat4 map(1.0);
+  bool ok = true;
+  for (const toml::node& node : steps) {
+    // A step is a table with one key.
+    const toml::table* table = node.as_table();
+    if (!table || table->size() != 1) {
+      log.error(position_of(node.source()),
+                "a step of `transform` must be a table with one of translate, rotate, scale, matrix, such as "
+                "{ translate = [1, 0, 0] }");
+      ok = false;
+      continue;
+    }
+    TableReader step = read_table({"transform", table, {step_keys}}, log);
+    if (step.has("scale")) {
+      const Vec3 scale = step.scale3("scale");
+      if (scale.x == 0 || scale.y == 0 || scale.z == 0)
+        step.error("scale", "`scale` by 0 flattens the shape");
+      map = glm::scale(Mat4(1.0), scale) * map;
+    }
+    if (step.has("translate")) map = glm::translate(Mat4(1.0), step.vec3("translate")) * map;
+    if (step.has("rotate")) map = step.transform("rotate") * map;
+    if (step.has("matrix")) map = step.transform("matrix") * map;
+    ok = ok && !step.failed();
+  }
+  if (!ok) return std::nullopt;
+  if (const std::string why = why_singular(map); !why.empty()) {
+    log.error(position_of(steps.source()), "`transform` cannot be undone: " + why);
+    return std::nullopt;
+  }
+  return map;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,255 @@
+#include "scene/value.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scene/table.hpp"
+#include "scene/transform.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr Key checker_keys[] = {
+    {"even", KeyType::color, "Color of the check whose corner is the uv origin.", "", 0},
+    {"odd", KeyType::color, "Color of its neighbours.", "", 0},
+    {"size", KeyType::scale2, "Size of a check in uv.", "1", 0, Key::inf, true},
+};
+
+std::string describe_node(const toml::node& node) {
+  if (const auto* text = node.as_string()) {
+    constexpr size_t longest = 40;
+    const std::string& whole = text->get();
+    return fmt::format("\"{}\"{}", whole.substr(0, longest), whole.size() > longest ? "…" : "");
+  }
+  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* boolean = node.as_boolean()) return boolean->get() ? "true" : "false";
+  if (const auto* array = node.as_array()) return fmt::format("a list of {}", array->size());
+  return node.is_table() ? "a table" : "a date or time";
+}
+
+// Reads one value; keeps whether all of it was right.
+class Reader {
+ public:
+  Reader(const Key& key, DiagnosticLog& log) : key_(key), log_(log) {}
+
+  bool ok() const { return ok_; }
+  Value value(const toml::node& node);
+
+ private:
+  void fail(const toml::node& node, std::string message) {
+    ok_ = false;
+    log_.error(position_of(node.source()), std::move(message));
+  }
+  void mismatch(const toml::node& node) {
+    fail(node, fmt::format("`{}` must be {}, not {}", key_.name, describe(key_), describe_node(node)));
+  }
+
+  double number(const toml::node& node);
+  int64_t integer(const toml::node& node);
+  int64_t choice(const toml::node& node);
+  Texture texture(const toml::node& node);
+  Mat4 matrix(const toml::node& node);
+  template <int N>
+  glm::vec<N, double> vector(const toml::node& node, bool or_one_number = false);
+  template <int N>
+  std::vector<glm::vec<N, double>> vector_list(const toml::node& node);
+
+  const Key& key_;
+  DiagnosticLog& log_;
+  bool ok_ = true;
+};
+
+double Reader::number(const toml::node& node) {
+  if (!node.is_number()) return mismatch(node), 0.0;
+  const double value = *node.value<double>();
+  if (!std::isfinite(value)) {
+    fail(node, fmt::format("`{}` must be finite, not {}", key_.name, value));
+  } else if (value < key_.min || value > key_.max || (key_.above_min && value <= key_.min) ||
+             (key_.below_max && value >= key_.max)) {
+    mismatch(node);
+  } else if (std::fabs(value) > largest_number) {
+    fail(node, fmt::format("`{}` is {:g}, beyond what float32 arithmetic can render (±{:g})", key_.name,
+                           value, largest_number));
+  } else if (key_.above_min && key_.min >= 0 && value < 1 / largest_number) {
+    fail(node, fmt::format("`{}` is {:g}, too small for float32 arithmetic (at least {:g})", key_.name, value,
+                           1 / largest_number));
+  }
+  return value;
+}
+
+int64_t Reader::integer(const toml::node& node) {
+  if (const auto* number = node.as_floating_point(); number && std::trunc(number->get()) == number->get()) {
+    fail(node, fmt::format("`{0}` must be {1}; write {2:.0f} without a decimal point", key_.name,
+                           describe(key_), number->get()));
+    return 0;
+  }
+  if (!node.is_integer()) return mismatch(node), 0;
+  const int64_t value = node.as_integer()->get();
+  const auto real = static_cast<double>(value);
+  if (real < key_.min || real > key_.max || (key_.above_min && real <= key_.min)) mismatch(node);
+  return value;
+}
+
+int64_t Reader::choice(const toml::node& node) {
+  if (const auto* text = node.as_string()) {
+    const auto found = std::ranges::find(key_.choices, std::string_view(text->get()));
+    if (found != key_.choices.end()) return found - key_.choices.begin();
+    if (const std::string nearest = nearest_name(text->get(), key_.choices); !nearest.empty()) {
+      fail(node, fmt::format("`{}` must be {}, not {}; did you mean \"{}\"?", key_.name, describe(key_),
+                             describe_node(node), nearest));
+      return 0;
+    }
+  }
+  return mismatch(node), 0;
+}
+
+template <int N>
+glm::vec<N, double> Reader::vector(const toml::node& node, bool or_one_number) {
+  glm::vec<N, double> value(0.0);
+  if (or_one_number && node.is_number()) return glm::vec<N, double>(number(node));
+  const toml::array* list = node.as_array();
+  if (!list || list->size() != N) return mismatch(node), value;
+  for (int i = 0; i < N; ++i) value[i] = number((*list)[static_cast<size_t>(i)]);
+  return value;
+}
+
+template <int N>
+std::vector<glm::vec<N, double>> Reader::vector_list(const toml::node& node) {
+  std::vector<glm::vec<N, double>> values;
+  const toml::array* list = node.as_array();
+  if (!list) return mismatch(node), values;
+  values.reserve(list->size());
+  for (const toml::node& element : *list) values.push_back(vector<N>(element));
+  return values;
+}
+
+Texture Reader::texture(const toml::node& node) {
+  const toml::table* table = node.as_table();
+  if (!table) return {vector<3>(node, true), {}};
+  const toml::node* checker = table->get("checker");
+  if (table->size() != 1 || !checker || !checker->is_table()) return mismatch(node), Texture{};
+
+  TableReader reader = read_table({"checker", checker->as_table(), {checker_keys}}, log_);
+  ok_ = ok_ && !reader.failed();
+  const Vec3 even = reader.color("even");
+  const Vec3 odd = reader.color("odd");
+  if (std::max({even.x, even.y, even.z, odd.x, odd.y, odd.z}) > key_.max) mismatch(node);
+  return {even, Checker{even, odd, reader.scale2("size")}};
+}
+
+Mat4 Reader::matrix(const toml::node& node) {
+  Mat4 map(1.0);
+  const toml::array* rows = node.as_array();
+  if (!rows || rows->size() != 3) return mismatch(node), map;
+  for (int row = 0; row < 3; ++row) {
+    const Vec4 values = vector<4>((*rows)[static_cast<size_t>(row)]);
+    for (int column = 0; column < 4; ++column) map[column][row] = values[column];
+  }
+  return map;
+}
+
+Value Reader::value(const toml::node& node) {
+  switch (key_.type) {
+    case KeyType::boolean:
+      if (!node.is_boolean()) mismatch(node);
+      return node.value_or(false);
+    case KeyType::integer:
+      return integer(node);
+    case KeyType::number:
+      return number(node);
+    case KeyType::string:
+      if (!node.is_string()) mismatch(node);
+      return node.value_or(std::string());
+    case KeyType::choice:
+      return choice(node);
+    case KeyType::vec2:
+      return vector<2>(node);
+    case KeyType::vec3:
+      return vector<3>(node);
+    case KeyType::vec2_list:
+      return vector_list<2>(node);
+    case KeyType::vec3_list:
+      return vector_list<3>(node);
+    case KeyType::color:
+      return vector<3>(node, true);
+    case KeyType::texture:
+      return texture(node);
+    case KeyType::scale2:
+      return vector<2>(node, true);
+    case KeyType::scale3:
+      return vector<3>(node, true);
+    case KeyType::transform:
+      if (!node.is_array()) return mismatch(node), Mat4(1.0);
+      if (const auto matrix = read_transform(*node.as_array(), log_)) return *matrix;
+      return ok_ = false, Mat4(1.0);
+    case KeyType::rotation:
+      if (!node.is_table()) return mismatch(node), Mat4(1.0);
+      if (const auto turn = read_rotation(*node.as_table(), log_)) return *turn;
+      return ok_ = false, Mat4(1.0);
+    case KeyType::matrix:
+      return matrix(node);
+  }
+  return false;
+}
+
+}  // namespace
+
+std::span<const Key> checker_table_keys() {
+  return checker_keys;
+}
+
+std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log) {
+  Key ranged = key;
+  if (key.type == KeyType::color || key.type == KeyType::texture) ranged.min = std::max(ranged.min, 0.0);
+  Reader reader(ranged, log);
+  Value value = reader.value(node);
+  if (!reader.ok()) return std::nullopt;
+  return value;
+}
+
+Value stand_in(const Key& key) {
+  // The number of the range that is nearest to 1.
+  const double low = key.above_min ? std::nextafter(key.min, Key::inf) : key.min;
+  const double high = key.below_max ? std::nextafter(key.max, -Key::inf) : key.max;
+  const double number = std::clamp(1.0, low, high);
+  switch (key.type) {
+    case KeyType::boolean:
+      return false;
+    case KeyType::integer:
+      return static_cast<int64_t>(number);
+    case KeyType::number:
+      return number;
+    case KeyType::string:
+      return std::string();
+    case KeyType::choice:
+      return int64_t{0};
+    case KeyType::vec2:
+    case KeyType::scale2:
+      return Vec2(number);
+    case KeyType::vec3:
+    case KeyType::color:
+    case KeyType::scale3:
+      return Vec3(number);
+    case KeyType::vec2_list:
+      return std::vector<Vec2>();
+    case KeyType::vec3_list:
+      return std::vector<Vec3>();
+    case KeyType::texture:
+      return Texture{Vec3(number), {}};
+    case KeyType::transform:
+    case KeyType::rotation:
+    case KeyType::matrix:
+      return Mat4(1.0);
+  }
+  return false;
+}
+
+SourcePosition position_of(const toml::source_region& source) {
+  return {source.path ? *source.path : std::string(), static_cast<int>(source.begin.line),
+          static_cast<int>(source.begin.column)};
+}
+
+}  // namespace eyeray

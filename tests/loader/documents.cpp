@@ -1,0 +1,70 @@
+// The schema and the reference in docs/ are those of this program.
+#include <fstream>
+#include <iterator>
+
+#include "loader/scene_file.hpp"
+#include "loader/sections.hpp"
+#include "scene/table.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+std::string read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+TEST_CASE("docs/scene.schema.json is what `eyeray check --schema` prints") {
+  CHECK_MESSAGE(read("docs/scene.schema.json") == scene_schema(),
+                "run: eyeray check --schema > docs/scene.schema.json");
+}
+
+TEST_CASE("docs/scene-reference.md is what `eyeray check --manual` prints") {
+  CHECK_MESSAGE(read("docs/scene-reference.md") == scene_manual(),
+                "run: eyeray check --manual > docs/scene-reference.md");
+}
+
+TEST_CASE("every default is a right value of its key") {
+  int defaults = 0;
+  const auto check = [&](std::span<const Key> keys) {
+    for (const Key& key : keys) {
+      CAPTURE(key.name);
+      CHECK_FALSE(key.doc.empty());
+      if (key.fallback.empty()) continue;
+      DiagnosticLog log;
+      CHECK(read_value(key, fallback_of(key), log).has_value());
+      ++defaults;
+    }
+  };
+  for (const Section& section : sections()) {
+    check(section.keys);
+    if (section.shape) check(section.shape->keys);
+  }
+  for (const MaterialType* type : material_types()) check(type->keys);
+  CHECK(defaults > 20);
+}
+
+TEST_CASE("the examples in the manual are scenes") {
+  // Each ```toml block of both documents is loaded, its materials made up where it names others.
+  int examples = 0;
+  for (const std::string& document : {scene_manual(), read("docs/scene-file.md")}) {
+    for (size_t at = document.find("```toml\n"); at != std::string::npos;
+         at = document.find("```toml\n", at)) {
+      at += 8;
+      std::string text = document.substr(at, document.find("```", at) - at);
+      for (const char* name : {"glass", "floor", "wall"}) {
+        if (text.find(fmt::format("name = \"{}\"", name)) != std::string::npos) continue;
+        text += fmt::format("\n[[material]]\nname = \"{}\"\ntype = \"phong\"\n", name);
+      }
+      CAPTURE(text);
+      CHECK_NOTHROW(parse_scene(text, "example"));
+      ++examples;
+    }
+  }
+  CHECK(examples >= 6);
+}

@@ -1,0 +1,190 @@
+// Input that nobody means well with: it may be refused, but it never crashes, hangs or overflows the stack.
+#include <sys/stat.h>
+
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "loader/scene_file.hpp"
+#include "support/process.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+std::string repeat(std::string_view text, int count) {
+  std::string all;
+  for (int i = 0; i < count; ++i) all += text;
+  return all;
+}
+
+// Whether the text is refused, with diagnostics that can be shown.
+bool refused(const std::string& text) {
+  try {
+    parse_scene(text, "scene.toml");
+    return false;
+  } catch (const InputError& error) {
+    REQUIRE_FALSE(error.diagnostics().empty());
+    for (const Diagnostic& diagnostic : error.diagnostics()) {
+      REQUIRE_FALSE(diagnostic.message.empty());
+      REQUIRE(format_diagnostic(diagnostic).find('\0') == std::string::npos);
+    }
+    return true;
+  }
+}
+
+std::string unreadable(const std::string& path) {
+  try {
+    load_scene(path);
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::file_io);
+    return error.what();
+  }
+  return "read";
+}
+
+}  // namespace
+
+TEST_CASE("deep nesting") {
+  constexpr int deep = 200000;
+  CHECK(refused("x = " + repeat("[", deep)));
+  CHECK(refused("x = " + repeat("{x=", deep)));
+  CHECK(refused("x" + repeat(".x", deep) + " = 1"));
+  CHECK(refused("[x" + repeat(".x", deep) + "]"));
+  CHECK(refused("x" + repeat(".\",=[\"", deep) + " = 1"));
+  CHECK(refused("x" + repeat(".'\"'", deep) + " = 1"));
+  CHECK(refused("[[x" + repeat(" . x", deep) + "]]\ny = 1"));
+  const std::string key = "x" + repeat(".x", 15);
+  CHECK(refused("[" + key + "]\n" + key + " = " + repeat("{" + key + " = ", 250) + "1" + repeat("}", 250)));
+}
+
+TEST_CASE("large input") {
+  constexpr int many = 100000;
+  CHECK(refused(repeat("a", 1 << 20)));
+  CHECK(refused("[image]\nwidth = \"" + repeat("a", 1 << 20) + "\""));
+  CHECK(refused(repeat("[[light]]\n", many)));
+  CHECK(refused(repeat("\"", many)));
+  CHECK(refused(repeat("x = \n", many)));
+  CHECK(refused("[image]\nwidth = " + repeat("9", many)));
+  CHECK(
+      refused("[[material]]\nname = \"m\"\ntype = \"phong\"\n[[sphere]]\nmaterial = \"m\"\nradius = 1\nbatch "
+              "= { center = [" +
+              repeat("[1, 2], ", many) + "] }"));
+}
+
+TEST_CASE("errors beyond counting are counted") {
+  try {
+    parse_scene(repeat("[[light]]\n", 1234), "scene.toml");
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    CHECK(error.diagnostics().size() == 1001);
+    CHECK(error.diagnostics().back().message == "… and 234 more errors");
+  }
+}
+
+TEST_CASE("files that are none") {
+  const test::TemporaryFolder folder;
+  CHECK(unreadable("/dev/zero") == "cannot read the scene /dev/zero: it is not a regular file");
+  CHECK(unreadable(folder.path()) == "cannot read the scene " + folder.path().string() + ": it is a folder");
+  CHECK(unreadable("") == "cannot read the scene : No such file or directory");
+  CHECK(unreadable(folder / std::string(300, 'x')).ends_with(": File name too long"));
+
+  std::ofstream(folder / "whitted.toml") << "";
+  CHECK(unreadable(folder / "whited.toml") == "cannot read the scene " + (folder / "whited.toml") +
+                                                  ": No such file or directory; did you mean " +
+                                                  (folder / "whitted.toml") + "?");
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK(unreadable(folder / "pipe").ends_with("it is not a regular file"));
+  std::ofstream(folder / "huge.toml") << "";
+  std::filesystem::resize_file(folder / "huge.toml", (size_t{256} << 20) + 1);
+  CHECK(
+      unreadable(folder / "huge.toml").ends_with("it has 268435457 bytes; the most is 268435456 (256 MiB)"));
+}
+
+TEST_CASE("mutated scenes are either loaded or refused") {
+  std::ifstream file("tests/loader/seed.toml", std::ios::binary);
+  const std::string seed{std::istreambuf_iterator<char>(file), {}};
+  REQUIRE_FALSE(refused(seed));
+
+  // Damage one to eight places of the text, in the ways of editors, bad disks and fuzzers.
+  std::mt19937 random(20240711);
+  const auto below = [&](size_t n) { return std::uniform_int_distribution<size_t>(0, n - 1)(random); };
+  constexpr std::string_view tokens[] = {"[",          "]",
+                                         "[[",         "]]",
+                                         "{",          "}",
+                                         ",",          "=",
+                                         ".",          "\"",
+                                         "'",          "\"\"\"",
+                                         "#",          "\n",
+                                         "-",          "1e308",
+                                         "1e-308",     "nan",
+                                         "inf",        "0",
+                                         "true",       "\\u",
+                                         "é",          "\xff",
+                                         "1979-05-27", "99999999999999999999"};
+  int loaded = 0;
+  int refusals = 0;
+  for (int round = 0; round < 6000; ++round) {
+    std::string text = seed;
+    for (size_t change = 0, changes = 1 + below(8); change < changes && !text.empty(); ++change) {
+      const size_t at = below(text.size());
+      const size_t length = std::min(1 + below(20), text.size() - at);
+      switch (below(6)) {
+        case 0:
+          text[at] = static_cast<char>(below(256));
+          break;
+        case 1:
+          text.erase(at, length);
+          break;
+        case 2:
+          text.insert(at, tokens[below(std::size(tokens))]);
+          break;
+        case 3:
+          text.replace(at, length, tokens[below(std::size(tokens))]);
+          break;
+        case 4:
+          text.insert(below(text.size()), text.substr(at, length));
+          break;
+        case 5:
+          text.resize(at);
+          break;
+      }
+    }
+    ++(refused(text) ? refusals : loaded);
+  }
+  MESSAGE("loaded " << loaded << ", refused " << refusals);
+  CHECK(loaded > 10);
+  CHECK(refusals > 1000);
+}
+
+TEST_CASE("mutated overrides are either taken or refused") {
+  constexpr std::string_view seeds[] = {"image.width=3",     "camera.eye=[1, 2, 3]",
+                                        "sphere.0.radius=2", "material.glass.ior=1.5",
+                                        "camera.eye.1=3",    "render.integrator=raycast"};
+  std::ifstream file("tests/loader/seed.toml", std::ios::binary);
+  const std::string scene{std::istreambuf_iterator<char>(file), {}};
+  std::mt19937 random(7);
+  const auto below = [&](size_t n) { return std::uniform_int_distribution<size_t>(0, n - 1)(random); };
+  int loaded = 0;
+  constexpr int rounds = 3000;
+  for (int round = 0; round < rounds; ++round) {
+    Override change{std::string(seeds[below(std::size(seeds))])};
+    for (size_t i = 0, changes = below(4); i < changes; ++i) {
+      const size_t at = below(change.text.size());
+      if (below(2) == 0) {
+        change.text[at] = "=.[]{}\"'\n 9a-#\0"[below(15)];
+      } else {
+        change.text.insert(at, change.text.substr(below(change.text.size())));
+      }
+    }
+    try {
+      parse_scene(scene, "scene.toml", {&change, 1});
+      ++loaded;
+    } catch (const InputError&) {
+    }
+  }
+  CHECK(loaded > rounds / 10);
+  CHECK(loaded < rounds);
+}

@@ -1,0 +1,108 @@
+// -D KEY=VALUE.
+#include "loader/scene_file.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+constexpr std::string_view text = R"(
+[image]
+width = 64
+[[material]]
+name = "glass"
+type = "dielectric"
+ior = 1.5
+[[material]]
+name = "floor.1"
+type = "phong"
+diffuse = { checker = { even = 1, odd = 0, size = 1 } }
+[[sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "glass"
+[[sphere]]
+batch = { center = [[0, 0, 0], [1, 0, 0]], radius = [1, 2] }
+material = "floor.1"
+)";
+
+Scene with(std::initializer_list<const char*> changes) {
+  std::vector<Override> overrides;
+  for (const char* change : changes) overrides.push_back({change});
+  return parse_scene(text, "scene.toml", overrides);
+}
+
+std::string refusal(const char* change) {
+  try {
+    with({change});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("an override stands in for the file's value") {
+  const Scene scene =
+      with({"image.width=32", "render.max_depth=3", "render.integrator=raycast", "camera.eye=[1, 2, 3]",
+            "camera.eye.1=9", "camera . fov = 30 # degrees", "image.width=16"});
+  CHECK(scene.image.width == 16);
+  CHECK(scene.render.max_depth == 3);
+  CHECK(scene.render.integrator == IntegratorType::raycast);
+  CHECK(scene.camera.eye == Vec3(1, 9, 3));
+  CHECK(scene.camera.fov_degrees == 30);
+}
+
+TEST_CASE("elements are named by index or by name") {
+  const Scene scene = with({"sphere.0.radius=5", "sphere.1.batch.radius.1=7", "material.glass.ior=1.25",
+                            "material.\"floor.1\".diffuse.checker.odd=0.5", "material.1.reflectance=0.5"});
+  CHECK(scene.shapes[0]->bounds().max.x == 5);
+  CHECK(scene.shapes[2]->bounds().max.x == 8);
+  CHECK(scene.materials[0]->medium()->ior == 1.25);
+  CHECK(scene.materials[1]->base_color({1.5, 0}) == Vec3(0.5));
+}
+
+TEST_CASE("an override mends a wrong value") {
+  const Override mend{"image.width=5"};
+  CHECK(parse_scene("[image]\nwidth = -5", "scene.toml", {&mend, 1}).image.width == 5);
+}
+
+TEST_CASE("a wrong override is refused, and says which it is") {
+  const std::pair<const char*, const char*> cases[] = {
+      {"rendr.max_depth=3", "unknown table `rendr`; did you mean [render]?"},
+      {"render.max_dept=3", "unknown key `max_dept` in [render]; did you mean `max_depth`?"},
+      {"render.max_depth=99", "`max_depth` must be an integer from 0 to 64, not 99"},
+      {"render.integrator=whited",
+       "`integrator` must be \"raycast\" or \"whitted\", not \"whited\"; did you mean \"whitted\"?"},
+      {"sphere.7.radius=2", "there is no sphere.7: the scene has 2 [[sphere]], from 0 to 1"},
+      {"sphere.-1.radius=2", "there is no sphere.-1: the scene has 2 [[sphere]], from 0 to 1"},
+      {"light.0.intensity=2", "the scene has no [[light]]"},
+      {"material.glas.ior=2", "no [[material]] is named `glas`; did you mean `glass`?"},
+      {"camera.eye=[1,2]", "`eye` must be three numbers [x, y, z], not a list of 2"},
+      {"sphere.0.center.3=7", "`center` has 3 elements, counted from 0; `3` is none of them"},
+      {"sphere.0.center.x=7", "`center` has 3 elements, counted from 0; `x` is none of them"},
+      {"image.width.x=3", "`width` holds a single value, so it has no `x`"},
+      {"camera=3", "name the key too: camera.KEY=VALUE"},
+      {"camera={eye=[1,2,3]}", "name the key too: camera.KEY=VALUE"},
+      {"sphere.0=3", "name the key too: sphere.INDEX.KEY=VALUE"},
+      {"include=x.toml", "`include` can stand in a file only"},
+      {"width", "write KEY=VALUE, such as render.max_depth=3"},
+      {"image.width=", "syntax: a value is missing"},
+      {"image.width=[", "syntax: encountered end-of-file"},
+      {"=3", "syntax: expected keys, tables, whitespace or comments, saw '='"},
+      {"a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q.r=1", "write KEY=VALUE, such as render.max_depth=3"},
+      {"image={}\nimage.width=3", nullptr},
+  };
+  for (const auto& item : cases) {
+    const char* change = item.first;
+    const char* message = item.second;
+    CAPTURE(change);
+    if (message) {
+      CHECK(refusal(change) == fmt::format("-D {}: error: {}", change, message));
+    } else {
+      CHECK(refusal(change).ends_with("write KEY=VALUE, such as render.max_depth=3"));
+    }
+  }
+}
