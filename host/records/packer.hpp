@@ -1,0 +1,51 @@
+// The flat buffers that the shaders read, and the way shapes and materials write them.
+#pragma once
+
+#include <vector>
+
+#include "records/records.hpp"
+#include "scene/texture.hpp"
+
+namespace eyeray {
+
+// A scene as the shaders see it; every position is relative to the camera's eye.
+struct PackedScene {
+  std::vector<shader::Primitive> primitives;  // grouped by kind, in registry order
+  std::vector<uint32_t> kind_first;  // by kind, the first primitive of it; then the number of primitives
+  std::vector<shader::vec4> vertices;
+  std::vector<shader::Material> materials;
+  std::vector<shader::Texture> textures;
+  std::vector<shader::Medium> media{{shader::vec4(0, 0, 0, 1)}};  // by number; 0 is the vacuum
+  std::vector<shader::Light> lights;
+  shader::Frame frame{};
+};
+
+class Packer {
+ public:
+  // `eye`: the world position that becomes the origin.
+  explicit Packer(const Vec3& eye) : eye_(eye) {}
+
+  // World to eye-relative, still in float64: only the difference is rounded to float32.
+  Vec3 relative(const Vec3& world) const { return world - eye_; }
+
+  void add(const shader::Primitive& primitive) { scene.primitives.push_back(primitive); }
+  void add(const shader::Material& material) { scene.materials.push_back(material); }
+  // The index at which `data` now starts in the vertices.
+  uint32_t add_vertices(std::initializer_list<shader::vec4> data);
+  // The index of a texture; equal textures share one.
+  uint32_t add_texture(const Texture& texture);
+  // The number of a medium, 1 … 255; `absorption` per unit of length.
+  uint32_t add_medium(double ior, const Vec3& absorption);
+
+  PackedScene scene;
+
+ private:
+  Vec3 eye_;
+};
+
+// Float32 records from float64 values.
+inline shader::vec4 to_vec4(const Vec3& v, double w = 0) {
+  return shader::vec4(glm::vec3(v), float(w));
+}
+
+}  // namespace eyeray

@@ -1,0 +1,29 @@
+// The packed records, as the shaders see them: namespace eyeray::shader.
+#pragma once
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpedantic"
+#include "records.h"
+#pragma GCC diagnostic pop
+#include "integrators/registry.h"
+#include "materials/registry.h"
+#include "shapes/registry.h"
+
+namespace eyeray::shader {
+
+// The registries' numbers: KIND_sphere, MATERIAL_phong, …
+#define X(name, number) inline constexpr uint KIND_##name = number;
+SHAPES(X)
+#undef X
+#define X(name, number) inline constexpr uint MATERIAL_##name = number;
+MATERIALS(X)
+#undef X
+
+// How many kinds of shape there are.
+inline constexpr uint SHAPE_KINDS = 0
+#define X(name, number) +1
+    SHAPES(X)
+#undef X
+    ;
+
+}  // namespace eyeray::shader

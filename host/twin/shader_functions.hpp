@@ -1,0 +1,72 @@
+// Every shader function, compiled as C++ into the .cpp that includes this; the loaders read the PackedScene
+// that a Binding of this thread names. For the twin and for tests of single functions.
+#pragma once
+
+#include "records/packer.hpp"
+
+namespace eyeray::shader {
+namespace {
+
+thread_local const PackedScene* bound_scene = nullptr;
+
+// Lets shader functions on this thread read `scene` for its lifetime.
+class Binding {
+ public:
+  explicit Binding(const PackedScene& scene) { bound_scene = &scene; }
+  ~Binding() { bound_scene = nullptr; }
+  Binding(const Binding&) = delete;
+  Binding& operator=(const Binding&) = delete;
+};
+
+[[maybe_unused]] const Primitive& load_primitive(uint i) {
+  return bound_scene->primitives[i];
+}
+[[maybe_unused]] const vec4& load_vertex(uint i) {
+  return bound_scene->vertices[i];
+}
+[[maybe_unused]] const Material& load_material(uint i) {
+  return bound_scene->materials[i];
+}
+[[maybe_unused]] const Texture& load_texture(uint i) {
+  return bound_scene->textures[i];
+}
+[[maybe_unused]] const Medium& load_medium(uint i) {
+  return bound_scene->media[i];
+}
+[[maybe_unused]] const Light& load_light(uint i) {
+  return bound_scene->lights[i];
+}
+
+}  // namespace
+}  // namespace eyeray::shader
+
+// What a specialised kernel gets from its generated scene.glsl, here for every scene.
+#define KIND_FIRST(name) bound_scene->kind_first[KIND_##name]
+#define KIND_END(name) bound_scene->kind_first[KIND_##name + 1u]
+#define LIGHT_COUNT bound_scene->frame.counts.x
+#define TRIANGLE_METHOD bound_scene->frame.counts.w
+#define TRACE_ITERATIONS 0u
+#define WHITTED_STACK 64
+#define HAS_CHECKER 1
+#define HAS_MEDIA 1
+
+#undef SHADER_BEGIN
+#undef SHADER_END
+#define SHADER_BEGIN         \
+  namespace eyeray::shader { \
+  namespace {
+#define SHADER_END \
+  }                \
+  }
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+// What is dispatched to stands before the dispatch.
+// clang-format off
+#include "shapes/all.glsl"
+#include "materials/all.glsl"
+#include "integrators/all.glsl"
+#include "pixel.glsl"
+// clang-format on
+#pragma GCC diagnostic pop

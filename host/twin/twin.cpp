@@ -1,0 +1,17 @@
+#include "twin/twin.hpp"
+
+#include "twin/shader_functions.hpp"
+
+namespace eyeray::twin {
+
+shader::SampleResult sample(const PackedScene& scene, uint32_t x, uint32_t y, uint32_t index) {
+  const shader::Binding binding(scene);
+  return shader::render_sample(scene.frame, x, y, index);
+}
+
+shader::HitResult first_hit(const PackedScene& scene, uint32_t x, uint32_t y) {
+  const shader::Binding binding(scene);
+  return shader::first_hit(scene.frame, x, y);
+}
+
+}  // namespace eyeray::twin

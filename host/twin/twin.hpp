@@ -1,0 +1,14 @@
+// The twin: the shaders compiled as C++, float32, uncontracted. Where it differs from the GPU, the driver,
+// the compiler, the upload or the packing is at fault; where it differs from the reference, the algorithm or
+// its numerics.
+#pragma once
+
+#include "records/packer.hpp"
+
+namespace eyeray::twin {
+
+// What render.comp.glsl computes for one pixel of the whole picture. Thread-safe.
+shader::SampleResult sample(const PackedScene& scene, uint32_t x, uint32_t y, uint32_t index);
+shader::HitResult first_hit(const PackedScene& scene, uint32_t x, uint32_t y);
+
+}  // namespace eyeray::twin

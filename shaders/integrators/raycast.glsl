@@ -1,0 +1,35 @@
+// Eye rays only: the base colour, shaded by light and normal, without shadows.
+#ifndef RAYCAST_GLSL
+#define RAYCAST_GLSL
+#include "light.glsl"
+#include "surface.glsl"
+#include "texture.glsl"
+#include "traverse.glsl"
+
+SHADER_BEGIN
+
+vec3 raycast_radiance(Frame frame, Ray ray, INOUT(uvec4) counts) {
+  counts.x += 1u;
+  Hit hit = trace(ray);
+  if (hit.primitive == NONE) return vec3(frame.background);
+  counts.y += 1u;
+
+  // Find the surface, as the viewer sees it.
+  Primitive primitive = load_primitive(hit.primitive);
+  Surface surface = surface_at(primitive, ray, hit);
+  Surface seen = face_viewer(surface, dot3(ray.d, surface.normal_geometric) < 0.0f);
+
+  // Add up the lights; without any, the viewer holds one.
+  vec3 light = vec3(frame.ambient);
+  for (uint i = 0u; i < LIGHT_COUNT; i++) {
+    LightSample s = sample_light(load_light(i), seen.p);
+    float cosine = dot3(seen.normal, s.direction);
+    light = cosine > 0.0f ? light + s.color * cosine : light;
+  }
+  float headlight = abs(dot3(seen.normal, ray.d));
+  if (LIGHT_COUNT == 0u) light = vec3(headlight, headlight, headlight);
+  return texture_color(load_material(primitive.head.y).textures.x, surface.uv) * light;
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,153 @@
+// Whitted's recursion as a loop: a ray's weight travels with it, and of two children one waits on a stack.
+#ifndef WHITTED_GLSL
+#define WHITTED_GLSL
+#include "light.glsl"
+#include "material.glsl"
+#include "media.glsl"
+#include "surface.glsl"
+#include "traverse.glsl"
+
+SHADER_BEGIN
+
+struct PathRay {
+  vec3 o;
+  vec3 d;
+  vec3 weight;  // what its radiance counts for in the pixel
+  uint depth;   // reflections and refractions so far
+  uint media;
+};
+
+// Ambient light and what every visible light adds at a point.
+vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface seen, vec3 to_viewer,
+                  INOUT(uvec4) counts) {
+  vec3 color = scattering.ambient * vec3(frame.ambient);
+  for (uint i = 0u; i < LIGHT_COUNT; i++) {
+    counts.w += 1u + TRACE_ITERATIONS;
+    LightSample light = sample_light(load_light(i), seen.p);
+    float cosine = dot3(seen.normal, light.direction);
+    if (cosine > 0.0f && dot3(seen.normal_geometric, light.direction) > 0.0f) {
+      counts.x += 1u;
+      float visible = visibility(occlusion(leave(seen, light.direction), light.distance));
+      float lobe = highlight(material, seen.normal, light.direction, to_viewer);
+      color = color + light.color * (scattering.diffuse * cosine + scattering.specular * lobe) * visible;
+    }
+  }
+  return color;
+}
+
+// The refracted direction; only asked for when refraction is possible.
+vec3 refracted(vec3 d, vec3 n, float cos_view, float eta) {
+  float cos_squared = 1.0f - eta * eta * (1.0f - cos_view * cos_view);
+  return normalize3(d * eta + n * (eta * cos_view - sqrt(maximum(cos_squared, 0.0f))));
+}
+
+vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
+#if WHITTED_STACK > 0
+  PathRay stack[WHITTED_STACK];
+  uint pending = 0u;
+#endif
+  vec3 color = vec3(0.0f, 0.0f, 0.0f);
+  PathRay path;
+  path.o = eye_ray.o;
+  path.d = eye_ray.d;
+  path.weight = vec3(1.0f, 1.0f, 1.0f);
+  path.depth = 0u;
+  path.media = frame.camera.z;
+  bool going = true;
+  do {
+    Ray ray = make_ray(path.o, path.d);
+    Hit hit = trace(ray);
+    bool struck = hit.primitive != NONE;
+    counts.x += 1u;
+    counts.y += struck ? 1u : 0u;
+    counts.w += TRACE_ITERATIONS + 1u;
+    going = false;
+    if (!struck) {
+      color = color + path.weight * vec3(frame.background);
+    } else {
+      // Weaken by the medium that the ray came through.
+      Primitive primitive = load_primitive(hit.primitive);
+      Material material = load_material(primitive.head.y);
+      vec3 weight = path.weight;
+#if HAS_MEDIA
+      Medium from = load_medium(innermost_medium(path.media));
+      weight = weight * vec3(exp_negative(-from.absorption_ior.x * hit.t), exp_negative(-from.absorption_ior.y * hit.t),
+                             exp_negative(-from.absorption_ior.z * hit.t));
+#endif
+
+      // Find the surface as the viewer sees it, and the medium behind it.
+      Surface surface = surface_at(primitive, ray, hit);
+      bool front = dot3(ray.d, surface.normal_geometric) < 0.0f;
+      Surface seen = face_viewer(surface, front);
+      float cos_view = minimum(maximum(-dot3(ray.d, seen.normal), 0.0f), 1.0f);
+      ScatteringContext context;
+      context.uv = surface.uv;
+      context.cos_view = cos_view;
+      context.ior_from = 1.0f;
+      context.ior_to = 1.0f;
+#if HAS_MEDIA
+      uint media_behind = path.media;
+      if (material.head.z != 0u)
+        media_behind = front ? enter_medium(path.media, material.head.z, counts.z)
+                             : leave_medium(path.media, material.head.z);
+      context.ior_from = from.absorption_ior.w;
+      context.ior_to = load_medium(innermost_medium(media_behind)).absorption_ior.w;
+#endif
+
+      // Shade.
+      Scattering scattering = scattering_of(material, context);
+      color = color + weight * direct_light(frame, material, scattering, seen, -ray.d, counts);
+
+      // Go on with one child, and let the other wait.
+      bool deeper = path.depth < frame.camera.w;
+      PathRay reflected;
+      reflected.d = normalize3(ray.d + seen.normal * (2.0f * cos_view));
+      reflected.o = leave(surface, reflected.d).o;
+      reflected.weight = weight * scattering.reflected;
+      reflected.depth = path.depth + 1u;
+      reflected.media = path.media;
+      bool reflects = deeper && max_component(reflected.weight) > frame.right.w;
+      going = reflects;
+      path = reflected;
+#if HAS_MEDIA
+      PathRay transmitted;
+      transmitted.d = refracted(ray.d, seen.normal, cos_view, context.ior_from / context.ior_to);
+      transmitted.o = leave(surface, transmitted.d).o;
+      transmitted.weight = weight * scattering.transmitted;
+      transmitted.depth = reflected.depth;
+      transmitted.media = media_behind;
+      bool transmits = deeper && max_component(transmitted.weight) > frame.right.w;
+#if WHITTED_STACK > 0
+      if (reflects && transmits) {
+        if (pending == uint(WHITTED_STACK)) {
+          counts.z = counts.z | FLAG_STACK_OVERFLOW;
+        } else {
+          stack[pending] = reflected;
+          pending += 1u;
+        }
+      }
+#endif
+      going = reflects || transmits;
+      if (transmits) path = transmitted;
+#endif
+    }
+
+#if WHITTED_STACK > 0
+    if (!going && pending > 0u) {
+      pending -= 1u;
+      path = stack[pending];
+      going = true;
+    }
+#endif
+#ifdef LOOP_BUDGET
+    if (going && counts.w > LOOP_BUDGET) {
+      counts.z = counts.z | FLAG_LOOP_BUDGET;
+      going = false;
+    }
+#endif
+  } while (going);
+  return color;
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,45 @@
+// What lets one source be GLSL and C++. The only place with such tricks; everything else is written in the common
+// subset: float literals end in f, unsigned ones in u; no swizzles (vec3(v) takes the first three of a vec4);
+// no struct constructors; no implicit conversions.
+#ifndef LANGUAGE_H
+#define LANGUAGE_H
+
+#ifdef __cplusplus
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#define INOUT(T) T&
+#define OUT(T) T&
+
+namespace eyeray::shader {
+
+using uint = uint32_t;
+using glm::uvec2;
+using glm::uvec4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+
+inline float abs(float x) { return std::fabs(x); }
+inline float floor(float x) { return std::floor(x); }
+inline float sqrt(float x) { return std::sqrt(x); }
+inline uint floatBitsToUint(float x) { return __builtin_bit_cast(uint, x); }
+inline float uintBitsToFloat(uint x) { return __builtin_bit_cast(float, x); }
+
+}  // namespace eyeray::shader
+
+#define SHADER_BEGIN namespace eyeray::shader {
+#define SHADER_END }
+
+#else
+
+#define INOUT(T) inout T
+#define OUT(T) out T
+#define SHADER_BEGIN
+#define SHADER_END
+
+#endif
+#endif

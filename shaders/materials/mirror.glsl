@@ -1,0 +1,16 @@
+// A perfect mirror, with a highlight where a light would be seen in it.
+#ifndef MIRROR_GLSL
+#define MIRROR_GLSL
+#include "scattering.glsl"
+
+SHADER_BEGIN
+
+Scattering mirror_scattering(Material material, ScatteringContext context) {
+  Scattering s = no_scattering();
+  s.specular = texture_color(material.textures.y, context.uv);
+  s.reflected = texture_color(material.textures.z, context.uv);
+  return s;
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,18 @@
+// Ambient, diffuse and a highlight, with an optional mirror on top.
+#ifndef PHONG_GLSL
+#define PHONG_GLSL
+#include "scattering.glsl"
+
+SHADER_BEGIN
+
+Scattering phong_scattering(Material material, ScatteringContext context) {
+  Scattering s = no_scattering();
+  s.ambient = texture_color(material.textures.w, context.uv);
+  s.diffuse = texture_color(material.textures.x, context.uv);
+  s.specular = texture_color(material.textures.y, context.uv);
+  s.reflected = texture_color(material.textures.z, context.uv);
+  return s;
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,8 @@
+// Every kind of shape: a row is all that has to be added outside the shape's own files. Its number is its kind in
+// Primitive.head.x and its place in the scene's order. A specialised kernel overrides the list with its scene's kinds.
+#ifndef SHAPES
+#define SHAPES(X)  \
+  X(sphere, 0u)    \
+  X(plane, 1u)     \
+  X(triangle, 2u)
+#endif

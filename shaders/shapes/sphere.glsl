@@ -1,0 +1,55 @@
+// |x − c| = r.   a = centre, r    b = the pole, where v = 1    c = the meridian u = ½, handedness
+// Roots after Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection" (Ray Tracing Gems, 7).
+#ifndef SPHERE_GLSL
+#define SPHERE_GLSL
+#include "ray.glsl"
+#include "records.h"
+
+SHADER_BEGIN
+
+float sphere_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
+  uv = vec2(0.0f, 0.0f);
+  vec3 f = ray.o - vec3(s.a);
+  float a = dot3(ray.d, ray.d);
+  float inverse_a = 1.0f / a;  // the same for every sphere, and so divided once
+  float b = -dot3(f, ray.d);
+
+  // Measure the discriminant as a distance: from the point of the ray nearest to the centre.
+  vec3 nearest = f + ray.d * (b * inverse_a);
+  float discriminant = s.a.w * s.a.w - dot3(nearest, nearest);
+
+  // Take the root without cancellation first; the product of the roots gives the other.
+  float c = dot3(f, f) - s.a.w * s.a.w;
+  float root = sqrt(maximum(a * discriminant, 0.0f));
+  float q = b < 0.0f ? b - root : b + root;
+  float t0 = c / q;
+  float t1 = q * inverse_a;
+  float low = t0 < t1 ? t0 : t1;
+  float high = t0 < t1 ? t1 : t0;
+  float t = low > 0.0f ? low : high;
+  return discriminant >= 0.0f ? t : -1.0f;
+}
+
+Surface sphere_surface(Primitive s, Ray ray, Hit hit) {
+  vec3 centre = vec3(s.a);
+  // A sphere smaller than the rounding of its distance may be met at its very centre.
+  vec3 from_centre = (ray.o - centre) + ray.d * hit.t;
+  vec3 n = dot3(from_centre, from_centre) > 0.0f ? normalize3(from_centre) : -ray.d;
+
+  Surface surface;
+  surface.p = centre + n * s.a.w;
+  surface.normal_geometric = n;
+  surface.normal = n;
+  vec3 pole = vec3(s.b);
+  vec3 meridian = vec3(s.c);
+  float x = dot3(n, meridian);
+  float y = dot3(n, pole);
+  float z = dot3(n, cross3(meridian, pole)) * s.c.w;
+  float u = 0.5f + atan_yx(-z, x) / (2.0f * PI);
+  surface.uv = vec2(u < 1.0f ? u : 0.0f, atan_yx(sqrt(x * x + z * z), -y) / PI);
+  surface.offset = 4.0f * EPSILON * (dot3(abs3(n), abs3(centre)) + s.a.w);
+  return surface;
+}
+
+SHADER_END
+#endif

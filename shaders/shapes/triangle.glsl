@@ -1,0 +1,83 @@
+// a, b, c = the vertices; their w's are the unit geometric normal, from float64. extra = four vec4 of normals and uv, or NONE:
+// (n0, u0) (n1, u1) (n2, u2) (v0, v1, v2, -).   Parameters of a hit: the weights of the second and third vertex.
+#ifndef TRIANGLE_GLSL
+#define TRIANGLE_GLSL
+#include "ray.glsl"
+#include "records.h"
+
+SHADER_BEGIN
+
+// Along the ray, the triangle is its plane: near the plane, and for slivers, this is far more exact than the weighted mean of the
+// vertices' distances, and a ray that starts off the plane on the far side has t ≤ 0 for certain.
+float triangle_t(Primitive s, Ray ray) {
+  vec3 n = vec3(s.a.w, s.b.w, s.c.w);
+  return dot3(n, vec3(s.a) - ray.o) / dot3(n, ray.d);
+}
+
+// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2013). The edge functions of a shared edge are
+// each other's exact negatives, so a ray cannot slip between neighbours; one that hits the edge itself belongs to both.
+float triangle_intersect_woop(Primitive s, Ray ray, OUT(vec2) uv) {
+  vec3 a = permute(vec3(s.a) - ray.o, ray.major);
+  vec3 b = permute(vec3(s.b) - ray.o, ray.major);
+  vec3 c = permute(vec3(s.c) - ray.o, ray.major);
+  float ax = a.x - ray.shear.x * a.z;
+  float ay = a.y - ray.shear.y * a.z;
+  float bx = b.x - ray.shear.x * b.z;
+  float by = b.y - ray.shear.y * b.z;
+  float cx = c.x - ray.shear.x * c.z;
+  float cy = c.y - ray.shear.y * c.z;
+  float u = cx * by - cy * bx;
+  float v = ax * cy - ay * cx;
+  float w = bx * ay - by * ax;
+  bool inside = (u >= 0.0f && v >= 0.0f && w >= 0.0f) || (u <= 0.0f && v <= 0.0f && w <= 0.0f);
+  float det = (u + v) + w;
+  float inverse = 1.0f / det;
+  uv = vec2(v * inverse, w * inverse);
+  return inside && det != 0.0f ? triangle_t(s, ray) : -1.0f;
+}
+
+// Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), without its epsilon. Not watertight: kept for
+// comparison, `--triangle moller-trumbore`.
+float triangle_intersect_moller_trumbore(Primitive s, Ray ray, OUT(vec2) uv) {
+  vec3 e1 = vec3(s.b) - vec3(s.a);
+  vec3 e2 = vec3(s.c) - vec3(s.a);
+  vec3 p = cross3(ray.d, e2);
+  float det = dot3(e1, p);
+  vec3 f = ray.o - vec3(s.a);
+  uv = vec2(dot3(f, p) / det, dot3(ray.d, cross3(f, e1)) / det);
+  bool inside = uv.x >= 0.0f && uv.y >= 0.0f && uv.x + uv.y <= 1.0f;
+  return inside ? triangle_t(s, ray) : -1.0f;
+}
+
+float triangle_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
+  if (TRIANGLE_METHOD == TRIANGLE_MOLLER_TRUMBORE) return triangle_intersect_moller_trumbore(s, ray, uv);
+  return triangle_intersect_woop(s, ray, uv);
+}
+
+Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
+  float wa = (1.0f - hit.uv.x) - hit.uv.y;
+  vec3 a = vec3(s.a) * wa;
+  vec3 b = vec3(s.b) * hit.uv.x;
+  vec3 c = vec3(s.c) * hit.uv.y;
+
+  Surface surface;
+  surface.p = (a + b) + c;
+  surface.normal_geometric = vec3(s.a.w, s.b.w, s.c.w);
+  surface.normal = surface.normal_geometric;
+  surface.uv = hit.uv;
+  if (s.head.w != NONE) {
+    vec4 n0 = load_vertex(s.head.w);
+    vec4 n1 = load_vertex(s.head.w + 1u);
+    vec4 n2 = load_vertex(s.head.w + 2u);
+    vec4 v = load_vertex(s.head.w + 3u);
+    surface.normal = normalize3((vec3(n0) * wa + vec3(n1) * hit.uv.x) + vec3(n2) * hit.uv.y);
+    surface.uv = vec2((n0.w * wa + n1.w * hit.uv.x) + n2.w * hit.uv.y,
+                      (v.x * wa + v.y * hit.uv.x) + v.z * hit.uv.y);
+  }
+  vec3 reach = abs3(vec3(s.a)) + abs3(vec3(s.b)) + abs3(vec3(s.c));
+  surface.offset = 8.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);
+  return surface;
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,70 @@
+// plane.glsl: the hit lies on the plane, parallel rays miss, and rays that leave it do not meet it again.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+
+#include "core/parallel_for.hpp"
+#include "support/random.hpp"
+#include "twin/shader_functions.hpp"
+
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using test::Random;
+
+namespace {
+
+shader::Primitive make_plane(const Vec3& normal, double d) {
+  shader::Primitive plane{};
+  plane.a = to_vec4(normal, d);
+  return plane;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "2 million rays that leave a plane, at distances up to 1e4: none meets it again, every hit is on it") {
+  std::atomic<int> rehits = 0;
+  std::atomic<int> off = 0;
+  std::atomic<int> left = 0;
+  parallel_for(0, 64, [&](int part) {
+    Random random{uint64_t(part)};
+    for (int i = 0; i < 2'000'000 / 64; ++i) {
+      const double scale = random.log_uniform(1e-4, 1e4);
+      const Vec3 normal = random.below(4) == 0 ? Vec3(0, 1, 0) : random.direction();
+      const shader::Primitive plane = make_plane(normal, random.uniform(-1, 1) * scale);
+      const shader::Ray ray = shader::make_ray(glm::vec3(random.point(scale)), glm::vec3(random.direction()));
+      shader::Hit hit{0, 0, {}};
+      hit.t = shader::plane_intersect(plane, ray, hit.uv);
+      if (!(hit.t > 0) || hit.t > 1e6f * float(scale)) continue;
+      ++left;
+      const shader::Surface surface = shader::plane_surface(plane, ray, hit);
+      const double height = glm::dot(Vec3(plane.a), Vec3(surface.p)) - double(plane.a.w);
+      off += !(std::fabs(height) <= double(surface.offset));
+      shader::vec2 uv{};
+      const glm::vec3 away(random.direction());
+      const double cosine = glm::dot(Vec3(away), Vec3(plane.a));
+      if (std::fabs(cosine) < 1e-6) continue;  // the sign of n·d itself is lost in float32
+      rehits += shader::plane_intersect(plane, shader::leave(surface, away), uv) > 0;
+    }
+  });
+  MESSAGE(fmt::format("{} left, {} hits off the plane, {} re-hits", left.load(), off.load(), rehits.load()));
+  CHECK(left > 500'000);
+  CHECK(off == 0);
+  CHECK(rehits == 0);
+}
+
+TEST_CASE("a ray parallel to a plane, in it or beside it, is a miss in trace()") {
+  PackedScene scene;
+  scene.primitives = {make_plane({0, 1, 0}, 0)};
+  scene.primitives[0].head.x = shader::KIND_plane;
+  scene.kind_first = {0, 0, 1, 1};
+  scene.kind_first.resize(shader::SHAPE_KINDS + 1, 1);
+  const shader::Binding binding(scene);
+  for (const float height : {0.0f, -0.0f, 1.0f, -1.0f, 1e-30f}) {
+    const shader::Hit hit = shader::trace(shader::make_ray({0, height, 0}, {1, 0, 0}));
+    CHECK(hit.primitive == NONE);
+    CHECK(hit.t == T_MISS);
+  }
+}
