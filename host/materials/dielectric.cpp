@@ -1,0 +1,120 @@
+#include <cmath>
+
+#include "materials/highlight.hpp"
+#include "materials/make.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(Glass, water, air: a clear medium that fills its shape. At its surface light is mirrored and refracted by the
+shares of Fresnel's equations for unpolarised light; inside, `absorption` dims it with the distance (Beer–Lambert).
+
+```toml
+[[material]]
+name = "glass"
+type = "dielectric"
+ior = 1.5
+absorption = [0.2, 0.02, 0.1]
+```
+
+Media nest, up to four deep: a ray that leaves one is back in the one around it. A hollow ball is a sphere of glass with a
+sphere of `ior = 1` inside it. From ior n₁ to n₂, sin²θ₂ = (n₁/n₂)² (1 − cos²θ₁); where that reaches 1 all light is mirrored, and
+no root is taken. The reflected share is ½ (rₛ² + rₚ²), rₛ = (n₁cosθ₁ − n₂cosθ₂) / (n₁cosθ₁ + n₂cosθ₂),
+rₚ = (n₁cosθ₂ − n₂cosθ₁) / (n₁cosθ₂ + n₂cosθ₁); equal media do not mirror at all.
+
+Shadow rays go straight through and keep the share `shadow` for each shape that they meet, however often they cross it
+(a triangle is a shape). By default it is what a surface with air lets through at right angles,
+1 − ((ior − 1) / (ior + 1))². Bent light (caustics) and its absorption are not modelled.
+
+**Source.** Born, Wolf: Principles of Optics, 1.5. Whitted: An Improved Illumination Model for Shaded Display, CACM 23(6), 1980.
+)";
+
+constexpr Key keys[] = {
+    {.name = "ior",
+     .type = KeyType::number,
+     .doc = "Index of refraction.",
+     .fallback = "1.5",
+     .min = 1,
+     .max = 4},
+    {.name = "absorption",
+     .type = KeyType::color,
+     .doc = "Light is weakened by exp(-absorption * distance) inside; per unit of length.",
+     .fallback = "0"},
+    {.name = "shadow",
+     .type = KeyType::number,
+     .doc = "Share of light that a shadow ray keeps for each shape it meets; from ior when absent.",
+     .min = 0,
+     .max = 1,
+     .optional = true},
+    specular_key,
+    shininess_key,
+    highlight_key,
+};
+
+// The share of unpolarised light that the boundary from ior n1 to n2 mirrors, cos1 being that of the incident
+// angle.
+double fresnel(double cos1, double n1, double n2) {
+  if (n1 == n2) return 0;
+  const double eta = n1 / n2;
+  const double sin2_squared = eta * eta * (1 - cos1 * cos1);
+  if (sin2_squared >= 1) return 1;
+  const double cos2 = std::sqrt(1 - sin2_squared);
+  const double rs = (n1 * cos1 - n2 * cos2) / (n1 * cos1 + n2 * cos2);
+  const double rp = (n1 * cos2 - n2 * cos1) / (n1 * cos2 + n2 * cos1);
+  return (rs * rs + rp * rp) / 2;
+}
+
+class Dielectric final : public Material {
+ public:
+  explicit Dielectric(const DielectricValues& values) : values_(values) {}
+
+  Scattering scattering(const ScatteringContext& context) const override {
+    const double mirrored = fresnel(context.cos_view, context.ior_from, context.ior_to);
+    Scattering scattering;
+    scattering.reflected = Vec3(mirrored);
+    scattering.transmitted = Vec3(1 - mirrored);
+    values_.highlight.apply(context.uv, scattering);
+    return scattering;
+  }
+
+  Vec3 base_color(const Vec2&) const override { return Vec3(1); }
+
+  std::optional<Medium> medium() const override { return Medium{values_.ior, values_.absorption}; }
+
+  double shadow_transmittance() const override {
+    const double r = (values_.ior - 1) / (values_.ior + 1);
+    return values_.shadow.value_or(1 - r * r);
+  }
+
+  void pack(Packer& packer) const override {
+    auto record = make_record(shader::MATERIAL_dielectric, values_.highlight, shadow_transmittance(), packer);
+    record.head[2] = packer.add_medium(values_.ior, values_.absorption);
+    record.textures[0] = record.textures[2] = packer.add_texture({Vec3(1), {}});
+    packer.add(record);
+  }
+
+ private:
+  DielectricValues values_;
+};
+
+std::unique_ptr<Material> parse(TableReader& table) {
+  DielectricValues values{.ior = table.number("ior"),
+                          .absorption = table.color("absorption"),
+                          .highlight = read_highlight(table)};
+  if (table.has("shadow")) values.shadow = table.number("shadow");
+  if (table.failed()) return nullptr;
+  return make_dielectric(values);
+}
+
+}  // namespace
+
+extern const MaterialType dielectric_type{
+    .name = "dielectric", .manual = manual, .keys = keys, .parse = parse};
+
+std::unique_ptr<Material> make_dielectric(const DielectricValues& values) {
+  return std::make_unique<Dielectric>(values);
+}
+
+}  // namespace eyeray

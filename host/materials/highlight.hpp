@@ -1,0 +1,42 @@
+// The highlight that every material may show of a light, and the parts of its record that all share.
+#pragma once
+
+#include "records/packer.hpp"
+#include "scene/material.hpp"
+#include "scene/table_reader.hpp"
+
+namespace eyeray {
+
+struct Highlight {
+  Texture specular = {};
+  double shininess = 32;
+  bool blinn = false;
+
+  // Fills the highlight's part of a Scattering.
+  void apply(const Vec2& uv, Scattering& scattering) const;
+};
+
+// The keys that a material with a highlight declares, and their reading.
+inline constexpr Key specular_key{
+    .name = "specular", .type = KeyType::texture, .doc = "Share of light in the highlight.", .fallback = "0"};
+inline constexpr Key shininess_key{.name = "shininess",
+                                   .type = KeyType::number,
+                                   .doc = "Exponent of the highlight: the greater, the smaller and sharper.",
+                                   .fallback = "32",
+                                   .min = 1,
+                                   .max = 10000};
+inline constexpr std::string_view highlight_models[] = {"phong", "blinn"};
+inline constexpr Key highlight_key{
+    .name = "highlight",
+    .type = KeyType::choice,
+    .doc = "Lobe (r·v)^shininess of Phong 1975 or (n·h)^shininess of Blinn 1977.",
+    .fallback = "\"phong\"",
+    .choices = highlight_models};
+Highlight read_highlight(const TableReader& table);
+
+// The record of a material of `kind`, with its highlight and its shadow density; base, reflected and ambient
+// are black, and it has no medium.
+shader::Material make_record(uint32_t kind, const Highlight& highlight, double shadow_transmittance,
+                             Packer& packer);
+
+}  // namespace eyeray

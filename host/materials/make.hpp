@@ -1,0 +1,35 @@
+// Materials built in code, by importers and tests; a scene file's go through their MaterialType. Values have
+// the meaning and the ranges of the keys of the same name.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "materials/highlight.hpp"
+#include "scene/material.hpp"
+
+namespace eyeray {
+
+struct PhongValues {
+  Texture diffuse{Vec3(0.8), {}};
+  std::optional<Texture> ambient = {};  // absent: as diffuse
+  Texture reflectance = {};
+  Highlight highlight = {};
+};
+std::unique_ptr<Material> make_phong(const PhongValues& values);
+
+struct MirrorValues {
+  Texture reflectance{Vec3(0.95), {}};
+  Highlight highlight = {};
+};
+std::unique_ptr<Material> make_mirror(const MirrorValues& values);
+
+struct DielectricValues {
+  double ior = 1.5;
+  Vec3 absorption{0.0};
+  std::optional<double> shadow = {};  // absent: what Fresnel lets through at normal incidence
+  Highlight highlight = {};
+};
+std::unique_ptr<Material> make_dielectric(const DielectricValues& values);
+
+}  // namespace eyeray

@@ -1,0 +1,75 @@
+#include "materials/highlight.hpp"
+#include "materials/make.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(A polished metal: `reflectance` times what the mirror direction sees, and, since a point light is too small to be met by
+a mirrored ray, a highlight in its stead.
+
+```toml
+[[material]]
+name = "steel"
+type = "mirror"
+reflectance = [0.9, 0.9, 0.85]
+specular = 0.5
+shininess = 200
+```
+
+colour = reflectance · (what the mirror direction sees) + Σ light · specular · lobe. `raycast`, which does not reflect, shades
+the reflectance.
+
+**Source.** Whitted: An Improved Illumination Model for Shaded Display, CACM 23(6), 1980.
+)";
+
+constexpr Key keys[] = {
+    {.name = "reflectance",
+     .type = KeyType::texture,
+     .doc = "Share of what the mirror direction sees.",
+     .fallback = "0.95",
+     .max = 1},
+    specular_key,
+    shininess_key,
+    highlight_key,
+};
+
+class Mirror final : public Material {
+ public:
+  explicit Mirror(const MirrorValues& values) : values_(values) {}
+
+  Scattering scattering(const ScatteringContext& context) const override {
+    Scattering scattering;
+    scattering.reflected = values_.reflectance.at(context.uv);
+    values_.highlight.apply(context.uv, scattering);
+    return scattering;
+  }
+
+  Vec3 base_color(const Vec2& uv) const override { return values_.reflectance.at(uv); }
+
+  void pack(Packer& packer) const override {
+    auto record = make_record(shader::MATERIAL_mirror, values_.highlight, shadow_transmittance(), packer);
+    record.textures[0] = record.textures[2] = packer.add_texture(values_.reflectance);
+    packer.add(record);
+  }
+
+ private:
+  MirrorValues values_;
+};
+
+std::unique_ptr<Material> parse(TableReader& table) {
+  const MirrorValues values{table.texture("reflectance"), read_highlight(table)};
+  if (table.failed()) return nullptr;
+  return make_mirror(values);
+}
+
+}  // namespace
+
+extern const MaterialType mirror_type{.name = "mirror", .manual = manual, .keys = keys, .parse = parse};
+
+std::unique_ptr<Material> make_mirror(const MirrorValues& values) {
+  return std::make_unique<Mirror>(values);
+}
+
+}  // namespace eyeray

@@ -1,0 +1,96 @@
+#include "materials/highlight.hpp"
+#include "materials/make.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(An opaque surface that scatters light evenly (`diffuse`), shows a highlight of each light (`specular`), and mirrors
+its surroundings by the share `reflectance`.
+
+```toml
+[[material]]
+name = "floor"
+type = "phong"
+diffuse = { checker = { even = [0.8, 0.3, 0.15], odd = [0.9, 0.85, 0.05], size = 1 } }
+specular = 0.3
+shininess = 50
+```
+
+colour = ambient · (the scene's ambient light) + Σ light · (diffuse · n·l + specular · lobe) + reflectance · (what the mirror
+direction sees), summed over the lights that the point sees and that stand before it. These are the classic units,
+without a factor π: a white surface square to a light of intensity 1 shows 1. `lobe` is max(0, r·v)^shininess with
+r the mirrored direction of the light (`highlight = "phong"`) or max(0, n·h)^shininess with h halfway between light and
+viewer (`"blinn"`).
+
+**Source.** Phong: Illumination for Computer Generated Pictures, CACM 18(6), 1975. Blinn: Models of Light Reflection, SIGGRAPH
+1977. Whitted: An Improved Illumination Model for Shaded Display, CACM 23(6), 1980.
+)";
+
+constexpr Key keys[] = {
+    {.name = "diffuse",
+     .type = KeyType::texture,
+     .doc = "Share of light that is scattered evenly.",
+     .fallback = "0.8"},
+    {.name = "ambient",
+     .type = KeyType::texture,
+     .doc = "Share of the scene's ambient light; the same as diffuse when absent.",
+     .optional = true},
+    {.name = "reflectance",
+     .type = KeyType::texture,
+     .doc = "Share of what the mirror direction sees.",
+     .fallback = "0",
+     .max = 1},
+    specular_key,
+    shininess_key,
+    highlight_key,
+};
+
+class Phong final : public Material {
+ public:
+  explicit Phong(const PhongValues& values) : values_(values) {}
+
+  Scattering scattering(const ScatteringContext& context) const override {
+    Scattering scattering;
+    scattering.ambient = ambient().at(context.uv);
+    scattering.diffuse = values_.diffuse.at(context.uv);
+    scattering.reflected = values_.reflectance.at(context.uv);
+    values_.highlight.apply(context.uv, scattering);
+    return scattering;
+  }
+
+  Vec3 base_color(const Vec2& uv) const override { return values_.diffuse.at(uv); }
+
+  void pack(Packer& packer) const override {
+    auto record = make_record(shader::MATERIAL_phong, values_.highlight, shadow_transmittance(), packer);
+    record.textures[0] = packer.add_texture(values_.diffuse);
+    record.textures[2] = packer.add_texture(values_.reflectance);
+    record.textures[3] = packer.add_texture(ambient());
+    packer.add(record);
+  }
+
+ private:
+  const Texture& ambient() const { return values_.ambient ? *values_.ambient : values_.diffuse; }
+
+  PhongValues values_;
+};
+
+std::unique_ptr<Material> parse(TableReader& table) {
+  PhongValues values{.diffuse = table.texture("diffuse"),
+                     .reflectance = table.texture("reflectance"),
+                     .highlight = read_highlight(table)};
+  if (table.has("ambient")) values.ambient = table.texture("ambient");
+  if (table.failed()) return nullptr;
+  return make_phong(values);
+}
+
+}  // namespace
+
+extern const MaterialType phong_type{.name = "phong", .manual = manual, .keys = keys, .parse = parse};
+
+std::unique_ptr<Material> make_phong(const PhongValues& values) {
+  return std::make_unique<Phong>(values);
+}
+
+}  // namespace eyeray

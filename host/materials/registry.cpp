@@ -1,0 +1,19 @@
+#include "materials/registry.h"
+
+#include "scene/material.hpp"
+
+namespace eyeray {
+
+// Each material's .cpp defines its own; one that is missing is a link error that bears its name.
+#define X(name, number) extern const MaterialType name##_type;
+MATERIALS(X)
+#undef X
+
+std::span<const MaterialType* const> material_types() {
+#define X(name, number) &name##_type,
+  static constexpr const MaterialType* types[] = {MATERIALS(X)};
+#undef X
+  return types;
+}
+
+}  // namespace eyeray

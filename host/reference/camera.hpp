@@ -1,0 +1,27 @@
+// From a place in the picture to a ray, by the formulas of docs/conventions.md.
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace eyeray::reference {
+
+class CameraRays {
+ public:
+  CameraRays(const Camera& camera, const ImageSettings& image);
+
+  // The ray through `place`, in pixels from the picture's top left corner; its direction is unit.
+  Ray ray(const Vec2& place) const;
+
+ private:
+  CameraType type_;
+  Vec3 eye_;
+  Vec3 u_, v_, w_;   // image right, image up, the way the camera looks: orthonormal
+  double distance_;  // perspective: of the image plane, in half widths
+  double size_;      // orthographic: half the width seen
+  double width_, height_;
+};
+
+// Where in pixel (x, y) its sample `index` lies, in pixels from the pixel's top left corner.
+Vec2 sample_place(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index);
+
+}  // namespace eyeray::reference

@@ -1,0 +1,79 @@
+#include "reference/media.hpp"
+
+#include <algorithm>
+
+#include "reference/tracer.hpp"
+
+namespace eyeray::reference {
+
+namespace {
+
+struct Crossing {
+  double t;
+  int material;
+  bool leaving;
+};
+
+// The media that the ray leaves without having entered them, innermost first.
+std::vector<int> left_by(const Scene& scene, const Ray& ray) {
+  std::vector<Crossing> crossings;
+  for (const auto& shape : scene.shapes) {
+    if (!scene.materials[size_t(shape->material)]->medium()) continue;
+    for_each_crossing(*shape, ray, [&](double t, const SurfacePoint& surface) {
+      crossings.push_back({t, shape->material, glm::dot(ray.d, surface.normal_geometric) > 0});
+      return true;
+    });
+  }
+  std::stable_sort(crossings.begin(), crossings.end(),
+                   [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+
+  // Match each leaving with an entering before it; what is left over was around the start.
+  std::vector<int> entered;
+  std::vector<int> around;
+  for (const Crossing& crossing : crossings) {
+    if (!crossing.leaving) {
+      entered.push_back(crossing.material);
+    } else if (const auto found = std::find(entered.rbegin(), entered.rend(), crossing.material);
+               found != entered.rend()) {
+      entered.erase(std::next(found).base());
+    } else {
+      around.push_back(crossing.material);
+    }
+  }
+  return around;
+}
+
+}  // namespace
+
+std::vector<int> media_at(const Scene& scene, const Vec3& point) {
+  // Look along a direction that no edge or symmetry of a sensible scene has, and against it: a half-space is
+  // left in one of the two only, and then lies around all that is closed.
+  const Vec3 direction = glm::normalize(Vec3(0.3141592653589793, 0.8979323846264338, 0.2718281828459045));
+  const std::vector<int> ahead = left_by(scene, {point, direction});
+  std::vector<int> media = left_by(scene, {point, -direction});
+  for (const int material : ahead) {
+    const auto found = std::find(media.begin(), media.end(), material);
+    if (found != media.end()) media.erase(found);
+  }
+  media.insert(media.begin(), ahead.begin(), ahead.end());
+  std::reverse(media.begin(), media.end());
+  return media;
+}
+
+bool MediaStack::push(int material) {
+  if (size_ == materials_.size()) return false;
+  materials_[size_++] = material;
+  return true;
+}
+
+void MediaStack::remove(int material) {
+  for (size_t i = size_; i-- > 0;) {
+    if (materials_[i] != material) continue;
+    std::copy(materials_.begin() + std::ptrdiff_t(i) + 1, materials_.begin() + std::ptrdiff_t(size_),
+              materials_.begin() + std::ptrdiff_t(i));
+    --size_;
+    return;
+  }
+}
+
+}  // namespace eyeray::reference

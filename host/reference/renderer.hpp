@@ -1,0 +1,30 @@
+// The reference: a float64 renderer written from the mathematics, which the shaders are checked against. It
+// shares the scene with them, and nothing else.
+#pragma once
+
+#include "core/pixel.hpp"
+#include "reference/camera.hpp"
+#include "reference/media.hpp"
+#include "scene/scene.hpp"
+
+namespace eyeray::reference {
+
+class Renderer {
+ public:
+  // `scene` must outlive the renderer.
+  explicit Renderer(const Scene& scene);
+
+  // Sample `index` of pixel (x, y), by the scene's integrator. `shift`, in pixels, is added to the sample's
+  // place.
+  PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0}) const;
+  // What the ray through the pixel's centre + `shift` meets.
+  FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}) const;
+
+ private:
+  const Scene& scene_;
+  CameraRays camera_;
+  MediaStack media_;  // around the eye
+  uint32_t flags_ = 0;
+};
+
+}  // namespace eyeray::reference

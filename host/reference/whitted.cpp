@@ -1,0 +1,139 @@
+#include "reference/whitted.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/light.hpp"
+#include "reference/tracer.hpp"
+
+namespace eyeray::reference {
+
+namespace {
+
+// A ray on its way, and what it is worth.
+struct Path {
+  Ray ray;
+  MediaStack media;
+  int depth;    // reflections and refractions so far
+  Vec3 weight;  // what its colour will be multiplied by in the pixel
+};
+
+// A hit, seen from the viewer's side: both normals towards where the ray came from.
+struct View {
+  SurfacePoint surface;
+  Vec3 d;           // unit, of the ray
+  double cos_view;  // between the shading normal and the way back, in [0, 1]
+};
+
+class Tree {
+ public:
+  explicit Tree(const Scene& scene) : scene_(scene) {}
+
+  Vec3 radiance(const Path& path);
+
+  uint32_t rays = 0;
+  uint32_t hits = 0;
+  uint32_t flags = 0;
+
+ private:
+  Vec3 direct(const View& view, const Scattering& scattering);
+  Vec3 child(const Path& path, const View& view, const Vec3& d, const MediaStack& media, const Vec3& share);
+  Medium medium(const MediaStack& media) const;
+
+  const Scene& scene_;
+};
+
+// The vacuum where no medium is.
+Medium Tree::medium(const MediaStack& media) const {
+  return media.top() < 0 ? Medium{} : *scene_.materials[size_t(media.top())]->medium();
+}
+
+// d of a ray that is bent at the boundary from ior n1 to n2; there is no total reflection.
+Vec3 refract(const View& view, double n1, double n2) {
+  if (n1 == n2) return view.d;
+  const double eta = n1 / n2;
+  const double cos2_squared = 1 - eta * eta * (1 - view.cos_view * view.cos_view);
+  return glm::normalize(eta * view.d +
+                        (eta * view.cos_view - std::sqrt(std::max(0.0, cos2_squared))) * view.surface.normal);
+}
+
+Vec3 Tree::radiance(const Path& path) {
+  ++rays;
+  const auto hit = trace(scene_, path.ray);
+  if (!hit) return scene_.render.background;
+  ++hits;
+
+  // Turn the surface to the viewer.
+  const Shape& shape = *scene_.shapes[size_t(hit->primitive)];
+  View view{shape.surface(path.ray, hit->intersection), path.ray.d, 0};
+  const bool front = glm::dot(view.d, view.surface.normal_geometric) < 0;
+  if (!front) {
+    view.surface.normal_geometric = -view.surface.normal_geometric;
+    view.surface.normal = -view.surface.normal;
+  }
+  view.cos_view = std::clamp(-glm::dot(view.d, view.surface.normal), 0.0, 1.0);
+
+  // Say which media meet here.
+  const Material& material = *scene_.materials[size_t(shape.material)];
+  const Medium before = medium(path.media);
+  MediaStack beyond = path.media;
+  if (material.medium()) {
+    if (!front) {
+      beyond.remove(shape.material);
+    } else if (!beyond.push(shape.material)) {
+      flags |= media_overflow;
+    }
+  }
+  const double ior_beyond = medium(beyond).ior;
+  const Scattering scattering = material.scattering({view.surface.uv, view.cos_view, before.ior, ior_beyond});
+
+  // Add up the light that the point scatters, mirrors and lets through, and dim it on its way here.
+  Path arrived = path;
+  const Vec3 dimming = glm::exp(-before.absorption * hit->intersection.t);
+  arrived.weight *= dimming;
+  Vec3 color = direct(view, scattering);
+  const Vec3 mirrored = view.d + 2 * view.cos_view * view.surface.normal;
+  color += child(arrived, view, glm::normalize(mirrored), path.media, scattering.reflected);
+  if (scattering.transmitted != Vec3(0))
+    color += child(arrived, view, refract(view, before.ior, ior_beyond), beyond, scattering.transmitted);
+  return dimming * color;
+}
+
+// The part of a surface's colour that comes from the ray's child into direction d; black when it is cut off.
+Vec3 Tree::child(const Path& path, const View& view, const Vec3& d, const MediaStack& media,
+                 const Vec3& share) {
+  const Vec3 weight = path.weight * share;
+  const double most = std::max({weight.x, weight.y, weight.z});
+  if (path.depth >= scene_.render.max_depth || !(most > scene_.render.min_weight)) return Vec3(0);
+  return share * radiance({{departure(view.surface, d), d}, media, path.depth + 1, weight});
+}
+
+// The scene's ambient light, and that of each light which stands before the surface and is seen from it.
+Vec3 Tree::direct(const View& view, const Scattering& scattering) {
+  const Vec3 n = view.surface.normal;
+  Vec3 color = scattering.ambient * scene_.render.ambient;
+  for (const Light& light : scene_.lights) {
+    const auto [l, arriving, distance] = illuminate(light, view.surface.position);
+    const double cosine = glm::dot(n, l);
+    if (!(cosine > 0 && glm::dot(view.surface.normal_geometric, l) > 0)) continue;
+    ++rays;
+    const double seen = transmittance(scene_, {departure(view.surface, l), l}, distance);
+    if (seen == 0) continue;
+
+    const double lobe =
+        scattering.blinn ? glm::dot(n, glm::normalize(l - view.d)) : glm::dot(2 * cosine * n - l, -view.d);
+    const double highlight = lobe > 0 ? std::pow(lobe, scattering.shininess) : 0;
+    color += seen * arriving * (scattering.diffuse * cosine + scattering.specular * highlight);
+  }
+  return color;
+}
+
+}  // namespace
+
+PixelSample whitted(const Scene& scene, const Ray& ray, const MediaStack& media) {
+  Tree tree(scene);
+  const Vec3 color = tree.radiance({ray, media, 0, Vec3(1)});
+  return {color, tree.rays, tree.hits, tree.flags};
+}
+
+}  // namespace eyeray::reference

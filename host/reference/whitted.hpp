@@ -1,0 +1,14 @@
+// Whitted: An Improved Illumination Model for Shaded Display, CACM 23(6), 1980; recursive, as the paper has
+// it.
+#pragma once
+
+#include "core/pixel.hpp"
+#include "reference/media.hpp"
+#include "scene/scene.hpp"
+
+namespace eyeray::reference {
+
+// What `ray` (with a unit direction) sees, starting in `media`.
+PixelSample whitted(const Scene& scene, const Ray& ray, const MediaStack& media);
+
+}  // namespace eyeray::reference

@@ -1,0 +1,47 @@
+// The affine maps that a shape's `transform` may be, and the limits within which shapes are computed.
+#pragma once
+
+#include <optional>
+
+#include "core/vec.hpp"
+
+namespace eyeray {
+
+using Mat3 = glm::dmat3;
+
+// Coordinates and sizes beyond these overflow float32 in the products that intersecting takes.
+inline constexpr double max_coordinate = 1e12;
+inline constexpr double min_radius = 1e-12;
+
+// The largest magnitude of the components.
+double magnitude(const Vec3& v);
+
+// v / |v|, for any finite v ≠ 0, however long or short.
+Vec3 unit(const Vec3& v);
+
+// A map of world space that can be undone, as the loader sees to.
+struct Affine {
+  explicit Affine(const Mat4& transform);
+
+  Vec3 point(const Vec3& p) const { return linear * p + offset; }
+  Vec3 normal(const Vec3& n) const { return unit(cotangent * n); }
+  bool mirrors() const { return glm::determinant(linear) < 0; }
+
+  Mat3 linear;
+  Vec3 offset;
+  Mat3 cotangent;  // the inverse transpose of `linear`: maps normals and gradients
+};
+
+// A map that keeps angles: rotation, translation, one scale, perhaps a mirror.
+struct Similarity {
+  Mat3 axes;  // the images of x, y, z: orthonormal; left-handed under a mirror
+  double scale;
+  Vec3 offset;
+
+  Vec3 point(const Vec3& p) const { return axes * p * scale + offset; }
+};
+
+// `transform` as a similarity (to 1e-6, so that matrices may be written by hand); nothing when it is none.
+std::optional<Similarity> similarity(const Mat4& transform);
+
+}  // namespace eyeray

@@ -1,0 +1,27 @@
+// Shapes built in code, by importers and tests; a scene file's go through their ShapeType. Arguments that
+// `parse` would reject are a broken promise here.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "scene/shape.hpp"
+
+namespace eyeray {
+
+// `transform` must be a similarity.
+std::unique_ptr<Shape> make_sphere(const Vec3& center, double radius, const Mat4& transform = Mat4(1.0));
+
+// Without `u_axis`, the default that the manual names.
+std::unique_ptr<Shape> make_plane(const Vec3& point, const Vec3& normal, const Mat4& transform = Mat4(1.0),
+                                  const std::optional<Vec3>& u_axis = {});
+
+struct TriangleValues {
+  std::array<Vec3, 3> vertices;
+  std::optional<std::array<Vec3, 3>> normals = {};  // any length but 0
+  std::optional<std::array<Vec2, 3>> uv = {};
+};
+std::unique_ptr<Shape> make_triangle(const TriangleValues& values, const Mat4& transform = Mat4(1.0));
+
+}  // namespace eyeray

@@ -1,0 +1,137 @@
+#include <cmath>
+
+#include "records/packer.hpp"
+#include "shapes/affine.hpp"
+#include "shapes/make.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(All points x with normal · (x − point) = 0, without an end. The side to which the normal points is outside:
+a medium fills the half of space behind it.
+
+```toml
+[[plane]]
+point = [0, 0, 0]
+normal = [0, 1, 0]
+material = "floor"
+```
+
+`transform` may be any affine map that can be undone.
+
+**uv.** Distances from `point` along two axes U and V in the plane, with (U, V, normal) right-handed. U is `u_axis`
+projected onto the plane. Without it, U is horizontal, +y × normal, so that on a wall seen from outside u runs to the
+right and v up; where the normal is vertical (its x and z below 1e-6 of its length) U is +x, hence V is −z on a floor.
+A `transform` stretches and turns the pattern with the plane: uv count in the plane's own units, as before it.
+
+**Numeric trap.** Far away, o + t·d misses the plane by the rounding of t: the hit is put back onto it. A parallel ray is one
+with normal · d = 0 exactly; no epsilon decides, since a ray that is nearly parallel does meet the plane far off.
+
+**Source.** Any textbook; the projection after Wächter, Binder: A Fast and Robust Method for Avoiding Self-Intersection,
+Ray Tracing Gems, chapter 6, 2019.
+)";
+
+constexpr Key keys[] = {
+    {.name = "point",
+     .type = KeyType::vec3,
+     .doc = "A point of the plane, the origin of uv.",
+     .min = -max_coordinate,
+     .max = max_coordinate},
+    {.name = "normal", .type = KeyType::vec3, .doc = "Direction to the outside, of any length but 0."},
+    {.name = "u_axis",
+     .type = KeyType::vec3,
+     .doc = "Direction along which u grows, projected onto the plane.",
+     .optional = true},
+};
+
+// The axis of u where the file names none.
+Vec3 default_u_axis(const Vec3& normal) {
+  const bool vertical = std::hypot(normal.x, normal.z) < 1e-6;
+  return vertical ? Vec3(1, 0, 0) : Vec3(normal.z, 0, -normal.x);
+}
+
+// What is left of `v` in the plane of the unit `normal`.
+Vec3 tangential(const Vec3& v, const Vec3& normal) {
+  return v - normal * glm::dot(v, normal);
+}
+
+class Plane final : public Shape {
+ public:
+  // All in the world; gradients of u and v lie in the plane.
+  Plane(const Vec3& point, const Vec3& normal, const Vec3& u_gradient, const Vec3& v_gradient)
+      : point_(point), normal_(normal), u_gradient_(u_gradient), v_gradient_(v_gradient) {}
+
+  std::optional<Intersection> intersect(const Ray& ray) const override {
+    const double t = glm::dot(normal_, point_ - ray.o) / glm::dot(normal_, ray.d);
+    if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
+    return Intersection{t, 0, 0};
+  }
+
+  SurfacePoint surface(const Ray& ray, const Intersection& hit) const override {
+    const Vec3 from_point = tangential((ray.o - point_) + ray.d * hit.t, normal_);
+    const double error = 1e-13 * (magnitude(point_) + magnitude(from_point));
+    const Vec2 uv(glm::dot(u_gradient_, from_point), glm::dot(v_gradient_, from_point));
+    return {point_ + from_point, error, normal_, normal_, uv};
+  }
+
+  Bounds bounds() const override { return Bounds::unbounded(); }
+
+  void pack(Packer& packer) const override {
+    const Vec3 point = packer.relative(point_);
+    packer.add({.head = {shader::KIND_plane, uint32_t(material), 0u, 0u},
+                .a = to_vec4(normal_, glm::dot(normal_, point)),
+                .b = to_vec4(u_gradient_, -glm::dot(u_gradient_, point)),
+                .c = to_vec4(v_gradient_, -glm::dot(v_gradient_, point))});
+  }
+
+ private:
+  Vec3 point_;
+  Vec3 normal_;
+  Vec3 u_gradient_;  // u = u_gradient · (x − point)
+  Vec3 v_gradient_;
+};
+
+std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
+  const Vec3 point = table.vec3("point");
+  const Vec3 normal = table.vec3("normal");
+  std::optional<Vec3> u_axis;
+  if (table.has("u_axis")) u_axis = table.vec3("u_axis");
+  if (table.failed()) return nullptr;
+
+  // Check that every direction is one, before and after the map.
+  if (normal == Vec3(0)) {
+    table.error("normal", "the normal has no length");
+  } else if (u_axis && *u_axis == Vec3(0)) {
+    table.error("u_axis", "the axis has no length");
+  } else if (u_axis && magnitude(tangential(unit(*u_axis), unit(normal))) < 1e-9) {
+    table.error("u_axis", "the axis must not be parallel to the normal");
+  }
+  if (!(magnitude(Affine(transform).point(point)) <= max_coordinate)) {
+    table.error("transform", "the transformed point is out of range (coordinates up to 1e12)");
+  }
+  if (table.failed()) return nullptr;
+  return make_plane(point, normal, transform, u_axis);
+}
+
+}  // namespace
+
+extern const ShapeType plane_type{.name = "plane", .manual = manual, .keys = keys, .parse = parse};
+
+std::unique_ptr<Shape> make_plane(const Vec3& point, const Vec3& normal, const Mat4& transform,
+                                  const std::optional<Vec3>& u_axis) {
+  const Affine map(transform);
+
+  // Lay the axes in the plane's own space, where uv are distances.
+  const Vec3 n = unit(normal);
+  const Vec3 u = unit(tangential(u_axis ? unit(*u_axis) : default_u_axis(n), n));
+  const Vec3 v = glm::cross(n, u);
+
+  // Gradients map as normals do, but keep their length; off the plane they need not count.
+  const Vec3 world_normal = map.normal(n);
+  return std::make_unique<Plane>(map.point(point), world_normal, tangential(map.cotangent * u, world_normal),
+                                 tangential(map.cotangent * v, world_normal));
+}
+
+}  // namespace eyeray

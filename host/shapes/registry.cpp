@@ -1,0 +1,19 @@
+#include "shapes/registry.h"
+
+#include "scene/shape.hpp"
+
+namespace eyeray {
+
+// Each shape's .cpp defines its own; one that is missing is a link error that bears its name.
+#define X(name, number) extern const ShapeType name##_type;
+SHAPES(X)
+#undef X
+
+std::span<const ShapeType* const> shape_types() {
+#define X(name, number) &name##_type,
+  static constexpr const ShapeType* types[] = {SHAPES(X)};
+#undef X
+  return types;
+}
+
+}  // namespace eyeray

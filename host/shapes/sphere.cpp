@@ -1,0 +1,131 @@
+#include <cmath>
+#include <numbers>
+
+#include "records/packer.hpp"
+#include "shapes/affine.hpp"
+#include "shapes/make.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(All points at the distance `radius` from `center`: |x − center| = radius. Closed; the normal points outward.
+
+```toml
+[[sphere]]
+center = [0, 1, 0]
+radius = 1
+material = "glass"
+```
+
+`transform` may rotate, move, scale by one number and mirror; anything that would make an ellipsoid of it is an error.
+
+**uv.** In the sphere's own axes (turned by `transform`), with n the unit vector from the centre: the pole is +y,
+`v = atan2(√(n.x² + n.z²), −n.y) / π` runs from 0 at the south pole to 1 at the north pole, and
+`u = 0.5 + atan2(−n.z, n.x) / 2π`, 1 taken as 0, runs eastward (counter-clockwise seen from the north pole) from the
+seam at −x over +z (¼) and +x (½) to −z (¾).
+
+**Numeric trap.** The textbook discriminant b² − 4ac subtracts two large, nearly equal numbers for a small or distant
+sphere. The discriminant is taken instead from the distance between the centre and the ray, r² − |f + (b/a)·d|², and the
+roots as q/a and c/q, which never cancel. The hit is then put back onto the sphere.
+
+**Source.** Haines, Günther, Akenine-Möller: Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems,
+chapter 7, 2019.
+)";
+
+constexpr Key keys[] = {
+    {.name = "center",
+     .type = KeyType::vec3,
+     .doc = "Centre.",
+     .min = -max_coordinate,
+     .max = max_coordinate},
+    {.name = "radius",
+     .type = KeyType::number,
+     .doc = "Distance of the surface from the centre.",
+     .min = min_radius,
+     .max = max_coordinate},
+};
+
+class Sphere final : public Shape {
+ public:
+  Sphere(const Vec3& center, double radius, const Mat3& axes)
+      : center_(center), radius_(radius), axes_(axes) {}
+
+  std::optional<Intersection> intersect(const Ray& ray) const override {
+    // Take the discriminant from the point of the ray's line that is nearest to the centre.
+    const Vec3 f = ray.o - center_;
+    const double a = glm::dot(ray.d, ray.d);
+    const double b = -glm::dot(f, ray.d);
+    const Vec3 nearest = f + ray.d * (b / a);
+    const double discriminant = radius_ * radius_ - glm::dot(nearest, nearest);
+    if (!(discriminant >= 0)) return std::nullopt;
+
+    // Form both roots without cancellation: q has the sign of b.
+    const double q = b + std::copysign(std::sqrt(a * discriminant), b);
+    const double c = glm::dot(f, f) - radius_ * radius_;
+    double near = c / q;
+    double far = q / a;
+    if (!(near <= far)) std::swap(near, far);
+    const double t = near > 0 ? near : far;
+    if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
+    return Intersection{t, 0, 0};
+  }
+
+  SurfacePoint surface(const Ray& ray, const Intersection& hit) const override {
+    const Vec3 normal = unit((ray.o - center_) + ray.d * hit.t);
+    const double error = 1e-13 * (magnitude(center_) + radius_);
+    return {center_ + normal * radius_, error, normal, normal, uv(normal * axes_)};
+  }
+
+  Bounds bounds() const override { return {center_ - Vec3(radius_), center_ + Vec3(radius_)}; }
+
+  void pack(Packer& packer) const override {
+    const bool mirrored = glm::determinant(axes_) < 0;
+    packer.add({.head = {shader::KIND_sphere, uint32_t(material), 0u, 0u},
+                .a = to_vec4(packer.relative(center_), radius_),
+                .b = to_vec4(axes_[1]),
+                .c = to_vec4(axes_[0], mirrored ? -1 : 1)});
+  }
+
+ private:
+  // The place on the map of a direction from the centre, in the sphere's own axes.
+  static Vec2 uv(const Vec3& n) {
+    const double u = 0.5 + std::atan2(-n.z, n.x) / (2 * std::numbers::pi);
+    const double v = std::atan2(std::hypot(n.x, n.z), -n.y) / std::numbers::pi;
+    return {u < 1 ? u : 0, v};
+  }
+
+  Vec3 center_;
+  double radius_;
+  Mat3 axes_;  // its own x, y (the pole), z in the world: orthonormal, left-handed under a mirror
+};
+
+std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
+  const Vec3 center = table.vec3("center");
+  const double radius = table.number("radius");
+  const auto map = similarity(transform);
+  if (!map) {
+    table.error("transform",
+                "a sphere can be rotated, moved, scaled by one number and mirrored; for any other map use an "
+                "ellipsoid (a later version)");
+  } else if (!(radius * map->scale >= min_radius && magnitude(map->point(center)) <= max_coordinate &&
+               radius * map->scale <= max_coordinate)) {
+    table.error("transform",
+                "the transformed sphere is out of range (radius 1e-12 to 1e12, centre up to 1e12)");
+  }
+  if (table.failed()) return nullptr;
+  return make_sphere(center, radius, transform);
+}
+
+}  // namespace
+
+extern const ShapeType sphere_type{.name = "sphere", .manual = manual, .keys = keys, .parse = parse};
+
+std::unique_ptr<Shape> make_sphere(const Vec3& center, double radius, const Mat4& transform) {
+  const auto map = similarity(transform);
+  CHECK(map.has_value());
+  return std::make_unique<Sphere>(map->point(center), radius * map->scale, map->axes);
+}
+
+}  // namespace eyeray

@@ -1,0 +1,101 @@
+#include "reference/camera.hpp"
+#include "reference/rng.hpp"
+#include "scenes.hpp"
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+TEST_CASE("row 0 is the top and column 0 the left") {
+  const Camera camera{.eye = {0, 0, 5}, .target = {0, 0, 0}, .fov_degrees = 90};
+  const reference::CameraRays rays(camera, {.width = 200, .height = 100});
+  CHECK(near(rays.ray({100, 50}).d, Vec3(0, 0, -1), 1e-15));
+  CHECK(near(rays.ray({0, 50}).d, glm::normalize(Vec3(-1, 0, -1)), 1e-15));
+  CHECK(near(rays.ray({200, 50}).d, glm::normalize(Vec3(1, 0, -1)), 1e-15));
+  CHECK(near(rays.ray({100, 0}).d, glm::normalize(Vec3(0, 0.5, -1)), 1e-15));
+  CHECK(near(rays.ray({200, 100}).d, glm::normalize(Vec3(1, -0.5, -1)), 1e-15));
+}
+
+TEST_CASE("the field of view is measured along its axis") {
+  // A 300 × 400 picture has a diagonal of 500; tan(α/2) = 1 along the axis.
+  const auto half_width = [](FovAxis axis, int width, int height) {
+    const Camera camera{.fov_degrees = 90, .fov_axis = axis};
+    const Vec3 d =
+        reference::CameraRays(camera, {.width = width, .height = height}).ray({width, height / 2.0}).d;
+    return d.x / -d.z;
+  };
+  CHECK(half_width(FovAxis::horizontal, 300, 400) == doctest::Approx(1));
+  CHECK(half_width(FovAxis::vertical, 300, 400) == doctest::Approx(0.75));
+  CHECK(half_width(FovAxis::shorter, 300, 400) == doctest::Approx(1));
+  CHECK(half_width(FovAxis::shorter, 400, 300) == doctest::Approx(4.0 / 3));
+  CHECK(half_width(FovAxis::diagonal, 300, 400) == doctest::Approx(0.6));
+}
+
+TEST_CASE("an orthographic camera moves the origin") {
+  const Camera camera{.type = CameraType::orthographic, .eye = {1, 2, 5}, .target = {1, 2, 0}, .size = 3};
+  const reference::CameraRays rays(camera, {.width = 200, .height = 100});
+  CHECK(near(rays.ray({0, 0}).o, Vec3(1 - 3, 2 + 1.5, 5), 1e-14));
+  CHECK(near(rays.ray({150, 50}).o, Vec3(1 + 1.5, 2, 5), 1e-14));
+  CHECK(rays.ray({0, 0}).d == Vec3(0, 0, -1));
+}
+
+TEST_CASE("a known picture stands upright") {
+  // Red to the right, green above, blue to the left of the middle.
+  Scene scene;
+  scene.image = {.width = 9, .height = 9};
+  scene.camera = {.eye = {0, 0, 5}, .target = {0, 0, 0}, .fov_degrees = 90};
+  scene.render.integrator = IntegratorType::raycast;
+  const auto ball = [&](const Vec3& center, const Vec3& color) {
+    add(scene, make_sphere(center, 0.6), add(scene, make_phong({.diffuse = {color, {}}})));
+  };
+  ball({3, 0, 0}, {1, 0, 0});
+  ball({0, 3, 0}, {0, 1, 0});
+  ball({-3, 0, 0}, {0, 0, 1});
+  const reference::Renderer renderer(scene);
+  const auto pixel = [&](int x, int y) {
+    return glm::greaterThan(renderer.sample(x, y, 0).color, Vec3(0.1));
+  };
+  using Bools = glm::bvec3;
+  CHECK(pixel(7, 4) == Bools(true, false, false));
+  CHECK(pixel(4, 1) == Bools(false, true, false));
+  CHECK(pixel(1, 4) == Bools(false, false, true));
+  CHECK(pixel(4, 7) == Bools(false));
+
+  // A shift of two pixels moves the ray, not the picture's numbering.
+  CHECK(renderer.first_hit(5, 4, {2, 0}).primitive == 0);
+  CHECK(renderer.sample(5, 4, 0, {2, 0}).color == renderer.sample(7, 4, 0).color);
+}
+
+TEST_CASE("random numbers are the published PCG hash") {
+  // Computed by an independent program.
+  CHECK(reference::random(0, 0, 0, 0) == 9253448 / 16777216.0);
+  CHECK(reference::random(1, 0, 0, 0) == 11179986 / 16777216.0);
+  CHECK(reference::random(7, 5, 1, 42) == 2373789 / 16777216.0);
+  CHECK(reference::random(4294967295u, 3, 1, 99) == 6931156 / 16777216.0);
+}
+
+TEST_CASE("samples lie in the cells of n × n, in order") {
+  ImageSettings image{.width = 5, .height = 3, .samples = 9};
+  CHECK(near(reference::sample_place(image, 0, 2, 1, 0).x, 1 / 6.0, 1e-15));
+  CHECK(near(reference::sample_place(image, 0, 2, 1, 5).x, 5 / 6.0, 1e-15));
+  CHECK(near(reference::sample_place(image, 0, 2, 1, 5).y, 3 / 6.0, 1e-15));
+
+  image.pattern = SamplePattern::jittered;
+  Vec2 mean(0);
+  for (int x = 0; x < 5; ++x) {
+    for (int y = 0; y < 3; ++y) {
+      for (uint32_t s = 0; s < 9; ++s) {
+        const Vec2 in_cell = reference::sample_place(image, 7, x, y, s) * 3.0 - Vec2(s % 3, s / 3);
+        CHECK(in_cell.x >= 0);
+        CHECK(in_cell.y >= 0);
+        CHECK(in_cell.x < 1);
+        CHECK(in_cell.y < 1);
+        mean += in_cell / 135.0;
+      }
+    }
+  }
+  CHECK(near(mean.x, 0.5, 0.1));
+  CHECK(near(mean.y, 0.5, 0.1));
+  CHECK(reference::sample_place(image, 7, 1, 1, 0) != reference::sample_place(image, 8, 1, 1, 0));
+  CHECK(reference::sample_place(image, 7, 1, 1, 0) != reference::sample_place(image, 7, 2, 1, 0));
+}

@@ -1,0 +1,104 @@
+#include "reference/tracer.hpp"
+#include "scenes.hpp"
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+struct Count {
+  int departures = 0;
+  int rehits = 0;
+};
+
+// Sends a ray at `shape`, and others on from where it strikes. Whatever leaves a surface must not meet that
+// surface at once: not that shape, and not a copy of it.
+void depart(const Shape& shape, const Shape& copy, const Ray& ray, double size, Dice& dice, Count& count) {
+  const auto hit = shape.intersect(ray);
+  if (!hit) return;
+  const SurfacePoint point = shape.surface(ray, *hit);
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 d = dice.direction();
+    const Ray next{reference::departure(point, d), d};
+    // A chord of a sphere is short at grazing angles, and is no re-hit.
+    const double grazing = std::abs(glm::dot(d, point.normal_geometric));
+    for (const Shape* again : {&shape, &copy}) {
+      const auto hit_again = again->intersect(next);
+      ++count.departures;
+      count.rehits += hit_again && hit_again->t < size * std::min(1e-2, grazing);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a ray that leaves a surface does not meet it again") {
+  Dice dice;
+  Count spheres, planes, triangles;
+  for (int i = 0; i < 30000; ++i) {
+    const double size = dice.scale(-4, 4);
+    const Vec3 center = dice.in_box(dice.scale(-4, 4));
+    const Vec3 eye = center + dice.direction() * size * dice.scale(-1, 2);
+
+    const auto sphere = make_sphere(center, size);
+    const Vec3 n = dice.direction();
+    depart(*sphere, *make_sphere(center, size), {eye, center + size * n - eye}, size, dice, spheres);
+
+    const auto plane = make_plane(center, n);
+    depart(*plane, *make_plane(center, 3.0 * n), {eye, dice.direction()}, size, dice, planes);
+
+    // The copy is the same triangle, turned over.
+    const Vec3 a = center + size * dice.direction();
+    const Vec3 b = center + size * dice.direction();
+    const Vec3 c = center + size * dice.direction();
+    const auto triangle = make_triangle({.vertices = {a, b, c}});
+    depart(*triangle, *make_triangle({.vertices = {a, c, b}}), {eye, (a + b + c) / 3.0 - eye}, size, dice,
+           triangles);
+  }
+  const auto check = [](const std::string& name, const Count& count) {
+    MESSAGE(name << ": " << count.rehits << " re-hits in " << count.departures << " departures");
+    CHECK(count.departures > 100000);
+    CHECK(count.rehits == 0);
+  };
+  check("sphere", spheres);
+  check("plane", planes);
+  check("triangle", triangles);
+}
+
+TEST_CASE("all that a ray crosses is crossed once, in order") {
+  Dice dice;
+  for (int i = 0; i < 10000; ++i) {
+    const double radius = dice.scale(-4, 4);
+    const Vec3 center = dice.in_box(100);
+    const auto sphere = make_sphere(center, radius);
+    const Vec3 eye = center + dice.direction() * 3.0 * radius;
+    const Vec3 d = glm::normalize(center + 0.99 * radius * dice.direction() - eye);
+    std::vector<double> crossings;
+    reference::for_each_crossing(*sphere, {eye, d}, [&](double t, const SurfacePoint&) {
+      crossings.push_back(t);
+      return true;
+    });
+    REQUIRE(crossings.size() == 2);
+    const double middle = glm::dot(center - eye, d);
+    const double half =
+        std::sqrt(radius * radius - glm::dot(center - eye - middle * d, center - eye - middle * d));
+    CHECK(near(crossings[0], middle - half, 1e-9 * (radius + 1)));
+    CHECK(near(crossings[1], middle + half, 1e-9 * (radius + 1)));
+  }
+}
+
+TEST_CASE("of equal hits the lowest primitive wins") {
+  Scene scene = one_pixel({0, 0, 5}, {0, 0, 0});
+  const int paint = add(scene, make_phong({}));
+  add(scene, make_sphere({0, 0, -3}, 1), paint);
+  for (int i = 0; i < 3; ++i) add(scene, make_sphere({0, 0, 0}, 1), paint);
+  const FirstHit hit = reference::Renderer(scene).first_hit(0, 0);
+  CHECK(hit.primitive == 1);
+  CHECK(hit.t == 4);
+  CHECK(hit.position == Vec3(0, 0, 1));
+  CHECK(hit.material == paint);
+
+  scene.camera.target = {0, 9, 5};
+  CHECK(reference::Renderer(scene).first_hit(0, 0).primitive == -1);
+}

@@ -1,0 +1,105 @@
+// The records that shapes and materials write for the shaders.
+#include "records/packer.hpp"
+#include "scenes.hpp"
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+const Vec3 eye(100000, 2, 3);
+
+PackedScene packed(const Shape& shape) {
+  Packer packer(eye);
+  shape.pack(packer);
+  return packer.scene;
+}
+
+PackedScene packed(const Material& material) {
+  Packer packer(eye);
+  material.pack(packer);
+  return packer.scene;
+}
+
+}  // namespace
+
+TEST_CASE("sphere record") {
+  const auto shape = make_sphere(eye + Vec3(1, 0.001, 2), 0.5, Mat4(1.0));
+  shape->material = 7;
+  const PackedScene scene = packed(*shape);
+  const auto& record = scene.primitives.at(0);
+  CHECK(record.head == shader::uvec4(shader::KIND_sphere, 7u, 0u, 0u));
+  CHECK(record.a == shader::vec4(1, 0.001f, 2, 0.5f));
+  CHECK(record.b == shader::vec4(0, 1, 0, 0));
+  CHECK(record.c == shader::vec4(1, 0, 0, 1));
+
+  // Turned a quarter about z, then mirrored in y.
+  const Mat4 turn = glm::rotate(Mat4(1.0), glm::radians(90.0), Vec3(0, 0, 1));
+  const auto mirrored =
+      packed(*make_sphere({0, 0, 0}, 1, glm::scale(Mat4(1.0), Vec3(1, -1, 1)) * turn)).primitives.at(0);
+  CHECK(glm::length(mirrored.b - shader::vec4(-1, 0, 0, 0)) < 1e-7f);
+  CHECK(glm::length(mirrored.c - shader::vec4(0, -1, 0, -1)) < 1e-7f);
+}
+
+TEST_CASE("plane record: u and v are linear in the eye-relative position") {
+  const auto shape = make_plane(eye + Vec3(0, -2, 5), {0, 1, 0});
+  const auto record = packed(*shape).primitives.at(0);
+  CHECK(record.head.x == shader::KIND_plane);
+  CHECK(record.a == shader::vec4(0, 1, 0, -2));
+  CHECK(record.b == shader::vec4(1, 0, 0, 0));
+  CHECK(record.c == shader::vec4(0, 0, -1, 5));
+}
+
+TEST_CASE("triangle record") {
+  TriangleValues values{.vertices = {eye + Vec3(1, 2, 3), eye + Vec3(2, 2, 3), eye + Vec3(1, 3, 3)}};
+  PackedScene scene = packed(*make_triangle(values));
+  CHECK(scene.primitives.at(0).head == shader::uvec4(shader::KIND_triangle, 0u, 0u, NONE));
+  CHECK(scene.primitives.at(0).a == shader::vec4(1, 2, 3, 0));
+  CHECK(scene.primitives.at(0).b == shader::vec4(2, 2, 3, 0));
+  CHECK(scene.primitives.at(0).c == shader::vec4(1, 3, 3, 1));
+  CHECK(scene.vertices.empty());
+
+  values.uv = {{Vec2(1, 4), Vec2(2, 5), Vec2(3, 6)}};
+  scene = packed(*make_triangle(values));
+  CHECK(scene.primitives.at(0).head.w == 0);
+  CHECK(scene.vertices == std::vector{shader::vec4(0, 0, 1, 1), shader::vec4(0, 0, 1, 2),
+                                      shader::vec4(0, 0, 1, 3), shader::vec4(4, 5, 6, 0)});
+
+  values.uv.reset();
+  values.normals = {{Vec3(0, 0, 2), Vec3(0, 3, 4), Vec3(0, 0, 1)}};
+  scene = packed(*make_triangle(values));
+  REQUIRE(scene.vertices.size() == 4);
+  CHECK(glm::length(scene.vertices[1] - shader::vec4(0, 0.6f, 0.8f, 1)) < 1e-7f);
+  CHECK(scene.vertices[3] == shader::vec4(0, 0, 1, 0));
+}
+
+TEST_CASE("material records") {
+  const auto texture = [](const PackedScene& scene, int slot) {
+    return glm::vec3(scene.textures.at(scene.materials.at(0).textures[slot]).even);
+  };
+  const Highlight blinn{{Vec3(0.25), {}}, 50, true};
+  const PackedScene phong =
+      packed(*make_phong({.diffuse = {Vec3(0.5), {}}, .reflectance = {Vec3(0.125), {}}, .highlight = blinn}));
+  CHECK(phong.materials.at(0).head ==
+        shader::uvec4(shader::MATERIAL_phong, MATERIAL_BLINN, 0u, SHADOW_OPAQUE));
+  CHECK(phong.materials.at(0).parameters.x == 50);
+  CHECK(texture(phong, 0) == glm::vec3(0.5f));
+  CHECK(texture(phong, 1) == glm::vec3(0.25f));
+  CHECK(texture(phong, 2) == glm::vec3(0.125f));
+  CHECK(texture(phong, 3) == glm::vec3(0.5f));
+
+  const PackedScene mirror = packed(*make_mirror({.reflectance = {Vec3(0.75), {}}}));
+  CHECK(mirror.materials.at(0).head == shader::uvec4(shader::MATERIAL_mirror, 0u, 0u, SHADOW_OPAQUE));
+  CHECK(texture(mirror, 0) == glm::vec3(0.75f));
+  CHECK(texture(mirror, 2) == glm::vec3(0.75f));
+  CHECK(texture(mirror, 3) == glm::vec3(0));
+
+  const PackedScene glass = packed(*make_dielectric({.ior = 1.5, .absorption = {1, 2, 3}, .shadow = 0.25}));
+  CHECK(glass.materials.at(0).head == shader::uvec4(shader::MATERIAL_dielectric, 0u, 1u, 2u << 20));
+  CHECK(glass.media.at(1).absorption_ior == shader::vec4(1, 2, 3, 1.5));
+  CHECK(texture(glass, 0) == glm::vec3(1));
+  CHECK(texture(glass, 2) == glm::vec3(1));
+  CHECK(packed(*make_dielectric({.ior = 1})).materials.at(0).head.w == 0);
+  CHECK(packed(*make_dielectric({.shadow = 0.0})).materials.at(0).head.w == SHADOW_OPAQUE);
+}
