@@ -1,0 +1,70 @@
+// A storage buffer: bytes that a kernel sees, between two guards that it must not touch.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/device.hpp"
+
+namespace eyeray::gpu {
+
+class RawBuffer;
+
+class Buffer {
+ public:
+  // `bytes` zeros (at least 4, rounded up to a multiple of 4); `name` is for errors. Error (no_device) with
+  // the numbers when the device cannot show a shader that much, or has not that much memory.
+  Buffer(Device& device, size_t bytes, std::string name);
+  ~Buffer();
+  Buffer(Buffer&&) noexcept;
+  Buffer& operator=(Buffer&&) noexcept;
+
+  size_t size() const { return bytes_; }
+  const std::string& name() const { return name_; }
+
+  // Copies `bytes` to the start of the buffer, or to `offset` (a multiple of 4, as bytes.size() must be).
+  void upload(std::span<const std::byte> bytes, size_t offset = 0);
+  // Makes every byte 0.
+  void clear();
+  // The first `bytes` bytes, valid until the next read or dispatch. Error (no_device) when a guard was
+  // overwritten: a shader wrote outside its buffers.
+  std::span<const std::byte> read(size_t bytes);
+  std::span<const std::byte> read() { return read(bytes_); }
+
+  // Any vector, array or span of records.
+  template <typename Records>
+  void upload_records(const Records& records) {
+    upload(std::as_bytes(std::span(records)));
+  }
+  // The first `count` records.
+  template <typename T>
+  std::vector<T> read_records(size_t count) {
+    const std::span<const std::byte> bytes = read(count * sizeof(T));
+    const T* first =
+        reinterpret_cast<const T*>(bytes.data());  // mapped memory is aligned far beyond any record
+    return std::vector<T>(first, first + count);
+  }
+
+  // Where in the Vulkan buffer the shader's bytes begin; the guards lie before and after.
+  size_t payload_offset() const { return guard_; }
+  const RawBuffer& raw() const { return *raw_; }
+
+ private:
+  std::byte* staging();
+  void copy_to_device(size_t offset, size_t bytes);
+  void copy_from_device(size_t bytes);
+  void check_guards(const std::byte* all) const;
+
+  std::shared_ptr<Context> context_;
+  std::string name_;
+  size_t bytes_ = 0;
+  size_t guard_ = 0;                // bytes of each guard
+  std::unique_ptr<RawBuffer> raw_;  // guard, payload, guard
+  std::unique_ptr<RawBuffer>
+      staging_;  // a mapped copy of raw_, where memory is not shared and something was copied
+};
+
+}  // namespace eyeray::gpu

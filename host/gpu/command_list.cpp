@@ -1,0 +1,81 @@
+#include "gpu/command_list.hpp"
+
+#include "core/error.hpp"
+#include "core/stopwatch.hpp"
+#include "gpu/kernel_objects.hpp"
+
+namespace eyeray::gpu {
+namespace {
+
+void memory_barrier(VkCommandBuffer commands, VkAccessFlags seen_as, VkPipelineStageFlags seen_by) {
+  auto info = make<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
+  info.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+  info.dstAccessMask = seen_as;
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, seen_by, 0, 1, &info, 0, nullptr, 0,
+                       nullptr);
+}
+
+}  // namespace
+
+CommandList::CommandList(Device& device) : context_(device.context()) {
+  context_->begin();
+  if (!context_->timestamps) return;
+  vkCmdResetQueryPool(context_->commands, context_->timestamps, 0, 2);
+  vkCmdWriteTimestamp(context_->commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, context_->timestamps, 0);
+}
+
+CommandList::~CommandList() {
+  context_->cancel();
+}
+
+void CommandList::dispatch(const Kernel& kernel, std::span<const std::byte> push_constants, Groups groups) {
+  CHECK(context_->recording);
+  const Kernel::Objects& objects = *kernel.objects_;
+  CHECK_EQ(push_constants.size(), kernel.reflection().push_constant_bytes);
+  CHECK_EQ(objects.bound.size(), kernel.reflection().bindings.size());
+  CHECK_LE(groups.x, context_->info.limits.groups[0]);
+  CHECK_LE(groups.y, context_->info.limits.groups[1]);
+  CHECK_LE(groups.z, context_->info.limits.groups[2]);
+  const VkCommandBuffer commands = context_->commands;
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, objects.pipeline);
+  if (objects.set)
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, objects.layout, 0, 1, &objects.set, 0,
+                            nullptr);
+  if (!push_constants.empty())
+    vkCmdPushConstants(commands, objects.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                       uint32_t(push_constants.size()), push_constants.data());
+  vkCmdDispatch(commands, groups.x, groups.y, groups.z);
+  name_ += (name_.empty() ? "'" : ", '") + kernel.name() + "'";
+}
+
+void CommandList::barrier() {
+  memory_barrier(context_->commands, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT,
+                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+}
+
+RunTime CommandList::run() {
+  // Let the host see what the kernels wrote.
+  memory_barrier(context_->commands, VK_ACCESS_HOST_READ_BIT, VK_PIPELINE_STAGE_HOST_BIT);
+  if (context_->timestamps)
+    vkCmdWriteTimestamp(context_->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, context_->timestamps, 1);
+  const Stopwatch watch;
+  context_->submit_and_wait(fmt::format("finish {}", name_));
+  if (!context_->timestamps) return {watch.seconds(), false};
+
+  // The counter may be narrower than 64 bits and wrap around.
+  uint64_t ticks[2] = {};
+  check(vkGetQueryPoolResults(context_->device, context_->timestamps, 0, 2, sizeof ticks, ticks,
+                              sizeof ticks[0], VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "read its timestamps");
+  const uint32_t unused = 64 - context_->timestamp_bits;
+  return {double((ticks[1] - ticks[0]) << unused >> unused) * context_->timestamp_seconds, true};
+}
+
+RunTime dispatch(Device& device, const Kernel& kernel, std::span<const std::byte> push_constants,
+                 Groups groups) {
+  CommandList list(device);
+  list.dispatch(kernel, push_constants, groups);
+  return list.run();
+}
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,50 @@
+// Work for the device: dispatches in order, submitted and waited for as one.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "gpu/kernel.hpp"
+
+namespace eyeray::gpu {
+
+// Work groups along each axis.
+struct Groups {
+  uint32_t x = 1;
+  uint32_t y = 1;
+  uint32_t z = 1;
+};
+
+struct RunTime {
+  double seconds = 0;
+  bool device_clock =
+      false;  // from the device's timestamps; otherwise the host's clock, submission and wait included
+};
+
+// One list at a time a device.
+class CommandList {
+ public:
+  explicit CommandList(Device& device);
+  ~CommandList();
+  CommandList(const CommandList&) = delete;
+  CommandList& operator=(const CommandList&) = delete;
+
+  // push_constants.size() is what the kernel reflects; all its buffers are bound; groups within the device's
+  // limits.
+  void dispatch(const Kernel& kernel, std::span<const std::byte> push_constants, Groups groups);
+  // What earlier dispatches wrote is seen by later ones.
+  void barrier();
+  // Submits, and waits. Error (timed_out), (interrupted) or (no_device); see Context::submit_and_wait.
+  RunTime run();
+
+ private:
+  std::shared_ptr<Context> context_;
+  std::string name_;  // of the kernels, for errors
+};
+
+// A list of one dispatch.
+RunTime dispatch(Device& device, const Kernel& kernel, std::span<const std::byte> push_constants,
+                 Groups groups);
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,96 @@
+#include "gpu/compiler_messages.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <sstream>
+
+namespace eyeray::gpu {
+namespace {
+
+bool is_word(char c) {
+  return std::isalnum(uint8_t(c)) || c == '_';
+}
+
+// Line `number` (from 1) of a text, or "".
+std::string line_of(std::string_view text, int number) {
+  for (int line = 1; line < number; ++line) {
+    const size_t end = text.find('\n');
+    if (end == std::string_view::npos) return "";
+    text.remove_prefix(end + 1);
+  }
+  return std::string(text.substr(0, text.find_first_of("\r\n")));
+}
+
+// The column (from 1) of `token` as a whole word of `line`; 0 when it is not there.
+int column_of(std::string_view token, std::string_view line) {
+  if (token.empty()) return 0;
+  for (size_t at = line.find(token); at != std::string_view::npos; at = line.find(token, at + 1)) {
+    const size_t end = at + token.size();
+    const bool begins = at == 0 || !is_word(token.front()) || !is_word(line[at - 1]);
+    const bool ends = end == line.size() || !is_word(token.back()) || !is_word(line[end]);
+    if (begins && ends) return int(at) + 1;
+  }
+  return 0;
+}
+
+// Splits "file:12: message"; the file itself may hold colons. False when there is no such position.
+bool split_position(std::string_view text, SourcePosition& position, std::string_view& message) {
+  for (size_t colon = text.find(':'); colon != std::string_view::npos; colon = text.find(':', colon + 1)) {
+    int line = 0;
+    const char* digits = text.data() + colon + 1;
+    const auto [end, error] = std::from_chars(digits, text.data() + text.size(), line);
+    if (error != std::errc{} || end == text.data() + text.size() || *end != ':') continue;
+    position = {std::string(text.substr(0, colon)), line, 0};
+    message = text.substr(size_t(end - text.data()) + 1);
+    message.remove_prefix(std::min(message.find_first_not_of(' '), message.size()));
+    return true;
+  }
+  return false;
+}
+
+void locate(Diagnostic& diagnostic, std::string_view message, const ShaderSource& source) {
+  const auto file = source.files.find(diagnostic.position.file);
+  if (file == source.files.end()) return;
+  diagnostic.source_line = line_of(file->second, diagnostic.position.line);
+  for (size_t open = message.find('\''); open != std::string_view::npos && diagnostic.position.column == 0;) {
+    const size_t close = message.find('\'', open + 1);
+    if (close == std::string_view::npos) return;
+    diagnostic.position.column =
+        column_of(message.substr(open + 1, close - open - 1), diagnostic.source_line);
+    open = message.find('\'', close + 1);
+  }
+}
+
+// "'foo' : undeclared identifier " as people write it: "'foo': undeclared identifier".
+std::string tidy(std::string_view message) {
+  std::string text(message.substr(0, message.find_last_not_of(" \r") + 1));
+  if (text.starts_with("'' : ")) text.erase(0, text.find_first_not_of(' ', 5));
+  if (const size_t at = text.find("' : "); at != std::string::npos) text.erase(at + 1, 1);
+  return text;
+}
+
+}  // namespace
+
+std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const ShaderSource& source) {
+  std::vector<Diagnostic> diagnostics;
+  std::istringstream lines{std::string(log)};
+  for (std::string line; std::getline(lines, line);) {
+    const bool warning = line.starts_with("WARNING: ");
+    if (!warning && !line.starts_with("ERROR: ")) continue;
+    std::string_view text = line;
+    text.remove_prefix(warning ? 9 : 7);
+    if (text.find("compilation errors.  No code generated.") != std::string_view::npos)
+      continue;  // the count
+
+    Diagnostic& diagnostic = diagnostics.emplace_back();
+    diagnostic.severity = warning ? Severity::warning : Severity::error;
+    diagnostic.position.file = source.entry;
+    std::string_view message = text;
+    if (split_position(text, diagnostic.position, message)) locate(diagnostic, message, source);
+    diagnostic.message = tidy(message);
+  }
+  return diagnostics;
+}
+
+}  // namespace eyeray::gpu

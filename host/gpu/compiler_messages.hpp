@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+#include "gpu/shader_source.hpp"
+
+namespace eyeray::gpu {
+
+// glslang's log ("ERROR: file:12: 'token' : message" a line) as diagnostics, with the source lines of
+// `source`. The column is that of the first token quoted that the line contains as a whole word.
+std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const ShaderSource& source);
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace eyeray::gpu {
+
+// FNV-1a over 128 bits: names contents so that equal names mean equal contents, barring malice.
+// Source: Fowler, Noll, Vo, Eastlake, "The FNV Non-Cryptographic Hash Algorithm" (IETF draft-eastlake-fnv).
+class ContentHash {
+ public:
+  // Adds the length too, so that ("ab", "c") and ("a", "bc") differ.
+  ContentHash& add(std::span<const std::byte> bytes);
+  ContentHash& add(std::string_view text) { return add(std::as_bytes(std::span(text))); }
+
+  // 32 hexadecimal digits.
+  std::string hex() const;
+
+ private:
+  void add_byte(uint8_t byte);
+
+  uint64_t high_ = 0x6c62272e07bb0142;
+  uint64_t low_ = 0x62b821756295c58d;
+};
+
+}  // namespace eyeray::gpu

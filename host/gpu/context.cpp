@@ -1,0 +1,144 @@
+#include "gpu/context.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "core/stopwatch.hpp"
+#include "gpu/device_choice.hpp"
+#include "gpu/physical_device.hpp"
+
+namespace eyeray::gpu {
+
+Context::Context(const DeviceOptions& device_options, InstanceOnly)
+    : options(device_options), instance(std::make_unique<Instance>(options.validation)) {}
+
+Context::Context(const DeviceOptions& device_options) : Context(device_options, InstanceOnly{}) {
+  choose();
+  create_device();
+}
+
+void Context::choose() {
+  const std::vector<VkPhysicalDevice> handles = instance->physical_devices();
+  std::vector<DeviceInfo> devices;
+  for (VkPhysicalDevice handle : handles) devices.push_back(describe(handle, int(devices.size())));
+  info = choose_device(devices, options.select);
+  physical = handles[size_t(info.index)];
+  vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+  const bool same_memory = info.type == DeviceType::cpu || info.type == DeviceType::integrated;
+  shares_memory = same_memory && !options.force_staging;
+}
+
+void Context::create_device() {
+  const QueueFamily family = *compute_queue_family(physical);
+  const float priority = 1.0f;
+  auto queue_info = make<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
+  queue_info.queueFamilyIndex = family.index;
+  queue_info.queueCount = 1;
+  queue_info.pQueuePriorities = &priority;
+  auto device_info = make<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
+  device_info.queueCreateInfoCount = 1;
+  device_info.pQueueCreateInfos = &queue_info;
+  check(vkCreateDevice(physical, &device_info, nullptr, &device), "create a device");
+  vkGetDeviceQueue(device, family.index, 0, &queue);
+
+  auto pool_info = make<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
+  pool_info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+  pool_info.queueFamilyIndex = family.index;
+  check(vkCreateCommandPool(device, &pool_info, nullptr, &pool), "create a command pool");
+  auto commands_info = make<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+  commands_info.commandPool = pool;
+  commands_info.commandBufferCount = 1;
+  check(vkAllocateCommandBuffers(device, &commands_info, &commands), "allocate a command buffer");
+  const auto fence_info = make<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
+  check(vkCreateFence(device, &fence_info, nullptr, &fence), "create a fence");
+  create_timestamps(family.timestamp_bits);
+}
+
+void Context::create_timestamps(uint32_t bits) {
+  if (bits == 0) return;
+  auto query_info = make<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
+  query_info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+  query_info.queryCount = 2;
+  check(vkCreateQueryPool(device, &query_info, nullptr, &timestamps), "create a query pool");
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical, &properties);
+  timestamp_bits = bits;
+  timestamp_seconds = double(properties.limits.timestampPeriod) * 1e-9;
+}
+
+Context::~Context() {
+  if (abandoned) {
+    instance.release();  // NOLINT: the driver still uses it
+    return;
+  }
+  if (!device) return;
+  vkDestroyQueryPool(device, timestamps, nullptr);
+  vkDestroyFence(device, fence, nullptr);
+  vkDestroyCommandPool(device, pool, nullptr);
+  vkDestroyDevice(device, nullptr);
+}
+
+void Context::begin() {
+  CHECK(!recording);
+  CHECK(!abandoned);
+  auto info_begin = make<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+  info_begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  check(vkBeginCommandBuffer(commands, &info_begin), "begin a command buffer");
+  recording = true;
+}
+
+void Context::cancel() noexcept {
+  if (!recording) return;
+  recording = false;
+  vkResetCommandBuffer(commands, 0);
+}
+
+void Context::submit_and_wait(std::string_view what) {
+  CHECK(recording);
+  recording = false;
+  check(vkEndCommandBuffer(commands), "end a command buffer");
+  check(vkResetFences(device, 1, &fence), "reset a fence");
+  auto submit = make<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+  submit.commandBufferCount = 1;
+  submit.pCommandBuffers = &commands;
+  const Stopwatch watch;
+  check(vkQueueSubmit(queue, 1, &submit, fence), what);
+
+  // Wait in slices, to see Ctrl-C; then the device has a second to finish what it is at.
+  constexpr double slice = 0.05, grace = 1.0;
+  double limit = options.timeout_seconds;
+  bool stopping = false;
+  for (;;) {
+    const double wait = std::clamp(limit - watch.seconds(), 0.0, slice);
+    const VkResult result = vkWaitForFences(device, 1, &fence, VK_TRUE, uint64_t(wait * 1e9));
+    if (result == VK_SUCCESS) return;
+    if (result != VK_TIMEOUT) check(result, what);
+    if (!stopping && interrupted()) {
+      stopping = true;
+      limit = std::min(limit, watch.seconds() + grace);
+    }
+    if (watch.seconds() < limit) continue;
+    if (stopping)
+      abandon(Error(ExitCode::interrupted, "interrupted; the device was still busy and is left behind"));
+    abandon(Error(
+        ExitCode::timed_out,
+        "{} could not {} within {} s: look for a loop that does not end, or raise --timeout if the work is "
+        "really that heavy",
+        info.name, what, options.timeout_seconds));
+  }
+}
+
+void Context::abandon(const Error& error) {
+  // Tearing a busy driver down blocks or crashes (docs/lavapipe.md). So whichever way the process comes to
+  // its exit, it ends there with its own status, before any library's destructors run.
+  if (!abandoned) on_exit([](int status, void*) { std::fflush(nullptr), _exit(status); }, nullptr);
+  abandoned = true;
+  throw error;
+}
+
+}  // namespace eyeray::gpu

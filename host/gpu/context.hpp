@@ -1,0 +1,55 @@
+// Everything of Vulkan that buffers, kernels and command lists share; for the .cpp files of this layer.
+#pragma once
+
+#include <string_view>
+
+#include "core/error.hpp"
+#include "gpu/device.hpp"
+#include "gpu/instance.hpp"
+
+namespace eyeray::gpu {
+
+struct Context {
+  explicit Context(const DeviceOptions& options);
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  // Starts the one command buffer anew.
+  void begin();
+  // Gives up what was recorded since, if it was not submitted.
+  void cancel() noexcept;
+  // Ends it, submits it and waits until the device is done. Error (timed_out) after the time-out,
+  // (interrupted) when the user asked to stop and the device did not finish within a second; the context is
+  // then abandoned.
+  void submit_and_wait(std::string_view what);
+
+  DeviceOptions options;
+  std::unique_ptr<Instance> instance;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  DeviceInfo info;
+  VkPhysicalDeviceMemoryProperties memory{};
+  bool shares_memory = false;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  VkCommandPool pool = VK_NULL_HANDLE;
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  VkFence fence = VK_NULL_HANDLE;
+  VkQueryPool timestamps = VK_NULL_HANDLE;  // two; null where the queue has none
+  uint32_t timestamp_bits = 0;
+  double timestamp_seconds = 0;  // of one tick
+  bool recording = false;
+  bool abandoned =
+      false;  // the device is still busy and never to be waited for: nothing of it may be destroyed
+
+ private:
+  struct InstanceOnly {};
+  Context(const DeviceOptions& options,
+          InstanceOnly);  // the public constructor completes it, and cleans up if it cannot
+  void choose();
+  void create_device();
+  void create_timestamps(uint32_t bits);
+  [[noreturn]] void abandon(const Error& error);
+};
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,28 @@
+#include "gpu/device.hpp"
+
+#include "gpu/context.hpp"
+#include "gpu/physical_device.hpp"
+
+namespace eyeray::gpu {
+
+std::vector<DeviceInfo> list_devices() {
+  const Instance instance("");
+  std::vector<DeviceInfo> devices;
+  for (VkPhysicalDevice handle : instance.physical_devices())
+    devices.push_back(describe(handle, int(devices.size())));
+  return devices;
+}
+
+Device::Device(const DeviceOptions& options) : context_(std::make_shared<Context>(options)) {}
+
+const DeviceInfo& Device::info() const {
+  return context_->info;
+}
+bool Device::shares_memory() const {
+  return context_->shares_memory;
+}
+std::vector<std::string> Device::validation_messages() const {
+  return context_->instance->validation_messages();
+}
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,82 @@
+// A Vulkan device that can run compute shaders. This layer knows bytes, never rays; no header of it shows
+// Vulkan's.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace eyeray::gpu {
+
+enum class DeviceType { discrete, integrated, virtual_gpu, cpu, other };
+
+struct DeviceLimits {
+  uint64_t storage_range = 0;            // bytes of one buffer that a shader can see
+  uint64_t heap = 0;                     // bytes of the largest heap that buffers come from
+  uint64_t allocation = 0;               // bytes of one allocation
+  uint64_t offset_alignment = 0;         // bytes, of a storage buffer's start
+  std::array<uint32_t, 3> groups{};      // work groups of one dispatch, along each axis
+  std::array<uint32_t, 3> group_size{};  // invocations of one work group, along each axis
+  uint32_t group_invocations = 0;        // and in all
+  uint32_t shared_memory = 0;            // bytes of one work group
+  uint32_t push_constants = 0;           // bytes
+  uint32_t subgroup_size = 0;
+};
+
+// Execution modes for float32 that a shader may ask for.
+struct FloatModes {
+  bool denorm_preserve = false;
+  bool round_to_nearest_even = false;
+  bool signed_zero_inf_nan_preserve = false;
+};
+
+struct DeviceInfo {
+  int index = 0;  // what --device takes
+  std::string name;
+  std::string driver;          // "llvmpipe"
+  std::string driver_version;  // "Mesa 22.3.6 (LLVM 15.0.6)"
+  std::string api_version;     // "1.3.230"
+  std::string driver_id;       // changes with anything that makes a compiled pipeline stale; hexadecimal
+  DeviceType type = DeviceType::other;
+  bool usable = false;
+  std::string why_not;  // reasons, when not usable
+  DeviceLimits limits;
+  FloatModes float_modes;
+};
+
+// Every device of every driver, in the order of their indices. Error (no_device) that says what to install
+// when there is no Vulkan loader, no driver or no device.
+std::vector<DeviceInfo> list_devices();
+
+struct DeviceOptions {
+  std::string select = "auto";  // auto | cpu | gpu | INDEX | part of a NAME; see choose_device
+  std::string validation = "";  // "", "core" or "sync": run under the Khronos validation layer
+  double timeout_seconds = 60;  // the longest wait for one submission
+  bool force_staging = false;   // tests: copy through staging buffers even where memory is shared
+};
+
+struct Context;
+
+// An instance, a device and one queue, destroyed when the last Buffer and Kernel made from it is gone. After
+// a time-out the driver would block on destroying it, so it is left behind and the process ends without
+// tearing the driver down.
+class Device {
+ public:
+  // Error (no_device) when no device will do, bad_input for a bad option.
+  explicit Device(const DeviceOptions& options);
+
+  const DeviceInfo& info() const;
+  // Whether the processor and the device share memory, so that a buffer's bytes need no copying.
+  bool shares_memory() const;
+  // What the validation layer complained about so far (warnings and errors); empty when it is off.
+  std::vector<std::string> validation_messages() const;
+
+  const std::shared_ptr<Context>& context() const { return context_; }
+
+ private:
+  std::shared_ptr<Context> context_;
+};
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,76 @@
+#include "gpu/disk_cache.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "gpu/content_hash.hpp"
+
+namespace eyeray::gpu {
+namespace {
+
+constexpr std::string_view ending = ".eyeray-cache";
+constexpr size_t most_entries = 512;
+
+std::filesystem::path path_from(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value ? value : "";
+}
+
+}  // namespace
+
+DiskCache DiskCache::of_user() {
+  if (std::getenv("EYERAY_CACHE_DIR")) return DiskCache(path_from("EYERAY_CACHE_DIR"));
+  if (auto folder = path_from("XDG_CACHE_HOME"); folder.is_absolute()) return DiskCache(folder / "eyeray");
+  if (auto home = path_from("HOME"); home.is_absolute()) return DiskCache(home / ".cache" / "eyeray");
+  return DiskCache({});
+}
+
+std::filesystem::path DiskCache::path(std::string_view name) const {
+  return folder_ / (std::string(name) + std::string(ending));
+}
+
+// An entry is the hash of its name and bytes, in hexadecimal, then the bytes.
+std::optional<std::string> DiskCache::load(std::string_view name) const {
+  std::error_code failed;
+  if (folder_.empty() || !std::filesystem::exists(path(name), failed)) return std::nullopt;
+  std::string text;
+  try {
+    text = read_file(path(name));
+  } catch (const Error&) {
+    return std::nullopt;  // somebody else's file, or removed a moment ago
+  }
+  const std::string_view bytes = std::string_view(text).substr(std::min<size_t>(32, text.size()));
+  if (!text.starts_with(ContentHash().add(name).add(bytes).hex())) return std::nullopt;
+  return std::string(bytes);
+}
+
+void DiskCache::store(std::string_view name, std::string_view bytes) const {
+  if (folder_.empty()) return;
+  std::error_code failed;
+  std::filesystem::create_directories(folder_, failed);
+  try {
+    write_file_atomically(path(name), ContentHash().add(name).add(bytes).hex() + std::string(bytes));
+  } catch (const Error&) {
+    return;  // a full or read-only disk costs the next start some time, and nothing else
+  }
+  drop_old_entries();
+}
+
+void DiskCache::drop_old_entries() const {
+  // Other processes may be doing the same: whatever has gone meanwhile is no fault.
+  std::error_code failed;
+  std::vector<std::pair<std::filesystem::file_time_type, std::filesystem::path>> entries;
+  for (std::filesystem::directory_iterator entry(folder_, failed), end; !failed && entry != end;
+       entry.increment(failed))
+    if (entry->path().extension() == ending)
+      entries.emplace_back(entry->last_write_time(failed), entry->path());
+  if (entries.size() <= most_entries) return;
+  std::sort(entries.begin(), entries.end());
+  for (size_t i = 0; i < entries.size() - most_entries / 2; ++i)
+    std::filesystem::remove(entries[i].second, failed);
+}
+
+}  // namespace eyeray::gpu

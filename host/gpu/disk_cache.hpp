@@ -1,0 +1,34 @@
+// What was compiled once, kept for the next start.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace eyeray::gpu {
+
+// Named bytes in a folder. A cache may forget: damaged entries are as good as absent, old ones are dropped
+// when there are many, and a folder that cannot be written is a cache that remembers nothing.
+class DiskCache {
+ public:
+  // An empty path: remembers nothing.
+  explicit DiskCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  // $EYERAY_CACHE_DIR, else $XDG_CACHE_HOME/eyeray, else ~/.cache/eyeray. An EYERAY_CACHE_DIR that is set but
+  // empty is no cache.
+  static DiskCache of_user();
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+  // What was stored under `name`, a file name.
+  std::optional<std::string> load(std::string_view name) const;
+  void store(std::string_view name, std::string_view bytes) const;
+
+ private:
+  std::filesystem::path path(std::string_view name) const;
+  void drop_old_entries() const;
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace eyeray::gpu

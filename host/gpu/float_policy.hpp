@@ -1,0 +1,23 @@
+// How floats behave in a kernel, decided in one place: after glslang, on the SPIR-V itself.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gpu/device.hpp"
+
+namespace eyeray::gpu {
+
+// The module with NoContraction on every float arithmetic result, so that no driver fuses or re-associates:
+// each operation rounds once, as in the twin. (glslang's `precise` does not reach into called functions, and
+// never decorates OpDot.)
+std::vector<uint32_t> decorate_no_contraction(std::span<const uint32_t> spirv);
+
+// The module with the float32 execution modes of `modes` on its entry points (SPV_KHR_float_controls).
+std::vector<uint32_t> set_float_modes(std::span<const uint32_t> spirv, const FloatModes& modes);
+
+// Both: what every kernel gets unless the user asks for --fast-math.
+std::vector<uint32_t> strict_floats(std::span<const uint32_t> spirv, const FloatModes& modes);
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,142 @@
+#include "gpu/instance.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace eyeray::gpu {
+namespace {
+
+constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* install_driver =
+    "install one (Debian: apt install mesa-vulkan-drivers, which renders on the processor too)";
+
+// Opens the loader once a process. EYERAY_VULKAN_LOADER names another one than the system's, for tests.
+void open_loader() {
+  static bool opened = false;
+  if (opened) return;
+  const char* chosen = std::getenv("EYERAY_VULKAN_LOADER");
+  void* library = dlopen(chosen ? chosen : "libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+  void* entry = library ? dlsym(library, "vkGetInstanceProcAddr") : nullptr;
+  if (!entry) {
+    const char* reason = dlerror();
+    throw Error(
+        ExitCode::no_device,
+        "there is no Vulkan loader on this machine: install it and a driver (Debian: apt install libvulkan1 "
+        "mesa-vulkan-drivers); {}",
+        reason ? reason : "vkGetInstanceProcAddr is missing");
+  }
+  volkInitializeCustom(reinterpret_cast<PFN_vkGetInstanceProcAddr>(entry));
+  opened = true;
+}
+
+VkBool32 VKAPI_PTR collect_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                   const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  auto& log = *static_cast<ValidationLog*>(user);
+  const std::lock_guard lock(log.mutex);
+  log.messages.emplace_back(data->pMessage);
+  return VK_FALSE;
+}
+
+// Warnings and errors of the layer. Messages of type GENERAL are the loader's, about drivers that are not
+// used.
+VkDebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog& log) {
+  auto info =
+      make<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
+  info.messageSeverity =
+      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageType =
+      VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+  info.pfnUserCallback = collect_message;
+  info.pUserData = &log;
+  return info;
+}
+
+void require_validation_layer() {
+  uint32_t count = 0;
+  check(vkEnumerateInstanceLayerProperties(&count, nullptr), "list its layers");
+  std::vector<VkLayerProperties> layers(count);
+  check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "list its layers");
+  for (const VkLayerProperties& layer : layers)
+    if (std::strcmp(layer.layerName, validation_layer) == 0) return;
+  throw Error(ExitCode::no_device,
+              "validation needs {}: install it (Debian: apt install vulkan-validationlayers)",
+              validation_layer);
+}
+
+}  // namespace
+
+Instance::Instance(const std::string& validation) {
+  if (!validation.empty() && validation != "core" && validation != "sync")
+    throw Error(ExitCode::bad_input, "validation is \"core\" or \"sync\", not \"{}\"", validation);
+  open_loader();
+  if (volkGetInstanceVersion() < VK_API_VERSION_1_1)
+    throw Error(ExitCode::no_device, "the Vulkan loader is of version 1.0, eyeray needs 1.1 or later");
+
+  // Ask for 1.2 where the loader knows it: it names the driver. A device of 1.1 is still welcome.
+  auto application = make<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
+  application.pApplicationName = "eyeray";
+  application.apiVersion = std::min<uint32_t>(volkGetInstanceVersion(), VK_API_VERSION_1_2);
+  auto info = make<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
+  info.pApplicationInfo = &application;
+
+  // Chain the messenger, so that creating the instance is watched too; "sync" watches hazards only, "core"
+  // all else.
+  const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(*log_);
+  const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  const VkValidationFeatureDisableEXT disable = VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT;
+  auto features = make<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, &messenger);
+  const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  if (!validation.empty()) {
+    require_validation_layer();
+    if (validation == "sync") {
+      features.disabledValidationFeatureCount = 1;
+      features.pDisabledValidationFeatures = &disable;
+      features.enabledValidationFeatureCount = 1;
+      features.pEnabledValidationFeatures = &enable;
+    }
+    info.pNext = &features;
+    info.enabledLayerCount = 1;
+    info.ppEnabledLayerNames = &validation_layer;
+    info.enabledExtensionCount = 1;
+    info.ppEnabledExtensionNames = &extension;
+  }
+
+  const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
+    throw Error(ExitCode::no_device, "there is no Vulkan driver on this machine ({}): {}",
+                result_name(result), install_driver);
+  check(result, "create an instance");
+  volkLoadInstance(instance_);
+  if (!validation.empty())
+    check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
+          "listen to the validation layer");
+}
+
+Instance::~Instance() {
+  if (messenger_) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+  vkDestroyInstance(instance_, nullptr);
+}
+
+std::vector<VkPhysicalDevice> Instance::physical_devices() const {
+  uint32_t count = 0;
+  const VkResult result = vkEnumeratePhysicalDevices(instance_, &count, nullptr);
+  // Mesa's drivers answer INITIALIZATION_FAILED when none of them finds its hardware.
+  if (result == VK_ERROR_INITIALIZATION_FAILED || (result == VK_SUCCESS && count == 0))
+    throw Error(ExitCode::no_device, "no Vulkan driver on this machine offers a device: {}", install_driver);
+  check(result, "list its devices");
+  std::vector<VkPhysicalDevice> devices(count);
+  check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "list its devices");
+  return devices;
+}
+
+std::vector<std::string> Instance::validation_messages() const {
+  const std::lock_guard lock(log_->mutex);
+  return log_->messages;
+}
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,38 @@
+// The Vulkan loader and an instance, for the .cpp files of this layer.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gpu/vulkan.hpp"
+
+namespace eyeray::gpu {
+
+// What the validation layer says, from whichever thread it says it.
+struct ValidationLog {
+  std::mutex mutex;
+  std::vector<std::string> messages;
+};
+
+class Instance {
+ public:
+  // validation: "", "core" or "sync". Error (no_device) that says what to install when there is no loader, no
+  // driver or no validation layer.
+  explicit Instance(const std::string& validation);
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  // Never empty: Error (no_device) instead.
+  std::vector<VkPhysicalDevice> physical_devices() const;
+  std::vector<std::string> validation_messages() const;
+
+ private:
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  std::unique_ptr<ValidationLog> log_ = std::make_unique<ValidationLog>();
+};
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,159 @@
+#include "gpu/kernel.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "gpu/content_hash.hpp"
+#include "gpu/kernel_objects.hpp"
+#include "gpu/raw_buffer.hpp"
+
+namespace eyeray::gpu {
+namespace {
+
+void check_limits(const Reflection& reflection, const DeviceInfo& device, const std::string& name) {
+  const std::array<uint32_t, 3>& size = reflection.local_size;
+  const uint64_t invocations = uint64_t{size[0]} * size[1] * size[2];
+  bool fits = invocations <= device.limits.group_invocations;
+  for (size_t axis = 0; axis < 3; ++axis) fits = fits && size[axis] <= device.limits.group_size[axis];
+  if (!fits)
+    throw Error(ExitCode::no_device,
+                "kernel '{}' has work groups of {} × {} × {} invocations, {} runs at most {}", name, size[0],
+                size[1], size[2], device.name, device.limits.group_invocations);
+  if (reflection.push_constant_bytes > device.limits.push_constants)
+    throw Error(ExitCode::no_device, "kernel '{}' has {} bytes of push constants, {} takes at most {}", name,
+                reflection.push_constant_bytes, device.name, device.limits.push_constants);
+}
+
+// A pipeline cache that comes from disk and goes back there when the driver added to it.
+class PipelineCache {
+ public:
+  PipelineCache(const Context& context, std::span<const uint32_t> spirv, const DiskCache& disk)
+      : context_(context),
+        disk_(disk),
+        name_(fmt::format("pipeline-{}-{}", context.info.driver_id,
+                          ContentHash().add(std::as_bytes(spirv)).hex())),
+        loaded_(disk.load(name_).value_or("")) {
+    auto info = make<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
+    info.initialDataSize = loaded_.size();
+    info.pInitialData = loaded_.data();
+    check(vkCreatePipelineCache(context.device, &info, nullptr, &cache_), "create a pipeline cache");
+  }
+  ~PipelineCache() { vkDestroyPipelineCache(context_.device, cache_, nullptr); }
+  PipelineCache(const PipelineCache&) = delete;
+  PipelineCache& operator=(const PipelineCache&) = delete;
+
+  VkPipelineCache handle() const { return cache_; }
+
+  void save() const {
+    size_t size = 0;
+    check(vkGetPipelineCacheData(context_.device, cache_, &size, nullptr), "read a pipeline cache");
+    std::string data(size, '\0');
+    check(vkGetPipelineCacheData(context_.device, cache_, &size, data.data()), "read a pipeline cache");
+    data.resize(size);
+    if (data != loaded_) disk_.store(name_, data);
+  }
+
+ private:
+  const Context& context_;
+  const DiskCache& disk_;
+  std::string name_;
+  std::string loaded_;
+  VkPipelineCache cache_ = VK_NULL_HANDLE;
+};
+
+}  // namespace
+
+Kernel::Kernel(Device& device, std::span<const uint32_t> spirv, std::string name, const DiskCache& cache)
+    : context_(device.context()),
+      name_(std::move(name)),
+      reflection_(reflect(spirv)),
+      objects_(std::make_unique<Objects>(context_)) {
+  check_limits(reflection_, context_->info, name_);
+  create_layout();
+  create_pipeline(spirv, cache);
+}
+
+Kernel::~Kernel() = default;
+
+void Kernel::create_layout() {
+  // One set of storage buffers, as the shader declares them.
+  std::vector<VkDescriptorSetLayoutBinding> bindings;
+  for (const uint32_t binding : reflection_.bindings)
+    bindings.push_back({binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+  auto set_info = make<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+  set_info.bindingCount = uint32_t(bindings.size());
+  set_info.pBindings = bindings.data();
+  check(vkCreateDescriptorSetLayout(context_->device, &set_info, nullptr, &objects_->set_layout),
+        "create a descriptor layout");
+
+  const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, reflection_.push_constant_bytes};
+  auto layout_info = make<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+  layout_info.setLayoutCount = 1;
+  layout_info.pSetLayouts = &objects_->set_layout;
+  layout_info.pushConstantRangeCount = push.size > 0 ? 1 : 0;
+  layout_info.pPushConstantRanges = &push;
+  check(vkCreatePipelineLayout(context_->device, &layout_info, nullptr, &objects_->layout),
+        "create a pipeline layout");
+
+  if (bindings.empty()) return;
+  const VkDescriptorPoolSize pool_size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, uint32_t(bindings.size())};
+  auto pool_info = make<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+  pool_info.maxSets = 1;
+  pool_info.poolSizeCount = 1;
+  pool_info.pPoolSizes = &pool_size;
+  check(vkCreateDescriptorPool(context_->device, &pool_info, nullptr, &objects_->pool),
+        "create a descriptor pool");
+  auto allocate = make<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+  allocate.descriptorPool = objects_->pool;
+  allocate.descriptorSetCount = 1;
+  allocate.pSetLayouts = &objects_->set_layout;
+  check(vkAllocateDescriptorSets(context_->device, &allocate, &objects_->set), "allocate a descriptor set");
+}
+
+void Kernel::create_pipeline(std::span<const uint32_t> spirv, const DiskCache& disk) {
+  auto module_info = make<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
+  module_info.codeSize = spirv.size_bytes();
+  module_info.pCode = spirv.data();
+  VkShaderModule module = VK_NULL_HANDLE;
+  check(vkCreateShaderModule(context_->device, &module_info, nullptr, &module),
+        fmt::format("load kernel '{}'", name_));
+  auto info = make<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
+  info.stage = make<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module;
+  info.stage.pName = "main";
+  info.layout = objects_->layout;
+  const PipelineCache cache(*context_, spirv, disk);
+  const VkResult result =
+      vkCreateComputePipelines(context_->device, cache.handle(), 1, &info, nullptr, &objects_->pipeline);
+  vkDestroyShaderModule(context_->device, module, nullptr);
+  check(result, fmt::format("build kernel '{}'", name_));
+  cache.save();
+}
+
+bool Kernel::uses(uint32_t binding) const {
+  return std::binary_search(reflection_.bindings.begin(), reflection_.bindings.end(), binding);
+}
+
+void Kernel::set_buffer(uint32_t binding, const Buffer& buffer) {
+  bind(binding, buffer, buffer.payload_offset(), buffer.size());
+}
+
+void Kernel::set_buffer_with_guards(uint32_t binding, const Buffer& buffer) {
+  bind(binding, buffer, 0, buffer.size() + 2 * buffer.payload_offset());
+}
+
+void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t bytes) {
+  if (!uses(binding)) return;
+  const VkDescriptorBufferInfo info{buffer.raw().handle(), offset, bytes};
+  auto write = make<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+  write.dstSet = objects_->set;
+  write.dstBinding = binding;
+  write.descriptorCount = 1;
+  write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  write.pBufferInfo = &info;
+  vkUpdateDescriptorSets(context_->device, 1, &write, 0, nullptr);
+  objects_->bound.insert(binding);
+}
+
+}  // namespace eyeray::gpu

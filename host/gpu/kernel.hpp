@@ -1,0 +1,48 @@
+// A compute pipeline and the buffers it is bound to.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "gpu/buffer.hpp"
+#include "gpu/disk_cache.hpp"
+#include "gpu/reflect.hpp"
+
+namespace eyeray::gpu {
+
+class Kernel {
+ public:
+  // The pipeline of `spirv`, whose entry point is "main"; `name` is for errors. What the driver compiles is
+  // kept in `cache`. Error (no_device) with the numbers when the shader wants more than the device has.
+  Kernel(Device& device, std::span<const uint32_t> spirv, std::string name, const DiskCache& cache);
+  ~Kernel();
+  Kernel(const Kernel&) = delete;
+  Kernel& operator=(const Kernel&) = delete;
+
+  const std::string& name() const { return name_; }
+  const Reflection& reflection() const { return reflection_; }
+  bool uses(uint32_t binding) const;
+
+  // Binds `buffer`, which must outlive the kernel's dispatches. A binding that the shader does not have is
+  // ignored.
+  void set_buffer(uint32_t binding, const Buffer& buffer);
+  // Tests: shows the shader the buffer's guards too, so that it can overwrite them.
+  void set_buffer_with_guards(uint32_t binding, const Buffer& buffer);
+
+ private:
+  friend class CommandList;
+  struct Objects;  // Vulkan's
+
+  void create_layout();
+  void create_pipeline(std::span<const uint32_t> spirv, const DiskCache& cache);
+  void bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t bytes);
+
+  std::shared_ptr<Context> context_;
+  std::string name_;
+  Reflection reflection_;
+  std::unique_ptr<Objects> objects_;
+};
+
+}  // namespace eyeray::gpu

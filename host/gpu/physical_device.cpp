@@ -1,0 +1,117 @@
+#include "gpu/physical_device.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace eyeray::gpu {
+namespace {
+
+DeviceType device_type(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return DeviceType::discrete;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return DeviceType::integrated;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return DeviceType::virtual_gpu;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return DeviceType::cpu;
+    default:
+      return DeviceType::other;
+  }
+}
+
+std::string version_text(uint32_t version) {
+  return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                     VK_API_VERSION_PATCH(version));
+}
+
+std::string driver_id(const VkPhysicalDeviceProperties& properties) {
+  std::string id =
+      fmt::format("{:08x}{:08x}{:08x}", properties.vendorID, properties.deviceID, properties.driverVersion);
+  for (const uint8_t byte : properties.pipelineCacheUUID) id += fmt::format("{:02x}", byte);
+  return id;
+}
+
+// What Vulkan 1.1 tells about a device, and 1.2 about its driver and floats.
+void describe_version_1_1(VkPhysicalDevice device, uint32_t version, DeviceInfo& info) {
+  auto floats = make<VkPhysicalDeviceFloatControlsProperties>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES);
+  auto driver =
+      make<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &floats);
+  auto subgroup =
+      make<VkPhysicalDeviceSubgroupProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
+                                               version >= VK_API_VERSION_1_2 ? &driver : nullptr);
+  auto maintenance = make<VkPhysicalDeviceMaintenance3Properties>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES, &subgroup);
+  auto all = make<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &maintenance);
+  vkGetPhysicalDeviceProperties2(device, &all);
+  info.limits.subgroup_size = subgroup.subgroupSize;
+  info.limits.allocation = maintenance.maxMemoryAllocationSize;
+  if (version < VK_API_VERSION_1_2) return;
+  info.driver = driver.driverName;
+  info.driver_version = driver.driverInfo;
+  info.float_modes = {
+      .denorm_preserve = floats.shaderDenormPreserveFloat32 == VK_TRUE,
+      .round_to_nearest_even = floats.shaderRoundingModeRTEFloat32 == VK_TRUE,
+      .signed_zero_inf_nan_preserve = floats.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE};
+}
+
+}  // namespace
+
+DeviceInfo describe(VkPhysicalDevice device, int index) {
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(device, &properties);
+  DeviceInfo info;
+  info.index = index;
+  info.name = properties.deviceName;
+  info.driver = "unknown driver";
+  info.driver_version = fmt::format("{:#x}", properties.driverVersion);
+  info.api_version = version_text(properties.apiVersion);
+  info.driver_id = driver_id(properties);
+  info.type = device_type(properties.deviceType);
+
+  const VkPhysicalDeviceLimits& limits = properties.limits;
+  info.limits.storage_range = limits.maxStorageBufferRange;
+  info.limits.offset_alignment = limits.minStorageBufferOffsetAlignment;
+  std::copy_n(limits.maxComputeWorkGroupCount, 3, info.limits.groups.begin());
+  std::copy_n(limits.maxComputeWorkGroupSize, 3, info.limits.group_size.begin());
+  info.limits.group_invocations = limits.maxComputeWorkGroupInvocations;
+  info.limits.shared_memory = limits.maxComputeSharedMemorySize;
+  info.limits.push_constants = limits.maxPushConstantsSize;
+
+  VkPhysicalDeviceMemoryProperties memory;
+  vkGetPhysicalDeviceMemoryProperties(device, &memory);
+  for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+    if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
+      info.limits.heap = std::max<uint64_t>(info.limits.heap, memory.memoryHeaps[i].size);
+
+  // Say everything that is missing, not only the first thing.
+  if (properties.apiVersion >= VK_API_VERSION_1_1)
+    describe_version_1_1(device, properties.apiVersion, info);
+  else
+    info.why_not = fmt::format("it speaks Vulkan {}, eyeray needs 1.1", info.api_version);
+  if (!compute_queue_family(device))
+    info.why_not += info.why_not.empty() ? "it has no compute queue" : "; it has no compute queue";
+  info.usable = info.why_not.empty();
+  return info;
+}
+
+std::optional<QueueFamily> compute_queue_family(VkPhysicalDevice device) {
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  std::optional<QueueFamily> found;
+  for (uint32_t i = 0; i < count; ++i) {
+    if (!(families[i].queueFlags & VK_QUEUE_COMPUTE_BIT)) continue;
+    const bool dedicated = !(families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT);
+    if (!found || dedicated) found = QueueFamily{i, families[i].timestampValidBits};
+    if (dedicated) break;
+  }
+  return found;
+}
+
+}  // namespace eyeray::gpu

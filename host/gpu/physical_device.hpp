@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "gpu/device.hpp"
+#include "gpu/vulkan.hpp"
+
+namespace eyeray::gpu {
+
+// What a device is and can do, and whether it will do for eyeray: Vulkan 1.1 and a compute queue.
+DeviceInfo describe(VkPhysicalDevice device, int index);
+
+// A queue family that computes, one without graphics preferred; its timestamps' width is 0 when it has none.
+struct QueueFamily {
+  uint32_t index = 0;
+  uint32_t timestamp_bits = 0;
+};
+std::optional<QueueFamily> compute_queue_family(VkPhysicalDevice device);
+
+}  // namespace eyeray::gpu

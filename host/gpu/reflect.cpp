@@ -1,0 +1,147 @@
+#include "gpu/reflect.hpp"
+
+#include <glslang/SPIRV/spirv.hpp>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "gpu/spirv.hpp"
+
+namespace eyeray::gpu {
+namespace {
+
+struct Member {
+  std::string name;
+  std::optional<uint32_t> offset;
+  uint32_t matrix_stride = 0;
+};
+
+struct Id {
+  std::string name;
+  std::map<uint32_t, Member> members;
+  std::optional<uint32_t> set, binding, array_stride;
+  std::vector<uint32_t> definition;  // the type or constant instruction
+};
+
+struct Variable {
+  uint32_t id, pointer, storage;
+};
+
+// The ids of a module that matter here, and how large their types are in memory.
+struct Module {
+  std::map<uint32_t, Id> ids;
+  std::vector<uint32_t> structs;
+  std::vector<Variable> variables;
+  std::array<uint32_t, 3> local_size{1, 1, 1};
+
+  explicit Module(std::span<const uint32_t> spirv) {
+    for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> i) { read(opcode, i); });
+  }
+
+  void read(uint32_t opcode, std::span<const uint32_t> i) {
+    switch (opcode) {
+      case spv::OpName:
+        ids[i[1]].name = spirv_string(i, 2);
+        break;
+      case spv::OpMemberName:
+        ids[i[1]].members[i[2]].name = spirv_string(i, 3);
+        break;
+      case spv::OpMemberDecorate:
+        if (i[3] == spv::DecorationOffset) ids[i[1]].members[i[2]].offset = i[4];
+        if (i[3] == spv::DecorationMatrixStride) ids[i[1]].members[i[2]].matrix_stride = i[4];
+        break;
+      case spv::OpDecorate:
+        if (i[2] == spv::DecorationDescriptorSet) ids[i[1]].set = i[3];
+        if (i[2] == spv::DecorationBinding) ids[i[1]].binding = i[3];
+        if (i[2] == spv::DecorationArrayStride) ids[i[1]].array_stride = i[3];
+        break;
+      case spv::OpExecutionMode:
+        if (i[2] == spv::ExecutionModeLocalSize) local_size = {i[3], i[4], i[5]};
+        break;
+      case spv::OpTypeStruct:
+        structs.push_back(i[1]);
+        [[fallthrough]];
+      case spv::OpTypeInt:
+      case spv::OpTypeFloat:
+      case spv::OpTypeVector:
+      case spv::OpTypeMatrix:
+      case spv::OpTypeArray:
+      case spv::OpTypeRuntimeArray:
+      case spv::OpTypePointer:
+        ids[i[1]].definition.assign(i.begin(), i.end());
+        break;
+      case spv::OpConstant:
+        ids[i[2]].definition.assign(i.begin(), i.end());
+        break;
+      case spv::OpVariable:
+        variables.push_back({i[2], i[1], i[3]});
+        break;
+      default:
+        break;
+    }
+  }
+
+  // Bytes of a type, its matrices `matrix_stride` apart; 0 for a run-time array.
+  uint32_t size(uint32_t type, uint32_t matrix_stride = 0) const {
+    const Id& id = ids.at(type);
+    const std::vector<uint32_t>& i = id.definition;
+    switch (i.empty() ? uint32_t(spv::OpNop) : i[0] & 0xffffu) {
+      case spv::OpTypeInt:
+      case spv::OpTypeFloat:
+        return i[2] / 8;
+      case spv::OpTypeVector:
+        return size(i[2]) * i[3];
+      case spv::OpTypeMatrix:
+        return matrix_stride * i[3];
+      case spv::OpTypeArray:
+        return id.array_stride.value_or(0) * ids.at(i[3]).definition.at(3);
+      case spv::OpTypeStruct: {
+        uint32_t end = 0;
+        for (const auto& [index, member] : id.members)
+          end = std::max(end, member.offset.value_or(0) + size(i[2 + index], member.matrix_stride));
+        return end;
+      }
+      default:
+        return 0;
+    }
+  }
+};
+
+bool has_layout(const Id& type) {
+  return !type.members.empty() && std::all_of(type.members.begin(), type.members.end(),
+                                              [](const auto& m) { return m.second.offset.has_value(); });
+}
+
+}  // namespace
+
+Reflection reflect(std::span<const uint32_t> spirv) {
+  const Module module(spirv);
+  Reflection reflection;
+  reflection.local_size = module.local_size;
+  for (const Variable& variable : module.variables) {
+    const auto found = module.ids.find(variable.id);
+    if (found == module.ids.end()) continue;  // neither named nor bound: a local variable
+    const Id& id = found->second;
+    if (variable.storage == spv::StorageClassPushConstant)
+      reflection.push_constant_bytes = module.size(module.ids.at(variable.pointer).definition.at(3));
+    if (!id.binding) continue;
+    if (variable.storage != spv::StorageClassStorageBuffer || id.set.value_or(0) != 0)
+      throw Error(ExitCode::bad_input,
+                  "the shader binds '{}' at set {}, binding {}: eyeray gives storage buffers in set 0 only",
+                  id.name, id.set.value_or(0), *id.binding);
+    reflection.bindings.push_back(*id.binding);
+  }
+  std::sort(reflection.bindings.begin(), reflection.bindings.end());
+  for (const uint32_t type : module.structs) {
+    const Id& id = module.ids.at(type);
+    if (!has_layout(id)) continue;
+    ReflectedStruct& result = reflection.structs.emplace_back();
+    result.name = id.name;
+    result.size = module.size(type);
+    for (const auto& [index, member] : id.members) result.members.push_back({member.name, *member.offset});
+  }
+  return reflection;
+}
+
+}  // namespace eyeray::gpu

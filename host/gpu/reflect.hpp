@@ -1,0 +1,34 @@
+// What a kernel's SPIR-V says of itself, so that nothing is typed twice.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace eyeray::gpu {
+
+struct ReflectedMember {
+  std::string name;
+  uint32_t offset = 0;  // bytes
+};
+
+// A struct with a memory layout, as some buffer or the push constants use it.
+struct ReflectedStruct {
+  std::string name;
+  uint32_t size = 0;  // bytes; without a run-time array at its end
+  std::vector<ReflectedMember> members;
+};
+
+struct Reflection {
+  std::vector<uint32_t> bindings;  // storage buffers of descriptor set 0, ascending
+  uint32_t push_constant_bytes = 0;
+  std::array<uint32_t, 3> local_size{1, 1, 1};
+  std::vector<ReflectedStruct> structs;
+};
+
+// Error (bad_input) when the words are not SPIR-V, or the shader wants anything but storage buffers in set 0.
+Reflection reflect(std::span<const uint32_t> spirv);
+
+}  // namespace eyeray::gpu

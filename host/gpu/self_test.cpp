@@ -1,0 +1,123 @@
+#include "gpu/self_test.hpp"
+
+#include <bit>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/stopwatch.hpp"
+#include "gpu/command_list.hpp"
+#include "gpu/float_policy.hpp"
+#include "gpu/spirv_cache.hpp"
+
+namespace eyeray::gpu {
+namespace {
+
+// As in selftest.comp.glsl.
+constexpr uint32_t count = 256;
+constexpr uint32_t words_an_invocation = 8;
+constexpr uint32_t loop_iterations = 100000;
+constexpr uint32_t denormal = 0x00000100u;
+
+uint32_t hash(uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  return x ^ x >> 16;
+}
+
+// A float of either sign with a random mantissa, 2^-8 ≤ |x| < 2^8: no operation here leaves the normal range.
+float random_float(uint32_t seed) {
+  const uint32_t bits = hash(seed);
+  const uint32_t exponent = 127 - 8 + (bits >> 23 & 15u);
+  return std::bit_cast<float>((bits & 0x807fffffu) | exponent << 23);
+}
+
+struct Inputs {
+  std::vector<uint32_t> words;
+
+  Inputs() : words(3 * count + 2) {
+    for (uint32_t i = 0; i < count; ++i) {
+      const float a = random_float(3 * i), b = random_float(3 * i + 1);
+      // Half of the sums cancel, so that the product's lost digits are all that a fused operation leaves.
+      const float c = i % 2 == 0 ? -(a * b) : random_float(3 * i + 2);
+      words[i] = std::bit_cast<uint32_t>(a);
+      words[count + i] = std::bit_cast<uint32_t>(b);
+      words[2 * count + i] = std::bit_cast<uint32_t>(c);
+    }
+    words[3 * count] = denormal;
+    words[3 * count + 1] = std::bit_cast<uint32_t>(0.0f);
+  }
+  float a(uint32_t i) const { return std::bit_cast<float>(words[i]); }
+  float b(uint32_t i) const { return std::bit_cast<float>(words[count + i]); }
+  float c(uint32_t i) const { return std::bit_cast<float>(words[2 * count + i]); }
+};
+
+void expect(const Device& device, const char* what, uint32_t index, uint32_t expected, uint32_t found) {
+  if (found == expected) return;
+  throw Error(ExitCode::no_device,
+              "{} (driver {} {}) computes wrong: {} of invocation {} should be {:#010x}, and is {:#010x}; "
+              "choose another "
+              "device with --device, or update the driver",
+              device.info().name, device.info().driver, device.info().driver_version, what, index, expected,
+              found);
+}
+
+bool arithmetic_is_exact(const Inputs& inputs, uint32_t i, const uint32_t* found) {
+  const float a = inputs.a(i), b = inputs.b(i);
+  const float product = a * b;
+  const float expected[] = {a + b, a - b, product, a / b, std::sqrt(std::fabs(a)), product + inputs.c(i)};
+  bool exact = true;
+  for (size_t k = 0; k < std::size(expected); ++k)
+    exact = exact && std::bit_cast<uint32_t>(expected[k]) == found[2 + k];
+  return exact;
+}
+
+DeviceFacts judge(const Device& device, const Inputs& inputs, std::span<const uint32_t> outputs) {
+  DeviceFacts facts;
+  facts.exact_arithmetic = true;
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t* found = &outputs[words_an_invocation * i];
+    expect(device, "an integer hash", i, hash(i ^ inputs.words[i]), found[0]);
+    expect(device, "an indexed load", i, inputs.words[count - 1 - i], found[1]);
+    facts.exact_arithmetic = facts.exact_arithmetic && arithmetic_is_exact(inputs, i, found);
+  }
+  const uint32_t* special = &outputs[words_an_invocation * count];
+  facts.denormals_kept = special[0] == denormal / 2;
+  facts.infinities_kept = special[1] == 0x7f800000u;
+  facts.loop_iterations = special[2];
+  facts.loop_cap = facts.loop_iterations != loop_iterations;
+
+  // Whatever number of iterations was made, each must have done its work.
+  uint32_t state = 0;
+  for (uint32_t i = 0; i < facts.loop_iterations && i < loop_iterations; ++i)
+    state = state * 1664525u + 1013904223u;
+  expect(device, "a loop's result", 0, state, special[3]);
+  return facts;
+}
+
+}  // namespace
+
+DeviceFacts self_test(Device& device, const SourceProvider& shaders, const DiskCache& cache) {
+  const Stopwatch watch;
+  const ShaderSource source = read_shader(shaders, "selftest.comp.glsl");
+  const std::vector<uint32_t> spirv =
+      strict_floats(compile_shader(source, "", cache).spirv, device.info().float_modes);
+  Kernel kernel(device, spirv, "selftest", cache);
+
+  const Inputs inputs;
+  Buffer input(device, inputs.words.size() * sizeof(uint32_t), "self-test inputs");
+  Buffer output(device, (words_an_invocation * count + 4) * sizeof(uint32_t), "self-test outputs");
+  input.upload_records(inputs.words);
+  kernel.set_buffer(0, input);
+  kernel.set_buffer(1, output);
+  const uint32_t push_constants[] = {count, loop_iterations};
+  dispatch(device, kernel, std::as_bytes(std::span(push_constants)),
+           {count / kernel.reflection().local_size[0]});
+
+  DeviceFacts facts = judge(device, inputs, output.read_records<uint32_t>(output.size() / sizeof(uint32_t)));
+  facts.seconds = watch.seconds();
+  return facts;
+}
+
+}  // namespace eyeray::gpu

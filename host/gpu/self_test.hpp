@@ -1,0 +1,26 @@
+// Known answers, asked of a device before it renders: drivers that compute wrong exist, and say VK_SUCCESS.
+#pragma once
+
+#include <cstdint>
+
+#include "gpu/device.hpp"
+#include "gpu/disk_cache.hpp"
+#include "gpu/shader_source.hpp"
+
+namespace eyeray::gpu {
+
+// What was found out about a device that computes.
+struct DeviceFacts {
+  uint32_t loop_iterations = 0;  // made of 100 000 asked for
+  bool loop_cap = false;  // the driver ends loops early and says nothing (Mesa 22.3: after 65 535 iterations)
+  bool denormals_kept = false;    // not flushed to zero
+  bool infinities_kept = false;   // 1 / 0 = ∞
+  bool exact_arithmetic = false;  // + − × ÷ √ round as IEEE 754 says, and a·b + c rounds twice
+  double seconds = 0;             // that all this took
+};
+
+// Runs "selftest.comp.glsl" of `shaders`. Error (no_device) when integers, indices or the bits of a float
+// come out wrong.
+DeviceFacts self_test(Device& device, const SourceProvider& shaders, const DiskCache& cache);
+
+}  // namespace eyeray::gpu

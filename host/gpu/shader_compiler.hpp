@@ -1,0 +1,26 @@
+// GLSL to SPIR-V 1.3 for Vulkan 1.1, in this process, by glslang.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+#include "gpu/shader_source.hpp"
+
+namespace eyeray::gpu {
+
+struct CompiledShader {
+  std::vector<uint32_t> spirv;
+  std::vector<Diagnostic> warnings;
+};
+
+// Compiles a compute shader with `preamble` (#define lines) before its first line. InputError with everything
+// that is wrong, at its file, line and column (0 when the message names nothing that can be found in the
+// line).
+CompiledShader compile_shader(const ShaderSource& source, std::string_view preamble);
+
+// What the result depends on besides source and preamble.
+std::string compiler_version();
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,20 @@
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <cstdio>
+#include <string_view>
+
+#include "child.hpp"
+
+// doctest's tests; or, as `test_gpu child NAME`, one piece of work in a process of its own that ends as
+// eyeray would.
+int main(int argc, char** argv) {
+  if (argc == 3 && std::string_view(argv[1]) == "child") {
+    try {
+      eyeray::test::child_work(argv[2]);
+      return 0;
+    } catch (const eyeray::Error& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      return int(error.code());
+    }
+  }
+  return doctest::Context(argc, argv).run();
+}

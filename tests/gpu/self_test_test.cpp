@@ -1,0 +1,63 @@
+#include "support.hpp"
+#include "support/process.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// The self-test's shader with one piece of its text replaced: a driver that computes wrong.
+gpu::SourceProvider with_fault(const std::string& right, const std::string& wrong) {
+  std::string text = project_shader("selftest.comp.glsl").value();
+  const size_t at = text.find(right);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, right.size(), wrong);
+  return files({{"selftest.comp.glsl", text}});
+}
+
+}  // namespace
+
+TEST_CASE("the self-test says what this device is like") {
+  const TemporaryFolder folder;
+  const gpu::DiskCache cache(folder.path());
+  gpu::self_test(device(), project_shader, cache);
+  const gpu::DeviceFacts facts = gpu::self_test(device(), project_shader, cache);
+  MESSAGE(device().info().name, ", ", device().info().driver_version, ": ", facts.loop_iterations,
+          " iterations, denormals ", facts.denormals_kept, ", infinities ", facts.infinities_kept, ", exact ",
+          facts.exact_arithmetic, ", warm in ", facts.seconds * 1e3, " ms");
+  CHECK(facts.infinities_kept);
+  if (device().info().driver_version.starts_with("Mesa 22.3") && device().info().driver == "llvmpipe") {
+    CHECK(facts.loop_cap);
+    CHECK(facts.loop_iterations == 65535);
+    CHECK(facts.denormals_kept);
+    CHECK(facts.exact_arithmetic);
+  }
+  // Both caches have an entry, and are used.
+  CHECK(folder.names().size() == 2);
+}
+
+TEST_CASE("a driver that computes wrong is refused") {
+  const auto refusal = [](const std::string& right, const std::string& wrong) {
+    return error_of([&] { gpu::self_test(device(), with_fault(right, wrong), no_cache); });
+  };
+  const auto [text, code] = refusal("hash(i ^ inputs[i])", "hash(i + inputs[i])");
+  CHECK(code == ExitCode::no_device);
+  CHECK(contains(text, device().info().name));
+  CHECK(contains(text, "computes wrong: an integer hash"));
+  CHECK(contains(refusal("inputs[count - 1u - i]", "inputs[count - 1u]").first,
+                 "computes wrong: an indexed load"));
+  CHECK(contains(refusal("state * 1664525u", "state * 1664527u").first, "computes wrong: a loop's result"));
+}
+
+TEST_CASE("loose arithmetic is a fact, not a refusal") {
+  const auto facts = [](const std::string& right, const std::string& wrong) {
+    return gpu::self_test(device(), with_fault(right, wrong), no_cache);
+  };
+  CHECK(!facts("floatBitsToUint(a / b)", "floatBitsToUint(a * (1.0 / b))").exact_arithmetic);
+  CHECK(!facts("floatBitsToUint(sqrt(abs(a)))", "floatBitsToUint(sqrt(abs(a))) ^ 1u").exact_arithmetic);
+  CHECK(!facts("floatBitsToUint(a * b + c)", "floatBitsToUint(float(double(a) * double(b) + double(c)))")
+             .exact_arithmetic);
+  CHECK(!facts("denormal * 0.5", "denormal * 0.0").denormals_kept);
+  CHECK(!facts("1.0 / zero", "3.4e38").infinities_kept);
+  CHECK(facts("made < loop_iterations", "made < 1000u").loop_cap);
+}
