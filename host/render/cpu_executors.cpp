@@ -1,0 +1,94 @@
+// The twin and the reference as executors: a row of pixels is a piece of parallel work.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "core/parallel_for.hpp"
+#include "reference/renderer.hpp"
+#include "render/executors.hpp"
+#include "render/pack.hpp"
+#include "render/samples.hpp"
+#include "twin/twin.hpp"
+
+namespace eyeray {
+namespace {
+
+// Calls pixel(x, y, out[i]) for every pixel of the tile. Returns false when interrupted, between rows.
+template <typename Result, typename Pixel>
+bool for_each_pixel(const Rect& tile, std::span<Result> out, const Pixel& pixel) {
+  CHECK_EQ(out.size(), size_t(tile.pixels()));
+  std::atomic<bool> stopped = false;
+  parallel_for(0, tile.height, [&](int row) {
+    if (interrupted()) stopped = true;
+    if (stopped) return;
+    for (int column = 0; column < tile.width; ++column)
+      out[size_t(row) * size_t(tile.width) + size_t(column)] = pixel(tile.x + column, tile.y + row);
+  });
+  return !stopped;
+}
+
+class TwinExecutor final : public Executor {
+ public:
+  explicit TwinExecutor(const Scene& scene) : eye_(scene.camera.eye) {
+    times_.measure("pack", [&] { packed_ = pack(scene); });
+  }
+
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+    return times_.measure("trace", [&] {
+      return for_each_pixel(tile, out, [&](int x, int y) {
+        return to_sample(twin::sample(packed_, uint32_t(x), uint32_t(y), index));
+      });
+    });
+  }
+
+  void first_hits(const Rect& tile, std::span<FirstHit> out) override {
+    for_each_pixel(tile, out, [&](int x, int y) {
+      return to_first_hit(twin::first_hit(packed_, uint32_t(x), uint32_t(y)), eye_);
+    });
+  }
+
+  std::string description() const override {
+    return fmt::format("twin: the shaders as C++, {} threads", std::thread::hardware_concurrency());
+  }
+
+ private:
+  PackedScene packed_;
+  Vec3 eye_;
+};
+
+class ReferenceExecutor final : public Executor {
+ public:
+  explicit ReferenceExecutor(const Scene& scene) : renderer_(scene) {}
+
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+    return times_.measure("trace", [&] {
+      return for_each_pixel(tile, out, [&](int x, int y) { return renderer_.sample(x, y, index); });
+    });
+  }
+
+  void first_hits(const Rect& tile, std::span<FirstHit> out) override {
+    for_each_pixel(tile, out, [&](int x, int y) { return renderer_.first_hit(x, y); });
+  }
+
+  std::string description() const override {
+    return fmt::format("reference: float64, {} threads", std::thread::hardware_concurrency());
+  }
+
+ private:
+  reference::Renderer renderer_;
+};
+
+}  // namespace
+
+std::unique_ptr<Executor> make_twin_executor(const Scene& scene) {
+  return std::make_unique<TwinExecutor>(scene);
+}
+
+std::unique_ptr<Executor> make_reference_executor(const Scene& scene) {
+  return std::make_unique<ReferenceExecutor>(scene);
+}
+
+}  // namespace eyeray

@@ -1,0 +1,87 @@
+// One interface over the three executors, and the driver that turns samples into a picture.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/image.hpp"
+#include "core/pixel.hpp"
+#include "core/rect.hpp"
+#include "core/stopwatch.hpp"
+#include "scene/scene.hpp"
+
+namespace eyeray {
+
+enum class Backend { gpu, twin, reference };
+
+// Produces samples of pixels of one scene. Not thread-safe; parallel inside.
+class Executor {
+ public:
+  virtual ~Executor() = default;
+
+  // Sample `index` of every pixel of `tile`, row by row; out.size() = tile.pixels(). Returns false when
+  // interrupted, and `out` is then undefined.
+  virtual bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) = 0;
+  // What the ray through the centre of every pixel of `tile` meets; out.size() = tile.pixels().
+  virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
+
+  // For people: "gpu: llvmpipe (LLVM 15.0.6, 256 bits), driver …", "twin: 2 threads".
+  virtual std::string description() const = 0;
+  // Shader files read from ExecutorOptions::shader_folder, for a watcher.
+  virtual std::vector<std::filesystem::path> source_files() const { return {}; }
+  // Stages spent so far, construction included.
+  const StageTimes& times() const { return times_; }
+
+ protected:
+  StageTimes times_;
+};
+
+struct ExecutorOptions {
+  std::string device = "auto";          // auto | cpu | gpu | INDEX | part of a NAME
+  std::filesystem::path shader_folder;  // laid over the embedded shaders, file by file; empty: none
+  bool fast_math = false;               // gpu: let the driver contract and re-associate
+  std::string validation;               // gpu: "", "core" or "sync"
+  double timeout_seconds = 60;          // gpu: the longest wait for one dispatch
+  bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
+  std::string fault;                    // gpu, tests only: a fault to inject (docs/verification.md)
+};
+
+// Error (no_device) when `backend` is gpu and no device will do; InputError for a shader that does not
+// compile.
+std::unique_ptr<Executor> make_executor(Backend backend, const Scene& scene, const ExecutorOptions& options);
+
+// What was rendered.
+struct Rendering {
+  Image color;                       // of the crop; linear RGB, the mean of the samples
+  std::vector<FirstHit> first_hits;  // of the crop; empty unless asked for
+  Image hits;                        // 1 channel: surfaces struck a pixel, mean of the samples
+  uint64_t rays = 0;
+  uint64_t flagged_pixels = 0;  // pixels with any SampleFlag
+  uint32_t flags = 0;           // all SampleFlags seen
+  int samples_done = 0;
+  bool interrupted = false;
+  double seconds = 0;  // of sampling alone
+};
+
+struct Progress {
+  uint64_t samples_done = 0;
+  uint64_t samples_total = 0;
+  uint64_t rays = 0;
+  double seconds = 0;
+};
+
+struct RenderOptions {
+  Rect crop;  // in pixels of the whole picture; empty: all of it
+  bool first_hits = false;
+  std::function<void(const Progress&)> progress;  // called between tiles; may be empty
+};
+
+// Renders scene.image through `executor`. When interrupted, what was finished comes back, with `interrupted`
+// set.
+Rendering render(const Scene& scene, Executor& executor, const RenderOptions& options);
+
+}  // namespace eyeray

@@ -1,0 +1,223 @@
+// The shaders on a Vulkan device.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "gpu/command_list.hpp"
+#include "gpu/float_policy.hpp"
+#include "gpu/self_test.hpp"
+#include "gpu/spirv_cache.hpp"
+#include "render/executors.hpp"
+#include "render/fault.hpp"
+#include "render/pack.hpp"
+#include "render/samples.hpp"
+#include "render/shader_files.hpp"
+#include "render/specialise.hpp"
+
+namespace eyeray {
+namespace {
+
+// The most pixels of one dispatch: 32 MiB of samples.
+constexpr int64_t most_pixels = 1 << 20;
+// How long one dispatch should take: short enough for a desktop's GPU watchdog and for Ctrl-C.
+constexpr double wanted_seconds = 0.05;
+// Of the 65 535 iterations that a capped driver grants an invocation, what we count on (docs/lavapipe.md).
+constexpr uint64_t granted_iterations = 60000;
+
+// How many pixels to dispatch at a time, learnt from how long the last ones took.
+class DispatchSize {
+ public:
+  int rows(int width) const { return int(std::max<int64_t>(1, pixels_ / width)); }
+  void took(int64_t pixels, double seconds) {
+    const double wanted = double(pixels) * wanted_seconds / std::max(seconds, 1e-6);
+    pixels_ = std::clamp(int64_t(wanted), int64_t{64}, std::min(8 * pixels_, most_pixels));
+  }
+
+ private:
+  int64_t pixels_ = 1 << 14;
+};
+
+class GpuExecutor final : public Executor {
+ public:
+  GpuExecutor(const Scene& scene, const ExecutorOptions& options)
+      : options_(options),
+        fault_(options.fault),
+        eye_(scene.camera.eye),
+        device_(times_.measure("device", [&] { return open_device(options); })),
+        shaders_(options.shader_folder, "") {
+    facts_ = times_.measure("self-test", [&] {
+      return gpu::self_test(
+          device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_);
+    });
+    PackedScene packed = times_.measure("pack", [&] { return pack(scene); });
+    fault_.damage(packed);
+    specialise_for(packed);
+    times_.measure("upload", [&] { upload(packed); });
+    sample_kernel_ = make_kernel("");
+    check_validation();
+  }
+
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+    return dispatch_rows<shader::SampleResult>(*sample_kernel_, tile, index, [&](size_t first, auto results) {
+      for (size_t i = 0; i < results.size(); ++i) out[first + i] = to_sample(results[i]);
+      fault_.damage(out.subspan(first, results.size()));
+    });
+  }
+
+  void first_hits(const Rect& tile, std::span<FirstHit> out) override {
+    if (!hit_kernel_) hit_kernel_ = make_kernel("#define FIRST_HITS\n");
+    dispatch_rows<shader::HitResult>(*hit_kernel_, tile, 0, [&](size_t first, auto results) {
+      for (size_t i = 0; i < results.size(); ++i) out[first + i] = to_first_hit(results[i], eye_);
+    });
+  }
+
+  std::string description() const override {
+    const gpu::DeviceInfo& info = device_.info();
+    return fmt::format("gpu: {}, {}", info.name, info.driver_version);
+  }
+
+  std::vector<std::filesystem::path> source_files() const override {
+    return {shaders_.looked_for().begin(), shaders_.looked_for().end()};
+  }
+
+ private:
+  static gpu::Device open_device(const ExecutorOptions& options) {
+    gpu::DeviceOptions device;
+    device.select = options.device;
+    device.validation = options.validation;
+    device.timeout_seconds = options.timeout_seconds;
+    return gpu::Device(device);
+  }
+
+  void specialise_for(const PackedScene& packed) {
+    Specialisation specialisation;
+    specialisation.constants = options_.constants;
+    if (facts_.loop_cap) {
+      // One ray with its shadow rays must fit whatever came before it.
+      const uint64_t one_ray = (packed.primitives.size() + 1) * (packed.lights.size() + 1);
+      if (one_ray >= granted_iterations)
+        throw Error(ExitCode::no_device,
+                    "{} ends loops after 65 535 iterations and says nothing, too few for {} primitives and "
+                    "{} lights: use a "
+                    "newer driver, or --backend twin",
+                    device_.info().driver_version, packed.primitives.size(), packed.lights.size());
+      specialisation.loop_budget = uint32_t(granted_iterations - one_ray);
+    }
+    // A CPU driver splits the workgroups of a dispatch evenly over its threads.
+    if (device_.info().type == gpu::DeviceType::cpu)
+      group_stride_ = std::max(1u, std::thread::hardware_concurrency());
+    specialisation.group_stride = group_stride_;
+    shaders_ = ShaderFiles(options_.shader_folder, specialise(packed, specialisation));
+  }
+
+  void upload(const PackedScene& packed) {
+    add_buffer(BINDING_PRIMITIVES, "primitives", std::span(packed.primitives));
+    add_buffer(BINDING_VERTICES, "vertices", std::span(packed.vertices));
+    add_buffer(BINDING_MATERIALS, "materials", std::span(packed.materials));
+    add_buffer(BINDING_TEXTURES, "textures", std::span(packed.textures));
+    add_buffer(BINDING_MEDIA, "media", std::span(packed.media));
+    add_buffer(BINDING_LIGHTS, "lights", std::span(packed.lights));
+    add_buffer(BINDING_FRAME, "frame", std::span(&packed.frame, 1));
+  }
+
+  template <typename Record>
+  void add_buffer(uint32_t binding, const char* name, std::span<const Record> records) {
+    // A shader may look at the first record of an empty list in a branch that is masked out.
+    gpu::Buffer buffer(device_, std::max(records.size(), size_t{1}) * sizeof(Record), name);
+    if (!records.empty()) buffer.upload_records(records);
+    buffers_.emplace_back(binding, std::move(buffer));
+  }
+
+  std::unique_ptr<gpu::Kernel> make_kernel(const std::string& defines) {
+    const auto read = [&](std::string_view name) {
+      auto text = shaders_.read(name);
+      return text ? std::optional(fault_.damage(name, std::move(*text))) : std::nullopt;
+    };
+    std::vector<uint32_t> spirv = times_.measure("shader compile", [&] {
+      try {
+        return gpu::compile_shader(gpu::read_shader(read, "render.comp.glsl"), defines, cache_).spirv;
+      } catch (const InputError& error) {
+        std::vector<Diagnostic> diagnostics = error.diagnostics();
+        for (Diagnostic& d : diagnostics) d.position.file = shaders_.shown(d.position.file);
+        throw InputError(std::move(diagnostics));
+      }
+    });
+    if (!options_.fast_math && !fault_.is("contraction"))
+      spirv = gpu::strict_floats(spirv, device_.info().float_modes);
+    auto kernel = times_.measure("pipeline", [&] {
+      return std::make_unique<gpu::Kernel>(device_, spirv, "render.comp.glsl", cache_);
+    });
+    for (const auto& [binding, buffer] : buffers_) kernel->set_buffer(binding, buffer);
+    return kernel;
+  }
+
+  // Renders `tile` in bands of rows; take(first, results) gets each band's results and the index of its first
+  // pixel. Returns false when interrupted.
+  template <typename Result, typename Take>
+  bool dispatch_rows(gpu::Kernel& kernel, const Rect& tile, uint32_t index, const Take& take) {
+    for (int row = 0; row < tile.height;) {
+      if (interrupted()) return false;
+      const int height = std::min(dispatch_size_.rows(tile.width), tile.height - row);
+      const size_t pixels = size_t(height) * size_t(tile.width);
+      gpu::Buffer& output = output_for(pixels * sizeof(Result));
+      kernel.set_buffer(BINDING_OUTPUT, output);
+
+      shader::Dispatch push{};
+      push.tile = {uint32_t(tile.x) + fault_.shift(), uint32_t(tile.y + row), uint32_t(tile.width),
+                   uint32_t(height)};
+      push.sample_index.x = index;
+      const uint32_t blocks = (push.tile.z + 7) / 8 * ((push.tile.w + 7) / 8);
+      const uint32_t groups = (blocks + group_stride_ - 1) / group_stride_ * group_stride_;
+      const gpu::RunTime time =
+          gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)), {groups, 1, 1});
+      times_.add("dispatch", time.seconds);
+      dispatch_size_.took(int64_t(pixels), time.seconds);
+
+      times_.measure("read-back", [&] {
+        const std::byte* bytes = output.read(pixels * sizeof(Result)).data();
+        take(size_t(row) * size_t(tile.width), std::span(reinterpret_cast<const Result*>(bytes), pixels));
+      });
+      row += height;
+    }
+    check_validation();
+    return true;
+  }
+
+  gpu::Buffer& output_for(size_t bytes) {
+    if (!output_ || output_->size() < bytes) output_.emplace(device_, bytes, "results");
+    return *output_;
+  }
+
+  // Under --validate, any message is a failure.
+  void check_validation() const {
+    const std::vector<std::string> messages = device_.validation_messages();
+    if (!messages.empty())
+      throw Error(ExitCode::no_device, "{} messages of the validation layer, the first: {}", messages.size(),
+                  messages[0]);
+  }
+
+  ExecutorOptions options_;
+  Fault fault_;
+  Vec3 eye_;
+  gpu::DiskCache cache_ = gpu::DiskCache::of_user();
+  gpu::Device device_;
+  gpu::DeviceFacts facts_;
+  ShaderFiles shaders_;
+  uint32_t group_stride_ = 1;
+  std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
+  std::optional<gpu::Buffer> output_;
+  std::unique_ptr<gpu::Kernel> sample_kernel_;
+  std::unique_ptr<gpu::Kernel> hit_kernel_;
+  DispatchSize dispatch_size_;
+};
+
+}  // namespace
+
+std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOptions& options) {
+  return std::make_unique<GpuExecutor>(scene, options);
+}
+
+}  // namespace eyeray

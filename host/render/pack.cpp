@@ -1,0 +1,82 @@
+#include "render/pack.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "reference/media.hpp"
+#include "scene/camera_frame.hpp"
+
+namespace eyeray {
+namespace {
+
+// The offset of each kind's first primitive, and at the end their number.
+std::vector<uint32_t> kind_ranges(const std::vector<shader::Primitive>& primitives) {
+  std::vector<uint32_t> first(shader::SHAPE_KINDS + 1, uint32_t(primitives.size()));
+  for (uint32_t i = uint32_t(primitives.size()); i-- > 0;) first[primitives[i].head.x] = i;
+  for (uint32_t kind = shader::SHAPE_KINDS; kind-- > 0;) first[kind] = std::min(first[kind], first[kind + 1]);
+  for (uint32_t i = 0; i < primitives.size(); ++i) {
+    CHECK_LE(first[primitives[i].head.x], i);
+    CHECK_LT(i, first[primitives[i].head.x + 1]);
+  }
+  return first;
+}
+
+shader::Light pack_light(const Light& light, const Packer& packer) {
+  shader::Light record{};
+  const bool point = light.type == LightType::point;
+  record.head.x = point ? LIGHT_POINT : LIGHT_DIRECTIONAL;
+  record.head.y = light.falloff == Falloff::inverse_square ? FALLOFF_INVERSE_SQUARE : FALLOFF_NONE;
+  record.position = to_vec4(point ? packer.relative(light.position) : light.to_light);
+  record.intensity = to_vec4(light.intensity);
+  return record;
+}
+
+// The media around the eye as media.glsl stacks them: a byte each, the innermost lowest.
+uint32_t pack_media(const Scene& scene, const PackedScene& packed) {
+  const std::vector<int> media = reference::media_at(scene, scene.camera.eye);
+  if (media.size() > 4)
+    throw Error(ExitCode::bad_input, "the camera's eye is inside {} media at once; at most 4 may nest",
+                media.size());
+  uint32_t stack = 0;
+  for (const int material : media) stack = stack << 8 | packed.materials[size_t(material)].head.z;
+  return stack;
+}
+
+shader::Frame pack_frame(const Scene& scene, const PackedScene& packed) {
+  const CameraFrame camera = camera_frame(scene.camera, scene.image.width, scene.image.height);
+  shader::Frame frame{};
+  frame.image = {uint32_t(scene.image.width), uint32_t(scene.image.height), scene.render.seed,
+                 uint32_t(std::lround(std::sqrt(double(scene.image.samples))))};
+  frame.camera = {scene.camera.type == CameraType::orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE,
+                  scene.image.pattern == SamplePattern::jittered ? PATTERN_JITTERED : PATTERN_REGULAR,
+                  pack_media(scene, packed), uint32_t(scene.render.max_depth)};
+  frame.counts = {
+      uint32_t(packed.lights.size()), 0, uint32_t(scene.render.integrator),
+      scene.render.triangle_method == TriangleMethod::woop ? TRIANGLE_WOOP : TRIANGLE_MOLLER_TRUMBORE};
+  frame.right = to_vec4(camera.right, scene.render.min_weight);
+  frame.up = to_vec4(camera.up, 2.0 / scene.image.width);
+  frame.forward = to_vec4(camera.forward, 2.0 / scene.image.height);
+  frame.background = to_vec4(scene.render.background);
+  frame.ambient = to_vec4(scene.render.ambient);
+  return frame;
+}
+
+}  // namespace
+
+PackedScene pack(const Scene& scene) {
+  Packer packer(scene.camera.eye);
+  for (const auto& material : scene.materials) material->pack(packer);
+  for (const auto& shape : scene.shapes) shape->pack(packer);
+  PackedScene packed = std::move(packer.scene);
+
+  // A shadow ray looks at the primitive alone.
+  for (shader::Primitive& primitive : packed.primitives)
+    primitive.head.z = packed.materials[primitive.head.y].head.w;
+
+  for (const Light& light : scene.lights) packed.lights.push_back(pack_light(light, packer));
+  packed.kind_first = kind_ranges(packed.primitives);
+  packed.frame = pack_frame(scene, packed);
+  return packed;
+}
+
+}  // namespace eyeray

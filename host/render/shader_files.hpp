@@ -1,0 +1,32 @@
+// Where shader text comes from: made for the scene, a folder laid over the embedded shaders, or the embedded
+// shaders.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace eyeray {
+
+class ShaderFiles {
+ public:
+  // `folder`: laid over the embedded shaders, file by file; empty: none. Error (file_io) when it is not a
+  // folder.
+  ShaderFiles(std::filesystem::path folder, std::string scene_glsl);
+
+  // The text of "shapes/sphere.glsl", or nothing.
+  std::optional<std::string> read(std::string_view name);
+  // As people know it: the path in the folder if the text came from there, else the name.
+  std::string shown(const std::string& name) const;
+  // The paths in the folder that were looked for, there or not: what a watcher watches.
+  const std::set<std::filesystem::path>& looked_for() const { return looked_for_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::string scene_glsl_;
+  std::set<std::filesystem::path> looked_for_;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,138 @@
+#include "render/specialise.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+namespace eyeray {
+namespace {
+
+// Above this many records the code outgrows what it saves, and its compilation what a frame saves.
+constexpr size_t most_primitives = 24;
+constexpr size_t most_records = 96;
+
+struct Row {
+  std::string_view name;
+  uint32_t number;
+};
+#define ROW(name, number) {#name, number},
+constexpr Row shapes[] = {SHAPES(ROW)};
+constexpr Row materials[] = {MATERIALS(ROW)};
+constexpr Row integrators[] = {INTEGRATORS(ROW)};
+#undef ROW
+
+// The registry macro `list` with the rows that are used alone, and the files of `folder` that they need.
+template <size_t n>
+std::string registry(std::string_view list, std::string_view folder, const Row (&rows)[n],
+                     const std::set<uint32_t>& used) {
+  std::string includes;
+  std::string entries;
+  for (const Row& row : rows) {
+    if (!used.contains(row.number)) continue;
+    includes += fmt::format("#include \"{}/{}.glsl\"\n", folder, row.name);
+    entries += fmt::format(" X({}, {}u)", row.name, row.number);
+  }
+  return fmt::format("#define {}(X){}\n{}", list, entries, includes);
+}
+
+std::string literal(float x) {
+  return fmt::format("{:.9e}", x);
+}
+std::string literal(uint32_t x) {
+  return fmt::format("{}u", x);
+}
+std::string literal(const shader::vec4& v) {
+  return fmt::format("vec4({}, {}, {}, {})", literal(v.x), literal(v.y), literal(v.z), literal(v.w));
+}
+std::string literal(const shader::uvec4& v) {
+  return fmt::format("uvec4({}, {}, {}, {})", literal(v.x), literal(v.y), literal(v.z), literal(v.w));
+}
+std::string literal(const shader::Primitive& p) {
+  return fmt::format("Primitive({}, {}, {}, {})", literal(p.head), literal(p.a), literal(p.b), literal(p.c));
+}
+std::string literal(const shader::Material& m) {
+  return fmt::format("Material({}, {}, {})", literal(m.head), literal(m.textures), literal(m.parameters));
+}
+std::string literal(const shader::Texture& t) {
+  return fmt::format("Texture({}, {}, {})", literal(t.even), literal(t.odd), literal(t.frequency));
+}
+std::string literal(const shader::Medium& m) {
+  return fmt::format("Medium({})", literal(m.absorption_ior));
+}
+std::string literal(const shader::Light& l) {
+  return fmt::format("Light({}, {}, {})", literal(l.head), literal(l.position), literal(l.intensity));
+}
+
+// A loader that chooses among constants. A driver that runs both sides of every branch selects between
+// registers faster than it gathers from memory; where all records agree, nothing is left to select.
+template <typename Record>
+std::string constant_loader(std::string_view type, std::string_view name,
+                            const std::vector<Record>& records) {
+  std::string text = fmt::format("{0} load_{1}(uint i) {{\n  {0} r = {2};\n", type, name,
+                                 literal(records.empty() ? Record{} : records[0]));
+  for (size_t i = 1; i < records.size(); ++i)
+    text += fmt::format("  if (i == {}u) r = {};\n", i, literal(records[i]));
+  return text + "  return r;\n}\n";
+}
+
+// The whole scene as constants, and the list of primitives that traverse.glsl unrolls.
+std::string constants(const PackedScene& scene) {
+  std::string text = constant_loader("vec4", "vertex", scene.vertices) +
+                     constant_loader("Material", "material", scene.materials) +
+                     constant_loader("Texture", "texture", scene.textures) +
+                     constant_loader("Medium", "medium", scene.media) +
+                     constant_loader("Light", "light", scene.lights) +
+                     constant_loader("Primitive", "primitive", scene.primitives);
+  text += "#define SCENE_PRIMITIVES(X)";
+  for (size_t i = 0; i < scene.primitives.size(); ++i)
+    text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[scene.primitives[i].head.x].name, i, i);
+  return text + "\n";
+}
+
+bool is_small(const PackedScene& scene) {
+  return scene.primitives.size() <= most_primitives && scene.vertices.size() + scene.materials.size() +
+                                                               scene.textures.size() + scene.media.size() +
+                                                               scene.lights.size() <=
+                                                           most_records;
+}
+
+}  // namespace
+
+std::string specialise(const PackedScene& scene, const Specialisation& options) {
+  std::set<uint32_t> shapes_used;
+  for (const shader::Primitive& p : scene.primitives) shapes_used.insert(p.head.x);
+  std::set<uint32_t> materials_used;
+  for (const shader::Primitive& p : scene.primitives) materials_used.insert(scene.materials[p.head.y].head.x);
+  const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
+                                   [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
+  const bool media = scene.media.size() > 1;
+  const bool unrolled = options.constants && is_small(scene);
+
+  std::string text = "// Made for this scene by render/specialise.cpp.\n";
+  const auto define = [&](std::string_view name, const auto& value) {
+    text += fmt::format("#define {} {}\n", name, value);
+  };
+  define("LIGHT_COUNT", fmt::format("{}u", scene.lights.size()));
+  define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.counts.w));
+  define("HAS_CHECKER", int(checker));
+  define("HAS_MEDIA", int(media));
+  // Only where a ray splits in two does a child wait, and one a level at most.
+  define("WHITTED_STACK", media ? scene.frame.camera.w : 0u);
+  define("TRACE_ITERATIONS", fmt::format("{}u", unrolled ? 0 : scene.primitives.size()));
+  if (options.loop_budget > 0) define("LOOP_BUDGET", fmt::format("{}u", options.loop_budget));
+  define("GROUP_STRIDE", fmt::format("{}u", options.group_stride));
+  for (const Row& shape : shapes) {
+    define(fmt::format("FIRST_{}", shape.name), fmt::format("{}u", scene.kind_first[shape.number]));
+    define(fmt::format("END_{}", shape.name), fmt::format("{}u", scene.kind_first[shape.number + 1]));
+  }
+  text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_END(name) END_##name\n";
+  text += unrolled ? constants(scene) : "#include \"loaders.glsl\"\n";
+  text += registry("SHAPES", "shapes", shapes, shapes_used);
+  text += registry("MATERIALS", "materials", materials, materials_used);
+  text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.counts.z});
+  return text;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,19 @@
+// Made for one scene: the text of scene.glsl, with which the entries compile only what the scene has.
+#pragma once
+
+#include <string>
+
+#include "records/packer.hpp"
+
+namespace eyeray {
+
+struct Specialisation {
+  bool constants = true;  // compile a small scene in, instead of loading it
+  uint32_t loop_budget =
+      0;  // iterations an invocation may make before it gives up with FLAG_LOOP_BUDGET; 0: no cap
+  uint32_t group_stride = 1;  // render.comp.glsl: runs of workgroups
+};
+
+std::string specialise(const PackedScene& scene, const Specialisation& options);
+
+}  // namespace eyeray

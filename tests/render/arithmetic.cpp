@@ -1,0 +1,42 @@
+// The shaders use only the arithmetic that GPU and twin agree on to the last bit.
+#include <set>
+
+#include "gpu/spirv.hpp"
+#include "random_scene.hpp"
+#include "support.hpp"
+
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+TEST_CASE("no entry contains an operation whose rounding is left to the driver") {
+  // GLSL.std.450: FAbs, Floor, Sqrt, and nothing else.
+  const std::set<uint32_t> allowed_extended = {4, 8, 31};
+  constexpr uint32_t op_ext_inst = 12;
+  constexpr uint32_t op_dot = 148;
+  test::Random random(1);
+  for (const bool constants : {true, false}) {
+    for (const uint32_t integrator : {0u, 1u}) {
+      PackedScene scene = test::random_scene(random, 3);
+      scene.frame.counts.z = integrator;
+      scene.frame.camera.w = 8;
+      scene.media.push_back({});
+      scene.lights.push_back({});
+      scene.textures[0].even.w = TEXTURE_CHECKER;
+      for (const uint32_t material : {0u, 1u, 2u}) {
+        scene.materials[0].head.x = material;
+        Specialisation specialisation;
+        specialisation.constants = constants;
+        int instructions = 0;
+        gpu::for_each_instruction(test::compile_entry("render.comp.glsl", scene, specialisation),
+                                  [&](uint32_t opcode, std::span<const uint32_t> instruction) {
+                                    ++instructions;
+                                    CHECK(opcode != op_dot);
+                                    if (opcode == op_ext_inst)
+                                      CHECK(allowed_extended.contains(instruction[4]));
+                                  });
+        CHECK(instructions > 1000);
+      }
+    }
+  }
+}
