@@ -1,0 +1,197 @@
+#include "compare/against_reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/parallel_for.hpp"
+
+namespace eyeray {
+
+namespace {
+
+// How a pixel came out, the worse the greater.
+enum class Outcome : uint8_t { equal, matching, explained, unexplained, unexamined };
+
+struct Judgement {
+  Outcome outcome = Outcome::equal;
+  Cause cause = Cause::silhouette;  // of an explained pixel
+  double excess = 0;
+};
+
+constexpr int64_t always_allowed = 4;   // so that a small crop around an edge can pass
+constexpr size_t most_examined = 4096;  // of a gate that has failed already
+
+bool equal(const Vec3& value, const Vec3& reference) {
+  return glm::vec3(value) == glm::vec3(reference);
+}
+bool equal(const FirstHit& value, const FirstHit& reference) {
+  return value.primitive == reference.primitive && value.material == reference.material &&
+         float(value.t) == float(reference.t) && equal(value.normal, reference.normal);
+}
+
+// Both frames and what was found so far, one judgement a pixel and gate.
+class Judge {
+ public:
+  Judge(const Frame& value, const Frame& reference, const Tolerances& tolerances)
+      : value_(value),
+        reference_(reference),
+        tolerances_(tolerances),
+        colors_(size_t(value.area.pixels())),
+        first_hits_(size_t(value.area.pixels())) {}
+
+  // Decides the pixels that need no explanation; the others are left `unexamined`.
+  void compare_values() {
+    parallel_for(0, value_.area.height, [&](int y) {
+      for (int x = 0; x < value_.area.width; ++x) {
+        const WorstPixel p = at(index(x, y));
+        colors_[index(x, y)] =
+            judge(color_excess(p.value, p.reference, tolerances_.color), equal(p.value, p.reference));
+        first_hits_[index(x, y)] =
+            judge(hit_excess(p.value_hit, p.reference_hit, tolerances_), equal(p.value_hit, p.reference_hit));
+      }
+    });
+  }
+
+  // Looks into the pixels that differ, of each gate all of them, or an even choice when they are too many to
+  // pass.
+  void explain(const Reference& probe) {
+    std::vector<size_t> pixels = choose(colors_);
+    const std::vector<size_t> more = choose(first_hits_);
+    pixels.insert(pixels.end(), more.begin(), more.end());
+    std::sort(pixels.begin(), pixels.end());
+    pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+
+    parallel_for(0, int(pixels.size()), [&](int n) {
+      const size_t i = pixels[size_t(n)];
+      const WorstPixel p = at(i);
+      const Neighbourhood neighbourhood(probe, p.pixel);
+      settle(colors_[i], neighbourhood.explains(p.value, tolerances_), neighbourhood.cause_of_color());
+      settle(first_hits_[i], neighbourhood.explains(p.value_hit, tolerances_),
+             neighbourhood.cause_of_first_hit());
+    });
+  }
+
+  Tally count_colors() const { return tally(colors_); }
+  Tally count_first_hits() const { return tally(first_hits_); }
+
+ private:
+  size_t index(int x, int y) const { return size_t(y) * size_t(value_.area.width) + size_t(x); }
+  int64_t cap() const {
+    return std::max(always_allowed,
+                    int64_t(std::ceil(tolerances_.max_explained * double(value_.area.pixels()))));
+  }
+
+  // Both frames' values of a pixel.
+  WorstPixel at(size_t i) const {
+    const int x = int(i) % value_.area.width, y = int(i) / value_.area.width;
+    WorstPixel p;
+    p.pixel = {value_.area.x + x, value_.area.y + y};
+    p.value = color_at(value_.color, x, y);
+    p.reference = color_at(reference_.color, x, y);
+    p.value_hit = value_.first_hit(x, y);
+    p.reference_hit = reference_.first_hit(x, y);
+    return p;
+  }
+
+  static Judgement judge(double excess, bool equal) {
+    if (!(excess <= 1)) return {Outcome::unexamined, {}, excess};
+    return {equal ? Outcome::equal : Outcome::matching, {}, excess};
+  }
+
+  std::vector<size_t> choose(const std::vector<Judgement>& judgements) const {
+    std::vector<size_t> different;
+    for (size_t i = 0; i < judgements.size(); ++i) {
+      if (judgements[i].outcome == Outcome::unexamined) different.push_back(i);
+    }
+    const size_t count = different.size();
+    if (int64_t(count) <= cap() || count <= most_examined) return different;
+    std::vector<size_t> chosen(most_examined);
+    for (size_t n = 0; n < most_examined; ++n) chosen[n] = different[n * count / most_examined];
+    return chosen;
+  }
+
+  static void settle(Judgement& judgement, bool explained, Cause cause) {
+    if (judgement.outcome != Outcome::unexamined) return;
+    judgement.outcome = explained ? Outcome::explained : Outcome::unexplained;
+    judgement.cause = cause;
+  }
+
+  Tally tally(const std::vector<Judgement>& judgements) const {
+    Tally tally;
+    tally.pixels = int64_t(judgements.size());
+    tally.may_be_explained = cap();
+
+    // Count, and find the worst; an unexamined pixel stands for the report only where no unexplained one
+    // does.
+    const auto weight = [](const Judgement& j) {
+      const int rank = j.outcome == Outcome::unexplained  ? 4
+                       : j.outcome == Outcome::unexamined ? 3
+                                                          : int(j.outcome);
+      return std::pair(rank, j.excess);
+    };
+    size_t worst = 0;
+    for (size_t i = 0; i < judgements.size(); ++i) {
+      switch (judgements[i].outcome) {
+        case Outcome::equal:
+          ++tally.equal;
+          break;
+        case Outcome::matching:
+          ++tally.matching;
+          break;
+        case Outcome::explained:
+          ++tally.explained[size_t(judgements[i].cause)];
+          break;
+        case Outcome::unexplained:
+          ++tally.unexplained;
+          break;
+        case Outcome::unexamined:
+          ++tally.unexamined;
+          break;
+      }
+      if (weight(judgements[i]) > weight(judgements[worst])) worst = i;
+    }
+
+    tally.worst = at(worst);
+    tally.worst.excess = judgements[worst].excess;
+    tally.worst.seam = first_seam(tally.worst, tolerances_);
+    return tally;
+  }
+
+  const Frame& value_;
+  const Frame& reference_;
+  const Tolerances& tolerances_;
+  std::vector<Judgement> colors_;
+  std::vector<Judgement> first_hits_;
+};
+
+}  // namespace
+
+int64_t Tally::explained_pixels() const {
+  return std::accumulate(explained.begin(), explained.end(), int64_t{0});
+}
+
+int64_t Tally::capped_pixels() const {
+  return explained_pixels() - explained[size_t(Cause::grazing)];
+}
+
+bool Tally::passes() const {
+  return pixels > 0 && unexplained == 0 && unexamined == 0 && capped_pixels() <= may_be_explained;
+}
+
+ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference, const Reference& probe,
+                                           const Tolerances& tolerances) {
+  tolerances.check();
+  ReferenceComparison result;
+  result.incomparable = why_incomparable(value, reference);
+  if (!result.incomparable.empty()) return result;
+
+  Judge judge(value, reference, tolerances);
+  judge.compare_values();
+  judge.explain(probe);
+  result.colors = judge.count_colors();
+  result.first_hits = judge.count_first_hits();
+  return result;
+}
+
+}  // namespace eyeray

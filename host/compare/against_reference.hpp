@@ -1,0 +1,42 @@
+// Gates B and C: colours and first hits agree with the reference, pixel by pixel, or the reference explains
+// why not.
+#pragma once
+
+#include <array>
+
+#include "compare/explain.hpp"
+
+namespace eyeray {
+
+// How the pixels of one gate came out; the counts add up to `pixels`.
+struct Tally {
+  int64_t pixels = 0;
+  int64_t equal = 0;     // to the last bit of float32
+  int64_t matching = 0;  // within tolerance
+  std::array<int64_t, cause_count> explained{};
+  int64_t unexplained = 0;
+  // When more pixels differ than may be explained at all, the gate has failed, and only a few thousand of
+  // them, spread over the picture, are looked into; these are the rest.
+  int64_t unexamined = 0;
+  int64_t may_be_explained = 0;  // the cap on capped_pixels()
+  WorstPixel worst;  // the largest error among the unexplained; else the explained; else the matching
+
+  int64_t explained_pixels() const;
+  // Those that count against the cap: all but the grazing ones, where the reference does not jump but runs
+  // steeply, along whole rows of a horizon.
+  int64_t capped_pixels() const;
+  bool passes() const;
+};
+
+struct ReferenceComparison {
+  std::string incomparable;  // why nothing was compared; empty when everything was
+  Tally colors;              // gate B
+  Tally first_hits;          // gate C
+
+  bool passes() const { return incomparable.empty() && colors.passes() && first_hits.passes(); }
+};
+
+ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference, const Reference& probe,
+                                           const Tolerances& tolerances = {});
+
+}  // namespace eyeray

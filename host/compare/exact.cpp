@@ -1,0 +1,111 @@
+#include "compare/exact.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr int64_t max_bound = 64;
+
+bool same_bits(float a, float b) {
+  return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+}
+bool same_bits(double a, double b) {
+  return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
+}
+bool same_bits(const Vec3& a, const Vec3& b) {
+  return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
+}
+
+bool same_ids(const FirstHit& a, const FirstHit& b) {
+  return a.primitive == b.primitive && a.material == b.material;
+}
+bool same_bits(const FirstHit& a, const FirstHit& b) {
+  return same_ids(a, b) && same_bits(a.t, b.t) && same_bits(a.position, b.position) &&
+         same_bits(a.normal, b.normal) && same_bits(a.uv.x, b.uv.x) && same_bits(a.uv.y, b.uv.y);
+}
+
+Seam first_seam(const FirstHit& a, const FirstHit& b, bool colors_differ) {
+  if (a.primitive != b.primitive) return Seam::primitive;
+  if (!same_bits(a.t, b.t)) return Seam::t;
+  if (!same_bits(a.position, b.position) || !same_bits(a.normal, b.normal) || !same_bits(a.uv.x, b.uv.x) ||
+      !same_bits(a.uv.y, b.uv.y)) {
+    return Seam::normal;
+  }
+  if (a.material != b.material) return Seam::material;
+  return colors_differ ? Seam::color : Seam::hits;
+}
+
+std::array<double, 9> values(const FirstHit& hit) {
+  return {hit.t,        hit.position.x, hit.position.y, hit.position.z, hit.normal.x,
+          hit.normal.y, hit.normal.z,   hit.uv.x,       hit.uv.y};
+}
+
+}  // namespace
+
+int64_t ulp_distance(float a, float b) {
+  if (std::isnan(a) || std::isnan(b)) {
+    return std::isnan(a) && std::isnan(b) ? 0 : std::numeric_limits<int64_t>::max();
+  }
+  // Sign and magnitude to an order: −0 and +0 are neighbours' neighbours at distance 0.
+  const auto order = [](float x) {
+    const uint32_t bits = std::bit_cast<uint32_t>(x);
+    const int64_t magnitude = bits & 0x7fffffffu;
+    return bits >> 31 ? -magnitude : magnitude;
+  };
+  return std::abs(order(a) - order(b));
+}
+
+bool ExactComparison::passes(int64_t ulp) const {
+  CHECK_LE(0, ulp);
+  CHECK_LE(ulp, max_bound);
+  if (!incomparable.empty() || pixels <= 0 || different_ids > 0 || rays != other_rays) return false;
+  return ulp == 0 ? different_pixels == 0 : max_ulp <= ulp;
+}
+
+ExactComparison compare_exactly(const Frame& value, const Frame& other) {
+  ExactComparison result;
+  result.rays = value.rays;
+  result.other_rays = other.rays;
+  result.incomparable = why_incomparable(value, other);
+  if (!result.incomparable.empty()) return result;
+
+  for (int y = 0; y < value.area.height; ++y) {
+    for (int x = 0; x < value.area.width; ++x) {
+      ++result.pixels;
+      const FirstHit &hit = value.first_hit(x, y), &other_hit = other.first_hit(x, y);
+      const Vec3 color = color_at(value.color, x, y), other_color = color_at(other.color, x, y);
+      const float hits = value.hits.pixel(x, y)[0], other_hits = other.hits.pixel(x, y)[0];
+
+      // Count what differs.
+      const bool colors_differ = !same_bits(color, other_color);
+      const bool first_hits_differ = !same_bits(hit, other_hit);
+      if (!colors_differ && !first_hits_differ && same_bits(hits, other_hits)) continue;
+      ++result.different_pixels;
+      result.different_colors += colors_differ;
+      result.different_first_hits += first_hits_differ;
+      result.different_ids += !same_ids(hit, other_hit);
+
+      // Measure how far.
+      int64_t ulp = ulp_distance(hits, other_hits);
+      for (int c = 0; c < 3; ++c) ulp = std::max(ulp, ulp_distance(float(color[c]), float(other_color[c])));
+      const auto a = values(hit), b = values(other_hit);
+      for (size_t i = 0; i < a.size(); ++i) ulp = std::max(ulp, ulp_distance(float(a[i]), float(b[i])));
+      if (result.worst.seam == Seam::none || ulp > result.max_ulp) {
+        result.worst = {
+            {value.area.x + x, value.area.y + y},     color, other_color, hit, other_hit, double(ulp),
+            first_seam(hit, other_hit, colors_differ)};
+      }
+      result.max_ulp = std::max(result.max_ulp, ulp);
+    }
+  }
+  return result;
+}
+
+}  // namespace eyeray

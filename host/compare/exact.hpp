@@ -1,0 +1,30 @@
+// Gate A: two executors of the same float32 source agree to the last bit.
+#pragma once
+
+#include "compare/frame.hpp"
+#include "compare/seam.hpp"
+
+namespace eyeray {
+
+struct ExactComparison {
+  std::string incomparable;      // why nothing was compared; empty when everything was
+  int64_t pixels = 0;            // compared
+  int64_t different_pixels = 0;  // with any bit that differs, in colour, first hit or hit count
+  int64_t different_colors = 0;  // of them, with another colour
+  int64_t different_first_hits = 0;
+  int64_t different_ids = 0;  // of those, with another primitive or material: no ULP bound forgives these
+  int64_t max_ulp = 0;        // the largest distance of two values, in units in the last place of float32
+  uint64_t rays = 0, other_rays = 0;
+  WorstPixel worst;  // the pixel with the largest distance; x = −1 when there is none
+
+  // Whether every bit agrees, or, with `ulp` > 0 (hardware whose sqrt or division is looser), every value is
+  // that near and every id agrees.
+  bool passes(int64_t ulp) const;
+};
+
+ExactComparison compare_exactly(const Frame& value, const Frame& other);
+
+// The number of float32 values from a to b; the greatest int64 when just one of them is NaN.
+int64_t ulp_distance(float a, float b);
+
+}  // namespace eyeray

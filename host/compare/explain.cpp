@@ -1,0 +1,132 @@
+#include "compare/explain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eyeray {
+
+namespace {
+
+constexpr int radii = 4;
+constexpr int angles = 16;
+constexpr double radius_step = 0.001;  // pixels
+// A rounding error grows from surface to surface: the neighbourhood of a path grows with the surfaces it
+// strikes, to this at most.
+constexpr double most_reach = 8;
+
+// Whether low ≤ value ≤ high, each bound widened; false when any of them is NaN.
+bool within(double value, double low, double high, double below, double above) {
+  return value >= low - below && value <= high + above;
+}
+
+}  // namespace
+
+const char* name(Cause cause) {
+  switch (cause) {
+    case Cause::silhouette:
+      return "silhouette";
+    case Cause::texture_edge:
+      return "texture edge";
+    case Cause::refraction_branch:
+      return "refraction branch";
+    case Cause::shadow_edge:
+      return "shadow edge";
+    case Cause::grazing:
+      return "grazing";
+  }
+  return "unknown";
+}
+
+Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel) {
+  probes_.push_back(reference(pixel.x, pixel.y, Vec2(0.0)));
+  const double reach = std::min(most_reach, 1 + probes_.front().hits_per_sample / 8);
+  for (int ring = 1; ring <= radii; ++ring) {
+    for (int step = 0; step < angles; ++step) {
+      // Each ring is turned a little, so that 64 directions are looked at, none of them along an axis only.
+      const double angle = 2 * M_PI * (step + (ring - 1.0) / radii) / angles;
+      probes_.push_back(
+          reference(pixel.x, pixel.y, ring * radius_step * reach * Vec2(std::cos(angle), std::sin(angle))));
+    }
+  }
+}
+
+bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) const {
+  // Each sample may fall on either side of its own edges, whatever the others do: the bounds of the mean are
+  // the means of the bounds.
+  const size_t samples = std::max(probes_.front().sample_colors.size(), size_t{1});
+  const auto color = [&](const Probe& probe, size_t sample) {
+    return probe.sample_colors.empty() ? probe.color : probe.sample_colors[sample];
+  };
+  Vec3 low(0.0), high(0.0);
+  for (size_t i = 0; i < samples; ++i) {
+    Vec3 least = color(probes_.front(), i), greatest = least;
+    for (const Probe& probe : probes_) {
+      least = glm::min(least, color(probe, i));
+      greatest = glm::max(greatest, color(probe, i));
+    }
+    low += least / double(samples);
+    high += greatest / double(samples);
+  }
+  for (int c = 0; c < 3; ++c) {
+    const double below = tolerances.color * std::max(1.0, std::abs(low[c]));
+    const double above = tolerances.color * std::max(1.0, std::abs(high[c]));
+    if (!within(value[c], low[c], high[c], below, above)) return false;
+  }
+  return true;
+}
+
+bool Neighbourhood::explains(const FirstHit& value, const Tolerances& tolerances) const {
+  // Gather what the neighbourhood knows of the primitive that was hit.
+  double t_low = 0, t_high = 0;
+  Vec3 normal_low(0.0), normal_high(0.0);
+  bool found = false;
+  bool silhouette = false;
+  for (const Probe& probe : probes_) {
+    const FirstHit& hit = probe.first_hit;
+    if (hit.primitive != value.primitive || hit.material != value.material) {
+      silhouette = true;
+      continue;
+    }
+    t_low = found ? std::min(t_low, hit.t) : hit.t;
+    t_high = found ? std::max(t_high, hit.t) : hit.t;
+    normal_low = found ? glm::min(normal_low, hit.normal) : hit.normal;
+    normal_high = found ? glm::max(normal_high, hit.normal) : hit.normal;
+    found = true;
+  }
+  if (!found) return false;
+
+  if (value.primitive < 0) return std::isinf(value.t) && value.t > 0;
+  // Towards a rim both run like a square root: it may lie as far beyond the last probe as the probes are
+  // apart.
+  const double beyond = silhouette ? 1 : 0;
+  const double t_beyond = beyond * (t_high - t_low);
+  if (!within(value.t, t_low, t_high, t_beyond + tolerances.t * t_low, t_beyond + tolerances.t * t_high))
+    return false;
+  for (int c = 0; c < 3; ++c) {
+    const double margin = beyond * (normal_high[c] - normal_low[c]) + tolerances.normal;
+    if (!within(value.normal[c], normal_low[c], normal_high[c], margin, margin)) return false;
+  }
+  return true;
+}
+
+Cause Neighbourhood::cause_of_color() const {
+  const auto varies = [&](auto member) {
+    return std::any_of(probes_.begin(), probes_.end(),
+                       [&](const Probe& probe) { return probe.*member != probes_.front().*member; });
+  };
+  if (varies(&Probe::first_surfaces)) return Cause::silhouette;
+  if (varies(&Probe::hits)) return Cause::refraction_branch;
+  if (varies(&Probe::first_colors)) return Cause::texture_edge;
+  const bool direct =
+      std::all_of(probes_.begin(), probes_.end(), [](const Probe& probe) { return probe.direct; });
+  return direct ? Cause::shadow_edge : Cause::refraction_branch;
+}
+
+Cause Neighbourhood::cause_of_first_hit() const {
+  const int32_t primitive = probes_.front().first_hit.primitive;
+  const bool same = std::all_of(probes_.begin(), probes_.end(),
+                                [&](const Probe& probe) { return probe.first_hit.primitive == primitive; });
+  return same ? Cause::grazing : Cause::silhouette;
+}
+
+}  // namespace eyeray

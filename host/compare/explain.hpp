@@ -1,0 +1,55 @@
+// Why a pixel may differ from the reference: the reference itself jumps there. It is rendered again at 64
+// offsets of 0.001–0.004 pixels, and a value within what those say is explained.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "compare/tolerance.hpp"
+
+namespace eyeray {
+
+// The reference at one pixel, every ray of it moved by a fraction of a pixel.
+struct Probe {
+  Vec3 color{0.0};                  // the mean of the samples
+  std::vector<Vec3> sample_colors;  // of each sample, where there are several
+  uint64_t hits = 0;                // surfaces struck, all samples together
+  double hits_per_sample = 0;
+  uint64_t first_surfaces = 0;  // a fingerprint of which primitive each sample's eye ray meets
+  uint64_t first_colors = 0;    // a fingerprint of the surface's own colour where each meets it
+  bool direct = true;           // nothing is seen by reflection or refraction
+  FirstHit first_hit;           // of the pixel's centre
+};
+
+// (x, y): a pixel of the whole picture; called from many threads at once.
+using Reference = std::function<Probe(int x, int y, const Vec2& shift)>;
+
+enum class Cause {
+  silhouette,         // another primitive is met first
+  texture_edge,       // the surface's own colour jumps
+  refraction_branch,  // rays reflected or refracted on the way meet something else
+  shadow_edge,        // none of these: it is the light that changes
+  grazing,  // of a first hit alone: the same surface, met at so small an angle that t or the normal races
+};
+inline constexpr int cause_count = 5;
+const char* name(Cause cause);
+
+// The reference in the neighbourhood of one pixel.
+class Neighbourhood {
+ public:
+  Neighbourhood(const Reference& reference, Pixel pixel);
+
+  // Whether `value` lies within [min, max] of the neighbourhood, each bound widened by the tolerance.
+  bool explains(const Vec3& value, const Tolerances& tolerances) const;
+  // Whether `value` is a hit of a primitive that the neighbourhood meets, with t and normal within the bounds
+  // found there.
+  bool explains(const FirstHit& value, const Tolerances& tolerances) const;
+  // What changes the colour across the neighbourhood, and what changes the first hit.
+  Cause cause_of_color() const;
+  Cause cause_of_first_hit() const;
+
+ private:
+  std::vector<Probe> probes_;
+};
+
+}  // namespace eyeray

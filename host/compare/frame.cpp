@@ -1,0 +1,39 @@
+#include "compare/frame.hpp"
+
+#include <fmt/format.h>
+
+namespace eyeray {
+
+namespace {
+
+// Whether every part of a frame has the size that its area says.
+bool whole(const Frame& frame) {
+  const Rect& area = frame.area;
+  return frame.color.width() == area.width && frame.color.height() == area.height &&
+         frame.color.channels() == 3 && frame.hits.width() == area.width &&
+         frame.hits.height() == area.height && frame.hits.channels() == 1 &&
+         int64_t(frame.first_hits.size()) == area.pixels();
+}
+
+std::string describe(const Rect& area) {
+  return fmt::format("{}×{} at {},{}", area.width, area.height, area.x, area.y);
+}
+
+}  // namespace
+
+std::string why_incomparable(const Frame& value, const Frame& reference) {
+  if (reference.area.pixels() <= 0) return "there is no pixel to compare";
+  if (!(value.area == reference.area)) {
+    return fmt::format("wrong size: {} against {}", describe(value.area), describe(reference.area));
+  }
+  for (const Frame* frame : {&value, &reference}) {
+    if (!whole(*frame)) {
+      return fmt::format("wrong size: a frame of {} holds a picture of {}×{} and {} first hits",
+                         describe(frame->area), frame->color.width(), frame->color.height(),
+                         frame->first_hits.size());
+    }
+  }
+  return "";
+}
+
+}  // namespace eyeray

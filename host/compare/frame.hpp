@@ -1,0 +1,44 @@
+// One executor's answer for one picture: what is compared.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/image.hpp"
+#include "core/pixel.hpp"
+#include "core/rect.hpp"
+
+namespace eyeray {
+
+struct Frame {
+  Rect area;                         // the pixels of the whole picture that it holds
+  Image color;                       // linear RGB, the mean of the samples
+  std::vector<FirstHit> first_hits;  // row by row
+  Image hits;                        // 1 channel: surfaces struck, the mean of the samples
+  uint64_t rays = 0;
+  uint64_t flagged_pixels = 0;  // pixels with any SampleFlag
+  uint32_t flags = 0;           // all SampleFlags seen
+
+  const FirstHit& first_hit(int x, int y) const {
+    return first_hits[size_t(y) * size_t(area.width) + size_t(x)];
+  }
+};
+
+// A pixel of the whole picture.
+struct Pixel {
+  int x = -1;
+  int y = -1;
+  friend bool operator==(const Pixel&, const Pixel&) = default;
+};
+
+// The colour of pixel (x, y) of a 1- or 3-channel image.
+inline Vec3 color_at(const Image& image, int x, int y) {
+  const float* p = image.pixel(x, y);
+  return image.channels() == 3 ? Vec3(double(p[0]), double(p[1]), double(p[2])) : Vec3(double(p[0]));
+}
+
+// Why two frames cannot be compared at all ("its picture is 95×72, not 96×72"); empty when they can.
+std::string why_incomparable(const Frame& value, const Frame& reference);
+
+}  // namespace eyeray

@@ -1,0 +1,43 @@
+#include "compare/plane.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/parallel_for.hpp"
+
+namespace eyeray {
+
+Kernel gaussian(double sigma, int radius) {
+  Kernel kernel(size_t(2 * radius + 1));
+  for (int x = -radius; x <= radius; ++x) kernel[size_t(x + radius)] = std::exp(-x * x / (2 * sigma * sigma));
+  const double sum = std::accumulate(kernel.begin(), kernel.end(), 0.0);
+  for (double& weight : kernel) weight /= sum;
+  return kernel;
+}
+
+Plane convolve(const Plane& plane, const Kernel& horizontal, const Kernel& vertical) {
+  const int width = plane.width, height = plane.height;
+  Plane rows(width, height), result(width, height);
+
+  const int rx = int(horizontal.size() / 2);
+  parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      double sum = 0;
+      for (int i = -rx; i <= rx; ++i)
+        sum += horizontal[size_t(i + rx)] * plane.at(std::clamp(x + i, 0, width - 1), y);
+      rows.at(x, y) = sum;
+    }
+  });
+
+  const int ry = int(vertical.size() / 2);
+  parallel_for(0, height, [&](int y) {
+    for (int i = -ry; i <= ry; ++i) {
+      const int from = std::clamp(y + i, 0, height - 1);
+      for (int x = 0; x < width; ++x) result.at(x, y) += vertical[size_t(i + ry)] * rows.at(x, from);
+    }
+  });
+  return result;
+}
+
+}  // namespace eyeray

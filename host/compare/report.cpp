@@ -1,0 +1,110 @@
+#include "compare/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace eyeray {
+
+namespace {
+
+// "gate B: gpu against the reference: 14 of 6912 pixels are unexplained; the worst is 3,4 (parts at t)".
+void add_failures(std::vector<std::string>& failures, const char* gate, const std::string& value,
+                  const Tally& tally) {
+  if (tally.passes()) return;
+  const auto add = [&](int64_t count, const char* what) {
+    if (count <= 0) return;
+    failures.push_back(fmt::format(
+        "gate {}: {} against the reference: {} of {} pixels {}; the worst is {},{}, which parts at {}", gate,
+        value, count, tally.pixels, what, tally.worst.pixel.x, tally.worst.pixel.y, name(tally.worst.seam)));
+  };
+  add(tally.unexplained + tally.unexamined, "differ unexplained");
+  if (tally.capped_pixels() > tally.may_be_explained) {
+    add(tally.capped_pixels(),
+        fmt::format("differ explained, more than the {} allowed", tally.may_be_explained).c_str());
+  }
+}
+
+std::string describe(const ExactResult& result) {
+  const ExactComparison& c = result.comparison;
+  if (c.rays != c.other_rays && c.different_pixels == 0) {
+    return fmt::format("gate A: {} and {}: {} rays against {}", result.value, result.other, c.rays,
+                       c.other_rays);
+  }
+  return fmt::format(
+      "gate A: {} and {}: {} of {} pixels differ in their bits, {} of them in an id, by at most {} ULP "
+      "(allowed: {}); the "
+      "worst is {},{}, which parts at {}",
+      result.value, result.other, c.different_pixels, c.pixels, c.different_ids, c.max_ulp, result.ulp,
+      c.worst.pixel.x, c.worst.pixel.y, name(c.worst.seam));
+}
+
+}  // namespace
+
+std::vector<std::string> Report::failures() const {
+  std::vector<std::string> failures;
+  if (participants.size() < 2) failures.push_back("nothing was compared");
+
+  // What is wrong with one picture alone comes first: it makes the comparisons fail too.
+  for (const Participant& p : participants) {
+    if (!p.soundness.ok()) failures.push_back(fmt::format("{}: {}", p.name, eyeray::describe(p.soundness)));
+  }
+  for (const ExactResult& result : exact) {
+    const ExactComparison& c = result.comparison;
+    if (!c.incomparable.empty()) {
+      failures.push_back(fmt::format("gate A: {} and {}: {}", result.value, result.other, c.incomparable));
+    } else if (!c.passes(result.ulp)) {
+      failures.push_back(describe(result));
+    }
+  }
+  for (const ReferenceResult& result : against_reference) {
+    const ReferenceComparison& c = result.comparison;
+    if (!c.incomparable.empty()) {
+      failures.push_back(fmt::format("gate B: {} against the reference: {}", result.value, c.incomparable));
+      continue;
+    }
+    add_failures(failures, "C", result.value, c.first_hits);
+    add_failures(failures, "B", result.value, c.colors);
+  }
+  return failures;
+}
+
+std::optional<Pixel> Report::pixel_to_look_at() const {
+  for (const Participant& p : participants) {
+    if (p.soundness.first.x >= 0) return p.soundness.first;
+  }
+  for (const ExactResult& result : exact) {
+    const bool fails = !result.comparison.passes(result.ulp);
+    if (fails && result.comparison.worst.seam != Seam::none) return result.comparison.worst.pixel;
+  }
+  for (const ReferenceResult& result : against_reference) {
+    if (!result.comparison.incomparable.empty()) continue;
+    for (const Tally* tally : {&result.comparison.first_hits, &result.comparison.colors}) {
+      if (!tally->passes()) return tally->worst.pixel;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string Report::command_to_look() const {
+  const std::optional<Pixel> pixel = pixel_to_look_at();
+  if (!pixel) return "";
+  const int w = std::min(9, width), h = std::min(9, height);
+  const int x = std::clamp(pixel->x - w / 2, 0, width - w), y = std::clamp(pixel->y - h / 2, 0, height - h);
+  return fmt::format("eyeray verify {}{} --crop {},{},{},{}", scene, options, x, y, w, h);
+}
+
+std::string summary(std::span<const Report> reports) {
+  int64_t failed = 0;
+  std::string names;
+  for (const Report& report : reports) {
+    if (report.passes()) continue;
+    ++failed;
+    names += (names.empty() ? "" : ", ") + report.scene;
+  }
+  const int64_t passed = int64_t(reports.size()) - failed;
+  if (failed == 0) return fmt::format("{} scenes: all passed\n", reports.size());
+  return fmt::format("{} scenes: {} passed, {} failed ({})\n", reports.size(), passed, failed, names);
+}
+
+}  // namespace eyeray

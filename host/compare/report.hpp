@@ -1,0 +1,71 @@
+// What `eyeray verify` found out about a scene, for people and for programs.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/against_reference.hpp"
+#include "compare/exact.hpp"
+#include "compare/metrics.hpp"
+#include "compare/soundness.hpp"
+
+namespace eyeray {
+
+// One executor that took part.
+struct Participant {
+  std::string name;         // "gpu"
+  std::string description;  // "gpu: llvmpipe (LLVM 15.0.6, 256 bits)"
+  double seconds = 0;
+  uint64_t rays = 0;
+  Soundness soundness;
+};
+
+// Gate A for a pair of executors.
+struct ExactResult {
+  std::string value, other;  // names
+  int64_t ulp = 0;           // the bound
+  ExactComparison comparison;
+};
+
+// Gates B and C for one executor against the reference.
+struct ReferenceResult {
+  std::string value;
+  Tolerances tolerances;
+  ReferenceComparison comparison;
+  std::optional<Metrics>
+      metrics;  // absent where the pictures could not be compared; max_at in the whole picture
+};
+
+struct Report {
+  std::string options;  // of the command line that change the picture, each with a space before it
+  std::string scene;
+  int width = 0, height = 0;  // of the whole picture
+  Rect area;                  // what was compared
+  int samples = 1;
+  std::vector<Participant> participants;
+  std::vector<ExactResult> exact;
+  std::vector<ReferenceResult> against_reference;
+  std::string kept;  // the folder where the evidence lies; empty when nothing was kept
+
+  // Everything that fails, a sentence each, the deepest cause first; empty when the scene passes.
+  std::vector<std::string> failures() const;
+  bool passes() const { return failures().empty(); }
+  // The pixel to look at: the worst of the first gate that fails; nothing when all pass.
+  std::optional<Pixel> pixel_to_look_at() const;
+  // "eyeray verify SCENE --crop X,Y,9,9", nine pixels around that one.
+  std::string command_to_look() const;
+};
+
+// Verdict first, then counts, worst pixels and the command that shows them; lines, each ended.
+std::string to_text(const Report& report);
+// "3 scenes: 2 passed, 1 failed (scenes/b.toml)", for several.
+std::string summary(std::span<const Report> reports);
+// All of it as one JSON document on one line; NaN and infinities are null.
+std::string to_json(std::span<const Report> reports);
+
+// "RMSE 1e-05, PSNR 100.0 dB, …".
+std::string to_text(const Metrics& metrics);
+
+}  // namespace eyeray

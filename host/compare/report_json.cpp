@@ -1,0 +1,128 @@
+#include <nlohmann/json.hpp>
+
+#include "compare/report.hpp"
+
+namespace eyeray {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json(const Pixel& pixel) {
+  return Json::array({pixel.x, pixel.y});
+}
+Json json(const Vec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+Json json(const FirstHit& hit) {
+  return {{"primitive", hit.primitive}, {"material", hit.material},       {"t", hit.t},
+          {"normal", json(hit.normal)}, {"position", json(hit.position)}, {"uv", {hit.uv.x, hit.uv.y}}};
+}
+
+Json json(const WorstPixel& worst) {
+  return {{"pixel", json(worst.pixel)},
+          {"excess", worst.excess},
+          {"seam", name(worst.seam)},
+          {"value", {{"color", json(worst.value)}, {"first_hit", json(worst.value_hit)}}},
+          {"reference", {{"color", json(worst.reference)}, {"first_hit", json(worst.reference_hit)}}}};
+}
+
+Json json(const Tally& tally) {
+  Json explained = Json::object();
+  for (int i = 0; i < cause_count; ++i) explained[name(Cause(i))] = tally.explained[size_t(i)];
+  return {{"passed", tally.passes()},
+          {"pixels", tally.pixels},
+          {"equal", tally.equal},
+          {"matching", tally.matching},
+          {"explained", explained},
+          {"may_be_explained", tally.may_be_explained},
+          {"unexplained", tally.unexplained},
+          {"unexamined", tally.unexamined},
+          {"worst", json(tally.worst)}};
+}
+
+Json json(const Metrics& m) {
+  return {{"rmse", m.rmse}, {"psnr", m.psnr},           {"p99", m.p99},   {"p99.9", m.p999},
+          {"max", m.max},   {"max_at", json(m.max_at)}, {"ssim", m.ssim}, {"flip", m.flip}};
+}
+
+Json json(const Participant& p) {
+  const Soundness& s = p.soundness;
+  return {{"name", p.name},         {"description", p.description},
+          {"seconds", p.seconds},   {"rays", p.rays},
+          {"nan", s.nan},           {"infinite", s.infinite},
+          {"negative", s.negative}, {"incomplete_pixels", s.flagged_pixels},
+          {"flags", s.flags}};
+}
+
+Json json(const ExactResult& result) {
+  const ExactComparison& c = result.comparison;
+  Json object = {{"value", result.value}, {"other", result.other}, {"passed", c.passes(result.ulp)}};
+  if (!c.incomparable.empty()) {
+    object["incomparable"] = c.incomparable;
+    return object;
+  }
+  object["ulp_allowed"] = result.ulp;
+  object["max_ulp"] = c.max_ulp;
+  object["pixels"] = c.pixels;
+  object["different_pixels"] = c.different_pixels;
+  object["different_colors"] = c.different_colors;
+  object["different_first_hits"] = c.different_first_hits;
+  object["different_ids"] = c.different_ids;
+  if (c.worst.seam != Seam::none) object["worst"] = json(c.worst);
+  return object;
+}
+
+Json json(const ReferenceResult& result) {
+  const ReferenceComparison& c = result.comparison;
+  Json object = {{"value", result.value}, {"passed", c.passes()}};
+  if (!c.incomparable.empty()) {
+    object["incomparable"] = c.incomparable;
+    return object;
+  }
+  const Tolerances& t = result.tolerances;
+  object["tolerances"] = {
+      {"color", t.color}, {"t", t.t}, {"normal", t.normal}, {"max_explained", t.max_explained}};
+  object["colors"] = json(c.colors);
+  object["first_hits"] = json(c.first_hits);
+  if (result.metrics) object["metrics"] = json(*result.metrics);
+  return object;
+}
+
+template <typename Item>
+Json list(const std::vector<Item>& items) {
+  Json array = Json::array();
+  for (const Item& item : items) array.push_back(json(item));
+  return array;
+}
+
+Json json(const Report& report) {
+  return {{"scene", report.scene},
+          {"passed", report.passes()},
+          {"failures", report.failures()},
+          {"size", {report.width, report.height}},
+          {"area", {report.area.x, report.area.y, report.area.width, report.area.height}},
+          {"samples", report.samples},
+          {"executors", list(report.participants)},
+          {"gate_a", list(report.exact)},
+          {"gates_b_c", list(report.against_reference)},
+          {"look_closer", report.command_to_look()},
+          {"kept", report.kept}};
+}
+
+}  // namespace
+
+std::string to_json(std::span<const Report> reports) {
+  Json scenes = Json::array();
+  bool passed = !reports.empty();
+  for (const Report& report : reports) {
+    passed = passed && report.passes();
+    scenes.push_back(json(report));
+  }
+  // File names may hold any bytes; JSON may not.
+  return Json{{"passed", passed}, {"scenes", scenes}}.dump(-1, ' ', false, Json::error_handler_t::replace) +
+         "\n";
+}
+
+}  // namespace eyeray

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "compare/report.hpp"
+
+namespace eyeray {
+
+namespace {
+
+template <typename... Args>
+void line(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
+  text += '\n';
+}
+
+std::string numbers(const Vec3& v) {
+  return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z);
+}
+
+std::string describe(const FirstHit& hit) {
+  if (hit.primitive < 0) return "meets nothing";
+  return fmt::format("primitive {}, material {}, t {:.9g}, normal {}", hit.primitive, hit.material, hit.t,
+                     numbers(hit.normal));
+}
+
+// "2 explained (silhouette 1, shadow edge 1)".
+std::string explained(const Tally& tally) {
+  std::string text = fmt::format("{} explained", tally.explained_pixels());
+  std::string causes;
+  for (int i = 0; i < cause_count; ++i) {
+    const int64_t count = tally.explained[size_t(i)];
+    if (count > 0) causes += fmt::format("{}{} {}", causes.empty() ? "" : ", ", name(Cause(i)), count);
+  }
+  return causes.empty() ? text : text + " (" + causes + ")";
+}
+
+// Both sides of a pixel, the seam named.
+void add_worst(std::string& text, const WorstPixel& worst, const std::string& value,
+               const std::string& reference, const char* unit) {
+  const std::string error = std::isinf(worst.excess) ? "beyond all" : fmt::format("{:.3g}", worst.excess);
+  line(text, "    worst pixel {},{}: {} {}{}", worst.pixel.x, worst.pixel.y, error, unit,
+       worst.seam == Seam::none ? "" : fmt::format(", parts at {}", name(worst.seam)));
+  line(text, "      {:9} color {}; {}", value, numbers(worst.value), describe(worst.value_hit));
+  line(text, "      {:9} color {}; {}", reference, numbers(worst.reference), describe(worst.reference_hit));
+}
+
+void add_tally(std::string& text, const char* gate, const char* what, const std::string& value,
+               const Tally& tally) {
+  line(text, "  gate {} {} {} = reference, {}: {} equal, {} matching, {}, {} unexplained", gate,
+       tally.passes() ? "passed" : "FAILED", value, what, tally.equal, tally.matching, explained(tally),
+       tally.unexplained);
+  if (tally.unexamined > 0) {
+    line(text, "    {} more differ and were not examined: at most {} may be explained", tally.unexamined,
+         tally.may_be_explained);
+  }
+  if (tally.worst.excess > 0) add_worst(text, tally.worst, value, "reference", "tolerances");
+}
+
+void add(std::string& text, const ExactResult& result) {
+  const ExactComparison& c = result.comparison;
+  line(text, "  gate A {} {} = {}: {} of {} pixels differ in their bits{}",
+       c.passes(result.ulp) ? "passed" : "FAILED", result.value, result.other, c.different_pixels, c.pixels,
+       c.different_pixels > 0 ? fmt::format(", by at most {} ULP (allowed: {})", c.max_ulp, result.ulp) : "");
+  if (c.worst.seam != Seam::none) add_worst(text, c.worst, result.value, result.other, "ULP");
+}
+
+void add(std::string& text, const ReferenceResult& result) {
+  add_tally(text, "C", "first hits", result.value, result.comparison.first_hits);
+  add_tally(text, "B", "colours", result.value, result.comparison.colors);
+  if (result.metrics) line(text, "    {}", to_text(*result.metrics));
+}
+
+// Whether gate A found every bit of this executor equal to the first one's, so that there is nothing new to
+// say.
+bool same_as_first(const Report& report, const ReferenceResult& result) {
+  return std::any_of(report.exact.begin(), report.exact.end(), [&](const ExactResult& exact) {
+    return exact.value == report.against_reference[0].value && exact.other == result.value &&
+           exact.comparison.passes(0);
+  });
+}
+
+}  // namespace
+
+std::string to_text(const Metrics& m) {
+  return fmt::format(
+      "RMSE {:.3g}, PSNR {:.1f} dB, p99 {:.3g}, p99.9 {:.3g}, max {:.3g} at {},{}, SSIM {:.6f}, FLIP {:.3g}",
+      m.rmse, m.psnr, m.p99, m.p999, m.max, m.max_at.x, m.max_at.y, m.ssim, m.flip);
+}
+
+std::string to_text(const Report& report) {
+  // The verdict and its reasons.
+  const std::vector<std::string> failures = report.failures();
+  std::string text;
+  line(text, "{} {} ({}×{} of {}×{} pixels, {} sample{} a pixel)", failures.empty() ? "PASSED" : "FAILED",
+       report.scene, report.area.width, report.area.height, report.width, report.height, report.samples,
+       report.samples == 1 ? "" : "s");
+  for (const std::string& failure : failures) line(text, "  {}", failure);
+
+  // Who took part, and every gate in detail.
+  for (const Participant& p : report.participants) {
+    line(text, "  {} ({} rays in {:.3g} s)", p.description, p.rays, p.seconds);
+  }
+  for (const ExactResult& result : report.exact) {
+    if (result.comparison.incomparable.empty()) add(text, result);
+  }
+  for (const ReferenceResult& result : report.against_reference) {
+    if (!result.comparison.incomparable.empty()) continue;
+    if (same_as_first(report, result)) {
+      line(text, "  gates B and C {} {} = reference: the same as {}, bit by bit",
+           result.comparison.passes() ? "passed" : "FAILED", result.value, report.against_reference[0].value);
+    } else {
+      add(text, result);
+    }
+  }
+
+  // What to do next.
+  if (const std::string command = report.command_to_look(); !command.empty())
+    line(text, "  look closer: {}", command);
+  if (!report.kept.empty()) line(text, "  pictures and the command line are kept in {}", report.kept);
+  return text;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,22 @@
+// Where two executors part: the first value along the life of a ray that differs.
+#pragma once
+
+#include "compare/frame.hpp"
+
+namespace eyeray {
+
+enum class Seam { none, primitive, t, normal, material, color, hits };
+
+// A pixel that stands for a comparison in its report: both values, and the seam.
+struct WorstPixel {
+  Pixel pixel;
+  Vec3 value{0.0}, reference{0.0};
+  FirstHit value_hit, reference_hit;
+  double excess = 0;  // the largest error, in tolerances (or in ULP)
+  Seam seam = Seam::none;
+};
+
+// For reports: "first hit's t".
+const char* name(Seam seam);
+
+}  // namespace eyeray

@@ -1,0 +1,26 @@
+// What is wrong whatever it is compared with: looked at on the raw floats, before anything else.
+#pragma once
+
+#include "compare/frame.hpp"
+
+namespace eyeray {
+
+struct Soundness {
+  int64_t nan = 0;       // values that are not a number
+  int64_t infinite = 0;  // infinite colours, and infinite values of a first hit that did hit something
+  int64_t negative = 0;  // colours below 0
+  uint64_t flagged_pixels = 0;
+  uint32_t flags = 0;
+  Pixel first;  // the first pixel, row by row, with any of nan, infinite and negative
+
+  bool ok() const { return nan == 0 && infinite == 0 && negative == 0 && flagged_pixels == 0 && flags == 0; }
+};
+
+Soundness inspect(const Image& image);
+// Colours, first hits, counts and flags; `first` is a pixel of the whole picture.
+Soundness inspect(const Frame& frame);
+
+// "3 NaN, 1 negative (first at 12,7)", or "" when ok.
+std::string describe(const Soundness& soundness);
+
+}  // namespace eyeray

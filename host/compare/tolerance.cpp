@@ -1,0 +1,87 @@
+#include "compare/tolerance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace eyeray {
+
+namespace {
+
+// error / tolerance, with a NaN as infinity.
+double ratio(double error, double tolerance) {
+  if (error == 0) return 0;
+  return error <= std::numeric_limits<double>::max() ? error / tolerance
+                                                     : std::numeric_limits<double>::infinity();
+}
+
+// Two misses agree: both t are infinite, and their difference is NaN.
+double t_excess(double value, double reference, double tolerance) {
+  return value == reference ? 0 : ratio(std::abs(value - reference) / std::abs(reference), tolerance);
+}
+
+double normal_excess(const Vec3& value, const Vec3& reference, double tolerance) {
+  double worst = 0;
+  for (int c = 0; c < 3; ++c) worst = std::max(worst, ratio(std::abs(value[c] - reference[c]), tolerance));
+  return worst;
+}
+
+}  // namespace
+
+void Tolerances::check() const {
+  for (const auto& [tolerance, cap] :
+       {std::pair{color, 1e-3}, {t, 1e-3}, {normal, 1e-3}, {max_explained, 0.05}}) {
+    CHECK_LE(0.0, tolerance);
+    CHECK_LE(tolerance, cap);
+  }
+}
+
+double color_excess(const Vec3& value, const Vec3& reference, double tolerance) {
+  double worst = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double allowed = tolerance * std::max(1.0, std::abs(reference[c]));
+    worst = std::max(worst, ratio(std::abs(value[c] - reference[c]), allowed));
+  }
+  return worst;
+}
+
+double hit_excess(const FirstHit& value, const FirstHit& reference, const Tolerances& tolerances) {
+  if (value.primitive != reference.primitive || value.material != reference.material) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return std::max(t_excess(value.t, reference.t, tolerances.t),
+                  normal_excess(value.normal, reference.normal, tolerances.normal));
+}
+
+Seam first_seam(const WorstPixel& pixel, const Tolerances& tolerances) {
+  const FirstHit &value = pixel.value_hit, &reference = pixel.reference_hit;
+  if (value.primitive != reference.primitive) return Seam::primitive;
+  if (t_excess(value.t, reference.t, tolerances.t) > 1) return Seam::t;
+  if (normal_excess(value.normal, reference.normal, tolerances.normal) > 1) return Seam::normal;
+  if (value.material != reference.material) return Seam::material;
+  return color_excess(pixel.value, pixel.reference, tolerances.color) > 1 ? Seam::color : Seam::none;
+}
+
+const char* name(Seam seam) {
+  switch (seam) {
+    case Seam::none:
+      return "none";
+    case Seam::primitive:
+      return "primitive";
+    case Seam::t:
+      return "t";
+    case Seam::normal:
+      return "normal";
+    case Seam::material:
+      return "material";
+    case Seam::color:
+      return "color";
+    case Seam::hits:
+      return "hits";
+  }
+  return "none";
+}
+
+}  // namespace eyeray

@@ -1,0 +1,28 @@
+// What "agrees with the reference" means, for one pixel. Every test is written so that a NaN fails it.
+#pragma once
+
+#include "compare/seam.hpp"
+
+namespace eyeray {
+
+struct Tolerances {
+  double color = 1e-4;           // of each channel, × max(1, |reference|)
+  double t = 1e-5;               // relative
+  double normal = 1e-4;          // of each component
+  double max_explained = 0.005;  // the share of pixels that may differ for a reason (and four in any case)
+
+  // A tolerance so wide that the gate could not fail is a defect of the caller: CHECK.
+  void check() const;
+};
+
+// |value − reference| in tolerances, of the worst channel: at most 1 where they match; infinite where a NaN
+// is in it.
+double color_excess(const Vec3& value, const Vec3& reference, double tolerance);
+
+// The same for a first hit: infinite where ids differ.
+double hit_excess(const FirstHit& value, const FirstHit& reference, const Tolerances& tolerances);
+
+// The first of primitive, t, normal, material, colour that is out of tolerance.
+Seam first_seam(const WorstPixel& pixel, const Tolerances& tolerances);
+
+}  // namespace eyeray

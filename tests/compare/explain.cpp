@@ -1,0 +1,105 @@
+#include "compare/explain.hpp"
+
+#include <cmath>
+
+#include "support/analytic_picture.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// The cause found at a pixel where `change` is made to everything right of the pixel's centre.
+template <typename Change>
+Cause cause_of(const Change& change) {
+  const Reference reference = [&](int x, int y, const Vec2& shift) {
+    Probe probe = picture_reference(x, y, shift);
+    if (shift.x > 0) change(probe);
+    return probe;
+  };
+  return Neighbourhood(reference, {48, 30}).cause_of_color();
+}
+
+}  // namespace
+
+TEST_CASE("a cause is the first thing along the ray that changes") {
+  const auto surface = [](Probe& p) { p.first_surfaces = 7; };
+  const auto branch = [](Probe& p) { p.hits = 3; };
+  const auto texture = [](Probe& p) { p.first_colors = 7; };
+  const auto light = [](Probe& p) { p.color *= 0.5; };
+  CHECK(cause_of(surface) == Cause::silhouette);
+  CHECK(cause_of(branch) == Cause::refraction_branch);
+  CHECK(cause_of(texture) == Cause::texture_edge);
+  CHECK(cause_of(light) == Cause::shadow_edge);
+  CHECK(cause_of([&](Probe& p) { surface(p), branch(p), texture(p); }) == Cause::silhouette);
+  CHECK(cause_of([&](Probe& p) { branch(p), texture(p); }) == Cause::refraction_branch);
+  CHECK(cause_of([](Probe& p) { p.direct = false; }) == Cause::refraction_branch);
+}
+
+TEST_CASE("a first hit that differs does so at a silhouette, or on a surface met at a grazing angle") {
+  const auto cause = [](int32_t primitive) {
+    const Reference reference = [&](int x, int y, const Vec2& shift) {
+      Probe probe = picture_reference(x, y, shift);
+      probe.first_colors = shift.x > 0;
+      if (shift.x > 0) probe.first_hit.primitive = primitive;
+      return probe;
+    };
+    return Neighbourhood(reference, {48, 30}).cause_of_first_hit();
+  };
+  CHECK(cause(1) == Cause::grazing);
+  CHECK(cause(0) == Cause::silhouette);
+}
+
+TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around, and the pixel itself") {
+  std::vector<Vec2> shifts;
+  const Reference reference = [&](int x, int y, const Vec2& shift) {
+    CHECK(x == 5);
+    CHECK(y == 7);
+    shifts.push_back(shift);
+    return Probe{};
+  };
+  const Neighbourhood neighbourhood(reference, {5, 7});
+  REQUIRE(shifts.size() == 65);
+  CHECK(shifts[0] == Vec2(0.0));
+  int quadrants[4] = {};
+  for (size_t i = 1; i < shifts.size(); ++i) {
+    CHECK(glm::length(shifts[i]) >= 0.001 - 1e-12);
+    CHECK(glm::length(shifts[i]) <= 0.004 + 1e-12);
+    ++quadrants[(shifts[i].x > 0 ? 1 : 0) + (shifts[i].y > 0 ? 2 : 0)];
+  }
+  for (const int count : quadrants) CHECK(count >= 14);
+}
+
+TEST_CASE("what is explained lies between the neighbours, a tolerance more at each end") {
+  const Reference reference = [](int, int, const Vec2& shift) {
+    Probe probe;
+    probe.color = Vec3(shift.x > 0.002 ? 0.7 : 0.2, 10, 0);
+    probe.first_hit = {shift.x > 0.002 ? 50.0 : 40.0, {}, {0, 0, 1}, {}, 3, 1};
+    return probe;
+  };
+  const Neighbourhood neighbourhood(reference, {0, 0});
+  const Tolerances tolerances;
+  CHECK(neighbourhood.explains(Vec3(0.45, 10, 0), tolerances));
+  CHECK(neighbourhood.explains(Vec3(0.7 + 0.9e-4, 10 + 0.9e-3, 0.9e-4), tolerances));
+  CHECK_FALSE(neighbourhood.explains(Vec3(0.7 + 1.1e-4, 10, 0), tolerances));
+  CHECK_FALSE(neighbourhood.explains(Vec3(0.2 - 1.1e-4, 10, 0), tolerances));
+  CHECK_FALSE(neighbourhood.explains(Vec3(0.2, 10 + 1.1e-3, 0), tolerances));
+  CHECK_FALSE(neighbourhood.explains(Vec3(0.2, std::nan(""), 0), tolerances));
+
+  const FirstHit hit{45, {}, {0, 0, 1}, {}, 3, 1};
+  const auto changed = [&](auto member, auto value) {
+    FirstHit other = hit;
+    other.*member = value;
+    return other;
+  };
+  CHECK(neighbourhood.explains(hit, tolerances));
+  CHECK(neighbourhood.explains(changed(&FirstHit::t, 50 * (1 + 0.9e-5)), tolerances));
+  CHECK_FALSE(neighbourhood.explains(changed(&FirstHit::t, 50 * (1 + 1.1e-5)), tolerances));
+  CHECK_FALSE(neighbourhood.explains(changed(&FirstHit::t, std::nan("")), tolerances));
+  CHECK_FALSE(neighbourhood.explains(changed(&FirstHit::normal, Vec3(0, 1.1e-4, 1)), tolerances));
+  CHECK_FALSE(neighbourhood.explains(changed(&FirstHit::primitive, 2), tolerances));
+  CHECK_FALSE(neighbourhood.explains(changed(&FirstHit::primitive, -1), tolerances));
+  CHECK_FALSE(neighbourhood.explains(changed(&FirstHit::material, 0), tolerances));
+}

@@ -1,0 +1,101 @@
+#include "compare/report.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "support/analytic_picture.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+Report report_on(const Frame& value) {
+  const Frame reference = picture_frame();
+  Report report;
+  report.scene = "scenes/analytic.toml";
+  report.width = picture_width;
+  report.height = picture_height;
+  report.area = reference.area;
+  report.participants = {{"twin", "twin: a fake", 0.5, value.rays, inspect(value)},
+                         {"reference", "reference: a formula", 1.5, reference.rays, inspect(reference)}};
+  ReferenceResult result;
+  result.value = "twin";
+  result.comparison = compare_with_reference(value, reference, picture_reference);
+  if (result.comparison.incomparable.empty()) result.metrics = measure(value.color, reference.color);
+  report.against_reference = {result};
+  return report;
+}
+
+bool contains(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a passing report says so first, and counts") {
+  const Report report = report_on(picture_frame(Vec2(5e-5)));
+  const std::string text = to_text(report);
+  CAPTURE(text);
+  CHECK(text.starts_with("PASSED scenes/analytic.toml (96×72 of 96×72 pixels, 1 sample a pixel)\n"));
+  CHECK(contains(
+      text,
+      "32 explained (silhouette 8, texture edge 8, refraction branch 8, shadow edge 8), 0 unexplained"));
+  CHECK(contains(text, "FLIP"));
+  CHECK_FALSE(contains(text, "look closer"));
+}
+
+TEST_CASE("a failing report names the gate, the pixel, the seam, and the command that shows it") {
+  Frame value = picture_frame();
+  value.first_hits[size_t(30 * picture_width + 94)].t *= 1.5;
+  value.color.pixel(94, 30)[0] += 0.25f;
+  Report report = report_on(value);
+  report.kept = "analytic.verify";
+  const std::string text = to_text(report);
+  CAPTURE(text);
+  CHECK(text.starts_with("FAILED scenes/analytic.toml"));
+  CHECK(
+      contains(text,
+               "gate B: twin against the reference: 1 of 6912 pixels differ unexplained; the worst is 94,30, "
+               "which parts at t"));
+  CHECK(contains(text, "look closer: eyeray verify scenes/analytic.toml --crop 87,26,9,9\n"));
+  CHECK(contains(text, "kept in analytic.verify"));
+}
+
+TEST_CASE("JSON says the same, and a NaN in it is null") {
+  Frame value = picture_frame();
+  value.color.pixel(50, 30)[1] = std::nanf("");
+  const std::vector<Report> reports{report_on(picture_frame()), report_on(value)};
+  const std::string text = to_json(reports);
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+  const nlohmann::json json = nlohmann::json::parse(text);
+  CHECK(json["passed"] == false);
+  CHECK(json["scenes"][0]["passed"] == true);
+  CHECK(json["scenes"][1]["passed"] == false);
+  CHECK(json["scenes"][1]["executors"][0]["nan"] == 1);
+  const auto& colors = json["scenes"][1]["gates_b_c"][0]["colors"];
+  CHECK(colors["unexplained"] == 1);
+  CHECK(colors["worst"]["pixel"] == nlohmann::json::array({50, 30}));
+  CHECK(colors["worst"]["seam"] == "color");
+  CHECK(colors["worst"]["value"]["color"][1].is_null());
+  CHECK(json["scenes"][0]["gates_b_c"][0]["metrics"]["rmse"].get<double>() < 1e-6);
+  CHECK(nlohmann::json::parse(to_json({}))["passed"] == false);
+}
+
+TEST_CASE("the summary of several scenes names those that failed") {
+  const Report good = report_on(picture_frame()), bad = report_on(picture_frame(Vec2(1, 0)));
+  CHECK(summary(std::vector<Report>{good, good}) == "2 scenes: all passed\n");
+  CHECK(summary(std::vector<Report>{good, bad}) == "2 scenes: 1 passed, 1 failed (scenes/analytic.toml)\n");
+}
+
+TEST_CASE("ULP distances count floats") {
+  CHECK(ulp_distance(1.0f, 1.0f) == 0);
+  CHECK(ulp_distance(1.0f, std::nextafter(1.0f, 2.0f)) == 1);
+  CHECK(ulp_distance(0.0f, -0.0f) == 0);
+  CHECK(ulp_distance(-1e-45f, 1e-45f) == 2);
+  CHECK(ulp_distance(1.0f, 2.0f) == 1 << 23);
+  CHECK(ulp_distance(std::nanf(""), std::nanf("")) == 0);
+  CHECK(ulp_distance(std::nanf(""), 1.0f) == std::numeric_limits<int64_t>::max());
+}

@@ -1,0 +1,375 @@
+// A check that cannot fail is a defect: every gate is shown a frame with one fault in it, and must turn red
+// for the right reason.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <functional>
+#include <limits>
+
+#include "compare/report.hpp"
+#include "support/analytic_picture.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// As float32 would see the picture: off by less than the offsets that explain.
+const Vec2 honest_shift(5e-5, 5e-5);
+const Pixel on_ball{50, 30};
+
+Frame honest_frame() {
+  return picture_frame(honest_shift);
+}
+FirstHit& hit_at(Frame& frame, Pixel p) {
+  return frame.first_hits[size_t(p.y * picture_width + p.x)];
+}
+
+ReferenceComparison compare(const Frame& value, const Frame& reference = picture_frame()) {
+  return compare_with_reference(value, reference, picture_reference);
+}
+
+// What the whole of verify says about a frame that stands for the GPU's, with an honest twin.
+Report verify(const Frame& gpu) {
+  const Frame twin = honest_frame(), reference = picture_frame();
+  Report report;
+  report.scene = "analytic.toml";
+  report.width = picture_width;
+  report.height = picture_height;
+  report.area = reference.area;
+  report.participants = {{"gpu", "gpu: a fake", 0, gpu.rays, inspect(gpu)},
+                         {"twin", "twin: a fake", 0, twin.rays, inspect(twin)},
+                         {"reference", "reference: a formula", 0, reference.rays, inspect(reference)}};
+  report.exact = {{"gpu", "twin", 0, compare_exactly(gpu, twin)}};
+  for (const auto& [name, frame] : {std::pair{"gpu", &gpu}, {"twin", &twin}}) {
+    ReferenceResult result;
+    result.value = name;
+    result.comparison = compare(*frame, reference);
+    report.against_reference.push_back(result);
+  }
+  return report;
+}
+
+bool mentions(const Report& report, const std::string& words) {
+  for (const std::string& failure : report.failures()) {
+    if (failure.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+// Whether `action` ends the program by abort(), as CHECK does.
+bool aborts(const std::function<void()>& action) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGABRT, SIG_DFL);
+    if (!freopen("/dev/null", "w", stderr)) _exit(2);
+    action();
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT;
+}
+
+void for_each_pixel(Frame& frame, const std::function<void(float* color, FirstHit& hit)>& change) {
+  for (int y = 0; y < picture_height; ++y) {
+    for (int x = 0; x < picture_width; ++x) change(frame.color.pixel(x, y), hit_at(frame, {x, y}));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("without a fault every gate passes, and each honest difference has its cause") {
+  const Report report = verify(honest_frame());
+  CHECK(report.failures() == std::vector<std::string>{});
+  CHECK(report.command_to_look().empty());
+  const ReferenceComparison& comparison = report.against_reference[0].comparison;
+  for (const Cause cause :
+       {Cause::silhouette, Cause::texture_edge, Cause::refraction_branch, Cause::shadow_edge}) {
+    CHECK(comparison.colors.explained[size_t(cause)] == edge_pixels);
+  }
+  CHECK(comparison.first_hits.explained[size_t(Cause::silhouette)] == edge_pixels);
+  CHECK(comparison.first_hits.explained_pixels() == edge_pixels);
+  CHECK(comparison.colors.equal + comparison.colors.matching + 4 * edge_pixels ==
+        picture_width * picture_height);
+}
+
+TEST_CASE("gate A sees one bit, wherever it is") {
+  const auto flip = [](float& value) { value = std::bit_cast<float>(std::bit_cast<uint32_t>(value) ^ 1u); };
+  const auto flip_double = [&](double& value) {
+    float narrow = float(value);
+    flip(narrow);
+    value = double(narrow);
+  };
+  const std::vector<std::function<void(Frame&)>> faults = {
+      [&](Frame& f) { flip(f.color.pixel(50, 30)[2]); },
+      [&](Frame& f) { flip_double(hit_at(f, on_ball).t); },
+      [&](Frame& f) { flip_double(hit_at(f, on_ball).position.y); },
+      [&](Frame& f) { flip_double(hit_at(f, on_ball).normal.z); },
+      [&](Frame& f) { flip_double(hit_at(f, on_ball).uv.x); },
+      [&](Frame& f) { hit_at(f, on_ball).material = 0; },
+      [&](Frame& f) { hit_at(f, on_ball).primitive = 0; },
+      [&](Frame& f) { flip(*f.hits.pixel(50, 30)); },
+  };
+  const Frame twin = honest_frame();
+  CHECK(compare_exactly(twin, twin).passes(0));
+  for (size_t i = 0; i < faults.size(); ++i) {
+    CAPTURE(i);
+    Frame gpu = twin;
+    faults[i](gpu);
+    const ExactComparison comparison = compare_exactly(gpu, twin);
+    CHECK_FALSE(comparison.passes(0));
+    CHECK(comparison.different_pixels == 1);
+    CHECK(comparison.worst.pixel == on_ball);
+    CHECK(comparison.worst.seam != Seam::none);
+  }
+
+  // The sign of a zero is a bit as well, and a ray too many is a difference.
+  Frame zero = twin, minus_zero = twin;
+  *zero.color.pixel(0, 0) = 0.0f;
+  *minus_zero.color.pixel(0, 0) = -0.0f;
+  CHECK_FALSE(compare_exactly(zero, minus_zero).passes(0));
+  Frame more_rays = twin;
+  ++more_rays.rays;
+  CHECK_FALSE(compare_exactly(more_rays, twin).passes(0));
+}
+
+TEST_CASE("a ULP bound forgives small distances, never an id, a NaN or a ray") {
+  const Frame twin = honest_frame();
+  Frame gpu = twin;
+  float& value = gpu.color.pixel(50, 30)[0];
+  value = std::nextafter(std::nextafter(value, infinity), infinity);
+  CHECK(compare_exactly(gpu, twin).max_ulp == 2);
+  CHECK_FALSE(compare_exactly(gpu, twin).passes(1));
+  CHECK(compare_exactly(gpu, twin).passes(2));
+  value = nan_value;
+  CHECK_FALSE(compare_exactly(gpu, twin).passes(64));
+  gpu = twin;
+  hit_at(gpu, on_ball).primitive = 2;
+  CHECK_FALSE(compare_exactly(gpu, twin).passes(64));
+  gpu = twin;
+  gpu.rays += 1;
+  CHECK_FALSE(compare_exactly(gpu, twin).passes(64));
+}
+
+TEST_CASE("NaN, infinity and negative colours fail, alone, everywhere") {
+  struct Fault {
+    float value;
+    const char* word;
+  };
+  for (const Fault fault : {Fault{nan_value, "1 NaN"}, {infinity, "1 infinite"}, {-1e-6f, "1 negative"}}) {
+    CAPTURE(fault.word);
+    Frame gpu = honest_frame();
+    gpu.color.pixel(on_ball.x, on_ball.y)[1] = fault.value;
+    const Report report = verify(gpu);
+    CHECK(mentions(report, std::string("gpu: ") + fault.word));
+    CHECK(mentions(report, "first at 50,30"));
+    CHECK(report.pixel_to_look_at() == on_ball);
+    CHECK_FALSE(inspect(gpu.color).ok());
+  }
+
+  // A NaN is no match, not even for a NaN of the reference, and nothing explains it.
+  Frame gpu = honest_frame();
+  gpu.color.pixel(on_ball.x, on_ball.y)[1] = nan_value;
+  CHECK(compare(gpu).colors.unexplained == 1);
+  CHECK(compare(gpu, gpu).colors.unexplained == 1);
+  CHECK(count_different(gpu.color, gpu.color, 1.0) == 1);
+  gpu = honest_frame();
+  hit_at(gpu, on_ball).normal.x = std::nan("");
+  CHECK(compare(gpu).first_hits.unexplained == 1);
+  CHECK(mentions(verify(gpu), "gpu: 1 NaN"));
+  gpu = honest_frame();
+  hit_at(gpu, on_ball).t = std::nan("");
+  CHECK(compare(gpu).first_hits.unexplained == 1);
+  gpu = honest_frame();
+  hit_at(gpu, on_ball).t = double(infinity);
+  CHECK(mentions(verify(gpu), "gpu: 1 infinite"));
+}
+
+TEST_CASE("samples that the executor itself calls incomplete fail") {
+  Frame gpu = honest_frame();
+  gpu.flags = stack_overflow;
+  gpu.flagged_pixels = 3;
+  CHECK(mentions(verify(gpu), "3 incomplete pixels: more rays pending"));
+}
+
+TEST_CASE("a black picture fails") {
+  Frame gpu = honest_frame();
+  for_each_pixel(gpu, [](float* color, FirstHit&) { color[0] = color[1] = color[2] = 0; });
+  const Report report = verify(gpu);
+  CHECK(mentions(report, "gate A: gpu and twin: 6912 of 6912 pixels"));
+  CHECK(mentions(report, "gate B: gpu against the reference: 6912 of 6912 pixels differ unexplained"));
+  CHECK_FALSE(mentions(report, "gate C"));
+}
+
+TEST_CASE("a shift by one pixel fails, in any direction") {
+  for (const Vec2 shift : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1), Vec2(0.02, 0), Vec2(0, -0.02)}) {
+    const ReferenceComparison comparison = compare(picture_frame(shift));
+    CHECK_FALSE(comparison.colors.passes());
+    CHECK_FALSE(comparison.first_hits.passes());
+  }
+}
+
+TEST_CASE("swapped ids fail at the seam 'primitive'") {
+  Frame gpu = honest_frame();
+  for_each_pixel(gpu, [](float*, FirstHit& hit) {
+    if (hit.primitive >= 0 && hit.primitive < 2) hit.primitive = 1 - hit.primitive;
+  });
+  CHECK(mentions(verify(gpu), "parts at primitive"));
+  CHECK_FALSE(compare(gpu).first_hits.passes());
+
+  // One pixel is enough, and a neighbour's id that is 3 pixels away explains nothing.
+  gpu = honest_frame();
+  hit_at(gpu, {48, 34 - 22}).primitive = 0;
+  CHECK(compare(gpu).first_hits.unexplained == 1);
+}
+
+TEST_CASE("another material fails") {
+  Frame gpu = honest_frame();
+  hit_at(gpu, on_ball).material = 0;
+  const ReferenceComparison comparison = compare(gpu);
+  CHECK(comparison.first_hits.unexplained == 1);
+  CHECK(comparison.first_hits.worst.seam == Seam::material);
+}
+
+TEST_CASE("the wrong root fails at the seam 't'") {
+  Frame gpu = honest_frame();
+  for_each_pixel(gpu, [](float*, FirstHit& hit) {
+    if (hit.primitive == 1) hit.t = 1800 - hit.t;
+  });
+  const ReferenceComparison comparison = compare(gpu);
+  CHECK_FALSE(comparison.first_hits.passes());
+  CHECK(comparison.first_hits.worst.seam == Seam::t);
+  CHECK(mentions(verify(gpu), "gate C: gpu against the reference: "));
+  CHECK(mentions(verify(gpu), "parts at t"));
+}
+
+TEST_CASE("flipped normals fail at the seam 'normal'") {
+  Frame gpu = honest_frame();
+  for_each_pixel(gpu, [](float*, FirstHit& hit) { hit.normal = -hit.normal; });
+  const ReferenceComparison comparison = compare(gpu);
+  CHECK_FALSE(comparison.first_hits.passes());
+  CHECK(comparison.first_hits.worst.seam == Seam::normal);
+}
+
+TEST_CASE("a missing light fails at the seam 'color'") {
+  Frame gpu = honest_frame();
+  for_each_pixel(gpu, [](float* color, FirstHit& hit) {
+    if (hit.primitive == 1) color[0] = color[1] = color[2] = 0.1f;
+  });
+  const ReferenceComparison comparison = compare(gpu);
+  CHECK_FALSE(comparison.colors.passes());
+  CHECK(comparison.first_hits.passes());
+  CHECK(comparison.colors.worst.seam == Seam::color);
+}
+
+TEST_CASE("a difference just over the tolerance fails, just below passes") {
+  for (const auto& [factor, passes] : {std::pair{0.5, true}, {5.0, false}}) {
+    Frame gpu = picture_frame();
+    gpu.color.pixel(on_ball.x, on_ball.y)[0] += float(factor * 1e-4);
+    CHECK(compare(gpu).colors.passes() == passes);
+    gpu = picture_frame();
+    hit_at(gpu, on_ball).t *= 1 + factor * 1e-5;
+    CHECK(compare(gpu).first_hits.passes() == passes);
+    gpu = picture_frame();
+    hit_at(gpu, on_ball).normal.y += factor * 1e-4;
+    CHECK(compare(gpu).first_hits.passes() == passes);
+  }
+}
+
+TEST_CASE("an edge does not excuse a value that is on neither side of it") {
+  // At the opening's edge, the shadow's, the checker's and the mirror's.
+  for (const Pixel p : {Pixel{88, 6}, {6, 60}, {20, 63}, {6, 10}}) {
+    Frame gpu = honest_frame();
+    gpu.color.pixel(p.x, p.y)[1] = 0.97f;
+    const ReferenceComparison comparison = compare(gpu);
+    CHECK(comparison.colors.unexplained == 1);
+    CHECK(comparison.colors.worst.pixel == p);
+  }
+  // A hit of the right primitive with another's t.
+  Frame gpu = honest_frame();
+  hit_at(gpu, {88, 6}) = {900, {}, {0, 0, 1}, {}, 0, 0};
+  CHECK(compare(gpu).first_hits.unexplained == 1);
+}
+
+TEST_CASE("too many explained pixels fail, all of them explained") {
+  // The picture with an edge along a whole column.
+  const Reference split = [](int x, int y, const Vec2& shift) {
+    Probe probe = picture_reference(x, y, shift);
+    if (x + 0.5 + shift.x >= 40.5 + beyond) probe.color *= 0.5;
+    return probe;
+  };
+  const Frame value = picture_frame(honest_shift, split), reference = picture_frame(Vec2(0.0), split);
+  const ReferenceComparison comparison = compare_with_reference(value, reference, split);
+  CHECK(comparison.colors.unexplained == 0);
+  CHECK(comparison.colors.unexamined == 0);
+  CHECK(comparison.colors.explained_pixels() > comparison.colors.may_be_explained);
+  CHECK_FALSE(comparison.colors.passes());
+  // With a cap that allows them, they pass.
+  CHECK(compare_with_reference(value, reference, split, {.max_explained = 0.05}).colors.passes());
+}
+
+TEST_CASE("what is not looked into fails, even where all that was looked into is explained") {
+  // Seventy columns with an edge each: more than are looked into.
+  const Reference stripes = [](int x, int y, const Vec2& shift) {
+    Probe probe;
+    const double place = x + 0.5 + shift.x;
+    probe.color = Vec3(place < 70 && std::fmod(place - beyond, 1) >= 0.5 ? 0.5 : 0.2, y / 100.0, 0);
+    return probe;
+  };
+  const Frame value = picture_frame(honest_shift, stripes), reference = picture_frame(Vec2(0.0), stripes);
+  const Tally tally = compare_with_reference(value, reference, stripes, {.max_explained = 0.05}).colors;
+  CHECK(tally.unexplained == 0);
+  CHECK(tally.unexamined > 0);
+  CHECK_FALSE(tally.passes());
+}
+
+TEST_CASE("noise cannot hide: pixels beyond the cap are not even looked into, and fail") {
+  Frame gpu = honest_frame();
+  for_each_pixel(gpu, [](float* color, FirstHit& hit) { color[0] += hit.primitive == 0 ? 1e-3f : 0.0f; });
+  const Tally tally = compare(gpu).colors;
+  CHECK(tally.unexamined > 0);
+  CHECK(tally.unexplained > 0);
+  CHECK_FALSE(tally.passes());
+}
+
+TEST_CASE("a picture of another size, place or shape fails, and so does none at all") {
+  const Frame reference = picture_frame();
+  std::vector<Frame> wrong(6, honest_frame());
+  wrong[0].color = Image(picture_width - 1, picture_height, 3);
+  wrong[1].area.width = picture_width - 1;
+  wrong[2].area.x = 1;
+  wrong[3].first_hits.pop_back();
+  wrong[4].hits = Image(picture_width, picture_height, 3);
+  wrong[5].color = Image(picture_width, picture_height, 1);
+  for (const Frame& frame : wrong) {
+    CHECK_FALSE(compare_exactly(frame, reference).passes(64));
+    CHECK_FALSE(compare(frame).passes());
+    CHECK(mentions(verify(frame), "wrong size"));
+  }
+  CHECK_FALSE(compare_exactly(Frame{}, Frame{}).passes(64));
+  CHECK_FALSE(compare(Frame{}, Frame{}).passes());
+  CHECK_FALSE(Tally{}.passes());
+  CHECK_FALSE(ExactComparison{}.passes(64));
+  CHECK_FALSE(Report{}.passes());
+}
+
+TEST_CASE("a tolerance that nothing could exceed, or that is not a number, ends the program") {
+  CHECK_FALSE(aborts([] { Tolerances{}.check(); }));
+  CHECK(aborts([] { Tolerances{.color = std::nan("")}.check(); }));
+  CHECK(aborts([] { Tolerances{.color = 0.1}.check(); }));
+  CHECK(aborts([] { Tolerances{.t = 0.1}.check(); }));
+  CHECK(aborts([] { Tolerances{.normal = 0.1}.check(); }));
+  CHECK(aborts([] { Tolerances{.max_explained = 0.5}.check(); }));
+  CHECK(aborts([] { Tolerances{.color = -1}.check(); }));
+  CHECK(aborts([] { ExactComparison{}.passes(1000); }));
+  CHECK(aborts([] { count_different(Image(1, 1, 1), Image(1, 1, 1), std::nan("")); }));
+}
