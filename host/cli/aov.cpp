@@ -1,0 +1,106 @@
+#include "cli/aov.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/diagnostic.hpp"
+#include "core/error.hpp"
+#include "core/false_color.hpp"
+
+namespace eyeray::cli {
+namespace {
+
+struct AovType {
+  std::string_view name;
+  int channels;
+  FalseColor shown_as;
+};
+
+// In the order of the enumeration.
+constexpr std::array<AovType, 7> types{{
+    {"depth", 1, FalseColor::depth},
+    {"position", 3, FalseColor::position},
+    {"normal", 3, FalseColor::direction},
+    {"uv", 3, FalseColor::position},
+    {"primitive", 1, FalseColor::ids},
+    {"material", 1, FalseColor::ids},
+    {"hits", 1, FalseColor::scalar},
+}};
+
+const AovType& type_of(Aov aov) {
+  return types[size_t(aov)];
+}
+
+std::array<double, 3> values(Aov aov, const FirstHit& hit) {
+  switch (aov) {
+    case Aov::depth:
+      return {hit.t};
+    case Aov::position:
+      return {hit.position.x, hit.position.y, hit.position.z};
+    case Aov::normal:
+      return {hit.normal.x, hit.normal.y, hit.normal.z};
+    case Aov::uv:
+      return {hit.uv.x, hit.uv.y, 0};
+    case Aov::primitive:
+      return {double(hit.primitive)};
+    case Aov::material:
+      return {double(hit.material)};
+    case Aov::hits:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string_view aov_name(Aov aov) {
+  return type_of(aov).name;
+}
+
+std::vector<Aov> parse_aovs(const std::string& list) {
+  std::vector<Aov> aovs;
+  std::vector<std::string_view> names;
+  for (const AovType& type : types) names.push_back(type.name);
+  for (size_t begin = 0; begin <= list.size();) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    const std::string name = list.substr(begin, end - begin);
+    begin = end + 1;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) {
+      aovs.push_back(Aov(found - names.begin()));
+    } else if (name == "all") {
+      for (size_t i = 0; i < types.size(); ++i) aovs.push_back(Aov(i));
+    } else {
+      const std::string nearest = nearest_name(name, names);
+      throw Error(ExitCode::bad_input, "no AOV '{}'{} There are {} and all", name,
+                  nearest.empty() ? "." : fmt::format("; did you mean '{}'?", nearest),
+                  fmt::join(names, ", "));
+    }
+  }
+  std::sort(aovs.begin(), aovs.end());
+  aovs.erase(std::unique(aovs.begin(), aovs.end()), aovs.end());
+  return aovs;
+}
+
+bool need_first_hits(const std::vector<Aov>& aovs) {
+  return std::any_of(aovs.begin(), aovs.end(), [](Aov aov) { return aov != Aov::hits; });
+}
+
+Image aov_image(Aov aov, const Rendering& rendering) {
+  if (aov == Aov::hits) return rendering.hits;
+  const int channels = type_of(aov).channels;
+  Image image(rendering.color.width(), rendering.color.height(), channels);
+  CHECK_EQ(rendering.first_hits.size() * size_t(channels), image.sample_count());
+  float* sample = image.samples().data();
+  for (const FirstHit& hit : rendering.first_hits) {
+    const std::array<double, 3> value = values(aov, hit);
+    for (int channel = 0; channel < channels; ++channel) *sample++ = float(value[size_t(channel)]);
+  }
+  return image;
+}
+
+Image aov_picture(Aov aov, const Image& image) {
+  return false_color(image, type_of(aov).shown_as);
+}
+
+}  // namespace eyeray::cli

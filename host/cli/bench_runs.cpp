@@ -1,0 +1,94 @@
+#include "cli/bench_runs.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "core/error.hpp"
+
+namespace fs = std::filesystem;
+
+namespace eyeray::cli {
+namespace {
+
+constexpr double longest_run_seconds = 600;
+
+ProcessResult run_or_throw(const std::vector<std::string>& argv, const Environment& environment = {}) {
+  ProcessResult result = run_process(argv, environment, longest_run_seconds);
+  if (result.code == int(ExitCode::interrupted)) throw Error(ExitCode::interrupted, "interrupted");
+  if (result.code > 0 && result.code < 6)
+    throw Error(ExitCode(result.code), "{} failed:\n{}", argv[0], result.err);
+  if (result.code != 0)
+    throw Error(ExitCode::file_io, "{} ended with code {}:\n{}", argv[0], result.code, result.err);
+  return result;
+}
+
+}  // namespace
+
+Spread spread(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const size_t half = values.size() / 2;
+  const double median = values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
+  return {median, values.front(), values.back()};
+}
+
+Spread stage_spread(const Series& series, const std::string& stage) {
+  std::vector<double> values;
+  for (const TimedRun& run : series.runs) {
+    const auto found = std::find_if(run.seconds.begin(), run.seconds.end(),
+                                    [&](const auto& each) { return each.first == stage; });
+    values.push_back(found == run.seconds.end() ? 0 : found->second);
+  }
+  return spread(values);
+}
+
+Spread tracing_spread(const Series& series) {
+  std::vector<double> values;
+  for (const TimedRun& run : series.runs) values.push_back(run.tracing);
+  return spread(values);
+}
+
+TimedRun run_eyeray(const std::vector<std::string>& arguments, const fs::path& output,
+                    const Environment& environment) {
+  std::vector<std::string> argv{fs::read_symlink("/proc/self/exe").string(), "render"};
+  argv.insert(argv.end(), arguments.begin(), arguments.end());
+  argv.insert(argv.end(), {"-o", output.string(), "--json", "--quiet"});
+  const ProcessResult result = run_or_throw(argv, environment);
+
+  TimedRun run;
+  run.seconds.emplace_back("whole process", result.seconds);
+  const auto report = nlohmann::ordered_json::parse(result.out);
+  for (const auto& [stage, seconds] : report.at("stages").items())
+    run.seconds.emplace_back(stage, seconds.get<double>());
+  run.rays = report.at("rays");
+  run.tracing = report.at("sampling_seconds");
+  run.device = report.at("device");
+  return run;
+}
+
+bool have_povray() {
+  try {
+    return run_process({"povray", "--version"}).code == 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+TimedRun run_povray(const fs::path& scene, int width, int height, const fs::path& output) {
+  const ProcessResult result =
+      run_or_throw({"povray", "+I" + scene.string(), fmt::format("+W{}", width), fmt::format("+H{}", height),
+                    "+WT2", "-D", "-V", "+FN", "-A", "+O" + output.string()});
+  TimedRun run;
+  run.seconds.emplace_back("whole process", result.seconds);
+  std::smatch match;
+  const std::regex trace_time(R"(Trace Time:[^(]*\(([0-9.]+) seconds\))");
+  if (!std::regex_search(result.err, match, trace_time))
+    throw Error(ExitCode::file_io, "povray did not say its trace time:\n{}", result.err);
+  run.tracing = std::stod(match[1]);
+  run.seconds.emplace_back("trace", run.tracing);
+  run.device = "POV-Ray, two threads";
+  return run;
+}
+
+}  // namespace eyeray::cli

@@ -1,0 +1,50 @@
+// Timed runs of whole programs: eyeray itself, and POV-Ray beside it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/process.hpp"
+
+namespace eyeray::cli {
+
+// What one run took.
+struct TimedRun {
+  std::vector<std::pair<std::string, double>> seconds;  // by stage, "whole process" first
+  uint64_t rays = 0;
+  double tracing = 0;  // seconds spent on tracing alone, as the program itself says
+  std::string device;
+};
+
+// The runs of one program on one scene.
+struct Series {
+  std::string name;
+  std::vector<TimedRun> runs;
+};
+
+// Median and extremes.
+struct Spread {
+  double median = 0;
+  double min = 0;
+  double max = 0;
+};
+Spread spread(std::vector<double> values);
+
+// Of a stage over a series; a run without the stage counts as 0.
+Spread stage_spread(const Series& series, const std::string& stage);
+Spread tracing_spread(const Series& series);
+
+// This program: eyeray render ARGUMENTS… -o OUTPUT, in a process of its own. Error when it fails.
+TimedRun run_eyeray(const std::vector<std::string>& arguments, const std::filesystem::path& output,
+                    const Environment& environment = {});
+
+// Whether POV-Ray is installed.
+bool have_povray();
+// POV-Ray with two threads; its own trace time. Error when it fails.
+TimedRun run_povray(const std::filesystem::path& scene, int width, int height,
+                    const std::filesystem::path& output);
+
+}  // namespace eyeray::cli

@@ -1,0 +1,187 @@
+// eyeray check: reads a scene, says whether it is sound, and prints what follows from it.
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/json.hpp"
+#include "loader/scene_file.hpp"
+#include "render/pack.hpp"
+#include "scene/camera_frame.hpp"
+
+namespace eyeray::cli {
+namespace {
+
+struct Command {
+  SceneOptions scene;
+  bool schema = false;
+  bool manual = false;
+  bool json = false;
+
+  ExitCode run() const;
+};
+
+// Names with how many there are of each, in registry order; kinds that the scene lacks are left out.
+using Counts = std::vector<std::pair<std::string, size_t>>;
+
+struct Inventory {
+  Counts shapes;
+  Counts materials;
+  Counts lights;
+  size_t bytes = 0;  // on the device, pixels not counted
+};
+
+template <typename Types, typename Records>
+Counts count_kinds(const Types& types, const Records& records) {
+  std::vector<size_t> count(types.size());
+  for (const auto& record : records) ++count.at(record.head.x);
+  Counts counts;
+  for (size_t kind = 0; kind < types.size(); ++kind) {
+    if (count[kind] > 0) counts.emplace_back(types[kind]->name, count[kind]);
+  }
+  return counts;
+}
+
+template <typename Record>
+size_t bytes(const std::vector<Record>& records) {
+  return records.size() * sizeof(Record);
+}
+
+Inventory take_inventory(const Scene& scene) {
+  const PackedScene packed = pack(scene);
+  Inventory inventory;
+  inventory.shapes = count_kinds(shape_types(), packed.primitives);
+  inventory.materials = count_kinds(material_types(), packed.materials);
+  const auto points = size_t(std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return light.type == LightType::point;
+  }));
+  if (points > 0) inventory.lights.emplace_back("point", points);
+  if (points < scene.lights.size())
+    inventory.lights.emplace_back("directional", scene.lights.size() - points);
+  inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.materials) +
+                    bytes(packed.textures) + bytes(packed.media) + bytes(packed.lights) +
+                    sizeof(packed.frame);
+  return inventory;
+}
+
+std::string format_vec(const Vec3& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x + 0.0, v.y + 0.0, v.z + 0.0);
+}
+
+std::string format_counts(const Counts& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+  return text.empty() ? "none" : text;
+}
+
+void print_text(const Scene& scene, const Inventory& inventory) {
+  const Camera& camera = scene.camera;
+  const ImageSettings& image = scene.image;
+  const CameraFrame frame = camera_frame(camera, image.width, image.height);
+  const bool perspective = camera.type == CameraType::perspective;
+  const auto line = [](std::string_view name, const std::string& text) {
+    fmt::print("{:<12} {}\n", name, text);
+  };
+
+  line("image", fmt::format("{}×{} pixels, {} sample{} a pixel, {}", image.width, image.height, image.samples,
+                            image.samples == 1 ? "" : "s",
+                            image.pattern == SamplePattern::jittered ? "jittered" : "regular"));
+  line("camera", perspective ? "perspective" : "orthographic");
+  line("  eye", format_vec(camera.eye));
+  line("  u right", format_vec(frame.u));
+  line("  v up", format_vec(frame.v));
+  line("  w forward", format_vec(frame.w));
+  if (perspective) {
+    line("  D", fmt::format("{:.6g}, the image plane's distance in half widths", frame.distance));
+    line("  fov", fmt::format("{:.6g}° horizontal, {:.6g}° vertical", frame.horizontal_fov_degrees,
+                              frame.vertical_fov_degrees));
+  } else {
+    line("  sees",
+         fmt::format("{:.6g} × {:.6g} units", 2 * camera.size, 2 * camera.size * image.height / image.width));
+  }
+  line("integrator", scene.render.integrator == IntegratorType::raycast
+                         ? "raycast"
+                         : fmt::format("whitted, max_depth {}, min_weight {:g}", scene.render.max_depth,
+                                       scene.render.min_weight));
+  line("shapes", format_counts(inventory.shapes));
+  line("materials", format_counts(inventory.materials));
+  line("lights", format_counts(inventory.lights));
+  line("memory", fmt::format("{} bytes of scene, {} bytes of picture", inventory.bytes,
+                             size_t(image.width) * size_t(image.height) * 3 * sizeof(float)));
+  for (const auto& file : scene.files) line("read", file.string());
+}
+
+Json to_json(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json to_json(const Counts& counts) {
+  Json json = Json::object();
+  for (const auto& [name, count] : counts) json[name] = count;
+  return json;
+}
+
+Json as_json(const Scene& scene, const Inventory& inventory) {
+  const Camera& camera = scene.camera;
+  const CameraFrame frame = camera_frame(camera, scene.image.width, scene.image.height);
+  Json view{{"eye", to_json(camera.eye)},
+            {"u", to_json(frame.u)},
+            {"v", to_json(frame.v)},
+            {"w", to_json(frame.w)}};
+  if (camera.type == CameraType::perspective) {
+    view["type"] = "perspective";
+    view["distance"] = frame.distance;
+    view["horizontal_fov_degrees"] = frame.horizontal_fov_degrees;
+    view["vertical_fov_degrees"] = frame.vertical_fov_degrees;
+  } else {
+    view["type"] = "orthographic";
+    view["size"] = camera.size;
+  }
+  Json json{
+      {"image",
+       {{"width", scene.image.width}, {"height", scene.image.height}, {"samples", scene.image.samples}}},
+      {"camera", view},
+      {"shapes", to_json(inventory.shapes)},
+      {"materials", to_json(inventory.materials)},
+      {"lights", to_json(inventory.lights)},
+      {"scene_bytes", inventory.bytes},
+      {"files", Json::array()},
+      {"warnings", Json::array()}};
+  for (const auto& file : scene.files) json["files"].push_back(file.string());
+  for (const Diagnostic& warning : scene.warnings) json["warnings"].push_back(cli::to_json(warning));
+  return json;
+}
+
+ExitCode Command::run() const {
+  if (schema || manual) {
+    fmt::print("{}", schema ? scene_schema() : scene_manual());
+    return ExitCode::ok;
+  }
+  if (scene.file().empty()) throw Error(ExitCode::bad_input, "no scene given (see eyeray check --help)");
+  const Scene loaded = scene.load();
+  const Inventory inventory = take_inventory(loaded);
+  if (json) {
+    print_json(as_json(loaded, inventory));
+  } else {
+    print_text(loaded, inventory);
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Run& run) {
+  CLI::App* const command =
+      app.add_subcommand("check", "Check a scene without rendering, and print what follows from it.");
+  const auto options = std::make_shared<Command>();
+  options->scene.add_to(*command);
+  command->get_option("SCENE")->required(false);
+  command->add_flag("--schema", options->schema, "Print the JSON Schema of scene files, for editors.");
+  command->add_flag("--manual", options->manual, "Print the reference of every table and key, as Markdown.");
+  command->add_flag("--json", options->json, "Answer as JSON on standard output.");
+  command->footer(
+      "Every error of the scene is shown at once, as file:line:column: error, with exit code 2.\n"
+      "Example: eyeray check scenes/whitted.toml -s 1920x1080");
+  command->callback([options, &run] { run = [options] { return options->run(); }; });
+}
+
+}  // namespace eyeray::cli

@@ -1,0 +1,98 @@
+// One file a command. Each adds its subcommand to the app; when the user names it, CLI11 fills the options,
+// and the command's `run` is called and answers the exit code. Errors are thrown; main prints them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/rect.hpp"
+#include "render/executor.hpp"
+#include "scene/scene.hpp"
+
+namespace eyeray::cli {
+
+// Set by the command that was named.
+using Run = std::function<ExitCode()>;
+
+void add_render(CLI::App& app, Run& run);
+void add_verify(CLI::App& app, Run& run);
+void add_compare(CLI::App& app, Run& run);
+void add_check(CLI::App& app, Run& run);
+void add_devices(CLI::App& app, Run& run);
+void add_bench(CLI::App& app, Run& run);
+void add_dev(CLI::App& app, Run& run);
+void add_shaders(CLI::App& app, Run& run);
+
+// SCENE and what the command line may change of it: -D, --allow-path, -s, --spp, --integrator, --seed,
+// --triangle,
+// --max-depth.
+class SceneOptions {
+ public:
+  void add_to(CLI::App& command);
+  // The scene with the options laid over it; prints its warnings on stderr. InputError or Error as
+  // load_scene.
+  Scene load() const;
+  // The options that were given, to be pasted into another command: " -s 96x72 --spp 4".
+  std::string as_written() const;
+  const std::string& file() const { return file_; }
+  // The same options for another scene.
+  SceneOptions for_file(const std::string& file) const {
+    SceneOptions options = *this;
+    options.file_ = file;
+    return options;
+  }
+
+ private:
+  std::string file_;
+  std::vector<std::string> defines_;
+  std::vector<std::filesystem::path> allowed_folders_;
+  std::string size_;
+  std::string samples_;
+  std::string integrator_;
+  std::string seed_;
+  std::string triangle_;
+  std::string max_depth_;
+};
+
+// "640x480" as {640, 480}; Error (bad_input) for anything else.
+std::pair<int, int> parse_size(const std::string& text);
+
+// --device, --shaders, --fast-math, --validate, --timeout, --no-constants, and the hidden --inject-fault.
+void add_executor_options(CLI::App& command, ExecutorOptions& options);
+
+// --backend gpu|twin|reference.
+void add_backend_option(CLI::App& command, Backend& backend);
+// "gpu", "twin", "reference", both ways; Error (bad_input) for another name.
+Backend parse_backend(const std::string& name);
+std::string_view backend_name(Backend backend);
+
+// As CLI::Range, which lets NaN through.
+inline CLI::Validator within(double low, double high) {
+  const std::string range = fmt::format("{} to {}", low, high);
+  return CLI::Validator(
+      [=](const std::string& text) {
+        double value = 0;
+        const bool ok = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+        return ok ? std::string() : fmt::format("'{}' is not a number from {}", text, range);
+      },
+      range);
+}
+
+// --crop X,Y,W,H; an empty rect when not given. Error (bad_input) at load time when it leaves the picture.
+void add_crop_option(CLI::App& command, Rect& crop);
+void check_crop(const Rect& crop, const ImageSettings& image);
+
+// Progress on stderr: a bar with rays/s and time left on a terminal, a plain line every few seconds
+// otherwise, nothing under --quiet. NO_COLOR is honoured.
+std::function<void(const Progress&)> progress_reporter(bool quiet);
+
+// "12.3 Mrays/s", "1.25 s", "3.4 ms".
+std::string format_rate(double rays_per_second);
+std::string format_seconds(double seconds);
+
+}  // namespace eyeray::cli

@@ -1,0 +1,59 @@
+#include "cli/evidence.hpp"
+
+#include <fstream>
+#include <iterator>
+
+#include "core/error.hpp"
+#include "core/false_color.hpp"
+#include "core/image_file.hpp"
+
+namespace fs = std::filesystem;
+
+namespace eyeray::cli {
+namespace {
+
+// The words that this process was started with, as a shell takes them.
+std::string own_command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  const std::string words(std::istreambuf_iterator<char>(file), {});
+  std::string line;
+  for (size_t begin = 0; begin < words.size();) {
+    const std::string word = words.c_str() + begin;
+    begin += word.size() + 1;
+    if (!line.empty()) line += ' ';
+    if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/-+=,:@%") ==
+            std::string::npos &&
+        !word.empty()) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? "'\\''" : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
+}  // namespace
+
+void keep_evidence(const fs::path& folder, std::span<const Frame> frames, const Report& report) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw Error(ExitCode::file_io, "cannot make the folder {}: {}", folder.string(), error.message());
+
+  const Frame& reference = frames.back();
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const std::string& name = report.participants[i].name;
+    const Image& picture = frames[i].color;
+    if (!image_size_allowed(picture.width(), picture.height())) continue;
+    write_image(folder / (name + ".pfm"), picture);
+    if (i + 1 < frames.size() && picture.same_size(reference.color)) {
+      write_image(folder / (name + "-difference.png"),
+                  false_color(log_difference(picture, reference.color), FalseColor::scalar));
+    }
+  }
+  write_file_atomically(folder / "command.txt", own_command_line() + "\n");
+}
+
+}  // namespace eyeray::cli

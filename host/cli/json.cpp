@@ -1,0 +1,37 @@
+#include "cli/json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace eyeray::cli {
+
+Json to_json(const Diagnostic& diagnostic) {
+  Json json{{"severity", diagnostic.severity == Severity::error ? "error" : "warning"},
+            {"file", diagnostic.position.file}};
+  if (diagnostic.position.line > 0) json["line"] = diagnostic.position.line;
+  if (diagnostic.position.column > 0) json["column"] = diagnostic.position.column;
+  json["message"] = diagnostic.message;
+  return json;
+}
+
+Json to_json(const Error& error) {
+  Json json{{"code", int(error.code())}, {"message", error.what()}};
+  if (const auto* input = dynamic_cast<const InputError*>(&error)) {
+    json["diagnostics"] = Json::array();
+    for (const Diagnostic& diagnostic : input->diagnostics())
+      json["diagnostics"].push_back(to_json(diagnostic));
+  }
+  return json;
+}
+
+Json to_json(const StageTimes& times) {
+  Json json = Json::object();
+  for (const auto& [stage, seconds] : times.stages()) json[stage] = seconds;
+  return json;
+}
+
+void print_json(const Json& json) {
+  // File names may hold any bytes; JSON may not.
+  fmt::print("{}\n", json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace eyeray::cli

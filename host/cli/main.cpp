@@ -1,0 +1,149 @@
+// eyeray: reads the command line, runs one command, and turns whatever goes wrong into words and an exit
+// code.
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "cli/command.hpp"
+#include "cli/help.hpp"
+#include "cli/json.hpp"
+#include "core/diagnostic.hpp"
+#include "core/interrupt.hpp"
+
+namespace eyeray::cli {
+namespace {
+
+// An exception that nothing here expects: a bug, told apart from every fault of the world (sysexits'
+// EX_SOFTWARE).
+constexpr int internal_error = 70;
+
+void describe(CLI::App& app) {
+  app.name("eyeray");
+  app.description("eyeray: a ray tracer on Vulkan compute shaders, checked pixel by pixel against the CPU.");
+  app.set_version_flag("--version", "eyeray " EYERAY_VERSION, "Print the version.");
+  app.set_help_flag("-h,--help", "Print this help; every command has its own.");
+  app.formatter(help_formatter());
+  app.footer(
+      "First picture:   eyeray render scenes/whitted.toml -o whitted.png\n"
+      "Proof:           eyeray verify scenes/whitted.toml\n"
+      "Exit codes: 0 ok, 1 a comparison failed, 2 bad usage, scene or shader, 3 no usable Vulkan device,\n"
+      "            4 file input or output, 5 time-out, 130 interrupted.\n"
+      "Data goes to standard output, words to standard error. Under --json a failure is JSON too: "
+      "{\"error\": ...}.");
+}
+
+// One line about a wrong command line, with the name that was probably meant.
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<const CLI::App*> named =
+      app.get_subcommands([](const CLI::App* command) { return command->parsed(); });
+  const std::string help =
+      fmt::format("(see eyeray {}--help)", named.empty() ? "" : named[0]->get_name() + " ");
+  const CLI::App& command = named.empty() ? app : *named[0];
+  const std::vector<std::string> extras = app.remaining(true);
+  if (!dynamic_cast<const CLI::ExtrasError*>(&error) || extras.empty())
+    return fmt::format("{} {}", error.what(), help);
+
+  // Look for the nearest name of the same kind: option or command.
+  std::string word = extras[0];
+  const bool is_option = word.starts_with('-');
+  if (is_option) word = word.substr(0, word.find('='));
+  std::vector<std::string> names;
+  if (is_option) {
+    for (const CLI::Option* option : command.get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+      for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    }
+  } else if (named.empty()) {
+    for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(each->get_name());
+  }
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  const std::string nearest = nearest_name(word, candidates);
+  const char* kind = is_option ? "unknown option" : named.empty() ? "unknown command" : "unexpected argument";
+  return fmt::format("{} '{}'{} {}", kind, word,
+                     nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest), help);
+}
+
+void report(const Error& error, bool json) {
+  if (json) print_json({{"error", to_json(error)}});
+  if (const auto* input = dynamic_cast<const InputError*>(&error)) {
+    const size_t count = input->diagnostics().size();
+    fmt::print(stderr, "{}\n{} error{}\n", input->what(), count, count == 1 ? "" : "s");
+  } else {
+    fmt::print(stderr, "eyeray: error: {}\n", error.what());
+  }
+}
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app;
+  describe(app);
+  Run run;
+  add_render(app, run);
+  add_verify(app, run);
+  add_compare(app, run);
+  add_check(app, run);
+  add_dev(app, run);
+  add_devices(app, run);
+  add_bench(app, run);
+  add_shaders(app, run);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    throw Error(ExitCode::bad_input, usage_message(app, error));
+  }
+  if (!run) {
+    fmt::print(stderr, "{}", app.help());
+    return int(ExitCode::bad_input);
+  }
+  return int(run());
+}
+
+// Every way in which a command can fail, as an exit code.
+int guarded_main(int argc, char** argv) {
+  const bool json =
+      std::any_of(argv + 1, argv + argc, [](std::string_view word) { return word == "--json"; });
+  try {
+    const int code = run_command_line(argc, argv);
+    // A reader that went away (`eyeray devices | head -1`) wanted no more; a full disk is an error.
+    if ((std::fflush(stdout) != 0 || std::ferror(stdout)) && errno != EPIPE)
+      throw Error(ExitCode::file_io, "cannot write to standard output: {}", strerror(errno));
+    return code;
+  } catch (const Error& error) {
+    report(error, json);
+    return int(error.code());
+  } catch (const std::bad_alloc&) {
+    report({ExitCode::bad_input, "out of memory; try a smaller picture or scene"}, json);
+    return int(ExitCode::bad_input);
+  } catch (const std::filesystem::filesystem_error& error) {
+    report({ExitCode::file_io, "{}", error.what()}, json);
+    return int(ExitCode::file_io);
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::broken_pipe) return int(ExitCode::ok);
+    report({ExitCode::file_io, "{}", error.what()}, json);
+    return int(ExitCode::file_io);
+  } catch (const std::exception& error) {
+    fmt::print(
+        stderr,
+        "eyeray: internal error: {}\nThis is a bug in eyeray; please report it with the command line.\n",
+        error.what());
+    return internal_error;
+  }
+}
+
+}  // namespace
+}  // namespace eyeray::cli
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  eyeray::catch_interrupts();
+  return eyeray::cli::guarded_main(argc, argv);
+}

@@ -1,0 +1,191 @@
+// Options that several commands share. What a scene may hold is the loader's to judge: an option becomes an
+// override.
+#include <charconv>
+
+#include "cli/command.hpp"
+#include "loader/scene_file.hpp"
+
+namespace eyeray::cli {
+namespace {
+
+// Whole numbers with a separator between them, as many as `numbers` holds; whether that is what `text` is.
+bool parse_integers(std::string_view text, char separator, std::span<int> numbers) {
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    if (i > 0 && (at == end || *at++ != separator)) return false;
+    const auto [next, error] = std::from_chars(at, end, numbers[i]);
+    if (error != std::errc()) return false;
+    at = next;
+  }
+  return at == end;
+}
+
+}  // namespace
+
+std::pair<int, int> parse_size(const std::string& text) {
+  int size[2];
+  if (!parse_integers(text, 'x', size))
+    throw Error(ExitCode::bad_input, "--size wants WIDTHxHEIGHT, as 640x480, not '{}'", text);
+  return {size[0], size[1]};
+}
+
+void SceneOptions::add_to(CLI::App& command) {
+  const std::string group = "Scene";
+  command.add_option("SCENE", file_, "The scene file (docs/scene-file.md).")->required()->option_text(" ");
+  const auto add = [&](const char* name, auto& value, const char* text, const char* description) {
+    return command.add_option(name, value, description)->option_text(text)->group(group);
+  };
+  add("-D,--define", defines_, "KEY=VALUE",
+      "Lay a value over the scene: render.max_depth=3, sphere.0.radius=2, camera.eye=[0,1,5]. May be "
+      "repeated.")
+      ->allow_extra_args(false)
+      ->take_all();
+  add("--allow-path", allowed_folders_, "DIR",
+      "A folder outside the scene's that it may include from. May be repeated.")
+      ->allow_extra_args(false)
+      ->take_all();
+  add("-s,--size", size_, "WxH", "Picture size in pixels, as 640x480.");
+  add("--spp", samples_, "N", "Samples a pixel, a square number.");
+  add("--integrator", integrator_, "NAME", "whitted, or raycast: eye rays only.");
+  add("--max-depth", max_depth_, "N", "Reflections and refractions in a row.");
+  add("--seed", seed_, "N", "Of the random numbers that jittered sampling draws.");
+  add("--triangle", triangle_, "METHOD", "Triangle intersection: woop or moller-trumbore.");
+}
+
+std::string SceneOptions::as_written() const {
+  std::string text;
+  for (const std::string& define : defines_) text += fmt::format(" -D '{}'", define);
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty()) text += fmt::format(" {} {}", name, value);
+  };
+  add("-s", size_);
+  add("--spp", samples_);
+  add("--integrator", integrator_);
+  add("--max-depth", max_depth_);
+  add("--seed", seed_);
+  add("--triangle", triangle_);
+  return text;
+}
+
+Scene SceneOptions::load() const {
+  std::vector<Override> overrides;
+  for (const std::string& define : defines_) overrides.push_back({define});
+  if (!size_.empty()) {
+    const auto [width, height] = parse_size(size_);
+    overrides.push_back({fmt::format("image.width={}", width)});
+    overrides.push_back({fmt::format("image.height={}", height)});
+  }
+  const auto add = [&](const char* key, const std::string& value) {
+    if (!value.empty()) overrides.push_back({fmt::format("{}={}", key, value)});
+  };
+  add("image.samples", samples_);
+  add("render.integrator", integrator_);
+  add("render.max_depth", max_depth_);
+  add("render.seed", seed_);
+  add("render.triangle", triangle_);
+
+  Scene scene = load_scene(file_, overrides, allowed_folders_);
+  for (const Diagnostic& warning : scene.warnings) fmt::print(stderr, "{}\n", format_diagnostic(warning));
+  return scene;
+}
+
+void add_executor_options(CLI::App& command, ExecutorOptions& options) {
+  const std::string group = "Device";
+  command
+      .add_option("--device", options.device,
+                  "auto, cpu, gpu, a number or part of a name (see eyeray devices).")
+      ->option_text("WHICH")
+      ->group(group);
+  command
+      .add_option("--shaders", options.shader_folder,
+                  "A folder laid over the embedded shaders, file by file (see eyeray shaders --export).")
+      ->option_text("DIR")
+      ->group(group)
+      ->check([](const std::string& folder) {
+        if (!std::filesystem::is_directory(folder))
+          throw Error(ExitCode::file_io, "--shaders {}: no such folder; eyeray shaders --export {} makes one",
+                      folder, folder);
+        return std::string();
+      });
+  command.add_option("--timeout", options.timeout_seconds, "The longest wait for the device, in seconds.")
+      ->option_text(fmt::format("SECONDS={}", options.timeout_seconds))
+      ->group(group)
+      ->check([](const std::string& text) {
+        double seconds = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+        const bool good =
+            error == std::errc() && end == text.data() + text.size() && seconds >= 0.001 && seconds <= 1e6;
+        return good ? std::string() : fmt::format("wants seconds from 0.001 to 1000000, not '{}'", text);
+      });
+  command
+      .add_flag("--fast-math", options.fast_math,
+                "Let the driver contract and re-associate arithmetic: no bit-exact results.")
+      ->group(group);
+  command
+      .add_flag_callback(
+          "--no-constants", [&options] { options.constants = false; },
+          "Keep a small scene's shapes in buffers instead of in the kernel.")
+      ->group(group);
+  command
+      .add_option("--validate", options.validation, "Run under the Vulkan validation layer: core or sync.")
+      ->option_text("SET")
+      ->group(group)
+      ->check(CLI::IsMember({"core", "sync"}));
+  command.add_option("--inject-fault", options.fault)->group("");
+}
+
+void add_backend_option(CLI::App& command, Backend& backend) {
+  const auto parse = [&backend](const std::string& name) { backend = parse_backend(name); };
+  command
+      .add_option_function<std::string>(
+          "--backend", parse,
+          "gpu, twin (the same shaders as C++ on the CPU) or reference (float64, written independently).")
+      ->option_text("NAME=gpu")
+      ->group("Device");
+}
+
+Backend parse_backend(const std::string& name) {
+  for (const Backend backend : {Backend::gpu, Backend::twin, Backend::reference}) {
+    if (name == backend_name(backend)) return backend;
+  }
+  throw Error(ExitCode::bad_input, "no backend '{}': there are gpu, twin and reference", name);
+}
+
+std::string_view backend_name(Backend backend) {
+  switch (backend) {
+    case Backend::gpu:
+      return "gpu";
+    case Backend::twin:
+      return "twin";
+    case Backend::reference:
+      return "reference";
+  }
+  return "";
+}
+
+void add_crop_option(CLI::App& command, Rect& crop) {
+  const auto parse = [&crop](const std::string& text) {
+    int numbers[4];
+    if (!parse_integers(text, ',', numbers))
+      throw Error(ExitCode::bad_input, "--crop wants X,Y,W,H in pixels, as 0,0,64,64, not '{}'", text);
+    crop = {numbers[0], numbers[1], numbers[2], numbers[3]};
+  };
+  command
+      .add_option_function<std::string>("--crop", parse,
+                                        "Only these pixels of the picture, from its top left.")
+      ->option_text("X,Y,W,H")
+      ->group("Scene");
+}
+
+void check_crop(const Rect& crop, const ImageSettings& image) {
+  if (crop == Rect{}) return;
+  const bool inside = crop.x >= 0 && crop.y >= 0 && crop.width > 0 && crop.height > 0 &&
+                      crop.x < image.width && crop.y < image.height && crop.width <= image.width - crop.x &&
+                      crop.height <= image.height - crop.y;
+  if (!inside)
+    throw Error(ExitCode::bad_input, "--crop {},{},{},{} leaves the picture, which is {}x{}", crop.x, crop.y,
+                crop.width, crop.height, image.width, image.height);
+}
+
+}  // namespace eyeray::cli

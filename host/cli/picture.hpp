@@ -1,0 +1,56 @@
+// From a scene file to picture files: what `render` does once, and `dev` again and again.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/aov.hpp"
+#include "cli/command.hpp"
+#include "cli/json.hpp"
+
+namespace eyeray::cli {
+
+struct PictureRequest {
+  SceneOptions scene;
+  Backend backend = Backend::gpu;
+  ExecutorOptions executor;
+  Rect crop;
+  std::vector<std::string> outputs;  // none: the scene's name with .png, in the current folder
+  std::vector<Aov> aovs;             // each as NAME.aov.pfm and NAME.aov.png, NAME from the first output
+
+  // The options that say all this.
+  void add_to(CLI::App& command);
+  // Names the default output, and throws Error now for an output that could not be written later.
+  void check_outputs();
+};
+
+struct Picture {
+  std::vector<std::filesystem::path> files;    // written
+  std::vector<std::filesystem::path> sources;  // read: the scene's files and the shaders from --shaders
+  std::string device;                          // Executor::description()
+  Rect crop;                                   // what was rendered
+  int samples = 0;                             // a pixel, asked for
+  int samples_done = 0;
+  uint64_t rays = 0;
+  double sampling_seconds = 0;
+  double seconds = 0;  // all in all
+  uint64_t flagged_pixels = 0;
+  uint32_t flags = 0;
+  bool interrupted = false;
+  StageTimes times;
+};
+
+// Loads, renders and writes. `files` is empty when it was interrupted before every pixel had a sample.
+Picture make_picture(const PictureRequest& request, const std::function<void(const Progress&)>& progress);
+
+// What went wrong in some pixels and what to do about it; "" when nothing did.
+std::string flag_warning(const Picture& picture);
+// "whitted.png: 640×480, 4 samples a pixel, 1.2 M rays in 0.35 s (3.4 Mrays/s) on gpu: llvmpipe …".
+std::string summary(const Picture& picture);
+// "load 1.2 ms, compile 30 ms, …".
+std::string stages(const StageTimes& times);
+Json to_json(const Picture& picture);
+
+}  // namespace eyeray::cli

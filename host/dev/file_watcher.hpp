@@ -1,0 +1,54 @@
+// Notices that files were saved, however the editor saves them.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace eyeray {
+
+// What to watch. A file that does not exist (yet) counts as changed once it appears.
+struct WatchList {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::filesystem::path> folders;  // everything below them whose name has one of `endings`
+  std::vector<std::string> endings;            // ".glsl", with the dot
+};
+
+// inotify on the folders of the files, never on the files themselves: an editor that writes a new file and
+// renames it over the old one would leave a watch on the dead one.
+class FileWatcher {
+ public:
+  FileWatcher();  // Error (file_io) when the system has no inotify instance left
+  ~FileWatcher();
+  FileWatcher(const FileWatcher&) = delete;
+  FileWatcher& operator=(const FileWatcher&) = delete;
+
+  // Replaces what is watched. A change between two calls is not lost.
+  void watch(const WatchList& list);
+  // Waits for a change, and then until the saving is over (30 ms of silence; 200 ms after a file has
+  // vanished, since many editors put it back). The names of what changed; empty when interrupted() came true.
+  std::set<std::string> wait();
+
+ private:
+  // What matters in a watched folder.
+  struct Interest {
+    std::set<std::string> names;
+    bool endings = false;
+  };
+
+  void add_folder(const std::filesystem::path& folder, const std::string& name, bool endings);
+  void add_tree(const std::filesystem::path& folder);
+  // Reads what inotify has to tell; the seconds of silence to wait for after it, nothing when no event
+  // mattered.
+  std::optional<double> read_events(std::set<std::string>& changed);
+  bool matters(int watch_id, const std::string& name) const;
+
+  int fd_ = -1;
+  std::map<int, Interest> interests_;  // by inotify's watch descriptor
+  std::vector<std::string> endings_;
+};
+
+}  // namespace eyeray

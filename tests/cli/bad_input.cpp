@@ -1,0 +1,175 @@
+// The world's faults: each has its words and its exit code, and leaves nothing behind.
+#include <nlohmann/json.hpp>
+
+#include "core/image_file.hpp"
+#include "scene.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+const std::set<std::string> only_the_scene{"scene.toml"};
+
+struct BadScene {
+  std::string before, after;          // a change of the small scene
+  std::vector<std::string> messages;  // "line:column: error: …" and anything else that must be said
+};
+
+}  // namespace
+
+TEST_CASE("a scene that cannot be read") {
+  const SceneFolder folder;
+  const ProcessResult missing = run_eyeray({"render", folder / "nope.toml", "-o", folder / "a.png"});
+  CHECK(missing.code == 4);
+  CHECK(missing.err.starts_with("eyeray: error: cannot read the scene " + folder / "nope.toml" +
+                                ": No such file or directory"));
+  const ProcessResult directory = run_eyeray({"render", folder.path(), "-o", folder / "a.png"});
+  CHECK(directory.code == 4);
+  CHECK(directory.err.find("it is a folder") != std::string::npos);
+  CHECK(folder.names() == only_the_scene);
+}
+
+TEST_CASE("what a scene may not hold") {
+  const BadScene cases[] = {
+      {"[camera]", "[camera", {":5:8: error: "}},
+      {"radius = 1", "radius = 1\nradios = 2", {":27:1: error: ", "did you mean `radius`"}},
+      {"radius = 1", "radius = 1\nradius = 2", {":27:", "error: ", "radius"}},
+      {"radius = 1", "radius = -1", {":26:10: error: ", "from 1e-12 to 1e12"}},
+      {"radius = 1", "radius = nan", {":26:10: error: "}},
+      {"radius = 1", "radius = inf", {":26:10: error: "}},
+      {"width = 64", "width = 0", {":2:9: error: ", "1 to 65536"}},
+      {"width = 64", "width = -5", {":2:9: error: "}},
+      {"width = 64", "width = 65536\nheight = 65536 #", {"error: "}},
+      {"target = [0, 1, 0]", "target = [0, 1, 4]", {"error: "}},
+      {"[[sphere]]",
+       "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 0]\nmaterial = \"matte\"\n[[sphere]]",
+       {"error: ", "normal"}},
+      {"[[sphere]]",
+       "[[triangle]]\nvertices = [[0,0,0],[1,1,1],[2,2,2]]\nmaterial = \"matte\"\n[[sphere]]",
+       {"error: "}},
+      {"radius = 1", "radius = 1\ntransform = [ { scale = 0 } ]", {"error: "}},
+      {"material = \"matte\"", "material = \"mate\"", {"error: ", "did you mean", "matte"}},
+  };
+  for (const BadScene& bad : cases) {
+    const SceneFolder folder;
+    replace_in_file(folder.scene(), bad.before, bad.after);
+    const ProcessResult result = run_eyeray({"render", folder.scene(), "-o", folder / "a.png"});
+    CAPTURE(bad.after);
+    CAPTURE(result.err);
+    CHECK(result.code == 2);
+    CHECK(result.out == "");
+    CHECK(result.err.starts_with(folder.scene()));
+    CHECK(result.err.find(" error") != std::string::npos);
+    for (const std::string& message : bad.messages) CHECK(result.err.find(message) != std::string::npos);
+    CHECK(folder.names() == only_the_scene);
+  }
+}
+
+TEST_CASE("absurd sizes on the command line") {
+  const SceneFolder folder;
+  for (const std::string size : {"0x48", "-4x48", "65537x1", "31623x31623"}) {
+    CAPTURE(size);
+    const ProcessResult result = run_eyeray({"render", folder.scene(), "-s", size, "-o", folder / "a.png"});
+    CHECK(result.code == 2);
+    CHECK(result.err.starts_with("-D image."));
+    CHECK(result.err.ends_with("1 error\n"));
+  }
+  const ProcessResult billion =
+      run_eyeray({"render", folder.scene(), "-s", "31623x31623", "-o", folder / "a.png"});
+  CHECK(billion.err.find("1000014129 pixels") != std::string::npos);
+  CHECK(folder.names() == only_the_scene);
+}
+
+TEST_CASE("an output that cannot be written is refused before rendering") {
+  const SceneFolder folder;
+  std::filesystem::create_directory(folder / "folder.png");
+  for (const std::string& output :
+       {folder / "nowhere/a.png", folder / "folder.png", std::string("/proc/a.png")}) {
+    const ProcessResult result = run_eyeray({"render", folder.scene(), "-o", output});
+    CAPTURE(result.err);
+    CHECK(result.code == 4);
+    CHECK(result.err.starts_with("eyeray: error: "));
+    CHECK(result.err.find(output) != std::string::npos);
+    CHECK(result.err.find("gpu:") == std::string::npos);
+  }
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "folder.png"});
+}
+
+TEST_CASE("without a Vulkan driver or loader nothing is rendered, and what to install is said") {
+  const SceneFolder folder;
+  const Environment no_driver{{"VK_DRIVER_FILES", "/nonexistent.json"},
+                              {"VK_ICD_FILENAMES", "/nonexistent.json"}};
+  const Environment no_loader{{"EYERAY_VULKAN_LOADER", "/nonexistent.so"}};
+  for (const auto& [environment, what] :
+       {std::pair{no_driver, "no Vulkan driver"}, std::pair{no_loader, "no Vulkan loader"}}) {
+    const ProcessResult render = run_eyeray({"render", folder.scene(), "-o", folder / "a.png"}, environment);
+    CHECK(render.code == 3);
+    CHECK(render.err.find(what) != std::string::npos);
+    CHECK(render.err.find("apt install") != std::string::npos);
+    CHECK(run_eyeray({"devices"}, environment).code == 3);
+    // The CPU backends need neither.
+    CHECK(run_eyeray({"render", folder.scene(), "--backend", "twin", "-o", folder / "twin.png"}, environment)
+              .code == 0);
+    std::filesystem::remove(folder / "twin.png");
+  }
+  CHECK(run_eyeray({"render", folder.scene(), "--device", "no such device", "-o", folder / "a.png"}).code ==
+        3);
+  CHECK(folder.names() == only_the_scene);
+}
+
+TEST_CASE("a shader that does not compile is shown at its line") {
+  const SceneFolder folder;
+  const std::string shaders = folder / "shaders";
+  REQUIRE(run_eyeray({"shaders", "--export", shaders}).code == 0);
+  write_text(shaders + "/pixel.glsl",
+             with_pixel_code(read_text(shaders + "/pixel.glsl"), "  color = nonsense;\n"));
+  const ProcessResult result =
+      run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--shaders", shaders});
+  CAPTURE(result.err);
+  CHECK(result.code == 2);
+  CHECK(result.err.find(shaders + "/pixel.glsl:") == 0);
+  CHECK(result.err.find(": error: ") != std::string::npos);
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "shaders"});
+
+  const ProcessResult nowhere = run_eyeray({"render", folder.scene(), "--shaders", folder / "none"});
+  CHECK(nowhere.code == 4);
+  CHECK(nowhere.err.find("no such folder") != std::string::npos);
+}
+
+TEST_CASE("a shader that loops for ever is given up after --timeout") {
+  const SceneFolder folder;
+  export_endless_shaders(folder / "shaders");
+  const ProcessResult result = run_eyeray({"render", folder.scene(), "-s", "256x256", "-o", folder / "a.png",
+                                           "--shaders", folder / "shaders", "--timeout", "0.3"});
+  CAPTURE(result.err);
+  CHECK(result.code == 5);
+  CHECK(result.err.starts_with("eyeray: error: "));
+  CHECK(result.seconds < 30);
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "shaders"});
+}
+
+TEST_CASE("Ctrl-C keeps what was rendered") {
+  const SceneFolder folder;
+  const ProcessResult result =
+      run_eyeray({"render", folder.scene(), "--spp", "65536", "-o", folder / "a.pfm"}, {}, 120, 3000);
+  CAPTURE(result.err);
+  CHECK(result.code == 130);
+  CHECK(result.err.find("eyeray: interrupted; ") != std::string::npos);
+  CHECK(result.err.find(" of 65536 samples a pixel were kept\n") != std::string::npos);
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "a.pfm"});
+  CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == doctest::Approx(0.25));
+}
+
+TEST_CASE("Ctrl-C before every pixel has a sample keeps nothing") {
+  const SceneFolder folder;
+  const ProcessResult result = run_eyeray(
+      {"render", folder.scene(), "-s", "4096x4096", "--backend", "reference", "-o", folder / "a.pfm"}, {},
+      120, 300);
+  CHECK(result.code == 130);
+  CHECK(
+      result.err.ends_with("eyeray: error: interrupted before every pixel had a sample; nothing was kept\n"));
+  CHECK(folder.names() == only_the_scene);
+}

@@ -1,0 +1,141 @@
+// eyeray dev, end to end: edits, broken and endless shaders, Ctrl-C.
+#include <csignal>
+
+#include "core/image_file.hpp"
+#include "scene.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+constexpr double patience = 60;
+
+// A running `eyeray dev`, and the place in its words up to which they have been looked at.
+class Dev {
+ public:
+  Dev(const SceneFolder& folder, const std::string& timeout)
+      : process_({eyeray_binary(), "dev", folder.scene(), "--shaders", folder / "shaders", "-o",
+                  folder / "a.pfm", "--timeout", timeout}) {}
+
+  // Whether it says `text` from here on.
+  bool says(const std::string& text) {
+    if (!process_.wait_for_error_text(text, patience, seen_)) {
+      MESSAGE("no '", text, "' in: ", process_.err().substr(seen_));
+      return false;
+    }
+    seen_ = process_.err().find(text, seen_) + text.size();
+    return true;
+  }
+  // Its worker, its only child; 0 when there is none.
+  pid_t worker() const {
+    const std::string pid = std::to_string(process_.pid());
+    std::istringstream children(read_text("/proc/" + pid + "/task/" + pid + "/children"));
+    pid_t child = 0;
+    children >> child;
+    return child;
+  }
+  Process& process() { return process_; }
+
+ private:
+  Process process_;
+  size_t seen_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("dev renders on every save, and outlives what it renders") {
+  const SceneFolder folder;
+  const std::string shaders = folder / "shaders";
+  REQUIRE(run_eyeray({"shaders", "--export", shaders}).code == 0);
+  const std::string pixel = shaders + "/pixel.glsl";
+  const std::string good_shader = read_text(pixel);
+  Dev dev(folder, "20");
+  REQUIRE(dev.says("gpu: "));
+  REQUIRE(dev.says("rendered " + folder / "a.pfm" + " in "));
+  REQUIRE(dev.says("watching for changes"));
+  CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == 0.25f);
+  const pid_t worker = dev.worker();
+  CHECK(worker > 0);
+
+  // A scene that is saved in place.
+  replace_in_file(folder.scene(), "background = [0.25", "background = [0.5");
+  REQUIRE(dev.says("rendered "));
+  CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == 0.5f);
+
+  // A scene that is saved the way careful editors do: the old file becomes a backup, a new one gets its name.
+  std::filesystem::rename(folder.scene(), folder / "scene.toml~");
+  write_text(folder / "new", replaced(read_text(folder / "scene.toml~"), "[0.5", "[0.125"));
+  std::filesystem::rename(folder / "new", folder.scene());
+  REQUIRE(dev.says("rendered "));
+  CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == 0.125f);
+
+  // A broken scene and a broken shader: the place of the fault is named, the picture stays.
+  const std::string picture = read_text(folder / "a.pfm");
+  replace_in_file(folder.scene(), "radius = 1", "radius = 0");
+  REQUIRE(dev.says(folder.scene() + ":26:10: error: "));
+  REQUIRE(dev.says("stays as it was"));
+  replace_in_file(folder.scene(), "radius = 0", "radius = 1");
+  REQUIRE(dev.says("rendered "));
+  write_text(pixel, with_pixel_code(good_shader, "  color = nonsense;\n"));
+  REQUIRE(dev.says(pixel + ":"));
+  REQUIRE(dev.says(": error: "));
+  REQUIRE(dev.says("stays as it was"));
+  CHECK(read_text(folder / "a.pfm") == picture);
+
+  // A shader that is changed; all so far was done by one process, which kept its caches.
+  write_text(pixel, with_pixel_code(good_shader, "  color += 1.0f;\n"));
+  REQUIRE(dev.says("rendered "));
+  CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == 1.125f);
+  CHECK(dev.worker() == worker);
+
+  // A worker that dies is replaced at the next save.
+  kill(worker, SIGKILL);
+  REQUIRE(wait_until_ended(worker));
+  write_text(pixel, good_shader);
+  REQUIRE(dev.says("rendered "));
+  CHECK(read_text(folder / "a.pfm") == picture);
+
+  // Ctrl-C ends it and its worker.
+  const pid_t last_worker = dev.worker();
+  dev.process().send_signal(SIGINT);
+  CHECK(dev.process().wait(10));
+  CHECK(dev.process().code() == 130);
+  CHECK(wait_until_ended(last_worker));
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "scene.toml~", "shaders", "a.pfm"});
+}
+
+TEST_CASE("dev stops a shader that never ends, and renders again once it is mended") {
+  const SceneFolder folder;
+  const std::string pixel = folder / "shaders/pixel.glsl";
+  replace_in_file(folder.scene(), "width = 64\nheight = 48", "width = 256\nheight = 256");
+  export_endless_shaders(folder / "shaders");
+  Dev dev(folder, "4");
+  REQUIRE(dev.says("no picture after 4 s"));
+  REQUIRE(dev.says("watching for changes"));
+  CHECK(dev.worker() == 0);
+  CHECK_FALSE(folder.names().contains("a.pfm"));
+
+  REQUIRE(run_eyeray({"shaders", "--export", folder / "shaders", "--force"}).code == 0);
+  REQUIRE(dev.says("rendered "));
+  CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == 0.25f);
+
+  // Killed without a chance to clean up, it leaves no worker behind.
+  const pid_t worker = dev.worker();
+  CHECK(worker > 0);
+  dev.process().send_signal(SIGKILL);
+  CHECK(dev.process().wait(10));
+  CHECK(wait_until_ended(worker));
+}
+
+TEST_CASE("dev says at once what no save can mend") {
+  const SceneFolder folder;
+  CHECK(run_eyeray({"dev", folder / "nope.toml"}).code == 4);
+  CHECK(run_eyeray({"dev", folder.scene(), "-o", folder / "a.gif"}).code == 2);
+  CHECK(run_eyeray({"dev", folder.scene(), "-o", folder / "a.png"},
+                   {{"EYERAY_VULKAN_LOADER", "/nonexistent.so"}})
+            .code == 3);
+  CHECK(folder.names() == std::set<std::string>{"scene.toml"});
+}

@@ -1,0 +1,157 @@
+// eyeray render, check, shaders and devices where all is well.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/image_file.hpp"
+#include "scene.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+TEST_CASE("render writes what was asked for, and says so on standard error") {
+  const SceneFolder folder;
+  const ProcessResult result =
+      run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "-o", folder / "a.pfm"});
+  CAPTURE(result.err);
+  CHECK(result.code == 0);
+  CHECK(result.out == "");
+  CHECK(result.err.starts_with(folder / "a.png" + ", " + folder / "a.pfm" + ": 64×48, 1 sample a pixel, "));
+  CHECK(result.err.find(" on gpu: ") != std::string::npos);
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "a.png", "a.pfm"});
+
+  // The corner sees the background, the middle the sphere.
+  const Image image = read_image(folder / "a.pfm");
+  REQUIRE(image.width() == 64);
+  REQUIRE(image.height() == 48);
+  CHECK(image.pixel(0, 0)[0] == 0.25f);
+  CHECK(image.pixel(0, 0)[2] == 0.75f);
+  CHECK(image.pixel(32, 24)[0] > image.pixel(32, 24)[2]);
+}
+
+TEST_CASE("the default output is the scene's name, in the current folder") {
+  const SceneFolder folder;
+  const ProcessResult result = run_process(
+      {"sh", "-c", "cd " + folder.path().string() + " && " + eyeray_binary() + " render scene.toml --quiet"});
+  CHECK(result.code == 0);
+  CHECK(result.out + result.err == "");
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "scene.png"});
+}
+
+TEST_CASE("the options lay values over the scene") {
+  const SceneFolder folder;
+  const ProcessResult result =
+      run_eyeray({"render", folder.scene(), "-s", "20x10", "--spp", "4", "--crop", "2,1,6,5", "-D",
+                  "render.background=[1,2,3]", "-o", folder / "a.pfm", "--json", "--quiet"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  const auto report = nlohmann::json::parse(result.out);
+  CHECK(report.at("width") == 6);
+  CHECK(report.at("height") == 5);
+  CHECK(report.at("samples_done") == 4);
+  CHECK(report.at("rays") >= 6 * 5 * 4);
+  CHECK(report.at("stages").contains("encode"));
+  CHECK(report.at("flags").empty());
+  CHECK(read_image(folder / "a.pfm").pixel(0, 0)[2] == 3.0f);
+}
+
+TEST_CASE("the three backends write the same picture") {
+  const SceneFolder folder;
+  for (const std::string backend : {"gpu", "twin", "reference"}) {
+    const ProcessResult result =
+        run_eyeray({"render", folder.scene(), "--backend", backend, "-o", folder / (backend + ".pfm")});
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    CHECK(result.err.find(" on " + backend) != std::string::npos);
+  }
+  CHECK(read_text(folder / "gpu.pfm") == read_text(folder / "twin.pfm"));
+  CHECK(run_eyeray({"compare", folder / "gpu.pfm", folder / "reference.pfm", "--max-different", "10"}).code ==
+        0);
+}
+
+TEST_CASE("AOVs hold what the eye rays met") {
+  const SceneFolder folder;
+  const ProcessResult result = run_eyeray({"render", folder.scene(), "--aov", "all", "-o", folder / "a.png"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  std::set<std::string> expected{"scene.toml", "a.png"};
+  for (const std::string name : {"depth", "position", "normal", "uv", "primitive", "material", "hits"})
+    expected.insert({"a." + name + ".pfm", "a." + name + ".png"});
+  CHECK(folder.names() == expected);
+
+  // A unit sphere at distance 4, seen through the pixel just beside its middle.
+  CHECK(*read_image(folder / "a.depth.pfm").pixel(32, 24) == doctest::Approx(3).epsilon(1e-3));
+  CHECK(std::isinf(*read_image(folder / "a.depth.pfm").pixel(0, 0)));
+  CHECK(read_image(folder / "a.normal.pfm").pixel(32, 24)[2] == doctest::Approx(1).epsilon(1e-2));
+  CHECK(*read_image(folder / "a.primitive.pfm").pixel(32, 24) == 0);
+  CHECK(*read_image(folder / "a.primitive.pfm").pixel(0, 0) == -1);
+  CHECK(*read_image(folder / "a.hits.pfm").pixel(32, 24) == 1);
+  CHECK(*read_image(folder / "a.hits.pfm").pixel(0, 0) == 0);
+}
+
+TEST_CASE("--stats names the stages") {
+  const SceneFolder folder;
+  const ProcessResult result = run_eyeray({"render", folder.scene(), "--stats", "-o", folder / "a.png"});
+  for (const std::string stage :
+       {"load", "device", "pack", "shader compile", "pipeline", "dispatch", "read-back", "encode"}) {
+    CAPTURE(stage);
+    CHECK(result.err.find("\n  " + stage + " ") != std::string::npos);
+  }
+}
+
+TEST_CASE("check prints the numbers that follow from a scene") {
+  const SceneFolder folder;
+  const ProcessResult text = run_eyeray({"check", folder.scene()});
+  CHECK(text.code == 0);
+  CHECK(text.err == "");
+  CHECK(text.out.find("u right    (1, 0, 0)") != std::string::npos);
+  CHECK(text.out.find("60° horizontal, 46.8264° vertical") != std::string::npos);
+  CHECK(text.out.find("shapes       1 sphere\n") != std::string::npos);
+
+  const auto json = nlohmann::json::parse(run_eyeray({"check", folder.scene(), "--json"}).out);
+  CHECK(json.at("camera").at("w") == nlohmann::json{0.0, 0.0, -1.0});
+  CHECK(json.at("camera").at("distance").get<double>() == doctest::Approx(std::sqrt(3)));
+  CHECK(json.at("materials").at("phong") == 1);
+  CHECK(json.at("lights").at("point") == 1);
+}
+
+TEST_CASE("check --schema is JSON, --manual is Markdown") {
+  CHECK(nlohmann::json::parse(run_eyeray({"check", "--schema"}).out).contains("properties"));
+  CHECK(run_eyeray({"check", "--manual"}).out.starts_with("#"));
+}
+
+TEST_CASE("devices lists what --device takes") {
+  const ProcessResult text = run_eyeray({"devices"});
+  CHECK(text.code == 0);
+  CHECK(text.out.starts_with("0  "));
+  const auto json = nlohmann::json::parse(run_eyeray({"devices", "--json"}).out);
+  REQUIRE(json.at("devices").size() >= 1);
+  CHECK(json.at("devices")[0].at("limits").at("storage_range") > 0);
+}
+
+TEST_CASE("shaders: exported files render the same picture, and changed ones are not overwritten") {
+  const SceneFolder folder;
+  const std::string shaders = folder / "shaders";
+  REQUIRE(run_eyeray({"shaders", "--export", shaders}).code == 0);
+  CHECK(run_eyeray({"shaders", "--print", "render.comp.glsl"}).out ==
+        read_text(shaders + "/render.comp.glsl"));
+  CHECK(run_eyeray({"shaders", "--list"}).out.find("shapes/sphere.glsl\n") != std::string::npos);
+
+  REQUIRE(run_eyeray({"render", folder.scene(), "-o", folder / "a.pfm"}).code == 0);
+  REQUIRE(run_eyeray({"render", folder.scene(), "-o", folder / "b.pfm", "--shaders", shaders}).code == 0);
+  CHECK(read_text(folder / "a.pfm") == read_text(folder / "b.pfm"));
+
+  // A changed shader changes the picture, and survives another export.
+  write_text(shaders + "/pixel.glsl",
+             with_pixel_code(read_text(shaders + "/pixel.glsl"), "  color += 1.0f;\n"));
+  REQUIRE(run_eyeray({"render", folder.scene(), "-o", folder / "b.pfm", "--shaders", shaders}).code == 0);
+  CHECK(read_image(folder / "b.pfm").pixel(0, 0)[0] == 1.25f);
+  const ProcessResult again = run_eyeray({"shaders", "--export", shaders});
+  CHECK(again.code == 4);
+  CHECK(again.err ==
+        "eyeray: error: " + shaders +
+            "/pixel.glsl differs from the embedded shader; nothing was written (--force overwrites)\n");
+  CHECK(run_eyeray({"shaders", "--export", shaders, "--force"}).code == 0);
+  CHECK(read_text(shaders + "/pixel.glsl").find("color += 1.0f") == std::string::npos);
+}
