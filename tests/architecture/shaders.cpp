@@ -1,0 +1,76 @@
+// What shader files may hold, so that they mean the same as GLSL and as C++, on every driver.
+#include "sources.hpp"
+#include "support/doctest.hpp"
+
+using namespace eyeray::test;
+
+namespace {
+
+bool entry(const SourceFile& file) {
+  return file.path.ends_with(".comp.glsl");
+}
+
+// The self-test is no shader of pictures: it asks the driver about its arithmetic.
+bool self_test(const SourceFile& file) {
+  return file.path == "shaders/selftest.comp.glsl";
+}
+
+// The lines of code that have `pattern` in them, of the files that `filter` picks.
+template <typename Filter>
+std::string find_code(const std::regex& pattern, const Filter& filter) {
+  std::string found;
+  for (const SourceFile& file : source_files("shaders")) {
+    for (size_t i = 0; i < file.lines.size(); ++i) {
+      if (filter(file) && std::regex_search(code(file.lines[i]), pattern))
+        found += file.at(i) + ": " + file.lines[i] + "\n";
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("only entries and bindings.glsl are GLSL alone: version, extensions, layouts, main") {
+  const auto common = [](const SourceFile& file) {
+    return !entry(file) && file.path != "shaders/bindings.glsl";
+  };
+  CHECK(find_code(std::regex(R"(#\s*(version|extension)\b)"), common) == "");
+  CHECK(find_code(std::regex(R"(\blayout\s*\()"), common) == "");
+  CHECK(find_code(std::regex(R"(\b(uniform|buffer|shared|gl_\w+)\b)"), common) == "");
+  const auto no_entry = [](const SourceFile& file) { return !entry(file); };
+  CHECK(find_code(std::regex(R"(\bvoid\s+main\b)"), no_entry) == "");
+  CHECK(find_code(std::regex(R"(\bvoid\s+main\b)"), entry) != "");
+}
+
+TEST_CASE("nothing is left to the driver's built-in functions but abs, floor, sqrt and the bit casts") {
+  const std::regex loose(
+      R"(\b(radians|degrees|sin|cos|tan|asin|acos|atan|sinh|cosh|tanh|asinh|acosh|atanh|pow|exp|log|exp2|log2|inversesqrt|)"
+      R"(sign|trunc|round|roundEven|ceil|fract|mod|modf|min|max|clamp|mix|step|smoothstep|isnan|isinf|fma|frexp|ldexp|)"
+      R"(length|distance|dot|cross|normalize|faceforward|reflect|refract|any|all|not|lessThan|greaterThan|equal|inverse|)"
+      R"(transpose|determinant|outerProduct|matrixCompMult|bitCount|bitfieldExtract|findLSB|findMSB|umulExtended|dFdx|dFdy|)"
+      R"(subgroup\w+|atomic\w+|texture|pack\w+|unpack\w+)\s*\()");
+  CHECK(find_code(loose, [](const SourceFile& file) { return !self_test(file); }) == "");
+}
+
+TEST_CASE("neither double nor half, nor swizzles: what both languages read alike") {
+  const auto pictures = [](const SourceFile& file) { return !entry(file) && file.name() != "language.h"; };
+  CHECK(find_code(std::regex(R"(\b(double|dvec[234]|half|float16_t|precise|lowp|mediump|highp)\b)"),
+                  pictures) == "");
+  CHECK(find_code(std::regex(R"(\.([xyzw]{2,4}|[rgba]{2,4}|[stpq]{2,4})\b(?!\s*\())"), pictures) == "");
+  // A float literal ends in f, or C++ computes in double.
+  CHECK(find_code(std::regex(R"((^|[^\w.])(\d+\.\d*|\.\d+)(e[-+]?\d+)?(?![\w.]))"), pictures) == "");
+}
+
+TEST_CASE("includes are written from the shaders' root, and files guard themselves") {
+  for (const SourceFile& file : source_files("shaders")) {
+    CAPTURE(file.path);
+    for (const Include& include : includes(file)) {
+      CAPTURE(include.name);
+      CHECK_FALSE(include.name.starts_with("."));
+      CHECK(include.name.find("..") == std::string::npos);
+    }
+    const bool guarded =
+        std::ranges::any_of(file.lines, [](const std::string& l) { return l.starts_with("#ifndef "); });
+    CHECK((entry(file) || guarded));
+  }
+}

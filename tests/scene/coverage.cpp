@@ -1,0 +1,60 @@
+// Nothing in the registries goes without a scene.
+#include <set>
+
+#include "loader/scene_file.hpp"
+#include "render/pack.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+std::vector<std::filesystem::path> scene_files(const char* folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  return files;
+}
+
+// The kinds of shapes that a scene has, and of materials on them.
+struct Kinds {
+  std::set<uint32_t> shapes;
+  std::set<uint32_t> materials;
+};
+
+Kinds kinds_of(const Scene& scene) {
+  const PackedScene packed = pack(scene);
+  Kinds kinds;
+  for (const shader::Primitive& primitive : packed.primitives) {
+    kinds.shapes.insert(primitive.head.x);
+    kinds.materials.insert(packed.materials[primitive.head.y].head.x);
+  }
+  return kinds;
+}
+
+}  // namespace
+
+TEST_CASE("every shape of the registry has a scene of its name, in which it is") {
+  for (uint32_t kind = 0; kind < shape_types().size(); ++kind) {
+    const std::string file = "scenes/shapes/" + std::string(shape_types()[kind]->name) + ".toml";
+    CAPTURE(file);
+    REQUIRE(std::filesystem::exists(file));
+    CHECK(kinds_of(load_scene(file)).shapes.contains(kind));
+  }
+  CHECK(scene_files("scenes/shapes").size() == shape_types().size());
+}
+
+TEST_CASE("every material of the registry is on some shape of some scene, and no scene warns") {
+  std::set<uint32_t> used;
+  for (const std::filesystem::path& file : scene_files("scenes")) {
+    CAPTURE(file);
+    const Scene scene = load_scene(file);
+    CHECK(scene.warnings.empty());
+    used.merge(kinds_of(scene).materials);
+  }
+  for (uint32_t kind = 0; kind < material_types().size(); ++kind) {
+    CAPTURE(material_types()[kind]->name);
+    CHECK(used.contains(kind));
+  }
+}

@@ -1,0 +1,52 @@
+# `eyeray verify` as tests: gates A, B and C on every scene file (ctest -L scene), in every mode (ctest -L mode) and under the
+# validation layers (ctest -L validation). What a failing gate leaves behind lies in the build folder.
+file(GLOB_RECURSE SCENES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/scenes/*.toml)
+list(FILTER SCENES EXCLUDE REGEX "/include/")
+set(SHAPE_SCENES ${SCENES})
+list(FILTER SHAPE_SCENES INCLUDE REGEX "^scenes/shapes/")
+
+# eyeray_verify(NAME LABEL ARGUMENT …)
+function(eyeray_verify name label)
+  add_test(NAME ${name} COMMAND eyeray verify ${ARGN} --quiet --keep ${CMAKE_CURRENT_BINARY_DIR}/kept/${name}
+    WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 300)
+endfunction()
+
+# Every scene as its file says.
+foreach(scene IN LISTS SCENES)
+  string(REGEX REPLACE "^scenes/(.*)\\.toml$" "\\1" name ${scene})
+  string(REPLACE "/" "." name ${name})
+  eyeray_verify(scene.${name} scene ${scene})
+endforeach()
+
+# Every mode, on small pictures. The edge scenes put whole rows of pixels where the picture jumps, for one size and one sample.
+set(EDGES ${SCENES})
+list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
+set(small ${SCENES} -s 96x72)
+list(FILTER small EXCLUDE REGEX "^scenes/edges/")
+eyeray_verify(mode.no-constants mode ${small} --no-constants)
+eyeray_verify(mode.no-constants.edges mode ${EDGES} --no-constants)
+eyeray_verify(mode.raycast mode ${small} --integrator raycast)
+eyeray_verify(mode.raycast.edges mode ${EDGES} --integrator raycast)
+eyeray_verify(mode.eye-rays mode ${small} --max-depth 0)
+eyeray_verify(mode.deep mode ${small} --max-depth 64 -D render.min_weight=0.01)
+eyeray_verify(mode.moller-trumbore mode scenes/cornell.toml scenes/whitted.toml scenes/shapes/triangle.toml -s 96x72
+  --triangle moller-trumbore)
+# A pixel of n samples is n times as likely to have one at a jump.
+eyeray_verify(mode.supersampled mode ${small} --spp 4 --max-explained 0.02)
+eyeray_verify(mode.jittered mode ${small} --spp 9 -D image.pattern=jittered --seed 7 --max-explained 0.02)
+
+# Pictures that no workgroup fits, and parts of pictures.
+set(some scenes/cornell.toml scenes/inside_glass.toml scenes/orthographic.toml)
+foreach(size 1x1 7x3 1x300 300x1 17x33)
+  eyeray_verify(mode.size-${size} mode ${some} -s ${size})
+endforeach()
+eyeray_verify(mode.crop mode ${some} -s 200x150 --crop 51,37,83,71)
+eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --spp 4 -D image.pattern=jittered)
+
+# Every message of a validation layer is a failure; tests/gpu proves that the layers are there and speak.
+foreach(layer core sync)
+  set(set scenes/whitted.toml ${some} ${SHAPE_SCENES} -s 96x72 --validate ${layer})
+  eyeray_verify(validation.${layer} validation ${set})
+  eyeray_verify(validation.${layer}.no-constants validation ${set} --no-constants)
+endforeach()

@@ -1,0 +1,237 @@
+#include "generator.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "loader/sections.hpp"
+
+namespace eyeray::test {
+
+namespace {
+
+constexpr double inf = Key::inf;
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double extremes[] = {0,          -0.0,         1e-5,      1e-7,     1e-9,   1e-12,      1e-15,
+                               1e-30,      1e-39,        1e-44,     5e-324,   1e-300, 1e4,        1e6,
+                               1e9,        1e12,         1e15,      1e16,     3.4e38, 1e39,       1.7e308,
+                               inf,        not_a_number, 1,         16777217, 65536,  0.99999999, 1.00000001,
+                               89.9999999, 180,          179.999999};
+constexpr int materials = 3;
+
+class Writer {
+ public:
+  Writer(Random& random, const Wildness& wildness) : random_(random), wildness_(wildness) {}
+
+  std::string write();
+
+ private:
+  bool chance(double share) { return random_.uniform() < share; }
+  // A mishap that a legal scene does not have.
+  bool mishap() { return !wildness_.legal && chance(0.001); }
+
+  double extreme(const Key& key);
+  double number(const Key& key);
+  std::string numbers(const Key& key, int count);
+  std::string direction();
+  std::string value(const Key& key);
+  std::string texture(const Key& key);
+  std::string transform();
+  std::string choice(const Key& key) {
+    if (mishap()) return "\"nothing\"";
+    return fmt::format("\"{}\"", key.choices[size_t(random_.below(int(key.choices.size())))]);
+  }
+  void table(const std::string& title, std::initializer_list<std::span<const Key>> keys,
+             std::set<std::string_view> left_out, const std::string& given);
+
+  Random& random_;
+  const Wildness wildness_;
+  std::string text_;
+};
+
+double Writer::extreme(const Key& key) {
+  double value = extremes[random_.below(int(std::size(extremes)))];
+  if (chance(0.4)) value = -value;
+  if (chance(0.1)) value = key.min;
+  if (chance(0.1)) value = key.max;
+  if (!wildness_.legal)
+    return chance(0.2) ? std::array{inf, -inf, not_a_number}[size_t(random_.below(3))] : value;
+
+  // Into the range, and to where float32 arithmetic may go.
+  const double low =
+      std::max({key.min, key.type == KeyType::color || key.type == KeyType::texture ? 0.0 : -1e15, -1e15});
+  const double high = std::min(key.max, 1e15);
+  if (!(value >= low)) value = low;
+  if (value > high) value = high;
+  if (key.above_min && key.min >= 0) value = std::max(value, 1e-15);
+  if (key.below_max && value == key.max) value = key.max * (1 - 1e-9);
+  return value;
+}
+
+double Writer::number(const Key& key) {
+  if (chance(wildness_.share)) return extreme(key);
+  const bool share = key.type == KeyType::color || key.type == KeyType::texture;
+  const double low = share ? 0 : std::max(key.min, -3.0);
+  const double high = share ? 1 : key.max <= 1000 ? key.max : 3;
+  // Neither end, which may be excluded or extreme; and of great ranges no more than what is seen well.
+  if (key.name == "fov") return random_.uniform(20, 110);
+  return random_.uniform(low + (high - low) * 0.05, high - (high - low) * 0.02);
+}
+
+std::string Writer::numbers(const Key& key, int count) {
+  std::vector<std::string> each;
+  const double first = number(key);
+  const bool same = chance(0.2 * wildness_.share);
+  if (mishap()) ++count;
+  for (int i = 0; i < count; ++i) each.push_back(fmt::format("{}", same ? first : number(key)));
+  return fmt::format("[{}]", fmt::join(each, ", "));
+}
+
+// A vector along an axis, or nearly.
+std::string Writer::direction() {
+  Vec3 v(0);
+  v[random_.below(3)] = chance(0.5) ? 1 : -1;
+  if (chance(0.3)) v[random_.below(3)] += random_.log_uniform(1e-18, 1e-3);
+  if (chance(0.3)) v *= random_.log_uniform(1e-14, 1e14);
+  if (chance(0.05)) v = Vec3(0);
+  return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+}
+
+std::string Writer::texture(const Key& key) {
+  if (chance(0.4)) return numbers(key, 3);
+  if (chance(0.5)) return fmt::format("{}", number(key));
+  const Key size{.name = "size", .type = KeyType::scale2, .doc = "", .min = 0, .above_min = true};
+  const std::string text = chance(0.5) ? fmt::format("{}", number(size)) : numbers(size, 2);
+  return fmt::format("{{ checker = {{ even = {}, odd = {}, size = {} }} }}", numbers(key, 3), number(key),
+                     text);
+}
+
+std::string Writer::transform() {
+  const Key any{.name = "", .type = KeyType::number, .doc = ""};
+  std::vector<std::string> steps;
+  for (int i = random_.below(3); i > 0; --i) {
+    const int kind = random_.below(wildness_.share > 0 ? 5 : 4);
+    if (kind == 0) steps.push_back(fmt::format("{{ translate = {} }}", numbers(any, 3)));
+    if (kind == 1)
+      steps.push_back(
+          fmt::format("{{ rotate = {{ axis = {}, degrees = {} }} }}", numbers(any, 3), number(any) * 60));
+    if (kind == 2) steps.push_back(fmt::format("{{ scale = {} }}", number(any)));
+    if (kind == 3) steps.push_back(fmt::format("{{ scale = {} }}", numbers(any, 3)));
+    if (kind == 4)
+      steps.push_back(
+          fmt::format("{{ matrix = [{}, {}, {}] }}", numbers(any, 4), numbers(any, 4), numbers(any, 4)));
+  }
+  return fmt::format("[{}]", fmt::join(steps, ", "));
+}
+
+std::string Writer::value(const Key& key) {
+  if (mishap()) return chance(0.5) ? "\"word\"" : "[[]]";
+  switch (key.type) {
+    case KeyType::boolean:
+      return chance(0.5) ? "true" : "false";
+    case KeyType::integer: {
+      constexpr int64_t whole[] = {0,         -1,       2, 7, 64, 65536, 65537, 4294967295, int64_t{1} << 53,
+                                   INT64_MAX, INT64_MIN};
+      const int64_t sane =
+          key.name == "samples" ? 4 : int64_t(random_.uniform(key.min, std::min(key.max, 12.0)));
+      if (!chance(wildness_.share)) return fmt::format("{}", sane);
+      const int64_t wild = whole[random_.below(int(std::size(whole)))];
+      return fmt::format("{}", wildness_.legal ? std::clamp(wild, int64_t(key.min), int64_t(key.max)) : wild);
+    }
+    case KeyType::number:
+      return fmt::format("{}", number(key));
+    case KeyType::string:
+      return key.name == "material" ? fmt::format("\"m{}\"", random_.below(materials)) : "\"text\"";
+    case KeyType::choice:
+      return choice(key);
+    case KeyType::vec2:
+      return numbers(key, 2);
+    case KeyType::vec3:
+      return chance(0.5 * wildness_.share) ? direction() : numbers(key, 3);
+    case KeyType::vec2_list:
+      return fmt::format("[{}, {}, {}]", numbers(key, 2), numbers(key, 2), numbers(key, 2));
+    case KeyType::vec3_list: {
+      std::string points[] = {numbers(key, 3), numbers(key, 3), numbers(key, 3)};
+      if (chance(0.3 * wildness_.share)) points[2] = points[random_.below(2)];
+      if (mishap()) points[1] = "[]";
+      return fmt::format("[{}]", fmt::join(points, ", "));
+    }
+    case KeyType::color:
+      return chance(0.7) ? numbers(key, 3) : fmt::format("{}", number(key));
+    case KeyType::texture:
+      return texture(key);
+    case KeyType::scale2:
+      return numbers(key, 2);
+    case KeyType::scale3:
+      return numbers(key, 3);
+    case KeyType::transform:
+      return transform();
+    case KeyType::rotation:
+    case KeyType::matrix:
+      return "[]";
+  }
+  return "";
+}
+
+void Writer::table(const std::string& title, std::initializer_list<std::span<const Key>> keys,
+                   std::set<std::string_view> left_out, const std::string& given) {
+  text_ += title + "\n" + given;
+  for (const auto& list : keys) {
+    for (const Key& key : list) {
+      if (left_out.contains(key.name) && !mishap()) continue;
+      const bool needed = !key.optional && key.fallback.empty();
+      if (!chance(needed ? (wildness_.legal ? 1 : 0.999) : key.optional ? 0.3 : 0.7)) continue;
+      text_ += fmt::format("{} = {}\n", key.name, value(key));
+    }
+  }
+}
+
+std::string Writer::write() {
+  table("[image]", {find_section("image")->keys}, {}, "");
+
+  const bool orthographic = chance(0.3);
+  std::set<std::string_view> left_out = {"type"};
+  if (orthographic) left_out.insert({"fov", "fov_axis"});
+  if (!orthographic) left_out.insert("size");
+  table("[camera]", {find_section("camera")->keys}, left_out,
+        fmt::format("type = \"{}\"\n", orthographic ? "orthographic" : "perspective"));
+  table("[render]", {find_section("render")->keys}, {}, "");
+
+  for (int i = random_.below(4); i > 0; --i) {
+    // What a light needs is optional in its keys, for it depends on the type.
+    const bool point = chance(0.5);
+    const Key place{.name = "", .type = KeyType::vec3, .doc = ""};
+    table("[[light]]", {find_section("light")->keys},
+          point ? std::set<std::string_view>{"type", "direction", "position"}
+                : std::set<std::string_view>{"type", "direction", "position", "falloff"},
+          fmt::format("type = \"{}\"\n{} = {}\n", point ? "point" : "directional",
+                      point ? "position" : "direction", numbers(place, 3)));
+  }
+  for (int i = 0; i < materials; ++i) {
+    const MaterialType& type = *material_types()[size_t(random_.below(int(material_types().size())))];
+    table("[[material]]", {type.keys}, {}, fmt::format("name = \"m{}\"\ntype = \"{}\"\n", i, type.name));
+  }
+  for (int i = random_.below(6); i > 0; --i) {
+    const ShapeType& type = *shape_types()[size_t(random_.below(int(shape_types().size())))];
+    // A normal that points the wrong way is refused: half of all. Most triangles go without.
+    std::set<std::string_view> mostly;
+    if (chance(0.8)) mostly = {"normals"};
+    // An uneven scale is no sphere's.
+    if (chance(0.5)) mostly.insert("transform");
+    table(fmt::format("[[{}]]", type.name), {type.keys, find_section(type.name)->keys}, mostly, "");
+  }
+  return text_;
+}
+
+}  // namespace
+
+std::string random_scene_text(Random& random, const Wildness& wildness) {
+  return Writer(random, wildness).write();
+}
+
+}  // namespace eyeray::test

@@ -1,0 +1,20 @@
+// Scene files made up at random, every key of every table in them: what the loader declares (Key) is what is
+// written, so a new shape or material takes part by itself.
+#pragma once
+
+#include <string>
+
+#include "support/random.hpp"
+
+namespace eyeray::test {
+
+struct Wildness {
+  double share = 0;   // of numbers that are extreme, and of structures that are degenerate
+  bool legal = true;  // whether extreme numbers stay in the range of their key, and nothing is misspelt
+};
+
+// The text of a scene: a camera, up to three lights, materials and shapes. Without wildness, nearly always
+// one that renders.
+std::string random_scene_text(Random& random, const Wildness& wildness);
+
+}  // namespace eyeray::test

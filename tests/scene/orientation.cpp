@@ -1,0 +1,99 @@
+// Right is right, up is up and near is near: scenes/orientation.toml, by every executor.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "frames.hpp"
+#include "loader/scene_file.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+struct Place {
+  int x, y;
+};
+
+// The pixel that shows the world's point p, by docs/conventions.md.
+Place project(const Scene& scene, const Vec3& p) {
+  const Camera& camera = scene.camera;
+  const Vec3 w = glm::normalize(camera.target - camera.eye);
+  const Vec3 u = glm::normalize(glm::cross(w, camera.up));
+  const Vec3 v = glm::cross(u, w);
+  const Vec3 way = p - camera.eye;
+  const double width = scene.image.width, height = scene.image.height;
+  const double distance = 1 / std::tan(camera.fov_degrees / 2 * std::numbers::pi / 180);
+  const double x = distance * glm::dot(way, u) / glm::dot(way, w);
+  const double y = distance * glm::dot(way, v) / glm::dot(way, w) * width / height;
+  return {int((x + 1) / 2 * width), int((1 - y) / 2 * height)};
+}
+
+struct Thing {
+  const char* material;
+  Vec3 center;
+  int primitive;
+};
+const Thing things[] = {{"white", {0, 0, 0}, 0},
+                        {"red", {1.8, 0, 0}, 1},
+                        {"green", {0, 1.5, 0}, 2},
+                        {"blue", {0, 0, 1.6}, 3},
+                        {"red", {-1.7, 0.75, 0}, 5}};
+
+}  // namespace
+
+TEST_CASE("orientation: red is right, green is up, blue is near, by every executor") {
+  const Scene scene = load_scene("scenes/orientation.toml");
+  for (const Backend backend : backends) {
+    CAPTURE(backend_names[int(backend)]);
+    const Frame frame = render_frame(scene, backend);
+
+    // Each thing is seen where its centre projects to.
+    for (const Thing& thing : things) {
+      CAPTURE(thing.material);
+      const Place place = project(scene, thing.center);
+      const FirstHit& hit = frame.first_hit(place.x, place.y);
+      CHECK(hit.primitive == thing.primitive);
+      REQUIRE(hit.material >= 0);
+      CHECK(scene.materials[size_t(hit.material)]->name == thing.material);
+      CHECK(glm::length(hit.position - thing.center) < 0.6);
+    }
+
+    // And without any formula: the picture's right half has the ball of red, its left the arrow, its top the
+    // green.
+    const auto seen = [&](int primitive, Rect area) {
+      int count = 0;
+      for (int y = area.y; y < area.y + area.height; ++y)
+        for (int x = area.x; x < area.x + area.width; ++x)
+          count += frame.first_hit(x, y).primitive == primitive;
+      return count;
+    };
+    const int width = scene.image.width, height = scene.image.height;
+    const Rect left{0, 0, width / 2, height}, right{width / 2, 0, width / 2, height};
+    const Rect top{0, 0, width, height / 2}, bottom{0, height / 2, width, height / 2};
+    CHECK(seen(1, right) > 500);
+    CHECK(seen(1, left) == 0);
+    CHECK(seen(5, left) > 500);
+    CHECK(seen(5, right) == 0);
+    CHECK(seen(2, top) > 500);
+    CHECK(seen(2, bottom) == 0);
+    CHECK(seen(4, bottom) > seen(4, top));
+
+    // Colours have their channels in order.
+    const auto color = [&](const Thing& thing) {
+      const Place place = project(scene, thing.center);
+      return color_at(frame.color, place.x, place.y);
+    };
+    const Vec3 red = color(things[1]), green = color(things[2]), blue = color(things[3]);
+    CHECK(red.r > 2 * std::max(red.g, red.b));
+    CHECK(green.g > 2 * std::max(green.r, green.b));
+    CHECK(blue.b > 2 * std::max(blue.r, blue.g));
+
+    // Blue stands before white.
+    const Place near = project(scene, things[3].center), far = project(scene, things[0].center);
+    CHECK(frame.first_hit(near.x, near.y).t < frame.first_hit(far.x, far.y).t - 0.5);
+  }
+}

@@ -1,0 +1,173 @@
+// Scenes that nobody would write: either the loader says what is wrong with them, or they render.
+#include <fmt/format.h>
+
+#include <array>
+#include <atomic>
+#include <mutex>
+
+#include "core/parallel_for.hpp"
+#include "frames.hpp"
+#include "generator.hpp"
+#include "loader/scene_file.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// As small as `width` × `height`, and of a depth at which trees of rays end.
+Scene shrunk(Scene scene, int width, int height) {
+  scene.image.width = width;
+  scene.image.height = height;
+  scene.image.samples = std::min(scene.image.samples, 4);
+  scene.render.max_depth = std::min(scene.render.max_depth, 6);
+  return scene;
+}
+
+// How many scenes fail, and the texts of the first, each with why.
+class Failures {
+ public:
+  void add(const std::string& why, const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    ++count_;
+    if (count_ <= 3) shown_ += why + "\n" + text + "\n";
+  }
+  int count() const { return count_; }
+  const std::string& shown() const { return shown_; }
+
+ private:
+  std::mutex mutex_;
+  int count_ = 0;
+  std::string shown_;
+};
+
+// Why an InputError does not help its reader; empty when it does.
+std::string why_useless(const InputError& error) {
+  if (error.diagnostics().empty()) return "no diagnostic";
+  for (const Diagnostic& diagnostic : error.diagnostics()) {
+    if (diagnostic.position.line < 1 || diagnostic.position.column < 1)
+      return "no position: " + diagnostic.message;
+    if (diagnostic.message.empty()) return "no message";
+  }
+  return "";
+}
+
+// Scene `i` of the extreme ones, as small as they are rendered; InputError when the loader refuses it.
+std::string extreme_text(int i) {
+  Random random{uint64_t(i)};
+  return random_scene_text(random,
+                           {std::array{0.01, 0.05, 0.2, 0.4}[size_t(i) % 4], i % 3 > 0 || i % 4 == 3});
+}
+Scene extreme_scene(const std::string& text) {
+  return shrunk(parse_scene(text, "scene.toml"), 8, 6);
+}
+
+}  // namespace
+
+TEST_CASE("10 000 scenes with extreme values: a clear error or a sound picture") {
+  constexpr int count = 10000;
+  Failures failures;
+  std::atomic<int> refused = 0, rendered = 0, with_hits = 0;
+  parallel_for(0, count, [&](int i) {
+    const std::string text = extreme_text(i);
+    try {
+      const Scene scene = extreme_scene(text);
+      for (const Backend backend : {Backend::twin, Backend::reference}) {
+        const Frame frame = render_frame(scene, backend);
+        Soundness soundness = inspect(frame);
+        soundness.flags &= ~media_overflow;  // the scene's own doing, and said
+        soundness.flagged_pixels = 0;
+        if (!soundness.ok())
+          failures.add(fmt::format("{} {}: {}", i, backend_names[int(backend)], describe(soundness)), text);
+        with_hits +=
+            std::ranges::any_of(frame.first_hits, [](const FirstHit& hit) { return hit.primitive >= 0; });
+      }
+      ++rendered;
+    } catch (const InputError& error) {
+      ++refused;
+      const std::string why = why_useless(error);
+      if (!why.empty()) failures.add(fmt::format("{}: {}", i, why), text);
+    } catch (const Error& error) {
+      // What only the whole scene tells: an eye inside of too many media.
+      ++refused;
+      if (error.code() != ExitCode::bad_input) failures.add(fmt::format("{}: {}", i, error.what()), text);
+    }
+  });
+  MESSAGE(fmt::format("{} refused, {} rendered, in {} of which something is seen", refused.load(),
+                      rendered.load(), with_hits.load() / 2));
+  INFO(failures.shown());
+  CHECK(failures.count() == 0);
+  CHECK(refused > count / 4);
+  CHECK(rendered > count / 4);
+  CHECK(with_hits > count / 4);
+}
+
+TEST_CASE("extreme scenes: the GPU and the twin, bit by bit") {
+  int compared = 0;
+  for (int i = 0; compared < 16; ++i) {
+    const std::string text = extreme_text(i);
+    try {
+      const Scene scene = extreme_scene(text);
+      const Frame twin = render_frame(scene, Backend::twin);
+      if (std::ranges::none_of(twin.first_hits, [](const FirstHit& hit) { return hit.primitive >= 0; }))
+        continue;
+      ExecutorOptions options;
+      options.constants = compared % 2 == 0;
+      const ExactComparison bits = compare_exactly(render_frame(scene, Backend::gpu, options), twin);
+      INFO(i, ": ", text);
+      CHECK(bits.different_pixels == 0);
+      ++compared;
+    } catch (const Error& error) {
+      CHECK(error.code() == ExitCode::bad_input);
+    }
+  }
+}
+
+TEST_CASE("300 scenes at random: the twin agrees with the reference, the GPU with the twin") {
+  constexpr int count = 300;
+  Failures failures;
+  int compared = 0, explained = 0, creases = 0, on_gpu = 0;
+  for (int i = 0; compared < count; ++i) {
+    Random random{uint64_t(i) + 1'000'000};
+    const std::string text = random_scene_text(random, {});
+    Scene scene;
+    try {
+      scene = shrunk(parse_scene(text, "scene.toml"), 24, 18);
+      scene.image.samples = 1;
+    } catch (const InputError&) {
+      continue;
+    }
+    if (scene.shapes.empty()) continue;
+    ++compared;
+    const Frame twin = render_frame(scene, Backend::twin);
+    const ReferenceComparison comparison = test::compare_with_reference(scene, twin);
+    explained += int(comparison.colors.explained_pixels());
+    if (comparison.first_hits.passes() && comparison.colors.unexplained == 1) {
+      ++creases;
+    } else if (!comparison.passes()) {
+      const auto line = [](const Tally& t) {
+        return fmt::format("{} explained, {} unexplained, worst at {},{} ({:.3g} tolerances, {})",
+                           t.explained_pixels(), t.unexplained, t.worst.pixel.x, t.worst.pixel.y,
+                           t.worst.excess, name(t.worst.seam));
+      };
+      failures.add(fmt::format("{}: B {}; C {}", i, line(comparison.colors), line(comparison.first_hits)),
+                   text);
+    }
+    if (compared % 10 != 0) continue;
+    ++on_gpu;
+    ExecutorOptions options;
+    options.constants = on_gpu % 2 == 0;
+    const ExactComparison bits = compare_exactly(render_frame(scene, Backend::gpu, options), twin);
+    if (!bits.passes(0))
+      failures.add(fmt::format("{}: {} pixels differ in their bits", i, bits.different_pixels), text);
+  }
+  MESSAGE(fmt::format("{} compared, {} on the GPU; {} pixels explained, {} in creases", compared, on_gpu,
+                      explained, creases));
+  INFO(failures.shown());
+  CHECK(failures.count() == 0);
+  // In a crease, a ray may start beyond the other surface: float32 must step off its own by some 1e-6 of its
+  // size. That is about one pixel of a million here.
+  CHECK(creases <= 1);
+}
