@@ -19,7 +19,7 @@ Scene hall_of_mirrors(int count, int depth) {
       "render = {{ max_depth = {}, background = [0.1, 0.2, 0.3], ambient = [1, 1, 1] }}\n",
       depth);
   text += "[[light]]\ntype = \"directional\"\ndirection = [0, -1, 0]\nintensity = 0.5\n";
-  text += "[[material]]\nname = \"mirror\"\ntype = \"mirror\"\nreflectance = 0.99\n";
+  text += "[[material]]\nname = \"mirror\"\ntype = \"phong\"\ndiffuse = 0.02\nreflectance = 0.98\n";
   for (const double x : {-2.0, 2.0})
     text += fmt::format("[[plane]]\npoint = [{}, 0, 0]\nnormal = [1, 0, 0]\nmaterial = \"mirror\"\n", x);
   for (int i = 0; i < count; ++i)
