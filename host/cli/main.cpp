@@ -64,6 +64,9 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
       names.push_back(each->get_name());
   }
   const std::vector<std::string_view> candidates(names.begin(), names.end());
+  if (std::find(names.begin(), names.end(), word) != names.end())
+    return fmt::format("'{}' belongs after the command: eyeray {} ... {} {}", word, command.get_name(), word,
+                       help);
   const std::string nearest = nearest_name(word, candidates);
   const char* kind = is_option ? "unknown option" : named.empty() ? "unknown command" : "unexpected argument";
   return fmt::format("{} '{}'{} {}", kind, word,

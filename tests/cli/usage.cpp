@@ -23,6 +23,8 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
   const Mistake mistakes[] = {
       {{"rendr", scene}, "unknown command 'rendr'; did you mean 'render'? (see eyeray --help)"},
       {{"--foo"}, "unknown option '--foo' (see eyeray --help)"},
+      {{"--max-depth=4", "check", scene},
+       "'--max-depth' belongs after the command: eyeray check ... --max-depth (see eyeray check --help)"},
       {{"render"}, "SCENE is required (see eyeray render --help)"},
       {{"render", scene, "--sp=4"},
        "unknown option '--sp'; did you mean '--spp'? (see eyeray render --help)"},
