@@ -8,6 +8,7 @@
 
 #include "core/vec.hpp"
 #include "scene/material.hpp"
+#include "scene/mesh.hpp"
 #include "scene/shape.hpp"
 
 namespace eyeray {
@@ -67,9 +68,14 @@ struct Scene {
   RenderSettings render;
   std::vector<Light> lights;
   std::vector<std::unique_ptr<Material>> materials;
-  // In registry order, within a kind in file order (an included file's where its name stands). The index here
-  // is the primitive index of every executor, and decides exact ties.
+  // In registry order, within a kind in file order (an included file's where its name stands).
   std::vector<std::unique_ptr<Shape>> shapes;
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+
+  // The primitive index of every executor, which decides exact ties, counts the shapes, then the triangles of
+  // each instance in turn.
+  uint64_t primitive_count() const;
 
   std::vector<Diagnostic> warnings;
 };

@@ -1,0 +1,11 @@
+#include "scene/mesh.hpp"
+
+namespace eyeray {
+
+Bounds bounds(const Mesh& mesh) {
+  Bounds bounds;
+  for (const Vec3& position : mesh.positions) bounds.include(position);
+  return bounds;
+}
+
+}  // namespace eyeray

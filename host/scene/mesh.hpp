@@ -1,0 +1,36 @@
+// Meshes and where they stand: a mesh is kept once, however many instances show it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+#include "core/vec.hpp"
+#include "scene/bounds.hpp"
+
+namespace eyeray {
+
+// Triangles that share their vertices, in a space of their own. Whoever makes one sees to it that indices are
+// in range, that every value is finite, that no triangle is without area, and that the normal at each corner
+// is on the side of its triangle's own, which is where the corners run counter-clockwise.
+struct Mesh {
+  std::string name;  // for messages: the file, and what the file calls it
+  std::vector<Vec3> positions;
+  std::vector<std::array<uint32_t, 3>> triangles;  // corners as indices of vertices
+  std::vector<Vec3> normals;                       // unit shading normals, one a vertex; empty: flat
+  std::vector<Vec2> uv;  // one a vertex; empty: the weights of the second and third corner
+};
+
+// A mesh in the world. Under a transform that mirrors, the outside stays outside.
+struct Instance {
+  int mesh = 0;         // index in Scene::meshes
+  Mat4 transform{1.0};  // mesh to world: affine, and can be undone
+  int material = 0;     // index in Scene::materials
+  SourcePosition position;
+};
+
+Bounds bounds(const Mesh& mesh);
+
+}  // namespace eyeray
