@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "records/packer.hpp"
-#include "shapes/affine.hpp"
+#include "scene/affine.hpp"
 #include "shapes/make.hpp"
 
 namespace eyeray {

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "records/packer.hpp"
-#include "shapes/affine.hpp"
+#include "scene/affine.hpp"
 #include "shapes/make.hpp"
 
 namespace eyeray {

@@ -3,7 +3,8 @@
 #include <utility>
 
 #include "records/packer.hpp"
-#include "shapes/affine.hpp"
+#include "scene/affine.hpp"
+#include "scene/triangle.hpp"
 #include "shapes/make.hpp"
 
 namespace eyeray {
@@ -53,21 +54,6 @@ constexpr Key keys[] = {
      .optional = true},
 };
 
-// Twice the area over the square of the longest edge; a thinner triangle has no usable normal.
-constexpr double thinnest = 1e-9;
-
-double thickness(const std::array<Vec3, 3>& v) {
-  const double size = std::max({magnitude(v[1] - v[0]), magnitude(v[2] - v[1]), magnitude(v[0] - v[2])});
-  if (!(size > 0)) return 0;
-  return glm::length(glm::cross((v[1] - v[0]) / size, (v[2] - v[0]) / size));
-}
-
-// Unit, by counter-clockwise winding.
-Vec3 geometric_normal(const std::array<Vec3, 3>& v) {
-  const double size = magnitude(v[1] - v[0]);
-  return unit(glm::cross((v[1] - v[0]) / size, (v[2] - v[0]) / size));
-}
-
 // The triangle in the world, its normals unit.
 TriangleValues transformed(TriangleValues values, const Affine& map) {
   for (Vec3& vertex : values.vertices) vertex = map.point(vertex);
@@ -93,30 +79,7 @@ class Triangle final : public Shape {
         normal_(geometric_normal(vertices_)) {}
 
   std::optional<Intersection> intersect(const Ray& ray) const override {
-    // Shear the vertices along the ray into the plane across its main axis z.
-    const Vec3 size = glm::abs(ray.d);
-    const int z = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
-    const int x = (z + 1) % 3;
-    const int y = (z + 2) % 3;
-    std::array<Vec2, 3> p;
-    for (size_t i = 0; i < 3; ++i) {
-      const Vec3 from_eye = vertices_[i] - ray.o;
-      p[i] = {from_eye[x] - ray.d[x] / ray.d[z] * from_eye[z],
-              from_eye[y] - ray.d[y] / ray.d[z] * from_eye[z]};
-    }
-
-    // Ask on which side of each edge the ray passes.
-    const double w0 = edge(p[1], p[2]);
-    const double w1 = edge(p[2], p[0]);
-    const double w2 = edge(p[0], p[1]);
-    if ((w0 < 0 || w1 < 0 || w2 < 0) && (w0 > 0 || w1 > 0 || w2 > 0)) return std::nullopt;
-    const double area = w0 + w1 + w2;
-    if (area == 0) return std::nullopt;
-
-    // The plane gives t, to the same bit for all that lies in one axis-aligned plane.
-    const double t = glm::dot(normal_, vertices_[0] - ray.o) / glm::dot(normal_, ray.d);
-    if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
-    return Intersection{t, w1 / area, w2 / area};
+    return intersect_triangle(vertices_, normal_, ray);
   }
 
   SurfacePoint surface(const Ray&, const Intersection& hit) const override {
@@ -151,15 +114,12 @@ class Triangle final : public Shape {
   }
 
  private:
-  // Swapped ends give exactly the negative.
-  static double edge(const Vec2& from, const Vec2& to) { return from.x * to.y - from.y * to.x; }
-
   template <typename T>
   static T interpolate(const std::array<T, 3>& values, const Intersection& hit) {
     return values[0] * (1 - hit.u - hit.v) + values[1] * hit.u + values[2] * hit.v;
   }
 
-  std::array<Vec3, 3> vertices_;
+  Corners vertices_;
   std::optional<std::array<Vec3, 3>> normals_;
   std::optional<std::array<Vec2, 3>> uv_;
   Vec3 normal_;
@@ -187,7 +147,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   if (table.failed()) return nullptr;
 
   // Check the triangle as it came, so that the message is at the key that is to blame, and then in the world.
-  if (!(thickness(values.vertices) >= thinnest)) {
+  if (!(thickness(values.vertices) >= thinnest_triangle)) {
     table.error("vertices", "the triangle has no area: its vertices coincide or lie on one line");
   } else if (values.normals && std::count(values.normals->begin(), values.normals->end(), Vec3(0)) > 0) {
     table.error("normals", "a normal has no length");
@@ -199,7 +159,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
     table.error("transform", "the transformed vertices are out of range (coordinates up to 1e12)");
     return nullptr;
   }
-  if (!(thickness(world.vertices) >= thinnest)) {
+  if (!(thickness(world.vertices) >= thinnest_triangle)) {
     table.error("transform", "the map leaves the triangle no area");
     return nullptr;
   }

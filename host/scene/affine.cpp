@@ -1,4 +1,4 @@
-#include "shapes/affine.hpp"
+#include "scene/affine.hpp"
 
 #include <algorithm>
 #include <cmath>

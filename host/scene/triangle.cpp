@@ -1,0 +1,55 @@
+#include "scene/triangle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/affine.hpp"
+
+namespace eyeray {
+namespace {
+
+// On which side of the line through both points the origin is. Swapped ends give exactly the negative.
+double edge(const Vec2& from, const Vec2& to) {
+  return from.x * to.y - from.y * to.x;
+}
+
+}  // namespace
+
+double thickness(const Corners& v) {
+  const double size = std::max({magnitude(v[1] - v[0]), magnitude(v[2] - v[1]), magnitude(v[0] - v[2])});
+  if (!(size > 0)) return 0;
+  return glm::length(glm::cross((v[1] - v[0]) / size, (v[2] - v[0]) / size));
+}
+
+Vec3 geometric_normal(const Corners& v) {
+  const double size = magnitude(v[1] - v[0]);
+  return unit(glm::cross((v[1] - v[0]) / size, (v[2] - v[0]) / size));
+}
+
+std::optional<Intersection> intersect_triangle(const Corners& corners, const Vec3& normal, const Ray& ray) {
+  // Shear the corners along the ray into the plane across its main axis z.
+  const Vec3 size = glm::abs(ray.d);
+  const int z = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+  const int x = (z + 1) % 3;
+  const int y = (z + 2) % 3;
+  std::array<Vec2, 3> p;
+  for (size_t i = 0; i < 3; ++i) {
+    const Vec3 from_eye = corners[i] - ray.o;
+    p[i] = {from_eye[x] - ray.d[x] / ray.d[z] * from_eye[z], from_eye[y] - ray.d[y] / ray.d[z] * from_eye[z]};
+  }
+
+  // Ask on which side of each edge the ray passes.
+  const double w0 = edge(p[1], p[2]);
+  const double w1 = edge(p[2], p[0]);
+  const double w2 = edge(p[0], p[1]);
+  if ((w0 < 0 || w1 < 0 || w2 < 0) && (w0 > 0 || w1 > 0 || w2 > 0)) return std::nullopt;
+  const double area = w0 + w1 + w2;
+  if (area == 0) return std::nullopt;
+
+  // The plane gives t, to the same bit for all that lies in one axis-aligned plane.
+  const double t = glm::dot(normal, corners[0] - ray.o) / glm::dot(normal, ray.d);
+  if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
+  return Intersection{t, w1 / area, w2 / area};
+}
+
+}  // namespace eyeray

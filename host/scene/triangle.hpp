@@ -1,0 +1,28 @@
+// One triangle in float64: what the triangle as a shape and the triangles of meshes have in common.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/vec.hpp"
+#include "scene/shape.hpp"
+
+namespace eyeray {
+
+using Corners = std::array<Vec3, 3>;
+
+// A triangle thinner than this has no usable normal.
+inline constexpr double thinnest_triangle = 1e-9;
+
+// Twice the area over the square of the longest edge; 0 where corners coincide or lie on one line.
+double thickness(const Corners& corners);
+
+// Unit, by counter-clockwise winding; for any triangle of at least `thinnest_triangle`.
+Vec3 geometric_normal(const Corners& corners);
+
+// Where the ray meets the triangle, edges included, with the weights of the second and third corner. `normal`
+// is perpendicular to the triangle, of any length but 0. Watertight: a ray never passes between two triangles
+// that share an edge. Woop, Benthin and Wald: Watertight Ray/Triangle Intersection, JCGT 2(1), 2013.
+std::optional<Intersection> intersect_triangle(const Corners& corners, const Vec3& normal, const Ray& ray);
+
+}  // namespace eyeray
