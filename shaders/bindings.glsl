@@ -1,11 +1,21 @@
-// What the entries share: the buffers.
+// What the entries share: the buffers. Those that grow with the scene are texel buffers where TEXEL_BUFFERS is set: a storage
+// buffer's range can be as small as 128 MiB, and a CPU driver loads texels faster.
 #ifndef BINDINGS_GLSL
 #define BINDINGS_GLSL
 #include "records.h"
 
 layout(push_constant) uniform PushConstants { Dispatch dispatch; };
+#if TEXEL_BUFFERS
+layout(rgba32ui, binding = BINDING_PRIMITIVES) readonly restrict uniform uimageBuffer primitives;
+layout(rgba32ui, binding = BINDING_VERTICES) readonly restrict uniform uimageBuffer vertices;
+layout(rgba32ui, binding = BINDING_NODES) readonly restrict uniform uimageBuffer nodes;
+#else
 layout(std430, binding = BINDING_PRIMITIVES) readonly restrict buffer Primitives { Primitive primitives[]; };
-layout(std430, binding = BINDING_VERTICES) readonly restrict buffer Vertices { vec4 vertices[]; };
+layout(std430, binding = BINDING_VERTICES) readonly restrict buffer Vertices { uvec4 vertices[]; };
+layout(std430, binding = BINDING_NODES) readonly restrict buffer Nodes { uvec4 nodes[]; };
+#endif
+layout(std430, binding = BINDING_TREES) readonly restrict buffer Trees { Tree trees[]; };
+layout(std430, binding = BINDING_INSTANCES) readonly restrict buffer Instances { Instance instances[]; };
 layout(std430, binding = BINDING_MATERIALS) readonly restrict buffer Materials { Material materials[]; };
 layout(std430, binding = BINDING_TEXTURES) readonly restrict buffer Textures { Texture textures[]; };
 layout(std430, binding = BINDING_MEDIA) readonly restrict buffer Media { Medium media[]; };

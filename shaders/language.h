@@ -13,11 +13,13 @@
 
 #define INOUT(T) T&
 #define OUT(T) T&
+#define UNROLL
 
 namespace eyeray::shader {
 
 using uint = uint32_t;
 using glm::uvec2;
+using glm::uvec3;
 using glm::uvec4;
 using glm::vec2;
 using glm::vec3;
@@ -27,6 +29,7 @@ inline float abs(float x) { return std::fabs(x); }
 inline float floor(float x) { return std::floor(x); }
 inline float sqrt(float x) { return std::sqrt(x); }
 inline uint floatBitsToUint(float x) { return __builtin_bit_cast(uint, x); }
+inline int floatBitsToInt(float x) { return __builtin_bit_cast(int, x); }
 inline float uintBitsToFloat(uint x) { return __builtin_bit_cast(float, x); }
 
 }  // namespace eyeray::shader
@@ -38,6 +41,7 @@ inline float uintBitsToFloat(uint x) { return __builtin_bit_cast(float, x); }
 
 #define INOUT(T) inout T
 #define OUT(T) out T
+#define UNROLL [[unroll]]
 #define SHADER_BEGIN
 #define SHADER_END
 

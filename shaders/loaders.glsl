@@ -3,8 +3,24 @@
 #define LOADERS_GLSL
 #include "bindings.glsl"
 
+#if TEXEL_BUFFERS
+uvec4 load_vertex(uint i) { return imageLoad(vertices, int(i)); }
+uvec4 load_node(uint i) { return imageLoad(nodes, int(i)); }
+Primitive load_primitive(uint i) {
+  Primitive p;
+  p.head = imageLoad(primitives, int(4u * i));
+  p.a = uintBitsToFloat(imageLoad(primitives, int(4u * i + 1u)));
+  p.b = uintBitsToFloat(imageLoad(primitives, int(4u * i + 2u)));
+  p.c = uintBitsToFloat(imageLoad(primitives, int(4u * i + 3u)));
+  return p;
+}
+#else
+uvec4 load_vertex(uint i) { return vertices[i]; }
+uvec4 load_node(uint i) { return nodes[i]; }
 Primitive load_primitive(uint i) { return primitives[i]; }
-vec4 load_vertex(uint i) { return vertices[i]; }
+#endif
+Tree load_tree(uint i) { return trees[i]; }
+Instance load_instance(uint i) { return instances[i]; }
 Material load_material(uint i) { return materials[i]; }
 Texture load_texture(uint i) { return textures[i]; }
 Medium load_medium(uint i) { return media[i]; }

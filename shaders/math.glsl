@@ -3,11 +3,11 @@
 #ifndef MATH_GLSL
 #define MATH_GLSL
 #include "language.h"
+#include "records.h"
 
 SHADER_BEGIN
 
 #define PI 3.14159265358979f
-#define T_MISS 3.0e38f      // "no hit": beyond every t, below infinity, so that an infinite t is a miss
 #define EPSILON 5.9604645e-8f  // 2^-24, half an ulp of 1
 
 float minimum(float x, float y) { return y < x ? y : x; }
@@ -15,6 +15,9 @@ float maximum(float x, float y) { return x < y ? y : x; }
 // x, with 0 for −0. llvmpipe takes 0·x as 0 where a factor is a constant, whatever the sign of x: what leaves a kernel goes
 // through here, so that the sign of a zero is the same everywhere.
 float positive_zero(float x) { return x == 0.0f ? 0.0f : x; }
+vec4 bits_to_floats(uvec4 v) {
+  return vec4(uintBitsToFloat(v.x), uintBitsToFloat(v.y), uintBitsToFloat(v.z), uintBitsToFloat(v.w));
+}
 vec3 positive_zeros(vec3 v) { return vec3(positive_zero(v.x), positive_zero(v.y), positive_zero(v.z)); }
 float max_component(vec3 v) { return maximum(v.x, maximum(v.y, v.z)); }
 vec3 abs3(vec3 v) { return vec3(abs(v.x), abs(v.y), abs(v.z)); }

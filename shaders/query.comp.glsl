@@ -1,18 +1,23 @@
-// Entry for tests: rays from a buffer → trace → hits.
+// Entry: rays from a buffer, asked about alone. Without QUERY_ANY the nearest hit, with it whether there is one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bindings.glsl"
+#extension GL_EXT_control_flow_attributes : require
 #include "scene.glsl"
-#include "traverse.glsl"
+#include "pixel.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_RAYS) readonly restrict buffer Rays { QueryRay rays[]; };
 layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { QueryHit results[]; };
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
+  // As in render.comp.glsl, each run of workgroups gets a fair share.
+  uint run = gl_NumWorkGroups.x / GROUP_STRIDE;
+  uint block = (gl_WorkGroupID.x % run) * GROUP_STRIDE + gl_WorkGroupID.x / run;
+  uint i = block * 64u + gl_LocalInvocationIndex;
   if (i >= dispatch.tile.x) return;
-  Ray ray = make_ray(vec3(rays[i].origin), vec3(rays[i].direction));
-  Hit hit = trace(ray);
-  results[i].hit = uvec4(floatBitsToUint(hit.t), hit.primitive, occlusion(ray, rays[i].direction.w), 0u);
+#ifdef QUERY_ANY
+  results[i] = query(rays[i], true);
+#else
+  results[i] = query(rays[i], false);
+#endif
 }

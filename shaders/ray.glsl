@@ -2,21 +2,25 @@
 #ifndef RAY_GLSL
 #define RAY_GLSL
 #include "math.glsl"
+#include "records.h"
 
 SHADER_BEGIN
 
-// P(t) = o + t·d. The rest is Woop's shear, the same for every triangle (shapes/triangle.glsl).
+// P(t) = o + t·d. The rest follows from d, once for everything that the ray is tested against.
 struct Ray {
   vec3 o;
   vec3 d;
-  uint major;  // the axis along which d is longest
-  vec2 shear;
+  vec3 inverse;  // 1 / d, finite: a component of d so small that it does not count is taken as a little larger
+  uint major;    // the axis along which d is longest
+  vec2 shear;    // Woop's, the same for every triangle (shapes/triangle.glsl)
 };
 
 struct Hit {
-  float t;         // T_MISS where nothing is hit
-  uint primitive;  // NONE where nothing is hit
-  vec2 uv;         // the shape's own parameters
+  float t;        // T_MISS where nothing is hit
+  uint slot;      // of the primitive, for load_primitive; NONE where nothing is hit
+  uint id;        // the scene's primitive index; NONE where nothing is hit
+  uint instance;  // that the primitive belongs to; NONE for one of the world's own
+  vec2 uv;        // the shape's own parameters
 };
 
 // What a shape says of the point that was hit.
@@ -28,9 +32,18 @@ struct Surface {
   float offset;  // a ray that starts this far off p along the geometric normal does not meet the surface again
 };
 
+uint kind_of(Primitive primitive) { return primitive.head.y >> 24u; }
+uint material_of(Primitive primitive) { return primitive.head.y & 0xffffffu; }
+
 // The last two axes after `major`, then `major` itself.
 vec3 permute(vec3 v, uint major) {
   return major == 0u ? vec3(v.y, v.z, v.x) : major == 1u ? vec3(v.z, v.x, v.y) : v;
+}
+
+// 1 / x for |x| ≥ least, else 1 / least with the sign of x.
+float bounded_inverse(float x, float least) {
+  float size = maximum(abs(x), least);
+  return 1.0f / (x < 0.0f ? -size : size);
 }
 
 Ray make_ray(vec3 o, vec3 d) {
@@ -41,6 +54,9 @@ Ray make_ray(vec3 o, vec3 d) {
   ray.major = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
   vec3 p = permute(d, ray.major);
   ray.shear = vec2(p.x / p.z, p.y / p.z);
+  // Over the whole length of the ray, 1e-12 of it is far less than what tree.glsl widens its boxes by.
+  float least = 1.0e-12f * abs(p.z);
+  ray.inverse = vec3(bounded_inverse(d.x, least), bounded_inverse(d.y, least), bounded_inverse(d.z, least));
   return ray;
 }
 

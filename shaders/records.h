@@ -17,20 +17,64 @@ SHADER_BEGIN
 #define BINDING_FRAME 6
 #define BINDING_OUTPUT 7
 #define BINDING_RAYS 8
+#define BINDING_NODES 9
+#define BINDING_TREES 10
+#define BINDING_INSTANCES 11
 
 #define NONE 0xffffffffu
+#define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
 
 // ---- Primitive: 64 bytes --------------------------------------------------------------------------------------------
-//   0 kind       4 material    8 shadow density (its material's)    12 extra: an index into vertices, or NONE
-//  16 a (vec4)  32 b (vec4)   48 c (vec4)                           what they hold is said in the shape's .glsl
+//   0 id: the scene's primitive index, or within an instance's mesh the triangle    4 material | kind << 24
+//   8 shadow density    12 extra: an index into vertices, or NONE
+//  16 a (vec4)  32 b (vec4)   48 c (vec4)    what they hold is said in the shape's .glsl
+// Where a primitive stands in the buffer, its slot, follows from the tree and may change; its id does not.
 struct Primitive {
   uvec4 head;
   vec4 a;
   vec4 b;
   vec4 c;
 };
+#define MOST_MATERIALS 0x1000000u
 #define TRIANGLE_WOOP 0u
 #define TRIANGLE_MOLLER_TRUMBORE 1u
+
+// ---- Corners of a triangle with normals or texture coordinates: 16 or 32 bytes in vertices ---------------------------
+//   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u
+//  12 CORNERS_ bits
+//  16 v 0  20 v 1  24 v 2  28 -             only with CORNERS_UV
+#define CORNERS_NORMALS 1u
+#define CORNERS_UV 2u
+
+// ---- Tree: 80 bytes; a node of it ------------------------------------------------------------------------------------
+//   0 origin.xyz  12 -    16 step.xyz  28 -    a plane at q stands at origin + q · step
+//  32 extent.xyz  44 -    the most that |q · step| is
+//  48 reach.xyz   60 -    a mesh's: the largest magnitudes of its coordinates
+//  64 root   68 first slot of its primitives   72 end of its slots   76 -
+// A node is two children. Quantised, a child is 16 bytes, its planes integers: lower | upper << 16 for x, y and z, then what it refers
+// to; else it is 32: lower.xyz as floats, what it refers to, upper.xyz, -.
+// A child refers to a node, to 1 … 8 primitives, LEAF | slot << 3 | count − 1, or to an instance, INSTANCE_LEAF | index.
+struct Tree {
+  vec4 origin;
+  vec4 step;
+  vec4 extent;
+  vec4 reach;
+  uvec4 head;
+};
+#define LEAF 0x80000000u
+#define INSTANCE_LEAF 0xc0000000u
+#define MOST_SLOTS 0x8000000u
+#define MOST_INSTANCES 0x3ffffff0u
+
+// ---- Instance of a mesh with a tree of its own: 112 bytes --------------------------------------------------------------
+//   0 tree   4 id of its first triangle   8 material   12 shadow density
+//  16 to_mesh, three rows: the affine map from the world to the mesh
+//  64 to_world, three rows
+struct Instance {
+  uvec4 head;
+  vec4 to_mesh[3];
+  vec4 to_world[3];
+};
 
 // ---- Material: 48 bytes ---------------------------------------------------------------------------------------------
 //   0 kind       4 flags      8 medium that fills the shape: 1…255, 0 for none    12 shadow density
@@ -129,7 +173,8 @@ struct QueryRay {
   vec4 origin;
   vec4 direction;
 };
-// And its answer, 16 bytes: the bits of t, primitive, occlusion, -.
+// And its answer, 16 bytes: the bits of t, primitive or NONE, flags, -. Asked whether anything is hit: 0 or T_MISS, NONE, flags,
+// occlusion.
 struct QueryHit {
   uvec4 hit;
 };
@@ -143,6 +188,8 @@ SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(eyeray::shader::Primitive) == 64);
+static_assert(sizeof(eyeray::shader::Tree) == 80);
+static_assert(sizeof(eyeray::shader::Instance) == 112);
 static_assert(sizeof(eyeray::shader::Material) == 48);
 static_assert(sizeof(eyeray::shader::Medium) == 16);
 static_assert(sizeof(eyeray::shader::Texture) == 48);

@@ -1,7 +1,7 @@
 // Entry: a tile of the picture. One sample of each pixel, or with FIRST_HITS what the ray through its centre meets.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bindings.glsl"
+#extension GL_EXT_control_flow_attributes : require
 #include "scene.glsl"  // made for the scene by render/specialise.cpp: only what it has is compiled
 #include "pixel.glsl"
 

@@ -1,10 +1,20 @@
-// From a hit to the surface there: asks the shape that was hit.
+// From a hit to the surface there: asks the shape that was hit, and brings an instance's into the world.
 #ifndef SURFACE_GLSL
 #define SURFACE_GLSL
+#include "instance.glsl"
 #include "ray.glsl"
 #include "records.h"
 
 SHADER_BEGIN
+
+// The primitive that was hit, with the material that it has there.
+Primitive primitive_at(Hit hit) {
+  Primitive primitive = load_primitive(hit.slot);
+#if HAS_INSTANCES
+  if (hit.instance != NONE) primitive.head.y = load_instance(hit.instance).head.z | (primitive.head.y & 0xff000000u);
+#endif
+  return primitive;
+}
 
 Surface surface_at(Primitive primitive, Ray ray, Hit hit) {
   Surface surface;
@@ -14,8 +24,14 @@ Surface surface_at(Primitive primitive, Ray ray, Hit hit) {
   surface.uv = vec2(0.0f, 0.0f);
   surface.offset = 0.0f;
 #define SURFACE_OF(name, number) \
-  if (primitive.head.x == number) surface = name##_surface(primitive, ray, hit);
+  if (kind_of(primitive) == number) surface = name##_surface(primitive, ray, hit);
   SHAPES(SURFACE_OF)
+#if HAS_INSTANCES
+  if (hit.instance != NONE) {
+    Instance instance = load_instance(hit.instance);
+    surface = out_of_instance(surface, instance, load_tree(instance.head.x));
+  }
+#endif
   return surface;
 }
 

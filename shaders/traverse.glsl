@@ -1,70 +1,161 @@
 // Rays against the whole scene. Everything else asks `trace` and `occlusion` and knows no traversal.
-// The entry gives load_primitive, KIND_FIRST(name) and KIND_END(name), or SCENE_PRIMITIVES: every primitive as a constant.
+// The entry gives the loaders, KIND_FIRST(name), KIND_LOOSE(name) and KIND_END(name), or SCENE_PRIMITIVES: every primitive as a
+// constant.
 #ifndef TRAVERSE_GLSL
 #define TRAVERSE_GLSL
+#include "instance.glsl"
 #include "ray.glsl"
 #include "records.h"
+#include "tree.glsl"
 
 SHADER_BEGIN
 
-void keep_nearer(INOUT(Hit) hit, float t, vec2 uv, uint primitive) {
-  // Strictly nearer: primitives come in the order of their index, so that an exact tie stays with the lowest.
-  bool nearer = t > 0.0f && t < hit.t;
-  hit.t = nearer ? t : hit.t;
-  hit.primitive = nearer ? primitive : hit.primitive;
-  hit.uv = nearer ? uv : hit.uv;
+// What a search has found so far: the nearest hit, or how much of a shadow ray is lost.
+struct Found {
+  Hit hit;
+  uint occluded;
+};
+
+// Takes an intersection into account. `any`: the sum of what is met before hit.t, else the nearest with t > 0. Of exactly equal ones
+// the lowest id stays, so that neither the order of traversal nor that of the slots matters.
+void meet(INOUT(Found) found, float t, vec2 uv, uint slot, uint id, uint instance, uint density, bool any) {
+  if (any) {
+    uint sum = t > 0.0f && t < found.hit.t ? found.occluded + density : found.occluded;
+    found.occluded = sum < SHADOW_OPAQUE ? sum : SHADOW_OPAQUE;
+  } else {
+    bool nearer = t > 0.0f && (t < found.hit.t || (t == found.hit.t && id < found.hit.id));
+    found.hit.t = nearer ? t : found.hit.t;
+    found.hit.slot = nearer ? slot : found.hit.slot;
+    found.hit.id = nearer ? id : found.hit.id;
+    found.hit.instance = nearer ? instance : found.hit.instance;
+    found.hit.uv = nearer ? uv : found.hit.uv;
+  }
+}
+
+#ifndef SCENE_PRIMITIVES
+// A primitive of the tree that `place` is in.
+void meet_slot(INOUT(Found) found, uint slot, Place place, bool any) {
+  Primitive primitive = load_primitive(slot);
+  vec2 uv = vec2(0.0f, 0.0f);
+  float t = -1.0f;
+#define INTERSECT_KIND(name, number) \
+  if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, place.ray, uv);
+  SHAPES(INTERSECT_KIND)
+  uint density = place.instance == NONE ? primitive.head.z : place.density;
+  meet(found, t, uv, slot, place.first_id + primitive.head.x, place.instance, density, any);
+}
+
+// Walks the tree of the world, and of every instance on the way. Returns whether it came to an end: a driver that ends loops early
+// (docs/lavapipe.md) stops it short.
+bool walk(INOUT(Found) found, Place world, bool any) {
+  Place place = world;
+  BoxRay boxes = box_ray(place.ray, load_tree(0u));
+  Stack stack = empty_stack();
+  uint at = load_tree(0u).head.x;
+  do {
+    // Go down to a leaf, nearer child first.
+    do {
+      Child a = load_child(at, 0u, boxes);
+      Child b = load_child(at, 1u, boxes);
+      int limit = floatBitsToInt(found.hit.t);
+      int entry_a = entry_of(a, boxes);
+      int entry_b = entry_of(b, boxes);
+      bool meets_a = entry_a <= exit_of(a, boxes, limit);
+      bool meets_b = entry_b <= exit_of(b, boxes, limit);
+      bool swap = entry_b < entry_a;
+      bool both = meets_a && meets_b;
+      at = both ? (swap ? b.refers_to : a.refers_to)
+                : meets_a ? a.refers_to : meets_b ? b.refers_to : top_of(stack);
+      move_stack(stack, both, !meets_a && !meets_b, swap ? a.refers_to : b.refers_to);
+    } while (at < LEAF);
+
+    // Test the primitives of this leaf, and of those that wait on top of the stack.
+    if (at < INSTANCE_LEAF) {
+      do {
+        uint slot = (at & ~LEAF) >> 3u;
+        uint end = slot + (at & 7u) + 1u;
+        do {
+          meet_slot(found, slot, place, any);
+          slot += 1u;
+        } while (slot < end);
+        at = any && found.occluded >= SHADOW_OPAQUE ? TREE_DONE : top_of(stack);
+        move_stack(stack, false, true, 0u);
+      } while (at >= LEAF && at < INSTANCE_LEAF);
+    }
+
+#if HAS_INSTANCES
+    // Go into an instance, or come back from one.
+    if (at >= INSTANCE_LEAF && at != TREE_DONE) {
+      bool leaving = at == TREE_LEAVE;
+      uint index = at & ~INSTANCE_LEAF;
+      Instance instance = load_instance(leaving ? 0u : index);
+      Tree tree = load_tree(leaving ? 0u : instance.head.x);
+      if (leaving) {
+        place = world;
+        at = top_of(stack);
+      } else {
+        place = into_instance(world.ray, instance, index);
+        at = tree.head.x;
+      }
+      boxes = box_ray(place.ray, tree);
+      move_stack(stack, !leaving, leaving, TREE_LEAVE);
+    }
+#endif
+  } while (at != TREE_DONE);
+  return at == TREE_DONE;
+}
+#endif
+
+Found search(Ray ray, float t_max, bool any, INOUT(uvec4) counts) {
+  Found found;
+  found.hit.t = t_max;
+  found.hit.slot = NONE;
+  found.hit.id = 0u;
+  found.hit.instance = NONE;
+  found.hit.uv = vec2(0.0f, 0.0f);
+  found.occluded = 0u;
+  vec2 uv = vec2(0.0f, 0.0f);
+#ifdef SCENE_PRIMITIVES
+#define MEET_ONE(name, index, constants)                                                    \
+  {                                                                                         \
+    float t = name##_intersect(constants, ray, uv);                                         \
+    meet(found, t, uv, index, constants.head.x, NONE, constants.head.z, any);               \
+  }
+  SCENE_PRIMITIVES(MEET_ONE)
+#else
+  // Whatever is in no tree is tested one by one: unbounded shapes, or with brute force all.
+#define MEET_KIND(name, number)                                                               \
+  for (uint i = KIND_FIRST(name); i < KIND_LOOSE(name) && found.occluded < SHADOW_OPAQUE; i++) { \
+    Primitive primitive = load_primitive(i);                                                  \
+    float t = name##_intersect(primitive, ray, uv);                                           \
+    meet(found, t, uv, i, primitive.head.x, NONE, primitive.head.z, any);                     \
+  }
+  SHAPES(MEET_KIND)
+  Place world = in_world(ray);
+#if HAS_INSTANCES
+  if (!HAS_TREE) {
+    for (uint i = 0u; i < INSTANCE_COUNT; i++) {
+      Instance instance = load_instance(i);
+      Tree tree = load_tree(instance.head.x);
+      Place place = into_instance(ray, instance, i);
+      for (uint slot = tree.head.y; slot < tree.head.z && found.occluded < SHADOW_OPAQUE; slot++)
+        meet_slot(found, slot, place, any);
+    }
+  }
+#endif
+  if (HAS_TREE && found.occluded < SHADOW_OPAQUE) {
+    if (!walk(found, world, any)) counts.z = counts.z | FLAG_LOOP_BUDGET;
+  }
+#endif
+  return found;
 }
 
 // The nearest hit with t > 0.
-Hit trace(Ray ray) {
-  Hit hit;
-  hit.t = T_MISS;
-  hit.primitive = NONE;
-  hit.uv = vec2(0.0f, 0.0f);
-  vec2 uv = vec2(0.0f, 0.0f);
-#ifdef SCENE_PRIMITIVES
-#define TRACE_ONE(name, primitive, constants)           \
-  {                                                     \
-    float t = name##_intersect(constants, ray, uv);     \
-    keep_nearer(hit, t, uv, primitive);                 \
-  }
-  SCENE_PRIMITIVES(TRACE_ONE)
-#else
-#define TRACE_KIND(name, number)                                     \
-  for (uint i = KIND_FIRST(name); i < KIND_END(name); i++) {         \
-    float t = name##_intersect(load_primitive(i), ray, uv);          \
-    keep_nearer(hit, t, uv, i);                                      \
-  }
-  SHAPES(TRACE_KIND)
-#endif
-  return hit;
-}
+Hit trace(Ray ray, INOUT(uvec4) counts) { return search(ray, T_MISS, false, counts).hit; }
 
 // How much of a shadow ray's light is lost on 0 < t < t_max: the sum of what every primitive on the way weakens it by, in
 // −log2 · SHADOW_SCALE, at most SHADOW_OPAQUE. An integer sum does not depend on the order of traversal.
-uint occlusion(Ray ray, float t_max) {
-  uint sum = 0u;
-  vec2 uv = vec2(0.0f, 0.0f);
-#ifdef SCENE_PRIMITIVES
-#define OCCLUDE_ONE(name, primitive, constants)                                \
-  {                                                                            \
-    float t = name##_intersect(constants, ray, uv);                            \
-    sum = t > 0.0f && t < t_max ? sum + constants.head.z : sum;                \
-    sum = sum < SHADOW_OPAQUE ? sum : SHADOW_OPAQUE;                           \
-  }
-  SCENE_PRIMITIVES(OCCLUDE_ONE)
-#else
-#define OCCLUDE_KIND(name, number)                                                                \
-  for (uint i = KIND_FIRST(name); i < KIND_END(name) && sum < SHADOW_OPAQUE; i++) {               \
-    Primitive primitive = load_primitive(i);                                                      \
-    float t = name##_intersect(primitive, ray, uv);                                               \
-    sum = t > 0.0f && t < t_max ? sum + primitive.head.z : sum;                                   \
-    sum = sum < SHADOW_OPAQUE ? sum : SHADOW_OPAQUE;                                              \
-  }
-  SHAPES(OCCLUDE_KIND)
-#endif
-  return sum;
-}
+uint occlusion(Ray ray, float t_max, INOUT(uvec4) counts) { return search(ray, t_max, true, counts).occluded; }
 
 // The share of light that passes, from what `occlusion` counted.
 float visibility(uint occluded) {

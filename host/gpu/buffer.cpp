@@ -16,6 +16,11 @@ uint32_t guard_word(size_t offset) {
   return 0xfeedc0deu ^ uint32_t(offset * 2654435761u);
 }
 
+// To a multiple of `unit`, and to no less than one.
+size_t rounded_up(size_t bytes, size_t unit) {
+  return std::max(unit, (bytes + unit - 1) / unit * unit);
+}
+
 void write_guard(std::byte* all, size_t begin, size_t end) {
   for (size_t i = begin; i < end; i += 4) {
     const uint32_t word = guard_word(i);
@@ -49,15 +54,17 @@ void transfer_then_shaders(VkCommandBuffer commands) {
 
 }  // namespace
 
-Buffer::Buffer(Device& device, size_t bytes, std::string name)
+Buffer::Buffer(Device& device, size_t bytes, std::string name, BindingKind kind)
     : context_(device.context()),
       name_(std::move(name)),
-      bytes_(std::max<size_t>(4, (bytes + 3) / 4 * 4)),
+      kind_(kind),
+      bytes_(rounded_up(bytes, kind == BindingKind::texels ? 16 : 4)),
       guard_(std::max<size_t>(least_guard, context_->info.limits.offset_alignment)) {
   const DeviceLimits& limits = context_->info.limits;
-  if (bytes_ > limits.storage_range)
+  const uint64_t range = kind == BindingKind::texels ? limits.texel_range : limits.storage_range;
+  if (bytes_ > range)
     throw Error(ExitCode::no_device, "buffer '{}' has {} bytes, and {} lets a shader see {} of one buffer",
-                name_, bytes_, context_->info.name, limits.storage_range);
+                name_, bytes_, context_->info.name, range);
   const size_t total = bytes_ + 2 * guard_;
   if (total > std::min(limits.allocation, limits.heap))
     throw Error(ExitCode::no_device, "buffer '{}' has {} bytes, and {} has memory for {} (heap of {})", name_,

@@ -1,4 +1,4 @@
-// A storage buffer: bytes that a kernel sees, between two guards that it must not touch.
+// A storage buffer, or a storage texel buffer: bytes that a kernel sees, between two guards that it must not touch.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu/device.hpp"
+#include "gpu/reflect.hpp"
 
 namespace eyeray::gpu {
 
@@ -15,15 +16,17 @@ class RawBuffer;
 
 class Buffer {
  public:
-  // `bytes` zeros (at least 4, rounded up to a multiple of 4); `name` is for errors. Error (no_device) with
+  // `bytes` zeros (at least one word or texel, rounded up to whole ones); `name` is for errors. Error (no_device) with
   // the numbers when the device cannot show a shader that much, or has not that much memory.
-  Buffer(Device& device, size_t bytes, std::string name);
+  Buffer(Device& device, size_t bytes, std::string name, BindingKind kind = BindingKind::storage);
   ~Buffer();
   Buffer(Buffer&&) noexcept;
   Buffer& operator=(Buffer&&) noexcept;
 
   size_t size() const { return bytes_; }
   const std::string& name() const { return name_; }
+  // How kernels may bind it.
+  BindingKind kind() const { return kind_; }
 
   // Copies `bytes` to the start of the buffer, or to `offset` (a multiple of 4, as bytes.size() must be).
   void upload(std::span<const std::byte> bytes, size_t offset = 0);
@@ -60,6 +63,7 @@ class Buffer {
 
   std::shared_ptr<Context> context_;
   std::string name_;
+  BindingKind kind_;
   size_t bytes_ = 0;
   size_t guard_ = 0;                // bytes of each guard
   std::unique_ptr<RawBuffer> raw_;  // guard, payload, guard

@@ -14,9 +14,10 @@ enum class DeviceType { discrete, integrated, virtual_gpu, cpu, other };
 
 struct DeviceLimits {
   uint64_t storage_range = 0;            // bytes of one buffer that a shader can see
+  uint64_t texel_range = 0;              // bytes of one texel buffer that a shader can see, 16 a texel
   uint64_t heap = 0;                     // bytes of the largest heap that buffers come from
   uint64_t allocation = 0;               // bytes of one allocation
-  uint64_t offset_alignment = 0;         // bytes, of a storage buffer's start
+  uint64_t offset_alignment = 0;         // bytes, of a buffer's start in its memory
   std::array<uint32_t, 3> groups{};      // work groups of one dispatch, along each axis
   std::array<uint32_t, 3> group_size{};  // invocations of one work group, along each axis
   uint32_t group_invocations = 0;        // and in all

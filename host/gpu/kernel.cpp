@@ -24,6 +24,10 @@ void check_limits(const Reflection& reflection, const DeviceInfo& device, const 
                 reflection.push_constant_bytes, device.name, device.limits.push_constants);
 }
 
+VkDescriptorType descriptor_type(BindingKind kind) {
+  return kind == BindingKind::texels ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
 // A pipeline cache that comes from disk and goes back there when the driver added to it.
 class PipelineCache {
  public:
@@ -76,10 +80,13 @@ Kernel::Kernel(Device& device, std::span<const uint32_t> spirv, std::string name
 Kernel::~Kernel() = default;
 
 void Kernel::create_layout() {
-  // One set of storage buffers, as the shader declares them.
+  // One set of buffers, as the shader declares them.
   std::vector<VkDescriptorSetLayoutBinding> bindings;
-  for (const uint32_t binding : reflection_.bindings)
-    bindings.push_back({binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+  std::vector<VkDescriptorPoolSize> pool_sizes;
+  for (const auto& [binding, kind] : reflection_.bindings) {
+    bindings.push_back({binding, descriptor_type(kind), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    pool_sizes.push_back({descriptor_type(kind), 1});
+  }
   auto set_info = make<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
   set_info.bindingCount = uint32_t(bindings.size());
   set_info.pBindings = bindings.data();
@@ -96,11 +103,10 @@ void Kernel::create_layout() {
         "create a pipeline layout");
 
   if (bindings.empty()) return;
-  const VkDescriptorPoolSize pool_size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, uint32_t(bindings.size())};
   auto pool_info = make<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
   pool_info.maxSets = 1;
-  pool_info.poolSizeCount = 1;
-  pool_info.pPoolSizes = &pool_size;
+  pool_info.poolSizeCount = uint32_t(pool_sizes.size());
+  pool_info.pPoolSizes = pool_sizes.data();
   check(vkCreateDescriptorPool(context_->device, &pool_info, nullptr, &objects_->pool),
         "create a descriptor pool");
   auto allocate = make<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
@@ -132,7 +138,7 @@ void Kernel::create_pipeline(std::span<const uint32_t> spirv, const DiskCache& d
 }
 
 bool Kernel::uses(uint32_t binding) const {
-  return std::binary_search(reflection_.bindings.begin(), reflection_.bindings.end(), binding);
+  return reflection_.bindings.contains(binding);
 }
 
 void Kernel::set_buffer(uint32_t binding, const Buffer& buffer) {
@@ -145,13 +151,20 @@ void Kernel::set_buffer_with_guards(uint32_t binding, const Buffer& buffer) {
 
 void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t bytes) {
   if (!uses(binding)) return;
+  const BindingKind kind = reflection_.bindings.at(binding);
+  CHECK(buffer.kind() == kind);
   const VkDescriptorBufferInfo info{buffer.raw().handle(), offset, bytes};
+  VkBufferView view = VK_NULL_HANDLE;
   auto write = make<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
   write.dstSet = objects_->set;
   write.dstBinding = binding;
   write.descriptorCount = 1;
-  write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  write.descriptorType = descriptor_type(kind);
   write.pBufferInfo = &info;
+  if (kind == BindingKind::texels) {
+    view = objects_->make_view(binding, buffer.raw().handle(), offset, bytes);
+    write.pTexelBufferView = &view;
+  }
   vkUpdateDescriptorSets(context_->device, 1, &write, 0, nullptr);
   objects_->bound.insert(binding);
 }

@@ -1,7 +1,9 @@
 // The Vulkan objects of a kernel, for kernel.cpp and command_list.cpp.
 #pragma once
 
+#include <map>
 #include <set>
+#include <utility>
 
 #include "gpu/context.hpp"
 #include "gpu/kernel.hpp"
@@ -12,6 +14,7 @@ struct Kernel::Objects {
   explicit Objects(std::shared_ptr<Context> the_context) : context(std::move(the_context)) {}
   ~Objects() {
     if (context->abandoned) return;
+    for (const auto& [binding, view] : views) vkDestroyBufferView(context->device, view, nullptr);
     vkDestroyPipeline(context->device, pipeline, nullptr);
     vkDestroyPipelineLayout(context->device, layout, nullptr);
     vkDestroyDescriptorPool(context->device, pool, nullptr);
@@ -20,6 +23,19 @@ struct Kernel::Objects {
   Objects(const Objects&) = delete;
   Objects& operator=(const Objects&) = delete;
 
+  // The texels of a buffer at `binding`, in place of what was bound there before.
+  VkBufferView make_view(uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes) {
+    auto info = gpu::make<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
+    info.buffer = buffer;
+    info.format = VK_FORMAT_R32G32B32A32_UINT;
+    info.offset = offset;
+    info.range = bytes;
+    VkBufferView view = VK_NULL_HANDLE;
+    check(vkCreateBufferView(context->device, &info, nullptr, &view), "view a buffer as texels");
+    vkDestroyBufferView(context->device, std::exchange(views[binding], view), nullptr);
+    return view;
+  }
+
   std::shared_ptr<Context> context;
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
   VkDescriptorPool pool = VK_NULL_HANDLE;
@@ -27,6 +43,7 @@ struct Kernel::Objects {
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkPipeline pipeline = VK_NULL_HANDLE;
   std::set<uint32_t> bound;
+  std::map<uint32_t, VkBufferView> views;
 };
 
 }  // namespace eyeray::gpu

@@ -75,7 +75,9 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
 
   const VkPhysicalDeviceLimits& limits = properties.limits;
   info.limits.storage_range = limits.maxStorageBufferRange;
-  info.limits.offset_alignment = limits.minStorageBufferOffsetAlignment;
+  info.limits.texel_range = uint64_t{limits.maxTexelBufferElements} * 16;
+  info.limits.offset_alignment =
+      std::max(limits.minStorageBufferOffsetAlignment, limits.minTexelBufferOffsetAlignment);
   std::copy_n(limits.maxComputeWorkGroupCount, 3, info.limits.groups.begin());
   std::copy_n(limits.maxComputeWorkGroupSize, 3, info.limits.group_size.begin());
   info.limits.group_invocations = limits.maxComputeWorkGroupInvocations;

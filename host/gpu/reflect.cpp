@@ -69,6 +69,7 @@ struct Module {
       case spv::OpTypeArray:
       case spv::OpTypeRuntimeArray:
       case spv::OpTypePointer:
+      case spv::OpTypeImage:
         ids[i[1]].definition.assign(i.begin(), i.end());
         break;
       case spv::OpConstant:
@@ -108,6 +109,16 @@ struct Module {
   }
 };
 
+// What a variable is, if it is something that eyeray binds.
+std::optional<BindingKind> binding_kind(const Module& module, const Variable& variable) {
+  if (variable.storage == spv::StorageClassStorageBuffer) return BindingKind::storage;
+  const std::vector<uint32_t>& type = module.ids.at(module.ids.at(variable.pointer).definition.at(3)).definition;
+  const bool texels = !type.empty() && (type[0] & 0xffffu) == spv::OpTypeImage && type[3] == spv::DimBuffer &&
+                      type[7] == 2 && type[8] == spv::ImageFormatRgba32ui;
+  if (variable.storage == spv::StorageClassUniformConstant && texels) return BindingKind::texels;
+  return std::nullopt;
+}
+
 bool has_layout(const Id& type) {
   return !type.members.empty() && std::all_of(type.members.begin(), type.members.end(),
                                               [](const auto& m) { return m.second.offset.has_value(); });
@@ -126,13 +137,13 @@ Reflection reflect(std::span<const uint32_t> spirv) {
     if (variable.storage == spv::StorageClassPushConstant)
       reflection.push_constant_bytes = module.size(module.ids.at(variable.pointer).definition.at(3));
     if (!id.binding) continue;
-    if (variable.storage != spv::StorageClassStorageBuffer || id.set.value_or(0) != 0)
+    const std::optional<BindingKind> kind = binding_kind(module, variable);
+    if (!kind || id.set.value_or(0) != 0)
       throw Error(ExitCode::bad_input,
-                  "the shader binds '{}' at set {}, binding {}: eyeray gives storage buffers in set 0 only",
+                  "the shader binds '{}' at set {}, binding {}: eyeray gives storage buffers and texel buffers (uimageBuffer, rgba32ui) in set 0 only",
                   id.name, id.set.value_or(0), *id.binding);
-    reflection.bindings.push_back(*id.binding);
+    reflection.bindings.emplace(*id.binding, *kind);
   }
-  std::sort(reflection.bindings.begin(), reflection.bindings.end());
   for (const uint32_t type : module.structs) {
     const Id& id = module.ids.at(type);
     if (!has_layout(id)) continue;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,14 +22,19 @@ struct ReflectedStruct {
   std::vector<ReflectedMember> members;
 };
 
+enum class BindingKind {
+  storage,  // a storage buffer
+  texels,   // a storage texel buffer of four 32-bit unsigned integers a texel: uimageBuffer, rgba32ui
+};
+
 struct Reflection {
-  std::vector<uint32_t> bindings;  // storage buffers of descriptor set 0, ascending
+  std::map<uint32_t, BindingKind> bindings;  // of descriptor set 0
   uint32_t push_constant_bytes = 0;
   std::array<uint32_t, 3> local_size{1, 1, 1};
   std::vector<ReflectedStruct> structs;
 };
 
-// Error (bad_input) when the words are not SPIR-V, or the shader wants anything but storage buffers in set 0.
+// Error (bad_input) when the words are not SPIR-V, or the shader wants anything but such buffers in set 0.
 Reflection reflect(std::span<const uint32_t> spirv);
 
 }  // namespace eyeray::gpu

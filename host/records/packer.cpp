@@ -6,7 +6,7 @@
 
 namespace eyeray {
 
-uint32_t Packer::add_vertices(std::initializer_list<shader::vec4> data) {
+uint32_t Packer::add_vertices(std::initializer_list<shader::uvec4> data) {
   const auto first = uint32_t(scene.vertices.size());
   scene.vertices.insert(scene.vertices.end(), data);
   return first;

@@ -1,6 +1,7 @@
 // The flat buffers that the shaders read, and the way shapes and materials write them.
 #pragma once
 
+#include <bit>
 #include <vector>
 
 #include "records/records.hpp"
@@ -10,9 +11,18 @@ namespace eyeray {
 
 // A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
-  std::vector<shader::Primitive> primitives;  // grouped by kind, in registry order
-  std::vector<uint32_t> kind_first;  // by kind, the first primitive of it; then the number of primitives
-  std::vector<shader::vec4> vertices;
+  // By slot: the world's own, grouped by kind in registry order, those in no tree first, the others as leaves hold
+  // them; then those of each mesh with a tree of its own.
+  std::vector<shader::Primitive> primitives;
+  std::vector<uint32_t> kind_first;  // by kind, the first of the world's slots; then the end of the world's
+  std::vector<uint32_t> kind_loose;  // by kind, the end of those in no tree
+  std::vector<shader::uvec4> nodes;
+  std::vector<shader::Tree> trees;  // the world's, then one a mesh of `instances`
+  std::vector<shader::Instance> instances;
+  bool has_tree = false;         // whether `nodes` are to be used; else all is tested one by one
+  bool quantised_nodes = false;  // how `nodes` are coded
+  uint32_t stack_size = 1;       // what a walk through the trees may have waiting
+  std::vector<shader::uvec4> vertices;
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
   std::vector<shader::Medium> media{{shader::vec4(0, 0, 0, 1)}};  // by number; 0 is the vacuum
@@ -29,9 +39,13 @@ class Packer {
   Vec3 relative(const Vec3& world) const { return world - eye_; }
 
   void add(const shader::Primitive& primitive) { scene.primitives.push_back(primitive); }
+  // The head of a primitive; its id and shadow density are filled in later. `extra`: an index into vertices.
+  static shader::uvec4 head(uint32_t kind, int material, uint32_t extra = NONE) {
+    return {0u, uint32_t(material) | kind << 24, 0u, extra};
+  }
   void add(const shader::Material& material) { scene.materials.push_back(material); }
   // The index at which `data` now starts in the vertices.
-  uint32_t add_vertices(std::initializer_list<shader::vec4> data);
+  uint32_t add_vertices(std::initializer_list<shader::uvec4> data);
   // The index of a texture; equal textures share one.
   uint32_t add_texture(const Texture& texture);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
@@ -43,9 +57,19 @@ class Packer {
   Vec3 eye_;
 };
 
+inline uint32_t kind_of(const shader::Primitive& primitive) {
+  return primitive.head.y >> 24;
+}
+inline uint32_t material_of(const shader::Primitive& primitive) {
+  return primitive.head.y & 0xffffffu;
+}
+
 // Float32 records from float64 values.
 inline shader::vec4 to_vec4(const Vec3& v, double w = 0) {
   return shader::vec4(glm::vec3(v), float(w));
+}
+inline shader::uvec4 to_bits(const shader::vec4& v) {
+  return std::bit_cast<shader::uvec4>(v);
 }
 
 }  // namespace eyeray

@@ -30,10 +30,23 @@ bool for_each_pixel(const Rect& tile, std::span<Result> out, const Pixel& pixel)
   return !stopped;
 }
 
+// Calls answer(ray) for every ray, in parallel; the seconds that took.
+template <typename Answer>
+double timed_queries(std::span<const Query> rays, std::span<QueryHit> hits, const Answer& answer) {
+  CHECK_EQ(rays.size(), hits.size());
+  constexpr size_t piece = 1024;
+  const Stopwatch watch;
+  parallel_for(0, int((rays.size() + piece - 1) / piece), [&](int p) {
+    const size_t end = std::min(rays.size(), (size_t(p) + 1) * piece);
+    for (size_t i = size_t(p) * piece; i < end; ++i) hits[i] = answer(rays[i]);
+  });
+  return watch.seconds();
+}
+
 class TwinExecutor final : public Executor {
  public:
-  explicit TwinExecutor(const Scene& scene) : eye_(scene.camera.eye) {
-    times_.measure("pack", [&] { packed_ = pack(scene); });
+  TwinExecutor(const Scene& scene, const PackOptions& options) : eye_(scene.camera.eye) {
+    times_.measure("pack", [&] { packed_ = pack(scene, options); });
   }
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
@@ -47,6 +60,12 @@ class TwinExecutor final : public Executor {
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     for_each_pixel(tile, out, [&](int x, int y) {
       return to_first_hit(twin::first_hit(packed_, uint32_t(x), uint32_t(y)), eye_);
+    });
+  }
+
+  double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits) override {
+    return timed_queries(rays, hits, [&](const Query& ray) {
+      return to_query_hit(twin::query(packed_, to_query_ray(ray, eye_), kind == QueryKind::any));
     });
   }
 
@@ -73,6 +92,10 @@ class ReferenceExecutor final : public Executor {
     for_each_pixel(tile, out, [&](int x, int y) { return renderer_.first_hit(x, y); });
   }
 
+  double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits) override {
+    return timed_queries(rays, hits, [&](const Query& ray) { return renderer_.query(ray, kind); });
+  }
+
   std::string description() const override {
     return fmt::format("reference: float64, {} threads", std::thread::hardware_concurrency());
   }
@@ -83,11 +106,11 @@ class ReferenceExecutor final : public Executor {
 
 }  // namespace
 
-std::unique_ptr<Executor> make_twin_executor(const Scene& scene) {
-  return std::make_unique<TwinExecutor>(scene);
+std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorOptions& options) {
+  return std::make_unique<TwinExecutor>(scene, options.pack);
 }
 
-std::unique_ptr<Executor> make_reference_executor(const Scene& scene) {
+std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions&) {
   return std::make_unique<ReferenceExecutor>(scene);
 }
 

@@ -12,11 +12,29 @@
 #include "core/pixel.hpp"
 #include "core/rect.hpp"
 #include "core/stopwatch.hpp"
+#include "render/options.hpp"
 #include "scene/scene.hpp"
 
 namespace eyeray {
 
 enum class Backend { gpu, twin, reference };
+
+// A ray in world space that is asked about alone, without a picture.
+struct Query {
+  Vec3 o;
+  Vec3 d;                 // unit
+  double t_max = 3.0e38;  // only hits nearer than this count
+};
+
+struct QueryHit {
+  double t = 0;            // infinity where nothing is hit
+  int64_t primitive = -1;  // as Scene counts them; −1 where nothing is hit
+};
+
+enum class QueryKind {
+  nearest,  // the nearest hit
+  any,      // whether anything opaque, or enough that is not, is hit: t is 0 then, else infinity; no primitive
+};
 
 // Produces samples of pixels of one scene. Not thread-safe; parallel inside.
 class Executor {
@@ -28,6 +46,10 @@ class Executor {
   virtual bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) = 0;
   // What the ray through the centre of every pixel of `tile` meets; out.size() = tile.pixels().
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
+
+  // What each ray hits, and the seconds that tracing alone took: by the device's clock where it has one, without
+  // the copying of rays and hits. hits.size() = rays.size().
+  virtual double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits) = 0;
 
   // For people: "gpu: llvmpipe (LLVM 15.0.6, 256 bits), driver …", "twin: 2 threads".
   virtual std::string description() const = 0;
@@ -46,6 +68,8 @@ struct ExecutorOptions {
   bool fast_math = false;               // gpu: let the driver contract and re-associate
   std::string validation;               // gpu: "", "core" or "sync"
   double timeout_seconds = 60;          // gpu: the longest wait for one dispatch
+  PackOptions pack;                     // all: `acceleration`; gpu and twin: the rest
+  ProfileOptions profile;               // gpu
   bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
   std::string fault;                    // gpu, tests only: a fault to inject (docs/verification.md)
 };

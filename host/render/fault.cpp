@@ -40,7 +40,7 @@ std::string Fault::damage(std::string_view file, std::string text) const {
     return replaced(std::move(text), "  return surface;",
                     "  surface.normal = -surface.normal;\n  return surface;");
   if (is("ids") && file == "pixel.glsl")
-    return replaced(std::move(text), "uvec4(hit.primitive,", "uvec4(hit.primitive ^ 1u,");
+    return replaced(std::move(text), "uvec4(hit.id,", "uvec4(hit.id ^ 1u,");
   return text;
 }
 

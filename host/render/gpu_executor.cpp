@@ -13,6 +13,7 @@
 #include "render/executors.hpp"
 #include "render/fault.hpp"
 #include "render/pack.hpp"
+#include "render/profile.hpp"
 #include "render/samples.hpp"
 #include "render/shader_files.hpp"
 #include "render/specialise.hpp"
@@ -47,16 +48,17 @@ class GpuExecutor final : public Executor {
         fault_(options.fault),
         eye_(scene.camera.eye),
         device_(times_.measure("device", [&] { return open_device(options); })),
+        profile_(choose_profile(options.profile, device_.info())),
         shaders_(options.shader_folder, "") {
     facts_ = times_.measure("self-test", [&] {
       return gpu::self_test(
           device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_);
     });
-    PackedScene packed = times_.measure("pack", [&] { return pack(scene); });
+    PackedScene packed = times_.measure("pack", [&] { return pack(scene, options.pack); });
     fault_.damage(packed);
     specialise_for(packed);
     times_.measure("upload", [&] { upload(packed); });
-    sample_kernel_ = make_kernel("");
+    sample_kernel_ = make_kernel("render.comp.glsl", "");
     check_validation();
   }
 
@@ -68,15 +70,45 @@ class GpuExecutor final : public Executor {
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
-    if (!hit_kernel_) hit_kernel_ = make_kernel("#define FIRST_HITS\n");
+    if (!hit_kernel_) hit_kernel_ = make_kernel("render.comp.glsl", "#define FIRST_HITS\n");
     dispatch_rows<shader::HitResult>(*hit_kernel_, tile, 0, [&](size_t first, auto results) {
       for (size_t i = 0; i < results.size(); ++i) out[first + i] = to_first_hit(results[i], eye_);
     });
   }
 
+  double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits) override {
+    CHECK_EQ(rays.size(), hits.size());
+    std::unique_ptr<gpu::Kernel>& kernel = query_kernels_[kind == QueryKind::any];
+    if (!kernel) kernel = make_kernel("query.comp.glsl", kind == QueryKind::any ? "#define QUERY_ANY\n" : "");
+    double seconds = 0;
+    for (size_t first = 0; first < rays.size(); first += most_pixels) {
+      const size_t count = std::min(rays.size() - first, size_t{most_pixels});
+      std::vector<shader::QueryRay> asked(count);
+      for (size_t i = 0; i < count; ++i) asked[i] = to_query_ray(rays[first + i], eye_);
+      gpu::Buffer input(device_, count * sizeof(shader::QueryRay), "rays");
+      input.upload_records(asked);
+      gpu::Buffer& output = output_for(count * sizeof(shader::QueryHit));
+      kernel->set_buffer(BINDING_RAYS, input);
+      kernel->set_buffer(BINDING_OUTPUT, output);
+      shader::Dispatch push{};
+      push.tile.x = uint32_t(count);
+      seconds += gpu::dispatch(device_, *kernel, std::as_bytes(std::span(&push, 1)),
+                               {whole_strides((uint32_t(count) + 63) / 64), 1, 1})
+                     .seconds;
+      const std::vector<shader::QueryHit> answers = output.read_records<shader::QueryHit>(count);
+      for (size_t i = 0; i < count; ++i) {
+        if (answers[i].hit.z & FLAG_LOOP_BUDGET)
+          throw Error(ExitCode::no_device, "{} ended the loop of a ray before it was traced", device_.info().driver_version);
+        hits[first + i] = to_query_hit(answers[i]);
+      }
+    }
+    check_validation();
+    return seconds;
+  }
+
   std::string description() const override {
     const gpu::DeviceInfo& info = device_.info();
-    return fmt::format("gpu: {}, {}", info.name, info.driver_version);
+    return fmt::format("gpu: {}, {}; {}", info.name, info.driver_version, describe(profile_));
   }
 
   std::vector<std::filesystem::path> source_files() const override {
@@ -95,14 +127,16 @@ class GpuExecutor final : public Executor {
   void specialise_for(const PackedScene& packed) {
     Specialisation specialisation;
     specialisation.constants = options_.constants;
+    specialisation.profile = profile_;
     if (facts_.loop_cap) {
-      // One ray with its shadow rays must fit whatever came before it.
-      const uint64_t one_ray = (packed.primitives.size() + 1) * (packed.lights.size() + 1);
+      // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer iterations than there are
+      // primitives; where it does not, the shader sees that the driver stopped it.
+      const uint64_t loose = packed.has_tree ? 0 : packed.primitives.size();
+      const uint64_t one_ray = (loose + 1) * (packed.lights.size() + 1);
       if (one_ray >= granted_iterations)
         throw Error(ExitCode::no_device,
                     "{} ends loops after 65 535 iterations and says nothing, too few for {} primitives and "
-                    "{} lights: use a "
-                    "newer driver, or --backend twin",
+                    "{} lights without a tree: use a newer driver, or --backend twin",
                     device_.info().driver_version, packed.primitives.size(), packed.lights.size());
       specialisation.loop_budget = uint32_t(granted_iterations - one_ray);
     }
@@ -114,8 +148,12 @@ class GpuExecutor final : public Executor {
   }
 
   void upload(const PackedScene& packed) {
-    add_buffer(BINDING_PRIMITIVES, "primitives", std::span(packed.primitives));
-    add_buffer(BINDING_VERTICES, "vertices", std::span(packed.vertices));
+    const gpu::BindingKind kind = profile_.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
+    add_buffer(BINDING_PRIMITIVES, "primitives", std::span(packed.primitives), kind);
+    add_buffer(BINDING_VERTICES, "vertices", std::span(packed.vertices), kind);
+    add_buffer(BINDING_NODES, "nodes", std::span(packed.nodes), kind);
+    add_buffer(BINDING_TREES, "trees", std::span(packed.trees));
+    add_buffer(BINDING_INSTANCES, "instances", std::span(packed.instances));
     add_buffer(BINDING_MATERIALS, "materials", std::span(packed.materials));
     add_buffer(BINDING_TEXTURES, "textures", std::span(packed.textures));
     add_buffer(BINDING_MEDIA, "media", std::span(packed.media));
@@ -124,21 +162,26 @@ class GpuExecutor final : public Executor {
   }
 
   template <typename Record>
-  void add_buffer(uint32_t binding, const char* name, std::span<const Record> records) {
+  void add_buffer(uint32_t binding, const char* name, std::span<const Record> records,
+                  gpu::BindingKind kind = gpu::BindingKind::storage) {
     // A shader may look at the first record of an empty list in a branch that is masked out.
-    gpu::Buffer buffer(device_, std::max(records.size(), size_t{1}) * sizeof(Record), name);
+    gpu::Buffer buffer(device_, std::max(records.size(), size_t{1}) * sizeof(Record), name, kind);
+    uploaded_ += buffer.size();
+    if (uploaded_ > device_.info().limits.heap)
+      throw Error(ExitCode::no_device, "the scene needs more than the {} bytes of memory that {} has: {} up to buffer '{}'",
+                  device_.info().limits.heap, device_.info().name, uploaded_, name);
     if (!records.empty()) buffer.upload_records(records);
     buffers_.emplace_back(binding, std::move(buffer));
   }
 
-  std::unique_ptr<gpu::Kernel> make_kernel(const std::string& defines) {
+  std::unique_ptr<gpu::Kernel> make_kernel(const std::string& entry, const std::string& defines) {
     const auto read = [&](std::string_view name) {
       auto text = shaders_.read(name);
       return text ? std::optional(fault_.damage(name, std::move(*text))) : std::nullopt;
     };
     std::vector<uint32_t> spirv = times_.measure("shader compile", [&] {
       try {
-        return gpu::compile_shader(gpu::read_shader(read, "render.comp.glsl"), defines, cache_).spirv;
+        return gpu::compile_shader(gpu::read_shader(read, entry), defines, cache_).spirv;
       } catch (const InputError& error) {
         std::vector<Diagnostic> diagnostics = error.diagnostics();
         for (Diagnostic& d : diagnostics) d.position.file = shaders_.shown(d.position.file);
@@ -148,7 +191,7 @@ class GpuExecutor final : public Executor {
     if (!options_.fast_math && !fault_.is("contraction"))
       spirv = gpu::strict_floats(spirv, device_.info().float_modes);
     auto kernel = times_.measure("pipeline", [&] {
-      return std::make_unique<gpu::Kernel>(device_, spirv, "render.comp.glsl", cache_);
+      return std::make_unique<gpu::Kernel>(device_, spirv, entry, cache_);
     });
     for (const auto& [binding, buffer] : buffers_) kernel->set_buffer(binding, buffer);
     return kernel;
@@ -170,9 +213,8 @@ class GpuExecutor final : public Executor {
                    uint32_t(height)};
       push.sample_index.x = index;
       const uint32_t blocks = (push.tile.z + 7) / 8 * ((push.tile.w + 7) / 8);
-      const uint32_t groups = (blocks + group_stride_ - 1) / group_stride_ * group_stride_;
       const gpu::RunTime time =
-          gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)), {groups, 1, 1});
+          gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)), {whole_strides(blocks), 1, 1});
       times_.add("dispatch", time.seconds);
       dispatch_size_.took(int64_t(pixels), time.seconds);
 
@@ -184,6 +226,11 @@ class GpuExecutor final : public Executor {
     }
     check_validation();
     return true;
+  }
+
+  // As many workgroups as make runs of equal length (render.comp.glsl).
+  uint32_t whole_strides(uint32_t groups) const {
+    return (groups + group_stride_ - 1) / group_stride_ * group_stride_;
   }
 
   gpu::Buffer& output_for(size_t bytes) {
@@ -204,6 +251,7 @@ class GpuExecutor final : public Executor {
   Vec3 eye_;
   gpu::DiskCache cache_ = gpu::DiskCache::of_user();
   gpu::Device device_;
+  Profile profile_;
   gpu::DeviceFacts facts_;
   ShaderFiles shaders_;
   uint32_t group_stride_ = 1;
@@ -211,6 +259,8 @@ class GpuExecutor final : public Executor {
   std::optional<gpu::Buffer> output_;
   std::unique_ptr<gpu::Kernel> sample_kernel_;
   std::unique_ptr<gpu::Kernel> hit_kernel_;
+  std::unique_ptr<gpu::Kernel> query_kernels_[2];  // by whether any hit will do; made when first asked for
+  uint64_t uploaded_ = 0;                           // bytes
   DispatchSize dispatch_size_;
 };
 

@@ -4,22 +4,11 @@
 
 #include "core/error.hpp"
 #include "reference/media.hpp"
+#include "render/geometry.hpp"
 #include "scene/camera_frame.hpp"
 
 namespace eyeray {
 namespace {
-
-// The offset of each kind's first primitive, and at the end their number.
-std::vector<uint32_t> kind_ranges(const std::vector<shader::Primitive>& primitives) {
-  std::vector<uint32_t> first(shader::SHAPE_KINDS + 1, uint32_t(primitives.size()));
-  for (uint32_t i = uint32_t(primitives.size()); i-- > 0;) first[primitives[i].head.x] = i;
-  for (uint32_t kind = shader::SHAPE_KINDS; kind-- > 0;) first[kind] = std::min(first[kind], first[kind + 1]);
-  for (uint32_t i = 0; i < primitives.size(); ++i) {
-    CHECK_LE(first[primitives[i].head.x], i);
-    CHECK_LT(i, first[primitives[i].head.x + 1]);
-  }
-  return first;
-}
 
 shader::Light pack_light(const Light& light, const Packer& packer) {
   shader::Light record{};
@@ -63,20 +52,13 @@ shader::Frame pack_frame(const Scene& scene, const PackedScene& packed) {
 
 }  // namespace
 
-PackedScene pack(const Scene& scene) {
+PackedScene pack(const Scene& scene, const PackOptions& options) {
   Packer packer(scene.camera.eye);
   for (const auto& material : scene.materials) material->pack(packer);
-  for (const auto& shape : scene.shapes) shape->pack(packer);
-  PackedScene packed = std::move(packer.scene);
-
-  // A shadow ray looks at the primitive alone.
-  for (shader::Primitive& primitive : packed.primitives)
-    primitive.head.z = packed.materials[primitive.head.y].head.w;
-
-  for (const Light& light : scene.lights) packed.lights.push_back(pack_light(light, packer));
-  packed.kind_first = kind_ranges(packed.primitives);
-  packed.frame = pack_frame(scene, packed);
-  return packed;
+  pack_geometry(scene, options, packer);
+  for (const Light& light : scene.lights) packer.scene.lights.push_back(pack_light(light, packer));
+  packer.scene.frame = pack_frame(scene, packer.scene);
+  return std::move(packer.scene);
 }
 
 }  // namespace eyeray

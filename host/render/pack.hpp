@@ -2,10 +2,12 @@
 #pragma once
 
 #include "records/packer.hpp"
+#include "render/options.hpp"
 #include "scene/scene.hpp"
 
 namespace eyeray {
 
-PackedScene pack(const Scene& scene);
+// Hits do not depend on the options. Error (bad_input) with the numbers for more than records can count.
+PackedScene pack(const Scene& scene, const PackOptions& options = {});
 
 }  // namespace eyeray

@@ -73,8 +73,8 @@ class RowsAtATime {
 
 std::unique_ptr<Executor> make_executor(Backend backend, const Scene& scene, const ExecutorOptions& options) {
   if (backend == Backend::gpu) return make_gpu_executor(scene, options);
-  if (backend == Backend::twin) return make_twin_executor(scene);
-  return make_reference_executor(scene);
+  if (backend == Backend::twin) return make_twin_executor(scene, options);
+  return make_reference_executor(scene, options);
 }
 
 Rendering render(const Scene& scene, Executor& executor, const RenderOptions& options) {

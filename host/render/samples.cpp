@@ -1,6 +1,19 @@
 #include "render/samples.hpp"
 
+#include <bit>
+#include <limits>
+
 namespace eyeray {
+
+shader::QueryRay to_query_ray(const Query& ray, const Vec3& eye) {
+  return {to_vec4(ray.o - eye), to_vec4(ray.d, ray.t_max)};
+}
+
+QueryHit to_query_hit(const shader::QueryHit& result) {
+  const auto t = double(std::bit_cast<float>(result.hit.x));
+  if (t >= double(T_MISS)) return {std::numeric_limits<double>::infinity(), -1};
+  return {t, result.hit.y == NONE ? -1 : int64_t{result.hit.y}};
+}
 
 FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye) {
   FirstHit hit;

@@ -79,7 +79,7 @@ std::string constant_loader(std::string_view type, std::string_view name,
 
 // The whole scene as constants, and the list of primitives that traverse.glsl unrolls.
 std::string constants(const PackedScene& scene) {
-  std::string text = constant_loader("vec4", "vertex", scene.vertices) +
+  std::string text = constant_loader("uvec4", "vertex", scene.vertices) +
                      constant_loader("Material", "material", scene.materials) +
                      constant_loader("Texture", "texture", scene.textures) +
                      constant_loader("Medium", "medium", scene.media) +
@@ -87,24 +87,35 @@ std::string constants(const PackedScene& scene) {
                      constant_loader("Primitive", "primitive", scene.primitives);
   text += "#define SCENE_PRIMITIVES(X)";
   for (size_t i = 0; i < scene.primitives.size(); ++i)
-    text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[scene.primitives[i].head.x].name, i, i);
+    text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[kind_of(scene.primitives[i])].name, i, i);
   return text + "\n";
 }
 
 bool is_small(const PackedScene& scene) {
-  return scene.primitives.size() <= most_primitives && scene.vertices.size() + scene.materials.size() +
+  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_primitives && scene.vertices.size() + scene.materials.size() +
                                                                scene.textures.size() + scene.media.size() +
                                                                scene.lights.size() <=
                                                            most_records;
+}
+
+// The kinds of shape that the trees hold.
+std::set<uint32_t> tree_kinds(const PackedScene& scene) {
+  std::set<uint32_t> kinds;
+  for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
+    if (scene.kind_loose[kind] < scene.kind_first[kind + 1]) kinds.insert(kind);
+  if (!scene.instances.empty()) kinds.insert(shader::KIND_triangle);
+  return kinds;
 }
 
 }  // namespace
 
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
   std::set<uint32_t> shapes_used;
-  for (const shader::Primitive& p : scene.primitives) shapes_used.insert(p.head.x);
+  for (const shader::Primitive& p : scene.primitives) shapes_used.insert(kind_of(p));
   std::set<uint32_t> materials_used;
-  for (const shader::Primitive& p : scene.primitives) materials_used.insert(scene.materials[p.head.y].head.x);
+  for (const shader::Primitive& p : scene.primitives)
+    materials_used.insert(scene.materials[material_of(p)].head.x);
+  for (const shader::Instance& i : scene.instances) materials_used.insert(scene.materials[i.head.z].head.x);
   const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
                                    [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
   const bool media = scene.media.size() > 1;
@@ -120,14 +131,27 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_MEDIA", int(media));
   // Only where a ray splits in two does a child wait, and one a level at most.
   define("WHITTED_STACK", media ? scene.frame.camera.w : 0u);
-  define("TRACE_ITERATIONS", fmt::format("{}u", unrolled ? 0 : scene.primitives.size()));
+  define("TRACE_ITERATIONS", fmt::format("{}u", unrolled || scene.has_tree ? 0 : scene.primitives.size()));
+  define("TEXEL_BUFFERS", int(options.profile.texel_buffers));
+  define("HAS_TREE", scene.has_tree ? "true" : "false");
+  define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");
+  define("SHIFT_STACK", int(options.profile.shift_stack));
+  define("STACK_SIZE", scene.stack_size);
+  define("HAS_INSTANCES", int(!scene.instances.empty()));
+  define("INSTANCE_COUNT", fmt::format("{}u", scene.instances.size()));
+  // In a tree of one kind of shape nothing need ask for the kind.
+  const std::set<uint32_t> in_tree = tree_kinds(scene);
+  define("TREE_HOLDS(number, primitive)", in_tree.size() == 1
+                                              ? fmt::format("(number == {}u)", *in_tree.begin())
+                                              : "(kind_of(primitive) == number)");
   if (options.loop_budget > 0) define("LOOP_BUDGET", fmt::format("{}u", options.loop_budget));
   define("GROUP_STRIDE", fmt::format("{}u", options.group_stride));
   for (const Row& shape : shapes) {
     define(fmt::format("FIRST_{}", shape.name), fmt::format("{}u", scene.kind_first[shape.number]));
-    define(fmt::format("END_{}", shape.name), fmt::format("{}u", scene.kind_first[shape.number + 1]));
+    define(fmt::format("LOOSE_{}", shape.name), fmt::format("{}u", scene.kind_loose[shape.number]));
   }
-  text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_END(name) END_##name\n";
+  text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_LOOSE(name) LOOSE_##name\n";
+  text += "#include \"bindings.glsl\"\n";
   text += unrolled ? constants(scene) : "#include \"loaders.glsl\"\n";
   text += registry("SHAPES", "shapes", shapes, shapes_used);
   text += registry("MATERIALS", "materials", materials, materials_used);

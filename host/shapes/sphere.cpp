@@ -82,7 +82,7 @@ class Sphere final : public Shape {
 
   void pack(Packer& packer) const override {
     const bool mirrored = glm::determinant(axes_) < 0;
-    packer.add({.head = {shader::KIND_sphere, uint32_t(material), 0u, 0u},
+    packer.add({.head = Packer::head(shader::KIND_sphere, material),
                 .a = to_vec4(packer.relative(center_), radius_),
                 .b = to_vec4(axes_[1]),
                 .c = to_vec4(axes_[0], mirrored ? -1 : 1)});

@@ -103,11 +103,15 @@ class Triangle final : public Shape {
     uint32_t attributes = NONE;
     if (normals_ || uv_) {
       const auto n = normals_.value_or(std::array<Vec3, 3>{normal_, normal_, normal_});
-      const auto uv = uv_.value_or(std::array<Vec2, 3>{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)});
-      attributes = packer.add_vertices({to_vec4(n[0], uv[0].x), to_vec4(n[1], uv[1].x),
-                                        to_vec4(n[2], uv[2].x), to_vec4({uv[0].y, uv[1].y, uv[2].y})});
+      const auto uv = uv_.value_or(std::array<Vec2, 3>{});
+      const uint32_t first =
+          packer.add_vertices({to_bits(to_vec4(n[0], uv[0].x)), to_bits(to_vec4(n[1], uv[1].x)),
+                               to_bits(to_vec4(n[2], uv[2].x))});
+      attributes = packer.add_vertices(
+          {{first, first + 1, first + 2, (normals_ ? CORNERS_NORMALS : 0u) | (uv_ ? CORNERS_UV : 0u)},
+           to_bits(to_vec4({uv[0].y, uv[1].y, uv[2].y}))});
     }
-    packer.add({.head = {shader::KIND_triangle, uint32_t(material), 0u, attributes},
+    packer.add({.head = Packer::head(shader::KIND_triangle, material, attributes),
                 .a = to_vec4(packer.relative(vertices_[0]), normal_.x),
                 .b = to_vec4(packer.relative(vertices_[1]), normal_.y),
                 .c = to_vec4(packer.relative(vertices_[2]), normal_.z)});

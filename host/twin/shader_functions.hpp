@@ -21,8 +21,17 @@ class Binding {
 [[maybe_unused]] const Primitive& load_primitive(uint i) {
   return bound_scene->primitives[i];
 }
-[[maybe_unused]] const vec4& load_vertex(uint i) {
+[[maybe_unused]] const uvec4& load_vertex(uint i) {
   return bound_scene->vertices[i];
+}
+[[maybe_unused]] const uvec4& load_node(uint i) {
+  return bound_scene->nodes[i];
+}
+[[maybe_unused]] const Tree& load_tree(uint i) {
+  return bound_scene->trees[i];
+}
+[[maybe_unused]] const Instance& load_instance(uint i) {
+  return bound_scene->instances[i];
 }
 [[maybe_unused]] const Material& load_material(uint i) {
   return bound_scene->materials[i];
@@ -42,9 +51,16 @@ class Binding {
 
 // What a specialised kernel gets from its generated scene.glsl, here for every scene.
 #define KIND_FIRST(name) bound_scene->kind_first[KIND_##name]
-#define KIND_END(name) bound_scene->kind_first[KIND_##name + 1u]
+#define KIND_LOOSE(name) bound_scene->kind_loose[KIND_##name]
 #define LIGHT_COUNT bound_scene->frame.counts.x
 #define TRIANGLE_METHOD bound_scene->frame.counts.w
+#define HAS_TREE bound_scene->has_tree
+#define QUANTISED_NODES bound_scene->quantised_nodes
+#define TREE_HOLDS(number, primitive) (kind_of(primitive) == number)
+#define HAS_INSTANCES 1
+#define INSTANCE_COUNT uint(bound_scene->instances.size())
+#define SHIFT_STACK 0
+#define STACK_SIZE 128
 #define TRACE_ITERATIONS 0u
 #define WHITTED_STACK 64
 #define HAS_CHECKER 1

@@ -14,4 +14,9 @@ shader::HitResult first_hit(const PackedScene& scene, uint32_t x, uint32_t y) {
   return shader::first_hit(scene.frame, x, y);
 }
 
+shader::QueryHit query(const PackedScene& scene, const shader::QueryRay& ray, bool any) {
+  const shader::Binding binding(scene);
+  return shader::query(ray, any);
+}
+
 }  // namespace eyeray::twin

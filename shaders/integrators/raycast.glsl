@@ -10,12 +10,12 @@ SHADER_BEGIN
 
 vec3 raycast_radiance(Frame frame, Ray ray, INOUT(uvec4) counts) {
   counts.x += 1u;
-  Hit hit = trace(ray);
-  if (hit.primitive == NONE) return vec3(frame.background);
+  Hit hit = trace(ray, counts);
+  if (hit.slot == NONE) return vec3(frame.background);
   counts.y += 1u;
 
   // Find the surface, as the viewer sees it.
-  Primitive primitive = load_primitive(hit.primitive);
+  Primitive primitive = primitive_at(hit);
   Surface surface = surface_at(primitive, ray, hit);
   Surface seen = face_viewer(surface, dot3(ray.d, surface.normal_geometric) < 0.0f);
 
@@ -28,7 +28,7 @@ vec3 raycast_radiance(Frame frame, Ray ray, INOUT(uvec4) counts) {
   }
   float headlight = abs(dot3(seen.normal, ray.d));
   if (LIGHT_COUNT == 0u) light = vec3(headlight, headlight, headlight);
-  return texture_color(load_material(primitive.head.y).textures.x, surface.uv) * light;
+  return texture_color(load_material(material_of(primitive)).textures.x, surface.uv) * light;
 }
 
 SHADER_END

@@ -27,7 +27,7 @@ vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface
     float cosine = dot3(seen.normal, light.direction);
     if (cosine > 0.0f && dot3(seen.normal_geometric, light.direction) > 0.0f) {
       counts.x += 1u;
-      float visible = visibility(occlusion(leave(seen, light.direction), light.distance));
+      float visible = visibility(occlusion(leave(seen, light.direction), light.distance, counts));
       float lobe = highlight(material, seen.normal, light.direction, to_viewer);
       color = color + light.color * (scattering.diffuse * cosine + scattering.specular * lobe) * visible;
     }
@@ -56,8 +56,8 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
   bool going = true;
   do {
     Ray ray = make_ray(path.o, path.d);
-    Hit hit = trace(ray);
-    bool struck = hit.primitive != NONE;
+    Hit hit = trace(ray, counts);
+    bool struck = hit.slot != NONE;
     counts.x += 1u;
     counts.y += struck ? 1u : 0u;
     counts.w += TRACE_ITERATIONS + 1u;
@@ -66,8 +66,8 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
       color = color + path.weight * vec3(frame.background);
     } else {
       // Weaken by the medium that the ray came through.
-      Primitive primitive = load_primitive(hit.primitive);
-      Material material = load_material(primitive.head.y);
+      Primitive primitive = primitive_at(hit);
+      Material material = load_material(material_of(primitive));
       vec3 weight = path.weight;
 #if HAS_MEDIA
       Medium from = load_medium(innermost_medium(path.media));

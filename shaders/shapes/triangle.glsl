@@ -1,5 +1,5 @@
-// a, b, c = the vertices; their w's are the unit geometric normal, from float64. extra = four vec4 of normals and uv, or NONE:
-// (n0, u0) (n1, u1) (n2, u2) (v0, v1, v2, -).   Parameters of a hit: the weights of the second and third vertex.
+// a, b, c = the vertices; their w's are the unit geometric normal, from float64. extra = its corners (records.h), or NONE.
+// Parameters of a hit: the weights of the second and third vertex.
 #ifndef TRIANGLE_GLSL
 #define TRIANGLE_GLSL
 #include "ray.glsl"
@@ -9,9 +9,20 @@ SHADER_BEGIN
 
 // Along the ray, the triangle is its plane: near the plane, and for slivers, this is far more exact than the weighted mean of the
 // vertices' distances, and a ray that starts off the plane on the far side has t ≤ 0 for certain.
-float triangle_t(Primitive s, Ray ray) {
+// But along a ray that grazes the plane, t may come out before the ray reaches the triangle's own bounds. A tree would then miss what
+// brute force finds: so no t is less than the entry into the bounds, or than the farthest vertex, which bounds the entry where
+// rounding lets a ray hit that passes just outside. a, b, c: the vertices from the ray's start, permuted.
+float triangle_t(Primitive s, Ray ray, vec3 a, vec3 b, vec3 c) {
   vec3 n = vec3(s.a.w, s.b.w, s.c.w);
-  return dot3(n, vec3(s.a) - ray.o) / dot3(n, ray.d);
+  float t = dot3(n, vec3(s.a) - ray.o) / dot3(n, ray.d);
+  vec3 inverse = permute(ray.inverse, ray.major);
+  vec3 ta = a * inverse;
+  vec3 tb = b * inverse;
+  vec3 tc = c * inverse;
+  float entry = maximum(maximum(minimum(ta.x, minimum(tb.x, tc.x)), minimum(ta.y, minimum(tb.y, tc.y))),
+                        minimum(ta.z, minimum(tb.z, tc.z)));
+  float farthest = maximum(ta.z, maximum(tb.z, tc.z));
+  return t > 0.0f ? maximum(t, minimum(entry, farthest)) : -1.0f;
 }
 
 // Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2013). The edge functions of a shared edge are
@@ -33,7 +44,7 @@ float triangle_intersect_woop(Primitive s, Ray ray, OUT(vec2) uv) {
   float det = (u + v) + w;
   float inverse = 1.0f / det;
   uv = vec2(v * inverse, w * inverse);
-  return inside && det != 0.0f ? triangle_t(s, ray) : -1.0f;
+  return inside && det != 0.0f ? triangle_t(s, ray, a, b, c) : -1.0f;
 }
 
 // Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), without its epsilon. Not watertight: kept for
@@ -46,7 +57,9 @@ float triangle_intersect_moller_trumbore(Primitive s, Ray ray, OUT(vec2) uv) {
   vec3 f = ray.o - vec3(s.a);
   uv = vec2(dot3(f, p) / det, dot3(ray.d, cross3(f, e1)) / det);
   bool inside = uv.x >= 0.0f && uv.y >= 0.0f && uv.x + uv.y <= 1.0f;
-  return inside ? triangle_t(s, ray) : -1.0f;
+  return inside ? triangle_t(s, ray, permute(vec3(s.a) - ray.o, ray.major), permute(vec3(s.b) - ray.o, ray.major),
+                             permute(vec3(s.c) - ray.o, ray.major))
+                : -1.0f;
 }
 
 float triangle_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
@@ -66,13 +79,19 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal = surface.normal_geometric;
   surface.uv = hit.uv;
   if (s.head.w != NONE) {
-    vec4 n0 = load_vertex(s.head.w);
-    vec4 n1 = load_vertex(s.head.w + 1u);
-    vec4 n2 = load_vertex(s.head.w + 2u);
-    vec4 v = load_vertex(s.head.w + 3u);
-    surface.normal = normalize3((vec3(n0) * wa + vec3(n1) * hit.uv.x) + vec3(n2) * hit.uv.y);
-    surface.uv = vec2((n0.w * wa + n1.w * hit.uv.x) + n2.w * hit.uv.y,
-                      (v.x * wa + v.y * hit.uv.x) + v.z * hit.uv.y);
+    uvec4 corners = load_vertex(s.head.w);
+    vec4 n0 = bits_to_floats(load_vertex(corners.x));
+    vec4 n1 = bits_to_floats(load_vertex(corners.y));
+    vec4 n2 = bits_to_floats(load_vertex(corners.z));
+    if ((corners.w & CORNERS_NORMALS) != 0u) {
+      vec3 normal = normalize3((vec3(n0) * wa + vec3(n1) * hit.uv.x) + vec3(n2) * hit.uv.y);
+      surface.normal = dot3(normal, surface.normal_geometric) > 0.0f ? normal : surface.normal_geometric;
+    }
+    if ((corners.w & CORNERS_UV) != 0u) {
+      vec4 v = bits_to_floats(load_vertex(s.head.w + 1u));
+      surface.uv = vec2((n0.w * wa + n1.w * hit.uv.x) + n2.w * hit.uv.y,
+                        (v.x * wa + v.y * hit.uv.x) + v.z * hit.uv.y);
+    }
   }
   vec3 reach = abs3(vec3(s.a)) + abs3(vec3(s.b)) + abs3(vec3(s.c));
   surface.offset = 8.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);

@@ -1,0 +1,26 @@
+// What may be chosen about how hits are found; which hits are found does not depend on any of it.
+#pragma once
+
+#include <string>
+
+namespace eyeray {
+
+enum class Acceleration {
+  automatic,    // a tree, unless there is next to nothing to leave out
+  tree,         // a tree over all that has bounds
+  brute_force,  // every ray is tested against every primitive
+};
+
+struct PackOptions {
+  Acceleration acceleration = Acceleration::automatic;
+  bool split = false;  // spatial splits (accel/tree.hpp), where no primitive lets part of a shadow ray through
+};
+
+// The kernels' profile (render/profile.hpp); an empty choice is the profile's.
+struct ProfileOptions {
+  std::string profile = "auto";  // auto: by the device | cpu | gpu
+  std::string loads;             // texels | storage
+  std::string stack;             // shift | array
+};
+
+}  // namespace eyeray

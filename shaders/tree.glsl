@@ -1,0 +1,128 @@
+// A tree of boxes: what a ray meets of it, and the stack of what waits.
+// Boxes never decide a hit: they only leave out what cannot be one. For that they are met wherever rounding could let a shape in
+// them be hit, and no hit is nearer than the ray's entry into the boxes around it (shapes/triangle.glsl).
+#ifndef TREE_GLSL
+#define TREE_GLSL
+#include "ray.glsl"
+#include "records.h"
+
+SHADER_BEGIN
+
+#define TREE_DONE 0xffffffffu   // below everything on the stack
+#define TREE_LEAVE 0xfffffffeu  // waits below what an instance's tree puts on the stack
+
+// A ray as a tree's boxes see it: it passes the plane at q at t = q · scale − near (− far, on the way out). Both are off by more
+// than the error of any shape's t, which grows with how far the ray's start and the tree's boxes reach.
+struct BoxRay {
+  vec3 scale;
+  vec3 near;
+  vec3 far;
+  uvec3 backward;  // by axis: 16 where the ray runs towards lower coordinates, else 0
+};
+
+BoxRay box_ray(Ray ray, Tree tree) {
+  vec3 offset = ray.o - vec3(tree.origin);
+  float reach = max_component(abs3(offset) + vec3(tree.extent));
+  vec3 slack = abs3(ray.inverse) * (16.0f * EPSILON * reach);
+  BoxRay boxes;
+  boxes.scale = vec3(tree.step) * ray.inverse;
+  boxes.near = offset * ray.inverse + slack;
+  boxes.far = offset * ray.inverse - slack;
+  boxes.backward = uvec3(ray.inverse.x < 0.0f ? 16u : 0u, ray.inverse.y < 0.0f ? 16u : 0u, ray.inverse.z < 0.0f ? 16u : 0u);
+  return boxes;
+}
+
+// The planes by which a ray enters and leaves a child's box, and what the child refers to.
+struct Child {
+  vec3 near;
+  vec3 far;
+  uint refers_to;
+};
+
+float low_half(uint word) { return float(int(word & 0xffffu)); }
+
+Child load_child(uint node, uint which, BoxRay ray) {
+  Child child;
+  if (QUANTISED_NODES) {
+    uvec4 c = load_node(2u * node + which);
+    child.near = vec3(low_half(c.x >> ray.backward.x), low_half(c.y >> ray.backward.y), low_half(c.z >> ray.backward.z));
+    child.far = vec3(low_half(c.x >> (16u - ray.backward.x)), low_half(c.y >> (16u - ray.backward.y)),
+                     low_half(c.z >> (16u - ray.backward.z)));
+    child.refers_to = c.w;
+  } else {
+    uvec4 low_bits = load_node(4u * node + 2u * which);
+    vec3 low = vec3(uintBitsToFloat(low_bits.x), uintBitsToFloat(low_bits.y), uintBitsToFloat(low_bits.z));
+    uvec4 high_bits = load_node(4u * node + 2u * which + 1u);
+    vec3 high = vec3(uintBitsToFloat(high_bits.x), uintBitsToFloat(high_bits.y), uintBitsToFloat(high_bits.z));
+    child.near = vec3(ray.backward.x == 0u ? low.x : high.x, ray.backward.y == 0u ? low.y : high.y,
+                      ray.backward.z == 0u ? low.z : high.z);
+    child.far = vec3(ray.backward.x == 0u ? high.x : low.x, ray.backward.y == 0u ? high.y : low.y,
+                     ray.backward.z == 0u ? high.z : low.z);
+    child.refers_to = low_bits.w;
+  }
+  return child;
+}
+
+// Distances as the bits of floats. Signed integers order them as floats do where they are not negative, and what is negative, behind
+// the ray, stays below all that is not: that is all the comparisons here need, and it costs a CPU less.
+int lesser(int a, int b) { return b < a ? b : a; }
+int greater(int a, int b) { return b > a ? b : a; }
+
+int entry_of(Child child, BoxRay ray) {
+  vec3 t = child.near * ray.scale - ray.near;
+  return greater(greater(floatBitsToInt(t.x), floatBitsToInt(t.y)), greater(floatBitsToInt(t.z), 0));
+}
+
+int exit_of(Child child, BoxRay ray, int limit) {
+  vec3 t = child.far * ray.scale - ray.far;
+  return lesser(lesser(floatBitsToInt(t.x), floatBitsToInt(t.y)), lesser(floatBitsToInt(t.z), limit));
+}
+
+// What waits to be visited. A tree is never deeper than STACK_SIZE, so nothing is lost.
+struct Stack {
+  uint entries[STACK_SIZE];
+  uint size;
+};
+
+#if SHIFT_STACK
+// The top is always entry 0: a push shifts all the others. With every index constant the entries stay in registers.
+Stack empty_stack() {
+  Stack stack;
+  UNROLL for (int i = 0; i < STACK_SIZE; i++) stack.entries[i] = TREE_DONE;
+  stack.size = 0u;
+  return stack;
+}
+
+uint top_of(Stack stack) { return stack.entries[0]; }
+
+void move_stack(INOUT(Stack) stack, bool push, bool pop, uint value) {
+  uint before = value;
+  UNROLL for (int i = 0; i < STACK_SIZE; i++) {
+    uint current = stack.entries[i];
+    uint next = i + 1 < STACK_SIZE ? stack.entries[i + 1 < STACK_SIZE ? i + 1 : i] : TREE_DONE;
+    stack.entries[i] = push ? before : pop ? next : current;
+    before = current;
+  }
+}
+#else
+Stack empty_stack() {
+  Stack stack;
+  stack.entries[0] = TREE_DONE;
+  stack.size = 0u;
+  return stack;
+}
+
+uint top_of(Stack stack) { return stack.entries[stack.size]; }
+
+void move_stack(INOUT(Stack) stack, bool push, bool pop, uint value) {
+  if (push) {
+    stack.size += 1u;
+    stack.entries[stack.size] = value;
+  } else if (pop && stack.size > 0u) {
+    stack.size -= 1u;
+  }
+}
+#endif
+
+SHADER_END
+#endif
