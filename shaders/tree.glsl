@@ -8,6 +8,7 @@
 
 SHADER_BEGIN
 
+#ifndef SCENE_PRIMITIVES
 #define TREE_DONE 0xffffffffu   // below everything on the stack
 #define TREE_LEAVE 0xfffffffeu  // waits below what an instance's tree puts on the stack
 
@@ -122,6 +123,8 @@ void move_stack(INOUT(Stack) stack, bool push, bool pop, uint value) {
     stack.size -= 1u;
   }
 }
+#endif
+
 #endif
 
 SHADER_END

@@ -62,7 +62,11 @@ class SceneOptions {
 // "640x480" as {640, 480}; Error (bad_input) for anything else.
 std::pair<int, int> parse_size(const std::string& text);
 
-// --device, --shaders, --fast-math, --validate, --timeout, --no-constants, and the hidden --inject-fault.
+// "auto", "tree", "brute-force"; Error (bad_input) for another name.
+Acceleration parse_acceleration(const std::string& name);
+
+// --device, --shaders, --fast-math, --validate, --timeout, --no-constants, --acceleration,
+// --splits, --profile, --loads, --stack, and the hidden --inject-fault.
 void add_executor_options(CLI::App& command, ExecutorOptions& options);
 
 // --backend gpu|twin|reference.

@@ -90,6 +90,13 @@ Scene SceneOptions::load() const {
   return scene;
 }
 
+Acceleration parse_acceleration(const std::string& name) {
+  if (name == "auto") return Acceleration::automatic;
+  if (name == "tree") return Acceleration::tree;
+  if (name == "brute-force") return Acceleration::brute_force;
+  throw Error(ExitCode::bad_input, "--acceleration is auto, tree or brute-force, not '{}'", name);
+}
+
 void add_executor_options(CLI::App& command, ExecutorOptions& options) {
   const std::string group = "Device";
   command
@@ -127,6 +134,24 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options) {
           "--no-constants", [&options] { options.constants = false; },
           "Keep a small scene's shapes in buffers instead of in the kernel.")
       ->group(group);
+  const auto choose = [&](const char* name, std::string& value, const char* text, const char* description) {
+    command.add_option(name, value, description)->option_text(text)->group("How hits are found (not which)");
+  };
+  command
+      .add_option_function<std::string>(
+          "--acceleration",
+          [&options](const std::string& name) { options.pack.acceleration = parse_acceleration(name); },
+          "A tree of boxes over the scene, brute force, or what suits the scene.")
+      ->option_text("auto|tree|brute-force")
+      ->group("How hits are found (not which)");
+  command
+      .add_flag("--splits", options.pack.split,
+                "Cut long, thin primitives for a better tree: slower to build, faster to trace.")
+      ->group("How hits are found (not which)");
+  choose("--profile", options.profile.profile, "auto|cpu|gpu",
+         "What kernels are made for; by default what the device is.");
+  choose("--loads", options.profile.loads, "texels|storage", "Load the scene as texels or from storage buffers.");
+  choose("--stack", options.profile.stack, "shift|array", "Keep the stack in registers or in an indexed array.");
   command
       .add_option("--validate", options.validation, "Run under the Vulkan validation layer: core or sync.")
       ->option_text("SET")

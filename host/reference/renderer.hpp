@@ -5,14 +5,14 @@
 #include "core/pixel.hpp"
 #include "reference/camera.hpp"
 #include "reference/media.hpp"
-#include "scene/scene.hpp"
+#include "reference/tracer.hpp"
 
 namespace eyeray::reference {
 
 class Renderer {
  public:
-  // `scene` must outlive the renderer.
-  explicit Renderer(const Scene& scene);
+  // `scene` must outlive the renderer. The pixels do not depend on `acceleration`.
+  explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::tree);
 
   // Sample `index` of pixel (x, y), by the scene's integrator. `shift`, in pixels, is added to the sample's
   // place.
@@ -20,8 +20,11 @@ class Renderer {
   // What the ray through the pixel's centre + `shift` meets.
   FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}) const;
 
+  const Tracer& tracer() const { return tracer_; }
+
  private:
   const Scene& scene_;
+  Tracer tracer_;
   CameraRays camera_;
   MediaStack media_;  // around the eye
   uint32_t flags_ = 0;

@@ -80,7 +80,7 @@ class TwinExecutor final : public Executor {
 
 class ReferenceExecutor final : public Executor {
  public:
-  explicit ReferenceExecutor(const Scene& scene) : renderer_(scene) {}
+  ReferenceExecutor(const Scene& scene, Acceleration acceleration) : renderer_(scene, acceleration) {}
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
     return times_.measure("trace", [&] {
@@ -93,7 +93,14 @@ class ReferenceExecutor final : public Executor {
   }
 
   double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits) override {
-    return timed_queries(rays, hits, [&](const Query& ray) { return renderer_.query(ray, kind); });
+    return timed_queries(rays, hits, [&](const Query& ray) -> QueryHit {
+      constexpr double none = std::numeric_limits<double>::infinity();
+      if (kind == QueryKind::any)
+        return {renderer_.tracer().transmittance({ray.o, ray.d}, ray.t_max) == 0 ? 0 : none, -1};
+      const auto hit = renderer_.tracer().trace({ray.o, ray.d});
+      if (!hit || hit->at.t >= ray.t_max) return {none, -1};
+      return {hit->at.t, int64_t(hit->primitive)};
+    });
   }
 
   std::string description() const override {
@@ -110,8 +117,8 @@ std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorO
   return std::make_unique<TwinExecutor>(scene, options.pack);
 }
 
-std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions&) {
-  return std::make_unique<ReferenceExecutor>(scene);
+std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options) {
+  return std::make_unique<ReferenceExecutor>(scene, options.pack.acceleration);
 }
 
 }  // namespace eyeray

@@ -3,13 +3,9 @@
 
 #include <string>
 
-namespace eyeray {
+#include "core/acceleration.hpp"
 
-enum class Acceleration {
-  automatic,    // a tree, unless there is next to nothing to leave out
-  tree,         // a tree over all that has bounds
-  brute_force,  // every ray is tested against every primitive
-};
+namespace eyeray {
 
 struct PackOptions {
   Acceleration acceleration = Acceleration::automatic;
