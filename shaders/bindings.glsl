@@ -14,6 +14,11 @@ layout(std430, binding = BINDING_PRIMITIVES) readonly restrict buffer Primitives
 layout(std430, binding = BINDING_VERTICES) readonly restrict buffer Vertices { uvec4 vertices[]; };
 layout(std430, binding = BINDING_NODES) readonly restrict buffer Nodes { uvec4 nodes[]; };
 #endif
+#if STORED_HITS
+// What packet.comp.glsl found for this sample: what the eye rays hit, and how much of each light is lost there.
+layout(std430, binding = BINDING_PACKET_HITS) readonly restrict buffer PacketHits { PacketHit packet_hits[]; };
+layout(std430, binding = BINDING_OCCLUSIONS) readonly restrict buffer Occlusions { uint occlusions[]; };
+#endif
 layout(std430, binding = BINDING_TREES) readonly restrict buffer Trees { Tree trees[]; };
 layout(std430, binding = BINDING_INSTANCES) readonly restrict buffer Instances { Instance instances[]; };
 layout(std430, binding = BINDING_MATERIALS) readonly restrict buffer Materials { Material materials[]; };

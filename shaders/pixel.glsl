@@ -41,21 +41,20 @@ HitResult first_hit(Frame frame, uint x, uint y) {
   return result;
 }
 
+QueryHit answer(Found found, bool any, uint flags) {
+  bool struck = any ? found.occluded >= SHADOW_OPAQUE : found.hit.slot != NONE;
+  float t = struck ? (any ? 0.0f : found.hit.t) : T_MISS;
+  QueryHit result;
+  result.hit = uvec4(floatBitsToUint(t), struck && !any ? found.hit.id : NONE, flags, found.occluded);
+  return result;
+}
+
 // A ray asked about alone: the nearest hit before its t_max, or whether anything keeps its light away.
 QueryHit query(QueryRay asked, bool any) {
   Ray ray = make_ray(vec3(asked.origin), vec3(asked.direction));
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   Found found = search(ray, minimum(asked.direction.w, T_MISS), any, counts);
-  QueryHit result;
-  if (any) {
-    float t = found.occluded >= SHADOW_OPAQUE ? 0.0f : T_MISS;
-    result.hit = uvec4(floatBitsToUint(t), NONE, counts.z, found.occluded);
-  } else {
-    bool struck = found.hit.slot != NONE;
-    float t = struck ? found.hit.t : T_MISS;
-    result.hit = uvec4(floatBitsToUint(t), struck ? found.hit.id : NONE, counts.z, 0u);
-  }
-  return result;
+  return answer(found, any, counts.z);
 }
 
 SHADER_END

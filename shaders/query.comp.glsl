@@ -4,16 +4,14 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "scene.glsl"
 #include "pixel.glsl"
+#include "tile.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_RAYS) readonly restrict buffer Rays { QueryRay rays[]; };
 layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { QueryHit results[]; };
 
 void main() {
-  // As in render.comp.glsl, each run of workgroups gets a fair share.
-  uint run = gl_NumWorkGroups.x / GROUP_STRIDE;
-  uint block = (gl_WorkGroupID.x % run) * GROUP_STRIDE + gl_WorkGroupID.x / run;
-  uint i = block * 64u + gl_LocalInvocationIndex;
+  uint i = dealt_out(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE) * 64u + gl_LocalInvocationIndex;
   if (i >= dispatch.tile.x) return;
 #ifdef QUERY_ANY
   results[i] = query(rays[i], true);

@@ -32,6 +32,24 @@ struct Surface {
   float offset;  // a ray that starts this far off p along the geometric normal does not meet the surface again
 };
 
+PacketHit packet_of_hit(Hit hit, uint flags) {
+  PacketHit packet;
+  packet.hit = uvec4(floatBitsToUint(hit.t), hit.slot, hit.id, flags);
+  packet.uv = uvec4(floatBitsToUint(hit.uv.x), floatBitsToUint(hit.uv.y), 0u, 0u);
+  return packet;
+}
+
+Hit hit_of_packet(PacketHit packet, INOUT(uvec4) counts) {
+  counts.z = counts.z | packet.hit.w;
+  Hit hit;
+  hit.t = uintBitsToFloat(packet.hit.x);
+  hit.slot = packet.hit.y;
+  hit.id = packet.hit.z;
+  hit.instance = NONE;
+  hit.uv = vec2(uintBitsToFloat(packet.uv.x), uintBitsToFloat(packet.uv.y));
+  return hit;
+}
+
 uint kind_of(Primitive primitive) { return primitive.head.y >> 24u; }
 uint material_of(Primitive primitive) { return primitive.head.y & 0xffffffu; }
 

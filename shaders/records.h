@@ -20,6 +20,8 @@ SHADER_BEGIN
 #define BINDING_NODES 9
 #define BINDING_TREES 10
 #define BINDING_INSTANCES 11
+#define BINDING_PACKET_HITS 12
+#define BINDING_OCCLUSIONS 13
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
@@ -148,7 +150,7 @@ struct Frame {
 
 // ---- Push constants: what changes from dispatch to dispatch, 32 bytes -----------------------------------------------
 //   0 tile x  4 tile y  8 tile width  12 tile height
-//  16 sample  20 -      24 -          28 -
+//  16 sample  20 light   24 pixels of the tile    28 -
 struct Dispatch {
   uvec4 tile;
   uvec4 sample_index;
@@ -179,6 +181,15 @@ struct QueryHit {
   uvec4 hit;
 };
 
+// Rays that packet.comp.glsl traces together. More share more of the work, and take longer to compile.
+#define PACKET 32
+
+// What the ray of one sample of a pixel hits, 32 bytes: the bits of t, slot, id, flags; the bits of u and v, -, -.
+struct PacketHit {
+  uvec4 hit;
+  uvec4 uv;
+};
+
 // Bits of SampleResult.counts.z; core/pixel.hpp names them for the host.
 #define FLAG_MEDIA_OVERFLOW 1u
 #define FLAG_STACK_OVERFLOW 2u
@@ -200,5 +211,6 @@ static_assert(sizeof(eyeray::shader::SampleResult) == 32);
 static_assert(sizeof(eyeray::shader::HitResult) == 64);
 static_assert(sizeof(eyeray::shader::QueryRay) == 32);
 static_assert(sizeof(eyeray::shader::QueryHit) == 16);
+static_assert(sizeof(eyeray::shader::PacketHit) == 32);
 #endif
 #endif

@@ -106,7 +106,8 @@ bool walk(INOUT(Found) found, Place world, bool any) {
 }
 #endif
 
-Found search(Ray ray, float t_max, bool any, INOUT(uvec4) counts) {
+// Before a search: only what is nearer than t_max counts.
+Found nothing_found(float t_max) {
   Found found;
   found.hit.t = t_max;
   found.hit.slot = NONE;
@@ -114,6 +115,11 @@ Found search(Ray ray, float t_max, bool any, INOUT(uvec4) counts) {
   found.hit.instance = NONE;
   found.hit.uv = vec2(0.0f, 0.0f);
   found.occluded = 0u;
+  return found;
+}
+
+// Tests one by one whatever is in no tree: unbounded shapes, or with brute force all of the world's own.
+void meet_loose(INOUT(Found) found, Ray ray, bool any) {
   vec2 uv = vec2(0.0f, 0.0f);
 #ifdef SCENE_PRIMITIVES
 #define MEET_ONE(name, index, constants)                                                    \
@@ -123,7 +129,6 @@ Found search(Ray ray, float t_max, bool any, INOUT(uvec4) counts) {
   }
   SCENE_PRIMITIVES(MEET_ONE)
 #else
-  // Whatever is in no tree is tested one by one: unbounded shapes, or with brute force all.
 #define MEET_KIND(name, number)                                                               \
   for (uint i = KIND_FIRST(name); i < KIND_LOOSE(name) && found.occluded < SHADOW_OPAQUE; i++) { \
     Primitive primitive = load_primitive(i);                                                  \
@@ -131,7 +136,13 @@ Found search(Ray ray, float t_max, bool any, INOUT(uvec4) counts) {
     meet(found, t, uv, i, primitive.head.x, NONE, primitive.head.z, any);                     \
   }
   SHAPES(MEET_KIND)
-  Place world = in_world(ray);
+#endif
+}
+
+Found search(Ray ray, float t_max, bool any, INOUT(uvec4) counts) {
+  Found found = nothing_found(t_max);
+  meet_loose(found, ray, any);
+#ifndef SCENE_PRIMITIVES
 #if HAS_INSTANCES
   if (!HAS_TREE) {
     for (uint i = 0u; i < INSTANCE_COUNT; i++) {
@@ -144,7 +155,7 @@ Found search(Ray ray, float t_max, bool any, INOUT(uvec4) counts) {
   }
 #endif
   if (HAS_TREE && found.occluded < SHADOW_OPAQUE) {
-    if (!walk(found, world, any)) counts.z = counts.z | FLAG_LOOP_BUDGET;
+    if (!walk(found, in_world(ray), any)) counts.z = counts.z | FLAG_LOOP_BUDGET;
   }
 #endif
   return found;

@@ -16,7 +16,8 @@ namespace {
 constexpr float node_cost = 1.0f;
 constexpr float item_cost = 1.0f;
 constexpr uint32_t wanted_in_leaf = 4;
-constexpr unsigned deepest = 56;  // Embree makes leaves of whatever is left there; ours may go a little deeper
+constexpr unsigned deepest =
+    56;  // Embree makes leaves of whatever is left there; ours may go a little deeper
 
 struct BuildNode {
   bool leaf;
@@ -68,8 +69,8 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* it
   return node;
 }
 
-void split_item(const RTCBuildPrimitive* item, unsigned axis, float position, RTCBounds* below, RTCBounds* above,
-                void* user) {
+void split_item(const RTCBuildPrimitive* item, unsigned axis, float position, RTCBounds* below,
+                RTCBounds* above, void* user) {
   const Box box{{item->lower_x, item->lower_y, item->lower_z}, {item->upper_x, item->upper_y, item->upper_z}};
   Box low = box;
   Box high = box;
@@ -134,9 +135,8 @@ class Flattener {
       std::array<uint32_t, most_in_leaf> items;
       std::copy_n(node->items, node->count, items.begin());
       const std::span some(items.data(), node->count);
-      std::sort(some.begin(), some.end(), [&](uint32_t a, uint32_t b) {
-        return std::pair(kinds_[a], a) < std::pair(kinds_[b], b);
-      });
+      std::sort(some.begin(), some.end(),
+                [&](uint32_t a, uint32_t b) { return std::pair(kinds_[a], a) < std::pair(kinds_[b], b); });
       return make_leaf(some, depth);
     }
     const auto index = add_node(depth);
@@ -156,8 +156,9 @@ class Flattener {
     Box box;
     for (const uint32_t item : items) box.include(boxes_[item]);
     const uint8_t kind = kinds_[items[0]];
-    const auto same = size_t(std::find_if(items.begin(), items.end(), [&](uint32_t i) { return kinds_[i] != kind; }) -
-                             items.begin());
+    const auto same =
+        size_t(std::find_if(items.begin(), items.end(), [&](uint32_t i) { return kinds_[i] != kind; }) -
+               items.begin());
     if (same < items.size()) {
       const auto index = add_node(depth);
       const Child first = make_leaf(items.first(same), depth + 1);
@@ -197,7 +198,8 @@ Tree build_tree(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint
   }
 
   const Device device(rtcNewDevice(nullptr));
-  if (!device) throw Error(ExitCode::no_device, "Embree does not start: error {}", int(rtcGetDeviceError(nullptr)));
+  if (!device)
+    throw Error(ExitCode::no_device, "Embree does not start: error {}", int(rtcGetDeviceError(nullptr)));
   const Bvh bvh(rtcNewBVH(device.get()));
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.buildQuality = options.split ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;

@@ -150,8 +150,12 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options) {
       ->group("How hits are found (not which)");
   choose("--profile", options.profile.profile, "auto|cpu|gpu",
          "What kernels are made for; by default what the device is.");
-  choose("--loads", options.profile.loads, "texels|storage", "Load the scene as texels or from storage buffers.");
-  choose("--stack", options.profile.stack, "shift|array", "Keep the stack in registers or in an indexed array.");
+  choose("--loads", options.profile.loads, "texels|storage",
+         "Load the scene as texels or from storage buffers.");
+  choose("--rays", options.profile.rays, "packets|lanes",
+         "Trace rays that run side by side together, or each alone.");
+  choose("--stack", options.profile.stack, "shift|array",
+         "Keep the stack in registers or in an indexed array.");
   command
       .add_option("--validate", options.validation, "Run under the Vulkan validation layer: core or sync.")
       ->option_text("SET")

@@ -1,4 +1,5 @@
-// A storage buffer, or a storage texel buffer: bytes that a kernel sees, between two guards that it must not touch.
+// A storage buffer, or a storage texel buffer: bytes that a kernel sees, between two guards that it must not
+// touch.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,8 @@ class RawBuffer;
 
 class Buffer {
  public:
-  // `bytes` zeros (at least one word or texel, rounded up to whole ones); `name` is for errors. Error (no_device) with
-  // the numbers when the device cannot show a shader that much, or has not that much memory.
+  // `bytes` zeros (at least one word or texel, rounded up to whole ones); `name` is for errors. Error
+  // (no_device) with the numbers when the device cannot show a shader that much, or has not that much memory.
   Buffer(Device& device, size_t bytes, std::string name, BindingKind kind = BindingKind::storage);
   ~Buffer();
   Buffer(Buffer&&) noexcept;

@@ -25,7 +25,8 @@ void check_limits(const Reflection& reflection, const DeviceInfo& device, const 
 }
 
 VkDescriptorType descriptor_type(BindingKind kind) {
-  return kind == BindingKind::texels ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  return kind == BindingKind::texels ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
+                                     : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
 // A pipeline cache that comes from disk and goes back there when the driver added to it.

@@ -112,7 +112,8 @@ struct Module {
 // What a variable is, if it is something that eyeray binds.
 std::optional<BindingKind> binding_kind(const Module& module, const Variable& variable) {
   if (variable.storage == spv::StorageClassStorageBuffer) return BindingKind::storage;
-  const std::vector<uint32_t>& type = module.ids.at(module.ids.at(variable.pointer).definition.at(3)).definition;
+  const std::vector<uint32_t>& type =
+      module.ids.at(module.ids.at(variable.pointer).definition.at(3)).definition;
   const bool texels = !type.empty() && (type[0] & 0xffffu) == spv::OpTypeImage && type[3] == spv::DimBuffer &&
                       type[7] == 2 && type[8] == spv::ImageFormatRgba32ui;
   if (variable.storage == spv::StorageClassUniformConstant && texels) return BindingKind::texels;
@@ -140,7 +141,8 @@ Reflection reflect(std::span<const uint32_t> spirv) {
     const std::optional<BindingKind> kind = binding_kind(module, variable);
     if (!kind || id.set.value_or(0) != 0)
       throw Error(ExitCode::bad_input,
-                  "the shader binds '{}' at set {}, binding {}: eyeray gives storage buffers and texel buffers (uimageBuffer, rgba32ui) in set 0 only",
+                  "the shader binds '{}' at set {}, binding {}: eyeray gives storage buffers and texel "
+                  "buffers (uimageBuffer, rgba32ui) in set 0 only",
                   id.name, id.set.value_or(0), *id.binding);
     reflection.bindings.emplace(*id.binding, *kind);
   }

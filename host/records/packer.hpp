@@ -11,8 +11,8 @@ namespace eyeray {
 
 // A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
-  // By slot: the world's own, grouped by kind in registry order, those in no tree first, the others as leaves hold
-  // them; then those of each mesh with a tree of its own.
+  // By slot: the world's own, grouped by kind in registry order, those in no tree first, the others as leaves
+  // hold them; then those of each mesh with a tree of its own.
   std::vector<shader::Primitive> primitives;
   std::vector<uint32_t> kind_first;  // by kind, the first of the world's slots; then the end of the world's
   std::vector<uint32_t> kind_loose;  // by kind, the end of those in no tree

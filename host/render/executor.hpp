@@ -33,7 +33,7 @@ struct QueryHit {
 
 enum class QueryKind {
   nearest,  // the nearest hit
-  any,      // whether anything opaque, or enough that is not, is hit: t is 0 then, else infinity; no primitive
+  any,  // whether anything opaque, or enough that is not, is hit: t is 0 then, else infinity; no primitive
 };
 
 // Produces samples of pixels of one scene. Not thread-safe; parallel inside.
@@ -47,8 +47,8 @@ class Executor {
   // What the ray through the centre of every pixel of `tile` meets; out.size() = tile.pixels().
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
 
-  // What each ray hits, and the seconds that tracing alone took: by the device's clock where it has one, without
-  // the copying of rays and hits. hits.size() = rays.size().
+  // What each ray hits, and the seconds that tracing alone took: by the device's clock where it has one,
+  // without the copying of rays and hits. hits.size() = rays.size().
   virtual double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits) = 0;
 
   // For people: "gpu: llvmpipe (LLVM 15.0.6, 256 bits), driver …", "twin: 2 threads".

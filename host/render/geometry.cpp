@@ -103,8 +103,8 @@ class GeometryPacker {
 
   void check_counts() const {
     if (scene_.primitive_count() >= NONE)
-      throw Error(ExitCode::bad_input, "the scene has {} primitives; ids go up to {}", scene_.primitive_count(),
-                  NONE - 1);
+      throw Error(ExitCode::bad_input, "the scene has {} primitives; ids go up to {}",
+                  scene_.primitive_count(), NONE - 1);
     if (scene_.materials.size() > MOST_MATERIALS)
       throw Error(ExitCode::bad_input, "the scene has {} materials; at most {} are possible",
                   scene_.materials.size(), MOST_MATERIALS);
@@ -141,9 +141,10 @@ class GeometryPacker {
           tree = int(mesh_trees_.size());
           const Bounds extent = bounds(mesh);
           const Vec3 centre = (extent.min + extent.max) * 0.5;
-          mesh_trees_.push_back(
-              {instance.mesh, centre,
-               mesh_records(mesh, Affine(Mat4(1.0)), centre, 0, 0, packed_.vertices), {}});
+          mesh_trees_.push_back({instance.mesh,
+                                 centre,
+                                 mesh_records(mesh, Affine(Mat4(1.0)), centre, 0, 0, packed_.vertices),
+                                 {}});
         }
         add_instance(instance, map, uint32_t(tree), id);
       }
@@ -176,8 +177,8 @@ class GeometryPacker {
     packed_.instances.push_back(record);
   }
 
-  // What a shadow ray loses to each: a shape weakens it once, a mesh half at each of its triangles, for a closed body is left
-  // as it was entered.
+  // What a shadow ray loses to each: a shape weakens it once, a mesh half at each of its triangles, for a
+  // closed body is left as it was entered.
   void fill_densities() {
     const auto density = [&](uint32_t material, bool of_mesh) {
       const uint32_t whole = packed_.materials[material].head.w;
@@ -238,10 +239,10 @@ class GeometryPacker {
     for (uint32_t i = world_tree_.kind_ends[instance_kind - 1]; i < world_tree_.kind_ends[instance_kind]; ++i)
       world_tree_.order[i] -= uint32_t(in_tree_.size());
 
-    packed_.quantised_nodes =
-        quantising_is_harmless(world_tree_) &&
-        std::all_of(mesh_trees_.begin(), mesh_trees_.end(),
-                    [](const MeshTree& mesh) { return quantising_is_harmless(mesh.tree); });
+    packed_.quantised_nodes = quantising_is_harmless(world_tree_) &&
+                              std::all_of(mesh_trees_.begin(), mesh_trees_.end(), [](const MeshTree& mesh) {
+                                return quantising_is_harmless(mesh.tree);
+                              });
   }
 
   // Around all corners of the mesh's box, with room for their rounding.
@@ -325,10 +326,10 @@ class GeometryPacker {
   const PackOptions& options_;
   Packer& packer_;
   PackedScene& packed_;
-  std::vector<uint32_t> uses_;              // by mesh
-  std::vector<shader::Primitive> world_;    // by id, as far as they belong to the world
-  std::vector<accel::Box> boxes_;           // of each of them
-  std::vector<uint32_t> in_tree_;           // items of the world's tree: indices in world_
+  std::vector<uint32_t> uses_;            // by mesh
+  std::vector<shader::Primitive> world_;  // by id, as far as they belong to the world
+  std::vector<accel::Box> boxes_;         // of each of them
+  std::vector<uint32_t> in_tree_;         // items of the world's tree: indices in world_
   std::vector<MeshTree> mesh_trees_;
   accel::Tree world_tree_;
   bool use_tree_ = false;

@@ -58,20 +58,27 @@ class GpuExecutor final : public Executor {
     fault_.damage(packed);
     specialise_for(packed);
     times_.measure("upload", [&] { upload(packed); });
-    sample_kernel_ = make_kernel("render.comp.glsl", "");
+    sample_kernel_ = make_kernel("render.comp.glsl", packets_ ? "#define STORED_HITS 1\n" : "");
+    if (packets_) {
+      primary_kernel_ = make_kernel("packet.comp.glsl", "#define PACKET_PRIMARY\n");
+      if (scene.render.integrator == IntegratorType::whitted && !scene.lights.empty())
+        shadow_kernel_ = make_kernel("packet.comp.glsl", "#define PACKET_SHADOW\n");
+    }
     check_validation();
   }
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
-    return dispatch_rows<shader::SampleResult>(*sample_kernel_, tile, index, [&](size_t first, auto results) {
-      for (size_t i = 0; i < results.size(); ++i) out[first + i] = to_sample(results[i]);
-      fault_.damage(out.subspan(first, results.size()));
-    });
+    return dispatch_rows<shader::SampleResult>(*sample_kernel_, packets_, tile, index,
+                                               [&](size_t first, auto results) {
+                                                 for (size_t i = 0; i < results.size(); ++i)
+                                                   out[first + i] = to_sample(results[i]);
+                                                 fault_.damage(out.subspan(first, results.size()));
+                                               });
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     if (!hit_kernel_) hit_kernel_ = make_kernel("render.comp.glsl", "#define FIRST_HITS\n");
-    dispatch_rows<shader::HitResult>(*hit_kernel_, tile, 0, [&](size_t first, auto results) {
+    dispatch_rows<shader::HitResult>(*hit_kernel_, false, tile, 0, [&](size_t first, auto results) {
       for (size_t i = 0; i < results.size(); ++i) out[first + i] = to_first_hit(results[i], eye_);
     });
   }
@@ -79,7 +86,10 @@ class GpuExecutor final : public Executor {
   double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits) override {
     CHECK_EQ(rays.size(), hits.size());
     std::unique_ptr<gpu::Kernel>& kernel = query_kernels_[kind == QueryKind::any];
-    if (!kernel) kernel = make_kernel("query.comp.glsl", kind == QueryKind::any ? "#define QUERY_ANY\n" : "");
+    const bool together = packets_;
+    if (!kernel)
+      kernel = make_kernel(together ? "packet.comp.glsl" : "query.comp.glsl",
+                           kind == QueryKind::any ? "#define QUERY_ANY\n" : "");
     double seconds = 0;
     for (size_t first = 0; first < rays.size(); first += most_pixels) {
       const size_t count = std::min(rays.size() - first, size_t{most_pixels});
@@ -92,13 +102,16 @@ class GpuExecutor final : public Executor {
       kernel->set_buffer(BINDING_OUTPUT, output);
       shader::Dispatch push{};
       push.tile.x = uint32_t(count);
-      seconds += gpu::dispatch(device_, *kernel, std::as_bytes(std::span(&push, 1)),
-                               {whole_strides((uint32_t(count) + 63) / 64), 1, 1})
-                     .seconds;
+      seconds +=
+          gpu::dispatch(
+              device_, *kernel, std::as_bytes(std::span(&push, 1)),
+              {together ? packet_groups(uint32_t(count)) : whole_strides((uint32_t(count) + 63) / 64), 1, 1})
+              .seconds;
       const std::vector<shader::QueryHit> answers = output.read_records<shader::QueryHit>(count);
       for (size_t i = 0; i < count; ++i) {
         if (answers[i].hit.z & FLAG_LOOP_BUDGET)
-          throw Error(ExitCode::no_device, "{} ended the loop of a ray before it was traced", device_.info().driver_version);
+          throw Error(ExitCode::no_device, "{} ended the loop of a ray before it was traced",
+                      device_.info().driver_version);
         hits[first + i] = to_query_hit(answers[i]);
       }
     }
@@ -128,9 +141,14 @@ class GpuExecutor final : public Executor {
     Specialisation specialisation;
     specialisation.constants = options_.constants;
     specialisation.profile = profile_;
+    const uint32_t lanes = device_.info().limits.subgroup_size;
+    packets_ = profile_.packets && packed.has_tree && packed.instances.empty() &&
+               (lanes == 4 || lanes == 8 || lanes == 16);
+    specialisation.subgroup_size = lanes;
+    lights_ = uint32_t(packed.lights.size());
     if (facts_.loop_cap) {
-      // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer iterations than there are
-      // primitives; where it does not, the shader sees that the driver stopped it.
+      // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer
+      // iterations than there are primitives; where it does not, the shader sees that the driver stopped it.
       const uint64_t loose = packed.has_tree ? 0 : packed.primitives.size();
       const uint64_t one_ray = (loose + 1) * (packed.lights.size() + 1);
       if (one_ray >= granted_iterations)
@@ -148,7 +166,8 @@ class GpuExecutor final : public Executor {
   }
 
   void upload(const PackedScene& packed) {
-    const gpu::BindingKind kind = profile_.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
+    const gpu::BindingKind kind =
+        profile_.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
     add_buffer(BINDING_PRIMITIVES, "primitives", std::span(packed.primitives), kind);
     add_buffer(BINDING_VERTICES, "vertices", std::span(packed.vertices), kind);
     add_buffer(BINDING_NODES, "nodes", std::span(packed.nodes), kind);
@@ -168,7 +187,8 @@ class GpuExecutor final : public Executor {
     gpu::Buffer buffer(device_, std::max(records.size(), size_t{1}) * sizeof(Record), name, kind);
     uploaded_ += buffer.size();
     if (uploaded_ > device_.info().limits.heap)
-      throw Error(ExitCode::no_device, "the scene needs more than the {} bytes of memory that {} has: {} up to buffer '{}'",
+      throw Error(ExitCode::no_device,
+                  "the scene needs more than the {} bytes of memory that {} has: {} up to buffer '{}'",
                   device_.info().limits.heap, device_.info().name, uploaded_, name);
     if (!records.empty()) buffer.upload_records(records);
     buffers_.emplace_back(binding, std::move(buffer));
@@ -190,9 +210,8 @@ class GpuExecutor final : public Executor {
     });
     if (!options_.fast_math && !fault_.is("contraction"))
       spirv = gpu::strict_floats(spirv, device_.info().float_modes);
-    auto kernel = times_.measure("pipeline", [&] {
-      return std::make_unique<gpu::Kernel>(device_, spirv, entry, cache_);
-    });
+    auto kernel = times_.measure(
+        "pipeline", [&] { return std::make_unique<gpu::Kernel>(device_, spirv, entry, cache_); });
     for (const auto& [binding, buffer] : buffers_) kernel->set_buffer(binding, buffer);
     return kernel;
   }
@@ -200,7 +219,8 @@ class GpuExecutor final : public Executor {
   // Renders `tile` in bands of rows; take(first, results) gets each band's results and the index of its first
   // pixel. Returns false when interrupted.
   template <typename Result, typename Take>
-  bool dispatch_rows(gpu::Kernel& kernel, const Rect& tile, uint32_t index, const Take& take) {
+  bool dispatch_rows(gpu::Kernel& kernel, bool stored_hits, const Rect& tile, uint32_t index,
+                     const Take& take) {
     for (int row = 0; row < tile.height;) {
       if (interrupted()) return false;
       const int height = std::min(dispatch_size_.rows(tile.width), tile.height - row);
@@ -211,10 +231,11 @@ class GpuExecutor final : public Executor {
       shader::Dispatch push{};
       push.tile = {uint32_t(tile.x) + fault_.shift(), uint32_t(tile.y + row), uint32_t(tile.width),
                    uint32_t(height)};
-      push.sample_index.x = index;
-      const uint32_t blocks = (push.tile.z + 7) / 8 * ((push.tile.w + 7) / 8);
-      const gpu::RunTime time =
-          gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)), {whole_strides(blocks), 1, 1});
+      push.sample_index = {index, 0u, uint32_t(pixels), 0u};
+      gpu::CommandList commands(device_);
+      if (stored_hits) trace_packets(commands, kernel, push);
+      commands.dispatch(kernel, std::as_bytes(std::span(&push, 1)), {whole_strides(blocks_of(push)), 1, 1});
+      const gpu::RunTime time = commands.run();
       times_.add("dispatch", time.seconds);
       dispatch_size_.took(int64_t(pixels), time.seconds);
 
@@ -231,6 +252,37 @@ class GpuExecutor final : public Executor {
   // As many workgroups as make runs of equal length (render.comp.glsl).
   uint32_t whole_strides(uint32_t groups) const {
     return (groups + group_stride_ - 1) / group_stride_ * group_stride_;
+  }
+
+  // Workgroups of packet.comp.glsl for so many rays.
+  uint32_t packet_groups(uint32_t rays) const {
+    const uint32_t a_group = 64 / device_.info().limits.subgroup_size * PACKET;
+    return whole_strides((rays + a_group - 1) / a_group);
+  }
+
+  // Blocks of 8 × 8 pixels.
+  static uint32_t blocks_of(const shader::Dispatch& push) {
+    return (push.tile.z + 7) / 8 * ((push.tile.w + 7) / 8);
+  }
+
+  // What the eye rays of a tile hit, and how much of each light is lost there, for `kernel` to start from.
+  void trace_packets(gpu::CommandList& commands, gpu::Kernel& kernel, shader::Dispatch push) {
+    const size_t pixels = push.sample_index.z;
+    if (!packet_hits_ || packet_hits_->size() < pixels * sizeof(shader::PacketHit)) {
+      packet_hits_.emplace(device_, pixels * sizeof(shader::PacketHit), "packet hits");
+      occlusions_.emplace(device_, pixels * sizeof(uint32_t) * std::max(lights_, 1u), "occlusions");
+    }
+    const auto add = [&](gpu::Kernel& packets) {
+      packets.set_buffer(BINDING_PACKET_HITS, *packet_hits_);
+      packets.set_buffer(BINDING_OCCLUSIONS, *occlusions_);
+      commands.dispatch(packets, std::as_bytes(std::span(&push, 1)),
+                        {packet_groups(blocks_of(push) * 64), 1, 1});
+      commands.barrier();
+    };
+    add(*primary_kernel_);
+    for (; shadow_kernel_ && push.sample_index.y < lights_; ++push.sample_index.y) add(*shadow_kernel_);
+    kernel.set_buffer(BINDING_PACKET_HITS, *packet_hits_);
+    kernel.set_buffer(BINDING_OCCLUSIONS, *occlusions_);
   }
 
   gpu::Buffer& output_for(size_t bytes) {
@@ -255,12 +307,18 @@ class GpuExecutor final : public Executor {
   gpu::DeviceFacts facts_;
   ShaderFiles shaders_;
   uint32_t group_stride_ = 1;
+  bool packets_ = false;  // whether packet.comp.glsl is used
+  uint32_t lights_ = 0;
   std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
   std::optional<gpu::Buffer> output_;
   std::unique_ptr<gpu::Kernel> sample_kernel_;
   std::unique_ptr<gpu::Kernel> hit_kernel_;
+  std::unique_ptr<gpu::Kernel> primary_kernel_;
+  std::unique_ptr<gpu::Kernel> shadow_kernel_;
+  std::optional<gpu::Buffer> packet_hits_;
+  std::optional<gpu::Buffer> occlusions_;
   std::unique_ptr<gpu::Kernel> query_kernels_[2];  // by whether any hit will do; made when first asked for
-  uint64_t uploaded_ = 0;                           // bytes
+  uint64_t uploaded_ = 0;                          // bytes
   DispatchSize dispatch_size_;
 };
 

@@ -19,18 +19,21 @@ struct Grid {
       // A little room, also for a box without extent.
       const double margin = std::ldexp(std::max({std::fabs(lower), std::fabs(upper), 1e-30}), -20);
       origin[axis] = float(lower - margin);
-      step[axis] = std::nextafter(float((upper + margin - double(origin[axis])) / (largest_code - 1)), HUGE_VALF);
+      step[axis] =
+          std::nextafter(float((upper + margin - double(origin[axis])) / (largest_code - 1)), HUGE_VALF);
     }
   }
   double plane(int axis, double code) const { return double(origin[axis]) + code * double(step[axis]); }
   // The greatest code whose plane is not above x, and the least whose plane is not below.
   uint32_t code_below(int axis, float x) const {
-    double code = std::clamp(std::floor((double(x) - double(origin[axis])) / double(step[axis])), 0.0, largest_code);
+    double code =
+        std::clamp(std::floor((double(x) - double(origin[axis])) / double(step[axis])), 0.0, largest_code);
     while (code > 0 && plane(axis, code) > double(x)) --code;
     return uint32_t(code);
   }
   uint32_t code_above(int axis, float x) const {
-    double code = std::clamp(std::ceil((double(x) - double(origin[axis])) / double(step[axis])), 0.0, largest_code);
+    double code =
+        std::clamp(std::ceil((double(x) - double(origin[axis])) / double(step[axis])), 0.0, largest_code);
     while (code < largest_code && plane(axis, code) < double(x)) ++code;
     return uint32_t(code);
   }

@@ -9,7 +9,8 @@ namespace eyeray {
 
 struct PackOptions {
   Acceleration acceleration = Acceleration::automatic;
-  bool split = false;  // spatial splits (accel/tree.hpp), where no primitive lets part of a shadow ray through
+  bool split =
+      false;  // spatial splits (accel/tree.hpp), where no primitive lets part of a shadow ray through
 };
 
 // The kernels' profile (render/profile.hpp); an empty choice is the profile's.
@@ -17,6 +18,7 @@ struct ProfileOptions {
   std::string profile = "auto";  // auto: by the device | cpu | gpu
   std::string loads;             // texels | storage
   std::string stack;             // shift | array
+  std::string rays;              // packets: trace rays that run side by side together | lanes: each alone
 };
 
 }  // namespace eyeray

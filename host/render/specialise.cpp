@@ -92,10 +92,19 @@ std::string constants(const PackedScene& scene) {
 }
 
 bool is_small(const PackedScene& scene) {
-  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_primitives && scene.vertices.size() + scene.materials.size() +
-                                                               scene.textures.size() + scene.media.size() +
-                                                               scene.lights.size() <=
-                                                           most_records;
+  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_primitives &&
+         scene.vertices.size() + scene.materials.size() + scene.textures.size() + scene.media.size() +
+                 scene.lights.size() <=
+             most_records;
+}
+
+// Whether any material may send rays on.
+bool any_reflects(const PackedScene& scene) {
+  return scene.media.size() > 1 ||
+         std::any_of(scene.materials.begin(), scene.materials.end(), [&](const shader::Material& material) {
+           const shader::Texture& reflected = scene.textures[material.textures.z];
+           return reflected.even != shader::vec4(0, 0, 0, TEXTURE_CONSTANT);
+         });
 }
 
 // The kinds of shape that the trees hold.
@@ -135,6 +144,8 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("TEXEL_BUFFERS", int(options.profile.texel_buffers));
   define("HAS_TREE", scene.has_tree ? "true" : "false");
   define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");
+  define("HAS_SECONDARY", int(scene.frame.camera.w > 0 && any_reflects(scene)));
+  define("SUBGROUP_SIZE", options.subgroup_size);
   define("SHIFT_STACK", int(options.profile.shift_stack));
   define("STACK_SIZE", scene.stack_size);
   define("HAS_INSTANCES", int(!scene.instances.empty()));

@@ -59,6 +59,8 @@ class Binding {
 #define TREE_HOLDS(number, primitive) (kind_of(primitive) == number)
 #define HAS_INSTANCES 1
 #define INSTANCE_COUNT uint(bound_scene->instances.size())
+#define STORED_HITS 0
+#define HAS_SECONDARY 1
 #define SHIFT_STACK 0
 #define STACK_SIZE 128
 #define TRACE_ITERATIONS 0u

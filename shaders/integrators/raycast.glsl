@@ -10,7 +10,11 @@ SHADER_BEGIN
 
 vec3 raycast_radiance(Frame frame, Ray ray, INOUT(uvec4) counts) {
   counts.x += 1u;
+#if STORED_HITS
+  Hit hit = hit_of_packet(load_packet_hit(), counts);
+#else
   Hit hit = trace(ray, counts);
+#endif
   if (hit.slot == NONE) return vec3(frame.background);
   counts.y += 1u;
 

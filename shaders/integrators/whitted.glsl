@@ -17,9 +17,9 @@ struct PathRay {
   uint media;
 };
 
-// Ambient light and what every visible light adds at a point.
+// Ambient light and what every visible light adds at a point, after `depth` reflections and refractions.
 vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface seen, vec3 to_viewer,
-                  INOUT(uvec4) counts) {
+                  uint depth, INOUT(uvec4) counts) {
   vec3 color = scattering.ambient * vec3(frame.ambient);
   for (uint i = 0u; i < LIGHT_COUNT; i++) {
     counts.w += 1u + TRACE_ITERATIONS;
@@ -27,7 +27,15 @@ vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface
     float cosine = dot3(seen.normal, light.direction);
     if (cosine > 0.0f && dot3(seen.normal_geometric, light.direction) > 0.0f) {
       counts.x += 1u;
-      float visible = visibility(occlusion(leave(seen, light.direction), light.distance, counts));
+#if STORED_HITS
+      uint occluded = load_occlusion(i);
+#if HAS_SECONDARY
+      if (depth > 0u) occluded = occlusion(leave(seen, light.direction), light.distance, counts);
+#endif
+#else
+      uint occluded = occlusion(leave(seen, light.direction), light.distance, counts);
+#endif
+      float visible = visibility(occluded);
       float lobe = highlight(material, seen.normal, light.direction, to_viewer);
       color = color + light.color * (scattering.diffuse * cosine + scattering.specular * lobe) * visible;
     }
@@ -56,7 +64,14 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
   bool going = true;
   do {
     Ray ray = make_ray(path.o, path.d);
+#if STORED_HITS
+    Hit hit = hit_of_packet(load_packet_hit(), counts);
+#if HAS_SECONDARY
+    if (path.depth > 0u) hit = trace(ray, counts);
+#endif
+#else
     Hit hit = trace(ray, counts);
+#endif
     bool struck = hit.slot != NONE;
     counts.x += 1u;
     counts.y += struck ? 1u : 0u;
@@ -96,8 +111,9 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
 
       // Shade.
       Scattering scattering = scattering_of(material, context);
-      color = color + weight * direct_light(frame, material, scattering, seen, -ray.d, counts);
+      color = color + weight * direct_light(frame, material, scattering, seen, -ray.d, path.depth, counts);
 
+#if HAS_SECONDARY
       // Go on with one child, and let the other wait.
       bool deeper = path.depth < frame.camera.w;
       PathRay reflected;
@@ -129,6 +145,7 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
 #endif
       going = reflects || transmits;
       if (transmits) path = transmitted;
+#endif
 #endif
     }
 
