@@ -12,7 +12,7 @@ struct Specialisation {
   bool constants = true;  // compile a small scene in, instead of loading it
   uint32_t loop_budget =
       0;  // iterations an invocation may make before it gives up with FLAG_LOOP_BUDGET; 0: no cap
-  Profile profile;
+  Profile profile = {};
   uint32_t subgroup_size = 8;  // of packet.comp.glsl
   uint32_t group_stride = 1;   // render.comp.glsl: runs of workgroups
 };

@@ -9,9 +9,9 @@ using namespace eyeray::test;
 
 namespace {
 
-const std::set<std::string> everything = {"cli",    "compare",   "core",    "dev",       "gpu",
-                                          "loader", "materials", "records", "reference", "render",
-                                          "scene",  "shapes",    "twin"};
+const std::set<std::string> everything = {"accel",  "cli",    "compare",   "core",    "dev",
+                                          "gpu",    "loader", "materials", "records", "reference",
+                                          "render", "scene",  "shapes",    "twin"};
 
 // What each layer sees beside itself. That the reference sees neither records nor shaders is the point of
 // having one: an error of packing could hide in it.
@@ -25,7 +25,8 @@ const std::map<std::string, std::set<std::string>> visible = {
     {"reference", {"core", "scene"}},
     {"twin", {"core", "records"}},
     {"gpu", {"core"}},
-    {"render", {"core", "scene", "records", "reference", "twin", "gpu"}},
+    {"accel", {"core"}},
+    {"render", {"core", "scene", "records", "reference", "twin", "gpu", "accel"}},
     {"compare", {"core"}},
     {"dev", {"core"}},
     {"cli", everything},
@@ -53,6 +54,7 @@ const Library libraries[] = {
     {std::regex(R"(nlohmann/json\.hpp)"), {"cli", "compare", "loader"}, {}},
     {std::regex(R"(CLI/.*)"), {"cli"}, {"cli"}},
     {std::regex(R"(tbb/.*)"), {"core"}, {"core"}},
+    {std::regex(R"(embree3/.*)"), {"accel"}, {}},
     {std::regex(R"(stb.*)"), {"core"}, {}},
 };
 

@@ -12,7 +12,8 @@ layout(std430, binding = 2) buffer Once { uint number; vec3 direction; float lis
 layout(push_constant) uniform Push { uvec4 tile; uint sample_index; float weight; };
 void main() { many[tile.x].b = once.inner[1].b + weight + once.direction.x; }
 )"));
-  CHECK(reflection.bindings == std::vector<uint32_t>{2, 7});
+  using Bindings = std::map<uint32_t, gpu::BindingKind>;
+  CHECK(reflection.bindings == Bindings{{2, gpu::BindingKind::storage}, {7, gpu::BindingKind::storage}});
   CHECK(reflection.push_constant_bytes == 24);
   CHECK(reflection.local_size == std::array<uint32_t, 3>{8, 4, 2});
   const auto describe = [&](const std::string& name) {
@@ -31,7 +32,18 @@ void main() { many[tile.x].b = once.inner[1].b + weight + once.direction.x; }
   CHECK(describe("Many") == "0: many@0");
 }
 
-TEST_CASE("anything but storage buffers in set 0 is refused") {
+TEST_CASE("a texel buffer is told from a storage buffer") {
+  const gpu::Reflection reflection = gpu::reflect(compile(R"(#version 450
+layout(local_size_x = 1) in;
+layout(rgba32ui, binding = 4) readonly uniform uimageBuffer texels;
+layout(std430, binding = 1) buffer B { uvec4 x; };
+void main() { x = imageLoad(texels, 3); }
+)"));
+  using Bindings = std::map<uint32_t, gpu::BindingKind>;
+  CHECK(reflection.bindings == Bindings{{1, gpu::BindingKind::storage}, {4, gpu::BindingKind::texels}});
+}
+
+TEST_CASE("anything but storage buffers, and texel buffers of the one format, in set 0 is refused") {
   const auto refused = [](const std::string& declaration) {
     return error_of([&] {
              gpu::reflect(compile(
@@ -43,5 +55,9 @@ TEST_CASE("anything but storage buffers in set 0 is refused") {
   CHECK(contains(refused("layout(std140, binding = 3) uniform U { float other; };"), "at set 0, binding 3"));
   CHECK(contains(refused("layout(std430, set = 1, binding = 0) buffer U { float other; };"),
                  "at set 1, binding 0"));
+  CHECK(contains(
+      refused("layout(r32f, binding = 5) uniform imageBuffer t;\nfloat load() { return imageLoad(t, 0).x; }\n"
+              "#define other load()"),
+      "at set 0, binding 5"));
   CHECK(refused("const float other = 1.0;") == "");
 }

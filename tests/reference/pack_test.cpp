@@ -29,7 +29,7 @@ TEST_CASE("sphere record") {
   shape->material = 7;
   const PackedScene scene = packed(*shape);
   const auto& record = scene.primitives.at(0);
-  CHECK(record.head == shader::uvec4(shader::KIND_sphere, 7u, 0u, 0u));
+  CHECK(record.head == shader::uvec4(0u, 7u | shader::KIND_sphere << 24, 0u, NONE));
   CHECK(record.a == shader::vec4(1, 0.001f, 2, 0.5f));
   CHECK(record.b == shader::vec4(0, 1, 0, 0));
   CHECK(record.c == shader::vec4(1, 0, 0, 1));
@@ -45,7 +45,7 @@ TEST_CASE("sphere record") {
 TEST_CASE("plane record: u and v are linear in the eye-relative position") {
   const auto shape = make_plane(eye + Vec3(0, -2, 5), {0, 1, 0});
   const auto record = packed(*shape).primitives.at(0);
-  CHECK(record.head.x == shader::KIND_plane);
+  CHECK(kind_of(record) == shader::KIND_plane);
   CHECK(record.a == shader::vec4(0, 1, 0, -2));
   CHECK(record.b == shader::vec4(1, 0, 0, 0));
   CHECK(record.c == shader::vec4(0, 0, -1, 5));
@@ -54,7 +54,7 @@ TEST_CASE("plane record: u and v are linear in the eye-relative position") {
 TEST_CASE("triangle record") {
   TriangleValues values{.vertices = {eye + Vec3(1, 2, 3), eye + Vec3(2, 2, 3), eye + Vec3(1, 3, 3)}};
   PackedScene scene = packed(*make_triangle(values));
-  CHECK(scene.primitives.at(0).head == shader::uvec4(shader::KIND_triangle, 0u, 0u, NONE));
+  CHECK(scene.primitives.at(0).head == shader::uvec4(0u, shader::KIND_triangle << 24, 0u, NONE));
   CHECK(scene.primitives.at(0).a == shader::vec4(1, 2, 3, 0));
   CHECK(scene.primitives.at(0).b == shader::vec4(2, 2, 3, 0));
   CHECK(scene.primitives.at(0).c == shader::vec4(1, 3, 3, 1));
@@ -62,16 +62,17 @@ TEST_CASE("triangle record") {
 
   values.uv = {{Vec2(1, 4), Vec2(2, 5), Vec2(3, 6)}};
   scene = packed(*make_triangle(values));
-  CHECK(scene.primitives.at(0).head.w == 0);
-  CHECK(scene.vertices == std::vector{shader::vec4(0, 0, 1, 1), shader::vec4(0, 0, 1, 2),
-                                      shader::vec4(0, 0, 1, 3), shader::vec4(4, 5, 6, 0)});
+  CHECK(scene.primitives.at(0).head.w == 3);
+  CHECK(scene.vertices == std::vector{to_bits({0, 0, 1, 1}), to_bits({0, 0, 1, 2}), to_bits({0, 0, 1, 3}),
+                                      shader::uvec4(0, 1, 2, CORNERS_UV), to_bits({4, 5, 6, 0})});
 
   values.uv.reset();
   values.normals = {{Vec3(0, 0, 2), Vec3(0, 3, 4), Vec3(0, 0, 1)}};
   scene = packed(*make_triangle(values));
-  REQUIRE(scene.vertices.size() == 4);
-  CHECK(glm::length(scene.vertices[1] - shader::vec4(0, 0.6f, 0.8f, 1)) < 1e-7f);
-  CHECK(scene.vertices[3] == shader::vec4(0, 0, 1, 0));
+  REQUIRE(scene.vertices.size() == 5);
+  CHECK(glm::length(std::bit_cast<shader::vec4>(scene.vertices[1]) - shader::vec4(0, 0.6f, 0.8f, 0)) < 1e-7f);
+  CHECK(scene.vertices[2] == to_bits({0, 0, 1, 0}));
+  CHECK(scene.vertices[3] == shader::uvec4(0, 1, 2, CORNERS_NORMALS));
 }
 
 TEST_CASE("material records") {

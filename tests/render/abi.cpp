@@ -44,13 +44,23 @@ void check_struct(const gpu::Reflection& reflection, const char* name, size_t si
 
 TEST_CASE("every record has the same members at the same offsets in SPIR-V and in C++") {
   test::Random random(1);
-  PackedScene scene = test::random_scene(random, 2);
-  scene.frame.counts.z = uint32_t(1);  // whitted
+  Scene described = test::random_scene(random, 2);
+  const int cube = test::add(described, test::cube());
+  test::add_instance(described, cube, 0);
+  test::add_instance(described, cube, 0, test::translation({3, 0, 0}));
+  PackedScene scene = pack(described);
+  REQUIRE(scene.has_tree);
+  REQUIRE(scene.frame.counts.z == 1);  // whitted
   scene.media.push_back({});
   scene.lights.push_back({});
   const gpu::Reflection samples = gpu::reflect(test::compile_entry("render.comp.glsl", scene, {}));
   check_struct(samples, "Primitive", sizeof(shader::Primitive),
                {MEMBER(Primitive, head), MEMBER(Primitive, a), MEMBER(Primitive, b), MEMBER(Primitive, c)});
+  check_struct(samples, "Tree", sizeof(shader::Tree),
+               {MEMBER(Tree, origin), MEMBER(Tree, step), MEMBER(Tree, extent), MEMBER(Tree, reach),
+                MEMBER(Tree, head)});
+  check_struct(samples, "Instance", sizeof(shader::Instance),
+               {MEMBER(Instance, head), MEMBER(Instance, to_mesh), MEMBER(Instance, to_world)});
   check_struct(samples, "Material", sizeof(shader::Material),
                {MEMBER(Material, head), MEMBER(Material, textures), MEMBER(Material, parameters)});
   check_struct(samples, "Medium", sizeof(shader::Medium), {MEMBER(Medium, absorption_ior)});

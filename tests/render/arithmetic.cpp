@@ -15,9 +15,22 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver")
   constexpr uint32_t op_ext_inst = 12;
   constexpr uint32_t op_dot = 148;
   test::Random random(1);
-  for (const bool constants : {true, false}) {
+  Scene small = test::random_scene(random, 3);
+  Scene large = test::random_scene(random, 3);
+  const int cube = test::add(large, test::cube());
+  for (const double x : {-3, 3}) test::add_instance(large, cube, 0, test::translation({x, 0, 0}));
+  // Compiled in, tested one by one, and in trees with each way to keep a stack.
+  const struct {
+    const Scene& scene;
+    Specialisation specialisation;
+  } kernels[] = {{small, {}},
+                 {small, {.constants = false}},
+                 {large, {.profile = {.texel_buffers = true, .shift_stack = true}}},
+                 {large, {.profile = {.texel_buffers = false, .shift_stack = false}}}};
+  for (const auto& [described, specialisation] : kernels) {
     for (const uint32_t integrator : {0u, 1u}) {
-      PackedScene scene = test::random_scene(random, 3);
+      PackedScene scene = pack(described);
+      CHECK(scene.has_tree == (&described == &large));
       scene.frame.counts.z = integrator;
       scene.frame.camera.w = 8;
       scene.media.push_back({});
@@ -25,8 +38,6 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver")
       scene.textures[0].even.w = TEXTURE_CHECKER;
       for (const uint32_t material : {0u, 1u, 2u}) {
         scene.materials[0].head.x = material;
-        Specialisation specialisation;
-        specialisation.constants = constants;
         int instructions = 0;
         gpu::for_each_instruction(test::compile_entry("render.comp.glsl", scene, specialisation),
                                   [&](uint32_t opcode, std::span<const uint32_t> instruction) {

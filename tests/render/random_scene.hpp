@@ -1,54 +1,53 @@
-// Packed scenes and rays for tests that look at kernels rather than at pictures.
+// Scenes and rays for tests that look at kernels rather than at pictures.
 #pragma once
 
-#include "records/packer.hpp"
+#include "reference/meshes.hpp"
+#include "render/pack.hpp"
 #include "support/random.hpp"
 
 namespace eyeray::test {
 
-// `count` primitives of each kind within a few units of the origin, with duplicates now and then, all of one
-// opaque material.
-inline PackedScene random_scene(Random& random, int count) {
-  PackedScene scene;
-  const auto head = [](uint32_t kind) { return shader::uvec4(kind, 0, SHADOW_OPAQUE, NONE); };
+// `count` primitives of each kind within a few units of the eye, at the origin, with duplicates now and then,
+// all of one opaque material.
+inline Scene random_scene(Random& random, int count) {
+  Scene scene;
+  scene.camera.eye = Vec3(0);
+  scene.camera.target = Vec3(0, 0, -1);
+  const int material = add(scene, make_phong({}));
+  Vec3 center(0);
+  double radius = 1;
   for (int i = 0; i < count; ++i) {
-    shader::Primitive sphere{};
-    sphere.head = head(shader::KIND_sphere);
-    sphere.a = to_vec4(random.point(3), random.log_uniform(0.01, 1));
-    sphere.b = {0, 1, 0, 0};
-    sphere.c = {1, 0, 0, 1};
-    scene.primitives.push_back(i > 0 && random.below(8) == 0 ? scene.primitives.back() : sphere);
+    if (i == 0 || random.below(8) > 0) {
+      center = random.point(3);
+      radius = random.log_uniform(0.01, 1);
+    }
+    add(scene, make_sphere(center, radius), material);
   }
   for (int i = 0; i < count; ++i) {
-    shader::Primitive plane{};
-    plane.head = head(shader::KIND_plane);
-    plane.a = to_vec4(random.below(3) == 0 ? Vec3(0, 1, 0) : random.direction(), random.uniform(-9, -4));
-    scene.primitives.push_back(plane);
+    const Vec3 normal = random.below(3) == 0 ? Vec3(0, 1, 0) : random.direction();
+    add(scene, make_plane(normal * random.uniform(-9, -4), normal), material);
   }
+  TriangleValues triangle;
   for (int i = 0; i < count; ++i) {
-    shader::Primitive triangle{};
-    triangle.head = head(shader::KIND_triangle);
-    const Vec3 a = random.point(3), b = a + random.point(1), c = a + random.point(1);
-    const Vec3 n = glm::normalize(glm::cross(b - a, c - a));
-    triangle.a = to_vec4(a, n.x);
-    triangle.b = to_vec4(b, n.y);
-    triangle.c = to_vec4(c, n.z);
-    scene.primitives.push_back(i > 0 && random.below(8) == 0 ? scene.primitives.back() : triangle);
+    if (i == 0 || random.below(8) > 0) {
+      const Vec3 a = random.point(3);
+      triangle.vertices = {a, a + random.point(1), a + random.point(1)};
+    }
+    add(scene, make_triangle(triangle), material);
   }
-  scene.kind_first = {0, uint32_t(count), uint32_t(2 * count), uint32_t(3 * count)};
-  scene.kind_first.resize(shader::SHAPE_KINDS + 1, uint32_t(3 * count));
-  shader::Material material{};
-  material.head.w = SHADOW_OPAQUE;
-  scene.materials = {material};
-  scene.textures = {shader::Texture{}};
   return scene;
 }
 
-// Rays from anywhere to anywhere, some along an axis.
+// The same as records.
+inline PackedScene random_packed_scene(Random& random, int count, const PackOptions& options = {}) {
+  return pack(random_scene(random, count), options);
+}
+
+// Rays from anywhere to anywhere, some along an axis; every other one ends after a few units.
 inline shader::QueryRay random_ray(Random& random) {
   const Vec3 axes[] = {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
   const Vec3 direction = random.below(10) == 0 ? axes[random.below(3)] : random.direction();
-  return {to_vec4(random.point(4)), to_vec4(direction, random.uniform(0, 8))};
+  return {to_vec4(random.point(4)), to_vec4(direction, random.below(2) == 0 ? random.uniform(0, 8) : 1e30)};
 }
 
 }  // namespace eyeray::test

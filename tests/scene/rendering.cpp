@@ -33,6 +33,10 @@ class StoppingExecutor final : public Executor {
     return true;
   }
   void first_hits(const Rect&, std::span<FirstHit>) override { asked_first_hits = true; }
+  double query(std::span<const Query>, QueryKind, std::span<QueryHit>) override {
+    FAIL("a picture asks for samples");
+    return 0;
+  }
   std::string description() const override { return "stops"; }
 
   bool asked_first_hits = false;

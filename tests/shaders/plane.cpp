@@ -35,7 +35,7 @@ TEST_CASE(
       const Vec3 normal = random.below(4) == 0 ? Vec3(0, 1, 0) : random.direction();
       const shader::Primitive plane = make_plane(normal, random.uniform(-1, 1) * scale);
       const shader::Ray ray = shader::make_ray(glm::vec3(random.point(scale)), glm::vec3(random.direction()));
-      shader::Hit hit{0, 0, {}};
+      shader::Hit hit{};
       hit.t = shader::plane_intersect(plane, ray, hit.uv);
       if (!(hit.t > 0) || hit.t > 1e6f * float(scale)) continue;
       ++left;
@@ -58,13 +58,18 @@ TEST_CASE(
 TEST_CASE("a ray parallel to a plane, in it or beside it, is a miss in trace()") {
   PackedScene scene;
   scene.primitives = {make_plane({0, 1, 0}, 0)};
-  scene.primitives[0].head.x = shader::KIND_plane;
-  scene.kind_first = {0, 0, 1, 1};
-  scene.kind_first.resize(shader::SHAPE_KINDS + 1, 1);
+  scene.primitives[0].head = Packer::head(shader::KIND_plane, 0);
+  for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind) {
+    scene.kind_first.push_back(kind <= shader::KIND_plane ? 0 : 1);
+    scene.kind_loose.push_back(kind < shader::KIND_plane ? 0 : 1);
+  }
+  scene.kind_first.push_back(1);
   const shader::Binding binding(scene);
   for (const float height : {0.0f, -0.0f, 1.0f, -1.0f, 1e-30f}) {
-    const shader::Hit hit = shader::trace(shader::make_ray({0, height, 0}, {1, 0, 0}));
-    CHECK(hit.primitive == NONE);
+    shader::uvec4 counts(0);
+    const shader::Hit hit = shader::trace(shader::make_ray({0, height, 0}, {1, 0, 0}), counts);
+    CHECK(hit.slot == NONE);
     CHECK(hit.t == T_MISS);
+    CHECK(counts == shader::uvec4(0));
   }
 }

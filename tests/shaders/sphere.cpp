@@ -74,7 +74,8 @@ TEST_CASE("rays at a unit sphere: no wrong answer but at the very rim, whatever 
         }
         if (!hit) continue;
         ++hits;
-        shader::Hit record{t, 0, uv};
+        shader::Hit record{};
+        record.t = t;
         const shader::Surface surface = shader::sphere_surface(sphere, ray, record);
         sum += std::fabs(glm::length(Vec3(surface.p) - Vec3(sphere.a)) - 1);
       }
@@ -105,7 +106,7 @@ TEST_CASE(
       const Vec3 origin = random.point(30 * radius);
       const Vec3 target = centre + random.direction() * radius * 0.999;
       const shader::Ray ray = shader::make_ray(glm::vec3(origin), glm::vec3(glm::normalize(target - origin)));
-      shader::Hit hit{0, 0, {}};
+      shader::Hit hit{};
       hit.t = shader::sphere_intersect(sphere, ray, hit.uv);
       if (!(hit.t > 0)) {
         ++first_misses;
@@ -133,7 +134,7 @@ TEST_CASE(
 TEST_CASE("a sphere that is smaller than the rounding of its distance has a normal all the same") {
   const shader::Primitive sphere = make_sphere({0, 0, -6}, 1e-12);
   const shader::Ray ray = shader::make_ray({0, 0, 0}, {0, 0, -1});
-  shader::Hit hit{0, 0, {}};
+  shader::Hit hit{};
   hit.t = shader::sphere_intersect(sphere, ray, hit.uv);
   REQUIRE(hit.t == 6);
   const shader::Surface surface = shader::sphere_surface(sphere, ray, hit);

@@ -183,7 +183,7 @@ TEST_CASE("2 million rays that leave a triangle, size 1e-4 to 1e4: none meets it
         const Vec3 target = Vec3(triangle.a) * (1 - u - v) + Vec3(triangle.b) * u + Vec3(triangle.c) * v;
         const glm::vec3 origin(random.point(30 * size));
         const shader::Ray ray = shader::make_ray(origin, glm::vec3(glm::normalize(target - Vec3(origin))));
-        shader::Hit hit{0, 0, {}};
+        shader::Hit hit{};
         hit.t = intersect(triangle, ray, hit.uv);
         if (!(hit.t > 0)) continue;
         ++left;

@@ -1,0 +1,89 @@
+// The query entry on a device, for one packed scene and one way to make its kernel; and the same rays on the
+// twin.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "gpu/command_list.hpp"
+#include "gpu/self_test.hpp"
+#include "support.hpp"
+#include "twin/twin.hpp"
+
+namespace eyeray::test {
+
+class QueryKernel {
+ public:
+  QueryKernel(gpu::Device& device, const PackedScene& scene, const Specialisation& specialisation)
+      : device_(device), scene_(scene), specialisation_(specialisation) {
+    const gpu::BindingKind large =
+        specialisation.profile.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
+    add(BINDING_PRIMITIVES, std::as_bytes(std::span(scene.primitives)), large);
+    add(BINDING_VERTICES, std::as_bytes(std::span(scene.vertices)), large);
+    add(BINDING_NODES, std::as_bytes(std::span(scene.nodes)), large);
+    add(BINDING_TREES, std::as_bytes(std::span(scene.trees)));
+    add(BINDING_INSTANCES, std::as_bytes(std::span(scene.instances)));
+    add(BINDING_MATERIALS, std::as_bytes(std::span(scene.materials)));
+    add(BINDING_TEXTURES, std::as_bytes(std::span(scene.textures)));
+    add(BINDING_MEDIA, std::as_bytes(std::span(scene.media)));
+    add(BINDING_LIGHTS, std::as_bytes(std::span(scene.lights)));
+    add(BINDING_FRAME, std::as_bytes(std::span(&scene.frame, 1)));
+  }
+
+  std::vector<shader::QueryHit> ask(std::span<const shader::QueryRay> rays, bool any) {
+    std::unique_ptr<gpu::Kernel>& kernel = kernels_[any];
+    if (!kernel) kernel = make_kernel(any);
+    gpu::Buffer queries(device_, rays.size_bytes(), "rays");
+    queries.upload_records(rays);
+    gpu::Buffer results(device_, rays.size() * sizeof(shader::QueryHit), "hits");
+    kernel->set_buffer(BINDING_RAYS, queries);
+    kernel->set_buffer(BINDING_OUTPUT, results);
+    shader::Dispatch push{};
+    push.tile.x = uint32_t(rays.size());
+    gpu::dispatch(device_, *kernel, std::as_bytes(std::span(&push, 1)),
+                  {uint32_t(rays.size() + 63) / 64, 1, 1});
+    return results.read_records<shader::QueryHit>(rays.size());
+  }
+
+ private:
+  void add(uint32_t binding, std::span<const std::byte> bytes,
+           gpu::BindingKind kind = gpu::BindingKind::storage) {
+    gpu::Buffer buffer(device_, std::max(bytes.size(), size_t{128}), "scene", kind);
+    if (!bytes.empty()) buffer.upload(bytes);
+    buffers_.emplace_back(binding, std::move(buffer));
+  }
+
+  std::unique_ptr<gpu::Kernel> make_kernel(bool any) {
+    const std::vector<uint32_t> spirv = gpu::strict_floats(
+        compile_entry("query.comp.glsl", scene_, specialisation_, any ? "#define QUERY_ANY\n" : ""),
+        device_.info().float_modes);
+    auto kernel = std::make_unique<gpu::Kernel>(device_, spirv, "query.comp.glsl", cache_);
+    for (const auto& [binding, buffer] : buffers_) kernel->set_buffer(binding, buffer);
+    return kernel;
+  }
+
+  gpu::Device& device_;
+  const PackedScene& scene_;
+  Specialisation specialisation_;
+  gpu::DiskCache cache_ = gpu::DiskCache::of_user();
+  std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
+  std::unique_ptr<gpu::Kernel> kernels_[2];  // by whether any hit will do
+};
+
+inline std::vector<shader::QueryHit> ask_twin(const PackedScene& scene,
+                                              std::span<const shader::QueryRay> rays, bool any) {
+  std::vector<shader::QueryHit> hits(rays.size());
+  std::transform(rays.begin(), rays.end(), hits.begin(),
+                 [&](const shader::QueryRay& ray) { return twin::query(scene, ray, any); });
+  return hits;
+}
+
+// How many of the answers are not the same to the last bit.
+inline int differences(std::span<const shader::QueryHit> a, std::span<const shader::QueryHit> b) {
+  int different = 0;
+  for (size_t i = 0; i < a.size(); ++i) different += a[i].hit != b[i].hit;
+  return different;
+}
+
+}  // namespace eyeray::test
