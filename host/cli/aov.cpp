@@ -5,7 +5,6 @@
 
 #include "core/diagnostic.hpp"
 #include "core/error.hpp"
-#include "core/false_color.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -86,21 +85,25 @@ bool need_first_hits(const std::vector<Aov>& aovs) {
   return std::any_of(aovs.begin(), aovs.end(), [](Aov aov) { return aov != Aov::hits; });
 }
 
-Image aov_image(Aov aov, const Rendering& rendering) {
-  if (aov == Aov::hits) return rendering.hits;
+int aov_channels(Aov aov) {
+  return type_of(aov).channels;
+}
+
+FalseColor aov_shown_as(Aov aov) {
+  return type_of(aov).shown_as;
+}
+
+Image aov_image(Aov aov, std::span<const FirstHit> hits, int width) {
+  CHECK(aov != Aov::hits);
   const int channels = type_of(aov).channels;
-  Image image(rendering.color.width(), rendering.color.height(), channels);
-  CHECK_EQ(rendering.first_hits.size() * size_t(channels), image.sample_count());
+  Image image(width, int(hits.size()) / width, channels);
+  CHECK_EQ(hits.size() * size_t(channels), image.sample_count());
   float* sample = image.samples().data();
-  for (const FirstHit& hit : rendering.first_hits) {
+  for (const FirstHit& hit : hits) {
     const std::array<double, 3> value = values(aov, hit);
     for (int channel = 0; channel < channels; ++channel) *sample++ = float(value[size_t(channel)]);
   }
   return image;
-}
-
-Image aov_picture(Aov aov, const Image& image) {
-  return false_color(image, type_of(aov).shown_as);
 }
 
 }  // namespace eyeray::cli

@@ -1,12 +1,14 @@
 // Arbitrary output variables: what a pixel's ray met, beside its colour, as pictures.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/false_color.hpp"
 #include "core/image.hpp"
-#include "render/executor.hpp"
+#include "core/pixel.hpp"
 
 namespace eyeray::cli {
 
@@ -25,12 +27,15 @@ std::string_view aov_name(Aov aov);
 // "depth,normal" or "all"; Error (bad_input) for an unknown name.
 std::vector<Aov> parse_aovs(const std::string& list);
 
-// Whether any of them needs Rendering::first_hits.
+// Whether any of them is made of first hits, as all but `hits` are.
 bool need_first_hits(const std::vector<Aov>& aovs);
 
-// 1 or 3 channels, the size of rendering.color.
-Image aov_image(Aov aov, const Rendering& rendering);
-// The same for people: 3 channels of false colour.
-Image aov_picture(Aov aov, const Image& image);
+// 1 or 3.
+int aov_channels(Aov aov);
+// What its picture for people is.
+FalseColor aov_shown_as(Aov aov);
+
+// Rows of an AOV that is made of first hits; `width` pixels each.
+Image aov_image(Aov aov, std::span<const FirstHit> hits, int width);
 
 }  // namespace eyeray::cli

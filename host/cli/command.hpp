@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/rect.hpp"
-#include "render/executor.hpp"
+#include "render/render.hpp"
 #include "scene/scene.hpp"
 
 namespace eyeray::cli {

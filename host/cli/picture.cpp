@@ -1,8 +1,13 @@
 #include "cli/picture.hpp"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "cli/identity.hpp"
+#include "cli/picture_files.hpp"
+#include "core/atomic_file.hpp"
 #include "core/image_file.hpp"
+#include "render/render.hpp"
 
 namespace fs = std::filesystem;
 
@@ -23,17 +28,18 @@ constexpr FlagText flag_texts[] = {
      "the driver's limit on loop iterations was near: try fewer shapes, --backend twin or a newer driver"},
 };
 
-void write_aovs(const PictureRequest& request, const Rendering& rendering, Picture& picture) {
-  for (const Aov aov : request.aovs) {
-    const Image image = aov_image(aov, rendering);
-    fs::path name = request.outputs[0];
-    name.replace_extension(fmt::format("{}.pfm", aov_name(aov)));
-    write_image(name, image);
-    picture.files.push_back(name);
-    name.replace_extension("png");
-    write_image(name, aov_picture(aov, image));
-    picture.files.push_back(name);
-  }
+double rays_per_second(const Picture& picture) {
+  return double(picture.rays - picture.rays_resumed) / picture.sampling_seconds;
+}
+
+std::optional<Checkpoint> checkpoint_of(const PictureRequest& request, const Scene& scene,
+                                        const Executor& executor) {
+  const LongRender& wanted = request.long_render;
+  if (wanted.checkpoint.empty() && wanted.resume.empty()) return std::nullopt;
+  std::vector<IdentityPart> identity = identity_of(request, scene, executor);
+  if (wanted.resume.empty())
+    return Checkpoint::begin(wanted.checkpoint, std::move(identity), wanted.checkpoint_seconds);
+  return Checkpoint::resume(wanted.resume, std::move(identity), wanted.checkpoint_seconds);
 }
 
 }  // namespace
@@ -64,6 +70,11 @@ void PictureRequest::check_outputs() {
   for (const std::string& output : outputs) {
     image_format(output);
     check_writable(output);
+    // A checkpoint is removed when the picture is there.
+    for (const std::string& file : {long_render.checkpoint, long_render.resume}) {
+      if (!file.empty() && fs::weakly_canonical(file) == fs::weakly_canonical(output))
+        throw Error(ExitCode::bad_input, "{} cannot be the picture and its checkpoint", file);
+    }
   }
 }
 
@@ -73,31 +84,58 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
   const Scene scene = picture.times.measure("load", [&] { return request.scene.load(); });
   check_crop(request.crop, scene.image);
   const std::unique_ptr<Executor> executor = make_executor(request.backend, scene, request.executor);
-  const Rendering rendering =
-      render(scene, *executor, {request.crop, need_first_hits(request.aovs), progress});
+  const Rect crop = request.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : request.crop;
+  std::optional<Checkpoint> checkpoint = checkpoint_of(request, scene, *executor);
+
+  // Render the picture. Files are begun with the first rows: of a picture of one band, when it is done.
+  RenderOptions options;
+  options.crop = crop;
+  options.band_bytes = size_t(request.long_render.band_mebibytes) << 20;
+  options.checkpoint = checkpoint ? &*checkpoint : nullptr;
+  options.progress = [&, warned = false](const Progress& now) mutable {
+    if (progress) progress(now);
+    if (!warned && checkpoint && !checkpoint->failure().empty()) {
+      fmt::print(stderr, "eyeray: warning: no more checkpoints are written: {}\n", checkpoint->failure());
+      warned = true;
+    }
+  };
+  std::optional<PictureFiles> files;
+  StageTimes encoding;
+  const RenderTotals totals = render_rows(scene, *executor, options, [&](const FinishedRows& rows) {
+    encoding.measure("encode", [&] {
+      if (!files) files.emplace(request.outputs, request.aovs, crop.width, crop.height);
+      files->write(rows);
+    });
+  });
+  picture.interrupted = totals.interrupted;
+
+  // A picture in which every pixel has a sample is worth keeping; a part of one is not.
+  if (totals.samples_done > 0) encoding.measure("encode", [&] { files->finish_picture(picture.files); });
+  if (!picture.interrupted && need_first_hits(request.aovs)) {
+    picture.interrupted = !trace_first_hits(*executor, crop, [&](int, std::span<const FirstHit> hits) {
+      encoding.measure("encode", [&] { files->write(hits); });
+    });
+  }
+  if (!picture.interrupted) encoding.measure("encode", [&] { files->finish_aovs(picture.files); });
+  if (checkpoint && !picture.interrupted) checkpoint->remove();
+  if (checkpoint && picture.interrupted && checkpoint->on_disk()) picture.checkpoint = checkpoint->file();
 
   picture.sources = scene.files;
   for (const fs::path& file : executor->source_files()) picture.sources.push_back(file);
   picture.device = executor->description();
-  picture.crop = request.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : request.crop;
+  picture.crop = crop;
   picture.samples = scene.image.samples;
-  picture.samples_done = rendering.samples_done;
-  picture.rays = rendering.rays;
-  picture.sampling_seconds = rendering.seconds;
-  picture.flagged_pixels = rendering.flagged_pixels;
-  picture.flags = rendering.flags;
-  picture.interrupted = rendering.interrupted;
-  for (const auto& [stage, seconds] : executor->times().stages()) picture.times.add(stage, seconds);
-
-  // A picture in which every pixel has a sample is worth keeping; a part of one is not.
-  if (rendering.samples_done > 0) {
-    picture.times.measure("encode", [&] {
-      for (const std::string& output : request.outputs) {
-        write_image(output, rendering.color);
-        picture.files.emplace_back(output);
-      }
-      if (!rendering.interrupted) write_aovs(request, rendering, picture);
-    });
+  picture.samples_done = totals.samples_done;
+  picture.rays = totals.rays;
+  picture.sampling_seconds = totals.seconds;
+  picture.flagged_pixels = totals.flagged_pixels;
+  picture.flags = totals.flags;
+  picture.bands = totals.bands;
+  picture.share = double(totals.samples_taken) / (double(crop.pixels()) * scene.image.samples);
+  picture.samples_resumed = totals.samples_resumed;
+  picture.rays_resumed = totals.rays_resumed;
+  for (const StageTimes& times : {executor->times(), encoding}) {
+    for (const auto& [stage, seconds] : times.stages()) picture.times.add(stage, seconds);
   }
   picture.seconds = watch.seconds();
   return picture;
@@ -116,10 +154,12 @@ std::string flag_warning(const Picture& picture) {
 std::string summary(const Picture& picture) {
   std::vector<std::string> names;
   for (const fs::path& file : picture.files) names.push_back(file.string());
-  return fmt::format("{}: {}×{}, {} sample{} a pixel, {} rays in {} ({}) on {}", fmt::join(names, ", "),
-                     picture.crop.width, picture.crop.height, picture.samples_done,
-                     picture.samples_done == 1 ? "" : "s", picture.rays, format_seconds(picture.seconds),
-                     format_rate(double(picture.rays) / picture.sampling_seconds), picture.device);
+  return fmt::format(
+      "{}: {}×{}, {} sample{} a pixel, {}{} rays in {} ({}) on {}", fmt::join(names, ", "),
+      picture.crop.width, picture.crop.height, picture.samples_done, picture.samples_done == 1 ? "" : "s",
+      picture.samples_resumed ? fmt::format("resumed with {} rays, then ", picture.rays_resumed) : "",
+      picture.rays - picture.rays_resumed, format_seconds(picture.seconds),
+      format_rate(rays_per_second(picture)), picture.device);
 }
 
 std::string stages(const StageTimes& times) {
@@ -139,11 +179,15 @@ Json to_json(const Picture& picture) {
             {"rays", picture.rays},
             {"seconds", picture.seconds},
             {"sampling_seconds", picture.sampling_seconds},
-            {"rays_per_second", double(picture.rays) / picture.sampling_seconds},
+            {"rays_per_second", rays_per_second(picture)},
             {"stages", to_json(picture.times)},
             {"flagged_pixels", picture.flagged_pixels},
             {"flags", Json::array()},
-            {"interrupted", picture.interrupted}};
+            {"interrupted", picture.interrupted},
+            {"bands", picture.bands}};
+  if (picture.samples_resumed > 0)
+    json["resumed"] = {{"samples", picture.samples_resumed}, {"rays", picture.rays_resumed}};
+  if (!picture.checkpoint.empty()) json["checkpoint"] = picture.checkpoint.string();
   for (const fs::path& file : picture.files) json["files"].push_back(file.string());
   for (const FlagText& each : flag_texts) {
     if (picture.flags & each.flag) json["flags"].push_back(each.name);

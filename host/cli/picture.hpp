@@ -12,6 +12,14 @@
 
 namespace eyeray::cli {
 
+// What only renders that take long need.
+struct LongRender {
+  std::string checkpoint;          // where to begin one; empty: none
+  std::string resume;              // the one to go on from, and to keep; empty: none
+  double checkpoint_seconds = 30;  // between two of its writings
+  int band_mebibytes = 256;        // RenderOptions::band_bytes
+};
+
 struct PictureRequest {
   SceneOptions scene;
   Backend backend = Backend::gpu;
@@ -19,6 +27,7 @@ struct PictureRequest {
   Rect crop;
   std::vector<std::string> outputs;  // none: the scene's name with .png, in the current folder
   std::vector<Aov> aovs;             // each as NAME.aov.pfm and NAME.aov.png, NAME from the first output
+  LongRender long_render;
 
   // The options that say all this.
   void add_to(CLI::App& command);
@@ -39,10 +48,16 @@ struct Picture {
   uint64_t flagged_pixels = 0;
   uint32_t flags = 0;
   bool interrupted = false;
+  int bands = 1;                     // of rows, in which it was rendered
+  double share = 0;                  // of all samples that were taken
+  uint64_t samples_resumed = 0;      // of pixels, taken from a checkpoint
+  uint64_t rays_resumed = 0;         // of `rays`, those behind samples_resumed
+  std::filesystem::path checkpoint;  // left behind, to go on from; empty: none
   StageTimes times;
 };
 
-// Loads, renders and writes. `files` is empty when it was interrupted before every pixel had a sample.
+// Loads, renders and writes. `files` is empty when it was interrupted before every pixel had a sample, and,
+// for a picture of several bands, before all had all.
 Picture make_picture(const PictureRequest& request, const std::function<void(const Progress&)>& progress);
 
 // What went wrong in some pixels and what to do about it; "" when nothing did.

@@ -43,9 +43,19 @@ bool stderr_is_terminal() {
   return isatty(STDERR_FILENO) && type && std::strcmp(type, "dumb") != 0;
 }
 
+// " band 3 of 32, sample 2 of 4"; what there is only one of is not said.
+std::string place(const Progress& progress) {
+  std::vector<std::string> parts;
+  if (progress.bands > 1) parts.push_back(fmt::format("band {} of {}", progress.band + 1, progress.bands));
+  if (progress.samples > 1)
+    parts.push_back(fmt::format("sample {} of {}", progress.sample + 1, progress.samples));
+  return parts.empty() ? "" : fmt::format("  {}", fmt::join(parts, ", "));
+}
+
 std::string describe(const Progress& progress, double share) {
-  const double left = progress.seconds * (1 - share) / share;
-  return fmt::format("{:3.0f} %  {}  {} left", share * 100,
+  const double taken = double(progress.samples_done - progress.samples_resumed);
+  const double left = progress.seconds * double(progress.samples_total - progress.samples_done) / taken;
+  return fmt::format("{:3.0f} %{}  {}  {} left", share * 100, place(progress),
                      format_rate(double(progress.rays) / progress.seconds), format_seconds(left));
 }
 
@@ -56,7 +66,7 @@ std::function<void(const Progress&)> progress_reporter(bool quiet) {
   const std::shared_ptr<Bar> bar = stderr_is_terminal() ? std::make_shared<Bar>() : nullptr;
   const double pause = bar ? seconds_between_bars : seconds_between_lines;
   return [bar, pause, next = pause](const Progress& progress) mutable {
-    if (progress.seconds < next || progress.samples_done == 0 || progress.samples_total == 0) return;
+    if (progress.seconds < next || progress.samples_done <= progress.samples_resumed) return;
     next = progress.seconds + pause;
     const double share = double(progress.samples_done) / double(progress.samples_total);
     if (bar) {

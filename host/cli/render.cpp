@@ -21,6 +21,46 @@ void print_stages(const Picture& picture) {
   fmt::print(stderr, "  {:<16} {:>10}\n", "all in all", format_seconds(picture.seconds));
 }
 
+// Of a picture that was interrupted.
+std::string what_was_kept(const Picture& picture, bool aovs) {
+  const std::string file = picture.checkpoint.string();
+  std::string text;
+  if (!picture.files.empty()) {
+    text = fmt::format("interrupted; {} of {} samples a pixel were kept{}", picture.samples_done,
+                       picture.samples, aovs ? ", and no AOVs" : "");
+  } else if (!file.empty()) {
+    text = "interrupted before the picture was whole";
+  } else if (picture.bands == 1) {
+    text = "interrupted before every pixel had a sample; nothing was kept";
+  } else {
+    text = fmt::format(
+        "interrupted, and a picture of {} bands is whole only at its end; nothing was kept "
+        "(--checkpoint FILE would)",
+        picture.bands);
+  }
+  if (file.empty()) return text;
+  return fmt::format("{}; {} has {:.1f} % of the work: to go on, give the same options and --resume {}", text,
+                     file, 100 * picture.share, file);
+}
+
+void add_long_render_options(CLI::App& command, LongRender& options) {
+  const std::string group = "Long renders";
+  const auto add = [&](const char* name, auto& value, const char* text, const char* description) {
+    return command.add_option(name, value, description)->option_text(text)->group(group);
+  };
+  CLI::Option* const checkpoint =
+      add("--checkpoint", options.checkpoint, "FILE",
+          "Keep what is done in this file, now and then and on Ctrl-C, until the picture is written.");
+  add("--resume", options.resume, "FILE",
+      "Go on from a checkpoint, and keep it as --checkpoint does. All else must be as it was.")
+      ->excludes(checkpoint);
+  add("--checkpoint-every", options.checkpoint_seconds, "SECONDS=30", "How often the checkpoint is written.")
+      ->check(within(0.01, 1e6));
+  add("--band-memory", options.band_mebibytes, "MIB=256",
+      "A picture whose sums (32 bytes a pixel) need more is rendered in bands of rows.")
+      ->check(CLI::Range(1, 1 << 20));
+}
+
 ExitCode Command::run() {
   request.check_outputs();
   const Picture picture = make_picture(request, progress_reporter(quiet));
@@ -28,13 +68,12 @@ ExitCode Command::run() {
   if (const std::string warning = flag_warning(picture); !warning.empty())
     fmt::print(stderr, "eyeray: warning: {}\n", warning);
   if (picture.interrupted && picture.files.empty())
-    throw Error(ExitCode::interrupted, "interrupted before every pixel had a sample; nothing was kept");
+    throw Error(ExitCode::interrupted, "{}", what_was_kept(picture, false));
   if (!quiet) fmt::print(stderr, "{}\n", summary(picture));
   if (stats) print_stages(picture);
   if (json) print_json(to_json(picture));
   if (!picture.interrupted) return ExitCode::ok;
-  fmt::print(stderr, "eyeray: interrupted; {} of {} samples a pixel were kept{}\n", picture.samples_done,
-             picture.samples, request.aovs.empty() ? "" : ", and no AOVs");
+  fmt::print(stderr, "eyeray: {}\n", what_was_kept(picture, !request.aovs.empty()));
   return ExitCode::interrupted;
 }
 
@@ -44,6 +83,7 @@ void add_render(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("render", "Render a scene to picture files.");
   const auto options = std::make_shared<Command>();
   options->request.add_to(*command);
+  add_long_render_options(*command, options->request.long_render);
   command->add_flag("--stats", options->stats, "Print how long each stage took.");
   command->add_flag("-q,--quiet", options->quiet, "No progress and no summary; warnings and errors remain.");
   command->add_flag("--json", options->json, "Say what was done as JSON on standard output.");
@@ -52,6 +92,8 @@ void add_render(CLI::App& app, Run& run) {
       "  eyeray render scenes/whitted.toml                                   whitted.png\n"
       "  eyeray render scenes/whitted.toml -s 1920x1080 --spp 16 -o big.png -o big.pfm\n"
       "  eyeray render scenes/whitted.toml -D render.max_depth=2 --aov depth,normal\n"
+      "  eyeray render scenes/whitted.toml --spp 10000 --checkpoint long.part    and, after Ctrl-C, --resume "
+      "long.part\n"
       "Ctrl-C keeps what was rendered so far, if every pixel has a sample.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }

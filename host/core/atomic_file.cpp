@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -24,58 +25,18 @@ namespace fs = std::filesystem;
 // An open file descriptor.
 class Descriptor {
  public:
-  Descriptor(const fs::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-  ~Descriptor() { close(); }
+  Descriptor(const fs::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC)) {}
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
   bool valid() const { return value_ >= 0; }
   int get() const { return value_; }
-  // Whether the file system took everything: some report a full disk only here.
-  bool close() {
-    if (value_ < 0) return true;
-    const int value = value_;
-    value_ = -1;
-    return ::close(value) == 0;
-  }
 
  private:
   int value_;
-};
-
-// The part file: gone at the end of its scope, unless it has been renamed.
-class PartFile {
- public:
-  explicit PartFile(const fs::path& target)
-      : path_(target.string() + ".part." + std::to_string(::getpid())),
-        file_(path_, O_WRONLY | O_CREAT | O_TRUNC) {
-    if (!file_.valid()) fail("write", path_, errno);
-  }
-  ~PartFile() {
-    if (!renamed_) ::unlink(path_.c_str());
-  }
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
-
-  void write(std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-      const ssize_t count = ::write(file_.get(), bytes.data(), bytes.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) fail("write", path_, errno);
-      bytes = bytes.subspan(size_t(count));
-    }
-  }
-  void rename_to(const fs::path& target) {
-    if (::fsync(file_.get()) != 0) fail("write", path_, errno);
-    if (!file_.close()) fail("write", path_, errno);
-    if (::rename(path_.c_str(), target.c_str()) != 0) fail("replace", target, errno);
-    renamed_ = true;
-  }
-
- private:
-  fs::path path_;
-  Descriptor file_;
-  bool renamed_ = false;
 };
 
 fs::path folder_of(const fs::path& path) {
@@ -94,18 +55,55 @@ void check_replaceable(const fs::path& path) {
 
 }  // namespace
 
-void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
-  check_replaceable(path);
+AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
+  check_replaceable(path_);
+  // A name of its own, even where one program writes a file twice at once or a killed one left its part.
+  const std::string stem = path_.string() + ".part." + std::to_string(::getpid());
+  part_ = stem;
+  for (int i = 1; file_ < 0; ++i) {
+    file_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ < 0 && errno != EEXIST) fail("write", part_, errno);
+    if (file_ < 0) part_ = stem + "." + std::to_string(i);
+  }
+}
 
-  // Write beside the target, so that the rename stays within one file system.
-  PartFile part(path);
-  part.write(bytes);
-  part.rename_to(path);
+AtomicFile::~AtomicFile() {
+  if (file_ >= 0) ::close(file_);
+  if (!renamed_) ::unlink(part_.c_str());
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes) {
+  write_at(end_, bytes);
+  end_ += bytes.size();
+}
+
+void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::pwrite(file_, bytes.data(), bytes.size(), off_t(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail("write", part_, errno);
+    bytes = bytes.subspan(size_t(count));
+    offset += uint64_t(count);
+  }
+}
+
+void AtomicFile::commit() {
+  if (::fsync(file_) != 0) fail("write", part_, errno);
+  // Some file systems report a full disk only here.
+  if (::close(std::exchange(file_, -1)) != 0) fail("write", part_, errno);
+  if (::rename(part_.c_str(), path_.c_str()) != 0) fail("replace", path_, errno);
+  renamed_ = true;
 
   // Make the rename itself durable; file systems that cannot sync a folder say EINVAL.
-  const Descriptor folder(folder_of(path), O_RDONLY | O_DIRECTORY);
+  const Descriptor folder(folder_of(path_), O_RDONLY | O_DIRECTORY);
   if (!folder.valid() || (::fsync(folder.get()) != 0 && errno != EINVAL))
-    fail("sync the folder of", path, errno);
+    fail("sync the folder of", path_, errno);
+}
+
+void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
 }
 
 void write_file_atomically(const fs::path& path, std::string_view text) {
@@ -113,8 +111,7 @@ void write_file_atomically(const fs::path& path, std::string_view text) {
 }
 
 void check_writable(const fs::path& path) {
-  check_replaceable(path);
-  const PartFile part(path);
+  const AtomicFile part(path);
 }
 
 std::string read_file(const fs::path& path) {

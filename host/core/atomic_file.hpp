@@ -1,6 +1,7 @@
 // Output files appear whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -8,8 +9,32 @@
 
 namespace eyeray {
 
-// Writes `bytes` to PATH.part.PID beside `path`, fsyncs and renames it. On any failure the part file is
-// removed, what stood at `path` before is untouched, and an Error (file_io) says why.
+// A file that grows as PATH.part.PID beside `path`, so that the rename stays within one file system, and
+// takes its place at commit(). Without that the part file goes with its scope, and what stood at `path` is
+// untouched. Every failure is an Error (file_io) that says why.
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::filesystem::path path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  // After what was written last.
+  void write(std::span<const std::byte> bytes);
+  void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+  // At `offset` from the file's start; places never written read as 0.
+  void write_at(uint64_t offset, std::span<const std::byte> bytes);
+  // Syncs and renames; nothing may be written afterwards.
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path part_;
+  int file_ = -1;
+  uint64_t end_ = 0;
+  bool renamed_ = false;
+};
+
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 

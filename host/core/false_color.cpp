@@ -1,12 +1,11 @@
 #include "core/false_color.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/parallel_for.hpp"
 #include "core/srgb.hpp"
-#include "core/vec.hpp"
 
 namespace eyeray {
 
@@ -37,85 +36,80 @@ Vec3 id_color(double id) {
   return value * (0.55 + 0.45 * wheel);
 }
 
-// The least and greatest finite value of one channel, widened where they are equal.
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  Range(const Image& data, int channel) {
-    for (size_t i = size_t(channel); i < data.sample_count(); i += size_t(data.channels())) {
-      const double value = double(data.samples()[i]);
-      if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-    if (!(low < high)) high = low + 1;
-  }
-  double position(double value) const { return (value - low) / (high - low); }
-};
-
-// The sRGB colour of one pixel's data; grey where there is none.
-class Painter {
- public:
-  Painter(const Image& data, FalseColor kind) : kind_(kind) {
-    for (int channel = 0; channel < data.channels(); ++channel) ranges_.emplace_back(data, channel);
-  }
-
-  Vec3 operator()(const float* value) const {
-    const double x = double(value[0]);
-    switch (kind_) {
-      case FalseColor::scalar:
-        return std::isfinite(x) ? viridis(ranges_[0].position(x)) : Vec3(grey);
-      case FalseColor::depth:
-        return std::isfinite(x) && x > 0 ? viridis(nearness(x)) : Vec3(grey);
-      case FalseColor::ids:
-        return x >= 0 && std::isfinite(x) ? id_color(x) : Vec3(grey);
-      case FalseColor::direction: {
-        const Vec3 n(x, double(value[1]), double(value[2]));
-        return glm::dot(n, n) > 0 ? 0.5 * (n + 1.0) : Vec3(grey);
-      }
-      case FalseColor::position: {
-        Vec3 color(0.0);
-        for (size_t c = 0; c < ranges_.size(); ++c) {
-          const double v = double(value[c]);
-          if (!std::isfinite(v)) return Vec3(grey);
-          color[int(c)] = ranges_[c].position(v);
-        }
-        return color;
-      }
-    }
-    return Vec3(grey);
-  }
-
- private:
-  // 1 at the least depth, 0 at the greatest, by the logarithm.
-  double nearness(double depth) const {
-    const double low = std::log(std::max(ranges_[0].low, 1e-30)),
-                 high = std::log(std::max(ranges_[0].high, 1e-30));
-    return high > low ? (high - std::log(depth)) / (high - low) : 1.0;
-  }
-
-  FalseColor kind_;
-  std::vector<Range> ranges_;
-};
-
 }  // namespace
 
-Image false_color(const Image& data, FalseColor kind) {
-  const bool one_channel = kind == FalseColor::scalar || kind == FalseColor::depth || kind == FalseColor::ids;
-  CHECK(one_channel ? data.channels() == 1 : data.channels() == 3 || kind == FalseColor::position);
-  CHECK_LE(data.channels(), 3);
+double FalseColorPainter::Range::position(double value) const {
+  return low < high ? (value - low) / (high - low) : value - low;
+}
 
-  const Painter paint(data, kind);
+FalseColorPainter::FalseColorPainter(FalseColor kind, int channels) : kind_(kind), ranges_(size_t(channels)) {
+  const bool one_channel = kind == FalseColor::scalar || kind == FalseColor::depth || kind == FalseColor::ids;
+  CHECK(one_channel ? channels == 1 : channels == 3 || kind == FalseColor::position);
+  CHECK_LE(channels, 3);
+}
+
+void FalseColorPainter::see(const Image& data) {
+  CHECK_EQ(size_t(data.channels()), ranges_.size());
+  for (size_t i = 0; i < data.sample_count(); ++i) {
+    Range& range = ranges_[i % ranges_.size()];
+    const double value = double(data.samples()[i]);
+    if (!std::isfinite(value)) continue;
+    range.low = std::min(range.low, value);
+    range.high = std::max(range.high, value);
+  }
+}
+
+// 1 at the least depth, 0 at the greatest, by the logarithm.
+double FalseColorPainter::nearness(double depth) const {
+  const double low = std::log(std::max(ranges_[0].low, 1e-30));
+  const double high = std::log(std::max(ranges_[0].high, 1e-30));
+  return high > low ? (high - std::log(depth)) / (high - low) : 1.0;
+}
+
+// The sRGB colour of one pixel's data; grey where there is none.
+Vec3 FalseColorPainter::color(const float* value) const {
+  const double x = double(value[0]);
+  switch (kind_) {
+    case FalseColor::scalar:
+      return std::isfinite(x) ? viridis(ranges_[0].position(x)) : Vec3(grey);
+    case FalseColor::depth:
+      return std::isfinite(x) && x > 0 ? viridis(nearness(x)) : Vec3(grey);
+    case FalseColor::ids:
+      return x >= 0 && std::isfinite(x) ? id_color(x) : Vec3(grey);
+    case FalseColor::direction: {
+      const Vec3 n(x, double(value[1]), double(value[2]));
+      return glm::dot(n, n) > 0 ? 0.5 * (n + 1.0) : Vec3(grey);
+    }
+    case FalseColor::position: {
+      Vec3 color(0.0);
+      for (size_t c = 0; c < ranges_.size(); ++c) {
+        const double v = double(value[c]);
+        if (!std::isfinite(v)) return Vec3(grey);
+        color[int(c)] = ranges_[c].position(v);
+      }
+      return color;
+    }
+  }
+  return Vec3(grey);
+}
+
+Image FalseColorPainter::paint(const Image& data) const {
+  CHECK_EQ(size_t(data.channels()), ranges_.size());
   Image picture(data.width(), data.height(), 3);
   parallel_for(0, data.height(), [&](int y) {
     for (int x = 0; x < data.width(); ++x) {
-      const Vec3 color = glm::clamp(paint(data.pixel(x, y)), 0.0, 1.0);
+      const Vec3 shown = glm::clamp(color(data.pixel(x, y)), 0.0, 1.0);
       // The colours above are meant as the screen shows them; an image is linear.
-      for (int c = 0; c < 3; ++c) picture.pixel(x, y)[c] = float(linear_from_srgb(color[c]));
+      for (int c = 0; c < 3; ++c) picture.pixel(x, y)[c] = float(linear_from_srgb(shown[c]));
     }
   });
   return picture;
+}
+
+Image false_color(const Image& data, FalseColor kind) {
+  FalseColorPainter painter(kind, data.channels());
+  painter.see(data);
+  return painter.paint(data);
 }
 
 }  // namespace eyeray

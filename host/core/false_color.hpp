@@ -1,7 +1,11 @@
 // Pictures of data, for people: what an AOV's .png shows.
 #pragma once
 
+#include <limits>
+#include <vector>
+
 #include "core/image.hpp"
+#include "core/vec.hpp"
 
 namespace eyeray {
 
@@ -16,5 +20,30 @@ enum class FalseColor {
 // A 3-channel picture whose .png shows the colours named above. What has no value (a miss: not finite, an id
 // below 0, a direction of length 0) is grey.
 Image false_color(const Image& data, FalseColor kind);
+
+// The same for a picture that is seen a few rows at a time: all of them to see(), then all of them to
+// paint().
+class FalseColorPainter {
+ public:
+  // `channels` as the kind wants them.
+  FalseColorPainter(FalseColor kind, int channels);
+
+  void see(const Image& data);
+  Image paint(const Image& data) const;
+
+ private:
+  // The least and greatest finite value of one channel.
+  struct Range {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    double position(double value) const;  // 0 at the least, 1 at the greatest
+  };
+  double nearness(double depth) const;
+  Vec3 color(const float* value) const;
+
+  FalseColor kind_;
+  std::vector<Range> ranges_;  // one a channel
+};
 
 }  // namespace eyeray

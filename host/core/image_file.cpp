@@ -1,7 +1,6 @@
 #include "core/image_file.hpp"
 
 #include <stb_image.h>
-#include <stb_image_write.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/image_writer.hpp"
 #include "core/pfm_file.hpp"
 #include "core/radiance_file.hpp"
 #include "core/srgb.hpp"
@@ -20,31 +20,6 @@ namespace eyeray {
 namespace {
 
 namespace fs = std::filesystem;
-
-void append(void* text, void* data, int size) {
-  static_cast<std::string*>(text)->append(static_cast<const char*>(data), size_t(size));
-}
-
-std::string encode_png(const Image& image) {
-  std::vector<unsigned char> codes(image.sample_count());
-  std::transform(image.samples().begin(), image.samples().end(), codes.begin(), srgb8);
-  std::string bytes;
-  const int ok = stbi_write_png_to_func(append, &bytes, image.width(), image.height(), image.channels(),
-                                        codes.data(), image.width() * image.channels());
-  CHECK(ok);
-  return bytes;
-}
-
-std::string encode_hdr(const Image& image) {
-  // RGBE has neither NaN nor negatives nor infinity, and stb_image_write would not notice.
-  std::vector<float> samples = image.samples();
-  for (float& sample : samples) sample = sample > 0 ? std::min(sample, 1e38f) : 0.0f;
-  std::string bytes;
-  const int ok =
-      stbi_write_hdr_to_func(append, &bytes, image.width(), image.height(), image.channels(), samples.data());
-  CHECK(ok);
-  return bytes;
-}
 
 struct Free {
   void operator()(void* pixels) const { stbi_image_free(pixels); }
@@ -119,16 +94,9 @@ ImageFormat image_format(const fs::path& path) {
 }
 
 void write_image(const fs::path& path, const Image& image) {
-  CHECK(image_size_allowed(image.width(), image.height()));
-  CHECK(image.channels() == 1 || image.channels() == 3);
-  switch (image_format(path)) {
-    case ImageFormat::png:
-      return write_file_atomically(path, encode_png(image));
-    case ImageFormat::pfm:
-      return write_file_atomically(path, encode_pfm(image));
-    case ImageFormat::hdr:
-      return write_file_atomically(path, encode_hdr(image));
-  }
+  ImageWriter writer(path, image.width(), image.height(), image.channels());
+  writer.write(image);
+  writer.finish();
 }
 
 Image read_image(const fs::path& path) {

@@ -1,9 +1,11 @@
 #include "core/interrupt.hpp"
 
 #include <signal.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdint>
 
 #include "core/error.hpp"
 
@@ -11,11 +13,19 @@ namespace eyeray {
 
 namespace {
 
-std::atomic<bool> stop_asked = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+constexpr int64_t one_signal_nanoseconds = 100'000'000;
+
+// When the first signal came, on the monotonic clock; 0: none did.
+std::atomic<int64_t> first_signal = 0;
+static_assert(std::atomic<int64_t>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
 extern "C" void on_signal(int) {
-  if (stop_asked.exchange(true)) ::_exit(int(ExitCode::interrupted));
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  const int64_t now = int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+  int64_t first = 0;
+  if (first_signal.compare_exchange_strong(first, now)) return;
+  if (now - first > one_signal_nanoseconds) ::_exit(int(ExitCode::interrupted));
 }
 
 }  // namespace
@@ -29,7 +39,7 @@ void catch_interrupts() {
 }
 
 bool interrupted() {
-  return stop_asked.load(std::memory_order_relaxed);
+  return first_signal.load(std::memory_order_relaxed) != 0;
 }
 
 }  // namespace eyeray

@@ -1,5 +1,6 @@
 #include "core/pfm_file.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -8,10 +9,11 @@
 
 #include "core/error.hpp"
 #include "core/image_file.hpp"
+#include "core/row_encoder.hpp"
 
 namespace eyeray {
 
-static_assert(std::endian::native == std::endian::little, "encode_pfm writes floats as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "floats are written as they lie in memory");
 
 namespace {
 
@@ -52,17 +54,49 @@ float swap_bytes(float value) {
   return std::bit_cast<float>(__builtin_bswap32(std::bit_cast<uint32_t>(value)));
 }
 
+std::string header_of(int width, int height, int channels) {
+  return fmt::format("{}\n{} {}\n-1.0\n", channels == 1 ? "Pf" : "PF", width, height);
+}
+
+size_t row_size(int width, int channels) {
+  return size_t(width) * size_t(channels) * sizeof(float);
+}
+
+// The rows of `image` in the file's order, from the bottom up, and back.
+std::vector<float> turned_over(const Image& image) {
+  std::vector<float> samples(image.sample_count());
+  const size_t row_samples = size_t(image.width()) * size_t(image.channels());
+  for (int y = 0; y < image.height(); ++y)
+    std::copy_n(image.pixel(0, y), row_samples, &samples[size_t(image.height() - 1 - y) * row_samples]);
+  return samples;
+}
+
+class PfmEncoder final : public RowEncoder {
+ public:
+  PfmEncoder(AtomicFile& file, int width, int height, int channels)
+      : file_(file), rows_left_(height), row_bytes_(row_size(width, channels)) {
+    const std::string header = header_of(width, height, channels);
+    header_bytes_ = header.size();
+    file_.write(header);
+  }
+
+  void write(const Image& rows) override {
+    rows_left_ -= rows.height();
+    const std::vector<float> samples = turned_over(rows);
+    file_.write_at(header_bytes_ + uint64_t(rows_left_) * row_bytes_, std::as_bytes(std::span(samples)));
+  }
+
+ private:
+  AtomicFile& file_;
+  int rows_left_;
+  size_t row_bytes_;
+  size_t header_bytes_ = 0;
+};
+
 }  // namespace
 
-std::string encode_pfm(const Image& image) {
-  std::string bytes =
-      fmt::format("{}\n{} {}\n-1.0\n", image.channels() == 1 ? "Pf" : "PF", image.width(), image.height());
-  const size_t row_bytes = size_t(image.width()) * size_t(image.channels()) * sizeof(float);
-  bytes.reserve(bytes.size() + row_bytes * size_t(image.height()));
-  for (int y = image.height() - 1; y >= 0; --y) {
-    bytes.append(reinterpret_cast<const char*>(image.pixel(0, y)), row_bytes);
-  }
-  return bytes;
+std::unique_ptr<RowEncoder> pfm_encoder(AtomicFile& file, int width, int height, int channels) {
+  return std::make_unique<PfmEncoder>(file, width, height, channels);
 }
 
 Image decode_pfm(std::string_view bytes, const std::string& name) {
@@ -96,6 +130,25 @@ Image decode_pfm(std::string_view bytes, const std::string& name) {
     }
   }
   return image;
+}
+
+PfmRows::PfmRows(std::filesystem::path path, int width, int height, int channels)
+    : path_(std::move(path)),
+      width_(width),
+      height_(height),
+      channels_(channels),
+      file_(path_, std::ios::binary) {}
+
+Image PfmRows::read(int first, int count) {
+  Image rows(width_, count, channels_);
+  const size_t below = size_t(height_ - first - count);
+  file_.seekg(
+      std::streamoff(header_of(width_, height_, channels_).size() + below * row_size(width_, channels_)));
+  file_.read(reinterpret_cast<char*>(rows.samples().data()),
+             std::streamsize(size_t(count) * row_size(width_, channels_)));
+  if (!file_) throw Error(ExitCode::file_io, "cannot read {} again", path_.string());
+  rows.samples() = turned_over(rows);
+  return rows;
 }
 
 }  // namespace eyeray

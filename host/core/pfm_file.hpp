@@ -2,6 +2,8 @@
 // order, then raw float32 with the BOTTOM row first.
 #pragma once
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -9,11 +11,24 @@
 
 namespace eyeray {
 
-// The bytes of a 1- or 3-channel image, little-endian.
-std::string encode_pfm(const Image& image);
-
 // Strict: exact header, both byte orders, no byte too few or too many. Error (file_io), with `name` in it,
 // otherwise.
 Image decode_pfm(std::string_view bytes, const std::string& name);
+
+// A file that ImageWriter has just written, read again a few rows at a time.
+class PfmRows {
+ public:
+  // `width`, `height` and `channels` are known, since the file is our own; Error (file_io) here and below
+  // when it cannot be read.
+  PfmRows(std::filesystem::path path, int width, int height, int channels);
+
+  // Rows [first, first + count), counted from the top.
+  Image read(int first, int count);
+
+ private:
+  std::filesystem::path path_;
+  int width_, height_, channels_;
+  std::ifstream file_;
+};
 
 }  // namespace eyeray

@@ -1,11 +1,13 @@
 #include "core/radiance_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "core/error.hpp"
 #include "core/image_file.hpp"
+#include "core/row_encoder.hpp"
 
 namespace eyeray {
 
@@ -70,7 +72,84 @@ class Reader {
   const std::string& name_;
 };
 
+// As Radiance's own setcolr: the largest channel's exponent for all three. It has neither NaN nor negatives
+// nor infinity.
+Rgbe to_rgbe(const float* color) {
+  std::array<float, 3> held{};
+  for (size_t c = 0; c < 3; ++c) held[c] = color[c] > 0 ? std::min(color[c], 1e38f) : 0.0f;
+  const float largest = std::max({held[0], held[1], held[2]});
+  if (largest < 1e-32f) return {};
+  int exponent = 0;
+  const float scale = std::frexp(largest, &exponent) * 256.0f / largest;
+  Rgbe rgbe{0, 0, 0, (unsigned char)(exponent + 128)};
+  for (size_t c = 0; c < 3; ++c) rgbe[c] = (unsigned char)(held[c] * scale);
+  return rgbe;
+}
+
+// Rows of the new run-length encoding, where the format has it, else plain.
+class RadianceEncoder final : public RowEncoder {
+ public:
+  RadianceEncoder(AtomicFile& file, int width, int height)
+      : file_(file), row_(size_t(width)), in_runs_(width >= 8 && width < 32768) {
+    file_.write(fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", height, width));
+  }
+
+  void write(const Image& rows) override {
+    bytes_.clear();
+    for (int y = 0; y < rows.height(); ++y) {
+      for (int x = 0; x < rows.width(); ++x) {
+        const float* pixel = rows.pixel(x, y);
+        const float grey[] = {*pixel, *pixel, *pixel};
+        row_[size_t(x)] = to_rgbe(rows.channels() == 3 ? pixel : grey);
+      }
+      append_row();
+    }
+    file_.write(bytes_);
+  }
+
+ private:
+  void append_row() {
+    if (in_runs_) {
+      bytes_ += {2, 2, char(row_.size() >> 8), char(row_.size() & 255)};
+      for (size_t channel = 0; channel < 4; ++channel) append_runs(channel);
+    } else {
+      for (const Rgbe& pixel : row_) bytes_.append(reinterpret_cast<const char*>(pixel.data()), 4);
+    }
+  }
+  // One channel, as Reader::runs takes it: runs of equal bytes, and what lies between them.
+  void append_runs(size_t channel) {
+    constexpr size_t shortest_run = 4, longest_run = 127, longest_between = 128;
+    const auto equal_from = [&](size_t x, size_t most) {
+      size_t count = 1;
+      while (count < most && x + count < row_.size() && row_[x + count][channel] == row_[x][channel]) ++count;
+      return count;
+    };
+    for (size_t x = 0; x < row_.size();) {
+      const size_t run = equal_from(x, longest_run);
+      if (run >= shortest_run) {
+        bytes_ += {char(128 + run), char(row_[x][channel])};
+        x += run;
+        continue;
+      }
+      size_t end = x + 1;
+      while (end < row_.size() && end - x < longest_between && equal_from(end, shortest_run) < shortest_run)
+        ++end;
+      bytes_ += char(end - x);
+      for (; x < end; ++x) bytes_ += char(row_[x][channel]);
+    }
+  }
+
+  AtomicFile& file_;
+  std::vector<Rgbe> row_;
+  bool in_runs_;
+  std::string bytes_;
+};
+
 }  // namespace
+
+std::unique_ptr<RowEncoder> radiance_encoder(AtomicFile& file, int width, int height, int) {
+  return std::make_unique<RadianceEncoder>(file, width, height);
+}
 
 Image decode_radiance(std::string_view bytes, const std::string& name) {
   // Read the header: lines up to an empty one, then the size.

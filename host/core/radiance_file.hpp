@@ -1,4 +1,4 @@
-// Reading Radiance pictures (.hdr, Greg Ward's RGBE). Our own, since Debian 12's stb_image never ends on a
+// Radiance pictures (.hdr, Greg Ward's RGBE). Our own, since Debian 12's stb_image never ends on a
 // truncated one.
 #pragma once
 

@@ -1,14 +1,12 @@
-// One interface over the three executors, and the driver that turns samples into a picture.
+// One interface over the three executors.
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/image.hpp"
 #include "core/pixel.hpp"
 #include "core/rect.hpp"
 #include "core/stopwatch.hpp"
@@ -77,35 +75,5 @@ struct ExecutorOptions {
 // Error (no_device) when `backend` is gpu and no device will do; InputError for a shader that does not
 // compile.
 std::unique_ptr<Executor> make_executor(Backend backend, const Scene& scene, const ExecutorOptions& options);
-
-// What was rendered.
-struct Rendering {
-  Image color;                       // of the crop; linear RGB, the mean of the samples
-  std::vector<FirstHit> first_hits;  // of the crop; empty unless asked for
-  Image hits;                        // 1 channel: surfaces struck a pixel, mean of the samples
-  uint64_t rays = 0;
-  uint64_t flagged_pixels = 0;  // pixels with any SampleFlag
-  uint32_t flags = 0;           // all SampleFlags seen
-  int samples_done = 0;
-  bool interrupted = false;
-  double seconds = 0;  // of sampling alone
-};
-
-struct Progress {
-  uint64_t samples_done = 0;
-  uint64_t samples_total = 0;
-  uint64_t rays = 0;
-  double seconds = 0;
-};
-
-struct RenderOptions {
-  Rect crop;  // in pixels of the whole picture; empty: all of it
-  bool first_hits = false;
-  std::function<void(const Progress&)> progress;  // called between tiles; may be empty
-};
-
-// Renders scene.image through `executor`. When interrupted, what was finished comes back, with `interrupted`
-// set.
-Rendering render(const Scene& scene, Executor& executor, const RenderOptions& options);
 
 }  // namespace eyeray

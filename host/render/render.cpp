@@ -1,122 +1,254 @@
+#include "render/render.hpp"
+
 #include <algorithm>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
-#include "render/executors.hpp"
+#include "render/checkpoint.hpp"
 
 namespace eyeray {
 namespace {
 
-// The sums over the samples of every pixel of the crop, and how many samples they hold.
-class Accumulator {
- public:
-  explicit Accumulator(const Rect& crop) : crop_(crop), pixels_(size_t(crop.pixels())) {}
+// How many pixels are handed on at a time: tens of megabytes of whatever is made of them.
+constexpr int most_pixels_at_a_time = 1 << 20;
 
-  void add(int first_row, std::span<const PixelSample> samples) {
-    Pixel* pixel = &pixels_[size_t(first_row) * size_t(crop_.width)];
-    for (const PixelSample& sample : samples) {
-      pixel->color += sample.color;
-      pixel->hits += sample.hits;
-      pixel->flags |= sample.flags;
-      rays_ += sample.rays;
-      ++pixel;
-    }
-  }
-  uint64_t rays() const { return rays_; }
-
-  // Fills in `result` after `samples` whole samples and the first `rows` rows of one more.
-  void finish(int samples, int rows, Rendering& result) const {
-    result.samples_done = samples;
-    result.rays = rays_;
-    if (samples == 0) return;
-    result.color = Image(crop_.width, crop_.height, 3);
-    result.hits = Image(crop_.width, crop_.height, 1);
-    for (int y = 0; y < crop_.height; ++y) {
-      const double count = y < rows ? samples + 1 : samples;
-      for (int x = 0; x < crop_.width; ++x) {
-        const Pixel& pixel = pixels_[size_t(y) * size_t(crop_.width) + size_t(x)];
-        for (int c = 0; c < 3; ++c) result.color.pixel(x, y)[c] = float(pixel.color[c] / count);
-        *result.hits.pixel(x, y) = float(double(pixel.hits) / count);
-        result.flags |= pixel.flags;
-        result.flagged_pixels += pixel.flags != 0;
-      }
-    }
-  }
-
- private:
-  struct Pixel {
-    Vec3 color{0.0};
-    uint32_t hits = 0;
-    uint32_t flags = 0;
-  };
-  Rect crop_;
-  std::vector<Pixel> pixels_;
-  uint64_t rays_ = 0;
-};
+int rows_at_a_time(int width) {
+  return std::max(1, most_pixels_at_a_time / width);
+}
 
 // How many rows to ask for at a time: as many as take about a fifth of a second, so that progress shows and
 // Ctrl-C works.
 class RowsAtATime {
  public:
-  explicit RowsAtATime(int width) : rows_(std::max(1, (1 << 20) / width)) {}
+  explicit RowsAtATime(int width) : rows_(rows_at_a_time(width)), most_(2 * rows_) {}
   int rows() const { return rows_; }
   void took(double seconds) {
     if (seconds > 0.4) rows_ = std::max(1, rows_ / 2);
-    if (seconds < 0.1) rows_ = std::min(1 << 16, rows_ * 2);
+    if (seconds < 0.1) rows_ = std::min(most_, rows_ * 2);
   }
 
  private:
   int rows_;
+  int most_;
 };
+
+class Driver {
+ public:
+  Driver(const Scene& scene, Executor& executor, const RenderOptions& options, const RowSink& sink)
+      : executor_(executor),
+        options_(options),
+        sink_(sink),
+        crop_(options.crop.pixels() ? options.crop : Rect{0, 0, scene.image.width, scene.image.height}),
+        samples_(scene.image.samples),
+        at_a_time_(crop_.width) {
+    const size_t most_rows = options.band_bytes / (size_t(crop_.width) * sizeof(PixelSums::Pixel));
+    band_rows_ = int(std::clamp<size_t>(most_rows, 1, size_t(crop_.height)));
+    progress_.samples_total = uint64_t(crop_.pixels()) * uint64_t(samples_);
+    progress_.bands = bands();
+    progress_.samples = samples_;
+    begin_band(0);
+  }
+
+  RenderTotals run() {
+    if (options_.checkpoint && options_.checkpoint->resumes() && !take_up()) return interrupted_totals(0);
+    while (true) {
+      if (!sample_band()) {
+        save();
+        const bool whole = bands() == 1 && position_.samples > 0;
+        if (whole) hand_on();
+        return interrupted_totals(whole ? int(position_.samples) : 0);
+      }
+      const int next = int(position_.finished_rows) + sums_.height();
+      if (next == crop_.height) break;
+      hand_on();
+      begin_band(next);
+    }
+    save();
+    hand_on();
+    totals_.samples_done = samples_;
+    return totals();
+  }
+
+ private:
+  int bands() const { return (crop_.height + band_rows_ - 1) / band_rows_; }
+
+  void begin_band(int row) {
+    position_.finished_rows = uint64_t(row);
+    position_.samples = 0;
+    position_.extra_rows = 0;
+    progress_.band = row / band_rows_;
+    sums_.reset(crop_.width, std::min(band_rows_, crop_.height - row));
+  }
+
+  // Goes on where the checkpoint stands. Returns false when interrupted.
+  bool take_up() {
+    Checkpoint& checkpoint = *options_.checkpoint;
+    const RenderPosition position = checkpoint.position();
+    const auto damaged = [&] { checkpoint.damaged("it stands nowhere in this picture"); };
+    if (position.finished_rows >= uint64_t(crop_.height) || position.samples > uint64_t(samples_) ||
+        (position.samples == uint64_t(samples_) && position.extra_rows > 0))
+      damaged();
+    begin_band(int(position.finished_rows));
+    if (position.extra_rows >= uint64_t(sums_.height())) damaged();
+    checkpoint.read_sums(sums_);
+    position_ = position;
+
+    const uint64_t rows = position.finished_rows * uint64_t(samples_) +
+                          position.samples * uint64_t(sums_.height()) + position.extra_rows;
+    progress_.samples_done = progress_.samples_resumed = rows * uint64_t(crop_.width);
+    totals_.samples_resumed = progress_.samples_resumed;
+    totals_.rays_resumed = position.rays;
+    // Hand the finished rows on again, to the files of this run.
+    for (int row = 0; row < int(position.finished_rows);) {
+      if (interrupted()) return false;
+      const int count = std::min(rows_at_a_time(crop_.width), int(position.finished_rows) - row);
+      sink_(checkpoint.read_rows(row, count, crop_.width));
+      row += count;
+    }
+    checkpoint.check_rows();
+    return true;
+  }
+
+  // Takes the samples of the band that are still missing. Returns false when interrupted.
+  bool sample_band() {
+    while (position_.samples < uint64_t(samples_)) {
+      const int row = int(position_.extra_rows);
+      const int height = std::min(at_a_time_.rows(), sums_.height() - row);
+      const Rect tile{crop_.x, crop_.y + int(position_.finished_rows) + row, crop_.width, height};
+      if (interrupted() || !sample(tile)) return false;
+
+      sums_.add(row, tile_samples_);
+      for (const PixelSample& each : tile_samples_) position_.rays += each.rays;
+      position_.extra_rows += uint64_t(height);
+      if (position_.extra_rows == uint64_t(sums_.height())) {
+        position_.extra_rows = 0;
+        ++position_.samples;
+      }
+      report(tile);
+      if (options_.checkpoint && options_.checkpoint->due()) save();
+    }
+    return true;
+  }
+
+  bool sample(const Rect& tile) {
+    tile_samples_.resize(size_t(tile.pixels()));
+    const Stopwatch watch;
+    try {
+      const bool done = executor_.sample(tile, uint32_t(position_.samples), tile_samples_);
+      at_a_time_.took(watch.seconds());
+      totals_.seconds += watch.seconds();
+      return done;
+    } catch (...) {
+      save();
+      throw;
+    }
+  }
+
+  void report(const Rect& tile) {
+    progress_.samples_done += uint64_t(tile.pixels());
+    progress_.rays = position_.rays - totals_.rays_resumed;
+    progress_.seconds = watch_.seconds();
+    progress_.sample = int(std::min(position_.samples, uint64_t(samples_ - 1)));
+    if (options_.progress) options_.progress(progress_);
+  }
+
+  // Gives the band's rows to the sink, and to the checkpoint where they will be missed.
+  void hand_on() {
+    const bool last = int(position_.finished_rows) + sums_.height() == crop_.height;
+    for (int row = 0; row < sums_.height();) {
+      const int count = std::min(rows_at_a_time(crop_.width), sums_.height() - row);
+      FinishedRows rows = sums_.mean(row, count, int(position_.samples), int(position_.extra_rows));
+      rows.first += int(position_.finished_rows);
+      position_.flags |= rows.flags;
+      position_.flagged_pixels += rows.flagged_pixels;
+      if (options_.checkpoint && !last) options_.checkpoint->append_rows(rows);
+      sink_(rows);
+      row += count;
+    }
+  }
+
+  void save() {
+    if (options_.checkpoint) options_.checkpoint->save(position_, sums_);
+  }
+
+  RenderTotals totals() const {
+    RenderTotals totals = totals_;
+    totals.rays = position_.rays;
+    totals.flagged_pixels = position_.flagged_pixels;
+    totals.flags = uint32_t(position_.flags);
+    totals.bands = bands();
+    totals.samples_taken = progress_.samples_done;
+    return totals;
+  }
+  RenderTotals interrupted_totals(int samples_done) {
+    totals_.interrupted = true;
+    totals_.samples_done = samples_done;
+    return totals();
+  }
+
+  Executor& executor_;
+  const RenderOptions& options_;
+  const RowSink& sink_;
+  const Rect crop_;
+  const int samples_;
+  int band_rows_ = 1;  // of every band but the last, which may have fewer
+
+  RenderPosition position_;
+  PixelSums sums_;  // of the band
+  std::vector<PixelSample> tile_samples_;
+  RowsAtATime at_a_time_;
+  Progress progress_;
+  RenderTotals totals_;
+  const Stopwatch watch_;
+};
+
+void copy_rows(const Image& rows, int first, Image& picture) {
+  std::copy(rows.samples().begin(), rows.samples().end(), picture.pixel(0, first));
+}
 
 }  // namespace
 
-std::unique_ptr<Executor> make_executor(Backend backend, const Scene& scene, const ExecutorOptions& options) {
-  if (backend == Backend::gpu) return make_gpu_executor(scene, options);
-  if (backend == Backend::twin) return make_twin_executor(scene, options);
-  return make_reference_executor(scene, options);
+RenderTotals render_rows(const Scene& scene, Executor& executor, const RenderOptions& options,
+                         const RowSink& sink) {
+  return Driver(scene, executor, options, sink).run();
+}
+
+bool trace_first_hits(Executor& executor, const Rect& crop, const FirstHitSink& sink) {
+  std::vector<FirstHit> hits;
+  for (int row = 0; row < crop.height;) {
+    const Rect tile{crop.x, crop.y + row, crop.width,
+                    std::min(rows_at_a_time(crop.width), crop.height - row)};
+    hits.assign(size_t(tile.pixels()), {});
+    executor.first_hits(tile, hits);
+    // An interrupted executor leaves out what it likes.
+    if (interrupted()) return false;
+    sink(row, hits);
+    row += tile.height;
+  }
+  return true;
 }
 
 Rendering render(const Scene& scene, Executor& executor, const RenderOptions& options) {
   Rect crop = options.crop;
   if (crop.pixels() == 0) crop = {0, 0, scene.image.width, scene.image.height};
   Rendering result;
-  Accumulator accumulator(crop);
-
-  // Take one sample of the whole picture after the other, so that an interrupted one is whole and only
-  // noisier.
-  std::vector<PixelSample> samples;
-  RowsAtATime at_a_time(crop.width);
-  Progress progress;
-  progress.samples_total = uint64_t(crop.pixels()) * uint64_t(scene.image.samples);
-  const Stopwatch watch;
-  int done = 0;
-  int row = 0;
-  while (done < scene.image.samples) {
-    const Rect tile{crop.x, crop.y + row, crop.width, std::min(at_a_time.rows(), crop.height - row)};
-    samples.resize(size_t(tile.pixels()));
-    const Stopwatch tile_watch;
-    result.interrupted = interrupted() || !executor.sample(tile, uint32_t(done), samples);
-    if (result.interrupted) break;
-    at_a_time.took(tile_watch.seconds());
-    accumulator.add(row, samples);
-    row += tile.height;
-    if (row == crop.height) {
-      row = 0;
-      ++done;
+  const auto collect = [&](const FinishedRows& rows) {
+    if (rows.first == 0) {
+      result.color = Image(crop.width, crop.height, 3);
+      result.hits = Image(crop.width, crop.height, 1);
     }
-    progress.samples_done += uint64_t(tile.pixels());
-    progress.rays = accumulator.rays();
-    progress.seconds = watch.seconds();
-    if (options.progress) options.progress(progress);
-  }
-  result.seconds = watch.seconds();
-  accumulator.finish(done, row, result);
+    copy_rows(rows.color, rows.first, result.color);
+    copy_rows(rows.hits, rows.first, result.hits);
+  };
+  static_cast<RenderTotals&>(result) = render_rows(scene, executor, options, collect);
+  if (result.samples_done == 0) result.color = result.hits = Image();
+  if (!options.first_hits || result.interrupted) return result;
 
-  if (options.first_hits && !result.interrupted) {
-    result.first_hits.resize(size_t(crop.pixels()));
-    executor.first_hits(crop, result.first_hits);
-  }
+  result.first_hits.resize(size_t(crop.pixels()));
+  result.interrupted = !trace_first_hits(executor, crop, [&](int first, std::span<const FirstHit> hits) {
+    std::copy(hits.begin(), hits.end(), &result.first_hits[size_t(first) * size_t(crop.width)]);
+  });
+  if (result.interrupted) result.first_hits.clear();
   return result;
 }
 

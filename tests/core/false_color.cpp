@@ -82,3 +82,20 @@ TEST_CASE("data without any value is grey all over") {
     CHECK(shown(image, 1) == grey);
   }
 }
+
+TEST_CASE("a picture seen in pieces is painted as the whole is") {
+  const std::vector<float> samples{1, 2, 0, -7, 100, infinity, 3, 0, 5, -1, 8, 0.5f};
+  for (const auto& [kind, channels] :
+       {std::pair{FalseColor::scalar, 1}, {FalseColor::depth, 1}, {FalseColor::position, 3}}) {
+    const Image whole = false_color(row(samples, channels), kind);
+    const std::vector<float> first(samples.begin(), samples.begin() + 6);
+    const std::vector<float> second(samples.begin() + 6, samples.end());
+    FalseColorPainter painter(kind, channels);
+    painter.see(row(first, channels));
+    painter.see(row(second, channels));
+    std::vector<float> painted = painter.paint(row(first, channels)).samples();
+    const std::vector<float> rest = painter.paint(row(second, channels)).samples();
+    painted.insert(painted.end(), rest.begin(), rest.end());
+    CHECK(painted == whole.samples());
+  }
+}

@@ -107,8 +107,10 @@ TEST_CASE("PFM is laid out as the format says: the bottom row first") {
   Image image(1, 2, 1);
   *image.pixel(0, 0) = 1.0f;  // top
   *image.pixel(0, 1) = 2.0f;
-  const std::string bytes = encode_pfm(image);
-  CHECK(bytes == std::string("Pf\n1 2\n-1.0\n") + std::string("\x00\x00\x00\x40\x00\x00\x80\x3f", 8));
+  const TemporaryFolder folder;
+  write_image(folder / "a.pfm", image);
+  CHECK(read_file(folder / "a.pfm") ==
+        std::string("Pf\n1 2\n-1.0\n") + std::string("\x00\x00\x00\x40\x00\x00\x80\x3f", 8));
 
   // The other byte order, a scale, and other white space.
   const std::string swapped = std::string("Pf 1\t2 2\n") + std::string("\x40\x00\x00\x00\x3f\x80\x00\x00", 8);

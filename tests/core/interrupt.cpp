@@ -45,7 +45,17 @@ TEST_CASE("the second signal ends the process at once, with 130") {
   REQUIRE(process.wait_for_error_text("ready", 10));
   process.send_signal(SIGINT);
   REQUIRE(process.wait_for_error_text("seen", 10));
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
   process.send_signal(SIGINT);
   REQUIRE(process.wait(10));
   CHECK(process.code() == 130);
+}
+
+TEST_CASE("two signals at once are one") {
+  Process process(waiting_process(), {{"EYERAY_TEST_STUBBORN", "1"}});
+  REQUIRE(process.wait_for_error_text("ready", 10));
+  process.send_signal(SIGTERM);
+  process.send_signal(SIGINT);
+  REQUIRE(process.wait_for_error_text("seen", 10));
+  CHECK_FALSE(process.wait(0.3));
 }

@@ -5,7 +5,7 @@
 #include "compare/exact.hpp"
 #include "compare/soundness.hpp"
 #include "reference/renderer.hpp"
-#include "render/executor.hpp"
+#include "render/render.hpp"
 
 namespace eyeray::test {
 

@@ -1,0 +1,45 @@
+#include "cli/identity.hpp"
+
+#include "core/atomic_file.hpp"
+#include "gpu/content_hash.hpp"
+
+namespace fs = std::filesystem;
+
+namespace eyeray::cli {
+namespace {
+
+// Of the contents; where the files lie does not matter.
+std::string hash_of(const std::vector<fs::path>& files) {
+  gpu::ContentHash hash;
+  for (const fs::path& file : files) {
+    std::error_code ignored;
+    if (fs::is_regular_file(file, ignored)) hash.add(read_file(file));
+  }
+  return hash.hex();
+}
+
+}  // namespace
+
+std::vector<IdentityPart> identity_of(const PictureRequest& request, const Scene& scene,
+                                      const Executor& executor) {
+  const Rect& crop = request.crop;
+  const bool gpu = request.backend == Backend::gpu;
+  return {
+      {"size", fmt::format("{}x{}", scene.image.width, scene.image.height)},
+      {"crop", crop == Rect{} ? "none" : fmt::format("{},{},{},{}", crop.x, crop.y, crop.width, crop.height)},
+      {"samples a pixel", std::to_string(scene.image.samples)},
+      {"backend", std::string(backend_name(request.backend))},
+      // The processors' executors compute the same wherever the same program runs.
+      {"device", gpu ? executor.description() : "none"},
+      {"scene", hash_of(scene.files), false},
+      {"options laid over the scene", gpu::ContentHash().add(request.scene.as_written()).hex(), false},
+      {"shaders of --shaders", hash_of(executor.source_files()), false},
+      {"--fast-math", request.executor.fast_math ? "on" : "off"},
+      {"--inject-fault", request.executor.fault},
+      {"--band-memory", std::to_string(request.long_render.band_mebibytes)},
+      {"version of eyeray", EYERAY_VERSION},
+      {"build of eyeray", hash_of({"/proc/self/exe"}), false},
+  };
+}
+
+}  // namespace eyeray::cli

@@ -1,0 +1,15 @@
+// What decides a picture's bits, for its checkpoint.
+#pragma once
+
+#include <vector>
+
+#include "cli/picture.hpp"
+#include "render/checkpoint.hpp"
+
+namespace eyeray::cli {
+
+// Error (file_io) when a file of the scene or a shader cannot be read any more.
+std::vector<IdentityPart> identity_of(const PictureRequest& request, const Scene& scene,
+                                      const Executor& executor);
+
+}  // namespace eyeray::cli

@@ -1,0 +1,82 @@
+#include "cli/picture_files.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/pfm_file.hpp"
+
+namespace fs = std::filesystem;
+
+namespace eyeray::cli {
+namespace {
+
+// How many pixels are painted at a time.
+constexpr int painted_pixels = 1 << 20;
+
+fs::path aov_file(fs::path output, Aov aov, std::string_view ending) {
+  return output.replace_extension(fmt::format("{}.{}", aov_name(aov), ending));
+}
+
+}  // namespace
+
+AovFiles::AovFiles(Aov aov, fs::path output, int width, int height)
+    : aov_(aov),
+      width_(width),
+      height_(height),
+      data_name_(aov_file(output, aov, "pfm")),
+      picture_name_(aov_file(output, aov, "png")),
+      data_(data_name_, width, height, aov_channels(aov)),
+      painter_(aov_shown_as(aov), aov_channels(aov)) {}
+
+void AovFiles::write(const Image& rows) {
+  painter_.see(rows);
+  data_.write(rows);
+}
+
+void AovFiles::finish(std::vector<fs::path>& files) {
+  data_.finish();
+  files.push_back(data_name_);
+
+  PfmRows data(data_name_, width_, height_, aov_channels(aov_));
+  ImageWriter picture(picture_name_, width_, height_, 3);
+  for (int row = 0; row < height_;) {
+    const int count = std::min(std::max(1, painted_pixels / width_), height_ - row);
+    picture.write(painter_.paint(data.read(row, count)));
+    row += count;
+  }
+  picture.finish();
+  files.push_back(picture_name_);
+}
+
+PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width,
+                           int height)
+    : outputs_(outputs), width_(width) {
+  for (const std::string& output : outputs) writers_.emplace_back(output, width, height, 3);
+  for (const Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height);
+}
+
+void PictureFiles::write(const FinishedRows& rows) {
+  for (ImageWriter& writer : writers_) writer.write(rows.color);
+  for (AovFiles& files : aovs_) {
+    if (files.aov() == Aov::hits) files.write(rows.hits);
+  }
+}
+
+void PictureFiles::write(std::span<const FirstHit> hits) {
+  for (AovFiles& files : aovs_) {
+    if (files.aov() != Aov::hits) files.write(aov_image(files.aov(), hits, width_));
+  }
+}
+
+void PictureFiles::finish_picture(std::vector<fs::path>& files) {
+  for (size_t i = 0; i < writers_.size(); ++i) {
+    writers_[i].finish();
+    files.emplace_back(outputs_[i]);
+  }
+}
+
+void PictureFiles::finish_aovs(std::vector<fs::path>& files) {
+  for (AovFiles& each : aovs_) each.finish(files);
+}
+
+}  // namespace eyeray::cli

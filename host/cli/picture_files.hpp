@@ -1,0 +1,59 @@
+// The files of one picture, written as its rows are finished.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/aov.hpp"
+#include "core/false_color.hpp"
+#include "core/image_writer.hpp"
+#include "render/sums.hpp"
+
+namespace eyeray::cli {
+
+// One AOV on its way to NAME.AOV.pfm and NAME.AOV.png.
+class AovFiles {
+ public:
+  // NAME from `output`.
+  AovFiles(Aov aov, std::filesystem::path output, int width, int height);
+
+  Aov aov() const { return aov_; }
+  // The next rows, from the top down.
+  void write(const Image& rows);
+  // The data takes its place, and is read again to be painted: its range is known only now. Adds the files'
+  // names to `files`.
+  void finish(std::vector<std::filesystem::path>& files);
+
+ private:
+  Aov aov_;
+  int width_;
+  int height_;
+  std::filesystem::path data_name_;
+  std::filesystem::path picture_name_;
+  ImageWriter data_;
+  FalseColorPainter painter_;
+};
+
+// Nothing of it is seen before its finish_…; Error (file_io) when a file cannot be written.
+class PictureFiles {
+ public:
+  PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width, int height);
+
+  // The next rows, from the top down, of the picture and of the AOV `hits`.
+  void write(const FinishedRows& rows);
+  // The same of the other AOVs.
+  void write(std::span<const FirstHit> hits);
+  // After the last rows. They add the names of what was written to `files`.
+  void finish_picture(std::vector<std::filesystem::path>& files);
+  void finish_aovs(std::vector<std::filesystem::path>& files);
+
+ private:
+  std::vector<std::string> outputs_;
+  int width_;
+  std::vector<ImageWriter> writers_;  // one an output
+  std::vector<AovFiles> aovs_;
+};
+
+}  // namespace eyeray::cli

@@ -1,0 +1,11 @@
+#include "core/checksum.hpp"
+
+#include <zlib.h>
+
+namespace eyeray {
+
+uint32_t crc32(std::span<const std::byte> bytes, uint32_t so_far) {
+  return uint32_t(crc32_z(so_far, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+}  // namespace eyeray

@@ -1,0 +1,97 @@
+// A render that can be taken up again: what it has summed so far, in a file.
+//
+// FILE, little-endian, written whole and atomically every time:
+//
+//   offset   bytes
+//   0        8       "EYERAYCP"
+//   8        4       version of this layout: 1
+//   12       4       n, at most 65536
+//   16       n       the identity: a line "name: value\n" for each of its parts
+//   16 + n   8 each  RenderPosition, in the order of its members
+//            4       CRC-32 of FILE.rows as far as finished_rows go
+//            4       CRC-32 of all above
+//            32 each the sums of the band's pixels, top row first: red, green, blue (float64), hits, flags
+//            (uint32) 4       CRC-32 of the sums
+//
+// FILE.rows holds the finished rows above the band (render/row_store.hpp); a picture of one band has none.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/stopwatch.hpp"
+#include "render/row_store.hpp"
+#include "render/sums.hpp"
+
+namespace eyeray {
+
+// Something that decides a picture's bits: a render is resumed only where all of it is the same.
+struct IdentityPart {
+  std::string name;   // "samples a pixel", for messages
+  std::string value;  // without line breaks
+  bool shown = true;  // whether the value means something to people, as a hash does not
+};
+
+// How far a render has come.
+struct RenderPosition {
+  uint64_t finished_rows = 0;   // above the band, counted from the top of what is rendered
+  uint64_t samples = 0;         // a pixel, in the band's sums
+  uint64_t extra_rows = 0;      // the band's rows, from its top, whose sums hold one more
+  uint64_t rays = 0;            // all in all
+  uint64_t flagged_pixels = 0;  // in the finished rows
+  uint64_t flags = 0;           // in the finished rows
+};
+
+class Checkpoint {
+ public:
+  // Will be written at `file` every `seconds`. Error (bad_input) when it is there already, so that a
+  // forgotten one is not lost; Error (file_io) when it cannot be written.
+  static Checkpoint begin(std::filesystem::path file, std::vector<IdentityPart> identity, double seconds);
+  // Reads it, to be written again. Error (file_io) when it is missing or damaged, Error (bad_input) that
+  // names what differs when it is not of this render.
+  static Checkpoint resume(std::filesystem::path file, std::vector<IdentityPart> identity, double seconds);
+
+  const std::filesystem::path& file() const { return file_; }
+  bool resumes() const { return input_ != nullptr; }
+
+  // What was read. Then the band's sums, whose size is set, and the finished rows from the top down. Error
+  // (file_io) when damaged; where that is found out after rows were given, check_rows says it.
+  const RenderPosition& position() const { return position_; }
+  void read_sums(PixelSums& sums);
+  FinishedRows read_rows(int first, int count, int width) { return rows_->read(first, count, width); }
+  void check_rows() const;
+  [[noreturn]] void damaged(const std::string& why) const;
+
+  bool due() const { return failure_.empty() && since_saved_.seconds() >= seconds_; }
+  // Neither throws: what went wrong is in failure(), and from then on nothing more is written.
+  void append_rows(const FinishedRows& rows);
+  void save(const RenderPosition& position, const PixelSums& sums);
+  // Why the file is not what it should be; "" when it is.
+  const std::string& failure() const { return failure_; }
+  // Whether there is a file to go on from, if only an older one.
+  bool on_disk() const { return saved_ || resumes(); }
+  // When the picture is done.
+  void remove();
+
+ private:
+  Checkpoint(std::filesystem::path file, std::vector<IdentityPart> identity, double seconds);
+  void read_header();
+  template <typename Value>
+  Value take(uint32_t& checksum);
+
+  std::filesystem::path file_;
+  std::vector<IdentityPart> identity_;
+  double seconds_;
+  std::unique_ptr<RowStore> rows_;
+  std::unique_ptr<std::ifstream> input_;
+  uint64_t input_bytes_ = 0;
+  uint32_t rows_checksum_ = 0;
+  RenderPosition position_;
+  Stopwatch since_saved_;
+  std::string failure_;
+  bool saved_ = false;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,79 @@
+// The driver that turns samples into a picture.
+#pragma once
+
+#include <functional>
+
+#include "render/executor.hpp"
+#include "render/sums.hpp"
+
+namespace eyeray {
+
+class Checkpoint;  // render/checkpoint.hpp
+
+struct Progress {
+  uint64_t samples_done = 0;  // of pixels, resumed ones included
+  uint64_t samples_total = 0;
+  uint64_t samples_resumed = 0;  // of samples_done, those that an earlier run took
+  uint64_t rays = 0;             // traced by this run
+  double seconds = 0;            // since this run began
+  int band = 0;                  // of `bands`, from 0
+  int bands = 1;
+  int sample = 0;  // of the band's `samples` a pixel, from 0
+  int samples = 1;
+};
+
+struct RenderOptions {
+  Rect crop;  // in pixels of the whole picture; empty: all of it
+  bool first_hits = false;
+  std::function<void(const Progress&)> progress;  // called between tiles; may be empty
+  // How many bytes of sums to hold (32 a pixel). A larger picture is rendered in bands of rows: all samples
+  // of one, then of the next. Else it is one band, and so one sample of the whole picture comes after the
+  // other.
+  size_t band_bytes = size_t{256} << 20;
+  Checkpoint* checkpoint = nullptr;  // kept and resumed from; see render_rows
+};
+
+// What a render came to, beside its pixels.
+struct RenderTotals {
+  uint64_t rays = 0;            // resumed ones included
+  uint64_t flagged_pixels = 0;  // pixels with any SampleFlag
+  uint32_t flags = 0;           // all SampleFlags seen
+  int samples_done = 0;         // that every pixel of the picture has
+  int bands = 1;                // in which the picture was rendered
+  bool interrupted = false;
+  double seconds = 0;          // of this run, of sampling alone
+  uint64_t samples_taken = 0;  // of pixels, resumed ones included
+  uint64_t samples_resumed = 0;
+  uint64_t rays_resumed = 0;
+};
+
+using RowSink = std::function<void(const FinishedRows&)>;
+
+// Renders scene.image through `executor` and hands its rows on as they are finished, some megabytes at a
+// time. When interrupted, a picture of one band is handed on whole, if every pixel has a sample; of several
+// bands `sink` may have got some, and samples_done is 0.
+//
+// A checkpoint is written every now and then, when interrupted, before an error of the executor goes on to
+// the caller, and when the last sample is taken: from then on it says that nothing but handing on is left.
+// What keeps it from being written is no reason to lose the render (Checkpoint::failure). Error (file_io)
+// when the checkpoint to resume from is damaged.
+RenderTotals render_rows(const Scene& scene, Executor& executor, const RenderOptions& options,
+                         const RowSink& sink);
+
+using FirstHitSink = std::function<void(int first_row, std::span<const FirstHit>)>;
+
+// What the rays through the centres of the crop's pixels meet, some rows at a time. Returns false when
+// interrupted: `sink` has not got all then.
+bool trace_first_hits(Executor& executor, const Rect& crop, const FirstHitSink& sink);
+
+// What was rendered, all at once.
+struct Rendering : RenderTotals {
+  Image color;                       // of the crop; linear RGB, the mean of the samples
+  std::vector<FirstHit> first_hits;  // of the crop; empty unless asked for
+  Image hits;                        // 1 channel: surfaces struck a pixel, mean of the samples
+};
+
+// As render_rows; when interrupted, the images are empty unless samples_done > 0, and first_hits is empty.
+Rendering render(const Scene& scene, Executor& executor, const RenderOptions& options);
+
+}  // namespace eyeray

@@ -1,0 +1,41 @@
+// The finished rows of a picture that is rendered in bands, kept beside its checkpoint: a file that only
+// grows.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "render/sums.hpp"
+
+namespace eyeray {
+
+// Rows from the top down; of each its pixels from left to right, 16 bytes each: the mean colour and the mean
+// of `hits`, four float32, little-endian. Every failure is an Error (file_io).
+class RowStore {
+ public:
+  // Touches nothing yet.
+  explicit RowStore(std::filesystem::path file) : file_(std::move(file)) {}
+  ~RowStore();
+  RowStore(const RowStore&) = delete;
+  RowStore& operator=(const RowStore&) = delete;
+
+  // Rows [first, first + count) of a picture that is `width` wide. Read all from 0 on before appending: that
+  // is where appending goes on, and whatever stands behind them is dropped.
+  FinishedRows read(int first, int count, int width);
+  // Without a read before it, begins the file anew.
+  void append(const FinishedRows& rows);
+  // Makes the device keep what was appended.
+  void sync();
+  // Of all bytes read or appended.
+  uint32_t checksum() const { return checksum_; }
+  void remove();
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  uint64_t end_ = 0;
+  uint32_t checksum_ = 0;
+  bool dropped_rest_ = false;
+};
+
+}  // namespace eyeray

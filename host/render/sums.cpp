@@ -1,0 +1,42 @@
+#include "render/sums.hpp"
+
+#include "core/error.hpp"
+
+namespace eyeray {
+
+static_assert(sizeof(PixelSums::Pixel) == 32, "checkpoints hold it as it lies in memory");
+
+void PixelSums::reset(int width, int height) {
+  width_ = width;
+  height_ = height;
+  pixels_.assign(size_t(width) * size_t(height), {});
+}
+
+void PixelSums::add(int first, std::span<const PixelSample> samples) {
+  const size_t begin = size_t(first) * size_t(width_);
+  CHECK_LE(begin + samples.size(), pixels_.size());
+  Pixel* pixel = &pixels_[begin];
+  for (const PixelSample& sample : samples) {
+    pixel->color += sample.color;
+    pixel->hits += sample.hits;
+    pixel->flags |= sample.flags;
+    ++pixel;
+  }
+}
+
+FinishedRows PixelSums::mean(int first, int count, int samples, int extra_rows) const {
+  FinishedRows rows{first, Image(width_, count, 3), Image(width_, count, 1)};
+  for (int y = 0; y < count; ++y) {
+    const double divisor = first + y < extra_rows ? samples + 1 : samples;
+    for (int x = 0; x < width_; ++x) {
+      const Pixel& pixel = pixels_[size_t(first + y) * size_t(width_) + size_t(x)];
+      for (int c = 0; c < 3; ++c) rows.color.pixel(x, y)[c] = float(pixel.color[c] / divisor);
+      *rows.hits.pixel(x, y) = float(double(pixel.hits) / divisor);
+      rows.flags |= pixel.flags;
+      rows.flagged_pixels += pixel.flags != 0;
+    }
+  }
+  return rows;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,51 @@
+// What a picture is while it is rendered: sums over samples.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/image.hpp"
+#include "core/pixel.hpp"
+
+namespace eyeray {
+
+// Finished rows of a picture; sinks get them from the top down, none twice.
+struct FinishedRows {
+  int first = 0;  // counted from the top of what is rendered
+  Image color;    // linear RGB, the mean of the samples
+  Image hits;     // 1 channel: surfaces struck a pixel, the mean of the samples
+  uint64_t flagged_pixels = 0;
+  uint32_t flags = 0;
+};
+
+// The sums over the samples of every pixel of a few rows.
+class PixelSums {
+ public:
+  struct Pixel {
+    Vec3 color{0.0};
+    uint32_t hits = 0;
+    uint32_t flags = 0;
+  };
+
+  // All 0.
+  void reset(int width, int height);
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  // One sample of every pixel of whole rows, from row `first` on.
+  void add(int first, std::span<const PixelSample> samples);
+  // The mean of rows [first, first + count), of which those above `extra_rows` have `samples` + 1 samples and
+  // the others `samples` > 0.
+  FinishedRows mean(int first, int count, int samples, int extra_rows) const;
+
+  // As a checkpoint keeps them, row by row (render/checkpoint.hpp).
+  std::span<std::byte> bytes() { return std::as_writable_bytes(std::span(pixels_)); }
+  std::span<const std::byte> bytes() const { return std::as_bytes(std::span(pixels_)); }
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace eyeray

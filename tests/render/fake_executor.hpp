@@ -1,0 +1,74 @@
+// Samples out of a formula: what a driver makes of them can be told exactly, and whatever befalls it.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "render/render.hpp"
+
+namespace eyeray::test {
+
+class FakeExecutor final : public Executor {
+ public:
+  // `before_call(n)` is asked before the n-th call of sample, from 0; false interrupts, and it may throw.
+  explicit FakeExecutor(std::function<bool(int)> before_call = {}) : before_call_(std::move(before_call)) {}
+
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+    if (before_call_ && !before_call_(calls++)) {
+      // What lies in `out` now is not to be used.
+      for (PixelSample& sample : out) sample = {Vec3(1e9), 1000, 1000, loop_budget};
+      return false;
+    }
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width; ++x) {
+        const double value = 1 / (1.0 + tile.x + x + 77 * (tile.y + y) + 0.37 * index);
+        const bool flagged = (tile.x + x + tile.y + y) % 5 == 0 && index == 1;
+        out[size_t(y) * size_t(tile.width) + size_t(x)] = {Vec3(value, std::sqrt(value), -value), 1 + index,
+                                                           uint32_t(tile.y + y) + index,
+                                                           flagged ? uint32_t(stack_overflow) : 0u};
+      }
+    }
+    return true;
+  }
+  void first_hits(const Rect& tile, std::span<FirstHit> out) override {
+    for (size_t i = 0; i < out.size(); ++i) {
+      out[i].t = tile.x + double(i % size_t(tile.width));
+      out[i].primitive = tile.y + int(i / size_t(tile.width));
+    }
+  }
+  std::string description() const override { return "fake"; }
+
+  int calls = 0;
+
+ private:
+  std::function<bool(int)> before_call_;
+};
+
+inline Scene scene_of(int width, int height, int samples) {
+  Scene scene;
+  scene.image = {.width = width, .height = height, .samples = samples};
+  return scene;
+}
+
+// How many bytes of sums make bands of that many rows.
+inline size_t band_of_rows(const Scene& scene, int rows) {
+  return size_t(rows) * size_t(scene.image.width) * sizeof(PixelSums::Pixel);
+}
+
+inline bool same_bits(const Image& a, const Image& b) {
+  if (!a.same_size(b)) return false;
+  for (size_t i = 0; i < a.sample_count(); ++i) {
+    if (std::bit_cast<uint32_t>(a.samples()[i]) != std::bit_cast<uint32_t>(b.samples()[i])) return false;
+  }
+  return true;
+}
+
+// In everything but how long it took and whether it was resumed.
+inline bool same_rendering(const Rendering& a, const Rendering& b) {
+  return same_bits(a.color, b.color) && same_bits(a.hits, b.hits) && a.rays == b.rays && a.flags == b.flags &&
+         a.flagged_pixels == b.flagged_pixels && a.samples_done == b.samples_done;
+}
+
+}  // namespace eyeray::test
