@@ -15,6 +15,7 @@ struct PackedScene {
   std::vector<shader::vec4> vertices;
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
+  std::vector<uint32_t> texels;                                   // records.h says how; empty without images
   std::vector<shader::Medium> media{{shader::vec4(0, 0, 0, 1)}};  // by number; 0 is the vacuum
   std::vector<shader::Light> lights;
   shader::Frame frame{};
@@ -32,8 +33,11 @@ class Packer {
   void add(const shader::Material& material) { scene.materials.push_back(material); }
   // The index at which `data` now starts in the vertices.
   uint32_t add_vertices(std::initializer_list<shader::vec4> data);
-  // The index of a texture; equal textures share one.
+  // The index of a texture; equal textures share one. The images of textures must outlive the packer.
   uint32_t add_texture(const Texture& texture);
+  // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there
+  // are more than an index can tell apart.
+  uint32_t add_image(const ImageTexture& image);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
   uint32_t add_medium(double ior, const Vec3& absorption);
 
@@ -41,6 +45,7 @@ class Packer {
 
  private:
   Vec3 eye_;
+  std::vector<std::pair<const ImageTexture*, uint32_t>> images_;  // and the first texel of each
 };
 
 // Float32 records from float64 values.

@@ -31,6 +31,7 @@ std::vector<shader::QueryHit> trace_on_gpu(gpu::Device& device, const PackedScen
   const gpu::Buffer materials =
       buffer(BINDING_MATERIALS, "materials", std::as_bytes(std::span(scene.materials)));
   const gpu::Buffer textures = buffer(BINDING_TEXTURES, "textures", std::as_bytes(std::span(scene.textures)));
+  const gpu::Buffer texels = buffer(BINDING_TEXELS, "texels", {});
   const gpu::Buffer media = buffer(BINDING_MEDIA, "media", std::as_bytes(std::span(scene.media)));
   const gpu::Buffer lights = buffer(BINDING_LIGHTS, "lights", {});
   const gpu::Buffer frame = buffer(BINDING_FRAME, "frame", std::as_bytes(std::span(&scene.frame, 1)));
