@@ -42,9 +42,10 @@ uint32_t Packer::add_medium(double ior, const Vec3& absorption) {
   return uint32_t(scene.media.size() - 1);
 }
 
-uint32_t Packer::add_image(const ImageTexture& image) {
+uint32_t Packer::add_image(const std::shared_ptr<const ImageTexture>& shared) {
+  const ImageTexture& image = *shared;
   for (const auto& [known, first] : images_)
-    if (known == &image || known->texels == image.texels) return first;
+    if (known == shared || known->texels == image.texels) return first;
 
   // The tables of the two colour spaces stand before the first image.
   if (scene.texels.empty()) {
@@ -64,7 +65,7 @@ uint32_t Packer::add_image(const ImageTexture& image) {
   for (const auto& [red, green, blue, alpha] : image.texels)
     scene.texels.push_back(uint32_t(red) | uint32_t(green) << 8 | uint32_t(blue) << 16 |
                            uint32_t(alpha) << 24);
-  images_.emplace_back(&image, uint32_t(first));
+  images_.emplace_back(shared, uint32_t(first));
   return uint32_t(first);
 }
 
@@ -80,7 +81,8 @@ uint32_t Packer::add_texture(const Texture& texture) {
   if (texture.image) {
     const ImageTexture& image = *texture.image;
     record.frequency = to_vec4(Vec3(1.0 / texture.image_size.x, 1.0 / texture.image_size.y, 0));
-    record.image = {uint32_t(image.width), uint32_t(image.height), add_image(image), image_flags(image)};
+    record.image = {uint32_t(image.width), uint32_t(image.height), add_image(texture.image),
+                    image_flags(image)};
   }
   for (size_t i = 0; i < scene.textures.size(); ++i)
     if (std::memcmp(&scene.textures[i], &record, sizeof record) == 0) return uint32_t(i);

@@ -1,6 +1,8 @@
 // The flat buffers that the shaders read, and the way shapes and materials write them.
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "records/records.hpp"
@@ -33,11 +35,11 @@ class Packer {
   void add(const shader::Material& material) { scene.materials.push_back(material); }
   // The index at which `data` now starts in the vertices.
   uint32_t add_vertices(std::initializer_list<shader::vec4> data);
-  // The index of a texture; equal textures share one. The images of textures must outlive the packer.
+  // The index of a texture; equal textures share one.
   uint32_t add_texture(const Texture& texture);
   // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there
   // are more than an index can tell apart.
-  uint32_t add_image(const ImageTexture& image);
+  uint32_t add_image(const std::shared_ptr<const ImageTexture>& image);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
   uint32_t add_medium(double ior, const Vec3& absorption);
 
@@ -45,7 +47,8 @@ class Packer {
 
  private:
   Vec3 eye_;
-  std::vector<std::pair<const ImageTexture*, uint32_t>> images_;  // and the first texel of each
+  std::vector<std::pair<std::shared_ptr<const ImageTexture>, uint32_t>>
+      images_;  // and the first texel of each
 };
 
 // Float32 records from float64 values.
