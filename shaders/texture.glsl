@@ -13,22 +13,25 @@ bool odd_check(Texture texture, vec2 uv) {
 }
 
 #if HAS_IMAGES
-// x as it lies within the image, in [0, 1]: 0 is its first edge, 1 its last. What is no number is 0.
-float fold(float x, uint wrap) {
-  float repeated = x - floor(x);
-  float mirrored = x - 2.0f * floor(0.5f * x);
-  mirrored = mirrored > 1.0f ? 2.0f - mirrored : mirrored;
-  float folded = wrap == WRAP_REPEAT ? repeated : wrap == WRAP_MIRROR ? mirrored : x;
-  return folded > 0.0f ? minimum(folded, 1.0f) : 0.0f;
+// x within the copy of the image that it lies in, in [0, 1] from the copy's first edge to its last. What is no number is 0.
+float within_copy(float x, uint wrap) {
+  float within = wrap == WRAP_CLAMP ? x : x - floor(x);
+  return within > 0.0f ? minimum(within, 1.0f) : 0.0f;
 }
 
-// The texel that is shown at i of `size`, −1 ≤ i ≤ size: beyond an edge, the one at the other edge where images repeat, else
-// that edge's own. Whatever i is, the result is a texel.
-uint texel_within(int i, uint size, uint wrap) {
+// Whether that copy is a mirrored one.
+bool mirrored_copy(float x, uint wrap) {
+  float copy = floor(x);
+  return wrap == WRAP_MIRROR && copy - 2.0f * floor(0.5f * copy) != 0.0f;
+}
+
+// The texel of `size` at i of a copy, −1 ≤ i ≤ size: beyond an edge, the first of the next copy. The result is one whatever i is.
+uint copied_texel(int i, uint size, uint wrap, bool mirrored) {
   bool repeats = wrap == WRAP_REPEAT;
   uint before = repeats ? size - 1u : 0u;
   uint behind = repeats ? 0u : size - 1u;
-  return i < 0 ? before : uint(i) >= size ? behind : uint(i);
+  uint texel = i < 0 ? before : uint(i) >= size ? behind : uint(i);
+  return mirrored ? size - 1u - texel : texel;
 }
 
 // Linear RGB of the texel at `column` and `row`, counted from the lower left.
@@ -41,21 +44,25 @@ vec3 texel_color(Texture texture, uint column, uint row) {
 }
 
 // The mean of four texels, by how near their centres are, which lie at half-integers; or nearest, all of the one that holds
-// (u, v). Folding comes first, in the image's own unit, where a float is most exact.
+// (u, v). The copy comes first, in the image's own unit, where x - floor(x) is exact.
 vec3 image_color(Texture texture, vec2 uv) {
-  bool nearest = (texture.image.w & IMAGE_NEAREST) != 0u;
+  float u = uv.x * texture.frequency.x;
+  float v = uv.y * texture.frequency.y;
   uint wrap_u = (texture.image.w >> IMAGE_WRAP_U_SHIFT) & IMAGE_WRAP_MASK;
   uint wrap_v = (texture.image.w >> IMAGE_WRAP_V_SHIFT) & IMAGE_WRAP_MASK;
+  bool nearest = (texture.image.w & IMAGE_NEAREST) != 0u;
   float centre = nearest ? 0.0f : 0.5f;
-  float x = fold(uv.x * texture.frequency.x, wrap_u) * float(texture.image.x) - centre;
-  float y = fold(uv.y * texture.frequency.y, wrap_v) * float(texture.image.y) - centre;
+  float x = within_copy(u, wrap_u) * float(texture.image.x) - centre;
+  float y = within_copy(v, wrap_v) * float(texture.image.y) - centre;
   float to_right = nearest ? 0.0f : x - floor(x);
   float to_top = nearest ? 0.0f : y - floor(y);
 
-  uint left = texel_within(int(floor(x)), texture.image.x, wrap_u);
-  uint right = texel_within(int(floor(x)) + 1, texture.image.x, wrap_u);
-  uint bottom = texel_within(int(floor(y)), texture.image.y, wrap_v);
-  uint top = texel_within(int(floor(y)) + 1, texture.image.y, wrap_v);
+  bool mirrored_u = mirrored_copy(u, wrap_u);
+  bool mirrored_v = mirrored_copy(v, wrap_v);
+  uint left = copied_texel(int(floor(x)), texture.image.x, wrap_u, mirrored_u);
+  uint right = copied_texel(int(floor(x)) + 1, texture.image.x, wrap_u, mirrored_u);
+  uint bottom = copied_texel(int(floor(y)), texture.image.y, wrap_v, mirrored_v);
+  uint top = copied_texel(int(floor(y)) + 1, texture.image.y, wrap_v, mirrored_v);
   vec3 bottom_left = texel_color(texture, left, bottom);
   vec3 top_left = texel_color(texture, left, top);
   vec3 lower = bottom_left + (texel_color(texture, right, bottom) - bottom_left) * to_right;

@@ -114,6 +114,25 @@ TEST_CASE("a row of texels goes on beyond its edges as `wrap` says, and bilinear
   }
 }
 
+TEST_CASE("a border belongs to the texel of the greater u or v, in mirrored copies too") {
+  Random random(2);
+  for (const Wrap wrap : wraps) {
+    std::vector<Texel> texels;
+    for (int i = 0; i < 8 * 4; ++i) texels.push_back(random_texel(random));
+    const Texture texture = textured(linear_image(8, 4, texels, Filter::nearest, wrap));
+    for (int i = -24; i < 24; ++i) {
+      for (int j = -12; j < 12; ++j) {
+        CAPTURE(int(wrap));
+        CAPTURE(i);
+        CAPTURE(j);
+        const Vec2 border(i / 8.0, j / 4.0);
+        CHECK(shaded(texture, border) == shaded(texture, border + Vec2(0.5 / 8, 0.5 / 4)));
+        CHECK(texture.at(border) == texture.at(border + Vec2(0.5 / 8, 0.5 / 4)));
+      }
+    }
+  }
+}
+
 TEST_CASE("codes stand for what IEC 61966-2-1 says, or for shares of 255") {
   for (const bool srgb : {true, false}) {
     Vec3 last(-1);
