@@ -23,6 +23,7 @@ layout(std430, binding = BINDING_TREES) readonly restrict buffer Trees { Tree tr
 layout(std430, binding = BINDING_INSTANCES) readonly restrict buffer Instances { Instance instances[]; };
 layout(std430, binding = BINDING_MATERIALS) readonly restrict buffer Materials { Material materials[]; };
 layout(std430, binding = BINDING_TEXTURES) readonly restrict buffer Textures { Texture textures[]; };
+layout(std430, binding = BINDING_TEXELS) readonly restrict buffer Texels { uint texels[]; };
 layout(std430, binding = BINDING_MEDIA) readonly restrict buffer Media { Medium media[]; };
 layout(std430, binding = BINDING_LIGHTS) readonly restrict buffer Lights { Light lights[]; };
 layout(std430, binding = BINDING_FRAME) readonly restrict buffer FrameBuffer { Frame frame; };

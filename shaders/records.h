@@ -22,6 +22,7 @@ SHADER_BEGIN
 #define BINDING_INSTANCES 11
 #define BINDING_PACKET_HITS 12
 #define BINDING_OCCLUSIONS 13
+#define BINDING_TEXELS 14
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
@@ -98,17 +99,35 @@ struct Medium {
   vec4 absorption_ior;
 };
 
-// ---- Texture: 48 bytes ----------------------------------------------------------------------------------------------
-//   0 even.rgb  12 kind       kind: TEXTURE_CONSTANT or TEXTURE_CHECKER, as a float
+// ---- Texture: 64 bytes ----------------------------------------------------------------------------------------------
+//   0 even.rgb  12 kind       kind: TEXTURE_CONSTANT, _CHECKER or _IMAGE, as a float; an image is multiplied by even
 //  16 odd.rgb   28 -
-//  32 1 / size.u  36 1 / size.v  40 -  44 -
+//  32 1 / size.u  36 1 / size.v  40 -  44 -      of a check, or of the whole image
+//  48 width  52 height  56 first texel  60 flags  of an image
 struct Texture {
   vec4 even;
   vec4 odd;
   vec4 frequency;
+  uvec4 image;
 };
 #define TEXTURE_CONSTANT 0.0f
 #define TEXTURE_CHECKER 1.0f
+#define TEXTURE_IMAGE 2.0f
+#define IMAGE_NEAREST 1u
+#define IMAGE_LINEAR 2u
+#define IMAGE_WRAP_U_SHIFT 4u
+#define IMAGE_WRAP_V_SHIFT 6u
+#define IMAGE_WRAP_MASK 3u
+#define WRAP_REPEAT 0u
+#define WRAP_MIRROR 1u
+#define WRAP_CLAMP 2u
+
+// ---- Texels: 4 bytes each -------------------------------------------------------------------------------------------
+// What the 256 codes stand for, as the bits of floats: by the sRGB curve, then linearly. Then the images' texels, each
+// image by rows from its top left: red in the lowest byte, green, blue, and one that is not read. Empty without images.
+#define TEXELS_SRGB 0u
+#define TEXELS_LINEAR 256u
+#define TEXELS_FIRST 512u
 
 // ---- Light: 48 bytes ------------------------------------------------------------------------------------------------
 //   0 kind   4 falloff   8 -  12 -
@@ -203,7 +222,7 @@ static_assert(sizeof(eyeray::shader::Tree) == 80);
 static_assert(sizeof(eyeray::shader::Instance) == 112);
 static_assert(sizeof(eyeray::shader::Material) == 48);
 static_assert(sizeof(eyeray::shader::Medium) == 16);
-static_assert(sizeof(eyeray::shader::Texture) == 48);
+static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);
 static_assert(sizeof(eyeray::shader::Frame) == 128);
 static_assert(sizeof(eyeray::shader::Dispatch) == 32);

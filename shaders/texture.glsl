@@ -12,14 +12,75 @@ bool odd_check(Texture texture, vec2 uv) {
   return check - 2.0f * floor(0.5f * check) != 0.0f;
 }
 
+#if HAS_IMAGES
+// x within the copy of the image that it lies in, in [0, 1] from the copy's first edge to its last. What is no number is 0.
+float within_copy(float x, uint wrap) {
+  float within = wrap == WRAP_CLAMP ? x : x - floor(x);
+  return within > 0.0f ? minimum(within, 1.0f) : 0.0f;
+}
+
+// Whether that copy is a mirrored one.
+bool mirrored_copy(float x, uint wrap) {
+  float copy = floor(x);
+  return wrap == WRAP_MIRROR && copy - 2.0f * floor(0.5f * copy) != 0.0f;
+}
+
+// The texel of `size` at i of a copy, −1 ≤ i ≤ size: beyond an edge, the first of the next copy. The result is one whatever i is.
+uint copied_texel(int i, uint size, uint wrap, bool mirrored) {
+  bool repeats = wrap == WRAP_REPEAT;
+  uint before = repeats ? size - 1u : 0u;
+  uint behind = repeats ? 0u : size - 1u;
+  uint texel = i < 0 ? before : uint(i) >= size ? behind : uint(i);
+  return mirrored ? size - 1u - texel : texel;
+}
+
+// Linear RGB of the texel at `column` and `row`, counted from the lower left.
+vec3 texel_color(Texture texture, uint column, uint row) {
+  uint table = (texture.image.w & IMAGE_LINEAR) != 0u ? TEXELS_LINEAR : TEXELS_SRGB;
+  uint texel = load_texel(texture.image.z + (texture.image.y - 1u - row) * texture.image.x + column);
+  return vec3(uintBitsToFloat(load_texel(table + (texel & 255u))),
+              uintBitsToFloat(load_texel(table + ((texel >> 8u) & 255u))),
+              uintBitsToFloat(load_texel(table + ((texel >> 16u) & 255u))));
+}
+
+// The mean of four texels, by how near their centres are, which lie at half-integers; or nearest, all of the one that holds
+// (u, v). The copy comes first, in the image's own unit, where x - floor(x) is exact.
+vec3 image_color(Texture texture, vec2 uv) {
+  float u = uv.x * texture.frequency.x;
+  float v = uv.y * texture.frequency.y;
+  uint wrap_u = (texture.image.w >> IMAGE_WRAP_U_SHIFT) & IMAGE_WRAP_MASK;
+  uint wrap_v = (texture.image.w >> IMAGE_WRAP_V_SHIFT) & IMAGE_WRAP_MASK;
+  bool nearest = (texture.image.w & IMAGE_NEAREST) != 0u;
+  float centre = nearest ? 0.0f : 0.5f;
+  float x = within_copy(u, wrap_u) * float(texture.image.x) - centre;
+  float y = within_copy(v, wrap_v) * float(texture.image.y) - centre;
+  float to_right = nearest ? 0.0f : x - floor(x);
+  float to_top = nearest ? 0.0f : y - floor(y);
+
+  bool mirrored_u = mirrored_copy(u, wrap_u);
+  bool mirrored_v = mirrored_copy(v, wrap_v);
+  uint left = copied_texel(int(floor(x)), texture.image.x, wrap_u, mirrored_u);
+  uint right = copied_texel(int(floor(x)) + 1, texture.image.x, wrap_u, mirrored_u);
+  uint bottom = copied_texel(int(floor(y)), texture.image.y, wrap_v, mirrored_v);
+  uint top = copied_texel(int(floor(y)) + 1, texture.image.y, wrap_v, mirrored_v);
+  vec3 bottom_left = texel_color(texture, left, bottom);
+  vec3 top_left = texel_color(texture, left, top);
+  vec3 lower = bottom_left + (texel_color(texture, right, bottom) - bottom_left) * to_right;
+  vec3 upper = top_left + (texel_color(texture, right, top) - top_left) * to_right;
+  return lower + (upper - lower) * to_top;
+}
+#endif
+
 vec3 texture_color(uint index, vec2 uv) {
   Texture texture = load_texture(index);
+  vec3 color = vec3(texture.even);
 #if HAS_CHECKER
-  bool odd = texture.even.w == TEXTURE_CHECKER && odd_check(texture, uv);
-  return odd ? vec3(texture.odd) : vec3(texture.even);
-#else
-  return vec3(texture.even);
+  if (texture.even.w == TEXTURE_CHECKER && odd_check(texture, uv)) color = vec3(texture.odd);
 #endif
+#if HAS_IMAGES
+  if (texture.even.w == TEXTURE_IMAGE) color = color * image_color(texture, uv);
+#endif
+  return color;
 }
 
 SHADER_END

@@ -57,8 +57,8 @@ Inventory take_inventory(const Scene& scene) {
   if (points < scene.lights.size())
     inventory.lights.emplace_back("directional", scene.lights.size() - points);
   inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.materials) +
-                    bytes(packed.textures) + bytes(packed.media) + bytes(packed.lights) +
-                    sizeof(packed.frame);
+                    bytes(packed.textures) + bytes(packed.texels) + bytes(packed.media) +
+                    bytes(packed.lights) + sizeof(packed.frame);
   return inventory;
 }
 

@@ -42,7 +42,7 @@ void SceneOptions::add_to(CLI::App& command) {
       ->allow_extra_args(false)
       ->take_all();
   add("--allow-path", allowed_folders_, "DIR",
-      "A folder outside the scene's that it may include from. May be repeated.")
+      "A folder outside the scene's whose scenes and images it may use. May be repeated.")
       ->allow_extra_args(false)
       ->take_all();
   add("-s,--size", size_, "WxH", "Picture size in pixels, as 640x480.");

@@ -53,6 +53,12 @@ std::string scene_manual() {
     }
     text += "### `{ checker = … }`\n\nA checkerboard in uv, wherever a color may vary over a surface.\n\n";
     text += key_table({checker_table_keys()});
+    text +=
+        "### `{ image = … }`\n\nA picture, wherever a color may vary over a surface: (0, 0) in uv is its "
+        "lower left "
+        "corner, (`scale`, `scale`) its upper right. "
+        "See [scene-file.md](scene-file.md#images).\n\n";
+    text += key_table({image_table_keys()});
   }
   text +=
       "## `transform`\n\nEach step is a table with one of these keys; steps are applied in the order "

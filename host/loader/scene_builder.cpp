@@ -21,7 +21,8 @@ struct Batch {
 
 class Builder {
  public:
-  Builder(const toml::table& root, DiagnosticLog& log) : root_(root), log_(log) {}
+  Builder(const toml::table& root, ImageSource* images, DiagnosticLog& log)
+      : root_(root), images_(images), log_(log) {}
 
   Scene build() {
     TableReader image = read_single("image");
@@ -72,6 +73,7 @@ class Builder {
   void check_whole();
 
   const toml::table& root_;
+  ImageSource* images_;
   DiagnosticLog& log_;
   Scene scene_;
   std::map<std::string, NamedMaterial, std::less<>> materials_;
@@ -90,7 +92,8 @@ void Builder::add_material(const Section& section, const toml::table& table) {
   TableReader reader = read_table({.title = title,
                                    .table = &table,
                                    .keys = {section.keys, type ? type->keys : std::span<const Key>()},
-                                   .open = !type},
+                                   .open = !type,
+                                   .images = images_},
                                   log_);
   std::unique_ptr<Material> material = type ? type->parse(reader) : nullptr;
 
@@ -202,8 +205,8 @@ void Builder::check_whole() {
 
 }  // namespace
 
-Scene build_scene(const toml::table& root, DiagnosticLog& log) {
-  return Builder(root, log).build();
+Scene build_scene(const toml::table& root, ImageSource* images, DiagnosticLog& log) {
+  return Builder(root, images, log).build();
 }
 
 }  // namespace eyeray

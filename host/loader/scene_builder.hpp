@@ -4,11 +4,13 @@
 #include <toml++/toml.h>
 
 #include "scene/diagnostic_log.hpp"
+#include "scene/image_source.hpp"
 #include "scene/scene.hpp"
 
 namespace eyeray {
 
-// Everything but Scene::file, files and warnings; only whole when the log has no errors.
-Scene build_scene(const toml::table& root, DiagnosticLog& log);
+// Everything but Scene::file, files and warnings; only whole when the log has no errors. `images`: null where
+// the scene may name none.
+Scene build_scene(const toml::table& root, ImageSource* images, DiagnosticLog& log);
 
 }  // namespace eyeray

@@ -68,6 +68,12 @@ Json value_schema(const Key& key) {
       return {{"type", "string"}};
     case KeyType::choice:
       return {{"enum", key.choices}};
+    case KeyType::choice2: {
+      const Json one = {{"enum", key.choices}};
+      Json two = list_schema(one);
+      two["minItems"] = two["maxItems"] = 2;
+      return either(one, std::move(two));
+    }
     case KeyType::vec2:
       return vector_schema(key, 2);
     case KeyType::vec3:
@@ -101,6 +107,7 @@ Json value_schema(const Key& key) {
                       {"additionalProperties", false}};
       Json schema = either(number_schema(positive, "number"), vector_schema(positive, 3));
       schema["anyOf"].push_back(std::move(checker));
+      schema["anyOf"].push_back(table_schema(image_table_keys()));
       return schema;
     }
   }

@@ -1,10 +1,34 @@
 #include "records/packer.hpp"
 
+#include <bit>
 #include <cstring>
+#include <limits>
 
 #include "core/error.hpp"
+#include "core/srgb.hpp"
 
 namespace eyeray {
+
+namespace {
+
+uint32_t wrap_code(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::repeat:
+      return WRAP_REPEAT;
+    case Wrap::mirror:
+      return WRAP_MIRROR;
+    case Wrap::clamp:
+      return WRAP_CLAMP;
+  }
+  return WRAP_REPEAT;
+}
+
+uint32_t image_flags(const ImageTexture& image) {
+  return (image.filter == Filter::nearest ? IMAGE_NEAREST : 0) | (image.srgb ? 0 : IMAGE_LINEAR) |
+         wrap_code(image.wrap_u) << IMAGE_WRAP_U_SHIFT | wrap_code(image.wrap_v) << IMAGE_WRAP_V_SHIFT;
+}
+
+}  // namespace
 
 uint32_t Packer::add_vertices(std::initializer_list<shader::uvec4> data) {
   const auto first = uint32_t(scene.vertices.size());
@@ -18,6 +42,33 @@ uint32_t Packer::add_medium(double ior, const Vec3& absorption) {
   return uint32_t(scene.media.size() - 1);
 }
 
+uint32_t Packer::add_image(const std::shared_ptr<const ImageTexture>& shared) {
+  const ImageTexture& image = *shared;
+  for (const auto& [known, first] : images_)
+    if (known == shared || known->texels == image.texels) return first;
+
+  // The tables of the two colour spaces stand before the first image.
+  if (scene.texels.empty()) {
+    for (const bool srgb : {true, false})
+      for (int code = 0; code < 256; ++code) {
+        const double value = srgb ? linear_from_srgb(code / 255.0) : code / 255.0;
+        scene.texels.push_back(std::bit_cast<uint32_t>(float(value)));
+      }
+    CHECK_EQ(scene.texels.size(), size_t{TEXELS_FIRST});
+  }
+  CHECK_EQ(image.texels.size(), size_t(image.width) * size_t(image.height));
+  const size_t first = scene.texels.size();
+  if (first + image.texels.size() > std::numeric_limits<uint32_t>::max())
+    throw Error(ExitCode::bad_input, "the scene's images have more than {} pixels together",
+                std::numeric_limits<uint32_t>::max() - TEXELS_FIRST);
+  scene.texels.reserve(first + image.texels.size());
+  for (const auto& [red, green, blue, alpha] : image.texels)
+    scene.texels.push_back(uint32_t(red) | uint32_t(green) << 8 | uint32_t(blue) << 16 |
+                           uint32_t(alpha) << 24);
+  images_.emplace_back(shared, uint32_t(first));
+  return uint32_t(first);
+}
+
 uint32_t Packer::add_texture(const Texture& texture) {
   shader::Texture record{};
   if (texture.checker) {
@@ -25,7 +76,13 @@ uint32_t Packer::add_texture(const Texture& texture) {
     record.odd = to_vec4(texture.checker->odd);
     record.frequency = to_vec4(Vec3(1.0 / texture.checker->size.x, 1.0 / texture.checker->size.y, 0));
   } else {
-    record.even = to_vec4(texture.value, double(TEXTURE_CONSTANT));
+    record.even = to_vec4(texture.value, double(texture.image ? TEXTURE_IMAGE : TEXTURE_CONSTANT));
+  }
+  if (texture.image) {
+    const ImageTexture& image = *texture.image;
+    record.frequency = to_vec4(Vec3(1.0 / texture.image_size.x, 1.0 / texture.image_size.y, 0));
+    record.image = {uint32_t(image.width), uint32_t(image.height), add_image(texture.image),
+                    image_flags(image)};
   }
   for (size_t i = 0; i < scene.textures.size(); ++i)
     if (std::memcmp(&scene.textures[i], &record, sizeof record) == 0) return uint32_t(i);

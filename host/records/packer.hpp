@@ -2,6 +2,8 @@
 #pragma once
 
 #include <bit>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "records/records.hpp"
@@ -25,6 +27,7 @@ struct PackedScene {
   std::vector<shader::uvec4> vertices;
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
+  std::vector<uint32_t> texels;                                   // records.h says how; empty without images
   std::vector<shader::Medium> media{{shader::vec4(0, 0, 0, 1)}};  // by number; 0 is the vacuum
   std::vector<shader::Light> lights;
   shader::Frame frame{};
@@ -48,6 +51,9 @@ class Packer {
   uint32_t add_vertices(std::initializer_list<shader::uvec4> data);
   // The index of a texture; equal textures share one.
   uint32_t add_texture(const Texture& texture);
+  // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there
+  // are more than an index can tell apart.
+  uint32_t add_image(const std::shared_ptr<const ImageTexture>& image);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
   uint32_t add_medium(double ior, const Vec3& absorption);
 
@@ -55,6 +61,8 @@ class Packer {
 
  private:
   Vec3 eye_;
+  std::vector<std::pair<std::shared_ptr<const ImageTexture>, uint32_t>>
+      images_;  // and the first texel of each
 };
 
 inline uint32_t kind_of(const shader::Primitive& primitive) {

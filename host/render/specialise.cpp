@@ -56,7 +56,8 @@ std::string literal(const shader::Material& m) {
   return fmt::format("Material({}, {}, {})", literal(m.head), literal(m.textures), literal(m.parameters));
 }
 std::string literal(const shader::Texture& t) {
-  return fmt::format("Texture({}, {}, {})", literal(t.even), literal(t.odd), literal(t.frequency));
+  return fmt::format("Texture({}, {}, {}, {})", literal(t.even), literal(t.odd), literal(t.frequency),
+                     literal(t.image));
 }
 std::string literal(const shader::Medium& m) {
   return fmt::format("Medium({})", literal(m.absorption_ior));
@@ -77,14 +78,15 @@ std::string constant_loader(std::string_view type, std::string_view name,
   return text + "  return r;\n}\n";
 }
 
-// The whole scene as constants, and the list of primitives that traverse.glsl unrolls.
+// The whole scene as constants, but for its texels, and the list of primitives that traverse.glsl unrolls.
 std::string constants(const PackedScene& scene) {
   std::string text = constant_loader("uvec4", "vertex", scene.vertices) +
                      constant_loader("Material", "material", scene.materials) +
                      constant_loader("Texture", "texture", scene.textures) +
                      constant_loader("Medium", "medium", scene.media) +
                      constant_loader("Light", "light", scene.lights) +
-                     constant_loader("Primitive", "primitive", scene.primitives);
+                     constant_loader("Primitive", "primitive", scene.primitives) +
+                     "uint load_texel(uint i) { return texels[i]; }\n";
   text += "#define SCENE_PRIMITIVES(X)";
   for (size_t i = 0; i < scene.primitives.size(); ++i)
     text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[kind_of(scene.primitives[i])].name, i, i);
@@ -127,6 +129,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   for (const shader::Instance& i : scene.instances) materials_used.insert(scene.materials[i.head.z].head.x);
   const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
                                    [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
+  const bool images = !scene.texels.empty();
   const bool media = scene.media.size() > 1;
   const bool unrolled = options.constants && is_small(scene);
 
@@ -137,6 +140,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("LIGHT_COUNT", fmt::format("{}u", scene.lights.size()));
   define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.counts.w));
   define("HAS_CHECKER", int(checker));
+  define("HAS_IMAGES", int(images));
   define("HAS_MEDIA", int(media));
   // Only where a ray splits in two does a child wait, and one a level at most.
   define("WHITTED_STACK", media ? scene.frame.camera.w : 0u);

@@ -58,6 +58,8 @@ std::string describe(const Key& declared) {
       return "a string";
     case KeyType::choice:
       return describe_choices(key.choices);
+    case KeyType::choice2:
+      return describe_choices(key.choices) + ", or two of them [u, v]";
     case KeyType::vec2:
       return "two numbers [x, y]" + each(key);
     case KeyType::vec3:
@@ -69,7 +71,7 @@ std::string describe(const Key& declared) {
     case KeyType::color:
       return "a color [r, g, b] or one number for all three" + each(key);
     case KeyType::texture:
-      return "a color [r, g, b], one number for all three, or { checker = … }" + each(key);
+      return "a color [r, g, b], one number for all three, { checker = … } or { image = … }" + each(key);
     case KeyType::scale2:
       return "two numbers [u, v] or one for both" + each(key);
     case KeyType::scale3:

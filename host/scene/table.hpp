@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "scene/image_source.hpp"
 #include "scene/value.hpp"
 
 namespace eyeray {
@@ -19,6 +20,7 @@ struct TableSource {
   size_t element = 0;                             // … and which element of them to take
   std::string_view extra_key = {};                // a key that is allowed and read elsewhere
   bool open = false;                              // whether any other key is
+  ImageSource* images = nullptr;                  // loads the images of textures; null: none may be named
 };
 
 // Reads and checks every key; problems go to the log, which must outlive the reader.
@@ -29,6 +31,7 @@ const toml::node& fallback_of(const Key& key);
 
 // The keys of the tables inside of values, for the schema and the manual.
 std::span<const Key> checker_table_keys();
+std::span<const Key> image_table_keys();
 std::span<const Key> transform_step_keys();
 std::span<const Key> rotation_keys();
 

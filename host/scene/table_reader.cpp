@@ -66,7 +66,8 @@ Row TableReader::Table::read(const Key& key) {
     return {&key, nullptr, stand_in(key), !key.optional};
   }
   if (node) {
-    if (auto value = read_value(key, *node, log)) return {&key, node, std::move(*value), false};
+    if (auto value = read_value(key, *node, log, source.images))
+      return {&key, node, std::move(*value), false};
     failed = true;
   }
 
@@ -139,6 +140,10 @@ std::string TableReader::string(std::string_view key) const {
 }
 int TableReader::choice(std::string_view key) const {
   return static_cast<int>(table_->get<int64_t>(key));
+}
+std::array<int, 2> TableReader::choice2(std::string_view key) const {
+  const auto& both = table_->get<std::array<int64_t, 2>>(key);
+  return {static_cast<int>(both[0]), static_cast<int>(both[1])};
 }
 Vec2 TableReader::vec2(std::string_view key) const {
   return table_->get<Vec2>(key);

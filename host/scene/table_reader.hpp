@@ -2,6 +2,7 @@
 // the type, range and default checks, "did you mean", the JSON Schema and the manual.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <span>
@@ -21,12 +22,14 @@ enum class KeyType {
   number,
   string,
   choice,     // a string out of Key::choices
+  choice2,    // two of them [u, v], or one for both
   vec2,       // [x, y]
   vec3,       // [x, y, z]
   vec2_list,  // [[x, y], …]
   vec3_list,  // [[x, y, z], …]
   color,      // [r, g, b], each ≥ 0, or one number for all three
-  texture,    // a color, or { checker = { even = color, odd = color, size = number or [u, v] } }
+  texture,    // a color, { checker = { even = color, odd = color, size = number or [u, v] } },
+              // or { image = file, filter = …, wrap = …, color_space = …, scale = …, tint = color }
   scale2,     // [u, v], or one number for both
   scale3,     // [x, y, z], or one number for all three
   transform,  // [ { translate = [x,y,z] }, { rotate = { axis = [x,y,z], degrees = a } }, { scale = number or
@@ -65,6 +68,7 @@ class TableReader {
   double number(std::string_view key) const;
   std::string string(std::string_view key) const;
   int choice(std::string_view key) const;  // index in Key::choices
+  std::array<int, 2> choice2(std::string_view key) const;
   Vec2 vec2(std::string_view key) const;
   Vec3 vec3(std::string_view key) const;
   std::vector<Vec2> vec2_list(std::string_view key) const;

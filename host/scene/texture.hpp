@@ -35,11 +35,12 @@ struct ImageTexture {
   Wrap wrap_v = Wrap::repeat;
 };
 
-// Linear RGB: constant, checkered, or an image times `value`.
+// Linear RGB: constant, checkered, or an image times `value`; its alpha is not looked at.
 struct Texture {
   Vec3 value{0.0};
   std::optional<Checker> checker;
   std::shared_ptr<const ImageTexture> image = {};
+  Vec2 image_size{1.0};  // of the picture, in uv
 
   Vec3 at(const Vec2& uv) const;
 };

@@ -17,6 +17,38 @@ constexpr Key checker_keys[] = {
     {"size", KeyType::scale2, "Size of a check in uv.", "1", 0, Key::inf, true},
 };
 
+constexpr std::string_view filters[] = {"bilinear", "nearest"};
+constexpr std::string_view wraps[] = {"repeat", "mirror", "clamp"};
+constexpr std::string_view color_spaces[] = {"srgb", "linear"};
+
+constexpr Key image_keys[] = {
+    {.name = "image",
+     .type = KeyType::string,
+     .doc = "Name of a PNG or JPEG file, relative to the scene file that it stands in."},
+    {.name = "filter",
+     .type = KeyType::choice,
+     .doc = "Between four texels, or the one that holds the point.",
+     .fallback = "'bilinear'",
+     .choices = filters},
+    {.name = "wrap",
+     .type = KeyType::choice2,
+     .doc = "How the picture goes on beyond its edges.",
+     .fallback = "'repeat'",
+     .choices = wraps},
+    {.name = "color_space",
+     .type = KeyType::choice,
+     .doc = "What the file's codes mean: sRGB, or shares of 255 as they are.",
+     .fallback = "'srgb'",
+     .choices = color_spaces},
+    {.name = "scale",
+     .type = KeyType::scale2,
+     .doc = "Size of the whole picture in uv.",
+     .fallback = "1",
+     .min = 0,
+     .above_min = true},
+    {.name = "tint", .type = KeyType::color, .doc = "What the picture is multiplied by.", .fallback = "1"},
+};
+
 std::string describe_node(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     constexpr size_t longest = 40;
@@ -33,7 +65,7 @@ std::string describe_node(const toml::node& node) {
 // Reads one value; keeps whether all of it was right.
 class Reader {
  public:
-  Reader(const Key& key, DiagnosticLog& log) : key_(key), log_(log) {}
+  Reader(const Key& key, DiagnosticLog& log, ImageSource* images) : key_(key), log_(log), images_(images) {}
 
   bool ok() const { return ok_; }
   Value value(const toml::node& node);
@@ -50,7 +82,10 @@ class Reader {
   double number(const toml::node& node);
   int64_t integer(const toml::node& node);
   int64_t choice(const toml::node& node);
+  std::array<int64_t, 2> choice2(const toml::node& node);
   Texture texture(const toml::node& node);
+  Texture checker(const toml::node& node, const toml::table& table);
+  Texture image(const toml::table& table);
   Mat4 matrix(const toml::node& node);
   template <int N>
   glm::vec<N, double> vector(const toml::node& node, bool or_one_number = false);
@@ -59,6 +94,7 @@ class Reader {
 
   const Key& key_;
   DiagnosticLog& log_;
+  ImageSource* images_;
   bool ok_ = true;
 };
 
@@ -106,6 +142,14 @@ int64_t Reader::choice(const toml::node& node) {
   return mismatch(node), 0;
 }
 
+std::array<int64_t, 2> Reader::choice2(const toml::node& node) {
+  const toml::array* list = node.as_array();
+  if (list && list->size() != 2) return mismatch(node), std::array<int64_t, 2>{};
+  if (list) return {choice((*list)[0]), choice((*list)[1])};
+  const int64_t both = choice(node);
+  return {both, both};
+}
+
 template <int N>
 glm::vec<N, double> Reader::vector(const toml::node& node, bool or_one_number) {
   glm::vec<N, double> value(0.0);
@@ -129,15 +173,43 @@ std::vector<glm::vec<N, double>> Reader::vector_list(const toml::node& node) {
 Texture Reader::texture(const toml::node& node) {
   const toml::table* table = node.as_table();
   if (!table) return {vector<3>(node, true), {}};
-  const toml::node* checker = table->get("checker");
-  if (table->size() != 1 || !checker || !checker->is_table()) return mismatch(node), Texture{};
+  if (table->contains("image")) return image(*table);
+  const toml::node* checks = table->get("checker");
+  if (table->size() != 1 || !checks || !checks->is_table()) return mismatch(node), Texture{};
+  return checker(node, *checks->as_table());
+}
 
-  TableReader reader = read_table({"checker", checker->as_table(), {checker_keys}}, log_);
+Texture Reader::checker(const toml::node& node, const toml::table& table) {
+  TableReader reader = read_table({"checker", &table, {checker_keys}}, log_);
   ok_ = ok_ && !reader.failed();
   const Vec3 even = reader.color("even");
   const Vec3 odd = reader.color("odd");
   if (std::max({even.x, even.y, even.z, odd.x, odd.y, odd.z}) > key_.max) mismatch(node);
   return {even, Checker{even, odd, reader.scale2("size")}};
+}
+
+Texture Reader::image(const toml::table& table) {
+  auto keys = std::to_array(image_keys);
+  keys.back().max = key_.max;  // no texel is above 1
+  TableReader reader = read_table({"an image texture", &table, {keys}}, log_);
+  ok_ = ok_ && !reader.failed();
+  Texture texture{reader.color("tint"), {}};
+  texture.image_size = reader.scale2("scale");
+
+  // Load it only if all is well so far: what is wrong with the file would hide what is wrong here.
+  if (!ok_) return texture;
+  const toml::node& name = *table.get("image");
+  if (!images_) return fail(name, "only a scene in a file can have images"), texture;
+  const auto [wrap_u, wrap_v] = reader.choice2("wrap");
+  ImageTexture wanted;
+  wanted.name = reader.string("image");
+  wanted.srgb = reader.choice("color_space") == 0;
+  wanted.filter = static_cast<Filter>(reader.choice("filter"));
+  wanted.wrap_u = static_cast<Wrap>(wrap_u);
+  wanted.wrap_v = static_cast<Wrap>(wrap_v);
+  texture.image = images_->load(std::move(wanted), position_of(name.source()));
+  ok_ = texture.image != nullptr;
+  return texture;
 }
 
 Mat4 Reader::matrix(const toml::node& node) {
@@ -165,6 +237,8 @@ Value Reader::value(const toml::node& node) {
       return node.value_or(std::string());
     case KeyType::choice:
       return choice(node);
+    case KeyType::choice2:
+      return choice2(node);
     case KeyType::vec2:
       return vector<2>(node);
     case KeyType::vec3:
@@ -201,10 +275,15 @@ std::span<const Key> checker_table_keys() {
   return checker_keys;
 }
 
-std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log) {
+std::span<const Key> image_table_keys() {
+  return image_keys;
+}
+
+std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log,
+                                ImageSource* images) {
   Key ranged = key;
   if (key.type == KeyType::color || key.type == KeyType::texture) ranged.min = std::max(ranged.min, 0.0);
-  Reader reader(ranged, log);
+  Reader reader(ranged, log, images);
   Value value = reader.value(node);
   if (!reader.ok()) return std::nullopt;
   return value;
@@ -226,6 +305,8 @@ Value stand_in(const Key& key) {
       return std::string();
     case KeyType::choice:
       return int64_t{0};
+    case KeyType::choice2:
+      return std::array<int64_t, 2>{};
     case KeyType::vec2:
     case KeyType::scale2:
       return Vec2(number);

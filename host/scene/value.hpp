@@ -3,25 +3,29 @@
 
 #include <toml++/toml.h>
 
+#include <array>
 #include <optional>
 #include <variant>
 
 #include "scene/diagnostic_log.hpp"
+#include "scene/image_source.hpp"
 #include "scene/table_reader.hpp"
 
 namespace eyeray {
 
-// boolean bool; integer and choice int64_t; number double; string std::string; color Vec3; scale2, scale3
-// Vec2, Vec3.
-using Value = std::variant<bool, int64_t, double, std::string, Vec2, Vec3, std::vector<Vec2>,
-                           std::vector<Vec3>, Texture, Mat4>;
+// boolean bool; integer and choice int64_t; choice2 two of them; number double; string std::string; color
+// Vec3; scale2, scale3 Vec2, Vec3.
+using Value = std::variant<bool, int64_t, std::array<int64_t, 2>, double, std::string, Vec2, Vec3,
+                           std::vector<Vec2>, std::vector<Vec3>, Texture, Mat4>;
 
 // Numbers beyond this have squares that float32 arithmetic cannot hold, and positive ones below its inverse
 // vanish.
 inline constexpr double largest_number = 1e15;
 
 // The value, or nothing, with an error in the log for each fault in it.
-std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log);
+// `images`: see TableSource.
+std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log,
+                                ImageSource* images = nullptr);
 
 // Some value of the key's type and range, for going on after an error.
 Value stand_in(const Key& key);

@@ -39,6 +39,9 @@ class Binding {
 [[maybe_unused]] const Texture& load_texture(uint i) {
   return bound_scene->textures[i];
 }
+[[maybe_unused]] uint load_texel(uint i) {
+  return bound_scene->texels[i];
+}
 [[maybe_unused]] const Medium& load_medium(uint i) {
   return bound_scene->media[i];
 }
@@ -66,6 +69,7 @@ class Binding {
 #define TRACE_ITERATIONS 0u
 #define WHITTED_STACK 64
 #define HAS_CHECKER 1
+#define HAS_IMAGES 1
 #define HAS_MEDIA 1
 
 #undef SHADER_BEGIN

@@ -64,8 +64,9 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
   check_struct(samples, "Material", sizeof(shader::Material),
                {MEMBER(Material, head), MEMBER(Material, textures), MEMBER(Material, parameters)});
   check_struct(samples, "Medium", sizeof(shader::Medium), {MEMBER(Medium, absorption_ior)});
-  check_struct(samples, "Texture", sizeof(shader::Texture),
-               {MEMBER(Texture, even), MEMBER(Texture, odd), MEMBER(Texture, frequency)});
+  check_struct(
+      samples, "Texture", sizeof(shader::Texture),
+      {MEMBER(Texture, even), MEMBER(Texture, odd), MEMBER(Texture, frequency), MEMBER(Texture, image)});
   check_struct(samples, "Light", sizeof(shader::Light),
                {MEMBER(Light, head), MEMBER(Light, position), MEMBER(Light, intensity)});
   check_struct(

@@ -36,6 +36,8 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver")
       scene.media.push_back({});
       scene.lights.push_back({});
       scene.textures[0].even.w = TEXTURE_CHECKER;
+      scene.textures.emplace_back().even.w = TEXTURE_IMAGE;
+      scene.texels.resize(TEXELS_FIRST);
       for (const uint32_t material : {0u, 1u, 2u}) {
         scene.materials[0].head.x = material;
         int instructions = 0;

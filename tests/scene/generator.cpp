@@ -149,6 +149,8 @@ std::string Writer::value(const Key& key) {
       return key.name == "material" ? fmt::format("\"m{}\"", random_.below(materials)) : "\"text\"";
     case KeyType::choice:
       return choice(key);
+    case KeyType::choice2:
+      return fmt::format("[{}, {}]", choice(key), choice(key));
     case KeyType::vec2:
       return numbers(key, 2);
     case KeyType::vec3:

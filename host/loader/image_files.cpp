@@ -1,0 +1,48 @@
+#include "loader/image_files.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "scene/image_texture_file.hpp"
+
+namespace eyeray {
+
+namespace {
+
+bool same_settings(const ImageTexture& a, const ImageTexture& b) {
+  return a.srgb == b.srgb && a.filter == b.filter && a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v;
+}
+
+// `from` with the settings of `wanted`.
+std::shared_ptr<const ImageTexture> with_settings(ImageTexture from, const ImageTexture& wanted) {
+  from.srgb = wanted.srgb;
+  from.filter = wanted.filter;
+  from.wrap_u = wanted.wrap_u;
+  from.wrap_v = wanted.wrap_v;
+  return std::make_shared<const ImageTexture>(std::move(from));
+}
+
+}  // namespace
+
+std::shared_ptr<const ImageTexture> ImageFiles::load(ImageTexture wanted, const SourcePosition& position) {
+  try {
+    const auto source = std::ranges::find(sources_, std::filesystem::path(position.file));
+    const auto [path, whole] =
+        folders_.find("image", wanted.name, source != sources_.end() ? *source : sources_.front());
+    auto& variants = images_[whole];
+    if (variants.empty()) {
+      if (std::ranges::find(files_, path) == files_.end()) files_.push_back(path);
+      variants.push_back(with_settings(load_image_texture(path), wanted));
+    }
+    const auto found =
+        std::ranges::find_if(variants, [&](const auto& image) { return same_settings(*image, wanted); });
+    if (found != variants.end()) return *found;
+    variants.push_back(with_settings(*variants.front(), wanted));
+    return variants.back();
+  } catch (const Error& unreadable) {
+    log_.error(position, unreadable.what());
+    return nullptr;
+  }
+}
+
+}  // namespace eyeray

@@ -1,0 +1,35 @@
+// The image files of one scene, each read once. Private to the loader.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "loader/allowed_folders.hpp"
+#include "scene/diagnostic_log.hpp"
+#include "scene/image_source.hpp"
+
+namespace eyeray {
+
+class ImageFiles final : public ImageSource {
+ public:
+  // Names in `scene` or in one of the other `sources`, which it includes, are relative to the folder of the
+  // file that they stand in; names that stand in no file (an override) are relative to the scene's.
+  ImageFiles(const AllowedFolders& folders, std::vector<std::filesystem::path> sources, DiagnosticLog& log)
+      : folders_(folders), sources_(std::move(sources)), log_(log) {}
+
+  std::shared_ptr<const ImageTexture> load(ImageTexture wanted, const SourcePosition& position) override;
+
+  // Every file that was to be read, in the order in which they were first named.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+
+ private:
+  const AllowedFolders& folders_;
+  std::vector<std::filesystem::path> sources_;  // the scene first
+  DiagnosticLog& log_;
+  std::vector<std::filesystem::path> files_;
+  // By canonical path, the same texels with each filter, wrap and colour space that was asked for.
+  std::map<std::filesystem::path, std::vector<std::shared_ptr<const ImageTexture>>> images_;
+};
+
+}  // namespace eyeray

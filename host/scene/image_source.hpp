@@ -1,0 +1,21 @@
+// Where the images come from that a scene's textures name. Which files may be read, and how, is the loader's
+// business.
+#pragma once
+
+#include <memory>
+
+#include "core/diagnostic.hpp"
+#include "scene/texture.hpp"
+
+namespace eyeray {
+
+class ImageSource {
+ public:
+  virtual ~ImageSource() = default;
+
+  // `wanted` with its texels: its name is a file's as it stands at `position`, its size and texels are still
+  // empty. Null, with an error in the log, where that cannot be had.
+  virtual std::shared_ptr<const ImageTexture> load(ImageTexture wanted, const SourcePosition& position) = 0;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,122 @@
+// Image textures as pictures show them: the GPU and the twin bit by bit, and both against the reference.
+#include <fmt/format.h>
+
+#include "frames.hpp"
+#include "materials/make.hpp"
+#include "shapes/make.hpp"
+#include "support/random.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+std::shared_ptr<const ImageTexture> random_image(Random& random) {
+  const auto image = std::make_shared<ImageTexture>();
+  constexpr int sizes[] = {1, 2, 5, 16, 33};
+  image->width = sizes[random.below(5)];
+  image->height = sizes[random.below(5)];
+  for (int i = 0; i < image->width * image->height; ++i) {
+    const uint64_t bits = random.bits();
+    image->texels.push_back({uint8_t(bits), uint8_t(bits >> 8), uint8_t(bits >> 16), uint8_t(bits >> 24)});
+  }
+  image->srgb = random.below(2) == 0;
+  image->filter = Filter(random.below(2));
+  image->wrap_u = Wrap(random.below(3));
+  image->wrap_v = Wrap(random.below(3));
+  return image;
+}
+
+// Squares side by side before an orthographic camera, each with an image of its own at random places in uv,
+// small and far from 0; every fifth mirrors another one in a second image.
+Scene patchwork(Random& random, int across, int down) {
+  Scene scene;
+  scene.image = {.width = 24 * across, .height = 24 * down};
+  scene.camera.type = CameraType::orthographic;
+  scene.camera.size = 0.5 * across;
+  // A little off, so that no pixel's centre lies on an edge.
+  scene.camera.target = {0.5 * across + 0.0131, 0.5 * down + 0.0073, 0};
+  scene.camera.eye = scene.camera.target + Vec3(0, 0, 5);
+  scene.render.ambient = Vec3(0.25);
+  scene.lights.push_back({.type = LightType::point, .position = {3, 4, 9}, .intensity = Vec3(60)});
+  for (int y = 0; y < down; ++y) {
+    for (int x = 0; x < across; ++x) {
+      Texture texture{Vec3(random.uniform(), random.uniform(), 1), {}};
+      texture.image = random_image(random);
+      texture.image_size = {random.log_uniform(0.5, 2), random.log_uniform(0.5, 2)};
+      PhongValues values{.diffuse = texture};
+      if (random.below(3) == 0) values.ambient = Texture{Vec3(0.5), {}};
+      if (random.below(3) == 0)
+        values.highlight.specular = {Vec3(0.5), Checker{Vec3(1), Vec3(0.2), Vec2(0.3)}};
+      if (random.below(5) == 0) {
+        values.reflectance.value = Vec3(0.6);
+        values.reflectance.image = random_image(random);
+      }
+      scene.materials.push_back(make_phong(values));
+
+      // About three images a square, some upside down or mirrored.
+      const Vec2 start(random.uniform(-20, 20), random.uniform(-20, 20));
+      const Vec2 u(random.uniform(-3, 3), random.uniform(-1, 1)),
+          v(random.uniform(-1, 1), random.uniform(-3, 3));
+      const Vec3 corner(x, y, 0);
+      for (const bool upper : {false, true}) {
+        TriangleValues triangle;
+        triangle.vertices = {corner + Vec3(upper, upper, 0), corner + Vec3(!upper, upper, 0),
+                             corner + Vec3(upper, !upper, 0)};
+        triangle.uv = {start + double(upper) * (u + v), start + double(!upper) * u + double(upper) * v,
+                       start + double(upper) * u + double(!upper) * v};
+        scene.shapes.push_back(make_triangle(triangle));
+        scene.shapes.back()->material = int(scene.materials.size()) - 1;
+      }
+    }
+  }
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("images at random: the GPU is the twin, bit by bit, and the reference within tolerance") {
+  Random random(11);
+  int pixels = 0;
+  int explained = 0;
+  for (const auto& [across, down] : {std::pair{3, 3}, {3, 3}, {9, 7}}) {
+    const Scene scene = patchwork(random, across, down);
+    const Frame twin = render_frame(scene, Backend::twin);
+    for (const bool constants : {true, false}) {
+      CAPTURE(constants);
+      ExecutorOptions options;
+      options.constants = constants;
+      const ExactComparison bits = compare_exactly(render_frame(scene, Backend::gpu, options), twin);
+      CHECK(bits.different_pixels == 0);
+      CHECK(bits.passes(0));
+    }
+    const ReferenceComparison reference = test::compare_with_reference(scene, twin);
+    CHECK(reference.first_hits.passes());
+    CHECK(reference.colors.unexplained == 0);
+    CHECK(reference.colors.passes());
+    pixels += int(reference.colors.pixels);
+    explained += int(reference.colors.explained_pixels());
+  }
+  MESSAGE(fmt::format("{} pixels, {} of them explained", pixels, explained));
+}
+
+TEST_CASE("more texels than the device shows a shader are refused with the numbers") {
+  Random random(1);
+  Scene scene = patchwork(random, 1, 1);
+  const auto image = std::make_shared<ImageTexture>();
+  image->width = 1 << 13;
+  image->height = (1 << 12) + 1;
+  image->texels.resize(size_t(image->width) * size_t(image->height));
+  Texture texture{Vec3(1), {}};
+  texture.image = image;
+  scene.materials[0] = make_phong({.diffuse = texture});
+  try {
+    const Frame gpu = render_frame(scene, Backend::gpu);
+    CHECK(compare_exactly(gpu, render_frame(scene, Backend::twin)).different_pixels == 0);
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::no_device);
+    CHECK(std::string(error.what()).find("'texels' has 134252544 bytes") != std::string::npos);
+  }
+}
