@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "reference/tracer.hpp"
-
 namespace eyeray::reference {
 
 namespace {
@@ -15,15 +13,17 @@ struct Crossing {
 };
 
 // The media that the ray leaves without having entered them, innermost first.
-std::vector<int> left_by(const Scene& scene, const Ray& ray) {
+std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
   std::vector<Crossing> crossings;
-  for (const auto& shape : scene.shapes) {
-    if (!scene.materials[size_t(shape->material)]->medium()) continue;
-    for_each_crossing(*shape, ray, [&](double t, const SurfacePoint& surface) {
-      crossings.push_back({t, shape->material, glm::dot(ray.d, surface.normal_geometric) > 0});
+  const auto collect = [&](const auto& body, int material) {
+    if (!tracer.scene().materials[size_t(material)]->medium()) return;
+    for_each_crossing(body, ray, [&](double t, const SurfacePoint& surface) {
+      crossings.push_back({t, material, glm::dot(ray.d, surface.normal_geometric) > 0});
       return true;
     });
-  }
+  };
+  for (const auto& shape : tracer.scene().shapes) collect(*shape, shape->material);
+  for (const InstanceGeometry& instance : tracer.instances()) collect(instance, instance.material());
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
 
@@ -46,11 +46,15 @@ std::vector<int> left_by(const Scene& scene, const Ray& ray) {
 }  // namespace
 
 std::vector<int> media_at(const Scene& scene, const Vec3& point) {
+  return media_at(Tracer(scene, Acceleration::brute_force), point);
+}
+
+std::vector<int> media_at(const Tracer& tracer, const Vec3& point) {
   // Look along a direction that no edge or symmetry of a sensible scene has, and against it: a half-space is
   // left in one of the two only, and then lies around all that is closed.
   const Vec3 direction = glm::normalize(Vec3(0.3141592653589793, 0.8979323846264338, 0.2718281828459045));
-  const std::vector<int> ahead = left_by(scene, {point, direction});
-  std::vector<int> media = left_by(scene, {point, -direction});
+  const std::vector<int> ahead = left_by(tracer, {point, direction});
+  std::vector<int> media = left_by(tracer, {point, -direction});
   for (const int material : ahead) {
     const auto found = std::find(media.begin(), media.end(), material);
     if (found != media.end()) media.erase(found);

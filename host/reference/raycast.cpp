@@ -1,16 +1,15 @@
 #include "reference/raycast.hpp"
 
 #include "reference/light.hpp"
-#include "reference/tracer.hpp"
 
 namespace eyeray::reference {
 
-PixelSample raycast(const Scene& scene, const Ray& ray) {
-  const auto hit = trace(scene, ray);
+PixelSample raycast(const Tracer& tracer, const Ray& ray) {
+  const Scene& scene = tracer.scene();
+  const auto hit = tracer.trace(ray);
   if (!hit) return {.color = scene.render.background, .rays = 1};
 
-  const Shape& shape = *scene.shapes[size_t(hit->primitive)];
-  const SurfacePoint surface = shape.surface(ray, hit->intersection);
+  const SurfacePoint surface = tracer.surface(ray, *hit);
   const bool front = glm::dot(ray.d, surface.normal_geometric) < 0;
   const Vec3 n = front ? surface.normal : -surface.normal;
 
@@ -26,7 +25,7 @@ PixelSample raycast(const Scene& scene, const Ray& ray) {
     }
   }
   return {
-      .color = scene.materials[size_t(shape.material)]->base_color(surface.uv) * light, .rays = 1, .hits = 1};
+      .color = scene.materials[size_t(hit->material)]->base_color(surface.uv) * light, .rays = 1, .hits = 1};
 }
 
 }  // namespace eyeray::reference

@@ -5,14 +5,14 @@
 #include "core/pixel.hpp"
 #include "reference/camera.hpp"
 #include "reference/media.hpp"
-#include "scene/scene.hpp"
+#include "reference/tracer.hpp"
 
 namespace eyeray::reference {
 
 class Renderer {
  public:
-  // `scene` must outlive the renderer.
-  explicit Renderer(const Scene& scene);
+  // `scene` must outlive the renderer. The pixels do not depend on `acceleration`.
+  explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::tree);
 
   // Sample `index` of pixel (x, y), by the scene's integrator. `shift`, in pixels, is added to the sample's
   // place.
@@ -22,6 +22,7 @@ class Renderer {
 
  private:
   const Scene& scene_;
+  Tracer tracer_;
   CameraRays camera_;
   MediaStack media_;  // around the eye
   uint32_t flags_ = 0;

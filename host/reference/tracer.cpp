@@ -1,30 +1,132 @@
 #include "reference/tracer.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace eyeray::reference {
 
-std::optional<Hit> trace(const Scene& scene, const Ray& ray) {
-  std::optional<Hit> nearest;
-  for (size_t i = 0; i < scene.shapes.size(); ++i) {
-    const auto hit = scene.shapes[i]->intersect(ray);
-    if (hit && (!nearest || hit->t < nearest->intersection.t)) nearest = Hit{int(i), *hit};
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool finite(const Bounds& bounds) {
+  return magnitude(bounds.min) < infinity && magnitude(bounds.max) < infinity;
+}
+
+}  // namespace
+
+Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene) {
+  for (const Mesh& mesh : scene.meshes) meshes_.emplace_back(mesh, acceleration);
+  uint64_t primitives = scene.shapes.size();
+  for (const Instance& instance : scene.instances) {
+    instances_.emplace_back(instance, meshes_[size_t(instance.mesh)]);
+    first_primitives_.push_back(primitives);
+    primitives += instances_.back().triangles();
   }
+
+  const auto add = [&](size_t body, const Bounds& box) {
+    bounded_.push_back(uint32_t(body));
+    boxes_.push_back(box);
+    reach_ = std::max({reach_, magnitude(box.min), magnitude(box.max)});
+  };
+  for (size_t i = 0; i < scene.shapes.size(); ++i) {
+    const Bounds box = scene.shapes[i]->bounds();
+    if (finite(box)) {
+      add(i, box);
+    } else {
+      unbounded_.push_back(uint32_t(i));
+    }
+  }
+  for (size_t i = 0; i < instances_.size(); ++i) {
+    if (instances_[i].triangles() == 0) continue;
+    add(scene.shapes.size() + i, instances_[i].bounds());
+    reach_ = std::max(reach_, instances_[i].reach());
+    growth_ = std::max(growth_, instances_[i].growth());
+  }
+  tree_ = BoxTree(
+      uint32_t(boxes_.size()), [this](uint32_t i) { return boxes_[i]; }, acceleration);
+}
+
+int Tracer::material(size_t body) const {
+  const size_t shapes = scene_.shapes.size();
+  return body < shapes ? scene_.shapes[body]->material : instances_[body - shapes].material();
+}
+
+std::optional<TriangleHit> Tracer::intersect(size_t body, const Ray& ray, double limit) const {
+  const size_t shapes = scene_.shapes.size();
+  if (body >= shapes) return instances_[body - shapes].intersect(ray, limit);
+  const auto hit = scene_.shapes[body]->intersect(ray);
+  if (!hit) return std::nullopt;
+  return TriangleHit{*hit};
+}
+
+// Calls visit(body, entry, limit) for the bodies that the ray enters at t = entry ≤ limit; it returns the
+// limit from there on, a negative one to end the search.
+template <typename Visit>
+void Tracer::for_each_entered(const Ray& ray, double limit, const Visit& visit) const {
+  for (size_t i = 0; i < unbounded_.size() && limit >= 0; ++i) limit = visit(unbounded_[i], 0.0, limit);
+  if (boxes_.empty() || limit < 0) return;
+
+  const BoxRay box_ray(ray, rounding * growth_ * (magnitude(ray.o) + reach_));
+  tree_.search(box_ray, limit, [&](uint32_t i, double so_far) {
+    const double entry = box_ray.entry(boxes_[i]);
+    return entry < infinity ? visit(bounded_[i], entry, so_far) : so_far;
+  });
+}
+
+std::optional<Hit> Tracer::trace(const Ray& ray) const {
+  std::optional<Hit> nearest;
+  for_each_entered(ray, infinity, [&](size_t body, double entry, double limit) {
+    auto hit = intersect(body, ray, limit);
+    if (!hit) return limit;
+    hit->t = std::max(hit->t, entry);
+    if (nearest && !(hit->t < nearest->at.t || (hit->t == nearest->at.t && body < nearest->body)))
+      return limit;
+    nearest = {*hit, body, body, material(body)};
+    return hit->t;
+  });
+  if (nearest && nearest->body >= scene_.shapes.size())
+    nearest->primitive = first_primitives_[nearest->body - scene_.shapes.size()] + nearest->at.triangle;
   return nearest;
+}
+
+SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
+  const size_t shapes = scene_.shapes.size();
+  return hit.body < shapes ? scene_.shapes[hit.body]->surface(ray, hit.at)
+                           : instances_[hit.body - shapes].surface(ray, hit.at);
+}
+
+// The share of light that comes through one body which the ray enters at t = entry.
+double Tracer::share_let_through(size_t body, const Ray& ray, double entry, double t_end) const {
+  const double share = scene_.materials[size_t(material(body))]->shadow_transmittance();
+  if (body < scene_.shapes.size()) {
+    const auto hit = scene_.shapes[body]->intersect(ray);
+    return hit && std::max(hit->t, entry) < t_end ? share : 1;
+  }
+  const InstanceGeometry& instance = instances_[body - scene_.shapes.size()];
+  const uint32_t crossed = instance.count_crossed(ray, t_end, share == 0 ? 1 : instance.triangles());
+  return crossed == 0 ? 1 : std::pow(share, crossed / 2.0);
+}
+
+double Tracer::transmittance(const Ray& ray, double t_end) const {
+  // Collect the shares first: a product depends on the order of its factors.
+  std::vector<std::pair<size_t, double>> shares;
+  for_each_entered(ray, t_end, [&](size_t body, double entry, double limit) {
+    if (!(entry < t_end)) return limit;
+    const double share = share_let_through(body, ray, entry, t_end);
+    if (share != 1) shares.emplace_back(body, share);
+    return share == 0 ? -1.0 : limit;
+  });
+  std::sort(shares.begin(), shares.end());
+  double product = 1;
+  for (const auto& [body, share] : shares) product *= share;
+  return product;
 }
 
 Vec3 departure(const SurfacePoint& point, const Vec3& d) {
   const double offset = 4 * point.position_error;
   return point.position +
          point.normal_geometric * (glm::dot(d, point.normal_geometric) >= 0 ? offset : -offset);
-}
-
-double transmittance(const Scene& scene, const Ray& ray, double t_end) {
-  double share = 1;
-  for (const auto& shape : scene.shapes) {
-    const auto hit = shape->intersect(ray);
-    if (hit && hit->t < t_end) share *= scene.materials[size_t(shape->material)]->shadow_transmittance();
-    if (share == 0) return 0;
-  }
-  return share;
 }
 
 }  // namespace eyeray::reference

@@ -1,37 +1,77 @@
-// What a ray meets: every shape is asked, none is left out.
+// What a ray meets: a shape, or a triangle of an instance.
 #pragma once
 
+#include <deque>
+
+#include "reference/instance_geometry.hpp"
 #include "scene/scene.hpp"
 
 namespace eyeray::reference {
 
 struct Hit {
-  int primitive;  // index in Scene::shapes
-  Intersection intersection;
+  TriangleHit at;      // of a shape: its intersection
+  size_t body;         // a shape, by its index in Scene::shapes; the instances follow
+  uint64_t primitive;  // see Scene::primitive_count
+  int material;        // index in Scene::materials
 };
 
-// The nearest hit with t > 0; of exactly equal ones that of the lowest primitive.
-std::optional<Hit> trace(const Scene& scene, const Ray& ray);
+// A scene made ready for rays. Hits are the same to the last bit with every Acceleration (box_tree.hpp says
+// why).
+class Tracer {
+ public:
+  // `scene` must outlive it. Under Acceleration::tree, a second for a million triangles or less.
+  explicit Tracer(const Scene& scene, Acceleration acceleration = Acceleration::tree);
+
+  // The nearest hit with t > 0; of exactly equal ones that of the lowest primitive.
+  std::optional<Hit> trace(const Ray& ray) const;
+  // The surface where `ray` has that hit.
+  SurfacePoint surface(const Ray& ray, const Hit& hit) const;
+
+  // The share of light that comes through all that the ray meets at 0 < t < t_end. A shape counts once; of an
+  // instance each triangle lets the square root of its material's share through, so that a closed mesh, which
+  // is crossed twice, counts once as well.
+  double transmittance(const Ray& ray, double t_end) const;
+
+  const Scene& scene() const { return scene_; }
+  // As Scene::instances.
+  const std::vector<InstanceGeometry>& instances() const { return instances_; }
+
+ private:
+  int material(size_t body) const;
+  std::optional<TriangleHit> intersect(size_t body, const Ray& ray, double limit) const;
+  double share_let_through(size_t body, const Ray& ray, double entry, double t_end) const;
+  template <typename Visit>
+  void for_each_entered(const Ray& ray, double limit, const Visit& visit) const;
+
+  const Scene& scene_;
+  std::deque<MeshGeometry> meshes_;  // as Scene::meshes; a deque, since instances point into it
+  std::vector<InstanceGeometry> instances_;
+  std::vector<uint64_t> first_primitives_;  // of each instance
+  std::vector<uint32_t> unbounded_;         // bodies
+  std::vector<uint32_t> bounded_;           // bodies, …
+  std::vector<Bounds> boxes_;               // … and where they are
+  double reach_ = 0;                        // the largest coordinate in any computation that yields a box
+  double growth_ = 1;                       // the largest of all instances
+  BoxTree tree_;                            // of boxes_
+};
 
 // Where a ray into direction `d` leaves from a surface point: off the surface by a few error bounds, on the
 // side of `d`, so that the ray does not meet the surface that it leaves.
 Vec3 departure(const SurfacePoint& point, const Vec3& d);
 
-// Calls visit(t, surface) for each crossing of the shape, in order of t, until `visit` returns false.
-template <typename Visit>
-void for_each_crossing(const Shape& shape, const Ray& ray, const Visit& visit) {
+// Calls visit(t, surface) for each crossing of the body, a Shape or an InstanceGeometry, in order of t, until
+// `visit` returns false.
+template <typename Body, typename Visit>
+void for_each_crossing(const Body& body, const Ray& ray, const Visit& visit) {
   // Start anew behind each crossing; t stays that of the ray as given.
   Ray rest = ray;
   double passed = 0;
-  while (const auto hit = shape.intersect(rest)) {
-    const SurfacePoint surface = shape.surface(rest, *hit);
+  while (const auto hit = body.intersect(rest)) {
+    const SurfacePoint surface = body.surface(rest, *hit);
     if (!visit(passed + hit->t, surface)) return;
     rest.o = departure(surface, ray.d);
     passed = glm::dot(rest.o - ray.o, ray.d) / glm::dot(ray.d, ray.d);
   }
 }
-
-// The share of light that comes through all shapes that the ray meets at 0 < t < t_end, each counted once.
-double transmittance(const Scene& scene, const Ray& ray, double t_end);
 
 }  // namespace eyeray::reference

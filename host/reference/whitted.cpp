@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "reference/light.hpp"
-#include "reference/tracer.hpp"
 
 namespace eyeray::reference {
 
@@ -27,7 +26,7 @@ struct View {
 
 class Tree {
  public:
-  explicit Tree(const Scene& scene) : scene_(scene) {}
+  explicit Tree(const Tracer& tracer) : tracer_(tracer), scene_(tracer.scene()) {}
 
   Vec3 radiance(const Path& path);
 
@@ -40,6 +39,7 @@ class Tree {
   Vec3 child(const Path& path, const View& view, const Vec3& d, const MediaStack& media, const Vec3& share);
   Medium medium(const MediaStack& media) const;
 
+  const Tracer& tracer_;
   const Scene& scene_;
 };
 
@@ -59,13 +59,12 @@ Vec3 refract(const View& view, double n1, double n2) {
 
 Vec3 Tree::radiance(const Path& path) {
   ++rays;
-  const auto hit = trace(scene_, path.ray);
+  const auto hit = tracer_.trace(path.ray);
   if (!hit) return scene_.render.background;
   ++hits;
 
   // Turn the surface to the viewer.
-  const Shape& shape = *scene_.shapes[size_t(hit->primitive)];
-  View view{shape.surface(path.ray, hit->intersection), path.ray.d, 0};
+  View view{tracer_.surface(path.ray, *hit), path.ray.d, 0};
   const bool front = glm::dot(view.d, view.surface.normal_geometric) < 0;
   if (!front) {
     view.surface.normal_geometric = -view.surface.normal_geometric;
@@ -74,13 +73,13 @@ Vec3 Tree::radiance(const Path& path) {
   view.cos_view = std::clamp(-glm::dot(view.d, view.surface.normal), 0.0, 1.0);
 
   // Say which media meet here.
-  const Material& material = *scene_.materials[size_t(shape.material)];
+  const Material& material = *scene_.materials[size_t(hit->material)];
   const Medium before = medium(path.media);
   MediaStack beyond = path.media;
   if (material.medium()) {
     if (!front) {
-      beyond.remove(shape.material);
-    } else if (!beyond.push(shape.material)) {
+      beyond.remove(hit->material);
+    } else if (!beyond.push(hit->material)) {
       flags |= media_overflow;
     }
   }
@@ -89,7 +88,7 @@ Vec3 Tree::radiance(const Path& path) {
 
   // Add up the light that the point scatters, mirrors and lets through, and dim it on its way here.
   Path arrived = path;
-  const Vec3 dimming = glm::exp(-before.absorption * hit->intersection.t);
+  const Vec3 dimming = glm::exp(-before.absorption * hit->at.t);
   arrived.weight *= dimming;
   Vec3 color = direct(view, scattering);
   const Vec3 mirrored = view.d + 2 * view.cos_view * view.surface.normal;
@@ -117,7 +116,7 @@ Vec3 Tree::direct(const View& view, const Scattering& scattering) {
     const double cosine = glm::dot(n, l);
     if (!(cosine > 0 && glm::dot(view.surface.normal_geometric, l) > 0)) continue;
     ++rays;
-    const double seen = transmittance(scene_, {departure(view.surface, l), l}, distance);
+    const double seen = tracer_.transmittance({departure(view.surface, l), l}, distance);
     if (seen == 0) continue;
 
     const double lobe =
@@ -130,8 +129,8 @@ Vec3 Tree::direct(const View& view, const Scattering& scattering) {
 
 }  // namespace
 
-PixelSample whitted(const Scene& scene, const Ray& ray, const MediaStack& media) {
-  Tree tree(scene);
+PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media) {
+  Tree tree(tracer);
   const Vec3 color = tree.radiance({ray, media, 0, Vec3(1)});
   return {color, tree.rays, tree.hits, tree.flags};
 }

@@ -4,11 +4,11 @@
 
 #include "core/pixel.hpp"
 #include "reference/media.hpp"
-#include "scene/scene.hpp"
+#include "reference/tracer.hpp"
 
 namespace eyeray::reference {
 
 // What `ray` (with a unit direction) sees, starting in `media`.
-PixelSample whitted(const Scene& scene, const Ray& ray, const MediaStack& media);
+PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media);
 
 }  // namespace eyeray::reference

@@ -1,0 +1,73 @@
+#include "reference/mesh_geometry.hpp"
+
+#include <algorithm>
+
+#include "scene/affine.hpp"
+
+namespace eyeray::reference {
+
+namespace {
+
+Bounds bounds_of(const Corners& corners) {
+  Bounds bounds;
+  for (const Vec3& corner : corners) bounds.include(corner);
+  return bounds;
+}
+
+}  // namespace
+
+MeshGeometry::MeshGeometry(const Mesh& mesh, Acceleration acceleration)
+    : mesh_(mesh),
+      bounds_(eyeray::bounds(mesh)),
+      tree_(
+          uint32_t(mesh.triangles.size()), [this](uint32_t i) { return bounds_of(corners(i)); },
+          acceleration) {}
+
+Corners MeshGeometry::corners(uint32_t triangle) const {
+  const auto& [a, b, c] = mesh_.triangles[triangle];
+  return {mesh_.positions[a], mesh_.positions[b], mesh_.positions[c]};
+}
+
+BoxRay MeshGeometry::box_ray(const Ray& ray) const {
+  const double reach = std::max(magnitude(bounds_.min), magnitude(bounds_.max));
+  return {ray, rounding * (magnitude(ray.o) + reach)};
+}
+
+std::optional<TriangleHit> MeshGeometry::intersect_one(uint32_t triangle, const Ray& ray,
+                                                       const BoxRay& box_ray) const {
+  const Corners v = corners(triangle);
+  const double entry = box_ray.entry(bounds_of(v));
+  if (entry == std::numeric_limits<double>::infinity()) return std::nullopt;
+  auto hit = intersect_triangle(v, geometric_normal(v), ray);
+  if (!hit) return std::nullopt;
+
+  // A ray that grazes the plane may get a t before the box, by rounding.
+  hit->t = std::max(hit->t, entry);
+  return TriangleHit{*hit, triangle};
+}
+
+std::optional<TriangleHit> MeshGeometry::intersect(const Ray& ray, double limit) const {
+  std::optional<TriangleHit> nearest;
+  const BoxRay boxes = box_ray(ray);
+  tree_.search(boxes, limit, [&](uint32_t i, double so_far) {
+    const auto hit = intersect_one(i, ray, boxes);
+    if (!hit || (nearest && !(hit->t < nearest->t || (hit->t == nearest->t && i < nearest->triangle))))
+      return so_far;
+    nearest = hit;
+    return std::min(so_far, hit->t);
+  });
+  return nearest;
+}
+
+uint32_t MeshGeometry::count_crossed(const Ray& ray, double t_end, uint32_t most) const {
+  uint32_t count = 0;
+  const BoxRay boxes = box_ray(ray);
+  tree_.search(boxes, t_end, [&](uint32_t i, double limit) {
+    const auto hit = intersect_one(i, ray, boxes);
+    if (!hit || !(hit->t < t_end)) return limit;
+    return ++count < most ? limit : -1.0;
+  });
+  return count;
+}
+
+}  // namespace eyeray::reference

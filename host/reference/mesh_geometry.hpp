@@ -1,0 +1,40 @@
+// What a ray meets of a mesh, in the mesh's own space.
+#pragma once
+
+#include <optional>
+
+#include "reference/box_tree.hpp"
+#include "scene/mesh.hpp"
+#include "scene/triangle.hpp"
+
+namespace eyeray::reference {
+
+struct TriangleHit : Intersection {
+  uint32_t triangle = 0;  // index in Mesh::triangles
+};
+
+class MeshGeometry {
+ public:
+  // `mesh` must outlive it.
+  MeshGeometry(const Mesh& mesh, Acceleration acceleration);
+
+  // The nearest hit with t > 0; of exactly equal ones that of the lowest triangle. Beyond `limit` it may be
+  // missing.
+  std::optional<TriangleHit> intersect(const Ray& ray, double limit) const;
+  // How many triangles the ray meets at 0 < t < t_end; counting ends at `most`.
+  uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most) const;
+
+  const Mesh& mesh() const { return mesh_; }
+  const Bounds& bounds() const { return bounds_; }
+  Corners corners(uint32_t triangle) const;
+
+ private:
+  BoxRay box_ray(const Ray& ray) const;
+  std::optional<TriangleHit> intersect_one(uint32_t triangle, const Ray& ray, const BoxRay& box_ray) const;
+
+  const Mesh& mesh_;
+  Bounds bounds_;
+  BoxTree tree_;
+};
+
+}  // namespace eyeray::reference
