@@ -1,0 +1,148 @@
+// The reference's tree finds what asking everything finds, to the last bit.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <bit>
+
+#include "core/parallel_for.hpp"
+#include "core/stopwatch.hpp"
+#include "meshes.hpp"
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// A mesh of triangles that are hard on boxes: flat ones, needles, coplanar ones, duplicates, all sizes.
+Mesh hard_mesh(Dice& dice, double size) {
+  Mesh mesh;
+  const Vec3 center = dice.in_box(1) * size * dice.scale(-3, 3);
+  const int count = int(dice.between(1, 40));
+  const double grid = dice.between(0, 1) < 0.5 ? size / 4 : 0;
+  const auto point = [&](const Vec3& at, double reach) {
+    Vec3 p = at + reach * dice.in_box(1);
+    if (grid > 0) p = glm::round(p / grid) * grid;  // so that corners, planes and boxes coincide
+    return p;
+  };
+  for (int i = 0; i < count; ++i) {
+    Corners v;
+    const int kind = int(dice.between(0, 6));
+    const Vec3 at = point(center, size);
+    const double reach = size * dice.scale(-2, 0);
+    for (Vec3& corner : v) corner = point(at, reach);
+    if (kind == 0) v[1].y = v[2].y = v[0].y;  // flat, in an axis' plane
+    if (kind == 1) v[2] = glm::mix(v[0], v[1], 0.4) + 1e-8 * size * dice.in_box(1);  // a needle
+    if (kind == 2 && i > 0) v = corners(mesh, size_t(dice.between(0, i)));           // a duplicate
+    if (kind == 3 && i > 0) {                                                        // coplanar
+      const Corners other = corners(mesh, size_t(dice.between(0, i)));
+      v = {other[0], other[1], other[1] + 2.0 * (other[2] - other[0])};
+    }
+    if (thickness(v) < thinnest_triangle) v = {at, at + Vec3(size, 0, 0), at + Vec3(0, 0, size)};
+    const auto first = uint32_t(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), v.begin(), v.end());
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+// Meshes, shared by instances that are moved, sheared, mirrored and repeated, and shapes between them.
+Scene hard_scene(Dice& dice) {
+  Scene scene;
+  const double size = dice.scale(-6, 6);
+  const int opaque = add(scene, make_phong({}));
+  const int glass = add(scene, make_dielectric({.shadow = 0.7}));
+  const auto material = [&] { return dice.between(0, 4) < 1 ? opaque : glass; };
+  for (int i = int(dice.between(0, 6)); i > 0; --i)
+    add(scene, make_sphere(size * dice.in_box(2), size * dice.scale(-3, 0)), material());
+  if (dice.between(0, 1) < 0.3) add(scene, make_plane(size * dice.in_box(1), {0, 1, 0}), material());
+  for (int i = int(dice.between(0, 4)); i > 0; --i) add_triangles(scene, hard_mesh(dice, size), material());
+  for (int i = int(dice.between(0, 3)); i >= 0; --i) {
+    const int mesh = add(scene, hard_mesh(dice, size));
+    for (int k = int(dice.between(0, 4)); k >= 0; --k) {
+      const bool repeat = dice.between(0, 3) < 1 && !scene.instances.empty();
+      const Mat4 map = repeat ? scene.instances.back().transform
+                              : random_map(dice, dice.between(0, 1), dice.between(0, 2) < 1 ? 0 : size);
+      add_instance(scene, mesh, material(), map);
+    }
+  }
+  return scene;
+}
+
+// A point of some primitive: in it, on an edge, or a corner.
+Vec3 some_target(const Scene& scene, Dice& dice) {
+  const Instance& instance = scene.instances[size_t(dice.between(0, double(scene.instances.size())))];
+  const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
+  const Corners v = corners(mesh, size_t(dice.between(0, double(mesh.triangles.size()))));
+  const double u = dice.between(0, 2) < 1 ? 0 : dice.between(0, 1);
+  const double w = dice.between(0, 2) < 1 ? 0 : dice.between(0, 1 - u);
+  return Affine(instance.transform).point(v[0] + u * (v[1] - v[0]) + w * (v[2] - v[0]));
+}
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
+}
+
+bool same(const std::optional<reference::Hit>& a, const std::optional<reference::Hit>& b) {
+  if (!a || !b) return !a == !b;
+  return a->primitive == b->primitive && a->material == b->material && same_bits(a->at.t, b->at.t) &&
+         same_bits(a->at.u, b->at.u) && same_bits(a->at.v, b->at.v);
+}
+
+// The nearest hit as the definition says, without a box in it anywhere.
+std::optional<Intersection> plain_search(const Scene& scene, const Ray& ray) {
+  std::optional<Intersection> nearest;
+  const auto offer = [&](const std::optional<Intersection>& hit) {
+    if (hit && (!nearest || hit->t < nearest->t)) nearest = hit;
+  };
+  for (const auto& shape : scene.shapes) offer(shape->intersect(ray));
+  for (const Instance& instance : scene.instances) {
+    const Affine map(instance.transform);
+    const Ray in_mesh{(ray.o - map.offset) * map.cotangent, ray.d * map.cotangent};
+    const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
+    for (size_t i = 0; i < mesh.triangles.size(); ++i)
+      offer(intersect_triangle(corners(mesh, i), geometric_normal(corners(mesh, i)), in_mesh));
+  }
+  return nearest;
+}
+
+}  // namespace
+
+TEST_CASE("10 000 hard scenes: the tree finds what brute force finds, to the last bit") {
+  Dice dice;
+  int rays = 0, hits = 0, ties = 0, different = 0, different_light = 0, dimmed = 0, beside_boxes = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Scene scene = hard_scene(dice);
+    const reference::Tracer tree(scene, Acceleration::tree);
+    const reference::Tracer brute(scene, Acceleration::brute_force);
+    for (int k = 0; k < 24; ++k) {
+      // From anywhere, or from a primitive to another; along an axis, or of any length.
+      const Vec3 target = some_target(scene, dice);
+      Ray ray{k % 3 == 0 ? some_target(scene, dice) : target + dice.scale(-2, 7) * dice.direction(), {}};
+      ray.d = target - ray.o;
+      if (k % 4 == 1) ray = {target - Vec3(0, 0, dice.scale(-2, 3)), Vec3(0, 0, 1)};
+      if (ray.d == Vec3(0)) continue;
+      ++rays;
+      const auto hit = tree.trace(ray);
+      const auto expected = brute.trace(ray);
+      different += !same(hit, expected);
+      hits += hit.has_value();
+      const auto plain = plain_search(scene, ray);
+      beside_boxes +=
+          plain.has_value() != hit.has_value() || (hit && plain && !same_bits(plain->t, hit->at.t));
+
+      const double t_end = dice.between(0, 3) < 1 ? std::numeric_limits<double>::infinity() : 1.0;
+      const double light = tree.transmittance(ray, t_end);
+      different_light += !same_bits(light, brute.transmittance(ray, t_end));
+      dimmed += light > 0 && light < 1;
+    }
+  }
+  MESSAGE(fmt::format("{} rays, {} hits, {} dimmed; {} of a plain search are beside the boxes", rays, hits,
+                      dimmed, beside_boxes));
+  (void)ties;
+  CHECK(hits > 100'000);
+  CHECK(dimmed > 20'000);
+  CHECK(different == 0);
+  CHECK(different_light == 0);
+  CHECK(beside_boxes < rays / 1000);
+}
