@@ -1,11 +1,8 @@
 // The reference's tree finds what asking everything finds, to the last bit.
 #include <fmt/format.h>
 
-#include <atomic>
 #include <bit>
 
-#include "core/parallel_for.hpp"
-#include "core/stopwatch.hpp"
 #include "meshes.hpp"
 #include "support/doctest.hpp"
 
