@@ -38,16 +38,21 @@ SurfacePoint InstanceGeometry::surface(const Ray&, const TriangleHit& hit) const
   const Mesh& mesh = mesh_->mesh();
   const auto& triangle = mesh.triangles[hit.triangle];
   const Corners v = mesh_->corners(hit.triangle);
-  const Vec3 position = v[0] + (v[1] - v[0]) * hit.u + (v[2] - v[0]) * hit.v;
-  const Vec3 across = to_world_.cotangent * geometric_normal(v);
+  const Vec3 normal = geometric_normal(v);
+  const Vec3 across = to_world_.cotangent * normal;
+
+  // Put the point onto the plane that t comes from: a sliver's normal is so rough that the corners may lie
+  // off it by far more than their own rounding.
+  Vec3 position = v[0] + (v[1] - v[0]) * hit.u + (v[2] - v[0]) * hit.v;
+  position -= normal * glm::dot(normal, position - v[0]);
 
   SurfacePoint point;
   point.position = to_world_.point(position);
   point.normal_geometric = unit(across);
   point.normal = point.normal_geometric;
   if (!mesh.normals.empty()) {
-    const Vec3 normal = to_world_.cotangent * interpolate(mesh.normals, triangle, hit);
-    if (glm::dot(normal, point.normal_geometric) > 0) point.normal = unit(normal);
+    const Vec3 shading = to_world_.cotangent * interpolate(mesh.normals, triangle, hit);
+    if (glm::dot(shading, point.normal_geometric) > 0) point.normal = unit(shading);
   }
   point.uv = mesh.uv.empty() ? Vec2(hit.u, hit.v) : interpolate(mesh.uv, triangle, hit);
 

@@ -86,6 +86,8 @@ class Triangle final : public Shape {
     const auto& [v0, v1, v2] = vertices_;
     SurfacePoint point;
     point.position = v0 + (v1 - v0) * hit.u + (v2 - v0) * hit.v;
+    // Onto the plane that t comes from: a sliver's normal is rough, and its corners may lie off it.
+    point.position -= normal_ * glm::dot(normal_, point.position - v0);
     point.position_error = 1e-13 * std::max({magnitude(v0), magnitude(v1), magnitude(v2)});
     point.normal_geometric = normal_;
     point.normal = normals_ ? unit(interpolate(*normals_, hit)) : normal_;

@@ -1,4 +1,5 @@
 #include "reference/tracer.hpp"
+#include "scene/triangle.hpp"
 #include "scenes.hpp"
 #include "support/doctest.hpp"
 
@@ -35,7 +36,7 @@ void depart(const Shape& shape, const Shape& copy, const Ray& ray, double size, 
 
 TEST_CASE("a ray that leaves a surface does not meet it again") {
   Dice dice;
-  Count spheres, planes, triangles;
+  Count spheres, planes, triangles, needles;
   for (int i = 0; i < 30000; ++i) {
     const double size = dice.scale(-4, 4);
     const Vec3 center = dice.in_box(dice.scale(-4, 4));
@@ -55,6 +56,14 @@ TEST_CASE("a ray that leaves a surface does not meet it again") {
     const auto triangle = make_triangle({.vertices = {a, b, c}});
     depart(*triangle, *make_triangle({.vertices = {a, c, b}}), {eye, (a + b + c) / 3.0 - eye}, size, dice,
            triangles);
+
+    // So rough is a needle's normal that turned over, it is another needle.
+    const Corners needle{
+        a, b, glm::mix(a, b, dice.between(-1, 2)) + size * dice.scale(-8, -2) * c / glm::length(c)};
+    if (thickness(needle) < thinnest_triangle) continue;
+    const auto thin = make_triangle({.vertices = needle});
+    depart(*thin, *make_triangle({.vertices = needle}),
+           {eye, (needle[0] + needle[1] + needle[2]) / 3.0 - eye}, size, dice, needles);
   }
   const auto check = [](const std::string& name, const Count& count) {
     MESSAGE(name << ": " << count.rehits << " re-hits in " << count.departures << " departures");
@@ -64,6 +73,7 @@ TEST_CASE("a ray that leaves a surface does not meet it again") {
   check("sphere", spheres);
   check("plane", planes);
   check("triangle", triangles);
+  check("needle", needles);
 }
 
 TEST_CASE("all that a ray crosses is crossed once, in order") {
