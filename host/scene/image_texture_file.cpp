@@ -1,0 +1,35 @@
+#include "scene/image_texture_file.hpp"
+
+#include <system_error>
+
+#include "core/atomic_file.hpp"
+#include "core/coded_image.hpp"
+#include "core/error.hpp"
+
+namespace eyeray {
+
+namespace fs = std::filesystem;
+
+ImageTexture load_image_texture(const fs::path& path) {
+  const auto fail = [&](const std::string& why) {
+    return Error(ExitCode::file_io, "cannot read {}: {}", path.string(), why);
+  };
+
+  // Look before reading: a device never ends, a pipe without a writer never begins.
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (error) throw fail(error.message());
+  if (fs::is_directory(status)) throw fail("it is a folder");
+  if (!fs::is_regular_file(status)) throw fail("it is not a regular file");
+  if (const auto size = fs::file_size(path, error); !error && size > most_coded_bytes)
+    throw fail(fmt::format("it has {} bytes; the most is {} (1 GiB)", size, most_coded_bytes));
+  const std::string bytes = read_file(path);
+  return decode_image_texture(std::as_bytes(std::span(bytes)), path.string());
+}
+
+ImageTexture decode_image_texture(std::span<const std::byte> bytes, const std::string& name) {
+  CodedImage image = decode_coded_image(bytes, name);
+  return {.name = name, .width = image.width, .height = image.height, .texels = std::move(image.pixels)};
+}
+
+}  // namespace eyeray

@@ -1,0 +1,21 @@
+// Image textures from PNG and JPEG files, and from such bytes as model files embed.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "scene/texture.hpp"
+
+namespace eyeray {
+
+// The picture in a regular file of at most 1 GiB and 16384 pixels a side, named after the path; filter, wrap
+// and colour space are an ImageTexture's defaults. Error (file_io), one sentence with the path and the
+// reason, where it cannot be read.
+ImageTexture load_image_texture(const std::filesystem::path& path);
+
+// The same from memory; `name` stands in messages.
+ImageTexture decode_image_texture(std::span<const std::byte> bytes, const std::string& name);
+
+}  // namespace eyeray

@@ -1,0 +1,131 @@
+#include "core/coded_image.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+using Pixel = std::array<uint8_t, 4>;
+
+std::string bytes_of(const std::string& file) {
+  return read_file("tests/core/pictures/" + file);
+}
+
+CodedImage decode(const std::string& bytes) {
+  return decode_coded_image(std::as_bytes(std::span(bytes)), "a picture");
+}
+
+// What is said of bytes that are no picture.
+std::string refusal(const std::string& bytes) {
+  try {
+    decode(bytes);
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::file_io);
+    return error.what();
+  }
+  return "accepted";
+}
+
+// A PNG of one grey channel, as its header has it: `width` and `height` are not those of the data.
+std::string png_with_size(uint32_t width, uint32_t height) {
+  std::string bytes = bytes_of("grey.png");
+  for (int i = 0; i < 4; ++i) {
+    bytes[size_t(16 + i)] = char(width >> (24 - 8 * i));
+    bytes[size_t(20 + i)] = char(height >> (24 - 8 * i));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("PNG of every kind: the codes come out, from the top left") {
+  const Pixel colors[] = {{255, 0, 0, 255}, {0, 255, 0, 255},     {0, 0, 255, 255},
+                          {0, 0, 0, 255},   {255, 255, 255, 255}, {64, 128, 192, 255}};
+  for (const char* file : {"rgb.png", "palette.png", "rgb16.png", "rgba_interlaced.png"}) {
+    CAPTURE(file);
+    const CodedImage image = decode(bytes_of(file));
+    REQUIRE(image.width == 3);
+    REQUIRE(image.height == 2);
+    REQUIRE(image.pixels.size() == 6);
+    const uint8_t alpha = file == std::string("rgba_interlaced.png") ? 64 : 255;
+    for (size_t i = 0; i < 6; ++i)
+      CHECK(image.pixels[i] == Pixel{colors[i][0], colors[i][1], colors[i][2], alpha});
+  }
+  const CodedImage grey = decode(bytes_of("grey.png"));
+  REQUIRE(grey.pixels.size() == 6);
+  for (size_t i = 0; i < 6; ++i) {
+    const uint8_t code = std::array<uint8_t, 6>{0, 64, 128, 192, 254, 255}[i];
+    CHECK(grey.pixels[i] == Pixel{code, code, code, 255});
+  }
+}
+
+TEST_CASE("JPEG, baseline, progressive and grey: the codes come out, but for its own losses") {
+  for (const char* file : {"baseline.jpg", "progressive.jpg"}) {
+    CAPTURE(file);
+    const CodedImage image = decode(bytes_of(file));
+    CHECK(image.width == 16);
+    CHECK(image.height == 8);
+    REQUIRE(image.pixels.size() == 128);
+    for (const Pixel& pixel : image.pixels) {
+      CHECK(std::abs(pixel[0] - 200) <= 2);
+      CHECK(std::abs(pixel[1] - 100) <= 2);
+      CHECK(std::abs(pixel[2] - 50) <= 2);
+      CHECK(pixel[3] == 255);
+    }
+  }
+  // A ramp from 0 at the left to 240 at the right.
+  const CodedImage grey = decode(bytes_of("grey.jpg"));
+  REQUIRE(grey.pixels.size() == 256);
+  for (int i = 0; i < 256; ++i) {
+    const Pixel& pixel = grey.pixels[size_t(i)];
+    CHECK(std::abs(pixel[0] - i % 16 * 16) <= 4);
+    CHECK(pixel[0] == pixel[2]);
+  }
+}
+
+TEST_CASE("pictures that end early are refused, wherever they end") {
+  for (const char* file : {"rgb.png", "palette.png", "rgb16.png", "rgba_interlaced.png", "grey.png",
+                           "baseline.jpg", "progressive.jpg", "grey.jpg"}) {
+    const std::string whole = bytes_of(file);
+    // The last four bytes of a PNG are a checksum, which decoders do not look at.
+    const size_t longest = whole.starts_with("\x89PNG") ? whole.size() - 5 : whole.size() - 1;
+    for (size_t length = 0; length <= longest; ++length) {
+      CAPTURE(file);
+      CAPTURE(length);
+      REQUIRE(refusal(whole.substr(0, length)).starts_with("cannot read a picture: it "));
+    }
+    CHECK(refusal(whole + "and more") == "accepted");
+  }
+}
+
+TEST_CASE("a header that promises more than its file can hold takes no memory") {
+  CHECK(refusal(png_with_size(3, 2)) == "accepted");
+  CHECK(refusal(png_with_size(16384, 16384)) == "cannot read a picture: it ends early");
+  CHECK(refusal(png_with_size(16385, 1)) ==
+        "cannot read a picture: it has 16385×1 pixels; the most is 16384 a side");
+  CHECK(refusal(png_with_size(1, 0x7fffff)).find("the most is 16384 a side") != std::string::npos);
+  for (const uint32_t size : {0u, 0x80000000u, 0xffffffffu}) {
+    CAPTURE(size);
+    CHECK(refusal(png_with_size(size, 1)).starts_with("cannot read a picture: it "));
+  }
+
+  // A JPEG's size stands nine bytes behind the start of its frame header: marker, length, precision, height,
+  // width.
+  std::string jpeg = bytes_of("grey.jpg");
+  const size_t frame = jpeg.find("\xff\xc0");
+  REQUIRE(frame != std::string::npos);
+  jpeg.replace(frame + 5, 4, "\x40\x00\x40\x00", 4);
+  CHECK(refusal(jpeg) == "cannot read a picture: it ends early");
+  jpeg.replace(frame + 5, 4, "\xff\xff\xff\xff", 4);
+  CHECK(refusal(jpeg) == "cannot read a picture: it has 65535×65535 pixels; the most is 16384 a side");
+}
+
+TEST_CASE("what is neither PNG nor JPEG is refused, though stb_image could read it") {
+  for (const std::string& bytes : {std::string(), std::string("GIF89a"), std::string("P6 1 1 255\nabc"),
+                                   std::string("BM"), std::string("#?RADIANCE\n"), std::string(1000, '\0')})
+    CHECK(refusal(bytes) == "cannot read a picture: it is neither a PNG nor a JPEG");
+}
