@@ -68,20 +68,10 @@ void merge(toml::table& root, toml::table& file, DiagnosticLog& log) {
   }
 }
 
-// Whether `path` lies in the folder tree of `folder`; both canonical.
-bool lies_in(const fs::path& path, const fs::path& folder) {
-  return std::ranges::mismatch(folder, path).in1 == folder.end();
-}
-
 class Includer {
  public:
-  Includer(Document& document, DiagnosticLog& log) : document_(document), log_(log) {}
-
-  void allow(const fs::path& folder) {
-    std::error_code error;
-    const fs::path whole = fs::canonical(folder.empty() ? "." : folder, error);
-    if (!error) allowed_.push_back(whole);
-  }
+  Includer(Document& document, const AllowedFolders& folders, DiagnosticLog& log)
+      : document_(document), folders_(folders), log_(log) {}
 
   // Merges what `file` includes, then the file itself.
   void add(const fs::path& file, std::string text) {
@@ -110,25 +100,13 @@ class Includer {
 
   void include_one(const toml::node& node, const fs::path& from) {
     const SourcePosition at = position_of(node.source());
-    const std::string name = node.value_or(std::string());
-    if (name.empty() || name.find('\0') != std::string::npos)
-      return log_.error(at, "`include` needs the name of a file");
-    const fs::path file = (from.parent_path() / name).lexically_normal();
-
-    // Follow links before asking whether the file may be read.
-    std::error_code error;
-    const fs::path whole = fs::weakly_canonical(fs::absolute(file), error);
-    if (error ||
-        std::ranges::none_of(allowed_, [&](const fs::path& folder) { return lies_in(whole, folder); })) {
-      return log_.error(
-          at, fmt::format("{} lies outside the scene's folder; --allow-path DIR allows other ones", name));
-    }
-    if (std::ranges::find(chain_, whole) != chain_.end()) return log_.error(at, cycle(whole));
-    if (std::ranges::find(done_, whole) != done_.end()) return;  // once is enough
-    if (chain_.size() > deepest_include) {
-      return log_.error(at, fmt::format("includes are nested more than {} deep", deepest_include));
-    }
     try {
+      const auto [file, whole] = folders_.find(include_key, node.value_or(std::string()), from);
+      if (std::ranges::find(chain_, whole) != chain_.end()) return log_.error(at, cycle(whole));
+      if (std::ranges::find(done_, whole) != done_.end()) return;  // once is enough
+      if (chain_.size() > deepest_include) {
+        return log_.error(at, fmt::format("includes are nested more than {} deep", deepest_include));
+      }
       add(file, read_scene_text(file));
     } catch (const Error& unreadable) {
       log_.error(at, unreadable.what());
@@ -145,21 +123,17 @@ class Includer {
   }
 
   Document& document_;
+  const AllowedFolders& folders_;
   DiagnosticLog& log_;
-  std::vector<fs::path> allowed_;
   std::vector<fs::path> chain_;  // the files being read, from the scene down
   std::vector<fs::path> done_;
 };
 
 }  // namespace
 
-Document read_document(const fs::path& scene, std::span<const fs::path> allowed_folders, DiagnosticLog& log) {
+Document read_document(const fs::path& scene, const AllowedFolders& folders, DiagnosticLog& log) {
   Document document;
-  Includer includer(document, log);
-  std::string text = read_scene_text(scene);
-  includer.allow(scene.parent_path());
-  for (const fs::path& folder : allowed_folders) includer.allow(folder);
-  includer.add(scene, std::move(text));
+  Includer(document, folders, log).add(scene, read_scene_text(scene));
   return document;
 }
 

@@ -4,9 +4,9 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
-#include <span>
 #include <vector>
 
+#include "loader/allowed_folders.hpp"
 #include "scene/diagnostic_log.hpp"
 
 namespace eyeray {
@@ -19,8 +19,7 @@ struct Document {
 };
 
 // Error (file_io) when the scene itself cannot be read; all else goes to the log.
-Document read_document(const std::filesystem::path& scene,
-                       std::span<const std::filesystem::path> allowed_folders, DiagnosticLog& log);
+Document read_document(const std::filesystem::path& scene, const AllowedFolders& folders, DiagnosticLog& log);
 // A document without files; includes are refused.
 Document parse_document(std::string_view text, const std::string& name, DiagnosticLog& log);
 

@@ -3,12 +3,14 @@
 
 #include <toml++/toml.h>
 
+#include "loader/mesh_imports.hpp"
 #include "scene/diagnostic_log.hpp"
 #include "scene/scene.hpp"
 
 namespace eyeray {
 
-// Everything but Scene::file, files and warnings; only whole when the log has no errors.
-Scene build_scene(const toml::table& root, DiagnosticLog& log);
+// Everything but Scene::file, files and warnings; only whole when the log has no errors. `meshes`: null where
+// the scene may name no files.
+Scene build_scene(const toml::table& root, MeshImports* meshes, DiagnosticLog& log);
 
 }  // namespace eyeray

@@ -1,0 +1,30 @@
+// Which other files a scene may read: those in its own folder tree, and in trees that the user allowed.
+// Private to the loader.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace eyeray {
+
+class AllowedFolders {
+ public:
+  // `scene`: the file of the scene itself.
+  AllowedFolders(const std::filesystem::path& scene, std::span<const std::filesystem::path> others);
+
+  struct File {
+    std::filesystem::path path;   // as people know it
+    std::filesystem::path whole;  // canonical: the same for every way to name the file
+  };
+  // The file that the value `name` of `key`, written in the file `from`, stands for; it need not exist. Error
+  // (bad_input) where the name is none, or leads out of the allowed folders, links followed.
+  File find(std::string_view key, const std::string& name, const std::filesystem::path& from) const;
+
+ private:
+  std::vector<std::filesystem::path> trees_;  // canonical
+};
+
+}  // namespace eyeray
