@@ -16,6 +16,11 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(stb REQUIRED IMPORTED_TARGET stb)
 add_library(stb ALIAS PkgConfig::stb)
 
+# A header with its implementation, compiled into the importers.
+find_path(TINYOBJ_INCLUDE tiny_obj_loader.h REQUIRED)
+add_library(tinyobjloader INTERFACE)
+target_include_directories(tinyobjloader SYSTEM INTERFACE ${TINYOBJ_INCLUDE})
+
 # volk ships as source: one translation unit that loads Vulkan at run time, so that eyeray starts without a loader.
 find_path(VOLK_INCLUDE volk.c REQUIRED)
 add_library(volk INTERFACE)

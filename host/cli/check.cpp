@@ -26,7 +26,8 @@ struct Inventory {
   Counts shapes;
   Counts materials;
   Counts lights;
-  size_t bytes = 0;  // on the device, pixels not counted
+  size_t mesh_triangles = 0;  // each mesh's, however often it is shown
+  size_t bytes = 0;           // on the device, pixels not counted
 };
 
 template <typename Types, typename Records>
@@ -56,6 +57,7 @@ Inventory take_inventory(const Scene& scene) {
   if (points > 0) inventory.lights.emplace_back("point", points);
   if (points < scene.lights.size())
     inventory.lights.emplace_back("directional", scene.lights.size() - points);
+  for (const Mesh& mesh : scene.meshes) inventory.mesh_triangles += mesh.triangles.size();
   inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.materials) +
                     bytes(packed.textures) + bytes(packed.texels) + bytes(packed.media) +
                     bytes(packed.lights) + sizeof(packed.frame);
@@ -103,6 +105,10 @@ void print_text(const Scene& scene, const Inventory& inventory) {
                          : fmt::format("whitted, max_depth {}, min_weight {:g}", scene.render.max_depth,
                                        scene.render.min_weight));
   line("shapes", format_counts(inventory.shapes));
+  if (!scene.meshes.empty()) {
+    line("meshes", fmt::format("{} of {} triangles, shown {} times", scene.meshes.size(),
+                               inventory.mesh_triangles, scene.instances.size()));
+  }
   line("materials", format_counts(inventory.materials));
   line("lights", format_counts(inventory.lights));
   line("memory", fmt::format("{} bytes of scene, {} bytes of picture", inventory.bytes,
@@ -141,6 +147,10 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
        {{"width", scene.image.width}, {"height", scene.image.height}, {"samples", scene.image.samples}}},
       {"camera", view},
       {"shapes", to_json(inventory.shapes)},
+      {"meshes",
+       {{"count", scene.meshes.size()},
+        {"triangles", inventory.mesh_triangles},
+        {"instances", scene.instances.size()}}},
       {"materials", to_json(inventory.materials)},
       {"lights", to_json(inventory.lights)},
       {"scene_bytes", inventory.bytes},

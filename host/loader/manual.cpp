@@ -45,7 +45,9 @@ std::string scene_manual() {
       text += trimmed(section.shape->manual) + key_table({section.shape->keys, section.keys});
       continue;
     }
-    text += std::string(section.doc) + "\n\n" + key_table({section.keys});
+    text += std::string(section.doc) + "\n\n";
+    if (!section.manual.empty()) text += trimmed(section.manual);
+    text += key_table({section.keys});
     if (section.kind != material) continue;
     for (const MaterialType* type : material_types()) {
       text += fmt::format("### `type = \"{}\"`\n\n", type->name) + trimmed(type->manual) +
@@ -66,7 +68,9 @@ std::string scene_manual() {
   text += key_table({transform_step_keys()});
   text += "A rotation is a table of two:\n\n" + key_table({rotation_keys()});
   text +=
-      "## `batch`\n\nMany shapes from one table: each key of `batch` holds a list with one value a shape, "
+      "## `batch`\n\nMany shapes or instances of a mesh from one table: each key of `batch` holds a list "
+      "with one value "
+      "each, "
       "all lists equally "
       "long. The table's other keys are common to all.\n\n"
       "```toml\n[[sphere]]\nmaterial = \"glass\"\n"

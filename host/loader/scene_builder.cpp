@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "loader/mesh_placement.hpp"
 #include "loader/sections.hpp"
 #include "loader/settings.hpp"
 #include "scene/table.hpp"
@@ -21,8 +22,8 @@ struct Batch {
 
 class Builder {
  public:
-  Builder(const toml::table& root, ImageSource* images, DiagnosticLog& log)
-      : root_(root), images_(images), log_(log) {}
+  Builder(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log)
+      : root_(root), images_(images), meshes_(meshes), log_(log) {}
 
   Scene build() {
     TableReader image = read_single("image");
@@ -42,6 +43,7 @@ class Builder {
       for_each(type->name,
                [&](const Section& section, const toml::table& table) { add_shapes(section, table); });
     }
+    for_each("mesh", [&](const Section& section, const toml::table& table) { add_meshes(section, table); });
     check_whole();
     return std::move(scene_);
   }
@@ -68,15 +70,19 @@ class Builder {
 
   void add_material(const Section& section, const toml::table& table);
   void add_shapes(const Section& section, const toml::table& table);
+  void add_meshes(const Section& section, const toml::table& table);
+  void add_mesh(TableReader& reader);
   Batch read_batch(const Section& section, const toml::table& table);
   int find_material(TableReader& shape);
   void check_whole();
 
   const toml::table& root_;
   ImageSource* images_;
+  MeshImports* meshes_;
   DiagnosticLog& log_;
   Scene scene_;
   std::map<std::string, NamedMaterial, std::less<>> materials_;
+  MeshPlacer placer_{scene_};
   size_t media_ = 0;
   bool tried_shapes_ = false;
 };
@@ -127,7 +133,8 @@ Batch Builder::read_batch(const Section& section, const toml::table& table) {
     return {nullptr, 0};
   }
   std::vector<std::string_view> names;
-  for (const std::span<const Key> keys : {section.keys, section.shape->keys}) {
+  for (const std::span<const Key> keys :
+       {section.keys, section.shape ? section.shape->keys : std::span<const Key>()}) {
     for (const Key& key : keys) names.push_back(key.name);
   }
   Batch batch{lists, 0};
@@ -145,7 +152,7 @@ Batch Builder::read_batch(const Section& section, const toml::table& table) {
     } else if (table.contains(key.str())) {
       fail(key.source(), fmt::format("`{}` stands in the table and in its batch", key.str()));
     } else if (!list.is_array()) {
-      fail(list.source(), fmt::format("`{}` in a batch must be a list, one value a shape", key.str()));
+      fail(list.source(), fmt::format("`{}` in a batch must be a list, one value each", key.str()));
     } else if (!first) {
       first = &key;
       batch.count = list.as_array()->size();
@@ -173,6 +180,36 @@ void Builder::add_shapes(const Section& section, const toml::table& table) {
   }
 }
 
+void Builder::add_meshes(const Section& section, const toml::table& table) {
+  tried_shapes_ = true;
+  const Batch batch = read_batch(section, table);
+  for (size_t i = 0; i < batch.count; ++i) {
+    TableReader reader = read_table({section.title, &table, {section.keys}, batch.lists, i, batch_key}, log_);
+    add_mesh(reader);
+  }
+}
+
+void Builder::add_mesh(TableReader& reader) {
+  const bool own_materials = !reader.has("material");
+  const int material = own_materials ? 0 : find_material(reader);
+  if (reader.failed()) return;
+  if (!meshes_) return reader.error("file", "only a scene in a file can name mesh files");
+  const std::optional<double> smooth =
+      reader.has("smooth") ? std::optional(reader.number("smooth")) : std::nullopt;
+  try {
+    const auto [import, fresh] = meshes_->load(reader.string("file"), smooth, reader.position().file);
+    if (fresh) {
+      for (const std::string& warning : import->warnings) log_.warning(reader.position(), warning);
+    }
+    const std::string wrong =
+        placer_.place(*import, reader.transform("transform"),
+                      own_materials ? std::nullopt : std::optional(material), reader.position());
+    if (!wrong.empty()) reader.error("transform", wrong);
+  } catch (const Error& refused) {
+    reader.error("file", refused.what());
+  }
+}
+
 int Builder::find_material(TableReader& shape) {
   if (!shape.valid("material")) return 0;
   const std::string name = shape.string("material");
@@ -192,11 +229,17 @@ int Builder::find_material(TableReader& shape) {
 
 // Warns of what is legal but hardly meant.
 void Builder::check_whole() {
-  if (scene_.shapes.empty() && !tried_shapes_)
-    log_.warning({}, "the scene has no shapes: only background will be seen");
-  if (scene_.lights.empty() && scene_.render.integrator == IntegratorType::whitted &&
-      !scene_.shapes.empty()) {
+  const bool empty = scene_.shapes.empty() && scene_.instances.empty();
+  if (empty && !tried_shapes_) log_.warning({}, "the scene has no shapes: only background will be seen");
+  if (scene_.lights.empty() && scene_.render.integrator == IntegratorType::whitted && !empty) {
     log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");
+  }
+  const auto is_medium = [](const auto& material) { return material->medium().has_value(); };
+  if (std::ranges::count_if(scene_.materials, is_medium) > std::ptrdiff_t{most_media}) {
+    log_.error({},
+               fmt::format("a scene can have at most {} materials that light passes through, those of its "
+                           "mesh files included",
+                           most_media));
   }
   for (const auto& [name, material] : materials_) {
     if (!material.used) log_.warning(material.position, fmt::format("material \"{}\" is not used", name));
@@ -205,8 +248,8 @@ void Builder::check_whole() {
 
 }  // namespace
 
-Scene build_scene(const toml::table& root, ImageSource* images, DiagnosticLog& log) {
-  return Builder(root, images, log).build();
+Scene build_scene(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log) {
+  return Builder(root, images, meshes, log).build();
 }
 
 }  // namespace eyeray

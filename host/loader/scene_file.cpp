@@ -2,6 +2,8 @@
 
 #include "loader/document.hpp"
 #include "loader/image_files.hpp"
+#include "loader/mesh_imports.hpp"
+#include "loader/mesh_scene.hpp"
 #include "loader/overrides.hpp"
 #include "loader/scene_builder.hpp"
 
@@ -9,33 +11,53 @@ namespace eyeray {
 
 namespace {
 
-// `images`: null for a scene that is in no file.
-Scene finish(Document document, const std::filesystem::path& file, std::span<const Override> overrides,
-             ImageFiles* images, DiagnosticLog& log) {
+namespace fs = std::filesystem;
+
+// `images` and `meshes`: null for a scene that is in no file.
+Scene finish(Document document, const fs::path& file, std::span<const Override> overrides, ImageFiles* images,
+             MeshImports* meshes, DiagnosticLog& log) {
   apply_overrides(document.root, overrides, log);
-  Scene scene = build_scene(document.root, images, log);
+  Scene scene = build_scene(document.root, images, meshes, log);
   if (log.has_errors()) throw InputError(log.sorted());
   scene.file = file;
   scene.files = std::move(document.files);
   if (images) scene.files.insert(scene.files.end(), images->files().begin(), images->files().end());
+  if (meshes) scene.files.insert(scene.files.end(), meshes->files().begin(), meshes->files().end());
   scene.warnings = log.sorted();
   return scene;
 }
 
+// The mesh file as if a scene showed it.
+Document read_mesh(const fs::path& file, MeshImports& meshes, DiagnosticLog& log) {
+  log.add_source(file.string(), "");
+  const MeshImports::Loaded loaded = meshes.load_alone(file);
+  for (const std::string& warning : loaded.scene->warnings) log.warning({}, warning);
+  return {mesh_scene(file, *loaded.scene), {}};
+}
+
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& file, std::span<const Override> overrides,
-                 std::span<const std::filesystem::path> allowed_folders) {
+Scene load_scene(const fs::path& file, std::span<const Override> overrides,
+                 std::span<const fs::path> allowed_folders) {
   DiagnosticLog log;
   const AllowedFolders folders(file, allowed_folders);
+  std::vector<fs::path> trees(allowed_folders.begin(), allowed_folders.end());
+  trees.push_back(file.parent_path());
+  if (is_mesh_file(file)) {
+    MeshImports meshes(folders, std::move(trees), {file});
+    Document document = read_mesh(file, meshes, log);
+    ImageFiles images(folders, document.files, log);
+    return finish(std::move(document), file, overrides, &images, &meshes, log);
+  }
   Document document = read_document(file, folders, log);
   ImageFiles images(folders, document.files, log);
-  return finish(std::move(document), file, overrides, &images, log);
+  MeshImports meshes(folders, std::move(trees), document.files);
+  return finish(std::move(document), file, overrides, &images, &meshes, log);
 }
 
 Scene parse_scene(std::string_view text, const std::string& name, std::span<const Override> overrides) {
   DiagnosticLog log;
-  return finish(parse_document(text, name, log), name, overrides, nullptr, log);
+  return finish(parse_document(text, name, log), name, overrides, nullptr, nullptr, log);
 }
 
 }  // namespace eyeray

@@ -17,12 +17,13 @@ struct Override {
   std::string text;
 };
 
-// Reads, includes, overrides and checks a scene. Included files and images may lie in the scene file's folder
-// tree and in those of `allowed_folders`. Throws InputError with every error at once, or Error (file_io) when
-// the file itself cannot be read.
+// Reads, includes, overrides and checks a scene, or makes one that shows a mesh file (.obj, .ply, .gltf,
+// .glb). Included files, images and meshes may lie in the scene file's folder tree and in those of `allowed_folders`.
+// Throws InputError with every error at once, or Error (file_io) when the file itself cannot be read.
 Scene load_scene(const std::filesystem::path& file, std::span<const Override> overrides = {},
                  std::span<const std::filesystem::path> allowed_folders = {});
-// The same from memory, for tests; `name` stands in messages. It can neither include files nor name images.
+// The same from memory, for tests; `name` stands in messages. It can neither include files nor name images or
+// meshes.
 Scene parse_scene(std::string_view text, const std::string& name, std::span<const Override> overrides = {});
 
 // The JSON Schema of scene files, made from the same Keys that the loader checks by; docs/scene.schema.json.

@@ -143,10 +143,10 @@ Json material_schema(const Section& section) {
   return {{"oneOf", std::move(alternatives)}};
 }
 
-// A shape's required keys may stand in its batch instead.
-Json shape_schema(const Section& section) {
+// Required keys may stand in the batch instead.
+Json batch_schema(const Section& section) {
   Json schema = table_schema(section.keys);
-  add_keys(schema, section.shape->keys);
+  if (section.shape) add_keys(schema, section.shape->keys);
   Json lists = Json::object();
   for (const auto& [name, value] : schema["properties"].items()) {
     Json one = value;
@@ -155,7 +155,8 @@ Json shape_schema(const Section& section) {
     lists[name] = list_schema(std::move(one));
   }
   schema["properties"][std::string(batch_key)] = {
-      {"description", "Lists of values, one a shape; the table's other keys are common to all."},
+      {"description", fmt::format("Lists of values, one {}; the table's other keys are common to all.",
+                                  section.shape ? "a shape" : "an instance")},
       {"type", "object"},
       {"properties", std::move(lists)},
       {"minProperties", 1},
@@ -168,7 +169,7 @@ Json shape_schema(const Section& section) {
 Json section_schema(const Section& section) {
   using enum Section::Kind;
   if (section.kind == material) return list_schema(material_schema(section));
-  if (section.kind == shape) return list_schema(shape_schema(section));
+  if (section.batches()) return list_schema(batch_schema(section));
   return section.many() ? list_schema(table_schema(section.keys)) : table_schema(section.keys);
 }
 

@@ -37,6 +37,42 @@ constexpr Key shape_keys[] = {
      .fallback = "[]"},
 };
 
+constexpr std::string_view mesh_manual =
+    R"(The ending says what the file is: `.obj` (Wavefront), `.ply`, `.gltf` or `.glb` (glTF 2.0). The name is relative to the
+scene file, and the file, as all that it names, lies in the scene's folder tree, links followed, or where `--allow-path`
+says. A file is read once, and each table or element of a `batch` shows it once more: thousands of
+instances take little more memory than one.
+
+```
+[[mesh]]
+file = "meshes/bunny.obj"
+material = "glass"
+transform = [{ scale = 10 }, { translate = [0, -0.33, 0] }]
+```
+
+What a file has and eyeray leaves out is a warning. Cameras and lights of a glTF file count only where it is rendered
+itself, `eyeray render model.glb`. [scene-file.md](scene-file.md#meshes) tells more.)";
+
+constexpr Key mesh_keys[] = {
+    {.name = "file", .type = KeyType::string, .doc = "The name of the file, relative to this one."},
+    {.name = "material",
+     .type = KeyType::string,
+     .doc = "The `name` of a [[material]]; the file's own when absent, and where it has none, a light grey.",
+     .optional = true},
+    {.name = "transform",
+     .type = KeyType::transform,
+     .doc = "Steps that move the mesh, applied in the order written.",
+     .fallback = "[]"},
+    {.name = "smooth",
+     .type = KeyType::number,
+     .doc = "Faces that meet under less than this angle, in degrees, are shaded as one smooth surface, where "
+            "the "
+            "file has no normals; 0: flat. 40 when absent, and 0 for glTF.",
+     .min = 0,
+     .max = 180,
+     .optional = true},
+};
+
 std::vector<Section> make_sections() {
   using enum Section::Kind;
   std::vector<Section> all = {
@@ -45,6 +81,7 @@ std::vector<Section> make_sections() {
       {render, "render", "[render]", "How the picture is computed.", render_keys()},
       {light, "light", "[[light]]", "A light.", light_keys()},
       {material, "material", "[[material]]", "What surfaces are made of.", material_keys()},
+      {mesh, "mesh", "[[mesh]]", "The triangles of a file.", mesh_keys, nullptr, mesh_manual},
   };
   for (const ShapeType* type : shape_types()) {
     all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", shape_keys, type});

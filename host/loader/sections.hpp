@@ -12,7 +12,7 @@
 namespace eyeray {
 
 struct Section {
-  enum class Kind { image, camera, render, light, material, shape };
+  enum class Kind { image, camera, render, light, material, mesh, shape };
 
   Kind kind;
   std::string_view name;
@@ -20,8 +20,10 @@ struct Section {
   std::string_view doc;
   std::span<const Key> keys;         // of every such table …
   const ShapeType* shape = nullptr;  // … and where set, the shape's own
+  std::string_view manual = {};      // what the manual adds to `doc`; Markdown
 
   bool many() const { return title.starts_with("[["); }
+  bool batches() const { return kind == Kind::shape || kind == Kind::mesh; }
 };
 
 // In the order in which the manual shows them; shapes in registry order.
@@ -31,7 +33,7 @@ const Section* find_section(std::string_view name);
 // "did you mean [[sphere]]?", or the names of all.
 std::string suggest_section(std::string_view name);
 
-// The key that lists the files to include, and the one that holds a shape's batch.
+// The key that lists the files to include, and the one that holds the batch of a shape or a mesh.
 inline constexpr std::string_view include_key = "include";
 inline constexpr std::string_view batch_key = "batch";
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/input_file.hpp"
 #include "loader/statements.hpp"
 #include "scene/value.hpp"
 
@@ -16,6 +17,8 @@ namespace {
 // A damaged file is parsed again after each error; big ones only once.
 constexpr int most_repairs = 50;
 constexpr size_t largest_repaired = size_t{1} << 20;
+
+constexpr size_t most_bytes = size_t{256} << 20;
 
 constexpr std::string_view redefinition = "cannot redefine existing ";
 
@@ -92,6 +95,10 @@ void report(const toml::parse_error& error, const std::string& text, const State
 }
 
 }  // namespace
+
+std::string read_scene_text(const std::filesystem::path& file) {
+  return read_input_file(file, "the scene", most_bytes);
+}
 
 std::string explain_syntax(std::string_view description, std::string_view statement) {
   // Turn "Error while parsing WHERE: WHAT" round.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/vec.hpp"
 
@@ -43,5 +44,8 @@ struct Similarity {
 
 // `transform` as a similarity (to 1e-6, so that matrices may be written by hand); nothing when it is none.
 std::optional<Similarity> similarity(const Mat4& transform);
+
+// Why the map cannot be undone in float32, such as "it shrinks everything to a point", or "".
+std::string why_singular(const Mat4& transform);
 
 }  // namespace eyeray

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 
+#include "scene/affine.hpp"
 #include "scene/table.hpp"
 
 namespace eyeray {
@@ -40,7 +41,8 @@ double frobenius(const glm::dmat3& m) {
   return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
 }
 
-// Why the map cannot be undone in float32, or "".
+}  // namespace
+
 std::string why_singular(const Mat4& map) {
   const glm::dmat3 linear(map);
   const double size = frobenius(linear);
@@ -55,8 +57,6 @@ std::string why_singular(const Mat4& map) {
   if (!(glm::length(Vec3(map[3])) <= largest_number)) return "it moves things too far";
   return "";
 }
-
-}  // namespace
 
 std::span<const Key> transform_step_keys() {
   return step_keys;

@@ -14,6 +14,10 @@ using Corners = std::array<Vec3, 3>;
 // A triangle thinner than this has no usable normal.
 inline constexpr double thinnest_triangle = 1e-9;
 
+// The least cosine between a shading normal at a corner and the triangle's own: below, it counts as pointing
+// away.
+inline constexpr double least_normal_cosine = 1e-6;
+
 // Twice the area over the square of the longest edge; 0 where corners coincide or lie on one line.
 double thickness(const Corners& corners);
 

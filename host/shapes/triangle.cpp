@@ -172,7 +172,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   if (world.normals) {
     const Vec3 geometric = geometric_normal(world.vertices);
     for (const Vec3& normal : *world.normals) {
-      if (glm::dot(normal, geometric) > 1e-6) continue;
+      if (glm::dot(normal, geometric) > least_normal_cosine) continue;
       table.error("normals",
                   "a normal points away from the outside, which is where the vertices run counter-clockwise; "
                   "turn it, or "

@@ -9,9 +9,9 @@ using namespace eyeray::test;
 
 namespace {
 
-const std::set<std::string> everything = {"accel",  "cli",    "compare",   "core",    "dev",
-                                          "gpu",    "loader", "materials", "records", "reference",
-                                          "render", "scene",  "shapes",    "twin"};
+const std::set<std::string> everything = {"accel",     "cli",    "compare", "core",      "dev",
+                                          "gpu",       "importers", "loader",  "materials", "records",
+                                          "reference", "render", "scene",   "shapes",    "twin"};
 
 // What each layer sees beside itself. That the reference sees neither records nor shaders is the point of
 // having one: an error of packing could hide in it.
@@ -21,7 +21,8 @@ const std::map<std::string, std::set<std::string>> visible = {
     {"records", {"core", "scene"}},
     {"shapes", {"core", "scene", "records"}},
     {"materials", {"core", "scene", "records"}},
-    {"loader", {"core", "scene"}},
+    {"importers", {"core", "scene", "materials"}},
+    {"loader", {"core", "scene", "importers"}},
     {"reference", {"core", "scene"}},
     {"twin", {"core", "records"}},
     {"gpu", {"core"}},
@@ -51,7 +52,8 @@ struct Library {
 const Library libraries[] = {
     {std::regex(R"((volk|vulkan|glslang|spirv-tools|spirv)([/.].*))"), {"gpu"}, {"gpu"}},
     {std::regex(R"(toml\+\+/.*)"), {"scene", "loader"}, {"scene", "loader"}},
-    {std::regex(R"(nlohmann/json\.hpp)"), {"cli", "compare", "loader"}, {}},
+    {std::regex(R"(nlohmann/json\.hpp)"), {"cli", "compare", "importers", "loader"}, {"importers"}},
+    {std::regex(R"(tiny_.*)"), {"importers"}, {}},
     {std::regex(R"(CLI/.*)"), {"cli"}, {"cli"}},
     {std::regex(R"(tbb/.*)"), {"core"}, {"core"}},
     {std::regex(R"(embree3/.*)"), {"accel"}, {}},

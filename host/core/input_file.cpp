@@ -1,3 +1,5 @@
+#include "core/input_file.hpp"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -6,14 +8,11 @@
 #include <cstring>
 #include <vector>
 
-#include "core/error.hpp"
-#include "loader/toml_file.hpp"
+#include "core/diagnostic.hpp"
 
 namespace eyeray {
 
 namespace {
-
-constexpr size_t most_bytes = size_t{256} << 20;
 
 class Descriptor {
  public:
@@ -29,7 +28,7 @@ class Descriptor {
   int fd_;
 };
 
-// "; did you mean `scenes/whitted.toml`?", or "".
+// "; did you mean scenes/whitted.toml?", or "".
 std::string suggest_file(const std::filesystem::path& file) {
   constexpr size_t most_looked_at = 1000;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
@@ -37,7 +36,7 @@ std::string suggest_file(const std::filesystem::path& file) {
   std::error_code error;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    if (entry->path().extension() == ".toml") names.push_back(entry->path().filename().string());
+    if (entry->path().extension() == file.extension()) names.push_back(entry->path().filename().string());
     if (names.size() == most_looked_at) break;
   }
   const std::string nearest =
@@ -47,9 +46,9 @@ std::string suggest_file(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::string read_scene_text(const std::filesystem::path& file) {
+std::string read_input_file(const std::filesystem::path& file, std::string_view what, size_t most_bytes) {
   const auto fail = [&](const std::string& why) {
-    return Error(ExitCode::file_io, "cannot read the scene {}: {}", file.string(), why);
+    return Error(ExitCode::file_io, "cannot read {} {}: {}", what, file.string(), why);
   };
 
   // Look before reading: a device never ends, a pipe without a writer never begins.
@@ -63,7 +62,8 @@ std::string read_scene_text(const std::filesystem::path& file) {
   if (S_ISDIR(status.st_mode)) throw fail("it is a folder");
   if (!S_ISREG(status.st_mode)) throw fail("it is not a regular file");
   if (static_cast<size_t>(status.st_size) > most_bytes) {
-    throw fail(fmt::format("it has {} bytes; the most is {} (256 MiB)", status.st_size, most_bytes));
+    throw fail(fmt::format("it has {} bytes; the most is {} ({} MiB)", status.st_size, most_bytes,
+                           most_bytes >> 20));
   }
 
   // Read it piece by piece.

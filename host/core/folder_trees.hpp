@@ -1,0 +1,21 @@
+// Which files a file may refer to: those in the folder trees that were allowed, links followed.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace eyeray {
+
+class FolderTrees {
+ public:
+  // Allows everything below `folder`; "" is the working directory. A folder that does not exist has nothing
+  // in it.
+  void allow(const std::filesystem::path& folder);
+  // Whether `file`, which need not exist, lies in one of the trees once its links are followed.
+  bool hold(const std::filesystem::path& file) const;
+
+ private:
+  std::vector<std::filesystem::path> trees_;  // canonical
+};
+
+}  // namespace eyeray

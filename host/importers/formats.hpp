@@ -1,0 +1,28 @@
+// One reader a format; import.cpp picks by the file's ending. Private to the importers.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "importers/asset_files.hpp"
+#include "importers/import.hpp"
+
+namespace eyeray {
+
+// A mesh file in memory, and what it is to be read by.
+struct MeshFile {
+  std::string name;  // for messages
+  std::string bytes;
+  std::optional<double> smooth;  // degrees, see ImportOptions
+  AssetFiles assets;
+};
+
+// Each fills all but `files`. InputError for what is wrong in the file, Error for what it refers to.
+ImportedScene import_obj(MeshFile& file);
+ImportedScene import_ply(MeshFile& file);
+ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, told apart by how they begin
+
+// Of files without normals, but glTF.
+inline constexpr double default_smooth = 40;
+
+}  // namespace eyeray

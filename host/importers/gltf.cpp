@@ -1,0 +1,236 @@
+// glTF 2.0, .gltf and .glb: the nodes of its scene as instances, lights and a camera. The JSON is read by
+// nlohmann/json and checked here value by value: tinygltf 2.7 reads beyond the end of a .glb whose last chunk
+// is too long, throws at an empty buffer, and takes a bufferView's range on trust.
+// Source: Khronos Group: glTF 2.0 Specification (2.0.1); KHR_lights_punctual.
+#include <algorithm>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <numbers>
+#include <optional>
+
+#include "importers/formats.hpp"
+#include "importers/gltf_materials.hpp"
+#include "importers/gltf_meshes.hpp"
+#include "importers/malformed.hpp"
+#include "scene/affine.hpp"
+
+namespace eyeray {
+
+namespace {
+
+// Extensions that change nothing that we read without them.
+constexpr std::string_view known_extensions[] = {
+    "KHR_lights_punctual",  "KHR_materials_ior",     "KHR_materials_transmission",
+    "KHR_materials_volume", "KHR_mesh_quantization", "KHR_texture_transform",  // which warns where it stands
+};
+// Extensions without which the data cannot be read.
+constexpr std::string_view coded_extensions[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"};
+
+// A mesh and what stands in a scene may be multiplied by each other.
+constexpr size_t most_instances = size_t{1} << 22;
+
+// The lights of glTF shine on surfaces that scatter 1/π of what arrives; ours scatter all of it.
+constexpr double unit_of_light = 1 / std::numbers::pi;
+
+class GltfReader {
+ public:
+  explicit GltfReader(MeshFile& file)
+      : file_(file),
+        container_(open_gltf(file.bytes, file.name)),
+        json_(parse_gltf_json(container_.json, file.name)),
+        document_(json_, "", file.name),
+        warnings_(scene_.warnings),
+        textures_(file.assets, scene_.warnings),
+        buffers_(document_, container_, file.assets),
+        materials_(document_, buffers_, textures_, warnings_),
+        meshes_(document_, buffers_, materials_, warnings_, file.name, file.smooth.value_or(0)) {}
+
+  ImportedScene read() {
+    check_extensions();
+    for (size_t i = 0; i < document_.size("materials"); ++i)
+      scene_.materials.push_back(materials_.material(i));
+    for (const char* list : {"animations", "skins"}) {
+      if (document_.size(list) > 0) warnings_.left_out(list);
+    }
+    read_nodes();
+    if (flattened_ > 0) {
+      scene_.warnings.push_back(fmt::format("{} whose transforms flatten everything {} left out",
+                                            flattened_ == 1 ? "a node" : fmt::format("{} nodes", flattened_),
+                                            flattened_ == 1 ? "was" : "were"));
+    }
+    scene_.meshes = meshes_.take(scene_.warnings);
+    return std::move(scene_);
+  }
+
+ private:
+  struct Visit {
+    size_t node;
+    Mat4 parent;
+  };
+
+  void check_extensions();
+  std::vector<size_t> roots() const;
+  void read_nodes();
+  void read_node(const GltfObject& node, const Mat4& world);
+  void read_camera(const GltfObject& source, const Mat4& world);
+  void read_light(const GltfObject& source, const Mat4& world);
+  static Mat4 transform(const GltfObject& node);
+
+  MeshFile& file_;
+  GltfContainer container_;
+  nlohmann::json json_;
+  GltfObject document_;
+  ImportedScene scene_;
+  GltfWarnings warnings_;
+  TextureFiles textures_;
+  GltfBuffers buffers_;
+  GltfMaterials materials_;
+  GltfMeshes meshes_;
+  size_t flattened_ = 0;
+};
+
+void GltfReader::check_extensions() {
+  for (const std::string& name : document_.texts("extensionsRequired")) {
+    if (std::ranges::find(coded_extensions, name) != std::end(coded_extensions))
+      throw malformed(file_.name, fmt::format("its data are coded by {}, which eyeray cannot read", name));
+  }
+  for (const std::string& name : document_.texts("extensionsUsed")) {
+    if (std::ranges::find(known_extensions, name) == std::end(known_extensions))
+      warnings_.left_out("what the extension " + name + " says");
+  }
+}
+
+// The nodes of the scene that is shown, or where there is none, those without a parent.
+std::vector<size_t> GltfReader::roots() const {
+  const size_t nodes = document_.size("nodes");
+  const size_t scenes = document_.size("scenes");
+  if (scenes > 0) {
+    const size_t shown = document_.index("scene", scenes).value_or(0);
+    return document_.element("scenes", shown).indices("nodes", nodes);
+  }
+  std::vector<bool> child(nodes, false);
+  for (size_t i = 0; i < nodes; ++i) {
+    for (const size_t below : document_.element("nodes", i).indices("children", nodes)) child[below] = true;
+  }
+  std::vector<size_t> all;
+  for (size_t i = 0; i < nodes; ++i) {
+    if (!child[i]) all.push_back(i);
+  }
+  return all;
+}
+
+// Depth first, children in the order written.
+void GltfReader::read_nodes() {
+  const size_t nodes = document_.size("nodes");
+  std::vector<bool> seen(nodes, false);
+  std::vector<Visit> pending;
+  const auto push = [&](const std::vector<size_t>& indices, const Mat4& parent) {
+    for (size_t i = indices.size(); i-- > 0;) pending.push_back({indices[i], parent});
+  };
+  push(roots(), Mat4(1.0));
+  while (!pending.empty()) {
+    const Visit visit = pending.back();
+    pending.pop_back();
+    const GltfObject node = document_.element("nodes", visit.node);
+    if (seen[visit.node]) node.fail("is met twice: a node has one parent, and is not below itself");
+    seen[visit.node] = true;
+    const Mat4 world = visit.parent * transform(node);
+    read_node(node, world);
+    push(node.indices("children", nodes), world);
+  }
+}
+
+Mat4 GltfReader::transform(const GltfObject& node) {
+  if (node.has("matrix")) {
+    const Mat4 matrix =
+        glm::make_mat4(node.numbers("matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}).data());
+    if (matrix[0].w != 0 || matrix[1].w != 0 || matrix[2].w != 0 || matrix[3].w != 1)
+      node.fail("has a matrix that is not affine");
+    return matrix;
+  }
+  const std::vector<double> t = node.numbers("translation", {0, 0, 0});
+  const std::vector<double> q = node.numbers("rotation", {0, 0, 0, 1});
+  const std::vector<double> s = node.numbers("scale", {1, 1, 1});
+  const glm::dquat turn(q[3], q[0], q[1], q[2]);
+  if (!(glm::length(turn) > 1e-6)) node.fail("has a rotation without length");
+  return glm::translate(Mat4(1.0), {t[0], t[1], t[2]}) * glm::mat4_cast(glm::normalize(turn)) *
+         glm::scale(Mat4(1.0), {s[0], s[1], s[2]});
+}
+
+void GltfReader::read_node(const GltfObject& node, const Mat4& world) {
+  const auto mesh = node.index("mesh", document_.size("meshes"));
+  const auto camera = node.index("camera", document_.size("cameras"));
+  const auto lights = document_.extension("KHR_lights_punctual");
+  const auto light = node.extension("KHR_lights_punctual");
+  if (!mesh && !camera && !light) return;
+  if (!why_singular(world).empty()) {
+    ++flattened_;
+    return;
+  }
+  if (node.extension("EXT_mesh_gpu_instancing")) warnings_.left_out("instances (EXT_mesh_gpu_instancing)");
+  if (mesh) {
+    for (const GltfMeshes::Part& part : meshes_.parts(*mesh)) {
+      if (scene_.instances.size() == most_instances)
+        node.fail(fmt::format("is beyond the {} instances that a file may have", most_instances));
+      scene_.instances.push_back({part.mesh, world, part.material, {}});
+    }
+  }
+  if (camera) read_camera(document_.element("cameras", *camera), world);
+  if (light) {
+    const auto index = light->index("light", lights ? lights->size("lights") : 0);
+    if (!index) light->fail("has no light");
+    read_light(lights->element("lights", *index), world);
+  }
+}
+
+// The first one: it looks along −z, and y is up.
+void GltfReader::read_camera(const GltfObject& source, const Mat4& world) {
+  if (scene_.camera) return warnings_.left_out("cameras but the first");
+  Camera camera;
+  camera.eye = Vec3(world[3]);
+  camera.target = camera.eye - unit(Vec3(world[2])) * std::max(1.0, magnitude(camera.eye));
+  camera.up = unit(Vec3(world[1]));
+  if (const auto perspective = source.object("perspective")) {
+    camera.fov_axis = FovAxis::vertical;
+    camera.fov_degrees = glm::degrees(perspective->number("yfov", 0));
+    if (!(camera.fov_degrees > 0 && camera.fov_degrees < 180))
+      perspective->fail("has a yfov that no camera has");
+  } else if (const auto orthographic = source.object("orthographic")) {
+    camera.type = CameraType::orthographic;
+    camera.size = orthographic->number("xmag", 0);
+    if (!(camera.size > 1e-12 && camera.size < 1e12)) orthographic->fail("has an xmag that no camera has");
+  } else {
+    source.fail("is neither perspective nor orthographic");
+  }
+  scene_.camera = camera;
+}
+
+void GltfReader::read_light(const GltfObject& source, const Mat4& world) {
+  const std::string type = source.text("type");
+  const std::vector<double> color = source.numbers("color", {1, 1, 1});
+  Light light;
+  light.intensity = Vec3(color[0], color[1], color[2]) * source.number("intensity", 1) * unit_of_light;
+  const bool right =
+      glm::all(glm::greaterThanEqual(light.intensity, Vec3(0))) && magnitude(light.intensity) < 1e12;
+  if (!right) source.fail("has an intensity that no light has");
+  if (source.has("range")) warnings_.left_out("ranges of lights");
+  if (type == "directional") {
+    light.type = LightType::directional;
+    light.to_light = unit(Vec3(world[2]));
+  } else if (type == "point" || type == "spot") {
+    light.position = Vec3(world[3]);
+    if (type == "spot") warnings_.left_out("cones of spot lights, which shine as points,");
+  } else {
+    source.fail("has a type that glTF does not know");
+  }
+  scene_.lights.push_back(light);
+}
+
+}  // namespace
+
+ImportedScene import_gltf(MeshFile& file) {
+  return GltfReader(file).read();
+}
+
+}  // namespace eyeray

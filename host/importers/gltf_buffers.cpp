@@ -1,0 +1,205 @@
+#include "importers/gltf_buffers.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include "importers/malformed.hpp"
+
+namespace eyeray {
+
+namespace {
+
+// Numbers of the specification.
+enum Component : uint64_t {
+  signed_byte = 5120,
+  unsigned_byte = 5121,
+  signed_short = 5122,
+  unsigned_short = 5123,
+  unsigned_int = 5125,
+  floating = 5126
+};
+
+// 0 for a type that there is not.
+size_t bytes_of(uint64_t type) {
+  switch (type) {
+    case signed_byte:
+    case unsigned_byte:
+      return 1;
+    case signed_short:
+    case unsigned_short:
+      return 2;
+    case unsigned_int:
+    case floating:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+template <typename T>
+double load(const char* bytes, bool normalized) {
+  T value;
+  std::memcpy(&value, bytes, sizeof value);
+  if constexpr (std::is_integral_v<T>) {
+    if (normalized) return std::max(-1.0, double(value) / double(std::numeric_limits<T>::max()));
+  }
+  return static_cast<double>(value);
+}
+
+double load(const char* bytes, uint64_t type, bool normalized) {
+  static_assert(std::endian::native == std::endian::little, "glTF's numbers are little-endian");
+  switch (type) {
+    case signed_byte:
+      return load<int8_t>(bytes, normalized);
+    case unsigned_byte:
+      return load<uint8_t>(bytes, normalized);
+    case signed_short:
+      return load<int16_t>(bytes, normalized);
+    case unsigned_short:
+      return load<uint16_t>(bytes, normalized);
+    case unsigned_int:
+      return load<uint32_t>(bytes, normalized);
+    default:
+      return load<float>(bytes, false);
+  }
+}
+
+template <typename T>
+void set(T& element, size_t component, double value) {
+  if constexpr (std::is_arithmetic_v<T>) {
+    element = static_cast<T>(value);
+  } else {
+    element[static_cast<int>(component)] = value;
+  }
+}
+
+}  // namespace
+
+// Elements that lie in a buffer, every one of them inside.
+struct GltfBuffers::Elements {
+  const char* bytes = nullptr;
+  size_t stride = 0;
+  uint64_t type = 0;
+};
+
+GltfBuffers::GltfBuffers(const GltfObject& document, const GltfContainer& container, AssetFiles& assets)
+    : document_(document), container_(container), assets_(assets) {
+  buffers_.resize(document.size("buffers"));
+}
+
+uint64_t GltfBuffers::byte_size() const {
+  uint64_t sum = container_.json.size() + (container_.binary ? container_.binary->size() : 0);
+  for (const auto& buffer : buffers_) sum += buffer ? buffer->size() : 0;
+  return sum;
+}
+
+std::string_view GltfBuffers::buffer(size_t index) {
+  const GltfObject source = document_.element("buffers", index);
+  const uint64_t length = source.count("byteLength", 0);
+  std::string_view bytes;
+  if (index == 0 && !source.has("uri") && container_.binary) {
+    bytes = *container_.binary;
+  } else if (!source.has("uri")) {
+    source.fail("has no data");
+  } else {
+    if (!buffers_[index]) buffers_[index] = read_uri(source, "the buffer");
+    bytes = *buffers_[index];
+  }
+  if (length > bytes.size())
+    source.fail(fmt::format("is to have {} bytes, but there are only {}", length, bytes.size()));
+  return bytes.substr(0, length);
+}
+
+std::string_view GltfBuffers::view(size_t index) {
+  const GltfObject source = document_.element("bufferViews", index);
+  const auto owner = source.index("buffer", buffers_.size());
+  if (!owner) source.fail("has no buffer");
+  const std::string_view bytes = buffer(*owner);
+  const uint64_t offset = source.count("byteOffset", 0);
+  const uint64_t length = source.count("byteLength", 0);
+  if (offset > bytes.size() || length > bytes.size() - offset)
+    source.fail(fmt::format("reaches to byte {} of a buffer that has {}", offset + length, bytes.size()));
+  return bytes.substr(offset, length);
+}
+
+// `owner` is an accessor, or what is sparse in one.
+GltfBuffers::Elements GltfBuffers::elements(const GltfObject& owner, std::optional<size_t> index,
+                                            size_t components, uint64_t type, uint64_t count) {
+  const size_t size = components * bytes_of(type);
+  if (size == 0) owner.fail("has a componentType that glTF does not know");
+  if (!index) owner.fail("has no bufferView");
+  const std::string_view bytes = view(*index);
+  const uint64_t stride = document_.element("bufferViews", *index).count("byteStride", size);
+  const uint64_t offset = owner.count("byteOffset", 0);
+  if (stride < size) owner.fail(fmt::format("has elements of {} bytes, {} apart", size, stride));
+  const bool inside = offset <= bytes.size() && size <= bytes.size() - offset &&
+                      count - 1 <= (bytes.size() - offset - size) / stride;
+  if (count > 0 && !inside) owner.fail("reaches beyond the end of its bufferView");
+  return {bytes.data() + offset, stride, type};
+}
+
+template <typename T>
+std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t components) {
+  const GltfObject accessor = document_.element("accessors", index);
+  const size_t views = document_.size("bufferViews");
+  if (accessor.text("type") != type) accessor.fail(fmt::format("must be of type {}", type));
+  const uint64_t count = accessor.count("count", 0);
+  const uint64_t component = accessor.count("componentType", 0);
+  const bool normalized = accessor.flag("normalized");
+
+  const auto copy = [&](const Elements& from, uint64_t i, T& to) {
+    const char* bytes = from.bytes + i * from.stride;
+    for (size_t k = 0; k < components; ++k)
+      set(to, k, load(bytes + k * bytes_of(component), component, normalized));
+  };
+  std::optional<Elements> base;
+  if (const auto index_of_view = accessor.index("bufferView", views))
+    base = elements(accessor, index_of_view, components, component, count);
+
+  // Bytes may be read by several accessors, and without bytes all is 0, but not without end.
+  elements_read_ += count;
+  if (elements_read_ > std::max<uint64_t>(1 << 20, 16 * byte_size()))
+    accessor.fail("takes the elements beyond what a file of this size can mean");
+  std::vector<T> all(count, T(0));
+  for (uint64_t i = 0; base && i < count; ++i) copy(*base, i, all[i]);
+
+  // Lay what is sparse over it.
+  if (const auto sparse = accessor.object("sparse")) {
+    const uint64_t changes = sparse->count("count", 0);
+    const auto places = sparse->object("indices");
+    const auto values = sparse->object("values");
+    if (!places || !values) sparse->fail("needs indices and values");
+    const uint64_t place_type = places->count("componentType", 0);
+    if (place_type != unsigned_byte && place_type != unsigned_short && place_type != unsigned_int)
+      places->fail("must be unsigned integers");
+    const Elements at = elements(*places, places->index("bufferView", views), 1, place_type, changes);
+    const Elements from =
+        elements(*values, values->index("bufferView", views), components, component, changes);
+    for (uint64_t i = 0; i < changes; ++i) {
+      const double place = load(at.bytes + i * at.stride, place_type, false);
+      if (!(place < static_cast<double>(count)))
+        places->fail(fmt::format("have {}, beyond the accessor", place));
+      copy(from, i, all[static_cast<size_t>(place)]);
+    }
+  }
+  return all;
+}
+
+std::vector<Vec2> GltfBuffers::vec2(size_t accessor) {
+  return read<Vec2>(accessor, "VEC2", 2);
+}
+std::vector<Vec3> GltfBuffers::vec3(size_t accessor) {
+  return read<Vec3>(accessor, "VEC3", 3);
+}
+std::vector<uint32_t> GltfBuffers::indices(size_t accessor) {
+  const GltfObject source = document_.element("accessors", accessor);
+  const uint64_t type = source.count("componentType", 0);
+  if (type != unsigned_byte && type != unsigned_short && type != unsigned_int)
+    source.fail("holds indices, which must be unsigned integers");
+  return read<uint32_t>(accessor, "SCALAR", 1);
+}
+
+}  // namespace eyeray

@@ -1,0 +1,56 @@
+// The binary data of a glTF file: buffers, views of them, and accessors, all ranges checked. Private to the
+// importers.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/vec.hpp"
+#include "importers/asset_files.hpp"
+#include "importers/gltf_json.hpp"
+
+namespace eyeray {
+
+// The parts of a .glb; a .gltf is all JSON. Points into `bytes`. InputError where it is damaged.
+struct GltfContainer {
+  std::string_view json;
+  std::optional<std::string_view> binary;
+};
+GltfContainer open_gltf(std::string_view bytes, const std::string& file);
+
+class GltfBuffers {
+ public:
+  GltfBuffers(const GltfObject& document, const GltfContainer& container, AssetFiles& assets);
+
+  // What a `uri` stands for: data in itself, or a file. Error where it is damaged or cannot be read.
+  std::string read_uri(const GltfObject& owner, std::string_view what);
+  std::string_view view(size_t index);
+
+  // The elements of an accessor. Normalized integers are numbers from −1 or 0 to 1.
+  std::vector<Vec2> vec2(size_t accessor);
+  std::vector<Vec3> vec3(size_t accessor);
+  std::vector<uint32_t> indices(size_t accessor);
+
+ private:
+  struct Elements;
+
+  std::string_view buffer(size_t index);
+  Elements elements(const GltfObject& owner, std::optional<size_t> view, size_t components, uint64_t type,
+                    uint64_t count);
+  template <typename T>
+  std::vector<T> read(size_t accessor, std::string_view type, size_t components);
+  uint64_t byte_size() const;
+
+  const GltfObject& document_;
+  GltfContainer container_;
+  AssetFiles& assets_;
+  std::vector<std::optional<std::string>> buffers_;  // as they are first asked for
+  uint64_t elements_read_ = 0;
+};
+
+// The name of a file as it is written in a URI: %20 is a space.
+std::string decode_uri(std::string_view uri);
+
+}  // namespace eyeray

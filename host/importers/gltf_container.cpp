@@ -1,0 +1,105 @@
+// The .glb container, and the URIs that bring what it lacks.
+#include <array>
+#include <cstring>
+
+#include "importers/gltf_buffers.hpp"
+#include "importers/malformed.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr uint32_t magic = 0x46546c67;         // "glTF"
+constexpr uint32_t json_chunk = 0x4e4f534a;    // "JSON"
+constexpr uint32_t binary_chunk = 0x004e4942;  // "BIN"
+
+// A little-endian number; the caller has looked whether it is there.
+uint32_t word(std::string_view bytes, size_t at) {
+  uint32_t value = 0;
+  for (size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+int hex(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+// Nothing where it is not base64 (RFC 4648); the padding at the end may be missing.
+std::optional<std::string> decode_base64(std::string_view text) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static const std::array<int8_t, 256> values = [&] {
+    std::array<int8_t, 256> all;
+    all.fill(-1);
+    for (size_t i = 0; i < digits.size(); ++i)
+      all[static_cast<unsigned char>(digits[i])] = static_cast<int8_t>(i);
+    return all;
+  }();
+  while (text.ends_with('=')) text.remove_suffix(1);
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3 + 3);
+  uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const int8_t value = values[static_cast<unsigned char>(c)];
+    if (value < 0) return std::nullopt;
+    bits = bits << 6 | static_cast<uint32_t>(value);
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>(bits >> count & 0xff);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+GltfContainer open_gltf(std::string_view bytes, const std::string& file) {
+  if (bytes.size() < 4 || word(bytes, 0) != magic) return {bytes, {}};
+  if (bytes.size() < 12) throw malformed(file, "the file ends too early");
+  if (word(bytes, 4) != 2) throw malformed(file, fmt::format("it is not glTF 2 but {}", word(bytes, 4)));
+
+  // Cut the chunks: JSON first, then perhaps binary data; what else follows means nothing to us.
+  std::optional<std::string_view> json;
+  std::optional<std::string_view> binary;
+  bytes = bytes.substr(0, word(bytes, 8));
+  for (size_t at = 12; at + 8 <= bytes.size();) {
+    const uint32_t length = word(bytes, at);
+    const uint32_t type = word(bytes, at + 4);
+    at += 8;
+    if (length > bytes.size() - at) throw malformed(file, "the file ends too early");
+    if (!json && type != json_chunk) throw malformed(file, "its first chunk is not JSON");
+    if (!json) {
+      json = bytes.substr(at, length);
+    } else if (type == binary_chunk && !binary) {
+      binary = bytes.substr(at, length);
+    }
+    at += length;
+  }
+  if (!json) throw malformed(file, "the file ends too early");
+  return {*json, binary};
+}
+
+std::string decode_uri(std::string_view uri) {
+  std::string name;
+  for (size_t i = 0; i < uri.size(); ++i) {
+    const bool coded = uri[i] == '%' && i + 2 < uri.size() && hex(uri[i + 1]) >= 0 && hex(uri[i + 2]) >= 0;
+    name += coded ? static_cast<char>(hex(uri[i + 1]) * 16 + hex(uri[i + 2])) : uri[i];
+    if (coded) i += 2;
+  }
+  return name;
+}
+
+std::string GltfBuffers::read_uri(const GltfObject& owner, std::string_view what) {
+  const std::string uri = owner.text("uri");
+  if (!uri.starts_with("data:")) return assets_.read(decode_uri(uri), what);
+  constexpr std::string_view coding = ";base64,";
+  const size_t data = uri.find(coding);
+  auto bytes = data == std::string::npos ? std::nullopt
+                                         : decode_base64(std::string_view(uri).substr(data + coding.size()));
+  if (!bytes) owner.fail("has a data URI that is not base64");
+  return std::move(*bytes);
+}
+
+}  // namespace eyeray

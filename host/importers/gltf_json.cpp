@@ -1,0 +1,160 @@
+#include "importers/gltf_json.hpp"
+
+#include <cmath>
+
+#include "importers/malformed.hpp"
+#include "scene/diagnostic_log.hpp"
+
+namespace eyeray {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int deepest = 64;
+
+// An integer from 0 that a double holds exactly.
+std::optional<uint64_t> as_count(const Json& json) {
+  if (!json.is_number()) return std::nullopt;
+  const double value = json.get<double>();
+  if (!(value >= 0 && value <= 0x1p53) || value != std::trunc(value)) return std::nullopt;
+  return static_cast<uint64_t>(value);
+}
+
+}  // namespace
+
+GltfObject::GltfObject(const Json& json, std::string place, const std::string& file)
+    : json_(&json), place_(std::move(place)), file_(&file) {
+  if (!json.is_object()) fail("must be an object");
+}
+
+void GltfObject::fail(const std::string& message) const {
+  throw malformed(*file_, printable(fmt::format("{} {}", place_.empty() ? "the document" : place_, message)));
+}
+
+void GltfObject::mismatch(const char* key, std::string_view what) const {
+  throw malformed(*file_, fmt::format("{}{}{} must be {}", place_, place_.empty() ? "" : ".", key, what));
+}
+
+const Json* GltfObject::find(const char* key) const {
+  const auto found = json_->find(key);
+  return found == json_->end() ? nullptr : &*found;
+}
+
+double GltfObject::number(const char* key, double fallback) const {
+  const Json* value = find(key);
+  if (!value) return fallback;
+  if (!value->is_number()) mismatch(key, "a number");
+  return value->get<double>();
+}
+
+uint64_t GltfObject::count(const char* key, uint64_t fallback) const {
+  const Json* value = find(key);
+  if (!value) return fallback;
+  const auto count = as_count(*value);
+  if (!count) mismatch(key, "an integer of at least 0");
+  return *count;
+}
+
+std::optional<size_t> GltfObject::index(const char* key, size_t size) const {
+  const Json* value = find(key);
+  if (!value) return std::nullopt;
+  const auto index = as_count(*value);
+  if (!index || *index >= size) mismatch(key, fmt::format("an index below {}", size));
+  return *index;
+}
+
+bool GltfObject::flag(const char* key) const {
+  const Json* value = find(key);
+  if (!value) return false;
+  if (!value->is_boolean()) mismatch(key, "true or false");
+  return value->get<bool>();
+}
+
+std::string GltfObject::text(const char* key) const {
+  const Json* value = find(key);
+  if (!value) return "";
+  if (!value->is_string()) mismatch(key, "a string");
+  return value->get<std::string>();
+}
+
+const Json& GltfObject::list(const char* key) const {
+  static const Json empty = Json::array();
+  const Json* value = find(key);
+  if (!value) return empty;
+  if (!value->is_array()) mismatch(key, "a list");
+  return *value;
+}
+
+std::vector<double> GltfObject::numbers(const char* key, std::vector<double> fallback) const {
+  if (!has(key)) return fallback;
+  const Json& values = list(key);
+  if (values.size() != fallback.size()) mismatch(key, fmt::format("a list of {} numbers", fallback.size()));
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (!values[i].is_number()) mismatch(key, fmt::format("a list of {} numbers", fallback.size()));
+    fallback[i] = values[i].get<double>();
+  }
+  return fallback;
+}
+
+std::optional<GltfObject> GltfObject::object(const char* key) const {
+  const Json* value = find(key);
+  if (!value) return std::nullopt;
+  return GltfObject(*value, place_.empty() ? key : fmt::format("{}.{}", place_, key), *file_);
+}
+
+size_t GltfObject::size(const char* key) const {
+  return list(key).size();
+}
+
+GltfObject GltfObject::element(const char* key, size_t i) const {
+  return {list(key).at(i), fmt::format("{}{}{}[{}]", place_, place_.empty() ? "" : ".", key, i), *file_};
+}
+
+std::vector<size_t> GltfObject::indices(const char* key, size_t size) const {
+  std::vector<size_t> all;
+  for (const Json& value : list(key)) {
+    const auto index = as_count(value);
+    if (!index || *index >= size) mismatch(key, fmt::format("a list of indices below {}", size));
+    all.push_back(*index);
+  }
+  return all;
+}
+
+std::vector<std::string> GltfObject::texts(const char* key) const {
+  std::vector<std::string> all;
+  for (const Json& value : list(key)) {
+    if (!value.is_string()) mismatch(key, "a list of strings");
+    all.push_back(value.get<std::string>());
+  }
+  return all;
+}
+
+std::optional<GltfObject> GltfObject::extension(const char* name) const {
+  const auto extensions = object("extensions");
+  return extensions ? extensions->object(name) : std::nullopt;
+}
+
+Json parse_gltf_json(std::string_view text, const std::string& file) {
+  // Copying and destroying a tree recurse.
+  const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
+    if (depth > deepest) throw malformed(file, fmt::format("its JSON is nested more than {} deep", deepest));
+    return true;
+  };
+  Json json;
+  try {
+    json = Json::parse(text, shallow);
+  } catch (const Json::parse_error& error) {
+    throw malformed_at(file, text, error.byte > 0 ? error.byte - 1 : 0, "this is not JSON");
+  } catch (const Json::exception&) {
+    throw malformed(file, "its JSON has a number that no computer holds");
+  }
+  const GltfObject document(json, "", file);
+  const auto asset = document.object("asset");
+  const std::string version = asset ? asset->text("version") : "";
+  if (!version.starts_with("2."))
+    throw malformed(file, fmt::format("it is not glTF 2: its asset.version is \"{}\"", printable(version)));
+  return json;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,57 @@
+// The JSON of a glTF file, each value asked for by name and checked; nothing of it is trusted. Private to the
+// importers. Source: Khronos Group: glTF 2.0 Specification (2.0.1).
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace eyeray {
+
+// An object of the document, and where it is. Whatever is wrong with it is an InputError with that place. The
+// document and the file's name must outlive it.
+class GltfObject {
+ public:
+  GltfObject(const nlohmann::json& json, std::string place, const std::string& file);
+
+  bool has(const char* key) const { return find(key) != nullptr; }
+  // A finite number, or the fallback where there is none.
+  double number(const char* key, double fallback) const;
+  // An integer from 0.
+  uint64_t count(const char* key, uint64_t fallback) const;
+  // An index of a list of the document that has `size` elements; nothing where it is not written.
+  std::optional<size_t> index(const char* key, size_t size) const;
+  bool flag(const char* key) const;         // false where there is none
+  std::string text(const char* key) const;  // "" where there is none
+  // The numbers of a list, as many as the fallback, which is taken where there is no list.
+  std::vector<double> numbers(const char* key, std::vector<double> fallback) const;
+  std::optional<GltfObject> object(const char* key) const;
+  // A list of objects, of indices, of strings; empty where it is not written.
+  size_t size(const char* key) const;
+  GltfObject element(const char* key, size_t i) const;
+  std::vector<size_t> indices(const char* key, size_t size) const;
+  std::vector<std::string> texts(const char* key) const;
+  // The object of an extension.
+  std::optional<GltfObject> extension(const char* name) const;
+
+  const std::string& place() const { return place_; }
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  const nlohmann::json* find(const char* key) const;
+  [[noreturn]] void mismatch(const char* key, std::string_view what) const;
+  const nlohmann::json& list(const char* key) const;
+
+  const nlohmann::json* json_;
+  std::string place_;  // "accessors[3]"; "" for the document
+  const std::string* file_;
+};
+
+// InputError for what is no JSON, is nested absurdly
+// deep, or is no glTF 2.
+nlohmann::json parse_gltf_json(std::string_view text, const std::string& file);
+
+}  // namespace eyeray

@@ -1,0 +1,124 @@
+#include "importers/gltf_meshes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "scene/diagnostic_log.hpp"
+
+namespace eyeray {
+
+namespace {
+
+enum Mode : uint64_t { triangle_list = 4, triangle_strip = 5, triangle_fan = 6 };
+
+std::vector<IndexTriangle> assemble(uint64_t mode, const std::vector<uint32_t>& corners) {
+  std::vector<IndexTriangle> triangles;
+  if (mode == triangle_list) {
+    triangles.reserve(corners.size() / 3);
+    for (size_t i = 0; i + 2 < corners.size(); i += 3)
+      triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+    return triangles;
+  }
+  for (size_t i = 0; i + 2 < corners.size(); ++i) {
+    if (mode == triangle_fan) {
+      triangles.push_back({corners[i + 1], corners[i + 2], corners[0]});
+    } else if (i % 2 == 0) {
+      triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+    } else {
+      triangles.push_back({corners[i + 1], corners[i], corners[i + 2]});
+    }
+  }
+  return triangles;
+}
+
+}  // namespace
+
+GltfMeshes::GltfMeshes(const GltfObject& document, GltfBuffers& buffers, const GltfMaterials& materials,
+                       GltfWarnings& warnings, const std::string& file, double smooth)
+    : document_(document),
+      buffers_(buffers),
+      materials_(materials),
+      warnings_(warnings),
+      file_(file),
+      smooth_(smooth),
+      parts_(document.size("meshes")) {}
+
+const std::vector<GltfMeshes::Part>& GltfMeshes::parts(size_t index) {
+  if (parts_[index]) return *parts_[index];
+  const GltfObject mesh = document_.element("meshes", index);
+  std::vector<Part> parts;
+  for (size_t i = 0; i < mesh.size("primitives"); ++i) {
+    const GltfObject primitive = mesh.element("primitives", i);
+    const auto material = primitive.index("material", document_.size("materials"));
+    std::optional<Mesh> made = read_primitive(primitive, material);
+    if (!made || made->triangles.empty()) continue;
+    const std::string name = mesh.text("name");
+    made->name = fmt::format("{}: {}", file_, name.empty() ? primitive.place() : printable(name));
+    parts.push_back({static_cast<int>(meshes_.size()), material ? static_cast<int>(*material) : -1});
+    meshes_.push_back(std::move(*made));
+  }
+  parts_[index] = std::move(parts);
+  return *parts_[index];
+}
+
+// Nothing for points and lines.
+std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std::optional<size_t> material) {
+  const uint64_t mode = primitive.count("mode", triangle_list);
+  if (mode < triangle_list) {
+    warnings_.left_out("points and lines");
+    return std::nullopt;
+  }
+  if (mode > triangle_fan) primitive.fail("has a mode that glTF does not know");
+  if (primitive.size("targets") > 0) warnings_.left_out("morph targets");
+  const auto attributes = primitive.object("attributes");
+  if (!attributes) primitive.fail("has no attributes");
+  if (attributes->has("COLOR_0")) warnings_.left_out("the colours of vertices");
+
+  // Read the vertices.
+  const size_t accessors = document_.size("accessors");
+  const auto positions = attributes->index("POSITION", accessors);
+  if (!positions) {
+    warnings_.left_out("meshes without positions");
+    return std::nullopt;
+  }
+  const uint64_t uv_set = material ? materials_.uv_set(*material) : 0;
+  const auto normals = attributes->index("NORMAL", accessors);
+  const auto uv = attributes->index(fmt::format("TEXCOORD_{}", uv_set).c_str(), accessors);
+  VertexPool pool;
+  pool.positions = buffers_.vec3(*positions);
+  if (normals) pool.normals = buffers_.vec3(*normals);
+  if (uv) pool.uv = buffers_.vec2(*uv);
+  for (Vec2& place : pool.uv) place.y = 1 - place.y;  // theirs starts at the top of the picture
+  const auto check = [&](bool has, size_t size) {
+    if (has && size != pool.positions.size()) attributes->fail("do not all have as many elements");
+  };
+  check(normals.has_value(), pool.normals.size());
+  check(uv.has_value(), pool.uv.size());
+
+  // Read the corners.
+  std::vector<uint32_t> corners;
+  if (const auto indices = primitive.index("indices", accessors)) {
+    corners = buffers_.indices(*indices);
+    if (!corners.empty() && std::ranges::max(corners) >= pool.positions.size()) {
+      primitive.fail(fmt::format("refers to vertex {}; there are {}, counted from 0",
+                                 std::ranges::max(corners), pool.positions.size()));
+    }
+  } else {
+    corners.resize(pool.positions.size());
+    std::iota(corners.begin(), corners.end(), 0u);
+  }
+  RawTriangles raw;
+  raw.has_normals = normals.has_value();
+  raw.has_uv = uv.has_value();
+  raw.positions = assemble(mode, corners);
+  return MeshBuilder(pool, counts_).build(raw, smooth_);
+}
+
+std::vector<Mesh> GltfMeshes::take(std::vector<std::string>& warnings) {
+  counts_.report(warnings);
+  return std::move(meshes_);
+}
+
+}  // namespace eyeray

@@ -1,0 +1,78 @@
+#include "importers/import.hpp"
+
+#include <algorithm>
+
+#include "core/input_file.hpp"
+#include "importers/formats.hpp"
+#include "importers/malformed.hpp"
+#include "materials/make.hpp"
+
+namespace eyeray {
+
+namespace {
+
+using Reader = ImportedScene (*)(MeshFile&);
+
+// Null for other endings.
+Reader find_reader(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  if (ending == ".obj") return import_obj;
+  if (ending == ".ply") return import_ply;
+  if (ending == ".gltf" || ending == ".glb") return import_gltf;
+  return nullptr;
+}
+
+// Takes out the meshes of which no triangle is left.
+void drop_empty(ImportedScene& scene) {
+  std::vector<int> now(scene.meshes.size(), -1);
+  int count = 0;
+  for (size_t i = 0; i < now.size(); ++i) {
+    if (!scene.meshes[i].triangles.empty()) now[i] = count++;
+  }
+  for (Instance& instance : scene.instances) instance.mesh = now[static_cast<size_t>(instance.mesh)];
+  std::erase_if(scene.instances, [](const Instance& instance) { return instance.mesh < 0; });
+  std::erase_if(scene.meshes, [](const Mesh& mesh) { return mesh.triangles.empty(); });
+}
+
+ImportedScene read_mesh_file(MeshFile& file) {
+  const Reader read = find_reader(file.name);
+  if (!read) throw malformed(file.name, "a mesh file ends in .obj, .ply, .gltf or .glb");
+  ImportedScene scene = read(file);
+  drop_empty(scene);
+  if (scene.instances.empty()) {
+    std::string why = "it has no triangles that could be seen";
+    for (const std::string& warning : scene.warnings) why += "; " + warning;
+    throw malformed(file.name, why);
+  }
+  return scene;
+}
+
+}  // namespace
+
+bool is_mesh_file(const std::filesystem::path& file) {
+  return find_reader(file) != nullptr;
+}
+
+ImportedScene import_file(const std::filesystem::path& file, const ImportOptions& options) {
+  MeshFile source{file.string(), read_input_file(file, "the mesh", most_mesh_bytes), options.smooth,
+                  AssetFiles(file, options.allowed_folders)};
+  ImportedScene scene = read_mesh_file(source);
+  scene.files = source.assets.files();
+  scene.files.insert(scene.files.begin(), file);
+  return scene;
+}
+
+ImportedScene import_bytes(std::string bytes, const std::string& name, const ImportOptions& options) {
+  MeshFile source{name, std::move(bytes), options.smooth, {}};
+  return read_mesh_file(source);
+}
+
+std::unique_ptr<Material> plain_material() {
+  auto material = make_phong({.diffuse = Texture{Vec3(0.75), {}}});
+  material->name = "plain";
+  return material;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,48 @@
+// Mesh files as parts of a scene: Wavefront OBJ, PLY, glTF 2.0.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace eyeray {
+
+struct ImportOptions {
+  // Where a file has no normals: the greatest angle, in degrees, between faces that are shaded as one smooth
+  // surface; 0: flat. Absent: 40 for OBJ and PLY; 0 for glTF, whose specification says so.
+  std::optional<double> smooth = {};
+  // Where what the file names (materials, buffers, pictures) may lie beside the file's own folder tree.
+  std::vector<std::filesystem::path> allowed_folders = {};
+};
+
+struct ImportedScene {
+  std::vector<Mesh> meshes;         // as scene/mesh.hpp promises
+  std::vector<Instance> instances;  // `material` is an index of `materials`, or −1: the file names none
+  std::vector<std::unique_ptr<Material>> materials;
+  std::vector<Light> lights;
+  std::optional<Camera> camera;
+  std::vector<std::string> warnings;         // what was left out, once each, with counts
+  std::vector<std::filesystem::path> files;  // every file read, this one first
+};
+
+// Whether the name ends as those of mesh files do, in any case: .obj .ply .gltf .glb.
+bool is_mesh_file(const std::filesystem::path& file);
+
+// Reads a mesh file by its ending, and what it refers to. Error (file_io) when a file cannot be read,
+// InputError, with the place where there is one, when what it holds is wrong. The memory it takes is bounded
+// by the size of the files.
+ImportedScene import_file(const std::filesystem::path& file, const ImportOptions& options = {});
+
+// The same from memory, for tests: `name` stands in messages and its ending says what `bytes` are. What it
+// refers to is refused.
+ImportedScene import_bytes(std::string bytes, const std::string& name, const ImportOptions& options = {});
+
+// What is shown of meshes whose file names no materials: a light grey.
+std::unique_ptr<Material> plain_material();
+
+}  // namespace eyeray

@@ -1,0 +1,20 @@
+// How importers refuse what a file holds. Private to the importers.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/diagnostic.hpp"
+
+namespace eyeray {
+
+// "bunny.obj:12:3: error: message"; without a line where it is 0.
+inline InputError malformed(const std::string& file, std::string message, int line = 0, int column = 0) {
+  return InputError({{Severity::error, {file, line, column}, std::move(message), "", 1}});
+}
+
+// The same at a byte of a text, whose line and column are counted.
+InputError malformed_at(const std::string& file, std::string_view text, size_t byte, std::string message);
+
+}  // namespace eyeray

@@ -1,0 +1,162 @@
+#include "importers/mesh_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel_for.hpp"
+#include "importers/smooth.hpp"
+#include "scene/affine.hpp"
+#include "scene/triangle.hpp"
+
+namespace eyeray {
+
+namespace {
+
+// Vertices that differ in normal or uv and share a position are told apart by looking at this many of them; a
+// file in which more meet gets some of them twice, but takes no longer.
+constexpr int most_compared = 8;
+
+// Corners are counted in 32 bits.
+constexpr size_t most_triangles = size_t{1} << 30;
+
+bool finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Texture coordinates have the range of any other.
+bool usable(const Vec2& uv) {
+  return std::fabs(uv.x) <= max_coordinate && std::fabs(uv.y) <= max_coordinate;
+}
+
+std::string counted(size_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+}  // namespace
+
+void MeshCounts::report(std::vector<std::string>& warnings) const {
+  const auto add = [&](size_t count, std::string_view one, std::string_view many) {
+    if (count > 0) warnings.push_back(counted(count, one, many));
+  };
+  add(not_finite, "face with a coordinate that is not finite was left out",
+      "faces with coordinates that are not finite were left out");
+  add(without_area, "face without area was left out", "faces without area were left out");
+  add(bad_normals, "corner whose normal has no direction or points inward got that of its face",
+      "corners whose normals have no direction or point inward got those of their faces");
+  add(bad_uv, "corner whose uv is not finite or beyond 1e12 got uv 0",
+      "corners whose uv are not finite or beyond 1e12 got uv 0");
+  add(fans, "concave face has too many corners and was cut as if it were convex",
+      "concave faces have too many corners and were cut as if they were convex");
+}
+
+MeshBuilder::MeshBuilder(VertexPool& pool, MeshCounts& counts) : pool_(pool), counts_(counts) {
+  for (Vec3& normal : pool.normals) {
+    const double size = magnitude(normal);
+    normal = finite(normal) && size > 0 ? unit(normal) : Vec3(0);
+  }
+  last_.resize(pool.positions.size());
+  mesh_.resize(pool.positions.size(), 0);
+}
+
+// Unit normals; 0 for what has to be left out.
+std::vector<Vec3> MeshBuilder::face_normals(const RawTriangles& raw) {
+  std::vector<Vec3> normals(raw.positions.size());
+  const auto corners = [&](size_t face) {
+    Corners c;
+    for (size_t i = 0; i < 3; ++i) c[i] = pool_.positions[raw.positions[face][i]];
+    return c;
+  };
+  parallel_for(0, static_cast<int>(normals.size()), [&](int i) {
+    const auto face = static_cast<size_t>(i);
+    const Corners c = corners(face);
+    if (thickness(c) >= thinnest_triangle) normals[face] = geometric_normal(c);
+  });
+  for (size_t face = 0; face < normals.size(); ++face) {
+    if (normals[face] != Vec3(0) && finite(normals[face])) continue;
+    normals[face] = Vec3(0);
+    const Corners c = corners(face);
+    ++(finite(c[0]) && finite(c[1]) && finite(c[2]) ? counts_.without_area : counts_.not_finite);
+  }
+  return normals;
+}
+
+// no_index where the mesh has none yet.
+uint32_t MeshBuilder::find_vertex(const Source& source) {
+  if (mesh_[source.position] != meshes_) return no_index;
+  uint32_t vertex = last_[source.position];
+  for (int i = 0; i < most_compared && vertex != no_index; ++i) {
+    if (sources_[vertex] == source) return vertex;
+    vertex = next_[vertex];
+  }
+  return no_index;
+}
+
+void MeshBuilder::append(Mesh& mesh, const RawTriangles& raw, const Source& source, const Vec3& normal) {
+  const auto vertex = static_cast<uint32_t>(sources_.size());
+  next_.push_back(mesh_[source.position] == meshes_ ? last_[source.position] : no_index);
+  last_[source.position] = vertex;
+  mesh_[source.position] = meshes_;
+  sources_.push_back(source);
+
+  mesh.positions.push_back(pool_.positions[source.position]);
+  if (raw.has_normals) mesh.normals.push_back(normal);
+  if (raw.has_uv) mesh.uv.push_back(source.uv == no_index ? Vec2(0) : pool_.uv[source.uv]);
+}
+
+Mesh MeshBuilder::build(const RawTriangles& raw, double smooth) {
+  if (raw.positions.size() > most_triangles) {
+    throw Error(ExitCode::bad_input, "{} has {} triangles; a mesh has at most {}", raw.name,
+                raw.positions.size(), most_triangles);
+  }
+  ++meshes_;
+  sources_.clear();
+  next_.clear();
+  const std::vector<Vec3> faces = face_normals(raw);
+
+  Mesh mesh;
+  mesh.name = raw.name;
+  mesh.triangles.reserve(faces.size());
+  std::vector<Vec3> kept;  // the normals of the mesh's triangles
+  kept.reserve(faces.size());
+  for (size_t face = 0; face < faces.size(); ++face) {
+    if (faces[face] == Vec3(0)) continue;
+    IndexTriangle triangle;
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t position = raw.positions[face][i];
+      Source source{position, no_index, no_index};
+
+      // A normal that cannot be used is the face's; its vertex is shared with no other face.
+      Vec3 normal = faces[face];
+      if (raw.has_normals) {
+        const uint32_t written = raw.normals.empty() ? position : raw.normals[face][i];
+        if (written != no_index && glm::dot(pool_.normals[written], faces[face]) > least_normal_cosine) {
+          source.normal = written;
+          normal = pool_.normals[written];
+        } else if (written != no_index) {
+          ++counts_.bad_normals;
+        }
+      }
+      if (raw.has_uv) {
+        source.uv = raw.uv.empty() ? position : raw.uv[face][i];
+        if (source.uv != no_index && !usable(pool_.uv[source.uv])) {
+          source.uv = no_index;
+          ++counts_.bad_uv;
+        }
+      }
+      const bool own = raw.has_normals && source.normal == no_index;
+      triangle[i] = own ? no_index : find_vertex(source);
+      if (triangle[i] == no_index) {
+        triangle[i] = static_cast<uint32_t>(sources_.size());
+        append(mesh, raw, source, normal);
+      }
+    }
+    mesh.triangles.push_back(triangle);
+    kept.push_back(faces[face]);
+  }
+  if (!raw.has_normals && smooth > 0) add_smooth_normals(mesh, kept, smooth);
+  return mesh;
+}
+
+}  // namespace eyeray

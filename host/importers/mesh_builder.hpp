@@ -1,0 +1,80 @@
+// From what a file says to a Mesh that keeps the promises of scene/mesh.hpp. Private to the importers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/mesh.hpp"
+
+namespace eyeray {
+
+// A corner without a normal or without uv.
+inline constexpr uint32_t no_index = 0xffffffff;
+
+using IndexTriangle = std::array<uint32_t, 3>;
+
+// What was left out or mended, over all meshes of a file.
+struct MeshCounts {
+  size_t not_finite = 0;    // faces
+  size_t without_area = 0;  // faces
+  size_t bad_normals = 0;   // corners
+  size_t bad_uv = 0;        // corners
+  size_t fans = 0;          // faces
+
+  // "12 faces without area were left out", …
+  void report(std::vector<std::string>& warnings) const;
+};
+
+// The vertices of a file, from which several meshes may take theirs.
+struct VertexPool {
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;  // of any length
+  std::vector<Vec2> uv;
+};
+
+// Triangles as indices of a pool, in range.
+struct RawTriangles {
+  std::string name;
+  bool has_normals = false;
+  bool has_uv = false;
+  std::vector<IndexTriangle> positions;
+  std::vector<IndexTriangle> normals;  // empty, where they have some: with the same indices as the positions
+  std::vector<IndexTriangle> uv;       // the same
+};
+
+class MeshBuilder {
+ public:
+  // `pool` is changed: its normals are made unit, those that have no direction 0.
+  MeshBuilder(VertexPool& pool, MeshCounts& counts);
+
+  // Leaves out what no ray can meet; gives each corner whose normal is wrong that of its face. Where there
+  // are no normals and `smooth` (degrees) is above 0, makes them. Vertices that no face has are dropped.
+  Mesh build(const RawTriangles& raw, double smooth);
+
+ private:
+  // A vertex of the mesh in the making, made from these of the pool.
+  struct Source {
+    uint32_t position;
+    uint32_t normal;
+    uint32_t uv;
+    bool operator==(const Source&) const = default;
+  };
+
+  std::vector<Vec3> face_normals(const RawTriangles& raw);
+  uint32_t find_vertex(const Source& source);
+  void append(Mesh& mesh, const RawTriangles& raw, const Source& source, const Vec3& normal);
+
+  VertexPool& pool_;
+  MeshCounts& counts_;
+  std::vector<Source> sources_;  // one a vertex of the mesh
+  std::vector<uint32_t> next_;   // the vertex before it that has the same position
+  std::vector<uint32_t> last_;   // the last vertex of each position of the pool …
+  std::vector<uint32_t> mesh_;   // … in the mesh of this number
+  uint32_t meshes_ = 0;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,39 @@
+// The materials of an OBJ file's .mtl files. Private to the importers.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "importers/texture_files.hpp"
+#include "scene/material.hpp"
+
+namespace eyeray {
+
+class ObjMaterials {
+ public:
+  explicit ObjMaterials(AssetFiles& assets) : assets_(assets), textures_(assets, warnings) {}
+
+  // Reads the .mtl files of an `mtllib` statement, which are parted by spaces or one whose name has some. One
+  // that cannot be read, or what of it has no counterpart here, is a warning.
+  void load(std::string_view names);
+  // The index of a material, or −1.
+  int find(const std::string& name) const;
+
+  std::vector<std::string> warnings;
+  std::vector<std::unique_ptr<Material>> materials;
+
+ private:
+  bool read(const std::string& name, bool last);
+  void warn(std::string message);
+
+  AssetFiles& assets_;
+  TextureFiles textures_;
+  std::set<std::string> done_;
+  std::map<std::string, int> indices_;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,149 @@
+#include "importers/ply_header.hpp"
+
+#include <charconv>
+
+#include "importers/malformed.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+
+// Both generations of names.
+constexpr std::pair<std::string_view, PlyType> type_names[] = {
+    {"char", PlyType::int8},       {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
+    {"uint8", PlyType::uint8},     {"short", PlyType::int16},     {"int16", PlyType::int16},
+    {"ushort", PlyType::uint16},   {"uint16", PlyType::uint16},   {"int", PlyType::int32},
+    {"int32", PlyType::int32},     {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
+    {"float", PlyType::float32},   {"float32", PlyType::float32}, {"double", PlyType::float64},
+    {"float64", PlyType::float64},
+};
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (size_t at = 0; (at = line.find_first_not_of(" \t\r", at)) != std::string_view::npos;) {
+    const size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+class HeaderReader {
+ public:
+  HeaderReader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+
+  PlyHeader read() {
+    if (next_line() != std::vector<std::string_view>{"ply"})
+      fail("this is no PLY file: it does not start with `ply`");
+    for (;;) {
+      const std::vector<std::string_view> words = next_line();
+      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+      if (words[0] == "end_header") break;
+      if (words[0] == "format") {
+        read_format(words);
+      } else if (words[0] == "element") {
+        read_element(words);
+      } else if (words[0] == "property") {
+        read_property(words);
+      } else {
+        fail(fmt::format("`{}` is no statement of a PLY header", words[0]));
+      }
+    }
+    if (!formatted_) fail("the header has no `format`");
+    header_.size = at_;
+    return std::move(header_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw malformed_at(file_, bytes_, start_, message);
+  }
+
+  std::vector<std::string_view> next_line() {
+    start_ = at_;
+    const size_t end = bytes_.find('\n', at_);
+    if (end == std::string_view::npos) fail("the header ends without `end_header`");
+    at_ = end + 1;
+    return split(bytes_.substr(start_, end - start_));
+  }
+
+  void read_format(const std::vector<std::string_view>& words) {
+    constexpr std::pair<std::string_view, PlyFormat> names[] = {
+        {"ascii", PlyFormat::ascii},
+        {"binary_little_endian", PlyFormat::little_endian},
+        {"binary_big_endian", PlyFormat::big_endian}};
+    for (const auto& [name, format] : names) {
+      if (words.size() != 3 || words[1] != name || words[2] != "1.0") continue;
+      header_.format = format;
+      formatted_ = true;
+      return;
+    }
+    fail("write format ascii, binary_little_endian or binary_big_endian, and 1.0");
+  }
+
+  void read_element(const std::vector<std::string_view>& words) {
+    if (words.size() != 3) fail("write element NAME COUNT");
+    PlyElement element{std::string(words[1]), 0, {}};
+    const std::string_view number = words[2];
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), element.count);
+    if (error != std::errc() || end != number.data() + number.size())
+      fail(fmt::format("`{}` is no count of elements", number));
+    header_.elements.push_back(std::move(element));
+  }
+
+  void read_property(const std::vector<std::string_view>& words) {
+    if (header_.elements.empty()) fail("a property before the first element");
+    std::vector<PlyProperty>& properties = header_.elements.back().properties;
+    if (words.size() == 3) {
+      properties.push_back({std::string(words[2]), type(words[1])});
+    } else if (words.size() == 5 && words[1] == "list") {
+      const PlyType length = type(words[2]);
+      if (length >= PlyType::float32) fail("the length of a list is an integer");
+      properties.push_back({std::string(words[4]), type(words[3]), length});
+    } else {
+      fail("write property TYPE NAME, or property list TYPE TYPE NAME");
+    }
+  }
+
+  PlyType type(std::string_view name) const {
+    for (const auto& [known, type] : type_names) {
+      if (known == name) return type;
+    }
+    fail(fmt::format("`{}` is no type of PLY", name));
+  }
+
+  std::string_view bytes_;
+  const std::string& file_;
+  size_t at_ = 0;
+  size_t start_ = 0;  // of the line read last
+  bool formatted_ = false;
+  PlyHeader header_ = {};
+};
+
+}  // namespace
+
+size_t size_of(PlyType type) {
+  return sizes[static_cast<size_t>(type)];
+}
+
+size_t PlyElement::least_bytes(PlyFormat format) const {
+  size_t bytes = 0;
+  for (const PlyProperty& property : properties)
+    bytes += format == PlyFormat::ascii ? 2 : size_of(property.list.value_or(property.type));
+  return bytes;
+}
+
+bool PlyElement::has_lists() const {
+  for (const PlyProperty& property : properties) {
+    if (property.list) return true;
+  }
+  return false;
+}
+
+PlyHeader read_ply_header(std::string_view bytes, const std::string& file) {
+  return HeaderReader(bytes, file).read();
+}
+
+}  // namespace eyeray

@@ -1,0 +1,43 @@
+// What a PLY file says it holds. Private to the importers.
+// Source: Turk: The PLY Polygon File Format, 1994; http://paulbourke.net/dataformats/ply/
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace eyeray {
+
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+size_t size_of(PlyType type);  // bytes
+
+enum class PlyFormat { ascii, little_endian, big_endian };
+
+struct PlyProperty {
+  std::string name;
+  PlyType type;
+  std::optional<PlyType> list = {};  // where it is a list: the type of its length
+};
+
+struct PlyElement {
+  std::string name;
+  uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+
+  // The least bytes that one of them takes in a file: whatever the count says, no more fit.
+  size_t least_bytes(PlyFormat format) const;
+  bool has_lists() const;
+};
+
+struct PlyHeader {
+  PlyFormat format;
+  std::vector<PlyElement> elements;
+  size_t size = 0;  // bytes up to the data
+};
+
+// InputError with the line where it is wrong.
+PlyHeader read_ply_header(std::string_view bytes, const std::string& file);
+
+}  // namespace eyeray

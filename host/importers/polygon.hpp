@@ -1,0 +1,38 @@
+// Polygons as triangles. Private to the importers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.hpp"
+
+namespace eyeray {
+
+// Cuts polygons, one after the other; keeps its memory between them.
+class Triangulator {
+ public:
+  // The triangles of the polygon, as indices of its corners, with its winding: n − 2 for n ≥ 3 corners, none
+  // for fewer. Concave polygons are cut by ears, at most `most_ear_corners` corners; larger ones as fans,
+  // which is right where they are convex. Corners that are not finite give triangles that are not either.
+  const std::vector<std::array<uint32_t, 3>>& cut(std::span<const Vec3> corners);
+
+  // Polygons that were too large to be cut by ears and are not convex.
+  size_t fans() const { return fans_; }
+
+  // Cutting takes the square of it.
+  static constexpr size_t most_ear_corners = 1000;
+
+ private:
+  void cut_ears();
+  void clip(uint32_t before, uint32_t ear, uint32_t after);
+
+  std::vector<std::array<uint32_t, 3>> triangles_;
+  std::vector<Vec2> flat_;        // the corners in the polygon's plane, counter-clockwise
+  std::vector<uint32_t> before_;  // the neighbours of each corner that is left
+  std::vector<uint32_t> after_;
+  size_t fans_ = 0;
+};
+
+}  // namespace eyeray

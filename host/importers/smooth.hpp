@@ -1,0 +1,17 @@
+// Shading normals for meshes that come without. Private to the importers.
+#pragma once
+
+#include <span>
+
+#include "scene/mesh.hpp"
+
+namespace eyeray {
+
+// Gives every corner the mean normal of the faces around it, weighted by their angles there (Thürmer and
+// Wüthrich: Computing Vertex Normals from Polygonal Facets, JGT 3(1), 1998). Faces count as one surface when
+// they share an edge at which they meet under less than `degrees`; vertices, which are the same where their
+// positions are, are split where surfaces part. A normal that would point away from a corner's face becomes
+// that of the face. `faces` are the unit normals of the mesh's triangles.
+void add_smooth_normals(Mesh& mesh, std::span<const Vec3> faces, double degrees);
+
+}  // namespace eyeray

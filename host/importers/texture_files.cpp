@@ -1,0 +1,24 @@
+#include "importers/texture_files.hpp"
+
+#include "core/error.hpp"
+#include "scene/image_texture_file.hpp"
+
+namespace eyeray {
+
+std::shared_ptr<const ImageTexture> TextureFiles::load(const std::string& name) {
+  return load(name, [&] { return load_image_texture(assets_.locate(name)); });
+}
+
+std::shared_ptr<const ImageTexture> TextureFiles::load(const std::string& name,
+                                                       const std::function<ImageTexture()>& decode) {
+  const auto [entry, fresh] = known_.try_emplace(name);
+  if (!fresh) return entry->second;
+  try {
+    entry->second = std::make_shared<const ImageTexture>(decode());
+  } catch (const Error& error) {
+    warnings_.push_back(std::string("a picture was left out: ") + error.what());
+  }
+  return entry->second;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,32 @@
+// The pictures that a mesh file names, each decoded once. Private to the importers.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "importers/asset_files.hpp"
+#include "scene/texture.hpp"
+
+namespace eyeray {
+
+class TextureFiles {
+ public:
+  TextureFiles(AssetFiles& assets, std::vector<std::string>& warnings)
+      : assets_(assets), warnings_(warnings) {}
+
+  // The picture in a file; null, with a warning, where it cannot be had.
+  std::shared_ptr<const ImageTexture> load(const std::string& name);
+  // The same for a picture that `decode` makes the first time that `name` is asked for; it may throw Error.
+  std::shared_ptr<const ImageTexture> load(const std::string& name,
+                                           const std::function<ImageTexture()>& decode);
+
+ private:
+  AssetFiles& assets_;
+  std::vector<std::string>& warnings_;
+  std::map<std::string, std::shared_ptr<const ImageTexture>> known_;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,90 @@
+#include "loader/mesh_placement.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "scene/affine.hpp"
+#include "scene/triangle.hpp"
+
+namespace eyeray {
+
+namespace {
+
+Corners corners(const Mesh& mesh, const std::array<uint32_t, 3>& triangle) {
+  return {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
+}
+
+// Of what a map leaves of a mesh's thinnest triangles. A turn alone changes a thickness by up to three times.
+constexpr double least_thickness = thinnest_triangle / 10;
+
+}  // namespace
+
+void MeshPlacer::take_meshes(ImportedScene& import, Place& place) {
+  place.first_mesh = static_cast<int>(scene_.meshes.size());
+  for (Mesh& mesh : import.meshes) {
+    double thinnest = 1;
+    for (const auto& triangle : mesh.triangles)
+      thinnest = std::min(thinnest, thickness(corners(mesh, triangle)));
+    extents_.push_back({bounds(mesh), thinnest});
+    scene_.meshes.push_back(std::move(mesh));
+  }
+}
+
+void MeshPlacer::take_materials(ImportedScene& import, Place& place) {
+  place.first_material = static_cast<int>(scene_.materials.size());
+  std::ranges::move(import.materials, std::back_inserter(scene_.materials));
+}
+
+int MeshPlacer::plain_material_index() {
+  if (plain_ < 0) {
+    plain_ = static_cast<int>(scene_.materials.size());
+    scene_.materials.push_back(plain_material());
+  }
+  return plain_;
+}
+
+std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
+  if (const std::string why = why_singular(transform); !why.empty())
+    return fmt::format("with the transforms in the file, the map cannot be undone: {}", why);
+  const Affine map(transform);
+  const auto& [bounds, thinnest] = extents_[index];
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p(corner & 1 ? bounds.min.x : bounds.max.x, corner & 2 ? bounds.min.y : bounds.max.y,
+                 corner & 4 ? bounds.min.z : bounds.max.z);
+    if (!(magnitude(map.point(p)) <= max_coordinate))
+      return "the transformed vertices are out of range (coordinates up to 1e12)";
+  }
+
+  // An area shrinks by |det| / σ at most, the square of an edge grows by σ² at most, σ being the greatest
+  // stretch. Only where that does not settle it, look at every triangle.
+  const Mat3& m = map.linear;
+  const double stretch = std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+  const double shrinks = std::fabs(glm::determinant(m / stretch));
+  if (thinnest * shrinks >= least_thickness) return "";
+  const Mesh& mesh = scene_.meshes[index];
+  for (const auto& triangle : mesh.triangles) {
+    Corners moved = corners(mesh, triangle);
+    for (Vec3& corner : moved) corner = map.point(corner);
+    if (!(thickness(moved) >= least_thickness)) return "the map leaves some of the triangles no area";
+  }
+  return "";
+}
+
+std::string MeshPlacer::place(ImportedScene& import, const Mat4& transform, std::optional<int> material,
+                              const SourcePosition& position) {
+  Place& place = places_[&import];
+  if (place.first_mesh < 0) take_meshes(import, place);
+  if (!material && place.first_material < 0) take_materials(import, place);
+  for (const Instance& instance : import.instances) {
+    Instance placed{place.first_mesh + instance.mesh, transform * instance.transform, 0, position};
+    if (std::string wrong = check(static_cast<size_t>(placed.mesh), placed.transform); !wrong.empty())
+      return wrong;
+    placed.material = material                ? *material
+                      : instance.material < 0 ? plain_material_index()
+                                              : place.first_material + instance.material;
+    scene_.instances.push_back(std::move(placed));
+  }
+  return "";
+}
+
+}  // namespace eyeray

@@ -1,0 +1,47 @@
+// Instances of what mesh files hold, put into a scene. Private to the loader.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "importers/import.hpp"
+#include "scene/scene.hpp"
+
+namespace eyeray {
+
+class MeshPlacer {
+ public:
+  explicit MeshPlacer(Scene& scene) : scene_(scene) {}
+
+  // Adds everything that the file shows, moved by `transform`, with one material for all or, absent, with the
+  // file's own. The first time, the file's meshes, and its materials once they are needed, move into the
+  // scene. Why it cannot stand there, or "".
+  std::string place(ImportedScene& import, const Mat4& transform, std::optional<int> material,
+                    const SourcePosition& position);
+
+ private:
+  // Where in the scene the meshes and materials of a file are; −1 before they are.
+  struct Place {
+    int first_mesh = -1;
+    int first_material = -1;
+  };
+  // What it takes to say whether a map leaves a mesh sound.
+  struct Extent {
+    Bounds bounds;
+    double thinnest;  // triangle, see thickness()
+  };
+
+  void take_meshes(ImportedScene& import, Place& place);
+  void take_materials(ImportedScene& import, Place& place);
+  int plain_material_index();
+  std::string check(size_t mesh, const Mat4& transform) const;
+
+  Scene& scene_;
+  std::map<const ImportedScene*, Place> places_;
+  std::vector<Extent> extents_;  // one a mesh of the scene
+  int plain_ = -1;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,17 @@
+// The scene that a mesh file alone makes. Private to the loader.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <filesystem>
+
+#include "importers/import.hpp"
+
+namespace eyeray {
+
+// The tables that somebody would write to look at the file: [[mesh]], and the file's camera and lights if it
+// has them; else a camera that frames it, three quarters from the front with y up, a light over its left
+// shoulder, and some ambient light.
+toml::table mesh_scene(const std::filesystem::path& file, const ImportedScene& import);
+
+}  // namespace eyeray
