@@ -43,19 +43,35 @@ class Descriptor {
   int value_;
 };
 
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+// Throws where a rename would replace something that is no file of the user's: a folder, or a device such as
+// /dev/null.
+void check_replaceable(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw Error(ExitCode::file_io, "cannot write {}: it is not a regular file", path.string());
+  }
+}
+
+}  // namespace
+
 // The part file: gone at the end of its scope, unless it has been renamed.
-class PartFile {
+class AtomicFile::Part {
  public:
-  explicit PartFile(const fs::path& target)
+  explicit Part(const fs::path& target)
       : path_(target.string() + ".part." + std::to_string(::getpid())),
         file_(path_, O_WRONLY | O_CREAT | O_TRUNC) {
     if (!file_.valid()) fail("write", path_, errno);
   }
-  ~PartFile() {
+  ~Part() {
     if (!renamed_) ::unlink(path_.c_str());
   }
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
 
   void write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
@@ -78,34 +94,31 @@ class PartFile {
   bool renamed_ = false;
 };
 
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
-// Throws where a rename would replace something that is no file of the user's: a folder, or a device such as
-// /dev/null.
-void check_replaceable(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw Error(ExitCode::file_io, "cannot write {}: it is not a regular file", path.string());
-  }
-}
-
-}  // namespace
-
-void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+// The part lies beside the target, so that the rename stays within one file system.
+AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   check_replaceable(path);
+  part_ = std::make_unique<Part>(path);
+}
 
-  // Write beside the target, so that the rename stays within one file system.
-  PartFile part(path);
-  part.write(bytes);
-  part.rename_to(path);
+AtomicFile::~AtomicFile() = default;
+
+void AtomicFile::write(std::span<const std::byte> bytes) {
+  part_->write(bytes);
+}
+
+void AtomicFile::commit() {
+  part_->rename_to(path_);
 
   // Make the rename itself durable; file systems that cannot sync a folder say EINVAL.
-  const Descriptor folder(folder_of(path), O_RDONLY | O_DIRECTORY);
+  const Descriptor folder(folder_of(path_), O_RDONLY | O_DIRECTORY);
   if (!folder.valid() || (::fsync(folder.get()) != 0 && errno != EINVAL))
-    fail("sync the folder of", path, errno);
+    fail("sync the folder of", path_, errno);
+}
+
+void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
 }
 
 void write_file_atomically(const fs::path& path, std::string_view text) {
@@ -113,8 +126,7 @@ void write_file_atomically(const fs::path& path, std::string_view text) {
 }
 
 void check_writable(const fs::path& path) {
-  check_replaceable(path);
-  const PartFile part(path);
+  const AtomicFile part(path);
 }
 
 std::string read_file(const fs::path& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,24 @@ namespace eyeray {
 // removed, what stood at `path` before is untouched, and an Error (file_io) says why.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
+
+// The same in pieces, for what is larger than memory: the file appears with commit(), and not at all without.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  // Appends, unbuffered.
+  void write(std::span<const std::byte> bytes);
+  void commit();
+
+ private:
+  class Part;
+  std::filesystem::path path_;
+  std::unique_ptr<Part> part_;
+};
 
 // Error (file_io) now rather than after a long render: whether a file of that name can be written.
 void check_writable(const std::filesystem::path& path);

@@ -9,9 +9,9 @@ using namespace eyeray::test;
 
 namespace {
 
-const std::set<std::string> everything = {"cli",    "compare",   "core",    "dev",       "gpu",
-                                          "loader", "materials", "records", "reference", "render",
-                                          "scene",  "shapes",    "twin"};
+const std::set<std::string> everything = {"cli",    "compare", "core",      "dev",     "generate",
+                                          "gpu",    "loader",  "materials", "records", "reference",
+                                          "render", "scene",   "shapes",    "twin"};
 
 // What each layer sees beside itself. That the reference sees neither records nor shaders is the point of
 // having one: an error of packing could hide in it.
@@ -27,6 +27,7 @@ const std::map<std::string, std::set<std::string>> visible = {
     {"gpu", {"core"}},
     {"render", {"core", "scene", "records", "reference", "twin", "gpu"}},
     {"compare", {"core"}},
+    {"generate", {"core", "scene"}},
     {"dev", {"core"}},
     {"cli", everything},
 };
