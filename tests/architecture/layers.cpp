@@ -9,9 +9,9 @@ using namespace eyeray::test;
 
 namespace {
 
-const std::set<std::string> everything = {"cli",    "compare", "core",      "dev",     "generate",
-                                          "gpu",    "loader",  "materials", "records", "reference",
-                                          "render", "scene",   "shapes",    "twin"};
+const std::set<std::string> everything = {"bench",  "cli",    "compare",   "core",    "dev",       "generate",
+                                          "gpu",    "loader", "materials", "records", "reference", "render",
+                                          "rivals", "scene",  "shapes",    "twin"};
 
 // What each layer sees beside itself. That the reference sees neither records nor shaders is the point of
 // having one: an error of packing could hide in it.
@@ -28,6 +28,8 @@ const std::map<std::string, std::set<std::string>> visible = {
     {"render", {"core", "scene", "records", "reference", "twin", "gpu"}},
     {"compare", {"core"}},
     {"generate", {"core", "scene"}},
+    {"rivals", {"core", "scene"}},
+    {"bench", {"core", "scene", "rivals", "reference", "loader", "generate"}},
     {"dev", {"core"}},
     {"cli", everything},
 };
@@ -51,9 +53,10 @@ struct Library {
 const Library libraries[] = {
     {std::regex(R"((volk|vulkan|glslang|spirv-tools|spirv)([/.].*))"), {"gpu"}, {"gpu"}},
     {std::regex(R"(toml\+\+/.*)"), {"scene", "loader"}, {"scene", "loader"}},
-    {std::regex(R"(nlohmann/json\.hpp)"), {"cli", "compare", "loader"}, {}},
+    {std::regex(R"(nlohmann/json\.hpp)"), {"bench", "cli", "compare", "loader"}, {}},
     {std::regex(R"(CLI/.*)"), {"cli"}, {"cli"}},
     {std::regex(R"(tbb/.*)"), {"core"}, {"core"}},
+    {std::regex(R"(embree3/.*)"), {"rivals"}, {}},
     {std::regex(R"(stb.*)"), {"core"}, {}},
 };
 
