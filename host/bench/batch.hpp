@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "rivals/query.hpp"
+#include "scene/query.hpp"
 #include "scene/scene.hpp"
 
 namespace eyeray {

@@ -26,8 +26,13 @@ Scene terrain() {
 }
 
 template <int size_factor>
+std::string sphereflake_text() {
+  return sphereflake_stage() + sphereflake_spheres(size_factor);
+}
+
+template <int size_factor>
 Scene sphereflake() {
-  return parse_scene(sphereflake_stage() + sphereflake_spheres(size_factor), "sphereflake");
+  return parse_scene(sphereflake_text<size_factor>(), "sphereflake");
 }
 
 Scene sphereflake_of_triangles() {
@@ -37,12 +42,12 @@ Scene sphereflake_of_triangles() {
 }
 
 constexpr StandardScene scenes[] = {
-    {"terrain-51k", "terrain", terrain<160>},
-    {"terrain-1m", "terrain", terrain<707>},
-    {"terrain-8m", "terrain", terrain<2000>},
-    {"sphereflake-7k", "sphereflake", sphereflake<4>},
-    {"sphereflake-66k", "sphereflake", sphereflake<5>},
-    {"sphereflake-mesh", "sphereflake mesh", sphereflake_of_triangles},
+    {"terrain-51k", "terrain", terrain<160>, nullptr},
+    {"terrain-1m", "terrain", terrain<707>, nullptr},
+    {"terrain-8m", "terrain", terrain<2000>, nullptr},
+    {"sphereflake-7k", "sphereflake", sphereflake<4>, sphereflake_text<4>},
+    {"sphereflake-66k", "sphereflake", sphereflake<5>, sphereflake_text<5>},
+    {"sphereflake-mesh", "sphereflake mesh", sphereflake_of_triangles, nullptr},
 };
 
 }  // namespace

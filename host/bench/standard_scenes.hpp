@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "scene/scene.hpp"
@@ -13,6 +14,7 @@ struct StandardScene {
   std::string_view name;    // "terrain-1m"
   std::string_view family;  // "terrain": the same at another size
   Scene (*make)();          // in memory: nothing is written
+  std::string (*text)();    // the same as a scene file; null for a mesh, which is none
 };
 
 std::span<const StandardScene> standard_scenes();

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "rivals/query.hpp"
+#include "scene/query.hpp"
 #include "scene/scene.hpp"
 
 namespace eyeray {

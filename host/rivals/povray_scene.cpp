@@ -18,7 +18,8 @@ void append(std::string& text, fmt::format_string<Args...> format, Args&&... arg
 }
 
 std::string vector(const Vec3& v) {
-  return fmt::format("<{},{},{}>", v.x, v.y, v.z);
+  const Vec3 plain = v + 0.0;  // no −0
+  return fmt::format("<{},{},{}>", plain.x, plain.y, plain.z);
 }
 
 double mean(const Vec3& v) {
