@@ -135,14 +135,3 @@ TEST_CASE("instances count their triangles one after the other, behind the shape
     CHECK(std::isinf(hits[5].t));
   }
 }
-
-TEST_CASE("Embree leaves the arithmetic of other threads' work as it was") {
-  const Scene scene = mixed_scene();
-  const Embree embree(scene);
-  const std::vector<Query> rays = random_rays(100'000, 3);
-  std::vector<QueryHit> hits(rays.size());
-  embree.query(rays, QueryKind::nearest, hits, EmbreeCalls::one, false);
-  volatile float small = 1e-38f;
-  small = small / 16;
-  CHECK(small > 0);
-}
