@@ -81,7 +81,10 @@ TEST_CASE("rays leave surfaces outward, and shadow rays end at the light") {
     CHECK(shadow.kind == QueryKind::any);
     CHECK(shadow.rays.size() > from.size() / 2);
     CHECK(shadow.rays.size() < from.size());
-    for (const Query& ray : shadow.rays) CHECK(glm::distance(ray.o + ray.t_max * ray.d, Vec3(5.0)) < 1e-12);
+    for (const Query& ray : shadow.rays) {
+      CHECK(glm::length(ray.d) == doctest::Approx(1).epsilon(1e-14));
+      CHECK(glm::distance(ray.o + ray.t_max * ray.d, Vec3(5.0)) < 1e-12);
+    }
 
     // Nothing stands in the way of a convex body's own rays.
     const Embree embree(scene);
