@@ -25,14 +25,6 @@ ProcessResult run_or_throw(const std::vector<std::string>& argv, const Environme
 
 }  // namespace
 
-Spread spread(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const size_t half = values.size() / 2;
-  const double median = values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
-  return {median, values.front(), values.back()};
-}
-
 Spread stage_spread(const Series& series, const std::string& stage) {
   std::vector<double> values;
   for (const TimedRun& run : series.runs) {

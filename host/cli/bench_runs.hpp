@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/spread.hpp"
 #include "core/process.hpp"
 
 namespace eyeray::cli {
@@ -24,14 +25,6 @@ struct Series {
   std::string name;
   std::vector<TimedRun> runs;
 };
-
-// Median and extremes.
-struct Spread {
-  double median = 0;
-  double min = 0;
-  double max = 0;
-};
-Spread spread(std::vector<double> values);
 
 // Of a stage over a series; a run without the stage counts as 0.
 Spread stage_spread(const Series& series, const std::string& stage);

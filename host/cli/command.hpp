@@ -26,6 +26,7 @@ void add_check(CLI::App& app, Run& run);
 void add_devices(CLI::App& app, Run& run);
 void add_bench(CLI::App& app, Run& run);
 void add_dev(CLI::App& app, Run& run);
+void add_generate(CLI::App& app, Run& run);
 void add_shaders(CLI::App& app, Run& run);
 
 // SCENE and what the command line may change of it: -D, --allow-path, -s, --spp, --integrator, --seed,

@@ -38,13 +38,23 @@ void describe(CLI::App& app) {
       "{\"error\": ...}.");
 }
 
+// The command that was named, down to its own subcommand; the app itself when there was none.
+const CLI::App& named_command(const CLI::App& app) {
+  const std::vector<const CLI::App*> named =
+      app.get_subcommands([](const CLI::App* command) { return command->parsed() > 0; });
+  return named.empty() ? app : named_command(*named[0]);
+}
+
+// "check ", "generate terrain ": how the command is named after the program's own name.
+std::string words_before(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent ? words_before(*parent) + command.get_name() + " " : "";
+}
+
 // One line about a wrong command line, with the name that was probably meant.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
-  const std::vector<const CLI::App*> named =
-      app.get_subcommands([](const CLI::App* command) { return command->parsed(); });
-  const std::string help =
-      fmt::format("(see eyeray {}--help)", named.empty() ? "" : named[0]->get_name() + " ");
-  const CLI::App& command = named.empty() ? app : *named[0];
+  const CLI::App& command = named_command(app);
+  const std::string help = fmt::format("(see eyeray {}--help)", words_before(command));
   const std::vector<std::string> extras = app.remaining(true);
   if (!dynamic_cast<const CLI::ExtrasError*>(&error) || extras.empty())
     return fmt::format("{} {}", error.what(), help);
@@ -59,16 +69,16 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
       for (const std::string& name : option->get_snames()) names.push_back("-" + name);
     }
-  } else if (named.empty()) {
-    for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; }))
+  } else {
+    for (const CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; }))
       names.push_back(each->get_name());
   }
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   if (std::find(names.begin(), names.end(), word) != names.end())
-    return fmt::format("'{}' belongs after the command: eyeray {} ... {} {}", word, command.get_name(), word,
-                       help);
+    return fmt::format("'{}' belongs after the command: eyeray {}... {} {}", word, words_before(command),
+                       word, help);
   const std::string nearest = nearest_name(word, candidates);
-  const char* kind = is_option ? "unknown option" : named.empty() ? "unknown command" : "unexpected argument";
+  const char* kind = is_option ? "unknown option" : names.empty() ? "unexpected argument" : "unknown command";
   return fmt::format("{} '{}'{} {}", kind, word,
                      nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest), help);
 }
@@ -94,6 +104,7 @@ int run_command_line(int argc, char** argv) {
   add_dev(app, run);
   add_devices(app, run);
   add_bench(app, run);
+  add_generate(app, run);
   add_shaders(app, run);
 
   try {

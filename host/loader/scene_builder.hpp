@@ -10,8 +10,8 @@
 
 namespace eyeray {
 
-// Everything but Scene::file, files and warnings; only whole when the log has no errors. `images` and `meshes`: null
-// where the scene may name no files.
+// Everything but Scene::file, files and warnings; only whole when the log has no errors. `images` and
+// `meshes`: null where the scene may name no files.
 Scene build_scene(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log);
 
 }  // namespace eyeray

@@ -18,8 +18,9 @@ struct Override {
 };
 
 // Reads, includes, overrides and checks a scene, or makes one that shows a mesh file (.obj, .ply, .gltf,
-// .glb). Included files, images and meshes may lie in the scene file's folder tree and in those of `allowed_folders`.
-// Throws InputError with every error at once, or Error (file_io) when the file itself cannot be read.
+// .glb). Included files, images and meshes may lie in the scene file's folder tree and in those of
+// `allowed_folders`. Throws InputError with every error at once, or Error (file_io) when the file itself
+// cannot be read.
 Scene load_scene(const std::filesystem::path& file, std::span<const Override> overrides = {},
                  std::span<const std::filesystem::path> allowed_folders = {});
 // The same from memory, for tests; `name` stands in messages. It can neither include files nor name images or

@@ -3,10 +3,12 @@
 // shapes/registry.h.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <variant>
 
 #include "core/diagnostic.hpp"
 #include "core/vec.hpp"
@@ -34,6 +36,20 @@ struct SurfacePoint {
   Vec2 uv;
 };
 
+// A shape in the terms that other renderers share.
+struct SphereForm {
+  Vec3 center;
+  double radius;
+};
+struct PlaneForm {
+  Vec3 point;
+  Vec3 normal;  // unit
+};
+struct TriangleForm {
+  std::array<Vec3, 3> vertices;
+};
+using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm>;
+
 class Shape {
  public:
   virtual ~Shape() = default;
@@ -42,6 +58,8 @@ class Shape {
   virtual std::optional<Intersection> intersect(const Ray& ray) const = 0;
   virtual SurfacePoint surface(const Ray& ray, const Intersection& hit) const = 0;
   virtual Bounds bounds() const = 0;
+  // For exporters and for comparing with other renderers; monostate for what they do not have.
+  virtual ShapeForm form() const { return {}; }
   // Appends the shape's one Primitive (and what it refers to).
   virtual void pack(Packer& packer) const = 0;
 

@@ -78,6 +78,8 @@ class Plane final : public Shape {
 
   Bounds bounds() const override { return Bounds::unbounded(); }
 
+  ShapeForm form() const override { return PlaneForm{point_, normal_}; }
+
   void pack(Packer& packer) const override {
     const Vec3 point = packer.relative(point_);
     packer.add({.head = Packer::head(shader::KIND_plane, material),

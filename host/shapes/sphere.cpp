@@ -80,6 +80,8 @@ class Sphere final : public Shape {
 
   Bounds bounds() const override { return {center_ - Vec3(radius_), center_ + Vec3(radius_)}; }
 
+  ShapeForm form() const override { return SphereForm{center_, radius_}; }
+
   void pack(Packer& packer) const override {
     const bool mirrored = glm::determinant(axes_) < 0;
     packer.add({.head = Packer::head(shader::KIND_sphere, material),

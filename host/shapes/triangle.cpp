@@ -101,6 +101,8 @@ class Triangle final : public Shape {
     return bounds;
   }
 
+  ShapeForm form() const override { return TriangleForm{vertices_}; }
+
   void pack(Packer& packer) const override {
     uint32_t attributes = NONE;
     if (normals_ || uv_) {

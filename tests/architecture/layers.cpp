@@ -9,9 +9,9 @@ using namespace eyeray::test;
 
 namespace {
 
-const std::set<std::string> everything = {"accel",     "cli",    "compare", "core",      "dev",
-                                          "gpu",       "importers", "loader",  "materials", "records",
-                                          "reference", "render", "scene",   "shapes",    "twin"};
+const std::set<std::string> everything = {
+    "accel",  "bench",     "cli",     "compare",   "core",   "dev",    "generate", "gpu",    "importers",
+    "loader", "materials", "records", "reference", "render", "rivals", "scene",    "shapes", "twin"};
 
 // What each layer sees beside itself. That the reference sees neither records nor shaders is the point of
 // having one: an error of packing could hide in it.
@@ -29,6 +29,9 @@ const std::map<std::string, std::set<std::string>> visible = {
     {"accel", {"core"}},
     {"render", {"core", "scene", "records", "reference", "twin", "gpu", "accel"}},
     {"compare", {"core"}},
+    {"generate", {"core", "scene"}},
+    {"rivals", {"core", "scene"}},
+    {"bench", {"core", "scene", "rivals", "reference", "loader", "generate"}},
     {"dev", {"core"}},
     {"cli", everything},
 };
@@ -52,11 +55,11 @@ struct Library {
 const Library libraries[] = {
     {std::regex(R"((volk|vulkan|glslang|spirv-tools|spirv)([/.].*))"), {"gpu"}, {"gpu"}},
     {std::regex(R"(toml\+\+/.*)"), {"scene", "loader"}, {"scene", "loader"}},
-    {std::regex(R"(nlohmann/json\.hpp)"), {"cli", "compare", "importers", "loader"}, {"importers"}},
+    {std::regex(R"(nlohmann/json\.hpp)"), {"bench", "cli", "compare", "importers", "loader"}, {"importers"}},
     {std::regex(R"(tiny_.*)"), {"importers"}, {}},
     {std::regex(R"(CLI/.*)"), {"cli"}, {"cli"}},
     {std::regex(R"(tbb/.*)"), {"core"}, {"core"}},
-    {std::regex(R"(embree3/.*)"), {"accel"}, {}},
+    {std::regex(R"(embree3/.*)"), {"accel", "rivals"}, {}},
     {std::regex(R"(stb.*)"), {"core"}, {}},
 };
 

@@ -34,11 +34,60 @@ TEST_CASE("bench measures every backend, and cold and warm starts") {
   CHECK(compile(3) > compile(4));
 }
 
+TEST_CASE("rays are raced beside Embree, plotted, and compared with an older run") {
+  const SceneFolder folder;
+  const std::vector<std::string> command{"bench", folder.scene(), "terrain-51k", "-n",
+                                         "2",     "-s",           "64x48",       "--no-pictures"};
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), command.begin(), command.end());
+    return run_eyeray(more);
+  };
+  const ProcessResult json = run({"--json", "--plot", folder / "rays.svg"});
+  CAPTURE(json.err);
+  REQUIRE(json.code == 0);
+  const auto answer = nlohmann::json::parse(json.out);
+  CHECK(answer.at("bench").empty());
+  const auto field = answer.at("field");
+  REQUIRE(field.size() == 2);
+  CHECK(field[0].at("primitives") == 1);
+  CHECK(field[1].at("scene") == "terrain-51k");
+  CHECK(field[1].at("primitives") == 51200);
+  CHECK(field[1].at("builds").at(0).at("contender") == "Embree");
+  for (const auto& scene : field) {
+    for (const auto& batch : scene.at("batches")) {
+      CHECK(batch.at("rays") > 100);
+      for (const auto& lap : batch.at("laps")) {
+        CHECK(lap.at("rays_per_second") > 1000);
+        CHECK(lap.at("seconds").at("min") <= lap.at("seconds").at("max"));
+        // Rays to edges may go either way.
+        CHECK(lap.at("differing").get<double>() <= 0.01 * batch.at("rays").get<double>());
+      }
+    }
+  }
+  CHECK(read_text(folder / "rays.svg").starts_with("<svg"));
+
+  write_text(folder / "old.json", json.out);
+  const ProcessResult text = run({"--compare", folder / "old.json"});
+  CHECK(text.code == 0);
+  CHECK(text.out.find("Embree single") != std::string::npos);
+  CHECK(text.out.find("since " + (folder / "old.json") + ":\n") != std::string::npos);
+  CHECK(text.out.find(" -> ") != std::string::npos);
+
+  // What is wrong is found before anything is measured.
+  CHECK(run({"--compare", folder.scene()}).err ==
+        "eyeray: error: " + folder.scene() + " is not what eyeray bench --json answers\n");
+  CHECK(run({"--plot", folder / "no/rays.svg"}).code == 4);
+  const ProcessResult unknown = run_eyeray({"bench", "terrain-51l", "-s", "8x8"});
+  CHECK(unknown.code == 4);
+  CHECK(run_eyeray({"bench", "-s", "70000x1"}).code == 2);
+}
+
 TEST_CASE("bench as text, and a scene that is not there") {
   const SceneFolder folder;
   const ProcessResult text = run_eyeray({"bench", folder.scene(), "-n", "1", "-s", "16x16", "--no-start"});
   CHECK(text.code == 0);
   CHECK(text.out.find("whole process") != std::string::npos);
   CHECK(text.out.find("rays/s") != std::string::npos);
+  CHECK(text.out.find(": single") != std::string::npos);
   CHECK(run_eyeray({"bench", folder / "nope.toml"}).code == 4);
 }

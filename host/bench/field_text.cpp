@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bench/field.hpp"
+
+namespace eyeray {
+namespace {
+
+std::string millions(double rays_per_second) {
+  return fmt::format("{:.3g}", rays_per_second / 1e6);
+}
+
+// "0.88", or "-" where there is nothing to compare with.
+std::string ratio(double value) {
+  return value > 0 ? fmt::format("{:.2f}", value) : "-";
+}
+
+std::string row(const BatchReport& batch, const Lap& lap) {
+  const bool ours = lap.side == Side::ours;
+  return fmt::format("  {:<9} {:<24} {:>8}  {:>6} … {:<6} {:>8} {:>9} {:>9}\n", batch.name, lap.contender,
+                     millions(rate(batch, lap)), millions(double(batch.rays) / lap.seconds.max),
+                     millions(double(batch.rays) / lap.seconds.min),
+                     ours ? ratio(times_as_fast(batch, lap, Side::single)) : "",
+                     ours ? ratio(times_as_fast(batch, lap, Side::packet)) : "", lap.differing);
+}
+
+}  // namespace
+
+std::string to_text(const FieldReport& report) {
+  std::string text;
+  for (const SceneReport& scene : report) {
+    text += fmt::format("{}: {} primitives\n", scene.scene, scene.primitives);
+    for (const Build& build : scene.builds)
+      text +=
+          fmt::format("  build     {:<24} {:>8.3g} s, {:.1f} bytes a primitive\n", build.contender,
+                      build.seconds, double(build.bytes) / double(std::max<uint64_t>(1, scene.primitives)));
+    text += fmt::format("  {:<9} {:<24} {:>8}  {:<15} {:>8} {:>9} {:>9}\n", "rays", "", "Mrays/s", "  spread",
+                        ": single", ": packets", "differ");
+    for (const BatchReport& batch : scene.batches) {
+      for (const Lap& lap : batch.laps) {
+        if (lap.side != Side::packet || &lap == fastest(batch, Side::packet)) text += row(batch, lap);
+      }
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string changes(const FieldReport& old, const FieldReport& report) {
+  std::string text;
+  const auto find = [](const auto& list, auto member, const std::string& name) {
+    const auto found =
+        std::find_if(list.begin(), list.end(), [&](const auto& each) { return each.*member == name; });
+    return found == list.end() ? nullptr : &*found;
+  };
+  for (const SceneReport& scene : report) {
+    const SceneReport* const old_scene = find(old, &SceneReport::scene, scene.scene);
+    if (!old_scene) continue;
+    for (const BatchReport& batch : scene.batches) {
+      const BatchReport* const old_batch = find(old_scene->batches, &BatchReport::name, batch.name);
+      if (!old_batch) continue;
+      for (const Lap& lap : batch.laps) {
+        const Lap* const old_lap = find(old_batch->laps, &Lap::contender, lap.contender);
+        if (!old_lap || old_lap->seconds.median <= 0 || old_batch->rays == 0) continue;
+        // Spreads that touch may be one and the same speed.
+        const double scale = double(batch.rays) / double(old_batch->rays);
+        const bool apart =
+            lap.seconds.min > scale * old_lap->seconds.max || lap.seconds.max < scale * old_lap->seconds.min;
+        const double before = rate(*old_batch, *old_lap), now = rate(batch, lap);
+        text += fmt::format("{:<24} {:<9} {:<24} {:>8} -> {:<8} {:>+7.1f} %{}\n", scene.scene, batch.name,
+                            lap.contender, millions(before), millions(now), 100 * (now / before - 1),
+                            apart ? "" : "  within the spread");
+      }
+    }
+  }
+  return text.empty() ? "nothing in common with the older report\n" : text;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,37 @@
+#include "bench/race.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+
+namespace eyeray {
+
+bool agree(const QueryHit& a, const QueryHit& b) {
+  if (std::isinf(a.t) || std::isinf(b.t)) return std::isinf(a.t) && std::isinf(b.t);
+  return std::abs(a.t - b.t) <= 1e-3 * std::max(std::abs(a.t), std::abs(b.t));
+}
+
+std::vector<Lap> race(const Batch& batch, std::span<const Contender> contenders, int runs) {
+  std::vector<QueryHit> first(batch.rays.size()), hits(batch.rays.size());
+  std::vector<Lap> laps;
+  for (const Contender& contender : contenders) {
+    Lap& lap = laps.emplace_back(Lap{contender.name, contender.side, {}, 0});
+    contender.query(batch, hits);
+    if (laps.size() == 1) first = hits;
+    for (size_t i = 0; i < hits.size(); ++i) lap.differing += !agree(first[i], hits[i]);
+  }
+
+  std::vector<std::vector<double>> seconds(contenders.size());
+  for (int run = 0; run < runs; ++run) {
+    for (size_t i = 0; i < contenders.size(); ++i) {
+      if (interrupted()) throw Error(ExitCode::interrupted, "interrupted");
+      seconds[i].push_back(contenders[i].query(batch, hits));
+    }
+  }
+  for (size_t i = 0; i < contenders.size(); ++i) laps[i].seconds = spread(seconds[i]);
+  return laps;
+}
+
+}  // namespace eyeray

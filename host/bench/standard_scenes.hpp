@@ -1,0 +1,24 @@
+// The scenes that are measured when none is given: known from Haines' databases, or of a size that says
+// something.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scene/scene.hpp"
+
+namespace eyeray {
+
+struct StandardScene {
+  std::string_view name;    // "terrain-1m"
+  std::string_view family;  // "terrain": the same at another size
+  Scene (*make)();          // in memory: nothing is written
+  std::string (*text)();    // the same as a scene file; null for a mesh, which is none
+};
+
+std::span<const StandardScene> standard_scenes();
+// nullptr for another name.
+const StandardScene* find_standard_scene(std::string_view name);
+
+}  // namespace eyeray

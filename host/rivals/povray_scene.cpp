@@ -1,0 +1,133 @@
+#include "rivals/povray_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <utility>
+
+#include "core/error.hpp"
+#include "scene/camera_frame.hpp"
+
+namespace eyeray {
+namespace {
+
+// Formats onto the end of a string.
+template <typename... Args>
+void append(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
+}
+
+std::string vector(const Vec3& v) {
+  const Vec3 plain = v + 0.0;  // no −0
+  return fmt::format("<{},{},{}>", plain.x, plain.y, plain.z);
+}
+
+double mean(const Vec3& v) {
+  return (v.x + v.y + v.z) / 3;
+}
+
+// POV-Ray's rays go along direction + x·right + y·up with x, y in [−½, ½]; given all three, handedness is
+// ours.
+std::string camera(const Scene& scene, int width, int height) {
+  const CameraFrame frame = camera_frame(scene.camera, width, height);
+  return fmt::format("camera {{ {} location {} direction {} right {} up {} }}\n",
+                     scene.camera.type == CameraType::orthographic ? "orthographic" : "perspective",
+                     vector(scene.camera.eye), vector(frame.forward), vector(2.0 * frame.right),
+                     vector(2.0 * frame.up));
+}
+
+std::string light(const Light& light) {
+  if (light.type == LightType::directional)
+    return fmt::format("light_source {{ {} color rgb {} parallel point_at 0 }}\n",
+                       vector(1e6 * light.to_light), vector(light.intensity));
+  if (light.falloff == Falloff::none)
+    return fmt::format("light_source {{ {} color rgb {} }}\n", vector(light.position),
+                       vector(light.intensity));
+  // It fades by 2 / (1 + (r/d)²): with d small beside the scene, by 2d² / r².
+  constexpr double d = 1e-3;
+  return fmt::format("light_source {{ {} color rgb {} fade_distance {} fade_power 2 }}\n",
+                     vector(light.position), vector(light.intensity / (2 * d * d)), d);
+}
+
+std::string texture(const Material& material, const Vec3& ambient_light) {
+  const Scattering s = material.scattering({.uv = Vec2(0.0), .cos_view = 1, .ior_from = 1, .ior_to = 1});
+  const std::string highlight =
+      fmt::format("phong {} phong_size {}", mean(s.specular), std::max(1.0, s.shininess));
+  if (material.medium())
+    return fmt::format(
+        "texture {{ pigment {{ rgbf 1 }} finish {{ ambient 0 diffuse 0 reflection {{ 0, 1 fresnel on }} "
+        "conserve_energy {} }} }}",
+        highlight);
+  // The pigment weighs the ambient share too.
+  const Vec3 pigment = glm::max(s.diffuse, Vec3(1e-6));
+  return fmt::format(
+      "texture {{ pigment {{ rgb {} }} finish {{ diffuse 1 ambient rgb {} {} reflection rgb {} }} }}",
+      vector(pigment), vector(s.ambient * ambient_light / pigment), highlight, vector(s.reflected));
+}
+
+// "texture { M3 }", and the interior of glass.
+std::string look(const Scene& scene, int material) {
+  const auto medium = scene.materials[size_t(material)]->medium();
+  return fmt::format("texture {{M{}}}{}", material,
+                     medium ? fmt::format(" interior {{ ior {} }}", medium->ior) : "");
+}
+
+void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
+  const std::string material = look(scene, shape.material);
+  const ShapeForm form = shape.form();
+  if (const auto* sphere = std::get_if<SphereForm>(&form)) {
+    append(text, "sphere {{{},{} {}}}\n", vector(sphere->center), sphere->radius, material);
+  } else if (const auto* plane = std::get_if<PlaneForm>(&form)) {
+    append(text, "plane {{{},{} {}}}\n", vector(plane->normal), glm::dot(plane->normal, plane->point),
+           material);
+  } else if (const auto* triangle = std::get_if<TriangleForm>(&form)) {
+    const auto& [a, b, c] = triangle->vertices;
+    append(text, "triangle {{{},{},{} {}}}\n", vector(a), vector(b), vector(c), material);
+  } else {
+    throw Error(ExitCode::bad_input, "{}:{}: POV-Ray has no such shape", shape.position.file,
+                shape.position.line);
+  }
+}
+
+void add_vectors(std::string& text, const char* name, const std::vector<Vec3>& vectors) {
+  append(text, "{} {{{},\n", name, vectors.size());
+  for (const Vec3& v : vectors) append(text, "{},\n", vector(v));
+  text += "}\n";
+}
+
+void add_mesh(std::string& text, const Mesh& mesh, size_t index) {
+  append(text, "#declare Mesh{} = mesh2 {{\n", index);
+  add_vectors(text, "vertex_vectors", mesh.positions);
+  if (!mesh.normals.empty()) add_vectors(text, "normal_vectors", mesh.normals);
+  append(text, "face_indices {{{},\n", mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) append(text, "<{},{},{}>,\n", a, b, c);
+  text += "}\n}\n";
+}
+
+}  // namespace
+
+std::string povray_scene(const Scene& scene, int width, int height) {
+  std::string text = fmt::format(
+      "#version 3.7;\n"
+      "global_settings {{ assumed_gamma 1 max_trace_level {} adc_bailout {} ambient_light rgb 1 }}\n"
+      "background {{ rgb {} }}\n",
+      scene.render.max_depth + 1, scene.render.min_weight, vector(scene.render.background));
+  text += camera(scene, width, height);
+  for (const Light& each : scene.lights) text += light(each);
+  for (size_t i = 0; i < scene.materials.size(); ++i)
+    append(text, "#declare M{} = {}\n", i, texture(*scene.materials[i], scene.render.ambient));
+  for (const auto& shape : scene.shapes) add_shape(text, scene, *shape);
+  for (size_t i = 0; i < scene.meshes.size(); ++i) add_mesh(text, scene.meshes[i], i);
+  for (const Instance& instance : scene.instances) {
+    std::string matrix;
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 3; ++row)
+        append(matrix, "{}{}", matrix.empty() ? "" : ",", instance.transform[column][row]);
+    }
+    append(text, "object {{ Mesh{} matrix <{}> {} }}\n", instance.mesh, matrix,
+           look(scene, instance.material));
+  }
+  return text;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,123 @@
+#include "bench/batch.hpp"
+
+#include "generate/octasphere.hpp"
+#include "loader/scene_file.hpp"
+#include "rivals/embree.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+constexpr const char* scene_text = R"([camera]
+eye = [0, 0, 5]
+target = [0, 0, 0]
+fov = 40
+[[light]]
+type = "point"
+position = [5, 5, 5]
+[[material]]
+name = "m"
+type = "phong"
+[[sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "m"
+)";
+
+// The sphere of the scene, as a shape or as a mesh.
+Scene sphere(bool as_mesh) {
+  Scene scene = parse_scene(scene_text, "sphere");
+  if (!as_mesh) return scene;
+  scene.shapes.clear();
+  scene.meshes.push_back(octasphere(20));
+  scene.instances.push_back({.mesh = 0, .material = 0, .position = {}});
+  return scene;
+}
+
+std::vector<Departure> departures_of(const Scene& scene, const Batch& primary) {
+  const Embree embree(scene);
+  std::vector<QueryHit> hits(primary.rays.size());
+  embree.query(primary.rays, QueryKind::nearest, hits, EmbreeCalls::one, true);
+  return departures(scene, primary.rays, hits);
+}
+
+}  // namespace
+
+TEST_CASE("primary rays go block by block through the pixels' centres") {
+  const Scene scene = sphere(false);
+  const Batch batch = primary_batch(scene, 20, 12);
+  REQUIRE(batch.rays.size() == 240);
+  CHECK(batch.kind == QueryKind::nearest);
+  // Where a ray crosses the picture, in pixels.
+  const auto pixel = [&](size_t i) {
+    const Vec3 d = batch.rays[i].d / -batch.rays[i].d.z / std::tan(glm::radians(20.0));
+    return Vec2((d.x + 1) * 10 - 0.5, (12.0 / 20 - d.y) * 10 - 0.5);
+  };
+  const std::pair<size_t, Vec2> places[] = {{0, {0, 0}},   {7, {7, 0}},    {8, {0, 1}},    {63, {7, 7}},
+                                            {64, {8, 0}},  {128, {16, 0}}, {131, {19, 0}}, {132, {16, 1}},
+                                            {160, {0, 8}}, {239, {19, 11}}};
+  for (const auto& [i, expected] : places) {
+    CAPTURE(i);
+    CHECK(glm::distance(pixel(i), expected) < 1e-9);
+  }
+}
+
+TEST_CASE("rays leave surfaces outward, and shadow rays end at the light") {
+  for (const bool as_mesh : {false, true}) {
+    const Scene scene = sphere(as_mesh);
+    const Batch primary = primary_batch(scene, 64, 64);
+    const std::vector<Departure> from = departures_of(scene, primary);
+    CHECK(from.size() > 500);
+    CHECK(from.size() < 4096);
+    for (const Departure& each : from) {
+      CHECK(glm::length(each.position) > (as_mesh ? 0.99 : 1.0));
+      CHECK(glm::length(each.position) < 1.0001);
+      CHECK(glm::dot(each.normal, each.position) > 0.9);
+      CHECK(glm::dot(each.normal, primary.rays[each.ray].d) < 0);
+    }
+    const Batch shadow = shadow_batch(scene, from);
+    CHECK(shadow.kind == QueryKind::any);
+    CHECK(shadow.rays.size() > from.size() / 2);
+    CHECK(shadow.rays.size() < from.size());
+    for (const Query& ray : shadow.rays) {
+      CHECK(glm::length(ray.d) == doctest::Approx(1).epsilon(1e-14));
+      CHECK(glm::distance(ray.o + ray.t_max * ray.d, Vec3(5.0)) < 1e-12);
+    }
+
+    // Nothing stands in the way of a convex body's own rays.
+    const Embree embree(scene);
+    for (const Batch& batch : {shadow, bounce_batch(from, 0)}) {
+      std::vector<QueryHit> hits(batch.rays.size());
+      embree.query(batch.rays, batch.kind, hits, EmbreeCalls::one, false);
+      int met = 0;
+      for (const QueryHit& hit : hits) met += !std::isinf(hit.t);
+      CHECK(met == 0);
+    }
+  }
+}
+
+TEST_CASE("bounces are distributed as the cosine, and the same for the same seed") {
+  const std::vector<Departure> from = [] {
+    std::vector<Departure> made;
+    for (uint32_t i = 0; i < 100'000; ++i) made.push_back({i, Vec3(0.0), glm::normalize(Vec3(1, 2, 3))});
+    return made;
+  }();
+  const Batch batch = bounce_batch(from, 7);
+  double sum = 0, squares = 0;
+  Vec3 mean(0.0);
+  for (const Query& ray : batch.rays) {
+    const double cosine = glm::dot(ray.d, from[0].normal);
+    CHECK(cosine > 0);
+    sum += cosine;
+    squares += cosine * cosine;
+    mean += ray.d;
+  }
+  const double n = double(from.size());
+  CHECK(sum / n == doctest::Approx(2.0 / 3).epsilon(0.005));
+  CHECK(squares / n == doctest::Approx(0.5).epsilon(0.005));
+  CHECK(glm::distance(mean / n, 2.0 / 3 * from[0].normal) < 0.01);
+  CHECK(bounce_batch(from, 7).rays[99].d == batch.rays[99].d);
+  CHECK(bounce_batch(from, 8).rays[99].d != batch.rays[99].d);
+}

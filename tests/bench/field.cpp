@@ -1,0 +1,114 @@
+#include "bench/field.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "bench/svg.hpp"
+#include "support/process.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using eyeray::test::TemporaryFolder;
+using eyeray::test::write_text;
+
+namespace {
+
+FieldReport sample(double our_seconds) {
+  const auto lap = [](const char* name, Side side, double seconds) {
+    return Lap{name, side, {seconds, seconds * 0.9, seconds * 1.1}, side == Side::ours ? 3u : 0u};
+  };
+  FieldReport report;
+  for (const uint64_t size : {1000u, 1000000u}) {
+    report.push_back(
+        {"terrain <" + std::to_string(size) + ">",
+         "terrain",
+         size,
+         {{"Embree", 0.5, size * 80}},
+         {{"primary",
+           1'000'000,
+           {lap("Embree single", Side::single, 0.1), lap("gpu", Side::ours, our_seconds),
+            lap("Embree packets of 8", Side::packet, 0.05), lap("Embree streams", Side::packet, 0.04)}}}});
+  }
+  return report;
+}
+
+size_t count(const std::string& text, const std::string& word) {
+  size_t found = 0;
+  for (size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += word.size()) ++found;
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("ratios are with the fastest of a side") {
+  const BatchReport batch = sample(0.08)[0].batches[0];
+  CHECK(rate(batch, batch.laps[0]) == doctest::Approx(1e7));
+  CHECK(times_as_fast(batch, batch.laps[1], Side::single) == doctest::Approx(1.25));
+  CHECK(times_as_fast(batch, batch.laps[1], Side::packet) == doctest::Approx(0.5));
+  CHECK(fastest(batch, Side::packet)->contender == "Embree streams");
+  CHECK(fastest({}, Side::ours) == nullptr);
+}
+
+TEST_CASE("the table has a row for each of ours and single rays, and one for the fastest packets") {
+  const std::string text = to_text(sample(0.08));
+  CHECK(count(text, "Embree streams") == 2);
+  CHECK(count(text, "packets of 8") == 0);
+  CHECK(text.find("1.25") != std::string::npos);
+  CHECK(text.find("80.0 bytes a primitive") != std::string::npos);
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = text.find('\n', at);
+    CHECK(end - at <= 110);
+    at = end + 1;
+  }
+}
+
+TEST_CASE("a report survives JSON, and --compare says what changed") {
+  const TemporaryFolder folder;
+  const std::string file = folder / "old.json";
+  write_text(file, nlohmann::ordered_json{{"field", to_json(sample(0.1))}}.dump());
+  const FieldReport old = read_field_report(file);
+  REQUIRE(old.size() == 2);
+  CHECK(to_json(old).dump().find("\"builds\":[]") != std::string::npos);
+  CHECK(old[1].batches[0].laps[3].side == Side::packet);
+  CHECK(old[1].batches[0].laps[1].seconds.max == doctest::Approx(0.11));
+
+  const std::string same = changes(old, sample(0.1));
+  CHECK(count(same, "+0.0 %  within the spread") == 8);
+  const std::string faster = changes(old, sample(0.05));
+  CHECK(count(faster, "+100.0 %\n") == 2);
+  CHECK(count(faster, "within the spread") == 6);
+  CHECK(changes({}, sample(1)) == "nothing in common with the older report\n");
+}
+
+TEST_CASE("what is no report is refused in one line") {
+  const TemporaryFolder folder;
+  const std::string file = folder / "old.json";
+  const std::string good = nlohmann::ordered_json{{"field", to_json(sample(0.1))}}.dump();
+  for (const std::string& bad :
+       {std::string("{"), std::string("[]"), std::string("{\"field\": 3}"), std::string("{\"field\": [{}]}"),
+        good.substr(0, good.size() / 2), std::string(100'000, '[')}) {
+    write_text(file, bad);
+    try {
+      read_field_report(file);
+      FAIL("it was read");
+    } catch (const Error& error) {
+      CHECK(error.code() == ExitCode::bad_input);
+      CHECK(error.what() == file + " is not what eyeray bench --json answers");
+    }
+  }
+  CHECK_THROWS_AS(read_field_report(folder / "nothing"), Error);
+}
+
+TEST_CASE("the plot is an SVG with a line for each contender and a bar for each of ours") {
+  const std::string svg = to_svg(sample(0.08));
+  CHECK(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""));
+  CHECK(svg.ends_with("</svg>\n"));
+  CHECK(count(svg, "<polyline") == 3);
+  CHECK(count(svg, "<circle") == 6);
+  CHECK(count(svg, "1.25</text>") == 2);
+  CHECK(count(svg, "terrain &lt;1000&gt;, primary") == 1);
+  CHECK(svg.find("nan") == std::string::npos);
+  CHECK(svg.find("inf") == std::string::npos);
+  // Nothing to draw is no fault.
+  CHECK(to_svg({}).ends_with("</svg>\n"));
+}
