@@ -54,6 +54,7 @@ const Library libraries[] = {
     {std::regex(R"(CLI/.*)"), {"cli"}, {"cli"}},
     {std::regex(R"(tbb/.*)"), {"core"}, {"core"}},
     {std::regex(R"(stb.*)"), {"core"}, {}},
+    {std::regex(R"((png|zlib)\.h)"), {"core"}, {}},
 };
 
 bool is_shader(const std::string& include) {
