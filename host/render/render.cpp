@@ -98,6 +98,7 @@ class Driver {
     progress_.samples_done = progress_.samples_resumed = rows * uint64_t(crop_.width);
     totals_.samples_resumed = progress_.samples_resumed;
     totals_.rays_resumed = position.rays;
+
     // Hand the finished rows on again, to the files of this run.
     for (int row = 0; row < int(position.finished_rows);) {
       if (interrupted()) return false;
@@ -106,6 +107,7 @@ class Driver {
       row += count;
     }
     checkpoint.check_rows();
+    watch_ = {};
     return true;
   }
 
@@ -199,7 +201,7 @@ class Driver {
   RowsAtATime at_a_time_;
   Progress progress_;
   RenderTotals totals_;
-  const Stopwatch watch_;
+  Stopwatch watch_;  // since sampling began
 };
 
 void copy_rows(const Image& rows, int first, Image& picture) {

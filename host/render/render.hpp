@@ -15,7 +15,7 @@ struct Progress {
   uint64_t samples_total = 0;
   uint64_t samples_resumed = 0;  // of samples_done, those that an earlier run took
   uint64_t rays = 0;             // traced by this run
-  double seconds = 0;            // since this run began
+  double seconds = 0;            // since this run's sampling began
   int band = 0;                  // of `bands`, from 0
   int bands = 1;
   int sample = 0;  // of the band's `samples` a pixel, from 0
@@ -23,8 +23,8 @@ struct Progress {
 };
 
 struct RenderOptions {
-  Rect crop;  // in pixels of the whole picture; empty: all of it
-  bool first_hits = false;
+  Rect crop;                                      // in pixels of the whole picture; empty: all of it
+  bool first_hits = false;                        // for render(): whether they are wanted
   std::function<void(const Progress&)> progress;  // called between tiles; may be empty
   // How many bytes of sums to hold (32 a pixel). A larger picture is rendered in bands of rows: all samples
   // of one, then of the next. Else it is one band, and so one sample of the whole picture comes after the

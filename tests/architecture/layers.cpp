@@ -61,6 +61,7 @@ const Library libraries[] = {
     {std::regex(R"(tbb/.*)"), {"core"}, {"core"}},
     {std::regex(R"(embree3/.*)"), {"accel", "rivals"}, {}},
     {std::regex(R"(stb.*)"), {"core"}, {}},
+    {std::regex(R"((png|zlib)\.h)"), {"core"}, {}},
 };
 
 bool is_shader(const std::string& include) {
