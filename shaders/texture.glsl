@@ -44,7 +44,7 @@ vec3 texel_color(Texture texture, uint column, uint row) {
 }
 
 // The mean of four texels, by how near their centres are, which lie at half-integers; or nearest, all of the one that holds
-// (u, v). The copy comes first, in the image's own unit, where x - floor(x) is exact.
+// (u, v). The place within a copy is found first, in the image's own unit, where that costs no precision.
 vec3 image_color(Texture texture, vec2 uv) {
   float u = uv.x * texture.frequency.x;
   float v = uv.y * texture.frequency.y;

@@ -2,10 +2,12 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "support/random.hpp"
 //
 #include "support/doctest.hpp"
 
 using namespace eyeray;
+using test::Random;
 
 namespace {
 
@@ -122,6 +124,25 @@ TEST_CASE("a header that promises more than its file can hold takes no memory") 
   CHECK(refusal(jpeg) == "cannot read a picture: it ends early");
   jpeg.replace(frame + 5, 4, "\xff\xff\xff\xff", 4);
   CHECK(refusal(jpeg) == "cannot read a picture: it has 65535×65535 pixels; the most is 16384 a side");
+}
+
+TEST_CASE("pictures with damaged bytes are decoded or refused") {
+  Random random(5);
+  int decoded = 0, refused = 0;
+  for (const char* file :
+       {"palette.png", "rgba_interlaced.png", "baseline.jpg", "progressive.jpg", "grey.jpg"}) {
+    const std::string whole = bytes_of(file);
+    for (int round = 0; round < 1000; ++round) {
+      std::string bytes = whole;
+      for (int change = 0, changes = 1 + random.below(4); change < changes; ++change)
+        bytes[size_t(3 + random.below(int(whole.size()) - 3))] = char(random.bits());
+      const std::string said = refusal(bytes);
+      ++(said == "accepted" ? decoded : refused);
+      REQUIRE((said == "accepted" || said.starts_with("cannot read a picture: it ")));
+    }
+  }
+  CHECK(decoded > 100);
+  CHECK(refused > 100);
 }
 
 TEST_CASE("what is neither PNG nor JPEG is refused, though stb_image could read it") {
