@@ -20,7 +20,7 @@ struct BatchReport {
 struct Build {
   std::string contender;
   double seconds = 0;
-  uint64_t bytes = 0;  // geometry and tree
+  uint64_t bytes = 0;  // geometry and tree; 0 where unknown
 };
 
 struct SceneReport {

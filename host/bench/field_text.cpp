@@ -31,10 +31,11 @@ std::string to_text(const FieldReport& report) {
   std::string text;
   for (const SceneReport& scene : report) {
     text += fmt::format("{}: {} primitives\n", scene.scene, scene.primitives);
-    for (const Build& build : scene.builds)
-      text +=
-          fmt::format("  build     {:<24} {:>8.3g} s, {:.1f} bytes a primitive\n", build.contender,
-                      build.seconds, double(build.bytes) / double(std::max<uint64_t>(1, scene.primitives)));
+    for (const Build& build : scene.builds) {
+      const double each = double(build.bytes) / double(std::max<uint64_t>(1, scene.primitives));
+      text += fmt::format("  build     {:<24} {:>8.3g} s{}\n", build.contender, build.seconds,
+                          build.bytes > 0 ? fmt::format(", {:.1f} bytes a primitive", each) : "");
+    }
     text += fmt::format("  {:<9} {:<24} {:>8}  {:<15} {:>8} {:>9} {:>9}\n", "rays", "", "Mrays/s", "  spread",
                         ": single", ": packets", "differ");
     for (const BatchReport& batch : scene.batches) {
