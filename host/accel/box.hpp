@@ -19,9 +19,7 @@ struct Box {
     lower = glm::min(lower, box.lower);
     upper = glm::max(upper, box.upper);
   }
-  Box intersection(const Box& box) const {
-    return {glm::max(lower, box.lower), glm::min(upper, box.upper)};
-  }
+  Box intersection(const Box& box) const { return {glm::max(lower, box.lower), glm::min(upper, box.upper)}; }
   // Half the surface.
   double area() const {
     const glm::dvec3 size(upper - lower);

@@ -16,7 +16,8 @@ namespace {
 constexpr float node_cost = 1.0f;
 constexpr float item_cost = 1.0f;
 constexpr uint32_t wanted_in_leaf = 4;
-constexpr unsigned deepest = 56;  // Embree makes leaves of whatever is left there; ours may go a little deeper
+constexpr unsigned deepest =
+    56;  // Embree makes leaves of whatever is left there; ours may go a little deeper
 
 struct BuildNode {
   bool leaf;
@@ -68,8 +69,8 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* it
   return node;
 }
 
-void split_item(const RTCBuildPrimitive* item, unsigned axis, float position, RTCBounds* below, RTCBounds* above,
-                void* user) {
+void split_item(const RTCBuildPrimitive* item, unsigned axis, float position, RTCBounds* below,
+                RTCBounds* above, void* user) {
   const Box box{{item->lower_x, item->lower_y, item->lower_z}, {item->upper_x, item->upper_y, item->upper_z}};
   Box low = box;
   Box high = box;
@@ -97,8 +98,9 @@ using Bvh = std::unique_ptr<RTCBVHTy, Releaser<rtcReleaseBVH>>;
 // Embree's tree as ours: depth first, leaves of one kind.
 class Flattener {
  public:
-  Flattener(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint32_t kind_count)
-      : boxes_(boxes), kinds_(kinds), next_(kind_count, 0) {}
+  Flattener(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint32_t kind_count,
+            std::optional<uint32_t> lone_kind)
+      : boxes_(boxes), kinds_(kinds), lone_kind_(lone_kind), next_(kind_count, 0) {}
 
   Tree run(const BuildNode* root) {
     count_items(root);
@@ -108,13 +110,7 @@ class Flattener {
     tree_.order.resize(tree_.kind_ends.back());
 
     for (const Box& box : boxes_) tree_.box.include(box);
-    Child top = flatten(root, 0);
-    if (top.leaf) {
-      // The root is always a node.
-      top.box = tree_.box;
-      tree_.nodes.push_back({{top, Child{}}});
-      tree_.depth = std::max(tree_.depth, 1);
-    }
+    flatten(root, 0);
     return std::move(tree_);
   }
 
@@ -134,9 +130,8 @@ class Flattener {
       std::array<uint32_t, most_in_leaf> items;
       std::copy_n(node->items, node->count, items.begin());
       const std::span some(items.data(), node->count);
-      std::sort(some.begin(), some.end(), [&](uint32_t a, uint32_t b) {
-        return std::pair(kinds_[a], a) < std::pair(kinds_[b], b);
-      });
+      std::sort(some.begin(), some.end(),
+                [&](uint32_t a, uint32_t b) { return std::pair(kinds_[a], a) < std::pair(kinds_[b], b); });
       return make_leaf(some, depth);
     }
     const auto index = add_node(depth);
@@ -151,17 +146,21 @@ class Flattener {
     return {box, false, index, 0};
   }
 
-  // Items sorted by kind: a leaf, or where kinds meet, a node of leaves.
+  // Items sorted by kind: a leaf, or a node of leaves where kinds meet, where each item is to be alone, and
+  // at the root.
   Child make_leaf(std::span<const uint32_t> items, int depth) {
     Box box;
     for (const uint32_t item : items) box.include(boxes_[item]);
     const uint8_t kind = kinds_[items[0]];
-    const auto same = size_t(std::find_if(items.begin(), items.end(), [&](uint32_t i) { return kinds_[i] != kind; }) -
-                             items.begin());
-    if (same < items.size()) {
+    const auto same =
+        size_t(std::find_if(items.begin(), items.end(), [&](uint32_t i) { return kinds_[i] != kind; }) -
+               items.begin());
+    const bool alone = items.size() > 1 && (depth == 0 || kind == lone_kind_);
+    if (same < items.size() || alone) {
+      const size_t middle = same < items.size() ? same : items.size() / 2;
       const auto index = add_node(depth);
-      const Child first = make_leaf(items.first(same), depth + 1);
-      const Child rest = make_leaf(items.subspan(same), depth + 1);
+      const Child first = make_leaf(items.first(middle), depth + 1);
+      const Child rest = make_leaf(items.subspan(middle), depth + 1);
       tree_.nodes[index] = {{first, rest}};
       tree_.cost += weight(box) * double(node_cost);
       return {box, false, index, 0};
@@ -180,6 +179,7 @@ class Flattener {
 
   std::span<const Box> boxes_;
   std::span<const uint8_t> kinds_;
+  std::optional<uint32_t> lone_kind_;
   std::vector<uint32_t> next_;  // by kind: first how many items, then where in `order` the next goes
   Tree tree_;
 };
@@ -188,7 +188,7 @@ class Flattener {
 
 Tree build_tree(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint32_t kind_count,
                 const TreeOptions& options) {
-  CHECK(!boxes.empty());
+  CHECK_LT(size_t{1}, boxes.size());
   CHECK_EQ(boxes.size(), kinds.size());
   std::vector<RTCBuildPrimitive> items(boxes.size() * (options.split ? 2 : 1));
   for (size_t i = 0; i < boxes.size(); ++i) {
@@ -197,7 +197,8 @@ Tree build_tree(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint
   }
 
   const Device device(rtcNewDevice(nullptr));
-  if (!device) throw Error(ExitCode::no_device, "Embree does not start: error {}", int(rtcGetDeviceError(nullptr)));
+  if (!device)
+    throw Error(ExitCode::no_device, "Embree does not start: error {}", int(rtcGetDeviceError(nullptr)));
   const Bvh bvh(rtcNewBVH(device.get()));
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.buildQuality = options.split ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
@@ -222,7 +223,7 @@ Tree build_tree(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint
   if (!root)
     throw Error(ExitCode::no_device, "Embree cannot build a tree over {} items: error {}", boxes.size(),
                 int(rtcGetDeviceError(device.get())));
-  return Flattener(boxes, kinds, kind_count).run(root);
+  return Flattener(boxes, kinds, kind_count, options.lone_kind).run(root);
 }
 
 }  // namespace eyeray::accel

@@ -19,28 +19,27 @@ struct Grid {
       // A little room, also for a box without extent.
       const double margin = std::ldexp(std::max({std::fabs(lower), std::fabs(upper), 1e-30}), -20);
       origin[axis] = float(lower - margin);
-      step[axis] = std::nextafter(float((upper + margin - double(origin[axis])) / (largest_code - 1)), HUGE_VALF);
+      step[axis] =
+          std::nextafter(float((upper + margin - double(origin[axis])) / (largest_code - 1)), HUGE_VALF);
     }
   }
   double plane(int axis, double code) const { return double(origin[axis]) + code * double(step[axis]); }
   // The greatest code whose plane is not above x, and the least whose plane is not below.
   uint32_t code_below(int axis, float x) const {
-    double code = std::clamp(std::floor((double(x) - double(origin[axis])) / double(step[axis])), 0.0, largest_code);
+    double code =
+        std::clamp(std::floor((double(x) - double(origin[axis])) / double(step[axis])), 0.0, largest_code);
     while (code > 0 && plane(axis, code) > double(x)) --code;
     return uint32_t(code);
   }
   uint32_t code_above(int axis, float x) const {
-    double code = std::clamp(std::ceil((double(x) - double(origin[axis])) / double(step[axis])), 0.0, largest_code);
+    double code =
+        std::clamp(std::ceil((double(x) - double(origin[axis])) / double(step[axis])), 0.0, largest_code);
     while (code < largest_code && plane(axis, code) < double(x)) ++code;
     return uint32_t(code);
   }
 
   glm::vec3 origin, step;
 };
-
-bool is_there(const accel::Child& child) {
-  return child.box.lower.x <= child.box.upper.x;
-}
 
 uint32_t reference(const accel::Child& child, uint32_t first_node, uint32_t kind, const accel::Tree& tree,
                    std::span<const uint32_t> first_slots, uint32_t instance_kind) {
@@ -56,11 +55,6 @@ shader::uvec4 quantised(const accel::Box& box, const Grid& grid, uint32_t refers
   return code;
 }
 
-// What no ray meets.
-shader::uvec4 nothing() {
-  return shader::uvec4(0xffffu, 0xffffu, 0xffffu, 0u);
-}
-
 }  // namespace
 
 bool quantising_is_harmless(const accel::Tree& tree) {
@@ -69,7 +63,6 @@ bool quantising_is_harmless(const accel::Tree& tree) {
   const glm::dvec3 step(Grid(tree.box).step);
   for (const accel::Node& node : tree.nodes)
     for (const accel::Child& child : node.children) {
-      if (!is_there(child)) continue;
       const glm::dvec3 size(child.box.upper - child.box.lower);
       const glm::dvec3 wider = size + step;  // two planes, each off by half a step in the mean
       exact += size.x * size.y + size.y * size.z + size.z * size.x;
@@ -88,17 +81,14 @@ void add_tree(const accel::Tree& tree, std::span<const uint32_t> first_slots, ui
     for (const accel::Child& child : node.children) {
       const auto kind = uint32_t(std::upper_bound(tree.kind_ends.begin(), tree.kind_ends.end(), child.index) -
                                  tree.kind_ends.begin());
-      const uint32_t refers_to =
-          is_there(child) ? reference(child, first_node, kind, tree, first_slots, instance_kind) : 0;
+      const uint32_t refers_to = reference(child, first_node, kind, tree, first_slots, instance_kind);
       if (scene.quantised_nodes) {
-        scene.nodes.push_back(is_there(child) ? quantised(child.box, grid, refers_to) : nothing());
+        scene.nodes.push_back(quantised(child.box, grid, refers_to));
       } else {
-        const shader::vec3 lower = is_there(child) ? child.box.lower : shader::vec3(1e30f);
-        const shader::vec3 upper = is_there(child) ? child.box.upper : shader::vec3(-1e30f);
-        shader::uvec4 low = to_bits(shader::vec4(lower, 0.0f));
+        shader::uvec4 low = to_bits(shader::vec4(child.box.lower, 0.0f));
         low.w = refers_to;
         scene.nodes.push_back(low);
-        scene.nodes.push_back(to_bits(shader::vec4(upper, 0.0f)));
+        scene.nodes.push_back(to_bits(shader::vec4(child.box.upper, 0.0f)));
       }
     }
   }
