@@ -53,8 +53,8 @@ bool walk(INOUT(Found) found, Place world, bool any) {
   Stack stack = empty_stack();
   uint at = load_tree(0u).head.x;
   do {
-    // Go down to a leaf, nearer child first.
-    do {
+    // Go down to a leaf, nearer child first. Back from an instance, a leaf may be next.
+    if (HAS_INSTANCES == 0 || at < LEAF) do {
       Child a = load_child(at, 0u, boxes);
       Child b = load_child(at, 1u, boxes);
       int limit = floatBitsToInt(found.hit.t);

@@ -98,8 +98,9 @@ using Bvh = std::unique_ptr<RTCBVHTy, Releaser<rtcReleaseBVH>>;
 // Embree's tree as ours: depth first, leaves of one kind.
 class Flattener {
  public:
-  Flattener(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint32_t kind_count)
-      : boxes_(boxes), kinds_(kinds), next_(kind_count, 0) {}
+  Flattener(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint32_t kind_count,
+            std::optional<uint32_t> lone_kind)
+      : boxes_(boxes), kinds_(kinds), lone_kind_(lone_kind), next_(kind_count, 0) {}
 
   Tree run(const BuildNode* root) {
     count_items(root);
@@ -109,13 +110,7 @@ class Flattener {
     tree_.order.resize(tree_.kind_ends.back());
 
     for (const Box& box : boxes_) tree_.box.include(box);
-    Child top = flatten(root, 0);
-    if (top.leaf) {
-      // The root is always a node.
-      top.box = tree_.box;
-      tree_.nodes.push_back({{top, Child{}}});
-      tree_.depth = std::max(tree_.depth, 1);
-    }
+    flatten(root, 0);
     return std::move(tree_);
   }
 
@@ -151,7 +146,8 @@ class Flattener {
     return {box, false, index, 0};
   }
 
-  // Items sorted by kind: a leaf, or where kinds meet, a node of leaves.
+  // Items sorted by kind: a leaf, or a node of leaves where kinds meet, where each item is to be alone, and
+  // at the root.
   Child make_leaf(std::span<const uint32_t> items, int depth) {
     Box box;
     for (const uint32_t item : items) box.include(boxes_[item]);
@@ -159,10 +155,12 @@ class Flattener {
     const auto same =
         size_t(std::find_if(items.begin(), items.end(), [&](uint32_t i) { return kinds_[i] != kind; }) -
                items.begin());
-    if (same < items.size()) {
+    const bool alone = items.size() > 1 && (depth == 0 || kind == lone_kind_);
+    if (same < items.size() || alone) {
+      const size_t middle = same < items.size() ? same : items.size() / 2;
       const auto index = add_node(depth);
-      const Child first = make_leaf(items.first(same), depth + 1);
-      const Child rest = make_leaf(items.subspan(same), depth + 1);
+      const Child first = make_leaf(items.first(middle), depth + 1);
+      const Child rest = make_leaf(items.subspan(middle), depth + 1);
       tree_.nodes[index] = {{first, rest}};
       tree_.cost += weight(box) * double(node_cost);
       return {box, false, index, 0};
@@ -181,6 +179,7 @@ class Flattener {
 
   std::span<const Box> boxes_;
   std::span<const uint8_t> kinds_;
+  std::optional<uint32_t> lone_kind_;
   std::vector<uint32_t> next_;  // by kind: first how many items, then where in `order` the next goes
   Tree tree_;
 };
@@ -189,7 +188,7 @@ class Flattener {
 
 Tree build_tree(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint32_t kind_count,
                 const TreeOptions& options) {
-  CHECK(!boxes.empty());
+  CHECK_LT(size_t{1}, boxes.size());
   CHECK_EQ(boxes.size(), kinds.size());
   std::vector<RTCBuildPrimitive> items(boxes.size() * (options.split ? 2 : 1));
   for (size_t i = 0; i < boxes.size(); ++i) {
@@ -224,7 +223,7 @@ Tree build_tree(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint
   if (!root)
     throw Error(ExitCode::no_device, "Embree cannot build a tree over {} items: error {}", boxes.size(),
                 int(rtcGetDeviceError(device.get())));
-  return Flattener(boxes, kinds, kind_count).run(root);
+  return Flattener(boxes, kinds, kind_count, options.lone_kind).run(root);
 }
 
 }  // namespace eyeray::accel

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace eyeray::accel {
 
 // What a child is: a node, or 1 … most_in_leaf items of one kind.
 struct Child {
-  Box box;  // inverted for a child that is not there
+  Box box;
   bool leaf = false;
   uint32_t index = 0;  // of the node, or of a leaf's first place in Tree::order
   uint32_t count = 0;  // of a leaf's items
@@ -37,6 +38,8 @@ struct Tree {
 inline constexpr uint32_t most_in_leaf = 8;
 
 struct TreeOptions {
+  // The kind whose items get a leaf each, if there is one.
+  std::optional<uint32_t> lone_kind = {};
   // Cuts items at a plane where that makes better boxes (spatial splits): slower to build, faster to trace
   // where items are long and thin.
   bool split = false;
@@ -45,7 +48,7 @@ struct TreeOptions {
 };
 
 // `kinds` (a number below `kind_count` an item) keeps items of different kinds in different leaves.
-// boxes.size() ≥ 1, all finite. Parallel.
+// boxes.size() ≥ 2, all finite. Parallel.
 Tree build_tree(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint32_t kind_count,
                 const TreeOptions& options);
 

@@ -86,7 +86,7 @@ class GeometryPacker {
     use_tree_ = options_.acceleration == Acceleration::tree ||
                 (options_.acceleration == Acceleration::automatic &&
                  (world_.size() > few_primitives || !scene_.instances.empty()));
-    packed_.has_tree = use_tree_ && any_bounded();
+    packed_.has_tree = use_tree_ && has_bounded(2);
     if (packed_.has_tree) build_trees();
     lay_out_world();
     lay_out_meshes();
@@ -133,7 +133,7 @@ class GeometryPacker {
       const Mesh& mesh = scene_.meshes[size_t(instance.mesh)];
       const Affine map(instance.transform);
       if (mesh.triangles.empty()) continue;
-      if (uses_[size_t(instance.mesh)] == 1) {
+      if (uses_[size_t(instance.mesh)] == 1 || mesh.triangles.size() == 1) {
         add_to_world(mesh_records(mesh, map, scene_.camera.eye, instance.material, id, packed_.vertices));
       } else {
         int& tree = tree_of[size_t(instance.mesh)];
@@ -194,12 +194,13 @@ class GeometryPacker {
     }
   }
 
-  bool any_bounded() const {
-    return !packed_.instances.empty() || std::any_of(boxes_.begin(), boxes_.end(), is_bounded);
+  bool has_bounded(size_t least) const {
+    return packed_.instances.size() + size_t(std::count_if(boxes_.begin(), boxes_.end(), is_bounded)) >= least;
   }
 
   accel::TreeOptions tree_options(std::span<const shader::Primitive> primitives) const {
     accel::TreeOptions options;
+    options.lone_kind = instance_kind;
     // An item that stands in two leaves would weaken a shadow ray twice.
     options.split = options_.split && !translucent_;
     options.cut = [primitives](uint32_t item, int axis, float position) {

@@ -6,7 +6,8 @@
 namespace eyeray {
 
 // Fills in everything of packer.scene that traversal reads. Materials are packed already. A mesh with one
-// instance becomes primitives of the world; one with more keeps a space and a tree of its own.
+// instance, or of one triangle, becomes primitives of the world; any other keeps a space and a tree of its
+// own.
 void pack_geometry(const Scene& scene, const PackOptions& options, Packer& packer);
 
 }  // namespace eyeray

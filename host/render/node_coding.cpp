@@ -41,10 +41,6 @@ struct Grid {
   glm::vec3 origin, step;
 };
 
-bool is_there(const accel::Child& child) {
-  return child.box.lower.x <= child.box.upper.x;
-}
-
 uint32_t reference(const accel::Child& child, uint32_t first_node, uint32_t kind, const accel::Tree& tree,
                    std::span<const uint32_t> first_slots, uint32_t instance_kind) {
   if (!child.leaf) return first_node + child.index;
@@ -59,11 +55,6 @@ shader::uvec4 quantised(const accel::Box& box, const Grid& grid, uint32_t refers
   return code;
 }
 
-// What no ray meets.
-shader::uvec4 nothing() {
-  return shader::uvec4(0xffffu, 0xffffu, 0xffffu, 0u);
-}
-
 }  // namespace
 
 bool quantising_is_harmless(const accel::Tree& tree) {
@@ -72,7 +63,6 @@ bool quantising_is_harmless(const accel::Tree& tree) {
   const glm::dvec3 step(Grid(tree.box).step);
   for (const accel::Node& node : tree.nodes)
     for (const accel::Child& child : node.children) {
-      if (!is_there(child)) continue;
       const glm::dvec3 size(child.box.upper - child.box.lower);
       const glm::dvec3 wider = size + step;  // two planes, each off by half a step in the mean
       exact += size.x * size.y + size.y * size.z + size.z * size.x;
@@ -91,17 +81,14 @@ void add_tree(const accel::Tree& tree, std::span<const uint32_t> first_slots, ui
     for (const accel::Child& child : node.children) {
       const auto kind = uint32_t(std::upper_bound(tree.kind_ends.begin(), tree.kind_ends.end(), child.index) -
                                  tree.kind_ends.begin());
-      const uint32_t refers_to =
-          is_there(child) ? reference(child, first_node, kind, tree, first_slots, instance_kind) : 0;
+      const uint32_t refers_to = reference(child, first_node, kind, tree, first_slots, instance_kind);
       if (scene.quantised_nodes) {
-        scene.nodes.push_back(is_there(child) ? quantised(child.box, grid, refers_to) : nothing());
+        scene.nodes.push_back(quantised(child.box, grid, refers_to));
       } else {
-        const shader::vec3 lower = is_there(child) ? child.box.lower : shader::vec3(1e30f);
-        const shader::vec3 upper = is_there(child) ? child.box.upper : shader::vec3(-1e30f);
-        shader::uvec4 low = to_bits(shader::vec4(lower, 0.0f));
+        shader::uvec4 low = to_bits(shader::vec4(child.box.lower, 0.0f));
         low.w = refers_to;
         scene.nodes.push_back(low);
-        scene.nodes.push_back(to_bits(shader::vec4(upper, 0.0f)));
+        scene.nodes.push_back(to_bits(shader::vec4(child.box.upper, 0.0f)));
       }
     }
   }

@@ -27,9 +27,11 @@ Kinds kinds_of(const Scene& scene) {
   const PackedScene packed = pack(scene);
   Kinds kinds;
   for (const shader::Primitive& primitive : packed.primitives) {
-    kinds.shapes.insert(primitive.head.x);
-    kinds.materials.insert(packed.materials[primitive.head.y].head.x);
+    kinds.shapes.insert(kind_of(primitive));
+    kinds.materials.insert(packed.materials[material_of(primitive)].head.x);
   }
+  for (const shader::Instance& instance : packed.instances)
+    kinds.materials.insert(packed.materials[instance.head.z].head.x);
   return kinds;
 }
 
