@@ -8,6 +8,9 @@ if(EYERAY_SANITIZE)
   add_compile_options(-fsanitize=${EYERAY_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${EYERAY_SANITIZE})
 endif()
+if(EYERAY_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)  # coverage for the fuzzers in everything
+endif()
 
 # eyeray_layer(NAME LINK …): the static library of every host/NAME/*.cpp.
 function(eyeray_layer name)

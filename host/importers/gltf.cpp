@@ -28,7 +28,7 @@ constexpr std::string_view known_extensions[] = {
 constexpr std::string_view coded_extensions[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"};
 
 // A mesh and what stands in a scene may be multiplied by each other.
-constexpr size_t most_instances = size_t{1} << 22;
+constexpr size_t most_instances = size_t{1} << 20;
 
 // The lights of glTF shine on surfaces that scatter 1/π of what arrives; ours scatter all of it.
 constexpr double unit_of_light = 1 / std::numbers::pi;

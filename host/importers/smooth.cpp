@@ -151,8 +151,9 @@ uint32_t Smoother::join(uint32_t point) {
     const Vec3& a = faces_[corners[edges[k].corner] / 3];
     const Vec3& b = faces_[corners[edges[k + 1].corner] / 3];
     if (!(glm::dot(a, b) > least_cosine_)) continue;
-    const auto [low, high] = std::minmax(root(edges[k].corner), root(edges[k + 1].corner));
-    parents[high] = low;
+    const uint32_t one = root(edges[k].corner);
+    const uint32_t two = root(edges[k + 1].corner);
+    parents[std::max(one, two)] = std::min(one, two);
   }
 
   // A root comes before all that hang on it.

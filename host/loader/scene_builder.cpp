@@ -197,7 +197,7 @@ void Builder::add_mesh(TableReader& reader) {
   const std::optional<double> smooth =
       reader.has("smooth") ? std::optional(reader.number("smooth")) : std::nullopt;
   try {
-    const auto [import, fresh] = meshes_->load(reader.string("file"), smooth, reader.position().file);
+    const auto [import, fresh] = meshes_->load(reader.string("file"), smooth, reader.position("file").file);
     if (fresh) {
       for (const std::string& warning : import->warnings) log_.warning(reader.position(), warning);
     }

@@ -180,7 +180,7 @@ void TableReader::error(std::string_view key, std::string message) {
     table_->failed = true;
     return;
   }
-  table_->error(row.node ? position_of(row.node->source()) : position(), std::move(message));
+  table_->error(position(key), std::move(message));
 }
 
 bool TableReader::valid(std::string_view key) const {
@@ -191,6 +191,11 @@ bool TableReader::failed() const {
 }
 SourcePosition TableReader::position() const {
   return table_->position();
+}
+
+SourcePosition TableReader::position(std::string_view key) const {
+  const toml::node* node = table_->row(key).node;
+  return node ? position_of(node->source()) : position();
 }
 
 TableReader read_table(const TableSource& source, DiagnosticLog& log) {

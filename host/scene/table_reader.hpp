@@ -88,6 +88,8 @@ class TableReader {
   // Whether this table has had an error so far.
   bool failed() const;
   SourcePosition position() const;
+  // Of the key's value, or of the table where the key is absent.
+  SourcePosition position(std::string_view key) const;
 
   struct Table;  // the parsed TOML behind it; scene/table_reader.cpp
   explicit TableReader(std::unique_ptr<Table> table);

@@ -1,0 +1,95 @@
+// Small glTF files, made by tests.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "bytes.hpp"
+#include "support.hpp"
+
+namespace eyeray::test {
+
+using Json = nlohmann::json;
+
+inline std::string base64(const std::string& bytes) {
+  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const auto at = [&](size_t k) { return k < bytes.size() ? uint32_t(uint8_t(bytes[k])) : 0u; };
+    const uint32_t bits = at(i) << 16 | at(i + 1) << 8 | at(i + 2);
+    for (size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[bits >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+// One mesh, one node, one buffer; tests change and add.
+class GltfFile {
+ public:
+  Json json = {
+      {"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}},
+      {"nodes", {{{"mesh", 0}}}},      {"meshes", {{{"primitives", {{{"attributes", Json::object()}}}}}}},
+      {"bufferViews", Json::array()},  {"accessors", Json::array()}};
+
+  // The accessor of the numbers, stored as the component type, in a bufferView of its own.
+  int add(const std::vector<double>& numbers, int component, const char* type, size_t components,
+          bool normalized = false) {
+    const int view = add_view(numbers, component);
+    json["accessors"].push_back({{"bufferView", view},
+                                 {"componentType", component},
+                                 {"type", type},
+                                 {"count", numbers.size() / components},
+                                 {"normalized", normalized}});
+    return int(json["accessors"].size()) - 1;
+  }
+  int add_view(const std::vector<double>& numbers, int component) {
+    static const std::map<int, std::string> names = {{5120, "char"},   {5121, "uchar"}, {5122, "short"},
+                                                     {5123, "ushort"}, {5125, "uint"},  {5126, "float"}};
+    while (data_.text().size() % 4 != 0) data_.add(char(0));
+    const size_t offset = data_.text().size();
+    for (const double number : numbers) data_.add_as(names.at(component), number);
+    json["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", data_.text().size() - offset}});
+    return int(json["bufferViews"].size()) - 1;
+  }
+  void add_positions(const std::vector<double>& xyz) {
+    primitive()["attributes"]["POSITION"] = add(xyz, 5126, "VEC3", 3);
+  }
+  Json& primitive() { return json["meshes"][0]["primitives"][0]; }
+
+  std::string data() const { return data_.text(); }
+  // With the buffer as a data URI, as a file's name, or as the chunk of a .glb.
+  std::string gltf() const { return gltf("data:application/octet-stream;base64," + base64(data_.text())); }
+  std::string gltf(const std::string& uri) const {
+    Json whole = json;
+    whole["buffers"] = {{{"byteLength", data_.text().size()}, {"uri", uri}}};
+    return whole.dump();
+  }
+  std::string glb() const {
+    Json whole = json;
+    whole["buffers"] = {{{"byteLength", data_.text().size()}}};
+    std::string text = whole.dump();
+    while (text.size() % 4 != 0) text += ' ';
+    std::string binary = data_.text();
+    while (binary.size() % 4 != 0) binary += '\0';
+    Bytes bytes;
+    bytes.add(uint32_t(0x46546c67)).add(uint32_t(2)).add(uint32_t(28 + text.size() + binary.size()));
+    bytes.add(uint32_t(text.size())).add(uint32_t(0x4e4f534a));
+    Bytes chunk;
+    chunk.add(uint32_t(binary.size())).add(uint32_t(0x004e4942));
+    return bytes.text() + text + chunk.text() + binary;
+  }
+
+ private:
+  Bytes data_;
+};
+
+inline const std::vector<double> square_positions = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+
+// A square of two triangles in the plane z = 0.
+inline GltfFile square_file() {
+  GltfFile file;
+  file.add_positions(square_positions);
+  file.primitive()["indices"] = file.add({0, 1, 2, 0, 2, 3}, 5123, "SCALAR", 1);
+  return file;
+}
+
+}  // namespace eyeray::test

@@ -1,0 +1,152 @@
+// What stands around the geometry of glTF files: materials, textures, cameras, lights, and what is left out.
+#include <numbers>
+
+#include "gltf_files.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// The square with a material.
+GltfFile with_material(const Json& material) {
+  GltfFile file = square_file();
+  file.json["materials"] = {material};
+  file.primitive()["material"] = 0;
+  return file;
+}
+
+Scattering scattering_of(const Json& material) {
+  const ImportedScene scene = import_sound(with_material(material).gltf(), "a.gltf");
+  REQUIRE(scene.instances[0].material == 0);
+  return scene.materials[0]->scattering({{0.25, 0.75}, 1, 1, 1});
+}
+
+Json surface(const Json& color, double metallic, double roughness) {
+  return {{"pbrMetallicRoughness",
+           {{"baseColorFactor", color}, {"metallicFactor", metallic}, {"roughnessFactor", roughness}}}};
+}
+
+}  // namespace
+
+TEST_CASE("metallic-roughness becomes what comes nearest") {
+  const Scattering plastic = scattering_of(surface({1, 0.5, 0, 1}, 0, 0.5));
+  CHECK(plastic.diffuse == Vec3(1, 0.5, 0));
+  CHECK(plastic.reflected == Vec3(0));
+  CHECK(plastic.specular.x == doctest::Approx(0.04 * 32 / 8));
+  CHECK(plastic.shininess == doctest::Approx(30));
+  CHECK(plastic.blinn);
+  const Scattering chrome = scattering_of(surface({1, 0.5, 0, 1}, 1, 0));
+  CHECK(chrome.reflected == Vec3(1, 0.5, 0));
+  CHECK(chrome.diffuse == Vec3(0));
+  const Scattering rough_metal = scattering_of(surface({1, 0.5, 0, 1}, 1, 1));
+  CHECK(rough_metal.reflected == Vec3(0));
+  CHECK(rough_metal.diffuse == Vec3(1, 0.5, 0));
+  CHECK(scattering_of(Json::object()).diffuse == Vec3(1));
+
+  const ImportedScene glass = import_sound(
+      with_material(
+          {{"name", "glass"},
+           {"extensions",
+            {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+             {"KHR_materials_ior", {{"ior", 1.33}}},
+             {"KHR_materials_volume", {{"attenuationDistance", 2}, {"attenuationColor", {1, 0.5, 1}}}}}}})
+          .gltf(),
+      "a.gltf");
+  CHECK(glass.materials[0]->name == "glass");
+  REQUIRE(glass.materials[0]->medium());
+  CHECK(glass.materials[0]->medium()->ior == 1.33);
+  CHECK(glass.materials[0]->medium()->absorption.y == doctest::Approx(std::log(2) / 2));
+}
+
+TEST_CASE("pictures, from data and files, with their samplers") {
+  std::ifstream png("tests/core/pictures/rgb.png", std::ios::binary);
+  const std::string picture{std::istreambuf_iterator<char>(png), {}};
+  GltfFile file =
+      with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}});
+  file.primitive()["attributes"]["TEXCOORD_0"] = file.add({0, 0, 0, 0, 0, 0, 0, 0}, 5126, "VEC2", 2);
+  file.primitive()["attributes"]["TEXCOORD_1"] =
+      file.add({0, 255, 255, 255, 255, 0, 0, 0}, 5121, "VEC2", 2, true);
+  file.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+  file.json["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}}};
+  file.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
+  const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
+  CHECK(scene.warnings.empty());
+  CHECK(scene.meshes[0].uv == std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}});  // the second set
+
+  // One that cannot be had leaves its material's colour.
+  for (const std::string& uri : {std::string("data:image/png;base64,AAAA"), std::string("none.png")}) {
+    file.json["images"] = {{{"uri", uri}}};
+    const ImportedScene without = import_sound(file.gltf(), "a.gltf");
+    CHECK(warns(without, "a picture was left out: "));
+    CHECK(without.materials[0]->base_color({0, 0}) == Vec3(1));
+  }
+  file.json["textures"] = {{{"extensions", Json::object()}}};
+  CHECK(warns(import_sound(file.gltf(), "a.gltf"), "textures in formats other than PNG and JPEG"));
+}
+
+TEST_CASE("the first camera and all lights") {
+  GltfFile file = square_file();
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "point"}, {"intensity", std::numbers::pi}, {"color", {1, 0.5, 0}}},
+      {{"type", "directional"}, {"intensity", 2 * std::numbers::pi}},
+      {{"type", "spot"}, {"range", 3}}};
+  const auto light = [](int index) { return Json{{"KHR_lights_punctual", {{"light", index}}}}; };
+  file.json["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", std::numbers::pi / 4}, {"znear", 1}}}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}}}}};
+  file.json["nodes"] = {{{"mesh", 0}},
+                        {{"camera", 0}, {"translation", {1, 2, 3}}},
+                        {{"camera", 1}},
+                        {{"extensions", light(0)}, {"translation", {4, 5, 6}}},
+                        {{"extensions", light(1)}, {"rotation", {-0.70710678, 0, 0, 0.70710678}}},
+                        {{"extensions", light(2)}}};
+  file.json.erase("scenes");
+  const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
+  REQUIRE(scene.camera);
+  CHECK(scene.camera->eye == Vec3(1, 2, 3));
+  CHECK(glm::normalize(scene.camera->target - scene.camera->eye) == Vec3(0, 0, -1));
+  CHECK(scene.camera->up == Vec3(0, 1, 0));
+  CHECK(scene.camera->fov_axis == FovAxis::vertical);
+  CHECK(scene.camera->fov_degrees == doctest::Approx(45));
+  CHECK(warns(scene, "cameras but the first were left out"));
+  REQUIRE(scene.lights.size() == 3);
+  CHECK(scene.lights[0].position == Vec3(4, 5, 6));
+  CHECK(glm::length(scene.lights[0].intensity - Vec3(1, 0.5, 0)) < 1e-12);
+  CHECK(glm::length(scene.lights[1].to_light - Vec3(0, 1, 0)) < 1e-6);  // it shines along −z, turned to −y
+  CHECK(scene.lights[1].intensity.x == doctest::Approx(2));
+  CHECK(scene.lights[2].type == LightType::point);
+  CHECK(warns(scene, "cones of spot lights"));
+  CHECK(warns(scene, "ranges of lights"));
+
+  file.json["nodes"][1].erase("camera");
+  const ImportedScene second = import_sound(file.gltf(), "a.gltf");
+  CHECK(second.camera->type == CameraType::orthographic);
+  CHECK(second.camera->size == 3);
+}
+
+TEST_CASE("what is left out is named, once each") {
+  GltfFile file = with_material({{"alphaMode", "BLEND"},
+                                 {"emissiveFactor", {1, 1, 1}},
+                                 {"normalTexture", {{"index", 0}}},
+                                 {"occlusionTexture", {{"index", 0}}}});
+  file.json["materials"].push_back(file.json["materials"][0]);
+  file.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_ior"};
+  file.json["animations"] = {Json::object()};
+  file.json["skins"] = {Json::object()};
+  file.primitive()["attributes"]["COLOR_0"] = 0;
+  file.primitive()["targets"] = {Json::object()};
+  Json points = file.primitive();
+  points["mode"] = 0;
+  file.json["meshes"][0]["primitives"].push_back(points);
+  const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
+  for (const char* what : {"transparencies by alpha", "emission", "normal maps", "occlusion maps",
+                           "animations", "skins", "the colours of vertices", "morph targets",
+                           "points and lines", "what the extension KHR_materials_clearcoat says"}) {
+    CAPTURE(what);
+    CHECK(std::ranges::count_if(scene.warnings, [&](const std::string& w) { return contains(w, what); }) ==
+          1);
+  }
+  CHECK(scene.warnings.size() == 10);
+}

@@ -1,0 +1,132 @@
+// Files cut short at every byte, and files with random damage: refused or read, never a crash, and what is
+// read keeps every promise.
+#include <random>
+
+#include "gltf_files.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+struct Seed {
+  std::string name;
+  std::string bytes;
+};
+
+std::vector<Seed> seeds() {
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  Bytes little, big(std::endian::big);
+  for (Bytes* data : {&little, &big}) {
+    for (const double number : square_positions) data->add(float(number));
+    data->add(uint8_t(4)).add(0).add(1).add(2).add(3);
+  }
+  const auto header = [&](const std::string& format) {
+    return "ply\nformat " + format + " 1.0\nelement vertex 4\n" + xyz +
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  };
+  GltfFile gltf = square_file();
+  gltf.primitive()["attributes"]["NORMAL"] = gltf.add({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 5126, "VEC3", 3);
+  gltf.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}}}};
+  gltf.json["nodes"][0]["translation"] = {1, 2, 3};
+  return {
+      {"a.obj",
+       "mtllib a.mtl\no thing\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.2 0\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
+       "usemtl red\nf 1/1/1 2/2/1 3/1/1 4/2/1\ns off\nf -5//-1 -4//-1 -3//-1 -1//-1\nf 1 \\\n 2 3\nl 1 2\n"},
+      {"a.ply", header("ascii") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"},
+      {"b.ply", header("binary_little_endian") + little.text()},
+      {"c.ply", header("binary_big_endian") + big.text()},
+      {"a.gltf", gltf.gltf()},
+      {"a.glb", gltf.glb()}};
+}
+
+// Whether it is read.
+bool survives(const std::string& bytes, const std::string& name) {
+  try {
+    const ImportedScene scene = import_bytes(bytes, name);
+    REQUIRE(broken_promise(scene) == "");
+    return true;
+  } catch (const Error& error) {
+    REQUIRE(std::string(error.what()).size() > 5);
+    return false;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("files cut short at every byte") {
+  for (const auto& [name, bytes] : seeds()) {
+    CAPTURE(name);
+    CHECK(survives(bytes, name));
+    size_t read = 0;
+    for (size_t length = 0; length < bytes.size(); ++length) read += survives(bytes.substr(0, length), name);
+    // Binary data and JSON are whole or nothing; a text may end sooner.
+    if (!name.ends_with("obj")) CHECK(read <= 1);
+  }
+}
+
+TEST_CASE("files with random damage") {
+  std::mt19937 random(11);
+  const auto below = [&](size_t n) { return std::uniform_int_distribution<size_t>(0, n - 1)(random); };
+  constexpr std::string_view tokens[] = {"-1",
+                                         "0",
+                                         "4294967295",
+                                         "1e999",
+                                         "nan",
+                                         "-",
+                                         "/",
+                                         "//",
+                                         "f ",
+                                         "\n",
+                                         "usemtl ",
+                                         "{",
+                                         "}",
+                                         "[",
+                                         "\"",
+                                         ":",
+                                         "null",
+                                         "true",
+                                         "0.5",
+                                         "\xff",
+                                         "\\\n",
+                                         ",",
+                                         "9999999999999999999"};
+  for (const auto& [name, seed] : seeds()) {
+    CAPTURE(name);
+    size_t read = 0;
+    constexpr size_t rounds = 4000;
+    for (size_t round = 0; round < rounds; ++round) {
+      std::string bytes = seed;
+      for (size_t change = 0, changes = 1 + below(4); change < changes; ++change) {
+        const size_t at = below(bytes.size());
+        const size_t length = std::min(1 + below(8), bytes.size() - at);
+        switch (below(4)) {
+          case 0:
+            bytes[at] = static_cast<char>(below(256));
+            break;
+          case 1:
+            bytes.replace(at, length, tokens[below(std::size(tokens))]);
+            break;
+          case 2:
+            bytes.insert(below(bytes.size()), bytes.substr(at, length));
+            break;
+          default:
+            bytes[at] = static_cast<char>(bytes[at] ^ char(1 << below(8)));
+        }
+      }
+      read += survives(bytes, name);
+    }
+    CHECK(read > 5);
+    CHECK(read < rounds);
+  }
+}
+
+TEST_CASE("what is no mesh file") {
+  CHECK(refusal("", "a.stl") == "a.stl: error: a mesh file ends in .obj, .ply, .gltf or .glb");
+  CHECK_FALSE(is_mesh_file("a.toml"));
+  CHECK_FALSE(is_mesh_file("obj"));
+  CHECK(is_mesh_file("x/A.GLB"));
+  const Folder folder;
+  for (const std::string& name : {folder / "none.obj", std::string("/dev/zero.obj")})
+    CHECK_THROWS_AS(import_file(name), Error);
+}

@@ -1,0 +1,135 @@
+#include <numbers>
+
+#include "support.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+}  // namespace
+
+TEST_CASE("a square in every way that indices are written") {
+  const std::string extra = square + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n";
+  for (const char* face :
+       {"f 1 2 3 4", "f 1/1 2/2 3/3 4/4", "f 1//1 2//1 3//1 4//1", "f 1/1/1 2/2/1 3/3/1 4/4/1",
+        "f -4 -3 -2 -1", "f -4/-4/-1 -3/-3/-1 -2/-2/-1 -1/-1/-1", "f 1 2 \\\n3 4", "  f\t1  2\t3 4 \r",
+        "f 1 2 3 4 # a square", "f 1 2 3\nf 1 3 4", "fo 1 2 3 4"}) {
+    CAPTURE(face);
+    const ImportedScene scene = import_sound(extra + face + "\n", "a.obj");
+    REQUIRE(scene.meshes.size() == 1);
+    CHECK(scene.warnings.empty());
+    CHECK(scene.meshes[0].triangles.size() == 2);
+    CHECK(scene.meshes[0].positions.size() == 4);
+    CHECK(signed_area(scene.meshes[0], {0, 0, 1}) == 2);
+    for (const Vec3& normal : scene.meshes[0].normals) CHECK(normal == Vec3(0, 0, 1));
+    const bool has_uv = std::string(face).find("/1") != std::string::npos &&
+                        std::string(face).find("//") == std::string::npos;
+    for (size_t i = 0; has_uv && i < 4; ++i)
+      CHECK(scene.meshes[0].uv[i] == Vec2(scene.meshes[0].positions[i]));
+  }
+}
+
+TEST_CASE("faces may come before their vertices, and a file needs no line break at its end") {
+  CHECK(import_sound("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0", "a.obj").meshes[0].triangles.size() == 1);
+}
+
+TEST_CASE("wrong OBJ is refused at its line and column") {
+  const auto said = [](const std::string& rest) { return refusal(square + rest, "a.obj"); };
+  CHECK(said("f 1 2 5") == "a.obj:5:7: error: there is no vertex 5: the file has 4");
+  CHECK(said("f 1 2 0") == "a.obj:5:7: error: indices count from 1; 0 is none");
+  CHECK(said("f 1 2 -5") == "a.obj:5:7: error: there is no vertex -5: 4 came so far");
+  CHECK(said("f 1/1 2/1 3/1") == "a.obj:5:5: error: there is no texture coordinate 1: the file has 0");
+  CHECK(said("f 1//1 2//1 3//1") == "a.obj:5:6: error: there is no normal 1: the file has 0");
+  CHECK(said("f 1 2 x") == "a.obj:5:7: error: this is no index of a vertex");
+  CHECK(said("f 1 2 3.5") == "a.obj:5:8: error: a corner of a face is written 1, 1/2, 1//3 or 1/2/3");
+  CHECK(said("f 1 2 99999999999999999999") == "a.obj:5:7: error: this is no index of a vertex");
+  CHECK(said("f 1 2 4294967296") == "a.obj:5:7: error: there is no vertex 4294967296");
+  CHECK(said("v 1 2") == "a.obj:5:1: error: a vertex has three numbers");
+  CHECK(said("v 1,5 2 3") == "a.obj:5:3: error: this is not a number");
+  CHECK(said("v 1 2 3x") == "a.obj:5:7: error: this is not a number");
+  CHECK(said("vn 1 2") == "a.obj:5:1: error: a normal has three numbers");
+  CHECK(said("") == "a.obj: error: it has no triangles that could be seen");
+  CHECK(contains(refusal("", "a.obj"), "no triangles"));
+}
+
+TEST_CASE("what cannot be seen is left out and counted") {
+  const std::string more = square + "v nan 0 0\nv inf 0 0\nv 1e999 0 0\nv 1e-999 0 1\nv 0.5 0 0\n";
+  const ImportedScene scene =
+      import_sound(more + "f 1 2 3\nf 1 2 5\nf 1 2 6\nf 1 2 7\nf 1 2 2\nf 1 9 2\nf 1 2\nf 1 2 8\n", "a.obj",
+                   {.smooth = 0.0});
+  CHECK(scene.meshes[0].triangles.size() == 2);  // the first and the last: 1e-999 is 0
+  CHECK(warns(scene, "3 faces with coordinates that are not finite were left out"));
+  CHECK(warns(scene, "3 faces without area were left out"));
+  CHECK(scene.meshes[0].positions.size() == 4);  // those of vertices that nothing uses are gone
+}
+
+TEST_CASE("normals that cannot be used become those of the face") {
+  const ImportedScene scene = import_sound(
+      square + "vn 0 0 5\nvn 0 0 0\nvn 0 0 -1\nvn nan 0 0\nf 1//1 2//2 3//3\nf 1//1 3//4 4//1\n", "a.obj");
+  CHECK(warns(scene, "3 corners whose normals"));
+  CHECK(scene.meshes[0].positions.size() == 5);  // 1 and 4 as written, three of their own
+}
+
+TEST_CASE("each material has its mesh, and its .mtl is read") {
+  const Folder folder;
+  folder.write("parts/colors.mtl",
+               "newmtl red\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 100\nillum 2\n"
+               "newmtl steel\nKd 0 0 0\nKs 0.9 0.9 0.8\nillum 3\nnewmtl glass\nillum 4\nNi 1.33\n"
+               "newmtl dim\nKd 2 -1 nan\nd 0.5\nmap_bump bumps.png\nmap_Kd missing.png\n");
+  const std::string file = folder.write(
+      "a.obj", square +
+                   "mtllib parts/colors.mtl\nf 1 2 3\nusemtl red\nf 1 2 3\nusemtl steel \nf 1 3 4\n"
+                   "usemtl glass\nf 2 3 4\nusemtl dim\nf 1 2 4\nusemtl who\nf 1 2 3\nusemtl red\nf 1 3 4\n");
+  const ImportedScene scene = import_file(file);
+  CHECK(broken_promise(scene) == "");
+  REQUIRE(scene.materials.size() == 4);
+  CHECK(scene.instances.size() == 6);
+  CHECK(scene.meshes[1].triangles.size() == 2);  // both stretches of red
+  CHECK(scene.meshes[1].name == file + ": red");
+  std::vector<int> materials;
+  for (const Instance& instance : scene.instances) materials.push_back(instance.material);
+  CHECK(materials == std::vector{-1, 0, 1, 2, 3, -1});
+
+  const ScatteringContext context{{0, 0}, 1, 1, 1};
+  CHECK(scene.materials[0]->name == "red");
+  CHECK(scene.materials[0]->scattering(context).diffuse == Vec3(1, 0, 0));
+  CHECK(scene.materials[0]->scattering(context).specular == Vec3(0.5));
+  CHECK(scene.materials[0]->scattering(context).shininess == 100);
+  CHECK(scene.materials[1]->scattering(context).reflected == Vec3(0.9, 0.9, 0.8));
+  CHECK(scene.materials[2]->medium()->ior == 1.33);
+  CHECK(scene.materials[3]->scattering(context).diffuse == Vec3(1, 0, 0));
+  CHECK(warns(scene, "1 of its materials is not defined, such as `who`"));
+  CHECK(warns(scene, "transparency"));
+  CHECK(warns(scene, "bump and normal maps"));
+  CHECK(warns(scene, "a picture was left out: cannot read"));
+  CHECK(scene.files.size() == 3);
+}
+
+TEST_CASE("materials outside the folder tree are not read") {
+  const Folder folder;
+  folder.write("red.mtl", "newmtl red\nKd 1 0 0\n");
+  std::filesystem::create_directory(folder.path() / "in");
+  std::filesystem::create_symlink(folder / "red.mtl", folder / "in/link.mtl");
+  for (const std::string& name : {std::string("../red.mtl"), folder / "red.mtl", std::string("link.mtl"),
+                                  std::string("..\\red.mtl"), std::string("in/../../red.mtl")}) {
+    CAPTURE(name);
+    const std::string file = folder.write("in/a.obj", square + "mtllib " + name + "\nusemtl red\nf 1 2 3\n");
+    const ImportedScene refused = import_file(file);
+    CHECK(refused.materials.empty());
+    CHECK(warns(refused, "lies outside the file's folder; --allow-path DIR allows other ones"));
+    CHECK(import_file(file, {.allowed_folders = {folder.path()}}).materials.size() == 1);
+  }
+}
+
+TEST_CASE("pictures of .mtl files are textures") {
+  const Folder folder;
+  std::filesystem::copy_file("tests/core/pictures/rgb.png", folder / "rgb.png");
+  folder.write("a.mtl", "newmtl m\nKd 1 1 1\nmap_Kd rgb.png\n");
+  const ImportedScene scene =
+      import_file(folder.write("a.obj", square + "mtllib a.mtl\nusemtl m\nf 1 2 3\n"));
+  CHECK(scene.warnings.empty());
+  CHECK(scene.files.back() == folder / "rgb.png");
+}

@@ -1,0 +1,176 @@
+#include "bytes.hpp"
+#include "support.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+const Vec2 square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+
+std::string header(const std::string& format, const std::string& rest) {
+  return "ply\nformat " + format + " 1.0\ncomment made by a test\n" + rest + "end_header\n";
+}
+
+void check_square(const ImportedScene& scene) {
+  REQUIRE(scene.meshes.size() == 1);
+  CHECK(scene.meshes[0].positions.size() == 4);
+  CHECK(scene.meshes[0].triangles.size() == 2);
+  CHECK(signed_area(scene.meshes[0], {0, 0, 1}) == 2);
+  CHECK(scene.instances[0].material == -1);
+}
+
+const char* const types[] = {"char", "uchar", "short", "ushort", "int",   "uint",   "float",   "double",
+                             "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
+
+std::string ascii(const std::string& vertices, const std::string& faces) {
+  return header("ascii",
+                "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                "element face 1\nproperty list uchar int vertex_indices\n") +
+         vertices + faces;
+}
+
+}  // namespace
+
+TEST_CASE("every type of coordinate, of index and of a list's length, in every order of bytes") {
+  for (const auto& [format, order] : {std::pair("binary_little_endian", std::endian::little),
+                                      std::pair("binary_big_endian", std::endian::big)}) {
+    for (const std::string coordinate : types) {
+      for (const std::string index : types) {
+        for (const std::string length : types) {
+          if (length.starts_with("float") || length == "double") continue;
+          CAPTURE(format);
+          CAPTURE(coordinate);
+          CAPTURE(index);
+          CAPTURE(length);
+          Bytes data(order);
+          for (const Vec2& p : square)
+            data.add_as(coordinate, p.x).add_as(coordinate, p.y).add_as(coordinate, 0);
+          data.add_as(length, 4);
+          for (int i = 0; i < 4; ++i) data.add_as(index, i);
+          check_square(import_sound(
+              header(format, fmt::format("element vertex 4\nproperty {0} x\nproperty {0} y\nproperty {0} z\n"
+                                         "element face 1\nproperty list {1} {2} vertex_indices\n",
+                                         coordinate, length, index)) +
+                  data.text(),
+              "a.ply"));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("text, with any spaces and line breaks") {
+  check_square(import_sound(ascii("0 0 0\n1 0 0\n1 1 0\n0 1 0\n", "4 0 1 2 3\n"), "a.ply"));
+  check_square(import_sound(ascii("0 0 0  +1 0 0\r\n1e0 1.0 -0 0 1 0", "\t4 0 1\n2 3"), "A.PLY"));
+  std::string windows = ascii("0 0 0\n1 0 0\n1 1 0\n0 1 0\n", "4 0 1 2 3\n");
+  for (size_t at = 0; (at = windows.find('\n', at)) != std::string::npos; at += 2) windows.insert(at, "\r");
+  check_square(import_sound(windows, "a.ply"));
+}
+
+TEST_CASE("other elements and properties are stepped over, wherever they are") {
+  Bytes data;
+  data.add(uint8_t(2)).add(1.5f).add(2.5f);
+  data.add(uint8_t(3)).add(int16_t(0)).add(int16_t(1)).add(int16_t(2)).add(7.0);
+  for (const Vec2& p : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}) {
+    data.add(uint8_t(200)).add(float(p.y)).add(uint8_t(1)).add(9).add(p.x).add(0.0f);
+    data.add(0.0f).add(0.0f).add(2.0f).add(float(5 * p.x)).add(float(-p.y));
+  }
+  const ImportedScene scene = import_sound(
+      header("binary_little_endian",
+             "obj_info x\nelement before 1\nproperty list uchar float things\n"
+             "element face 1\nproperty list uchar short vertex_index\nproperty double weight\n"
+             "element vertex 3\nproperty uchar red\nproperty float y\nproperty list uchar int marks\n"
+             "property double x\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+             "property float s\nproperty float t\nelement nothing 5\n") +
+          data.text(),
+      "a.ply");
+  const Mesh& mesh = scene.meshes[0];
+  REQUIRE(mesh.triangles.size() == 1);
+  CHECK(mesh.positions[1] == Vec3(1, 0, 0));
+  CHECK(mesh.normals[1] == Vec3(0, 0, 1));
+  CHECK(mesh.uv == std::vector<Vec2>{{0, 0}, {5, 0}, {0, -1}});
+  CHECK(scene.warnings == std::vector<std::string>{"the colours of vertices were left out"});
+}
+
+TEST_CASE("names of uv") {
+  for (const auto& [u, v] : {std::pair("s", "t"), std::pair("u", "v"), std::pair("texture_u", "texture_v"),
+                             std::pair("texture_s", "texture_t")}) {
+    const ImportedScene scene = import_sound(
+        header("ascii", fmt::format("element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                                    "property float {}\nproperty float {}\nelement face 1\n"
+                                    "property list uchar int vertex_indices\n",
+                                    u, v)) +
+            "0 0 0 5 6 1 0 0 7 8 0 1 0 9 10 3 0 1 2",
+        "a.ply");
+    CHECK(scene.meshes[0].uv == std::vector<Vec2>{{5, 6}, {7, 8}, {9, 10}});
+  }
+}
+
+TEST_CASE("strips of triangles turn every other one") {
+  const ImportedScene scene =
+      import_sound(header("ascii",
+                          "element vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+                          "element tristrips 1\nproperty list int int vertex_indices\n") +
+                       "0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 1 2 0\n11 0 1 2 3 4 -1 2 3 4 5 -1\n",
+                   "a.ply");
+  CHECK(scene.meshes[0].triangles.size() == 5);
+  CHECK(signed_area(scene.meshes[0], {0, 0, 1}) == 5);
+}
+
+TEST_CASE("wrong PLY is refused, with its place in a text") {
+  const auto said = [](const std::string& bytes) { return refusal(bytes, "a.ply"); };
+  const std::string good = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  CHECK(said("") == "a.ply:1:1: error: the header ends without `end_header`");
+  CHECK(said("plx\n") == "a.ply:1:1: error: this is no PLY file: it does not start with `ply`");
+  CHECK(said("ply\nformat ascii 2.0\n") ==
+        "a.ply:2:1: error: write format ascii, binary_little_endian or binary_big_endian, and 1.0");
+  CHECK(said("ply\nend_header\n") == "a.ply:2:1: error: the header has no `format`");
+  CHECK(said("ply\nproperty int x\n") == "a.ply:2:1: error: a property before the first element");
+  CHECK(said("ply\nelement vertex -1\n") == "a.ply:2:1: error: `-1` is no count of elements");
+  CHECK(said("ply\nelement vertex 1\nproperty quad x\n") == "a.ply:3:1: error: `quad` is no type of PLY");
+  CHECK(contains(said(header("ascii", "element vertex 1\nproperty int x\n") + "1\n"), "no x, y and z"));
+  CHECK(contains(said(header("ascii", "element face 1\nproperty int x\n") + "1\n"),
+                 "no list of vertex_indices"));
+  CHECK(contains(
+      said(header("ascii", "element vertex 1\nproperty int x\nproperty int y\nproperty int z\n") + "1 2 3\n"),
+      "it has no faces: points alone cannot be seen"));
+  CHECK(said(ascii(good, "4 0 1 2 9")) ==
+        "a.ply: error: a face refers to vertex 9; there are 4, counted from 0");
+  CHECK(said(ascii(good, "4 0 1 2 -1")) ==
+        "a.ply: error: a face refers to vertex -1; there are 4, counted from 0");
+  CHECK(said(ascii(good, "4 0 1 2 1.5")) == "a.ply:15:12: error: 1.5 is no index of a vertex");
+  CHECK(said(ascii(good, "4 0 1 x 3")) == "a.ply:15:7: error: this is not a number");
+  CHECK(said(ascii(good, "4 0 1 2")) == "a.ply:15:2: error: a list of 4 is longer than the rest of the file");
+  CHECK(said(ascii(good, "9 0 1 2 3")) ==
+        "a.ply:15:2: error: a list of 9 is longer than the rest of the file");
+  CHECK(said(ascii(good, "-4 0 1 2 3")) == "a.ply:15:3: error: the length of a list must be an integer");
+}
+
+TEST_CASE("a header may promise what it likes") {
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    for (const char* count : {"1000000000", "18446744073709551615"}) {
+      const std::string xyz = "\nproperty float x\nproperty float y\nproperty float z\n";
+      CHECK(contains(refusal(header(format, "element vertex " + std::string(count) + xyz) + "0 0 0", "a.ply"),
+                     "more than the file's"));
+      const std::string face =
+          "element vertex 0" + xyz + "element face " + count + "\nproperty list uchar int vertex_indices\n";
+      CHECK(contains(refusal(header(format, face) + "0 0 0", "a.ply"), "more than the file's"));
+      // Elements without properties take no bytes, and no time.
+      CHECK(contains(
+          refusal(header(format, "element vertex 0" + xyz + "element nothing " + count + "\n"), "a.ply"),
+          "no faces"));
+      CHECK(contains(
+          refusal(header(format, "element vertex 0" + xyz + "element face " + count + "\n"), "a.ply"),
+          "no list of vertex_indices"));
+    }
+  }
+  Bytes data;
+  data.add(uint32_t(4000000000u)).add(0).add(0);
+  CHECK(contains(refusal(header("binary_little_endian",
+                                "element vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+                                "element face 1\nproperty list uint int vertex_indices\n") +
+                             data.text(),
+                         "a.ply"),
+                 "a list of 4000000000 is longer than the rest of the file"));
+}

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+
+#include "importers/import.hpp"
+#include "support/process.hpp"
+#include "support/sound_mesh.hpp"
+//
+#include "support/doctest.hpp"
+
+namespace eyeray::test {
+
+// What the importers make of the bytes, which must keep all promises.
+inline ImportedScene import_sound(const std::string& bytes, const std::string& name,
+                                  const ImportOptions& options = {}) {
+  ImportedScene scene = import_bytes(bytes, name, options);
+  CHECK(broken_promise(scene) == "");
+  return scene;
+}
+
+// Why the bytes are refused, or "accepted".
+inline std::string refusal(const std::string& bytes, const std::string& name) {
+  try {
+    import_bytes(bytes, name);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// Whether some warning has the words.
+inline bool warns(const ImportedScene& scene, const std::string& words) {
+  for (const std::string& warning : scene.warnings)
+    if (contains(warning, words)) return true;
+  return false;
+}
+
+// Twice the area of all triangles, each counted against the side that `up` is on.
+inline double signed_area(const Mesh& mesh, const Vec3& up) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    sum += glm::dot(up, glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]],
+                                   mesh.positions[t[2]] - mesh.positions[t[0]]));
+  }
+  return sum;
+}
+
+class Folder : public TemporaryFolder {
+ public:
+  std::string write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((path() / name).parent_path());
+    std::ofstream(path() / name, std::ios::binary) << text;
+    return (path() / name).string();
+  }
+};
+
+}  // namespace eyeray::test

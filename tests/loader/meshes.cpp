@@ -1,0 +1,225 @@
+// [[mesh]], and mesh files in place of scenes.
+#include <fstream>
+
+#include "loader/scene_file.hpp"
+#include "scene/camera_frame.hpp"
+#include "support/process.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+namespace fs = std::filesystem;
+
+namespace {
+
+class Folder : public test::TemporaryFolder {
+ public:
+  std::string write(const std::string& name, const std::string& text) const {
+    fs::create_directories((path() / name).parent_path());
+    std::ofstream(path() / name) << text;
+    return (path() / name).string();
+  }
+};
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+const std::string light = "[[light]]\ntype = \"directional\"\ndirection = [0, -1, -1]\n";
+
+std::string refusal(const std::string& scene, std::span<const Override> overrides = {}) {
+  try {
+    load_scene(scene, overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+Vec3 moved(const Instance& instance, const Vec3& p) {
+  return Vec3(instance.transform * Vec4(p, 1));
+}
+
+}  // namespace
+
+TEST_CASE("a mesh file is read once, however often it is shown") {
+  const Folder folder;
+  const std::string obj = folder.write("parts/a.obj", square + "mtllib a.mtl\nusemtl red\nf 1 2 3\n");
+  const std::string mtl = folder.write("parts/a.mtl", "newmtl red\nKd 1 0 0\n");
+  const std::string file = folder.write("scene.toml", light + R"(
+[[material]]
+name = "m"
+type = "phong"
+[[mesh]]
+file = "parts/a.obj"
+[[mesh]]
+file = "parts/../parts/a.obj"
+material = "m"
+batch = { transform = [[{ translate = [1, 0, 0] }], [{ scale = 2 }], []] }
+[[mesh]]
+file = "parts/a.obj"
+smooth = 0
+)");
+  const Scene scene = load_scene(file);
+  CHECK(scene.warnings.empty());
+  CHECK(scene.files == std::vector<fs::path>{file, obj, mtl});
+  CHECK(scene.meshes.size() == 4);  // plain and red, smooth and flat
+  REQUIRE(scene.instances.size() == 10);
+  CHECK(scene.primitive_count() == 15);
+  CHECK(moved(scene.instances[2], {1, 1, 0}) == Vec3(2, 1, 0));
+  CHECK(moved(scene.instances[4], {1, 1, 0}) == Vec3(2, 2, 0));
+  CHECK(scene.instances[2].mesh == scene.instances[0].mesh);
+  CHECK(scene.instances[8].mesh != scene.instances[0].mesh);
+  const auto material = [&](size_t i) { return scene.materials[size_t(scene.instances[i].material)]->name; };
+  CHECK(material(0) == "plain");
+  CHECK(material(1) == "red");
+  CHECK(material(3) == "m");
+  CHECK(material(9) == "red");
+  CHECK(scene.instances[2].position.line == 13);
+}
+
+TEST_CASE("names are relative to the file that they stand in") {
+  const Folder folder;
+  folder.write("parts/a.obj", square);
+  folder.write("parts/b.toml", "[[mesh]]\nfile = 'a.obj'\n");
+  const std::string file = folder.write("scene.toml", "include = 'parts/b.toml'\n" + light);
+  CHECK(load_scene(file).instances.size() == 1);
+  const Override other{"mesh.0.file='parts/a.obj'"};  // an override stands in the scene
+  CHECK(load_scene(file, {&other, 1}).instances.size() == 1);
+}
+
+TEST_CASE("what is wrong with a mesh is an error at its key") {
+  const Folder folder;
+  folder.write("in/a.obj", square);
+  folder.write("in/bad.obj", "v 0 0 0\nf 1 2 3\n");
+  folder.write("outside.obj", square);
+  const auto said = [&](const std::string& table) {
+    const std::string scene = folder.write("in/scene.toml", "[[mesh]]\n" + table);
+    const std::string text = refusal(scene);
+    return text.starts_with(scene) ? text.substr(scene.size() + 1, text.find('\n') - scene.size() - 1) : text;
+  };
+  CHECK(said("file = 'bad.obj'") ==
+        "2:8: error: " + (folder / "in/bad.obj") + ":2:7: there is no vertex 3: the file has 1");
+  CHECK(said("file = 'ab.obj'") == "2:8: error: cannot read the mesh " + (folder / "in/ab.obj") +
+                                       ": No such file or directory; did you mean " + (folder / "in/a.obj") +
+                                       "?");
+  CHECK(said("file = '../outside.obj'") ==
+        "2:8: error: ../outside.obj lies outside the scene's folder; --allow-path DIR allows other ones");
+  CHECK(said("file = ''") == "2:8: error: `file` needs the name of a file");
+  CHECK(contains(said("file = 'scene.toml'"), "a mesh file ends in .obj, .ply, .gltf or .glb"));
+  CHECK(said("smooth = 3") == "1:1: error: [[mesh]] needs `file`, a string");
+  CHECK(said("file = 'a.obj'\nsmooth = 181") ==
+        "3:10: error: `smooth` must be a number from 0 to 180, not 181");
+  CHECK(said("file = 'a.obj'\nmaterial = 'x'") == "3:12: error: no [[material]] is named \"x\"");
+  CHECK(said("file = 'a.obj'\ntransform = [{ translate = [9e11, 9e11, 9e14] }]") ==
+        "3:13: error: the transformed vertices are out of range (coordinates up to 1e12)");
+  CHECK(
+      said("file = 'a.obj'\nradius = 3") ==
+      "3:1: error: unknown key `radius` in [[mesh]]; its keys are file, material, transform, smooth, batch");
+  CHECK(contains(said("file = 'a.obj'\nbatch = { radius = [3] }"),
+                 "unknown key `radius` in the batch of [[mesh]]"));
+  CHECK_THROWS_AS(parse_scene("[[mesh]]\nfile = 'a.obj'", "memory.toml"), InputError);
+}
+
+TEST_CASE("a map that leaves triangles without area is refused") {
+  const Folder folder;
+  folder.write("a.obj", square + "v 0.5 3e-9 0\nf 1 2 5\n");
+  const auto scaled = [&](const char* scale) {
+    return refusal(folder.write("scene.toml", light + fmt::format("[[mesh]]\nfile = 'a.obj'\ntransform = [{{ "
+                                                                  "scale = {} }}]\n",
+                                                                  scale)));
+  };
+  CHECK(scaled("1e-6") == "accepted");
+  CHECK(scaled("[3, 0.3, 3]") == "accepted");
+  CHECK(contains(scaled("[1000, 0.001, 1]"), "the map leaves some of the triangles no area"));
+}
+
+TEST_CASE("warnings of mesh files are the scene's") {
+  const Folder folder;
+  const std::string obj = folder.write("a.obj", square + "f 1 1 2\n");
+  const std::string file =
+      folder.write("scene.toml", light + "[[mesh]]\nfile = 'a.obj'\n[[mesh]]\nfile = 'a.obj'\n");
+  const Scene scene = load_scene(file);
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK(scene.warnings[0].message == obj + ": 1 face without area was left out");
+  CHECK(scene.warnings[0].position.line == 4);
+  const Scene alone = load_scene(obj);
+  REQUIRE(alone.warnings.size() == 1);
+  CHECK(format_diagnostic(alone.warnings[0]) == obj + ": warning: 1 face without area was left out");
+}
+
+TEST_CASE("a mesh file alone is a scene that frames it") {
+  const Folder folder;
+  const std::string obj = folder.write("a.obj", "v -3 0 0\nv 5 0 0\nv 5 1 0\nv 0 7 -2\nf 1 2 3\nf 1 3 4\n");
+  const Scene scene = load_scene(obj);
+  CHECK(scene.file == obj);
+  CHECK(scene.files == std::vector<fs::path>{obj});
+  CHECK(scene.lights.size() == 1);
+  CHECK(scene.render.ambient.x > 0);
+
+  // Every vertex is in the picture, and some are near its edge, whatever its shape.
+  for (const char* size : {"image.width=100", "image.height=100", "image.width=2000"}) {
+    const Override shape{size};
+    const Scene other = load_scene(obj, {&shape, 1});
+    const CameraFrame frame = camera_frame(other.camera, other.image.width, other.image.height);
+    double most = 0;
+    for (const Vec3& p : other.meshes[0].positions) {
+      const Vec3 ray = p - other.camera.eye;
+      const double depth = glm::dot(ray, frame.w);
+      REQUIRE(depth > 0);
+      const double aspect = double(other.image.height) / other.image.width;
+      const double x = glm::dot(ray, frame.u) / depth * frame.distance;
+      const double y = glm::dot(ray, frame.v) / depth * frame.distance / aspect;
+      CHECK(std::max(std::fabs(x), std::fabs(y)) < 1);
+      most = std::max(most, std::max(std::fabs(x), std::fabs(y)));
+    }
+    CHECK(most > 0.6);
+  }
+}
+
+TEST_CASE("overrides and a file's own camera and lights") {
+  const Folder folder;
+  const std::string obj = folder.write("a.obj", square);
+  const Override overrides[] = {
+      {"camera.eye=[1, 2, 3]"}, {"mesh.0.smooth=0"}, {"light.0.intensity=2"}, {"render.background=1"}};
+  const Scene scene = load_scene(obj, overrides);
+  CHECK(scene.camera.eye == Vec3(1, 2, 3));
+  CHECK(scene.meshes[0].normals.empty());
+  CHECK(scene.lights[0].intensity == Vec3(2));
+  CHECK(scene.render.background == Vec3(1));
+
+  const std::string gltf = folder.write("a.gltf", R"({"asset": {"version": "2.0"},
+    "nodes": [{"mesh": 0}, {"camera": 0, "translation": [1, 2, 3]},
+              {"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [4, 5, 6]}],
+    "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}},
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5121, "type": "VEC3", "count": 3}],
+    "bufferViews": [{"buffer": 0, "byteLength": 9}],
+    "buffers": [{"byteLength": 9, "uri": "data:;base64,AAAAAQAAAAEA"}]})");
+  const Scene own = load_scene(gltf);
+  CHECK(own.warnings.empty());
+  CHECK(own.camera.eye == Vec3(1, 2, 3));
+  CHECK(own.camera.fov_axis == FovAxis::vertical);
+  REQUIRE(own.lights.size() == 1);
+  CHECK(own.lights[0].position == Vec3(4, 5, 6));
+
+  // In a scene file they are left out, with a word.
+  const Scene shown = load_scene(folder.write("scene.toml", light + "[[mesh]]\nfile = 'a.gltf'\n"));
+  CHECK(shown.lights.size() == 1);
+  REQUIRE(shown.warnings.size() == 1);
+  CHECK(contains(shown.warnings[0].message, "its camera and lights are not taken over"));
+}
+
+TEST_CASE("a mesh file that cannot be read") {
+  const Folder folder;
+  CHECK(refusal(folder.write("bad.ply", "ply\nx\n")) ==
+        (folder / "bad.ply") + ":2:1: error: `x` is no statement of a PLY header");
+  try {
+    load_scene(folder / "none.glb");
+    FAIL("read");
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::file_io);
+  }
+}

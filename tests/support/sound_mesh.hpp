@@ -1,0 +1,60 @@
+// What scene/mesh.hpp promises of a mesh, asked of what importers make.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "importers/import.hpp"
+#include "scene/affine.hpp"
+#include "scene/triangle.hpp"
+
+namespace eyeray::test {
+
+inline bool finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// The first promise that is broken, or "".
+inline std::string broken_promise(const Mesh& mesh) {
+  if (mesh.triangles.empty()) return "no triangles";
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) return "number of normals";
+  if (!mesh.uv.empty() && mesh.uv.size() != mesh.positions.size()) return "number of uv";
+  for (const Vec3& position : mesh.positions)
+    if (!finite(position)) return "position not finite";
+  for (const Vec2& uv : mesh.uv)
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return "uv not finite";
+  for (const auto& triangle : mesh.triangles) {
+    for (const uint32_t vertex : triangle)
+      if (vertex >= mesh.positions.size()) return "index out of range";
+    const Corners corners{mesh.positions[triangle[0]], mesh.positions[triangle[1]],
+                          mesh.positions[triangle[2]]};
+    if (!(thickness(corners) >= thinnest_triangle)) return "triangle without area";
+    if (mesh.normals.empty()) continue;
+    const Vec3 geometric = geometric_normal(corners);
+    for (const uint32_t vertex : triangle) {
+      if (!(std::fabs(glm::length(mesh.normals[vertex]) - 1) < 1e-12)) return "normal not unit";
+      if (!(glm::dot(mesh.normals[vertex], geometric) > least_normal_cosine))
+        return "normal on the wrong side";
+    }
+  }
+  return "";
+}
+
+inline std::string broken_promise(const ImportedScene& scene) {
+  for (const Mesh& mesh : scene.meshes)
+    if (const std::string broken = broken_promise(mesh); !broken.empty()) return broken;
+  if (scene.instances.empty()) return "no instances";
+  for (const Instance& instance : scene.instances) {
+    if (instance.mesh < 0 || size_t(instance.mesh) >= scene.meshes.size()) return "mesh of an instance";
+    if (instance.material < -1 || instance.material >= int(scene.materials.size()))
+      return "material of an instance";
+    if (!why_singular(instance.transform).empty()) return "transform of an instance";
+  }
+  for (const Light& light : scene.lights)
+    if (!finite(light.position) || !finite(light.to_light) || !finite(light.intensity)) return "light";
+  if (scene.camera && (!finite(scene.camera->eye) || !finite(scene.camera->target))) return "camera";
+  return "";
+}
+
+}  // namespace eyeray::test
