@@ -77,7 +77,7 @@ bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) co
 
 bool Neighbourhood::explains(const FirstHit& value, const Tolerances& tolerances) const {
   // Gather what the neighbourhood knows of the primitive that was hit.
-  double t_low = 0, t_high = 0;
+  double t_low = 0, t_high = 0, tolerance = 0;
   Vec3 normal_low(0.0), normal_high(0.0);
   bool found = false;
   bool silhouette = false;
@@ -89,6 +89,7 @@ bool Neighbourhood::explains(const FirstHit& value, const Tolerances& tolerances
     }
     t_low = found ? std::min(t_low, hit.t) : hit.t;
     t_high = found ? std::max(t_high, hit.t) : hit.t;
+    tolerance = std::max(tolerance, t_tolerance(hit, tolerances));
     normal_low = found ? glm::min(normal_low, hit.normal) : hit.normal;
     normal_high = found ? glm::max(normal_high, hit.normal) : hit.normal;
     found = true;
@@ -99,9 +100,8 @@ bool Neighbourhood::explains(const FirstHit& value, const Tolerances& tolerances
   // Towards a rim both run like a square root: it may lie as far beyond the last probe as the probes are
   // apart.
   const double beyond = silhouette ? 1 : 0;
-  const double t_beyond = beyond * (t_high - t_low);
-  if (!within(value.t, t_low, t_high, t_beyond + tolerances.t * t_low, t_beyond + tolerances.t * t_high))
-    return false;
+  const double t_margin = beyond * (t_high - t_low) + tolerance;
+  if (!within(value.t, t_low, t_high, t_margin, t_margin)) return false;
   for (int c = 0; c < 3; ++c) {
     const double margin = beyond * (normal_high[c] - normal_low[c]) + tolerances.normal;
     if (!within(value.normal[c], normal_low[c], normal_high[c], margin, margin)) return false;

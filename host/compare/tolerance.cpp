@@ -18,8 +18,9 @@ double ratio(double error, double tolerance) {
 }
 
 // Two misses agree: both t are infinite, and their difference is NaN.
-double t_excess(double value, double reference, double tolerance) {
-  return value == reference ? 0 : ratio(std::abs(value - reference) / std::abs(reference), tolerance);
+double t_excess(double value, const FirstHit& reference, const Tolerances& tolerances) {
+  if (value == reference.t) return 0;
+  return ratio(std::abs(value - reference.t), t_tolerance(reference, tolerances));
 }
 
 double normal_excess(const Vec3& value, const Vec3& reference, double tolerance) {
@@ -38,6 +39,10 @@ void Tolerances::check() const {
   }
 }
 
+double t_tolerance(const FirstHit& reference, const Tolerances& tolerances) {
+  return std::max(tolerances.t * std::abs(reference.t), 0x1p-22 * reference.t_scale);
+}
+
 double color_excess(const Vec3& value, const Vec3& reference, double tolerance) {
   double worst = 0;
   for (int c = 0; c < 3; ++c) {
@@ -51,14 +56,14 @@ double hit_excess(const FirstHit& value, const FirstHit& reference, const Tolera
   if (value.primitive != reference.primitive || value.material != reference.material) {
     return std::numeric_limits<double>::infinity();
   }
-  return std::max(t_excess(value.t, reference.t, tolerances.t),
+  return std::max(t_excess(value.t, reference, tolerances),
                   normal_excess(value.normal, reference.normal, tolerances.normal));
 }
 
 Seam first_seam(const WorstPixel& pixel, const Tolerances& tolerances) {
   const FirstHit &value = pixel.value_hit, &reference = pixel.reference_hit;
   if (value.primitive != reference.primitive) return Seam::primitive;
-  if (t_excess(value.t, reference.t, tolerances.t) > 1) return Seam::t;
+  if (t_excess(value.t, reference, tolerances) > 1) return Seam::t;
   if (normal_excess(value.normal, reference.normal, tolerances.normal) > 1) return Seam::normal;
   if (value.material != reference.material) return Seam::material;
   return color_excess(pixel.value, pixel.reference, tolerances.color) > 1 ? Seam::color : Seam::none;

@@ -7,13 +7,17 @@ namespace eyeray {
 
 struct Tolerances {
   double color = 1e-4;           // of each channel, × max(1, |reference|)
-  double t = 1e-5;               // relative
+  double t = 1e-5;               // relative; see t_tolerance
   double normal = 1e-4;          // of each component
   double max_explained = 0.005;  // the share of pixels that may differ for a reason (and four in any case)
 
   // A tolerance so wide that the gate could not fail is a defect of the caller: CHECK.
   void check() const;
 };
+
+// How far t may be from that of the reference's hit: the relative tolerance, and at least two units in the
+// last place, in float32, of the coordinates that it comes from. Close to a large surface those are coarser.
+double t_tolerance(const FirstHit& reference, const Tolerances& tolerances);
 
 // |value − reference| in tolerances, of the worst channel: at most 1 where they match; infinite where a NaN
 // is in it.

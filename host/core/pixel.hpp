@@ -30,8 +30,11 @@ struct FirstHit {
   Vec3 position{0.0};                                  // world
   Vec3 normal{0.0};                                    // world, unit, shading normal as the shape defines it
   Vec2 uv{0.0};
-  int32_t primitive = -1;  // index in Scene::shapes; −1 where nothing is hit
+  int32_t primitive = -1;  // index, see Scene::primitive_count; −1 where nothing is hit
   int32_t material = -1;   // index in Scene::materials
+  // The largest coordinate, relative to the eye, that t was computed from, over the cosine of incidence: what
+  // the rounding of coordinates moves t by is in proportion to it. Known to the reference; 0 elsewhere.
+  double t_scale = 0;
 };
 
 }  // namespace eyeray

@@ -78,6 +78,13 @@ double InstanceGeometry::reach() const {
   return magnitude(size_ * extremes(mesh_->bounds())) + magnitude(to_world_.offset);
 }
 
+double InstanceGeometry::reach(uint32_t triangle, const Vec3& eye) const {
+  double reach = 0;
+  for (const Vec3& corner : mesh_->corners(triangle))
+    reach = std::max(reach, magnitude(size_ * glm::abs(corner)));
+  return reach + magnitude(to_world_.offset - eye);
+}
+
 double InstanceGeometry::growth() const {
   return magnitude(size_ * (inverse_size_ * Vec3(1)));
 }

@@ -31,6 +31,8 @@ class InstanceGeometry {
   Bounds bounds() const;
   // The largest terms of which a coordinate in the world is the sum, …
   double reach() const;
+  // (those of one triangle, relative to `eye`)
+  double reach(uint32_t triangle, const Vec3& eye) const;
   // … and how many times the rounding of a point grows, at most, on its way into the mesh's space and back.
   double growth() const;
 

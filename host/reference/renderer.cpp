@@ -1,5 +1,8 @@
 #include "reference/renderer.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "reference/raycast.hpp"
 #include "reference/whitted.hpp"
 
@@ -25,7 +28,11 @@ FirstHit Renderer::first_hit(int x, int y, Vec2 shift) const {
   const auto hit = tracer_.trace(ray);
   if (!hit) return {};
   const SurfacePoint surface = tracer_.surface(ray, *hit);
-  return {hit->at.t, surface.position, surface.normal, surface.uv, int32_t(hit->primitive), hit->material};
+  // Towards grazing incidence t runs away from any bound; the gates explain it there by its neighbourhood.
+  const double cosine = std::max(0.01, std::abs(glm::dot(ray.d, surface.normal_geometric)));
+  const double t_scale = tracer_.reach(*hit, scene_.camera.eye) / cosine;
+  return {hit->at.t,     surface.position, surface.normal, surface.uv, int32_t(hit->primitive),
+          hit->material, t_scale};
 }
 
 }  // namespace eyeray::reference

@@ -96,6 +96,13 @@ SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
                            : instances_[hit.body - shapes].surface(ray, hit.at);
 }
 
+double Tracer::reach(const Hit& hit, const Vec3& eye) const {
+  const size_t shapes = scene_.shapes.size();
+  if (hit.body >= shapes) return instances_[hit.body - shapes].reach(hit.at.triangle, eye);
+  const Bounds box = scene_.shapes[hit.body]->bounds();
+  return finite(box) ? std::max(magnitude(box.min - eye), magnitude(box.max - eye)) : 0;
+}
+
 // The share of light that comes through one body which the ray enters at t = entry.
 double Tracer::share_let_through(size_t body, const Ray& ray, double entry, double t_end) const {
   const double share = scene_.materials[size_t(material(body))]->shadow_transmittance();

@@ -27,6 +27,10 @@ class Tracer {
   // The surface where `ray` has that hit.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
 
+  // The largest coordinate, relative to `eye`, of the terms that what was hit is made of; 0 for unbounded
+  // shapes.
+  double reach(const Hit& hit, const Vec3& eye) const;
+
   // The share of light that comes through all that the ray meets at 0 < t < t_end. A shape counts once; of an
   // instance each triangle lets the square root of its material's share through, so that a closed mesh, which
   // is crossed twice, counts once as well.

@@ -103,3 +103,38 @@ TEST_CASE("what is explained lies between the neighbours, a tolerance more at ea
   CHECK_FALSE(neighbourhood.explains(changed(&FirstHit::primitive, -1), tolerances));
   CHECK_FALSE(neighbourhood.explains(changed(&FirstHit::material, 0), tolerances));
 }
+
+TEST_CASE("t may be off by the rounding of the coordinates that it comes from, and by no more") {
+  const Tolerances tolerances;
+  FirstHit reference{.t = 1e-3, .normal = {0, 0, 1}, .primitive = 0, .material = 0};
+  FirstHit value = reference;
+  CHECK(t_tolerance(reference, tolerances) == doctest::Approx(1e-8));
+  value.t = 1e-3 + 3e-7;
+  CHECK(hit_excess(value, reference, tolerances) == doctest::Approx(30));
+
+  // Two units in the last place of 2 are 4.8e-7.
+  reference.t_scale = 2;
+  CHECK(t_tolerance(reference, tolerances) == 0x1p-21);
+  CHECK(hit_excess(value, reference, tolerances) < 1);
+  value.t = 1e-3 + 5e-7;
+  CHECK(hit_excess(value, reference, tolerances) > 1);
+
+  // From afar, the relative tolerance is the wider one.
+  reference.t = 100;
+  CHECK(t_tolerance(reference, tolerances) == doctest::Approx(1e-3));
+}
+
+TEST_CASE("a neighbourhood is as wide as the rounding of its coordinates") {
+  const auto explained = [](double t_scale) {
+    const Reference reference = [&](int x, int y, const Vec2& shift) {
+      Probe probe = picture_reference(x, y, shift);
+      probe.first_hit.t_scale = t_scale;
+      return probe;
+    };
+    FirstHit hit = picture_reference(48, 30, {0, 0}).first_hit;
+    hit.t *= 1.001;
+    return Neighbourhood(reference, {48, 30}).explains(hit, {});
+  };
+  CHECK(!explained(0));
+  CHECK(explained(1e9));
+}

@@ -251,3 +251,18 @@ TEST_CASE("media of globes at random are those of their equations") {
   }
   CHECK(inside > 300);
 }
+
+TEST_CASE("a first hit says what coordinates its t comes from") {
+  // Relative to the eye, over the cosine of incidence.
+  Scene scene = one_pixel({1, 0, 5}, {1, 3, 1});
+  const int paint = add(scene, make_phong({}));
+  const auto t_scale = [&] { return reference::Renderer(scene).first_hit(0, 0).t_scale; };
+  CHECK(t_scale() == 0);
+  add(scene, make_plane({0, 0, 1}, {0, 0, 1}), paint);
+  CHECK(t_scale() == 0);
+  add(scene, make_triangle({.vertices = {{{-9, -9, 2}, {21, -9, 2}, {0, 30, 2}}}}), paint);
+  CHECK(near(t_scale(), 30 / 0.8, 1e-12));
+  Mesh mesh = make_mesh({{-9, -9, 2}, {21, -9, 2}, {0, 30, 2}}, {{0, 1, 2}});
+  add_instance(scene, add(scene, mesh), paint, glm::scale(translation({1, 0, 1}), Vec3(1, 2, 1)));
+  CHECK(near(t_scale(), (2 * 30 + 4) / 0.8, 1e-12));
+}
