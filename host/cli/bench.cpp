@@ -10,6 +10,7 @@
 #include "cli/scratch_folder.hpp"
 #include "core/atomic_file.hpp"
 #include "core/image_file.hpp"
+#include "core/stopwatch.hpp"
 #include "loader/scene_file.hpp"
 #include "rivals/povray_scene.hpp"
 
@@ -19,6 +20,13 @@ namespace eyeray::cli {
 namespace {
 
 constexpr std::string_view default_scene = "scenes/whitted.toml";
+
+// Our executors of a scene, and what they spent on packing it.
+struct Ours {
+  std::vector<std::unique_ptr<Executor>> executors;
+  std::vector<Contender> contenders;
+  std::vector<Build> builds;
+};
 
 struct Command {
   std::vector<std::string> scenes;  // files, and names of standard scenes
@@ -33,6 +41,7 @@ struct Command {
 
  private:
   Scene load(const std::string& name) const;
+  Ours executors(const Scene& scene) const;
   SceneReport race_on(const std::string& name) const;
   Json render_all(const std::string& name) const;
 };
@@ -49,11 +58,34 @@ Scene Command::load(const std::string& name) const {
   return load_scene(name, overrides);
 }
 
+Ours Command::executors(const Scene& scene) const {
+  Ours ours;
+  for (const std::string& backend : pictures.backends) {
+    const Stopwatch watch;
+    ExecutorOptions options;
+    options.device = pictures.device;
+    ours.executors.push_back(make_executor(parse_backend(backend), scene, options));
+    Executor* const executor = ours.executors.back().get();
+    ours.contenders.push_back({backend, Side::ours, [executor](const Batch& batch, std::span<QueryHit> hits) {
+                                 return executor->query({batch.rays, batch.kind, batch.coherent}, hits);
+                               }});
+    double seconds = watch.seconds();
+    for (const auto& [stage, spent] : executor->times().stages()) {
+      if (stage == "pack") seconds = spent;
+    }
+    ours.builds.push_back({backend, seconds, executor->geometry_bytes()});
+  }
+  return ours;
+}
+
 SceneReport Command::race_on(const std::string& name) const {
   const StandardScene* const standard = as_standard(name);
   const FieldOptions options{.width = pictures.width, .height = pictures.height, .runs = pictures.runs};
-  const SceneReport report =
-      run_field(name, standard ? std::string(standard->family) : name, load(name), options, {});
+  const Scene scene = load(name);
+  const Ours ours = executors(scene);
+  SceneReport report =
+      run_field(name, standard ? std::string(standard->family) : name, scene, options, ours.contenders);
+  report.builds.insert(report.builds.end(), ours.builds.begin(), ours.builds.end());
   if (!json) fmt::print("{}", to_text({report}));
   return report;
 }

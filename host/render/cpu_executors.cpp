@@ -63,9 +63,9 @@ class TwinExecutor final : public Executor {
     });
   }
 
-  double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits) override {
-    return timed_queries(rays, hits, [&](const Query& ray) {
-      return to_query_hit(twin::query(packed_, to_query_ray(ray, eye_), kind == QueryKind::any));
+  double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
+    return timed_queries(batch.rays, hits, [&](const Query& ray) {
+      return to_query_hit(twin::query(packed_, to_query_ray(ray, eye_), batch.kind == QueryKind::any));
     });
   }
 
@@ -92,10 +92,10 @@ class ReferenceExecutor final : public Executor {
     for_each_pixel(tile, out, [&](int x, int y) { return renderer_.first_hit(x, y); });
   }
 
-  double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits) override {
-    return timed_queries(rays, hits, [&](const Query& ray) -> QueryHit {
+  double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
+    return timed_queries(batch.rays, hits, [&](const Query& ray) -> QueryHit {
       constexpr double none = std::numeric_limits<double>::infinity();
-      if (kind == QueryKind::any)
+      if (batch.kind == QueryKind::any)
         return {renderer_.tracer().transmittance({ray.o, ray.d}, ray.t_max) == 0 ? 0 : none, -1};
       const auto hit = renderer_.tracer().trace({ray.o, ray.d});
       if (!hit || hit->at.t >= ray.t_max) return {none, -1};

@@ -11,28 +11,12 @@
 #include "core/rect.hpp"
 #include "core/stopwatch.hpp"
 #include "render/options.hpp"
+#include "scene/query.hpp"
 #include "scene/scene.hpp"
 
 namespace eyeray {
 
 enum class Backend { gpu, twin, reference };
-
-// A ray in world space that is asked about alone, without a picture.
-struct Query {
-  Vec3 o;
-  Vec3 d;                 // unit
-  double t_max = 3.0e38;  // only hits nearer than this count
-};
-
-struct QueryHit {
-  double t = 0;            // infinity where nothing is hit
-  int64_t primitive = -1;  // as Scene counts them; −1 where nothing is hit
-};
-
-enum class QueryKind {
-  nearest,  // the nearest hit
-  any,  // whether anything opaque, or enough that is not, is hit: t is 0 then, else infinity; no primitive
-};
 
 // Produces samples of pixels of one scene. Not thread-safe; parallel inside.
 class Executor {
@@ -46,8 +30,11 @@ class Executor {
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
 
   // What each ray hits, and the seconds that tracing alone took: by the device's clock where it has one,
-  // without the copying of rays and hits. hits.size() = rays.size().
-  virtual double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits) = 0;
+  // without the copying of rays and hits. hits.size() = batch.rays.size().
+  virtual double query(const QueryBatch& batch, std::span<QueryHit> hits) = 0;
+
+  // Bytes that the scene's geometry and the trees over it take; 0 where unknown.
+  virtual uint64_t geometry_bytes() const { return 0; }
 
   // For people: "gpu: llvmpipe (LLVM 15.0.6, 256 bits), driver …", "twin: 2 threads".
   virtual std::string description() const = 0;

@@ -83,41 +83,23 @@ class GpuExecutor final : public Executor {
     });
   }
 
-  double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits) override {
-    CHECK_EQ(rays.size(), hits.size());
-    std::unique_ptr<gpu::Kernel>& kernel = query_kernels_[kind == QueryKind::any];
-    const bool together = packets_;
+  double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
+    CHECK_EQ(batch.rays.size(), hits.size());
+    const bool any = batch.kind == QueryKind::any;
+    const bool together = packets_ && (batch.coherent || few_primitives_);
+    std::unique_ptr<gpu::Kernel>& kernel = query_kernels_[any][together];
     if (!kernel)
-      kernel = make_kernel(together ? "packet.comp.glsl" : "query.comp.glsl",
-                           kind == QueryKind::any ? "#define QUERY_ANY\n" : "");
+      kernel = make_kernel(together ? "packet.comp.glsl" : "query.comp.glsl", any ? "#define QUERY_ANY\n" : "");
     double seconds = 0;
-    for (size_t first = 0; first < rays.size(); first += most_pixels) {
-      const size_t count = std::min(rays.size() - first, size_t{most_pixels});
-      std::vector<shader::QueryRay> asked(count);
-      for (size_t i = 0; i < count; ++i) asked[i] = to_query_ray(rays[first + i], eye_);
-      gpu::Buffer input(device_, count * sizeof(shader::QueryRay), "rays");
-      input.upload_records(asked);
-      gpu::Buffer& output = output_for(count * sizeof(shader::QueryHit));
-      kernel->set_buffer(BINDING_RAYS, input);
-      kernel->set_buffer(BINDING_OUTPUT, output);
-      shader::Dispatch push{};
-      push.tile.x = uint32_t(count);
-      seconds +=
-          gpu::dispatch(
-              device_, *kernel, std::as_bytes(std::span(&push, 1)),
-              {together ? packet_groups(uint32_t(count)) : whole_strides((uint32_t(count) + 63) / 64), 1, 1})
-              .seconds;
-      const std::vector<shader::QueryHit> answers = output.read_records<shader::QueryHit>(count);
-      for (size_t i = 0; i < count; ++i) {
-        if (answers[i].hit.z & FLAG_LOOP_BUDGET)
-          throw Error(ExitCode::no_device, "{} ended the loop of a ray before it was traced",
-                      device_.info().driver_version);
-        hits[first + i] = to_query_hit(answers[i]);
-      }
+    for (size_t first = 0; first < batch.rays.size(); first += most_pixels) {
+      const size_t count = std::min(batch.rays.size() - first, size_t{most_pixels});
+      seconds += query_some(*kernel, together, batch.rays.subspan(first, count), hits.subspan(first, count));
     }
     check_validation();
     return seconds;
   }
+
+  uint64_t geometry_bytes() const override { return geometry_bytes_; }
 
   std::string description() const override {
     const gpu::DeviceInfo& info = device_.info();
@@ -146,6 +128,7 @@ class GpuExecutor final : public Executor {
                (lanes == 4 || lanes == 8 || lanes == 16);
     specialisation.subgroup_size = lanes;
     lights_ = uint32_t(packed.lights.size());
+    few_primitives_ = packed.primitives.size() <= 1 << 14;
     if (facts_.loop_cap) {
       // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer
       // iterations than there are primitives; where it does not, the shader sees that the driver stopped it.
@@ -173,6 +156,7 @@ class GpuExecutor final : public Executor {
     add_buffer(BINDING_NODES, "nodes", std::span(packed.nodes), kind);
     add_buffer(BINDING_TREES, "trees", std::span(packed.trees));
     add_buffer(BINDING_INSTANCES, "instances", std::span(packed.instances));
+    geometry_bytes_ = uploaded_;
     add_buffer(BINDING_MATERIALS, "materials", std::span(packed.materials));
     add_buffer(BINDING_TEXTURES, "textures", std::span(packed.textures));
     add_buffer(BINDING_TEXELS, "texels", std::span(packed.texels));
@@ -250,6 +234,31 @@ class GpuExecutor final : public Executor {
     return true;
   }
 
+  double query_some(gpu::Kernel& kernel, bool together, std::span<const Query> rays, std::span<QueryHit> hits) {
+    std::vector<shader::QueryRay> asked(rays.size());
+    std::transform(rays.begin(), rays.end(), asked.begin(), [&](const Query& ray) { return to_query_ray(ray, eye_); });
+    gpu::Buffer input(device_, asked.size() * sizeof(shader::QueryRay), "rays");
+    input.upload_records(asked);
+    gpu::Buffer& output = output_for(asked.size() * sizeof(shader::QueryHit));
+    kernel.set_buffer(BINDING_RAYS, input);
+    kernel.set_buffer(BINDING_OUTPUT, output);
+    const auto count = uint32_t(asked.size());
+    shader::Dispatch push{};
+    push.tile.x = count;
+    const uint32_t groups = together ? packet_groups(count) : whole_strides((count + 63) / 64);
+    const gpu::RunTime time =
+        gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)), {groups, 1, 1});
+
+    const std::vector<shader::QueryHit> answers = output.read_records<shader::QueryHit>(count);
+    for (size_t i = 0; i < count; ++i) {
+      if (answers[i].hit.z & FLAG_LOOP_BUDGET)
+        throw Error(ExitCode::no_device, "{} ended the loop of a ray before it was traced",
+                    device_.info().driver_version);
+      hits[i] = to_query_hit(answers[i]);
+    }
+    return time.seconds;
+  }
+
   // As many workgroups as make runs of equal length (render.comp.glsl).
   uint32_t whole_strides(uint32_t groups) const {
     return (groups + group_stride_ - 1) / group_stride_ * group_stride_;
@@ -309,6 +318,8 @@ class GpuExecutor final : public Executor {
   ShaderFiles shaders_;
   uint32_t group_stride_ = 1;
   bool packets_ = false;  // whether packet.comp.glsl is used
+  bool few_primitives_ = false;  // so few that packets pay even for rays that part
+  uint64_t geometry_bytes_ = 0;
   uint32_t lights_ = 0;
   std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
   std::optional<gpu::Buffer> output_;
@@ -318,7 +329,7 @@ class GpuExecutor final : public Executor {
   std::unique_ptr<gpu::Kernel> shadow_kernel_;
   std::optional<gpu::Buffer> packet_hits_;
   std::optional<gpu::Buffer> occlusions_;
-  std::unique_ptr<gpu::Kernel> query_kernels_[2];  // by whether any hit will do; made when first asked for
+  std::unique_ptr<gpu::Kernel> query_kernels_[2][2];  // by whether any hit will do, and whether traced together
   uint64_t uploaded_ = 0;                          // bytes
   DispatchSize dispatch_size_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/vec.hpp"
 
@@ -14,14 +15,21 @@ struct Query {
   double t_max = 3.0e38;  // only hits nearer than this count
 };
 
+enum class QueryKind {
+  nearest,  // the nearest hit
+  any,  // whether anything opaque, or enough that is not, is hit: t is 0 then, else infinity; no primitive
+};
+
+// Rays that are asked about together.
+struct QueryBatch {
+  std::span<const Query> rays;
+  QueryKind kind = QueryKind::nearest;
+  bool coherent = false;  // whether neighbours go much the same way: it may be faster, and changes no hit
+};
+
 struct QueryHit {
   double t = 0;            // infinity where nothing is hit
   int64_t primitive = -1;  // as Scene counts them; −1 where nothing is hit
-};
-
-enum class QueryKind {
-  nearest,  // the nearest hit
-  any,      // whether anything opaque is hit: t is 0 then, else infinity; no primitive
 };
 
 }  // namespace eyeray

@@ -33,7 +33,7 @@ class StoppingExecutor final : public Executor {
     return true;
   }
   void first_hits(const Rect&, std::span<FirstHit>) override { asked_first_hits = true; }
-  double query(std::span<const Query>, QueryKind, std::span<QueryHit>) override {
+  double query(const QueryBatch&, std::span<QueryHit>) override {
     FAIL("a picture asks for samples");
     return 0;
   }
