@@ -163,11 +163,12 @@ TEST_CASE("a mesh file alone is a scene that frames it") {
     const Override shape{size};
     const Scene other = load_scene(obj, {&shape, 1});
     const CameraFrame frame = camera_frame(other.camera, other.image.width, other.image.height);
-    const double square = std::min(1.0, double(other.image.height) / other.image.width);  // in half widths
+    const double half =
+        std::min(1.0, double(other.image.height) / other.image.width);  // the square's, in half widths
     double most = 0;
     for (const Vec3& p : other.meshes[0].positions) {
       const Vec3 ray = p - other.camera.eye;
-      const double scale = frame.distance / glm::dot(ray, frame.w) / square;
+      const double scale = frame.distance / glm::dot(ray, frame.w) / half;
       REQUIRE(scale > 0);
       most = std::max(most, std::fabs(glm::dot(ray, frame.u)) * scale);
       most = std::max(most, std::fabs(glm::dot(ray, frame.v)) * scale);
