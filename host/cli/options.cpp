@@ -32,7 +32,10 @@ std::pair<int, int> parse_size(const std::string& text) {
 
 void SceneOptions::add_to(CLI::App& command) {
   const std::string group = "Scene";
-  command.add_option("SCENE", file_, "The scene file (docs/scene-file.md), or a mesh: .obj, .ply, .gltf, .glb.")->required()->option_text(" ");
+  command
+      .add_option("SCENE", file_, "The scene file (docs/scene-file.md), or a mesh: .obj, .ply, .gltf, .glb.")
+      ->required()
+      ->option_text(" ");
   const auto add = [&](const char* name, auto& value, const char* text, const char* description) {
     return command.add_option(name, value, description)->option_text(text)->group(group);
   };

@@ -105,7 +105,11 @@ bool ObjMaterials::read(const std::string& name, bool last) {
     return last;
   }
   done_.insert(name);
+  parse(std::move(text));
+  return true;
+}
 
+void ObjMaterials::parse(std::string text) {
   std::map<std::string, int> names;
   std::vector<tinyobj::material_t> sources;
   std::istringstream stream(std::move(text));
@@ -121,7 +125,6 @@ bool ObjMaterials::read(const std::string& name, bool last) {
     materials.back()->name = printable(source.name);
     for (const std::string& what : left_out(source)) warn(what + " were left out");
   }
-  return true;
 }
 
 }  // namespace eyeray

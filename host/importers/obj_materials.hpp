@@ -20,6 +20,8 @@ class ObjMaterials {
   // Reads the .mtl files of an `mtllib` statement, which are parted by spaces or one whose name has some. One
   // that cannot be read, or what of it has no counterpart here, is a warning.
   void load(std::string_view names);
+  // Takes the materials of a .mtl file's text.
+  void parse(std::string text);
   // The index of a material, or −1.
   int find(const std::string& name) const;
 

@@ -14,7 +14,7 @@ namespace eyeray {
 namespace {
 
 // What a property of a vertex is, or none of it.
-enum Slot { x, y, z, nx, ny, nz, u, v, slots, none };
+enum Slot { x, y, z, nx, ny, nz, u, v, none };
 
 constexpr std::pair<std::string_view, Slot> slot_names[] = {
     {"x", x}, {"y", y}, {"z", z}, {"nx", nx},       {"ny", ny},       {"nz", nz},       {"s", u},

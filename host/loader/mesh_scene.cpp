@@ -18,21 +18,33 @@ toml::array list(const Vec3& v) {
   return toml::array{v.x, v.y, v.z};
 }
 
-Bounds world_bounds(const ImportedScene& import) {
-  Bounds world;
+// More vertices than these are looked at by the boxes of their meshes.
+constexpr size_t most_points = 4'000'000;
+
+// Calls visit(p) for points in the world that span all instances.
+template <typename Visit>
+void each_point(const ImportedScene& import, const Visit& visit) {
+  size_t count = 0;
+  for (const Instance& instance : import.instances)
+    count += import.meshes[static_cast<size_t>(instance.mesh)].positions.size();
   for (const Instance& instance : import.instances) {
-    const Bounds mesh = bounds(import.meshes[static_cast<size_t>(instance.mesh)]);
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec4 p(corner & 1 ? mesh.min.x : mesh.max.x, corner & 2 ? mesh.min.y : mesh.max.y,
-                   corner & 4 ? mesh.min.z : mesh.max.z, 1);
-      world.include(Vec3(instance.transform * p));
+    const Mesh& mesh = import.meshes[static_cast<size_t>(instance.mesh)];
+    const auto move = [&](const Vec3& p) { visit(Vec3(instance.transform * Vec4(p, 1))); };
+    if (count <= most_points) {
+      for (const Vec3& position : mesh.positions) move(position);
+    } else {
+      const auto [low, high] = bounds(mesh);
+      for (int corner = 0; corner < 8; ++corner) {
+        move({corner & 1 ? low.x : high.x, corner & 2 ? low.y : high.y, corner & 4 ? low.z : high.z});
+      }
     }
   }
-  return world;
 }
 
-// From where all of the box is seen, and little else, in pictures of any shape.
-Camera framing(const Bounds& box) {
+// From where all is seen, and little else, in pictures of any shape.
+Camera framing(const ImportedScene& import) {
+  Bounds box;
+  each_point(import, [&](const Vec3& p) { box.include(p); });
   Camera camera;
   camera.fov_degrees = fov_degrees;
   camera.fov_axis = FovAxis::shorter;
@@ -41,13 +53,12 @@ Camera framing(const Bounds& box) {
   const Vec3 up = glm::cross(towards_eye, right);
   const double slope = std::tan(glm::radians(fov_degrees / 2)) * (1 - margin);
   double distance = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p = Vec3(corner & 1 ? box.min.x : box.max.x, corner & 2 ? box.min.y : box.max.y,
-                        corner & 4 ? box.min.z : box.max.z) -
-                   camera.target;
-    const double aside = std::max(std::fabs(glm::dot(p, right)), std::fabs(glm::dot(p, up)));
-    distance = std::max(distance, glm::dot(p, towards_eye) + aside / slope);
-  }
+  each_point(import, [&](const Vec3& p) {
+    const Vec3 from_target = p - camera.target;
+    const double aside =
+        std::max(std::fabs(glm::dot(from_target, right)), std::fabs(glm::dot(from_target, up)));
+    distance = std::max(distance, glm::dot(from_target, towards_eye) + aside / slope);
+  });
   camera.eye = camera.target + towards_eye * distance;
   return camera;
 }
@@ -91,7 +102,7 @@ Light key_light(const Camera& camera) {
 }  // namespace
 
 toml::table mesh_scene(const std::filesystem::path& file, const ImportedScene& import) {
-  const Camera camera = import.camera ? *import.camera : framing(world_bounds(import));
+  const Camera camera = import.camera ? *import.camera : framing(import);
   toml::array lights;
   for (const Light& light : import.lights) lights.push_back(table(light));
   if (lights.empty()) lights.push_back(table(key_light(camera)));

@@ -1,5 +1,5 @@
-// What a fuzzer asks of a mesh file's bytes: MESH_NAME says by its ending what they are. They are refused, or what
-// is made of them keeps every promise.
+// What a fuzzer asks of a mesh file's bytes: MESH_NAME says by its ending what they are. They are refused, or
+// what is made of them keeps every promise.
 #include <cstdio>
 #include <cstdlib>
 

@@ -11,7 +11,7 @@ namespace {
 // The square with a material.
 GltfFile with_material(const Json& material) {
   GltfFile file = square_file();
-  file.json["materials"] = {material};
+  file.json["materials"] = Json::array({material});
   file.primitive()["material"] = 0;
   return file;
 }
@@ -133,10 +133,10 @@ TEST_CASE("what is left out is named, once each") {
                                  {"occlusionTexture", {{"index", 0}}}});
   file.json["materials"].push_back(file.json["materials"][0]);
   file.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_ior"};
-  file.json["animations"] = {Json::object()};
-  file.json["skins"] = {Json::object()};
+  file.json["animations"] = Json::array({Json::object()});
+  file.json["skins"] = Json::array({Json::object()});
   file.primitive()["attributes"]["COLOR_0"] = 0;
-  file.primitive()["targets"] = {Json::object()};
+  file.primitive()["targets"] = Json::array({Json::object()});
   Json points = file.primitive();
   points["mode"] = 0;
   file.json["meshes"][0]["primitives"].push_back(points);

@@ -59,7 +59,8 @@ TEST_CASE("lists, strips and fans, with and without indices") {
   } cases[] = {{4, zigzag, {0, 1, 2, 2, 1, 3}}, {4, soup, {}},
                {5, zigzag, {0, 1, 2, 3}},       {5, zigzag, {}},
                {6, zigzag, {0, 1, 3, 2}},       {6, square_positions, {}}};
-  for (const auto& [mode, positions, indices] : cases) {
+  for (const auto& [number, positions, indices] : cases) {
+    const int mode = number;
     CAPTURE(mode);
     GltfFile file;
     file.add_positions(positions);

@@ -55,7 +55,9 @@ bool survives(const std::string& bytes, const std::string& name) {
 }  // namespace
 
 TEST_CASE("files cut short at every byte") {
-  for (const auto& [name, bytes] : seeds()) {
+  for (const Seed& seed : seeds()) {
+    const auto& name = seed.name;
+    const auto& bytes = seed.bytes;
     CAPTURE(name);
     CHECK(survives(bytes, name));
     size_t read = 0;
@@ -91,12 +93,13 @@ TEST_CASE("files with random damage") {
                                          "\\\n",
                                          ",",
                                          "9999999999999999999"};
-  for (const auto& [name, seed] : seeds()) {
+  for (const Seed& seed : seeds()) {
+    const auto& name = seed.name;
     CAPTURE(name);
     size_t read = 0;
     constexpr size_t rounds = 4000;
     for (size_t round = 0; round < rounds; ++round) {
-      std::string bytes = seed;
+      std::string bytes = seed.bytes;
       for (size_t change = 0, changes = 1 + below(4); change < changes; ++change) {
         const size_t at = below(bytes.size());
         const size_t length = std::min(1 + below(8), bytes.size() - at);

@@ -33,8 +33,10 @@ std::string ascii(const std::string& vertices, const std::string& faces) {
 }  // namespace
 
 TEST_CASE("every type of coordinate, of index and of a list's length, in every order of bytes") {
-  for (const auto& [format, order] : {std::pair("binary_little_endian", std::endian::little),
-                                      std::pair("binary_big_endian", std::endian::big)}) {
+  for (const auto& pair : {std::pair("binary_little_endian", std::endian::little),
+                           std::pair("binary_big_endian", std::endian::big)}) {
+    const char* const format = pair.first;
+    const std::endian order = pair.second;
     for (const std::string coordinate : types) {
       for (const std::string index : types) {
         for (const std::string length : types) {

@@ -1,0 +1,21 @@
+// What a fuzzer asks of a .mtl file's text: whatever it says, the materials' values are in range.
+#include <cmath>
+#include <cstdlib>
+
+#include "importers/obj_materials.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  eyeray::AssetFiles none;
+  eyeray::ObjMaterials materials(none);
+  materials.parse({reinterpret_cast<const char*>(data), size});
+  for (const auto& material : materials.materials) {
+    const eyeray::Scattering s = material->scattering({{0, 0}, 1, 1, 1});
+    for (const eyeray::Vec3& share : {s.diffuse, s.specular, s.reflected, s.transmitted})
+      for (int i = 0; i < 3; ++i)
+        if (!(share[i] >= 0 && share[i] <= 1)) std::abort();
+    if (!(s.shininess >= 1 && s.shininess <= 10000)) std::abort();
+    if (const auto medium = material->medium(); medium && !(medium->ior >= 1 && medium->ior <= 4))
+      std::abort();
+  }
+  return 0;
+}
