@@ -30,10 +30,10 @@ struct Inventory {
   size_t bytes = 0;           // on the device, pixels not counted
 };
 
-template <typename Types, typename Records>
-Counts count_kinds(const Types& types, const Records& records) {
+template <typename Types>
+Counts count_kinds(const Types& types, const std::vector<uint32_t>& kinds) {
   std::vector<size_t> count(types.size());
-  for (const auto& record : records) ++count.at(record.head.x);
+  for (const uint32_t kind : kinds) ++count.at(kind);
   Counts counts;
   for (size_t kind = 0; kind < types.size(); ++kind) {
     if (count[kind] > 0) counts.emplace_back(types[kind]->name, count[kind]);
@@ -49,8 +49,16 @@ size_t bytes(const std::vector<Record>& records) {
 Inventory take_inventory(const Scene& scene) {
   const PackedScene packed = pack(scene);
   Inventory inventory;
-  inventory.shapes = count_kinds(shape_types(), packed.primitives);
-  inventory.materials = count_kinds(material_types(), packed.materials);
+  std::vector<uint32_t> kinds;
+  for (uint32_t slot = 0; slot < packed.kind_first.back(); ++slot) {
+    // Of the world's own, the first are the shapes, and the others the triangles of meshes.
+    if (packed.primitives[slot].head.x < scene.shapes.size())
+      kinds.push_back(kind_of(packed.primitives[slot]));
+  }
+  inventory.shapes = count_kinds(shape_types(), kinds);
+  kinds.clear();
+  for (const shader::Material& material : packed.materials) kinds.push_back(material.head.x);
+  inventory.materials = count_kinds(material_types(), kinds);
   const auto points = size_t(std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
     return light.type == LightType::point;
   }));
@@ -58,7 +66,8 @@ Inventory take_inventory(const Scene& scene) {
   if (points < scene.lights.size())
     inventory.lights.emplace_back("directional", scene.lights.size() - points);
   for (const Mesh& mesh : scene.meshes) inventory.mesh_triangles += mesh.triangles.size();
-  inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.materials) +
+  inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.nodes) +
+                    bytes(packed.trees) + bytes(packed.instances) + bytes(packed.materials) +
                     bytes(packed.textures) + bytes(packed.texels) + bytes(packed.media) +
                     bytes(packed.lights) + sizeof(packed.frame);
   return inventory;

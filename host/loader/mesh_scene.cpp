@@ -88,15 +88,17 @@ toml::table table(const Light& light) {
   return table;
 }
 
-// Over the left shoulder of whoever looks.
-Light key_light(const Camera& camera) {
+// The two lights of a studio: a key light over the left shoulder of whoever looks, and a weak one from the
+// right that gives the shadows form.
+std::vector<Light> studio_lights(const Camera& camera) {
   const Vec3 back = unit(camera.eye - camera.target);
   const Vec3 right = unit(glm::cross(camera.up, back));
-  Light light;
-  light.type = LightType::directional;
-  light.to_light = unit(0.75 * back - 0.6 * right + 0.8 * glm::cross(back, right));
-  light.intensity = Vec3(0.85);
-  return light;
+  const auto light = [&](double along_back, double along_right, double upward, double intensity) {
+    return Light{.type = LightType::directional,
+                 .to_light = unit(along_back * back + along_right * right + upward * glm::cross(back, right)),
+                 .intensity = Vec3(intensity)};
+  };
+  return {light(0.75, -0.6, 0.8, 0.8), light(0.7, 1.0, 0.25, 0.28)};
 }
 
 }  // namespace
@@ -104,12 +106,12 @@ Light key_light(const Camera& camera) {
 toml::table mesh_scene(const std::filesystem::path& file, const ImportedScene& import) {
   const Camera camera = import.camera ? *import.camera : framing(import);
   toml::array lights;
-  for (const Light& light : import.lights) lights.push_back(table(light));
-  if (lights.empty()) lights.push_back(table(key_light(camera)));
+  for (const Light& light : import.lights.empty() ? studio_lights(camera) : import.lights)
+    lights.push_back(table(light));
 
   toml::table root;
   root.insert("camera", table(camera));
-  root.insert("render", toml::table{{"background", toml::array{0.34, 0.41, 0.5}}, {"ambient", 0.25}});
+  root.insert("render", toml::table{{"background", toml::array{0.34, 0.41, 0.5}}, {"ambient", 0.14}});
   root.insert("light", std::move(lights));
   root.insert("mesh", toml::array{toml::table{{"file", file.filename().string()}}});
   return root;

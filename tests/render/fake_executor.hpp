@@ -32,6 +32,7 @@ class FakeExecutor final : public Executor {
     }
     return true;
   }
+  double query(const QueryBatch&, std::span<QueryHit>) override { return 0; }
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     for (size_t i = 0; i < out.size(); ++i) {
       out[i].t = tile.x + double(i % size_t(tile.width));
