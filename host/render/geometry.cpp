@@ -102,7 +102,7 @@ class GeometryPacker {
   };
 
   void check_counts() const {
-    if (scene_.primitive_count() >= NONE)
+    if (scene_.primitive_count() > uint64_t{std::numeric_limits<int32_t>::max()})
       throw Error(ExitCode::bad_input, "the scene has {} primitives; ids go up to {}",
                   scene_.primitive_count(), NONE - 1);
     if (scene_.materials.size() > MOST_MATERIALS)

@@ -155,7 +155,7 @@ TEST_CASE("a mesh file alone is a scene that frames it") {
   const Scene scene = load_scene(obj);
   CHECK(scene.file == obj);
   CHECK(scene.files == std::vector<fs::path>{obj});
-  CHECK(scene.lights.size() == 1);
+  CHECK(scene.lights.size() == 2);
   CHECK(scene.render.ambient.x > 0);
 
   // Every vertex is in the square in the picture's middle, and one is near its edge, whatever its shape.
