@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -104,7 +105,7 @@ class GeometryPacker {
   void check_counts() const {
     if (scene_.primitive_count() > uint64_t{std::numeric_limits<int32_t>::max()})
       throw Error(ExitCode::bad_input, "the scene has {} primitives; ids go up to {}",
-                  scene_.primitive_count(), NONE - 1);
+                  scene_.primitive_count(), std::numeric_limits<int32_t>::max());
     if (scene_.materials.size() > MOST_MATERIALS)
       throw Error(ExitCode::bad_input, "the scene has {} materials; at most {} are possible",
                   scene_.materials.size(), MOST_MATERIALS);
