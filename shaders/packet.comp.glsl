@@ -1,8 +1,8 @@
 // Entry: rays that run side by side, PACKET at a time. All lanes of a subgroup walk the tree together, each with several rays: a node is
 // loaded once for all, a word a lane, and so is the stack kept, an entry a lane. What a ray hits is what `search` finds
 // (traverse.glsl), since neither asks in which order.
-//   PACKET_PRIMARY   rays of a tile's pixels → PacketHit
-//   PACKET_SHADOW    from what those hit to light dispatch.sample_index.y → occlusion
+//   PACKET_PRIMARY   the rays of a tile's pixels → PacketHit
+//   PACKET_SHADOW    from what those hit to every light → occlusion
 //   otherwise rays from a buffer → QueryHit, with QUERY_ANY whether there is one
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -187,76 +187,93 @@ bool walk_together(uint lane) {
   return at == TREE_DONE;
 }
 
-#if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
-// The sample's ray through a pixel of the tile.
-Ray eye_ray(uvec2 pixel) {
-  return camera_ray(frame, sample_place(frame, dispatch.tile.x + pixel.x, dispatch.tile.y + pixel.y, dispatch.sample_index.x));
-}
-#endif
-
-// Ray i of a packet, and where its result goes.
-struct PacketRay {
-  Ray ray;
-  float t_max;  // −1: it meets nothing
-  uint place;   // NONE: nowhere
-};
-
-PacketRay packet_ray(uint packet, uint i) {
-  PacketRay result;
-#if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
+// Where the result of ray i of a packet goes; NONE where there is no such ray.
+uint place_of(uint packet, uint i) {
   uint j = packet * uint(PACKET) + i;
+#if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
   uvec2 pixel = pixel_of_block(j / 64u, j % 64u, dispatch.tile);
   bool there = pixel.x < dispatch.tile.z && pixel.y < dispatch.tile.w;
-  result.ray = eye_ray(there ? pixel : uvec2(0u, 0u));
-  result.place = there ? pixel.y * dispatch.tile.z + pixel.x : NONE;
-  result.t_max = there ? T_MISS : -1.0f;
-#ifdef PACKET_SHADOW
-  uvec4 counts = uvec4(0u, 0u, 0u, 0u);
-  Hit hit = hit_of_packet(hits[there ? result.place : 0u], counts);
-  bool struck = there && hit.slot != NONE;
-  hit.slot = struck ? hit.slot : 0u;
-  Surface surface = surface_at(primitive_at(hit), result.ray, hit);
-  Surface seen = face_viewer(surface, dot3(result.ray.d, surface.normal_geometric) < 0.0f);
-  LightSample light = sample_light(load_light(dispatch.sample_index.y), seen.p);
-  bool lit = dot3(seen.normal, light.direction) > 0.0f && dot3(seen.normal_geometric, light.direction) > 0.0f;
-  // A ray for which nothing is asked for must still be one.
-  if (struck && lit) result.ray = leave(seen, light.direction);
-  result.t_max = struck && lit ? light.distance : -1.0f;
-#endif
+  return there ? pixel.y * dispatch.tile.z + pixel.x : NONE;
 #else
-  uint place = packet * uint(PACKET) + i;
-  bool there = place < dispatch.tile.x;
-  QueryRay asked = rays[there ? place : 0u];
-  result.ray = make_ray(vec3(asked.origin), vec3(asked.direction));
-  result.place = there ? place : NONE;
-  result.t_max = there ? minimum(asked.direction.w, T_MISS) : -1.0f;
+  return j < dispatch.tile.x ? j : NONE;
 #endif
-  return result;
 }
+
+#if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
+// The sample's ray through the pixel at `place` of the tile.
+Ray eye_ray(uint place) {
+  uint x = dispatch.tile.x + place % dispatch.tile.z;
+  uint y = dispatch.tile.y + place / dispatch.tile.z;
+  return camera_ray(frame, sample_place(frame, x, y, dispatch.sample_index.x));
+}
+#endif
+
+#ifdef PACKET_SHADOW
+// The surface that the eye ray at `place` hits, as its viewer sees it; struck: whether there is one.
+Surface seen_at(uint place, OUT(bool) struck) {
+  uvec4 counts = uvec4(0u, 0u, 0u, 0u);
+  uint there = place == NONE ? 0u : place;
+  Hit hit = hit_of_packet(hits[there], counts);
+  struck = place != NONE && hit.slot != NONE;
+  hit.slot = struck ? hit.slot : 0u;
+  Ray ray = eye_ray(there);
+  Surface surface = surface_at(primitive_at(hit), ray, hit);
+  return face_viewer(surface, dot3(ray.d, surface.normal_geometric) < 0.0f);
+}
+#endif
 
 void main() {
   uint group = dealt_out(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE);
   uint packet = group * (64u / LANES) + gl_SubgroupID;
   uint lane = gl_SubgroupInvocationID;
   uint place[RAYS_A_LANE];
+  EACH place[k] = place_of(packet, uint(k) * LANES + lane);
+
+#ifdef PACKET_SHADOW
+  Surface seen[RAYS_A_LANE];
+  bool struck[RAYS_A_LANE];
+  EACH seen[k] = seen_at(place[k], struck[k]);
+  uint light = 0u;
+  do {
+    // A ray for which nothing is asked meets nothing, but must be one.
+    EACH {
+      LightSample to = sample_light(load_light(light), seen[k].p);
+      bool lit = struck[k] && dot3(seen[k].normal, to.direction) > 0.0f &&
+                 dot3(seen[k].normal_geometric, to.direction) > 0.0f;
+      ray[k] = lit ? leave(seen[k], to.direction) : make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
+      found[k] = nothing_found(lit ? to.distance : -1.0f);
+      meet_loose(found[k], ray[k], true);
+    }
+    bool whole = walk_together(lane);
+    EACH {
+      if (place[k] != NONE) {
+        occlusions[light * dispatch.sample_index.z + place[k]] = found[k].occluded;
+        if (!whole) hits[place[k]].hit.w = hits[place[k]].hit.w | FLAG_LOOP_BUDGET;
+      }
+    }
+    light += 1u;
+  } while (light < LIGHT_COUNT);
+#else
   EACH {
-    PacketRay asked = packet_ray(packet, uint(k) * LANES + lane);
-    ray[k] = asked.ray;
-    place[k] = asked.place;
-    found[k] = nothing_found(asked.t_max);
+#ifdef PACKET_PRIMARY
+    ray[k] = eye_ray(place[k] == NONE ? 0u : place[k]);
+    found[k] = nothing_found(place[k] == NONE ? -1.0f : T_MISS);
+#else
+    QueryRay asked = rays[place[k] == NONE ? 0u : place[k]];
+    ray[k] = make_ray(vec3(asked.origin), vec3(asked.direction));
+    found[k] = nothing_found(place[k] == NONE ? -1.0f : minimum(asked.direction.w, T_MISS));
+#endif
     meet_loose(found[k], ray[k], ANY);
   }
   uint flags = walk_together(lane) ? 0u : FLAG_LOOP_BUDGET;
   EACH {
     if (place[k] != NONE) {
-#if defined(PACKET_PRIMARY)
+#ifdef PACKET_PRIMARY
       hits[place[k]] = packet_of_hit(found[k].hit, flags);
-#elif defined(PACKET_SHADOW)
-      occlusions[dispatch.sample_index.y * dispatch.sample_index.z + place[k]] = found[k].occluded;
-      if (flags != 0u) hits[place[k]].hit.w = hits[place[k]].hit.w | flags;
 #else
       results[place[k]] = answer(found[k], ANY, flags);
 #endif
     }
   }
+#endif
 }

@@ -22,6 +22,9 @@ SHADER_BEGIN
 #define BINDING_INSTANCES 11
 #define BINDING_PACKET_HITS 12
 #define BINDING_OCCLUSIONS 13
+#define BINDING_PATHS 15
+#define BINDING_LIST 16
+#define BINDING_NEXT_LIST 17
 #define BINDING_TEXELS 14
 
 #define NONE 0xffffffffu
@@ -167,12 +170,14 @@ struct Frame {
 #define PATTERN_REGULAR 0u
 #define PATTERN_JITTERED 1u
 
-// ---- Push constants: what changes from dispatch to dispatch, 32 bytes -----------------------------------------------
+// ---- Push constants: what changes from dispatch to dispatch, 48 bytes -----------------------------------------------
 //   0 tile x  4 tile y  8 tile width  12 tile height
-//  16 sample  20 light   24 pixels of the tile    28 -
+//  16 sample  20 -       24 pixels of the tile    28 -
+//  32 depth of a wave: the reflections before it    36 -    40 -    44 -
 struct Dispatch {
   uvec4 tile;
   uvec4 sample_index;
+  uvec4 wave;
 };
 
 // ---- Results --------------------------------------------------------------------------------------------------------
@@ -209,6 +214,13 @@ struct PacketHit {
   uvec4 uv;
 };
 
+// Where a pixel's path goes on, 48 bytes: origin.xyz; direction.xyz; weight.rgb.
+struct PathState {
+  vec4 origin;
+  vec4 direction;
+  vec4 weight;
+};
+
 // Bits of SampleResult.counts.z; core/pixel.hpp names them for the host.
 #define FLAG_MEDIA_OVERFLOW 1u
 #define FLAG_STACK_OVERFLOW 2u
@@ -225,11 +237,12 @@ static_assert(sizeof(eyeray::shader::Medium) == 16);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);
 static_assert(sizeof(eyeray::shader::Frame) == 128);
-static_assert(sizeof(eyeray::shader::Dispatch) == 32);
+static_assert(sizeof(eyeray::shader::Dispatch) == 48);
 static_assert(sizeof(eyeray::shader::SampleResult) == 32);
 static_assert(sizeof(eyeray::shader::HitResult) == 64);
 static_assert(sizeof(eyeray::shader::QueryRay) == 32);
 static_assert(sizeof(eyeray::shader::QueryHit) == 16);
 static_assert(sizeof(eyeray::shader::PacketHit) == 32);
+static_assert(sizeof(eyeray::shader::PathState) == 48);
 #endif
 #endif

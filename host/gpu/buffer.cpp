@@ -91,13 +91,14 @@ void Buffer::upload(std::span<const std::byte> bytes, size_t offset) {
   copy_to_device(guard_ + offset, bytes.size());
 }
 
-void Buffer::clear() {
+void Buffer::clear(size_t bytes) {
+  CHECK_LE(bytes, bytes_);
   if (raw_->mapped()) {
-    std::memset(raw_->mapped() + guard_, 0, bytes_);
+    std::memset(raw_->mapped() + guard_, 0, bytes);
     return;
   }
   context_->begin();
-  vkCmdFillBuffer(context_->commands, raw_->handle(), guard_, bytes_, 0);
+  vkCmdFillBuffer(context_->commands, raw_->handle(), guard_, bytes, 0);
   transfer_then_shaders(context_->commands);
   context_->submit_and_wait("clear a buffer");
 }

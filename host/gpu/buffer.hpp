@@ -31,8 +31,9 @@ class Buffer {
 
   // Copies `bytes` to the start of the buffer, or to `offset` (a multiple of 4, as bytes.size() must be).
   void upload(std::span<const std::byte> bytes, size_t offset = 0);
-  // Makes every byte 0.
-  void clear();
+  // Makes every byte 0, or the first `bytes` (a multiple of 4).
+  void clear() { clear(bytes_); }
+  void clear(size_t bytes);
   // The first `bytes` bytes, valid until the next read or dispatch. Error (no_device) when a guard was
   // overwritten: a shader wrote outside its buffers.
   std::span<const std::byte> read(size_t bytes);

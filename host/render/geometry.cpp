@@ -196,7 +196,8 @@ class GeometryPacker {
   }
 
   bool has_bounded(size_t least) const {
-    return packed_.instances.size() + size_t(std::count_if(boxes_.begin(), boxes_.end(), is_bounded)) >= least;
+    return packed_.instances.size() + size_t(std::count_if(boxes_.begin(), boxes_.end(), is_bounded)) >=
+           least;
   }
 
   accel::TreeOptions tree_options(std::span<const shader::Primitive> primitives) const {

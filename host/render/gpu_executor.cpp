@@ -17,6 +17,7 @@
 #include "render/samples.hpp"
 #include "render/shader_files.hpp"
 #include "render/specialise.hpp"
+#include "render/waves.hpp"
 
 namespace eyeray {
 namespace {
@@ -58,27 +59,29 @@ class GpuExecutor final : public Executor {
     fault_.damage(packed);
     specialise_for(packed);
     times_.measure("upload", [&] { upload(packed); });
-    sample_kernel_ = make_kernel("render.comp.glsl", packets_ ? "#define STORED_HITS 1\n" : "");
-    if (packets_) {
-      primary_kernel_ = make_kernel("packet.comp.glsl", "#define PACKET_PRIMARY\n");
-      if (scene.render.integrator == IntegratorType::whitted && !scene.lights.empty())
-        shadow_kernel_ = make_kernel("packet.comp.glsl", "#define PACKET_SHADOW\n");
-    }
+    if (packets_)
+      make_waves(scene, packed);
+    else
+      sample_kernel_ = make_kernel("render.comp.glsl", "");
     check_validation();
   }
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
-    return dispatch_rows<shader::SampleResult>(*sample_kernel_, packets_, tile, index,
-                                               [&](size_t first, auto results) {
-                                                 for (size_t i = 0; i < results.size(); ++i)
-                                                   out[first + i] = to_sample(results[i]);
-                                                 fault_.damage(out.subspan(first, results.size()));
-                                               });
+    const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
+      return waves_ ? waves_->run(push, output) : dispatch(*sample_kernel_, push, output);
+    };
+    return for_bands<shader::SampleResult>(tile, index, trace, [&](size_t first, auto results) {
+      for (size_t i = 0; i < results.size(); ++i) out[first + i] = to_sample(results[i]);
+      fault_.damage(out.subspan(first, results.size()));
+    });
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     if (!hit_kernel_) hit_kernel_ = make_kernel("render.comp.glsl", "#define FIRST_HITS\n");
-    dispatch_rows<shader::HitResult>(*hit_kernel_, false, tile, 0, [&](size_t first, auto results) {
+    const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
+      return dispatch(*hit_kernel_, push, output);
+    };
+    for_bands<shader::HitResult>(tile, 0, trace, [&](size_t first, auto results) {
       for (size_t i = 0; i < results.size(); ++i) out[first + i] = to_first_hit(results[i], eye_);
     });
   }
@@ -89,7 +92,8 @@ class GpuExecutor final : public Executor {
     const bool together = packets_ && (batch.coherent || few_primitives_);
     std::unique_ptr<gpu::Kernel>& kernel = query_kernels_[any][together];
     if (!kernel)
-      kernel = make_kernel(together ? "packet.comp.glsl" : "query.comp.glsl", any ? "#define QUERY_ANY\n" : "");
+      kernel =
+          make_kernel(together ? "packet.comp.glsl" : "query.comp.glsl", any ? "#define QUERY_ANY\n" : "");
     double seconds = 0;
     for (size_t first = 0; first < batch.rays.size(); first += most_pixels) {
       const size_t count = std::min(batch.rays.size() - first, size_t{most_pixels});
@@ -127,7 +131,6 @@ class GpuExecutor final : public Executor {
     packets_ = profile_.packets && packed.has_tree && packed.instances.empty() &&
                (lanes == 4 || lanes == 8 || lanes == 16);
     specialisation.subgroup_size = lanes;
-    lights_ = uint32_t(packed.lights.size());
     few_primitives_ = packed.primitives.size() <= 1 << 14;
     if (facts_.loop_cap) {
       // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer
@@ -201,28 +204,23 @@ class GpuExecutor final : public Executor {
     return kernel;
   }
 
-  // Renders `tile` in bands of rows; take(first, results) gets each band's results and the index of its first
-  // pixel. Returns false when interrupted.
-  template <typename Result, typename Take>
-  bool dispatch_rows(gpu::Kernel& kernel, bool stored_hits, const Rect& tile, uint32_t index,
-                     const Take& take) {
+  // Calls trace(push, output) for `tile` in bands of rows, and take(first, results) with each band's results
+  // and the index of its first pixel. Returns false when interrupted.
+  template <typename Result, typename Trace, typename Take>
+  bool for_bands(const Rect& tile, uint32_t index, const Trace& trace, const Take& take) {
     for (int row = 0; row < tile.height;) {
       if (interrupted()) return false;
       const int height = std::min(dispatch_size_.rows(tile.width), tile.height - row);
       const size_t pixels = size_t(height) * size_t(tile.width);
       gpu::Buffer& output = output_for(pixels * sizeof(Result));
-      kernel.set_buffer(BINDING_OUTPUT, output);
-
       shader::Dispatch push{};
       push.tile = {uint32_t(tile.x) + fault_.shift(), uint32_t(tile.y + row), uint32_t(tile.width),
                    uint32_t(height)};
       push.sample_index = {index, 0u, uint32_t(pixels), 0u};
-      gpu::CommandList commands(device_);
-      if (stored_hits) trace_packets(commands, kernel, push);
-      commands.dispatch(kernel, std::as_bytes(std::span(&push, 1)), {whole_strides(blocks_of(push)), 1, 1});
-      const gpu::RunTime time = commands.run();
-      times_.add("dispatch", time.seconds);
-      dispatch_size_.took(int64_t(pixels), time.seconds);
+      const std::optional<double> seconds = trace(push, output);
+      if (!seconds) return false;
+      times_.add("dispatch", *seconds);
+      dispatch_size_.took(int64_t(pixels), *seconds);
 
       times_.measure("read-back", [&] {
         const std::byte* bytes = output.read(pixels * sizeof(Result)).data();
@@ -234,9 +232,35 @@ class GpuExecutor final : public Executor {
     return true;
   }
 
-  double query_some(gpu::Kernel& kernel, bool together, std::span<const Query> rays, std::span<QueryHit> hits) {
+  // render.comp.glsl for a whole tile.
+  std::optional<double> dispatch(gpu::Kernel& kernel, const shader::Dispatch& push, gpu::Buffer& output) {
+    kernel.set_buffer(BINDING_OUTPUT, output);
+    const uint32_t blocks = (push.tile.z + 7) / 8 * ((push.tile.w + 7) / 8);
+    return gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)), {whole_strides(blocks), 1, 1})
+        .seconds;
+  }
+
+  // Where no ray splits in two, a path is one ray after the other, and every step of it a wave.
+  void make_waves(const Scene& scene, const PackedScene& packed) {
+    const bool whitted = scene.render.integrator == IntegratorType::whitted;
+    WaveOptions options;
+    options.lights = uint32_t(packed.lights.size());
+    options.shadows = whitted && options.lights > 0;
+    options.paths = whitted && packed.media.size() == 1;
+    options.depth = any_reflects(packed) ? packed.frame.camera.w : 0;
+    options.stride = group_stride_;
+    options.subgroup = device_.info().limits.subgroup_size;
+    waves_.emplace(
+        device_,
+        [&](const std::string& entry, const std::string& defines) { return make_kernel(entry, defines); },
+        options);
+  }
+
+  double query_some(gpu::Kernel& kernel, bool together, std::span<const Query> rays,
+                    std::span<QueryHit> hits) {
     std::vector<shader::QueryRay> asked(rays.size());
-    std::transform(rays.begin(), rays.end(), asked.begin(), [&](const Query& ray) { return to_query_ray(ray, eye_); });
+    std::transform(rays.begin(), rays.end(), asked.begin(),
+                   [&](const Query& ray) { return to_query_ray(ray, eye_); });
     gpu::Buffer input(device_, asked.size() * sizeof(shader::QueryRay), "rays");
     input.upload_records(asked);
     gpu::Buffer& output = output_for(asked.size() * sizeof(shader::QueryHit));
@@ -270,31 +294,6 @@ class GpuExecutor final : public Executor {
     return whole_strides((rays + a_group - 1) / a_group);
   }
 
-  // Blocks of 8 × 8 pixels.
-  static uint32_t blocks_of(const shader::Dispatch& push) {
-    return (push.tile.z + 7) / 8 * ((push.tile.w + 7) / 8);
-  }
-
-  // What the eye rays of a tile hit, and how much of each light is lost there, for `kernel` to start from.
-  void trace_packets(gpu::CommandList& commands, gpu::Kernel& kernel, shader::Dispatch push) {
-    const size_t pixels = push.sample_index.z;
-    if (!packet_hits_ || packet_hits_->size() < pixels * sizeof(shader::PacketHit)) {
-      packet_hits_.emplace(device_, pixels * sizeof(shader::PacketHit), "packet hits");
-      occlusions_.emplace(device_, pixels * sizeof(uint32_t) * std::max(lights_, 1u), "occlusions");
-    }
-    const auto add = [&](gpu::Kernel& packets) {
-      packets.set_buffer(BINDING_PACKET_HITS, *packet_hits_);
-      packets.set_buffer(BINDING_OCCLUSIONS, *occlusions_);
-      commands.dispatch(packets, std::as_bytes(std::span(&push, 1)),
-                        {packet_groups(blocks_of(push) * 64), 1, 1});
-      commands.barrier();
-    };
-    add(*primary_kernel_);
-    for (; shadow_kernel_ && push.sample_index.y < lights_; ++push.sample_index.y) add(*shadow_kernel_);
-    kernel.set_buffer(BINDING_PACKET_HITS, *packet_hits_);
-    kernel.set_buffer(BINDING_OCCLUSIONS, *occlusions_);
-  }
-
   gpu::Buffer& output_for(size_t bytes) {
     if (!output_ || output_->size() < bytes) output_.emplace(device_, bytes, "results");
     return *output_;
@@ -317,19 +316,16 @@ class GpuExecutor final : public Executor {
   gpu::DeviceFacts facts_;
   ShaderFiles shaders_;
   uint32_t group_stride_ = 1;
-  bool packets_ = false;  // whether packet.comp.glsl is used
+  bool packets_ = false;         // whether packet.comp.glsl is used
   bool few_primitives_ = false;  // so few that packets pay even for rays that part
   uint64_t geometry_bytes_ = 0;
-  uint32_t lights_ = 0;
   std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
   std::optional<gpu::Buffer> output_;
   std::unique_ptr<gpu::Kernel> sample_kernel_;
   std::unique_ptr<gpu::Kernel> hit_kernel_;
-  std::unique_ptr<gpu::Kernel> primary_kernel_;
-  std::unique_ptr<gpu::Kernel> shadow_kernel_;
-  std::optional<gpu::Buffer> packet_hits_;
-  std::optional<gpu::Buffer> occlusions_;
-  std::unique_ptr<gpu::Kernel> query_kernels_[2][2];  // by whether any hit will do, and whether traced together
+  std::optional<Waves> waves_;  // in place of sample_kernel_, where packets are traced
+  std::unique_ptr<gpu::Kernel> query_kernels_[2]
+                                             [2];  // by whether any hit will do, and whether traced together
   uint64_t uploaded_ = 0;                          // bytes
   DispatchSize dispatch_size_;
 };

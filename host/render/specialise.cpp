@@ -100,15 +100,6 @@ bool is_small(const PackedScene& scene) {
              most_records;
 }
 
-// Whether any material may send rays on.
-bool any_reflects(const PackedScene& scene) {
-  return scene.media.size() > 1 ||
-         std::any_of(scene.materials.begin(), scene.materials.end(), [&](const shader::Material& material) {
-           const shader::Texture& reflected = scene.textures[material.textures.z];
-           return reflected.even != shader::vec4(0, 0, 0, TEXTURE_CONSTANT);
-         });
-}
-
 // The kinds of shape that the trees hold.
 std::set<uint32_t> tree_kinds(const PackedScene& scene) {
   std::set<uint32_t> kinds;
@@ -119,6 +110,14 @@ std::set<uint32_t> tree_kinds(const PackedScene& scene) {
 }
 
 }  // namespace
+
+bool any_reflects(const PackedScene& scene) {
+  return scene.media.size() > 1 ||
+         std::any_of(scene.materials.begin(), scene.materials.end(), [&](const shader::Material& material) {
+           const shader::Texture& reflected = scene.textures[material.textures.z];
+           return reflected.even != shader::vec4(0, 0, 0, TEXTURE_CONSTANT);
+         });
+}
 
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
   std::set<uint32_t> shapes_used;

@@ -17,6 +17,9 @@ struct Specialisation {
   uint32_t group_stride = 1;   // render.comp.glsl: runs of workgroups
 };
 
+// Whether any material may send rays on.
+bool any_reflects(const PackedScene& scene);
+
 std::string specialise(const PackedScene& scene, const Specialisation& options);
 
 }  // namespace eyeray

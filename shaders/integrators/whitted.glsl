@@ -29,7 +29,7 @@ vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface
       counts.x += 1u;
 #if STORED_HITS
       uint occluded = load_occlusion(i);
-#if HAS_SECONDARY
+#if HAS_SECONDARY && !WAVES
       if (depth > 0u) occluded = occlusion(leave(seen, light.direction), light.distance, counts);
 #endif
 #else
@@ -49,18 +49,99 @@ vec3 refracted(vec3 d, vec3 n, float cos_view, float eta) {
   return normalize3(d * eta + n * (eta * cos_view - sqrt(maximum(cos_squared, 0.0f))));
 }
 
-vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
-#if WHITTED_STACK > 0
-  PathRay stack[WHITTED_STACK];
-  uint pending = 0u;
+// What a path comes to where it strikes something: the children that go on from there.
+struct Children {
+  PathRay reflected;
+  PathRay transmitted;
+  bool reflects;
+  bool transmits;
+};
+
+// Adds what `path`, traced to `hit`, sees there, and finds its children.
+Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, INOUT(uvec4) counts) {
+  Children children;
+  children.reflected = path;
+  children.transmitted = path;
+  children.reflects = false;
+  children.transmits = false;
+  bool struck = hit.slot != NONE;
+  counts.x += 1u;
+  counts.y += struck ? 1u : 0u;
+  counts.w += TRACE_ITERATIONS + 1u;
+  if (!struck) {
+    color = color + path.weight * vec3(frame.background);
+  } else {
+    // Weaken by the medium that the ray came through.
+    Primitive primitive = primitive_at(hit);
+    Material material = load_material(material_of(primitive));
+    vec3 weight = path.weight;
+#if HAS_MEDIA
+    Medium from = load_medium(innermost_medium(path.media));
+    weight = weight * vec3(exp_negative(-from.absorption_ior.x * hit.t), exp_negative(-from.absorption_ior.y * hit.t),
+                           exp_negative(-from.absorption_ior.z * hit.t));
 #endif
-  vec3 color = vec3(0.0f, 0.0f, 0.0f);
+
+    // Find the surface as the viewer sees it, and the medium behind it.
+    Surface surface = surface_at(primitive, ray, hit);
+    bool front = dot3(ray.d, surface.normal_geometric) < 0.0f;
+    Surface seen = face_viewer(surface, front);
+    float cos_view = minimum(maximum(-dot3(ray.d, seen.normal), 0.0f), 1.0f);
+    ScatteringContext context;
+    context.uv = surface.uv;
+    context.cos_view = cos_view;
+    context.ior_from = 1.0f;
+    context.ior_to = 1.0f;
+#if HAS_MEDIA
+    uint media_behind = path.media;
+    if (material.head.z != 0u)
+      media_behind = front ? enter_medium(path.media, material.head.z, counts.z)
+                           : leave_medium(path.media, material.head.z);
+    context.ior_from = from.absorption_ior.w;
+    context.ior_to = load_medium(innermost_medium(media_behind)).absorption_ior.w;
+#endif
+
+    // Shade.
+    Scattering scattering = scattering_of(material, context);
+    color = color + weight * direct_light(frame, material, scattering, seen, -ray.d, path.depth, counts);
+
+#if HAS_SECONDARY
+    // Send out the children that count for enough.
+    bool deeper = path.depth < frame.camera.w;
+    children.reflected.d = normalize3(ray.d + seen.normal * (2.0f * cos_view));
+    children.reflected.o = leave(surface, children.reflected.d).o;
+    children.reflected.weight = weight * scattering.reflected;
+    children.reflected.depth = path.depth + 1u;
+    children.reflects = deeper && max_component(children.reflected.weight) > frame.right.w;
+#if HAS_MEDIA
+    children.transmitted.d = refracted(ray.d, seen.normal, cos_view, context.ior_from / context.ior_to);
+    children.transmitted.o = leave(surface, children.transmitted.d).o;
+    children.transmitted.weight = weight * scattering.transmitted;
+    children.transmitted.depth = path.depth + 1u;
+    children.transmitted.media = media_behind;
+    children.transmits = deeper && max_component(children.transmitted.weight) > frame.right.w;
+#endif
+#endif
+  }
+  return children;
+}
+
+PathRay eye_path(Frame frame, Ray eye_ray) {
   PathRay path;
   path.o = eye_ray.o;
   path.d = eye_ray.d;
   path.weight = vec3(1.0f, 1.0f, 1.0f);
   path.depth = 0u;
   path.media = frame.camera.z;
+  return path;
+}
+
+vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
+#if WHITTED_STACK > 0
+  PathRay stack[WHITTED_STACK];
+  uint pending = 0u;
+#endif
+  vec3 color = vec3(0.0f, 0.0f, 0.0f);
+  PathRay path = eye_path(frame, eye_ray);
   bool going = true;
   do {
     Ray ray = make_ray(path.o, path.d);
@@ -72,82 +153,22 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
 #else
     Hit hit = trace(ray, counts);
 #endif
-    bool struck = hit.slot != NONE;
-    counts.x += 1u;
-    counts.y += struck ? 1u : 0u;
-    counts.w += TRACE_ITERATIONS + 1u;
-    going = false;
-    if (!struck) {
-      color = color + path.weight * vec3(frame.background);
-    } else {
-      // Weaken by the medium that the ray came through.
-      Primitive primitive = primitive_at(hit);
-      Material material = load_material(material_of(primitive));
-      vec3 weight = path.weight;
-#if HAS_MEDIA
-      Medium from = load_medium(innermost_medium(path.media));
-      weight = weight * vec3(exp_negative(-from.absorption_ior.x * hit.t), exp_negative(-from.absorption_ior.y * hit.t),
-                             exp_negative(-from.absorption_ior.z * hit.t));
-#endif
+    Children children = follow(frame, path, ray, hit, color, counts);
 
-      // Find the surface as the viewer sees it, and the medium behind it.
-      Surface surface = surface_at(primitive, ray, hit);
-      bool front = dot3(ray.d, surface.normal_geometric) < 0.0f;
-      Surface seen = face_viewer(surface, front);
-      float cos_view = minimum(maximum(-dot3(ray.d, seen.normal), 0.0f), 1.0f);
-      ScatteringContext context;
-      context.uv = surface.uv;
-      context.cos_view = cos_view;
-      context.ior_from = 1.0f;
-      context.ior_to = 1.0f;
-#if HAS_MEDIA
-      uint media_behind = path.media;
-      if (material.head.z != 0u)
-        media_behind = front ? enter_medium(path.media, material.head.z, counts.z)
-                             : leave_medium(path.media, material.head.z);
-      context.ior_from = from.absorption_ior.w;
-      context.ior_to = load_medium(innermost_medium(media_behind)).absorption_ior.w;
-#endif
-
-      // Shade.
-      Scattering scattering = scattering_of(material, context);
-      color = color + weight * direct_light(frame, material, scattering, seen, -ray.d, path.depth, counts);
-
-#if HAS_SECONDARY
-      // Go on with one child, and let the other wait.
-      bool deeper = path.depth < frame.camera.w;
-      PathRay reflected;
-      reflected.d = normalize3(ray.d + seen.normal * (2.0f * cos_view));
-      reflected.o = leave(surface, reflected.d).o;
-      reflected.weight = weight * scattering.reflected;
-      reflected.depth = path.depth + 1u;
-      reflected.media = path.media;
-      bool reflects = deeper && max_component(reflected.weight) > frame.right.w;
-      going = reflects;
-      path = reflected;
-#if HAS_MEDIA
-      PathRay transmitted;
-      transmitted.d = refracted(ray.d, seen.normal, cos_view, context.ior_from / context.ior_to);
-      transmitted.o = leave(surface, transmitted.d).o;
-      transmitted.weight = weight * scattering.transmitted;
-      transmitted.depth = reflected.depth;
-      transmitted.media = media_behind;
-      bool transmits = deeper && max_component(transmitted.weight) > frame.right.w;
+    // Go on with one child, and let the other wait.
 #if WHITTED_STACK > 0
-      if (reflects && transmits) {
-        if (pending == uint(WHITTED_STACK)) {
-          counts.z = counts.z | FLAG_STACK_OVERFLOW;
-        } else {
-          stack[pending] = reflected;
-          pending += 1u;
-        }
+    if (children.reflects && children.transmits) {
+      if (pending == uint(WHITTED_STACK)) {
+        counts.z = counts.z | FLAG_STACK_OVERFLOW;
+      } else {
+        stack[pending] = children.reflected;
+        pending += 1u;
       }
-#endif
-      going = reflects || transmits;
-      if (transmits) path = transmitted;
-#endif
-#endif
     }
+#endif
+    going = children.reflects || children.transmits;
+    path = children.reflected;
+    if (children.transmits) path = children.transmitted;
 
 #if WHITTED_STACK > 0
     if (!going && pending > 0u) {

@@ -1,0 +1,49 @@
+// Pictures by waves: rays of all pixels of a tile at once, those that run side by side in packets
+// (packet.comp.glsl).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "gpu/command_list.hpp"
+#include "records/records.hpp"
+
+namespace eyeray {
+
+struct WaveOptions {
+  bool shadows = false;  // whether shadow rays are traced too
+  uint32_t lights = 0;
+  bool paths = false;   // each reflection is a wave (wave.comp.glsl); else render.comp.glsl goes on from the
+                        // eye rays' hits
+  uint32_t depth = 0;   // reflections in a row
+  uint32_t stride = 1;  // GROUP_STRIDE
+  uint32_t subgroup = 8;  // lanes
+};
+
+class Waves {
+ public:
+  // The kernel of an entry under defines, with the scene's buffers bound.
+  using MakeKernel =
+      std::function<std::unique_ptr<gpu::Kernel>(const std::string& entry, const std::string& defines)>;
+
+  Waves(gpu::Device& device, const MakeKernel& make_kernel, const WaveOptions& options);
+
+  // One sample of every pixel of push.tile, as SampleResults; the seconds it took. Nothing when interrupted.
+  std::optional<double> run(shader::Dispatch push, gpu::Buffer& results);
+
+ private:
+  void make_room(uint32_t pixels);
+  uint32_t whole_strides(uint32_t groups) const;
+
+  gpu::Device& device_;
+  WaveOptions options_;
+  std::unique_ptr<gpu::Kernel> primary_;
+  std::unique_ptr<gpu::Kernel> shadow_;  // null without shadow rays
+  std::unique_ptr<gpu::Kernel> first_;   // shades what they found
+  std::unique_ptr<gpu::Kernel> later_;   // traces and shades where paths go on; null where none does
+  uint32_t pixels_ = 0;                  // that the buffers have room for
+  std::optional<gpu::Buffer> hits_, occlusions_, paths_, lists_[2];
+};
+
+}  // namespace eyeray
