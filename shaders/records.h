@@ -170,14 +170,12 @@ struct Frame {
 #define PATTERN_REGULAR 0u
 #define PATTERN_JITTERED 1u
 
-// ---- Push constants: what changes from dispatch to dispatch, 48 bytes -----------------------------------------------
+// ---- Push constants: what changes from dispatch to dispatch, 32 bytes -----------------------------------------------
 //   0 tile x  4 tile y  8 tile width  12 tile height
-//  16 sample  20 -       24 pixels of the tile    28 -
-//  32 depth of a wave: the reflections before it    36 -    40 -    44 -
+//  16 sample  20 depth of a wave: the reflections before it    24 pixels of the tile    28 -
 struct Dispatch {
   uvec4 tile;
   uvec4 sample_index;
-  uvec4 wave;
 };
 
 // ---- Results --------------------------------------------------------------------------------------------------------
@@ -237,7 +235,7 @@ static_assert(sizeof(eyeray::shader::Medium) == 16);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);
 static_assert(sizeof(eyeray::shader::Frame) == 128);
-static_assert(sizeof(eyeray::shader::Dispatch) == 48);
+static_assert(sizeof(eyeray::shader::Dispatch) == 32);
 static_assert(sizeof(eyeray::shader::SampleResult) == 32);
 static_assert(sizeof(eyeray::shader::HitResult) == 64);
 static_assert(sizeof(eyeray::shader::QueryRay) == 32);

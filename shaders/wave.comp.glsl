@@ -36,7 +36,7 @@ void main() {
   path.o = vec3(paths[place].origin);
   path.d = vec3(paths[place].direction);
   path.weight = vec3(paths[place].weight);
-  path.depth = dispatch.wave.x;
+  path.depth = dispatch.sample_index.y;
   path.media = 0u;
   color = vec3(results[place].color);
   counts = results[place].counts;

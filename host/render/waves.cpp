@@ -38,9 +38,10 @@ std::optional<double> Waves::run(shader::Dispatch push, gpu::Buffer& results) {
   double seconds = commands.run().seconds;
 
   // Then wave after wave the paths that go on, each alone.
-  for (push.wave.x = 1; later_ && push.wave.x <= options_.depth; ++push.wave.x) {
-    gpu::Buffer& list = *lists_[(push.wave.x + 1) % 2];
-    gpu::Buffer& next = *lists_[push.wave.x % 2];
+  uint32_t& depth = push.sample_index.y;
+  for (depth = 1; later_ && depth <= options_.depth; ++depth) {
+    gpu::Buffer& list = *lists_[(depth + 1) % 2];
+    gpu::Buffer& next = *lists_[depth % 2];
     const uint32_t count = list.read_records<uint32_t>(1)[0];
     if (count == 0) break;
     if (interrupted()) return std::nullopt;
