@@ -110,6 +110,7 @@ class Flattener {
     tree_.order.resize(tree_.kind_ends.back());
 
     for (const Box& box : boxes_) tree_.box.include(box);
+    tree_.nodes.reserve(inner_ + 1);
     flatten(root, 0);
     return std::move(tree_);
   }
@@ -121,6 +122,7 @@ class Flattener {
     if (node->leaf) {
       for (uint32_t i = 0; i < node->count; ++i) ++next_[kinds_[node->items[i]]];
     } else {
+      ++inner_;
       for (uint32_t i = 0; i < node->count; ++i) count_items(node->inner.child[i]);
     }
   }
@@ -180,6 +182,7 @@ class Flattener {
   std::span<const Box> boxes_;
   std::span<const uint8_t> kinds_;
   std::optional<uint32_t> lone_kind_;
+  size_t inner_ = 0;            // nodes of Embree's that are no leaves
   std::vector<uint32_t> next_;  // by kind: first how many items, then where in `order` the next goes
   Tree tree_;
 };

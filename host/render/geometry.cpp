@@ -154,7 +154,10 @@ class GeometryPacker {
   }
 
   void add_to_world(std::vector<shader::Primitive> triangles) {
-    for (const shader::Primitive& triangle : triangles) boxes_.push_back(triangle_box(triangle));
+    const size_t first = boxes_.size();
+    boxes_.resize(first + triangles.size());
+    parallel_for(0, int(triangles.size()),
+                 [&](int i) { boxes_[first + size_t(i)] = triangle_box(triangles[size_t(i)]); });
     if (world_.empty())
       world_ = std::move(triangles);
     else
@@ -225,6 +228,9 @@ class GeometryPacker {
     std::vector<accel::Box> boxes;
     std::vector<uint8_t> kinds;
     std::vector<shader::Primitive> items;
+    boxes.reserve(world_.size() + packed_.instances.size());
+    kinds.reserve(boxes.capacity());
+    in_tree_.reserve(world_.size());
     for (size_t i = 0; i < world_.size(); ++i) {
       if (!is_bounded(boxes_[i])) continue;
       in_tree_.push_back(uint32_t(i));
