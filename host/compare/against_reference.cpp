@@ -66,7 +66,10 @@ class Judge {
       const size_t i = pixels[size_t(n)];
       const WorstPixel p = at(i);
       const Neighbourhood neighbourhood(probe, p.pixel);
-      settle(colors_[i], neighbourhood.explains(p.value, tolerances_), neighbourhood.cause_of_color());
+      if (neighbourhood.explains(p.value, tolerances_))
+        settle(colors_[i], true, neighbourhood.cause_of_color());
+      else
+        settle(colors_[i], neighbourhood.explains_as_contact(p.value, tolerances_), Cause::contact);
       settle(first_hits_[i], neighbourhood.explains(p.value_hit, tolerances_),
              neighbourhood.cause_of_first_hit());
     });

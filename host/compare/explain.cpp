@@ -33,6 +33,8 @@ const char* name(Cause cause) {
       return "shadow edge";
     case Cause::grazing:
       return "grazing";
+    case Cause::contact:
+      return "contact";
   }
   return "unknown";
 }
@@ -51,6 +53,14 @@ Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel) {
 }
 
 bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) const {
+  return bounds_hold(value, tolerances, false);
+}
+
+bool Neighbourhood::explains_as_contact(const Vec3& value, const Tolerances& tolerances) const {
+  return !probes_.front().contact_colors.empty() && bounds_hold(value, tolerances, true);
+}
+
+bool Neighbourhood::bounds_hold(const Vec3& value, const Tolerances& tolerances, bool contact) const {
   // Each sample may fall on either side of its own edges, whatever the others do: the bounds of the mean are
   // the means of the bounds.
   const size_t samples = std::max(probes_.front().sample_colors.size(), size_t{1});
@@ -63,6 +73,9 @@ bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) co
     for (const Probe& probe : probes_) {
       least = glm::min(least, color(probe, i));
       greatest = glm::max(greatest, color(probe, i));
+      if (!contact) continue;
+      least = glm::min(least, probe.contact_colors[i]);
+      greatest = glm::max(greatest, probe.contact_colors[i]);
     }
     low += least / double(samples);
     high += greatest / double(samples);

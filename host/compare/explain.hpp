@@ -13,7 +13,9 @@ namespace eyeray {
 struct Probe {
   Vec3 color{0.0};                  // the mean of the samples
   std::vector<Vec3> sample_colors;  // of each sample, where there are several
-  uint64_t hits = 0;                // surfaces struck, all samples together
+  // As those, where rays leave surfaces as far off as float32 makes them; may be empty.
+  std::vector<Vec3> contact_colors;
+  uint64_t hits = 0;  // surfaces struck, all samples together
   double hits_per_sample = 0;
   uint64_t first_surfaces = 0;  // a fingerprint of which primitive each sample's eye ray meets
   uint64_t first_colors = 0;    // a fingerprint of the surface's own colour where each meets it
@@ -29,9 +31,10 @@ enum class Cause {
   texture_edge,       // the surface's own colour jumps
   refraction_branch,  // rays reflected or refracted on the way meet something else
   shadow_edge,        // none of these: it is the light that changes
+  contact,            // a ray that leaves a surface starts so close to another that rounding puts it behind
   grazing,  // of a first hit alone: the same surface, met at so small an angle that t or the normal races
 };
-inline constexpr int cause_count = 5;
+inline constexpr int cause_count = 6;
 const char* name(Cause cause);
 
 // The reference in the neighbourhood of one pixel.
@@ -44,11 +47,15 @@ class Neighbourhood {
   // Whether `value` is a hit of a primitive that the neighbourhood meets, with t and normal within the bounds
   // found there.
   bool explains(const FirstHit& value, const Tolerances& tolerances) const;
+  // The same, of a neighbourhood in which rays also start as far off surfaces as float32 makes them.
+  bool explains_as_contact(const Vec3& value, const Tolerances& tolerances) const;
   // What changes the colour across the neighbourhood, and what changes the first hit.
   Cause cause_of_color() const;
   Cause cause_of_first_hit() const;
 
  private:
+  bool bounds_hold(const Vec3& value, const Tolerances& tolerances, bool contact) const;
+
   std::vector<Probe> probes_;
 };
 

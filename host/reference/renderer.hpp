@@ -15,8 +15,8 @@ class Renderer {
   explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::tree);
 
   // Sample `index` of pixel (x, y), by the scene's integrator. `shift`, in pixels, is added to the sample's
-  // place.
-  PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0}) const;
+  // place; `clearance`: see whitted.hpp.
+  PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0}, double clearance = 0) const;
   // What the ray through the pixel's centre + `shift` meets.
   FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}) const;
 

@@ -130,8 +130,8 @@ double Tracer::transmittance(const Ray& ray, double t_end) const {
   return product;
 }
 
-Vec3 departure(const SurfacePoint& point, const Vec3& d) {
-  const double offset = 4 * point.position_error;
+Vec3 departure(const SurfacePoint& point, const Vec3& d, double least) {
+  const double offset = std::max(4 * point.position_error, least);
   return point.position +
          point.normal_geometric * (glm::dot(d, point.normal_geometric) >= 0 ? offset : -offset);
 }

@@ -59,9 +59,9 @@ class Tracer {
   BoxTree tree_;                            // of boxes_
 };
 
-// Where a ray into direction `d` leaves from a surface point: off the surface by a few error bounds, on the
-// side of `d`, so that the ray does not meet the surface that it leaves.
-Vec3 departure(const SurfacePoint& point, const Vec3& d);
+// Where a ray into direction `d` leaves from a surface point: off the surface by a few error bounds, and by
+// `least`, on the side of `d`, so that the ray does not meet the surface that it leaves.
+Vec3 departure(const SurfacePoint& point, const Vec3& d, double least = 0);
 
 // Calls visit(t, surface) for each crossing of the body, a Shape or an InstanceGeometry, in order of t, until
 // `visit` returns false.

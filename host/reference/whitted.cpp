@@ -26,7 +26,8 @@ struct View {
 
 class Tree {
  public:
-  explicit Tree(const Tracer& tracer) : tracer_(tracer), scene_(tracer.scene()) {}
+  Tree(const Tracer& tracer, double clearance)
+      : tracer_(tracer), scene_(tracer.scene()), clearance_(clearance) {}
 
   Vec3 radiance(const Path& path);
 
@@ -38,14 +39,21 @@ class Tree {
   Vec3 direct(const View& view, const Scattering& scattering);
   Vec3 child(const Path& path, const View& view, const Vec3& d, const MediaStack& media, const Vec3& share);
   Medium medium(const MediaStack& media) const;
+  Ray leave(const SurfacePoint& point, const Vec3& d) const;
 
   const Tracer& tracer_;
   const Scene& scene_;
+  double clearance_;
 };
 
 // The vacuum where no medium is.
 Medium Tree::medium(const MediaStack& media) const {
   return media.top() < 0 ? Medium{} : *scene_.materials[size_t(media.top())]->medium();
+}
+
+Ray Tree::leave(const SurfacePoint& point, const Vec3& d) const {
+  const Vec3 from_eye = glm::abs(point.position - scene_.camera.eye);
+  return {departure(point, d, clearance_ * glm::dot(glm::abs(point.normal_geometric), from_eye)), d};
 }
 
 // d of a ray that is bent at the boundary from ior n1 to n2; there is no total reflection.
@@ -104,7 +112,7 @@ Vec3 Tree::child(const Path& path, const View& view, const Vec3& d, const MediaS
   const Vec3 weight = path.weight * share;
   const double most = std::max({weight.x, weight.y, weight.z});
   if (path.depth >= scene_.render.max_depth || !(most > scene_.render.min_weight)) return Vec3(0);
-  return share * radiance({{departure(view.surface, d), d}, media, path.depth + 1, weight});
+  return share * radiance({leave(view.surface, d), media, path.depth + 1, weight});
 }
 
 // The scene's ambient light, and that of each light which stands before the surface and is seen from it.
@@ -116,7 +124,7 @@ Vec3 Tree::direct(const View& view, const Scattering& scattering) {
     const double cosine = glm::dot(n, l);
     if (!(cosine > 0 && glm::dot(view.surface.normal_geometric, l) > 0)) continue;
     ++rays;
-    const double seen = tracer_.transmittance({departure(view.surface, l), l}, distance);
+    const double seen = tracer_.transmittance(leave(view.surface, l), distance);
     if (seen == 0) continue;
 
     const double lobe =
@@ -129,8 +137,8 @@ Vec3 Tree::direct(const View& view, const Scattering& scattering) {
 
 }  // namespace
 
-PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media) {
-  Tree tree(tracer);
+PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media, double clearance) {
+  Tree tree(tracer, clearance);
   const Vec3 color = tree.radiance({ray, media, 0, Vec3(1)});
   return {color, tree.rays, tree.hits, tree.flags};
 }

@@ -8,7 +8,8 @@
 
 namespace eyeray::reference {
 
-// What `ray` (with a unit direction) sees, starting in `media`.
-PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media);
+// What `ray` (with a unit direction) sees, starting in `media`. Rays leave surfaces at least `clearance` off,
+// as a share of |n|·|position − eye|.
+PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media, double clearance = 0);
 
 }  // namespace eyeray::reference
