@@ -72,7 +72,10 @@ class GpuExecutor final : public Executor {
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     if (!hit_kernel_) hit_kernel_ = make_kernel("render.comp.glsl", "#define FIRST_HITS\n");
     dispatch_rows<shader::HitResult>(*hit_kernel_, tile, 0, [&](size_t first, auto results) {
-      for (size_t i = 0; i < results.size(); ++i) out[first + i] = to_first_hit(results[i], eye_);
+      for (size_t i = 0; i < results.size(); ++i) {
+        check_traced(results[i].ids.z);
+        out[first + i] = to_first_hit(results[i], eye_);
+      }
     });
   }
 
@@ -97,8 +100,7 @@ class GpuExecutor final : public Executor {
                      .seconds;
       const std::vector<shader::QueryHit> answers = output.read_records<shader::QueryHit>(count);
       for (size_t i = 0; i < count; ++i) {
-        if (answers[i].hit.z & FLAG_LOOP_BUDGET)
-          throw Error(ExitCode::no_device, "{} ended the loop of a ray before it was traced", device_.info().driver_version);
+        check_traced(answers[i].hit.z);
         hits[first + i] = to_query_hit(answers[i]);
       }
     }
@@ -124,13 +126,21 @@ class GpuExecutor final : public Executor {
     return gpu::Device(device);
   }
 
+  void check_traced(uint32_t flags) const {
+    if (flags & FLAG_LOOP_BUDGET)
+      throw Error(ExitCode::no_device,
+                  "{} ends loops after 65 535 iterations, before a ray was traced: use a newer driver, or "
+                  "--backend twin",
+                  device_.info().driver_version);
+  }
+
   void specialise_for(const PackedScene& packed) {
     Specialisation specialisation;
     specialisation.constants = options_.constants;
     specialisation.profile = profile_;
     if (facts_.loop_cap) {
-      // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer iterations than there are
-      // primitives; where it does not, the shader sees that the driver stopped it.
+      // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer
+      // iterations than there are primitives; where it does not, the shader sees that the driver stopped it.
       const uint64_t loose = packed.has_tree ? 0 : packed.primitives.size();
       const uint64_t one_ray = (loose + 1) * (packed.lights.size() + 1);
       if (one_ray >= granted_iterations)
@@ -148,7 +158,8 @@ class GpuExecutor final : public Executor {
   }
 
   void upload(const PackedScene& packed) {
-    const gpu::BindingKind kind = profile_.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
+    const gpu::BindingKind kind =
+        profile_.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
     add_buffer(BINDING_PRIMITIVES, "primitives", std::span(packed.primitives), kind);
     add_buffer(BINDING_VERTICES, "vertices", std::span(packed.vertices), kind);
     add_buffer(BINDING_NODES, "nodes", std::span(packed.nodes), kind);
@@ -168,7 +179,8 @@ class GpuExecutor final : public Executor {
     gpu::Buffer buffer(device_, std::max(records.size(), size_t{1}) * sizeof(Record), name, kind);
     uploaded_ += buffer.size();
     if (uploaded_ > device_.info().limits.heap)
-      throw Error(ExitCode::no_device, "the scene needs more than the {} bytes of memory that {} has: {} up to buffer '{}'",
+      throw Error(ExitCode::no_device,
+                  "the scene needs more than the {} bytes of memory that {} has: {} up to buffer '{}'",
                   device_.info().limits.heap, device_.info().name, uploaded_, name);
     if (!records.empty()) buffer.upload_records(records);
     buffers_.emplace_back(binding, std::move(buffer));
@@ -190,9 +202,8 @@ class GpuExecutor final : public Executor {
     });
     if (!options_.fast_math && !fault_.is("contraction"))
       spirv = gpu::strict_floats(spirv, device_.info().float_modes);
-    auto kernel = times_.measure("pipeline", [&] {
-      return std::make_unique<gpu::Kernel>(device_, spirv, entry, cache_);
-    });
+    auto kernel = times_.measure(
+        "pipeline", [&] { return std::make_unique<gpu::Kernel>(device_, spirv, entry, cache_); });
     for (const auto& [binding, buffer] : buffers_) kernel->set_buffer(binding, buffer);
     return kernel;
   }
@@ -260,7 +271,7 @@ class GpuExecutor final : public Executor {
   std::unique_ptr<gpu::Kernel> sample_kernel_;
   std::unique_ptr<gpu::Kernel> hit_kernel_;
   std::unique_ptr<gpu::Kernel> query_kernels_[2];  // by whether any hit will do; made when first asked for
-  uint64_t uploaded_ = 0;                           // bytes
+  uint64_t uploaded_ = 0;                          // bytes
   DispatchSize dispatch_size_;
 };
 
