@@ -24,11 +24,15 @@ float above(double x) {
   return -below(-x);
 }
 
+// Around what a shape's record says, whose coordinates are rounded.
 accel::Box to_box(const Bounds& bounds, const Vec3& eye) {
   accel::Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = below(bounds.min[axis] - eye[axis]);
-    box.upper[axis] = above(bounds.max[axis] - eye[axis]);
+    const double lower = bounds.min[axis] - eye[axis];
+    const double upper = bounds.max[axis] - eye[axis];
+    const double room = 0x1p-22 * std::max(std::fabs(lower), std::fabs(upper));
+    box.lower[axis] = below(lower - room);
+    box.upper[axis] = above(upper + room);
   }
   return box;
 }
@@ -103,8 +107,8 @@ class GeometryPacker {
 
   void check_counts() const {
     if (scene_.primitive_count() >= NONE)
-      throw Error(ExitCode::bad_input, "the scene has {} primitives; ids go up to {}", scene_.primitive_count(),
-                  NONE - 1);
+      throw Error(ExitCode::bad_input, "the scene has {} primitives; ids go up to {}",
+                  scene_.primitive_count(), NONE - 1);
     if (scene_.materials.size() > MOST_MATERIALS)
       throw Error(ExitCode::bad_input, "the scene has {} materials; at most {} are possible",
                   scene_.materials.size(), MOST_MATERIALS);
@@ -118,7 +122,9 @@ class GeometryPacker {
   void add_shapes() {
     for (const auto& shape : scene_.shapes) {
       shape->pack(packer_);
-      boxes_.push_back(to_box(shape->bounds(), scene_.camera.eye));
+      const shader::Primitive& record = packed_.primitives.back();
+      boxes_.push_back(kind_of(record) == shader::KIND_triangle ? triangle_box(record)
+                                                                : to_box(shape->bounds(), scene_.camera.eye));
     }
     world_ = std::move(packed_.primitives);
     packed_.primitives.clear();
@@ -141,9 +147,10 @@ class GeometryPacker {
           tree = int(mesh_trees_.size());
           const Bounds extent = bounds(mesh);
           const Vec3 centre = (extent.min + extent.max) * 0.5;
-          mesh_trees_.push_back(
-              {instance.mesh, centre,
-               mesh_records(mesh, Affine(Mat4(1.0)), centre, 0, 0, packed_.vertices), {}});
+          mesh_trees_.push_back({instance.mesh,
+                                 centre,
+                                 mesh_records(mesh, Affine(Mat4(1.0)), centre, 0, 0, packed_.vertices),
+                                 {}});
         }
         add_instance(instance, map, uint32_t(tree), id);
       }
@@ -176,8 +183,8 @@ class GeometryPacker {
     packed_.instances.push_back(record);
   }
 
-  // What a shadow ray loses to each: a shape weakens it once, a mesh half at each of its triangles, for a closed body is left
-  // as it was entered.
+  // What a shadow ray loses to each: a shape weakens it once, a mesh half at each of its triangles, for a
+  // closed body is left as it was entered.
   void fill_densities() {
     const auto density = [&](uint32_t material, bool of_mesh) {
       const uint32_t whole = packed_.materials[material].head.w;
@@ -194,7 +201,8 @@ class GeometryPacker {
   }
 
   bool has_bounded(size_t least) const {
-    return packed_.instances.size() + size_t(std::count_if(boxes_.begin(), boxes_.end(), is_bounded)) >= least;
+    return packed_.instances.size() + size_t(std::count_if(boxes_.begin(), boxes_.end(), is_bounded)) >=
+           least;
   }
 
   accel::TreeOptions tree_options(std::span<const shader::Primitive> primitives) const {
@@ -239,10 +247,10 @@ class GeometryPacker {
     for (uint32_t i = world_tree_.kind_ends[instance_kind - 1]; i < world_tree_.kind_ends[instance_kind]; ++i)
       world_tree_.order[i] -= uint32_t(in_tree_.size());
 
-    packed_.quantised_nodes =
-        quantising_is_harmless(world_tree_) &&
-        std::all_of(mesh_trees_.begin(), mesh_trees_.end(),
-                    [](const MeshTree& mesh) { return quantising_is_harmless(mesh.tree); });
+    packed_.quantised_nodes = quantising_is_harmless(world_tree_) &&
+                              std::all_of(mesh_trees_.begin(), mesh_trees_.end(), [](const MeshTree& mesh) {
+                                return quantising_is_harmless(mesh.tree);
+                              });
   }
 
   // Around all corners of the mesh's box, with room for their rounding.
@@ -261,6 +269,23 @@ class GeometryPacker {
       }
     }
     return box;
+  }
+
+  // A ray is mapped into an instance with errors that grow with its coordinates, wherever the tree's own
+  // origin is. Seen from the world they are |linear| · |inverse| times as large: 3 at most where axes are
+  // stretched and then turned, more under shears.
+  void make_room_for_instances(shader::Tree& tree) const {
+    if (packed_.instances.empty()) return;
+    float growth = 1;
+    for (const shader::Instance& instance : packed_.instances)
+      for (const shader::vec4& row : instance.to_world) {
+        float sum = 0;
+        for (int column = 0; column < 3; ++column)
+          for (int k = 0; k < 3; ++k) sum += std::fabs(row[k] * instance.to_mesh[k][column]);
+        growth = std::max(growth, sum);
+      }
+    const float slack = tree.extent.w * growth;
+    tree.extent = shader::vec4(glm::vec3(tree.extent) + glm::abs(glm::vec3(tree.origin)), slack);
   }
 
   // Slots of the world: by kind, what is in no tree, then what is, as its leaves hold it.
@@ -282,9 +307,10 @@ class GeometryPacker {
     }
     packed_.kind_first.push_back(uint32_t(packed_.primitives.size()));
     world_ = {};
-    if (packed_.has_tree)
+    if (packed_.has_tree) {
       add_tree(world_tree_, first_slots, instance_kind, packed_);
-    else
+      make_room_for_instances(packed_.trees.back());
+    } else
       packed_.trees.emplace_back();
   }
 
@@ -326,10 +352,10 @@ class GeometryPacker {
   const PackOptions& options_;
   Packer& packer_;
   PackedScene& packed_;
-  std::vector<uint32_t> uses_;              // by mesh
-  std::vector<shader::Primitive> world_;    // by id, as far as they belong to the world
-  std::vector<accel::Box> boxes_;           // of each of them
-  std::vector<uint32_t> in_tree_;           // items of the world's tree: indices in world_
+  std::vector<uint32_t> uses_;            // by mesh
+  std::vector<shader::Primitive> world_;  // by id, as far as they belong to the world
+  std::vector<accel::Box> boxes_;         // of each of them
+  std::vector<uint32_t> in_tree_;         // items of the world's tree: indices in world_
   std::vector<MeshTree> mesh_trees_;
   accel::Tree world_tree_;
   bool use_tree_ = false;

@@ -14,8 +14,9 @@ Vec3 outward_normal(const Corners& corners, const Affine& map) {
 
 }  // namespace
 
-std::vector<shader::Primitive> mesh_records(const Mesh& mesh, const Affine& map, const Vec3& origin, int material,
-                                            uint32_t first_id, std::vector<shader::uvec4>& vertices) {
+std::vector<shader::Primitive> mesh_records(const Mesh& mesh, const Affine& map, const Vec3& origin,
+                                            int material, uint32_t first_id,
+                                            std::vector<shader::uvec4>& vertices) {
   const bool normals = !mesh.normals.empty();
   const bool uv = !mesh.uv.empty();
   const auto first_vertex = uint32_t(vertices.size());

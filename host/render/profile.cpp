@@ -6,8 +6,8 @@ namespace eyeray {
 namespace {
 
 // Whether `choice` is `yes`; `automatic` where it is empty.
-bool chosen(const std::string& option, const std::string& choice, const std::string& yes, const std::string& no,
-            bool automatic) {
+bool chosen(const std::string& option, const std::string& choice, const std::string& yes,
+            const std::string& no, bool automatic) {
   if (choice.empty()) return automatic;
   if (choice != yes && choice != no)
     throw Error(ExitCode::bad_input, "{} is {} or {}, not '{}'", option, yes, no, choice);

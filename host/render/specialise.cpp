@@ -92,10 +92,10 @@ std::string constants(const PackedScene& scene) {
 }
 
 bool is_small(const PackedScene& scene) {
-  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_primitives && scene.vertices.size() + scene.materials.size() +
-                                                               scene.textures.size() + scene.media.size() +
-                                                               scene.lights.size() <=
-                                                           most_records;
+  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_primitives &&
+         scene.vertices.size() + scene.materials.size() + scene.textures.size() + scene.media.size() +
+                 scene.lights.size() <=
+             most_records;
 }
 
 // The kinds of shape that the trees hold.
