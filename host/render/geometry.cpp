@@ -284,7 +284,8 @@ class GeometryPacker {
           for (int k = 0; k < 3; ++k) sum += std::fabs(row[k] * instance.to_mesh[k][column]);
         growth = std::max(growth, sum);
       }
-    const float slack = tree.extent.w * growth;
+    // Twice: for the way into the mesh, and for what a triangle there allows for rounding.
+    const float slack = tree.extent.w * 2 * growth;
     tree.extent = shader::vec4(glm::vec3(tree.extent) + glm::abs(glm::vec3(tree.origin)), slack);
   }
 
