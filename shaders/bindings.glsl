@@ -27,5 +27,6 @@ layout(std430, binding = BINDING_TEXELS) readonly restrict buffer Texels { uint 
 layout(std430, binding = BINDING_MEDIA) readonly restrict buffer Media { Medium media[]; };
 layout(std430, binding = BINDING_LIGHTS) readonly restrict buffer Lights { Light lights[]; };
 layout(std430, binding = BINDING_FRAME) readonly restrict buffer FrameBuffer { Frame frame; };
+#define LOOP_PROBE frame.counts.y
 
 #endif

@@ -107,7 +107,7 @@ int first_entry(PacketChild child) {
   return first;
 }
 
-bool walk_together(uint lane) {
+void walk_together(uint lane) {
   // Widen the boxes for the ray that starts farthest away.
   Tree tree = load_tree(0u);
   float reach = 0.0f;
@@ -117,7 +117,7 @@ bool walk_together(uint lane) {
     shift[k] = offset * ray[k].inverse;
     reach = maximum(reach, max_component(abs3(offset) + vec3(tree.extent)));
   }
-  vec3 slack = vec3(16.0f * EPSILON * largest_of_lanes(reach)) / vec3(tree.step);
+  vec3 slack = vec3(tree.extent.w * largest_of_lanes(reach)) / vec3(tree.step);
 
   uint stack[STACK_WORDS];
   [[unroll]] for (int i = 0; i < STACK_WORDS; i++) stack[i] = TREE_DONE;
@@ -156,7 +156,7 @@ bool walk_together(uint lane) {
       do {
         uint slot = (at & ~LEAF) >> 3u;
         uint end = slot + (at & 7u) + 1u;
-        do {
+        for (; slot < end; slot++) {
           uvec4 word = load_primitive_word(4u * slot + (lane & 3u));
           Primitive primitive;
           primitive.head = from_lane(word, 0u);
@@ -171,8 +171,7 @@ bool walk_together(uint lane) {
             SHAPES(INTERSECT_TOGETHER)
             meet(found[k], t, uv, slot, primitive.head.x, NONE, primitive.head.z, ANY);
           }
-          slot += 1u;
-        } while (slot < end);
+        }
         waiting -= 1u;
         uint held = TREE_DONE;
         [[unroll]] for (int i = 0; i < STACK_WORDS; i++) held = waiting / LANES == uint(i) ? stack[i] : held;
@@ -184,7 +183,6 @@ bool walk_together(uint lane) {
       } while (at >= LEAF && at != TREE_DONE);
     }
   } while (at != TREE_DONE);
-  return at == TREE_DONE;
 }
 
 // Where the result of ray i of a packet goes; NONE where there is no such ray.
@@ -244,15 +242,16 @@ void main() {
       found[k] = nothing_found(lit ? to.distance : -1.0f);
       meet_loose(found[k], ray[k], true);
     }
-    bool whole = walk_together(lane);
+    walk_together(lane);
     EACH {
-      if (place[k] != NONE) {
-        occlusions[light * dispatch.sample_index.z + place[k]] = found[k].occluded;
-        if (!whole) hits[place[k]].hit.w = hits[place[k]].hit.w | FLAG_LOOP_BUDGET;
-      }
+      if (place[k] != NONE) occlusions[light * dispatch.sample_index.z + place[k]] = found[k].occluded;
     }
     light += 1u;
   } while (light < LIGHT_COUNT);
+  uint flags = loops_cut_off(LOOP_PROBE);
+  EACH {
+    if (place[k] != NONE) hits[place[k]].hit.w = hits[place[k]].hit.w | flags;
+  }
 #else
   EACH {
 #ifdef PACKET_PRIMARY
@@ -265,7 +264,8 @@ void main() {
 #endif
     meet_loose(found[k], ray[k], ANY);
   }
-  uint flags = walk_together(lane) ? 0u : FLAG_LOOP_BUDGET;
+  walk_together(lane);
+  uint flags = loops_cut_off(LOOP_PROBE);
   EACH {
     if (place[k] != NONE) {
 #ifdef PACKET_PRIMARY

@@ -2,6 +2,7 @@
 #ifndef PIXEL_GLSL
 #define PIXEL_GLSL
 #include "camera.glsl"
+#include "loops.glsl"
 #include "surface.glsl"
 #include "traverse.glsl"
 
@@ -15,6 +16,7 @@ SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
   if (frame.counts.z == number) color = name##_radiance(frame, ray, counts);
   INTEGRATORS(RADIANCE_OF)
 
+  counts.z = counts.z | loops_cut_off(LOOP_PROBE);
   SampleResult result;
   result.color = vec4(positive_zeros(color), 1.0f);
   result.counts = counts;
@@ -25,11 +27,12 @@ HitResult first_hit(Frame frame, uint x, uint y) {
   Ray ray = camera_ray(frame, vec2(float(x) + 0.5f, float(y) + 0.5f));
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   Hit hit = trace(ray, counts);
+  counts.z = counts.z | loops_cut_off(LOOP_PROBE);
   HitResult result;
   result.position_t = vec4(0.0f, 0.0f, 0.0f, T_MISS);
   result.normal = vec4(0.0f, 0.0f, 0.0f, 0.0f);
   result.uv = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-  result.ids = uvec4(NONE, NONE, 0u, 0u);
+  result.ids = uvec4(NONE, NONE, counts.z, 0u);
   if (hit.slot != NONE) {
     Primitive primitive = primitive_at(hit);
     Surface surface = surface_at(primitive, ray, hit);
@@ -54,7 +57,7 @@ QueryHit query(QueryRay asked, bool any) {
   Ray ray = make_ray(vec3(asked.origin), vec3(asked.direction));
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   Found found = search(ray, minimum(asked.direction.w, T_MISS), any, counts);
-  return answer(found, any, counts.z);
+  return answer(found, any, counts.z | loops_cut_off(LOOP_PROBE));
 }
 
 SHADER_END

@@ -54,7 +54,8 @@ struct Primitive {
 
 // ---- Tree: 80 bytes; a node of it ------------------------------------------------------------------------------------
 //   0 origin.xyz  12 -    16 step.xyz  28 -    a plane at q stands at origin + q · step
-//  32 extent.xyz  44 -    the most that |q · step| is
+//  32 extent.xyz          the most that |q · step| is
+//  44 slack               by which share of its reach a ray's boxes are widened
 //  48 reach.xyz   60 -    a mesh's: the largest magnitudes of its coordinates
 //  64 root   68 first slot of its primitives   72 end of its slots   76 -
 // A node is two children. Quantised, a child is 16 bytes, its planes integers: lower | upper << 16 for x, y and z, then what it refers
@@ -149,7 +150,7 @@ struct Light {
 // ---- Frame: what is the same for all pixels, 128 bytes --------------------------------------------------------------
 //   0 width  4 height  8 seed  12 samples along a side (n of n × n)
 //  16 camera type  20 sample pattern  24 media that the eye is in (media.glsl)  28 max_depth
-//  32 light count  36 -  40 integrator  44 triangle method
+//  32 light count  36 2 (loops.glsl)  40 integrator  44 triangle method
 //  48 right.xyz      60 min_weight
 //  64 up.xyz         76 2 / width
 //  80 forward.xyz    92 2 / height
@@ -185,7 +186,7 @@ struct SampleResult {
   uvec4 counts;
 };
 // The first hit of one pixel, 64 bytes: position.xyz (relative to the eye), t; normal.xyz; u, v; primitive, material.
-// A miss has primitive = material = NONE and t = T_MISS.
+// ids: primitive, material, flags. A miss has primitive = material = NONE and t = T_MISS.
 struct HitResult {
   vec4 position_t;
   vec4 normal;

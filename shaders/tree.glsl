@@ -13,7 +13,8 @@ SHADER_BEGIN
 #define TREE_LEAVE 0xfffffffeu  // waits below what an instance's tree puts on the stack
 
 // A ray as a tree's boxes see it: it passes the plane at q at t = q · scale − near (− far, on the way out). Both are off by more
-// than the error of any shape's t, which grows with how far the ray's start and the tree's boxes reach.
+// than the error of any shape's t, which grows with how far the ray's start and the tree's boxes reach; and where there are
+// instances, with how the maps into and out of them make errors grow.
 struct BoxRay {
   vec3 scale;
   vec3 near;
@@ -24,7 +25,7 @@ struct BoxRay {
 BoxRay box_ray(Ray ray, Tree tree) {
   vec3 offset = ray.o - vec3(tree.origin);
   float reach = max_component(abs3(offset) + vec3(tree.extent));
-  vec3 slack = abs3(ray.inverse) * (16.0f * EPSILON * reach);
+  vec3 slack = abs3(ray.inverse) * (tree.extent.w * reach);
   BoxRay boxes;
   boxes.scale = vec3(tree.step) * ray.inverse;
   boxes.near = offset * ray.inverse + slack;

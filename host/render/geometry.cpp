@@ -25,11 +25,15 @@ float above(double x) {
   return -below(-x);
 }
 
+// Around what a shape's record says, whose coordinates are rounded.
 accel::Box to_box(const Bounds& bounds, const Vec3& eye) {
   accel::Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = below(bounds.min[axis] - eye[axis]);
-    box.upper[axis] = above(bounds.max[axis] - eye[axis]);
+    const double lower = bounds.min[axis] - eye[axis];
+    const double upper = bounds.max[axis] - eye[axis];
+    const double room = 0x1p-22 * std::max(std::fabs(lower), std::fabs(upper));
+    box.lower[axis] = below(lower - room);
+    box.upper[axis] = above(upper + room);
   }
   return box;
 }
@@ -119,7 +123,9 @@ class GeometryPacker {
   void add_shapes() {
     for (const auto& shape : scene_.shapes) {
       shape->pack(packer_);
-      boxes_.push_back(to_box(shape->bounds(), scene_.camera.eye));
+      const shader::Primitive& record = packed_.primitives.back();
+      boxes_.push_back(kind_of(record) == shader::KIND_triangle ? triangle_box(record)
+                                                                : to_box(shape->bounds(), scene_.camera.eye));
     }
     world_ = std::move(packed_.primitives);
     packed_.primitives.clear();
@@ -272,6 +278,24 @@ class GeometryPacker {
     return box;
   }
 
+  // A ray is mapped into an instance with errors that grow with its coordinates, wherever the tree's own
+  // origin is. Seen from the world they are |linear| · |inverse| times as large: 3 at most where axes are
+  // stretched and then turned, more under shears.
+  void make_room_for_instances(shader::Tree& tree) const {
+    if (packed_.instances.empty()) return;
+    float growth = 1;
+    for (const shader::Instance& instance : packed_.instances)
+      for (const shader::vec4& row : instance.to_world) {
+        float sum = 0;
+        for (int column = 0; column < 3; ++column)
+          for (int k = 0; k < 3; ++k) sum += std::fabs(row[k] * instance.to_mesh[k][column]);
+        growth = std::max(growth, sum);
+      }
+    // Twice: for the way into the mesh, and for what a triangle there allows for rounding.
+    const float slack = tree.extent.w * 2 * growth;
+    tree.extent = shader::vec4(glm::vec3(tree.extent) + glm::abs(glm::vec3(tree.origin)), slack);
+  }
+
   // Slots of the world: by kind, what is in no tree, then what is, as its leaves hold it.
   void lay_out_world() {
     std::vector<std::vector<uint32_t>> loose(shader::SHAPE_KINDS);
@@ -291,9 +315,10 @@ class GeometryPacker {
     }
     packed_.kind_first.push_back(uint32_t(packed_.primitives.size()));
     world_ = {};
-    if (packed_.has_tree)
+    if (packed_.has_tree) {
       add_tree(world_tree_, first_slots, instance_kind, packed_);
-    else
+      make_room_for_instances(packed_.trees.back());
+    } else
       packed_.trees.emplace_back();
   }
 

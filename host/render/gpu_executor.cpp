@@ -82,7 +82,10 @@ class GpuExecutor final : public Executor {
       return dispatch(*hit_kernel_, push, output);
     };
     for_bands<shader::HitResult>(tile, 0, trace, [&](size_t first, auto results) {
-      for (size_t i = 0; i < results.size(); ++i) out[first + i] = to_first_hit(results[i], eye_);
+      for (size_t i = 0; i < results.size(); ++i) {
+        check_traced(results[i].ids.z);
+        out[first + i] = to_first_hit(results[i], eye_);
+      }
     });
   }
 
@@ -121,6 +124,14 @@ class GpuExecutor final : public Executor {
     device.validation = options.validation;
     device.timeout_seconds = options.timeout_seconds;
     return gpu::Device(device);
+  }
+
+  void check_traced(uint32_t flags) const {
+    if (flags & FLAG_LOOP_BUDGET)
+      throw Error(ExitCode::no_device,
+                  "{} ends loops after 65 535 iterations, before a ray was traced: use a newer driver, or "
+                  "--backend twin",
+                  device_.info().driver_version);
   }
 
   void specialise_for(const PackedScene& packed) {

@@ -104,6 +104,7 @@ void add_tree(const accel::Tree& tree, std::span<const uint32_t> first_slots, ui
     record.step = shader::vec4(1.0f, 1.0f, 1.0f, 0.0f);
     record.extent = shader::vec4(glm::max(glm::abs(tree.box.lower), glm::abs(tree.box.upper)), 0.0f);
   }
+  record.extent.w = 0x1p-18f;
   scene.trees.push_back(record);
 }
 

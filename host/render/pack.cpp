@@ -40,7 +40,7 @@ shader::Frame pack_frame(const Scene& scene, const PackedScene& packed) {
                   scene.image.pattern == SamplePattern::jittered ? PATTERN_JITTERED : PATTERN_REGULAR,
                   pack_media(scene, packed), uint32_t(scene.render.max_depth)};
   frame.counts = {
-      uint32_t(packed.lights.size()), 0, uint32_t(scene.render.integrator),
+      uint32_t(packed.lights.size()), 2, uint32_t(scene.render.integrator),
       scene.render.triangle_method == TriangleMethod::woop ? TRIANGLE_WOOP : TRIANGLE_MOLLER_TRUMBORE};
   frame.right = to_vec4(camera.right, scene.render.min_weight);
   frame.up = to_vec4(camera.up, 2.0 / scene.image.width);

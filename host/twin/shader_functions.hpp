@@ -68,6 +68,7 @@ class Binding {
 #define SHIFT_STACK 0
 #define STACK_SIZE 128
 #define TRACE_ITERATIONS 0u
+#define LOOP_PROBE bound_scene->frame.counts.y
 #define WHITTED_STACK 64
 #define HAS_CHECKER 1
 #define HAS_IMAGES 1

@@ -9,9 +9,10 @@ SHADER_BEGIN
 
 // Along the ray, the triangle is its plane: near the plane, and for slivers, this is far more exact than the weighted mean of the
 // vertices' distances, and a ray that starts off the plane on the far side has t ≤ 0 for certain.
-// But along a ray that grazes the plane, t may come out before the ray reaches the triangle's own bounds. A tree would then miss what
-// brute force finds: so no t is less than the entry into the bounds, or than the farthest vertex, which bounds the entry where
-// rounding lets a ray hit that passes just outside. a, b, c: the vertices from the ray's start, permuted.
+// But along a ray that grazes the plane, t may come out anywhere, and where products round to the same, a needle's edges reach far past
+// its ends. A tree would miss what brute force finds there. So a hit must be within the triangle's own bounds, and t is brought into
+// them. Whatever rounding lets a ray hit is within them up to `room`, along each axis: 16 roundings of the largest coordinate along
+// the ray, a quarter of what tree.glsl widens its boxes by. a, b, c: the vertices from the ray's start, permuted.
 float triangle_t(Primitive s, Ray ray, vec3 a, vec3 b, vec3 c) {
   vec3 n = vec3(s.a.w, s.b.w, s.c.w);
   float t = dot3(n, vec3(s.a) - ray.o) / dot3(n, ray.d);
@@ -19,10 +20,12 @@ float triangle_t(Primitive s, Ray ray, vec3 a, vec3 b, vec3 c) {
   vec3 ta = a * inverse;
   vec3 tb = b * inverse;
   vec3 tc = c * inverse;
-  float entry = maximum(maximum(minimum(ta.x, minimum(tb.x, tc.x)), minimum(ta.y, minimum(tb.y, tc.y))),
-                        minimum(ta.z, minimum(tb.z, tc.z)));
-  float farthest = maximum(ta.z, maximum(tb.z, tc.z));
-  return t > 0.0f ? maximum(t, minimum(entry, farthest)) : -1.0f;
+  vec3 room = abs3(inverse) * (16.0f * EPSILON * maximum(abs(a.z), maximum(abs(b.z), abs(c.z))));
+  vec3 nearest = vec3(minimum(ta.x, minimum(tb.x, tc.x)), minimum(ta.y, minimum(tb.y, tc.y)), minimum(ta.z, minimum(tb.z, tc.z)));
+  vec3 farthest = vec3(maximum(ta.x, maximum(tb.x, tc.x)), maximum(ta.y, maximum(tb.y, tc.y)), maximum(ta.z, maximum(tb.z, tc.z)));
+  float entry = max_component(nearest - room);
+  float exit = -max_component(-farthest - room);
+  return t > 0.0f && entry <= exit ? minimum(maximum(t, entry), exit) : -1.0f;
 }
 
 // Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2013). The edge functions of a shared edge are

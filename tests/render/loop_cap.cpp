@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "loader/scene_file.hpp"
+#include "query_kernel.hpp"
+#include "random_scene.hpp"
 #include "render/executor.hpp"
 
 #include "support/doctest.hpp"
@@ -28,12 +30,18 @@ Scene hall_of_mirrors(int count, int depth) {
   return parse_scene(text, "hall_of_mirrors.toml");
 }
 
+ExecutorOptions one_by_one() {
+  ExecutorOptions options;
+  options.pack.acceleration = Acceleration::brute_force;
+  return options;
+}
+
 }  // namespace
 
 TEST_CASE("more iterations than a capped driver grants: every pixel is the twin's, or flagged") {
   const Scene scene = hall_of_mirrors(1200, 60);
-  const auto gpu = make_executor(Backend::gpu, scene, {});
-  const auto twin = make_executor(Backend::twin, scene, {});
+  const auto gpu = make_executor(Backend::gpu, scene, one_by_one());
+  const auto twin = make_executor(Backend::twin, scene, one_by_one());
   const Rect all{0, 0, scene.image.width, scene.image.height};
   std::vector<PixelSample> ours(size_t(all.pixels())), theirs(size_t(all.pixels()));
   REQUIRE(gpu->sample(all, 0, ours));
@@ -51,8 +59,8 @@ TEST_CASE("more iterations than a capped driver grants: every pixel is the twin'
 TEST_CASE("a scene too large for one ray on a capped driver is refused with the numbers, or rendered right") {
   const Scene scene = hall_of_mirrors(31000, 1);
   try {
-    const auto gpu = make_executor(Backend::gpu, scene, {});
-    const auto twin = make_executor(Backend::twin, scene, {});
+    const auto gpu = make_executor(Backend::gpu, scene, one_by_one());
+    const auto twin = make_executor(Backend::twin, scene, one_by_one());
     const Rect row{0, 0, scene.image.width, 1};
     std::vector<PixelSample> ours(size_t(row.pixels())), theirs(size_t(row.pixels()));
     REQUIRE(gpu->sample(row, 0, ours));
@@ -61,5 +69,85 @@ TEST_CASE("a scene too large for one ray on a capped driver is refused with the 
   } catch (const Error& error) {
     CHECK(error.code() == ExitCode::no_device);
     CHECK(std::string(error.what()).find("31002 primitives") != std::string::npos);
+  }
+}
+
+TEST_CASE("more iterations in a tree than a capped driver grants: every pixel is the twin's, or flagged") {
+  // No box tells these spheres apart: a ray tests them all, the nearest of which is the first.
+  constexpr int count = 70'000;
+  Scene scene;
+  scene.image = {.width = 16, .height = 8};
+  scene.camera.eye = Vec3(0, 0, 5);
+  scene.render.ambient = Vec3(1);
+  test::add(scene, make_phong({}));
+  test::add(scene, make_phong({.diffuse = {Vec3(0), {}}}));
+  for (int i = 0; i < count; ++i) test::add(scene, make_sphere(Vec3(0), 1), i == 0 ? 0 : 1);
+  const auto gpu = make_executor(Backend::gpu, scene, {});
+  const auto twin = make_executor(Backend::twin, scene, {});
+
+  const Rect all{0, 0, scene.image.width, scene.image.height};
+  std::vector<PixelSample> ours(size_t(all.pixels())), theirs(size_t(all.pixels()));
+  REQUIRE(gpu->sample(all, 0, ours));
+  REQUIRE(twin->sample(all, 0, theirs));
+  int flagged = 0;
+  for (size_t i = 0; i < ours.size(); ++i) {
+    if (ours[i].flags & loop_budget)
+      ++flagged;
+    else
+      CHECK(ours[i].color == theirs[i].color);
+  }
+  MESSAGE(fmt::format("{} of {} pixels flagged on {}", flagged, ours.size(), gpu->description()));
+
+  // Rays alone have no place for a flag: they are right, or an error.
+  for (const QueryKind kind : {QueryKind::nearest, QueryKind::any}) {
+    std::vector<Query> rays;
+    for (int i = 0; i < 64; ++i) rays.push_back({Vec3(0.001 * i, 0, 5), Vec3(0, 0, -1)});
+    std::vector<QueryHit> found(rays.size()), expected(rays.size());
+    twin->query(rays, kind, expected);
+    try {
+      gpu->query(rays, kind, found);
+      for (size_t i = 0; i < rays.size(); ++i) {
+        CHECK(found[i].t == expected[i].t);
+        CHECK(found[i].primitive == expected[i].primitive);
+      }
+    } catch (const Error& error) {
+      CHECK(error.code() == ExitCode::no_device);
+      CHECK(std::string(error.what()).find("ends loops after 65 535") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("whichever loop a driver cuts off, in a tree or beside it: what a ray loses is right, or flagged") {
+  // So faint that a ray goes through all of them.
+  constexpr int count = 70'000;
+  Scene scene;
+  scene.camera.eye = Vec3(0, 0, 5);
+  test::add(scene, make_dielectric({.shadow = 0.99999}));
+  for (int i = 0; i < count; ++i) test::add(scene, make_sphere(Vec3(0), 1), 0);
+  std::vector<shader::QueryRay> rays;
+  for (int i = 0; i < 64; ++i) rays.push_back({to_vec4(Vec3(0.02 * i, 0, 0)), to_vec4(Vec3(0, 0, -1), 1e30)});
+
+  gpu::Device device({});
+  for (const Acceleration acceleration : {Acceleration::tree, Acceleration::brute_force}) {
+    const PackedScene packed = pack(scene, {.acceleration = acceleration});
+    const std::vector<shader::QueryHit> expected = test::ask_twin(packed, rays, true);
+    CHECK(expected[0].hit.w > count);
+    CHECK(expected[0].hit.w < SHADOW_OPAQUE);
+    for (const bool texels : {false, true}) {
+      Specialisation specialisation;
+      specialisation.profile = {.texel_buffers = texels, .shift_stack = texels};
+      test::QueryKernel kernel(device, packed, specialisation);
+      const std::vector<shader::QueryHit> found = kernel.ask(rays, true);
+      int flagged = 0, wrong = 0, silent = 0;
+      for (size_t i = 0; i < rays.size(); ++i) {
+        const bool flag = (found[i].hit.z & FLAG_LOOP_BUDGET) != 0;
+        const bool right = found[i].hit.w == expected[i].hit.w;
+        flagged += flag;
+        wrong += !right;
+        silent += !right && !flag;
+      }
+      MESSAGE(fmt::format("{} of {} rays wrong, {} flagged", wrong, rays.size(), flagged));
+      CHECK(silent == 0);
+    }
   }
 }

@@ -1,0 +1,286 @@
+// Scenes and rays that are hard on trees: boxes without extent, needles, duplicates, ties, and rays that only
+// just touch.
+#pragma once
+
+#include "random_scene.hpp"
+#include "reference/media.hpp"
+
+namespace eyeray::test {
+
+class HardScene {
+ public:
+  explicit HardScene(uint64_t seed) : random_(seed) { build(); }
+
+  const Scene& scene() const { return scene_; }
+
+  // Rays that start where anything starts and go where it matters. The scene's eye is the records' origin.
+  std::vector<shader::QueryRay> rays(size_t count) {
+    std::vector<shader::QueryRay> rays(count);
+    for (shader::QueryRay& ray : rays) ray = some_ray();
+    return rays;
+  }
+
+ private:
+  bool chance(double share) { return random_.uniform() < share; }
+  size_t index(size_t count) { return size_t(random_.below(int(count))); }
+
+  void build() {
+    size_ = chance(0.5) ? 1 : random_.log_uniform(1e-5, 1e5);
+    apart_ = chance(0.15) ? random_.direction() * size_ * random_.log_uniform(1e5, 1e7) : Vec3(0);
+    center_ = chance(0.5) ? Vec3(0) : random_.direction() * size_ * random_.log_uniform(1, 1e4);
+    grid_ = chance(0.4) ? size_ / 4 : 0;
+    scene_.camera.eye = chance(0.5) ? Vec3(0) : center_ + random_.point(2) * size_;
+    scene_.camera.target = scene_.camera.eye + Vec3(0, 0, -1);
+    if (chance(0.2)) scene_.render.triangle_method = TriangleMethod::moller_trumbore;
+    add(scene_, make_phong({}));
+    add(scene_, make_dielectric({.shadow = 0.7}));
+    glass_ = chance(0.5) ? 0.5 : 0;
+    const int kind = random_.below(12);
+    if (kind == 0) {
+      add_single();
+    } else if (kind == 1) {
+      add_nest();
+    } else {
+      add_spheres(random_.below(8));
+      if (chance(0.3)) add(scene_, make_plane(point(center_, size_), random_.direction()), material());
+      if (chance(0.7)) add_shapes(hard_triangles(1 + random_.below(20)));
+      if (chance(0.6)) add_instances(1);
+      if (chance(0.6)) add_instances(2 + random_.below(4));
+      if (scene_.shapes.empty() && scene_.instances.empty()) add_single();
+    }
+    sort_shapes();
+    // More media around the eye than a ray can carry: all opaque.
+    if (reference::media_at(scene_, scene_.camera.eye).size() > 4) {
+      for (const auto& shape : scene_.shapes) shape->material = 0;
+      for (Instance& instance : scene_.instances) instance.material = 0;
+    }
+    collect_targets();
+  }
+
+  // Shapes stand in registry order.
+  void sort_shapes() {
+    std::ranges::stable_sort(scene_.shapes, {}, [](const std::unique_ptr<Shape>& shape) {
+      Packer packer(Vec3(0));
+      shape->pack(packer);
+      return kind_of(packer.scene.primitives[0]);
+    });
+  }
+
+  int material() { return chance(glass_) ? 1 : 0; }
+
+  Vec3 point(const Vec3& at, double reach) {
+    const Vec3 p = at + random_.point(1) * reach + (reach == size_ && chance(0.5) ? apart_ : Vec3(0));
+    return grid_ > 0 ? glm::round(p / grid_) * grid_ : p;
+  }
+
+  // Triangles of every bad kind.
+  Mesh hard_triangles(int count) {
+    Mesh mesh;
+    const bool at_one_point = chance(0.05);
+    const Vec3 only = point(center_, size_);
+    for (int i = 0; i < count; ++i) {
+      const Vec3 at = at_one_point ? only : point(center_, size_);
+      const double reach = size_ * random_.log_uniform(1e-3, 1);
+      Corners v = {point(at, reach), point(at, reach), point(at, reach)};
+      switch (random_.below(7)) {
+        case 0:
+          v[1].y = v[2].y = v[0].y;
+          break;  // a box without height
+        case 1:
+          v[2] = glm::mix(v[0], v[1], 0.4) + random_.point(random_.log_uniform(1e-8, 1e-2)) * reach;
+          break;  // a needle
+        case 2:
+          v[2] = v[1] + random_.point(random_.log_uniform(1e-8, 1e-2)) * reach;
+          break;  // with two ends close
+        case 3:
+          if (i > 0) v = corners(mesh, index(mesh.triangles.size()));
+          break;  // a duplicate
+        case 4:   // coplanar, overlapping
+          if (i > 0) {
+            const Corners other = corners(mesh, index(mesh.triangles.size()));
+            v = {other[0], other[1], other[1] + 2.0 * (other[2] - other[0])};
+          }
+          break;
+        default:
+          break;
+      }
+      if (!(thickness(v) >= thinnest_triangle)) v = {at, at + Vec3(size_, 0, 0), at + Vec3(0, 0, size_)};
+      const auto first = uint32_t(mesh.positions.size());
+      mesh.positions.insert(mesh.positions.end(), v.begin(), v.end());
+      mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    return mesh;
+  }
+
+  void add_shapes(const Mesh& mesh) { add_triangles(scene_, mesh, material()); }
+
+  void add_single() {
+    if (chance(0.5)) {
+      add_shapes(hard_triangles(1));
+    } else {
+      add(scene_, make_sphere(point(center_, size_), size_ * random_.uniform(0.1, 1)), material());
+    }
+  }
+
+  void add_spheres(int count) {
+    for (int i = 0; i < count; ++i) {
+      const bool again = i > 0 && chance(0.2);
+      if (!again) {
+        sphere_center_ = point(center_, size_);
+        sphere_radius_ = size_ * random_.log_uniform(1e-4, 1);
+      }
+      add(scene_, make_sphere(sphere_center_, sphere_radius_), material());
+    }
+  }
+
+  // Each around the next, and all but alike: the deepest of trees.
+  void add_nest() {
+    const int count = 30 + random_.below(100);
+    const double factor = random_.uniform(1.05, 1.5);
+    for (int i = 0; i < count; ++i) {
+      const double radius = size_ * std::pow(factor, -i);
+      if (radius < 1e-9 * size_) break;
+      add(scene_, make_sphere(center_ + Vec3(radius, 0, 0), radius), material());
+    }
+  }
+
+  void add_instances(int count) {
+    const int mesh = add(scene_, hard_triangles(1 + random_.below(30)));
+    Mat4 map(1.0);
+    for (int i = 0; i < count; ++i) {
+      if (i == 0 || !chance(0.2)) map = some_map();
+      add_instance(scene_, mesh, material(), map);
+    }
+  }
+
+  // Turned, stretched, mirrored, sheared, made tiny or huge, and moved.
+  Mat4 some_map() {
+    if (chance(0.1)) return Mat4(1.0);
+    const double strongest = chance(0.3) ? 100 : 2;
+    const auto factor = [&] {
+      return random_.log_uniform(1 / strongest, strongest) * (chance(0.2) ? -1 : 1);
+    };
+    Mat4 map = translation(center_ + random_.point(1) * size_);
+    for (int i = 0; i < 2; ++i) {
+      map = glm::rotate(map, random_.uniform(0, 7), random_.direction());
+      if (chance(0.7)) map = glm::scale(map, Vec3(factor(), factor(), factor()));
+    }
+    if (chance(0.2)) map = glm::scale(map, Vec3(random_.log_uniform(1e-3, 1e3)));
+    return map * translation(-center_);
+  }
+
+  // Where rays go: corners, edges and insides as the records have them, in float32.
+  struct Target {
+    glm::vec3 a, b, c;  // the corners; of a sphere its centre, and points at its poles and on it
+  };
+  void collect_targets() {
+    const PackedScene packed = pack(scene_, {.acceleration = Acceleration::brute_force});
+    const auto take = [&](const shader::Primitive& p, const shader::Instance* instance) {
+      Target target{glm::vec3(p.a), glm::vec3(p.b), glm::vec3(p.c)};
+      if (kind_of(p) == shader::KIND_sphere) {
+        glm::vec3 pole(0);
+        pole[random_.below(3)] = chance(0.5) ? p.a.w : -p.a.w;
+        target.b = target.a + pole;
+        target.c = target.a + glm::vec3(random_.direction()) * p.a.w;
+      } else if (kind_of(p) == shader::KIND_plane) {
+        target = {target.a * p.a.w, target.a * p.a.w + target.b, target.a * p.a.w + target.c};
+      }
+      if (instance) {
+        for (glm::vec3* corner : {&target.a, &target.b, &target.c}) {
+          Vec3 moved;
+          for (int row = 0; row < 3; ++row) {
+            const glm::dvec4 map(instance->to_world[row]);
+            moved[row] = glm::dot(Vec3(map), Vec3(*corner)) + map.w;
+          }
+          *corner = glm::vec3(moved);
+        }
+      }
+      targets_.push_back(target);
+    };
+    for (uint32_t i = 0; i < packed.kind_first.back(); ++i) take(packed.primitives[i], nullptr);
+    for (const shader::Instance& instance : packed.instances)
+      for (uint32_t i = packed.trees[instance.head.x].head.y; i < packed.trees[instance.head.x].head.z; ++i)
+        take(packed.primitives[i], &instance);
+  }
+
+  glm::vec3 some_point() {
+    const Target& t = targets_[index(targets_.size())];
+    const auto u = float(random_.uniform()), v = float(random_.uniform());
+    switch (random_.below(5)) {
+      case 0:
+        return t.a;
+      case 1:
+        return t.b;
+      case 2:
+        return t.a + (t.b - t.a) * u;
+      case 3:
+        return t.b + (t.c - t.b) * u;
+      default:
+        return t.a + (t.b - t.a) * (u * v) + (t.c - t.a) * (u * (1 - v));
+    }
+  }
+
+  shader::QueryRay some_ray() {
+    const glm::vec3 target = some_point();
+    Vec3 origin = Vec3(target) + random_.direction() * size_ * random_.log_uniform(1e-2, 1e2);
+    Vec3 direction = Vec3(target) - origin;
+    const Target& other = targets_[index(targets_.size())];
+    switch (random_.below(10)) {
+      case 0:  // along an axis
+      case 1: {
+        direction = Vec3(0);
+        direction[random_.below(3)] = chance(0.5) ? 1 : -1;
+        if (chance(0.3)) direction[random_.below(3)] += random_.log_uniform(1e-16, 1e-5);
+        origin = Vec3(target) - direction * (chance(0.3) ? 0.0 : size_ * random_.log_uniform(1e-2, 1e2));
+        break;
+      }
+      case 2:  // from one to another
+      case 3:
+        origin = Vec3(some_point());
+        direction = Vec3(target) - origin;
+        break;
+      case 4:  // along an edge, or tangent to a sphere, from within or from its extension
+      case 5:
+        direction = Vec3(other.b) - Vec3(other.a);
+        if (chance(0.5)) direction = Vec3(other.c) - Vec3(other.b);
+        origin = Vec3(other.b) - direction * random_.log_uniform(1e-3, 1e6) * (chance(0.5) ? 1.0 : -1.0);
+        break;
+      case 6:  // past the end of a long edge, at any angle
+        direction = random_.direction();
+        origin = Vec3(other.b) + (Vec3(other.b) - Vec3(other.a)) * random_.log_uniform(1e-3, 1e6);
+        origin -= direction * size_ * random_.uniform();
+        break;
+      case 7:  // from far away
+        origin = Vec3(target) + random_.direction() * size_ * random_.log_uniform(1e2, 1e8);
+        direction = Vec3(target) - origin;
+        break;
+      case 8:  // from a surface
+        origin = Vec3(target);
+        direction = random_.direction();
+        break;
+      default:
+        break;
+    }
+    if (direction == Vec3(0)) direction = {0, 0, 1};
+    direction = unit(direction);
+    // Half of them end, some close to what they aim at.
+    const double distance = glm::length(Vec3(target) - origin);
+    const double t_max = chance(0.5)   ? 3e38
+                         : chance(0.5) ? distance
+                                       : distance * random_.log_uniform(0.1, 10);
+    return {to_vec4(origin), to_vec4(direction, t_max)};
+  }
+
+  Random random_;
+  Scene scene_;
+  double size_ = 1;
+  Vec3 center_{0};
+  double grid_ = 0;
+  Vec3 apart_{0};  // to where half of everything is: against that, any of it is tiny
+  double glass_ = 0;
+  Vec3 sphere_center_{0};
+  double sphere_radius_ = 1;
+  std::vector<Target> targets_;
+};
+
+}  // namespace eyeray::test

@@ -1,0 +1,156 @@
+// A tree changes nothing: what is found through it is what testing everything finds, to the last bit.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <mutex>
+
+#include "core/parallel_for.hpp"
+#include "hard_scene.hpp"
+#include "query_kernel.hpp"
+#include "render/executor.hpp"
+
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// What was compared, and the first that differ.
+class Tally {
+ public:
+  void compare(uint64_t seed, const char* what, std::span<const shader::QueryRay> rays,
+               std::span<const shader::QueryHit> expected, std::span<const shader::QueryHit> found) {
+    for (size_t i = 0; i < rays.size(); ++i) {
+      ++compared;
+      hits += expected[i].hit.y != NONE;
+      dimmed += expected[i].hit.w > 0 && expected[i].hit.w < SHADOW_OPAQUE;
+      if (expected[i].hit == found[i].hit) continue;
+      const std::lock_guard lock(mutex_);
+      if (++different > 5) continue;
+      const auto text = [](const shader::uvec4& hit) {
+        return fmt::format("t {:.9g}, primitive {}, flags {}, sum {}", std::bit_cast<float>(hit.x),
+                           int(hit.y), hit.z, hit.w);
+      };
+      shown_ += fmt::format("scene {}, {}, ray {}: {}; not {}\n", seed, what, i, text(found[i].hit),
+                            text(expected[i].hit));
+    }
+  }
+  std::string shown() const { return shown_; }
+
+  std::atomic<int64_t> compared = 0, hits = 0, dimmed = 0, different = 0;
+
+ private:
+  std::mutex mutex_;
+  std::string shown_;
+};
+
+}  // namespace
+
+TEST_CASE("10 000 hard scenes on the twin: the tree finds what brute force finds, to the last bit") {
+  Tally whole, split;
+  std::atomic<int> trees = 0, quantised = 0, with_splits = 0, with_instances = 0;
+  parallel_for(0, 10000, [&](int seed) {
+    HardScene hard{uint64_t(seed)};
+    const std::vector<shader::QueryRay> rays = hard.rays(200);
+    const PackedScene brute = pack(hard.scene(), {.acceleration = Acceleration::brute_force});
+    const PackedScene tree = pack(hard.scene(), {.acceleration = Acceleration::tree});
+    const PackedScene cut = pack(hard.scene(), {.acceleration = Acceleration::tree, .split = true});
+    const bool splits = cut.primitives.size() > tree.primitives.size();
+    trees += tree.has_tree;
+    quantised += tree.has_tree && tree.quantised_nodes;
+    with_instances += !tree.instances.empty();
+    with_splits += splits;
+    for (const bool any : {false, true}) {
+      const std::vector<shader::QueryHit> expected = ask_twin(brute, rays, any);
+      whole.compare(uint64_t(seed), any ? "any" : "nearest", rays, expected, ask_twin(tree, rays, any));
+      if (splits)
+        split.compare(uint64_t(seed), any ? "any" : "nearest", rays, expected, ask_twin(cut, rays, any));
+    }
+  });
+  MESSAGE(
+      fmt::format("{} compared, {} hit, {} dimmed; of {} trees {} quantised, {} with instances: {} differ",
+                  whole.compared.load(), whole.hits.load(), whole.dimmed.load(), trees.load(),
+                  quantised.load(), with_instances.load(), whole.different.load()));
+  MESSAGE(fmt::format("{} compared with splits, {} trees: {} differ", split.compared.load(),
+                      with_splits.load(), split.different.load()));
+  {
+    INFO(whole.shown());
+    CHECK(whole.different == 0);
+  }
+  CHECK(whole.hits > 800'000);
+  CHECK(whole.dimmed > 100'000);
+  CHECK(quantised > 5000);
+  CHECK(trees - quantised > 500);
+  CHECK(with_instances > 4000);
+  // The parts of a triangle have boxes of their own, and rounding may bring a hit of a ray that grazes it to
+  // where no part is.
+  INFO(split.shown());
+  CHECK(with_splits > 2000);
+  CHECK(split.different <= split.compared / 100'000);
+}
+
+TEST_CASE("hard scenes on the GPU: a tree finds what the twin finds by brute force, whatever the profile") {
+  gpu::Device device({});
+  Tally tally;
+  int trees = 0, quantised = 0, with_splits = 0, with_instances = 0;
+  for (uint64_t seed = 20000; trees < 16; ++seed) {
+    HardScene hard{seed};
+    const PackedScene brute = pack(hard.scene(), {.acceleration = Acceleration::brute_force});
+    const PackedScene tree = pack(hard.scene(), {.acceleration = Acceleration::tree, .split = trees % 8 < 4});
+    if (!tree.has_tree) continue;
+    const bool splits = tree.primitives.size() > brute.primitives.size();
+    quantised += tree.quantised_nodes;
+    with_splits += splits;
+    with_instances += !tree.instances.empty();
+    Specialisation specialisation;
+    specialisation.profile = {.texel_buffers = trees % 2 == 0, .shift_stack = trees % 4 < 2};
+    ++trees;
+    const std::vector<shader::QueryRay> rays = hard.rays(5000);
+    QueryKernel kernel(device, tree, specialisation);
+    for (const bool any : {false, true})
+      tally.compare(seed, any ? "any" : "nearest", rays, ask_twin(splits ? tree : brute, rays, any),
+                    kernel.ask(rays, any));
+  }
+  MESSAGE(
+      fmt::format("{} compared, {} hit, {} dimmed; of {} trees {} quantised, {} with splits, {} with "
+                  "instances: {} differ",
+                  tally.compared.load(), tally.hits.load(), tally.dimmed.load(), trees, quantised,
+                  with_splits, with_instances, tally.different.load()));
+  INFO(tally.shown());
+  CHECK(tally.different == 0);
+  CHECK(tally.hits > 10'000);
+  CHECK(tally.dimmed > 1000);
+  CHECK(quantised > 8);
+  CHECK(quantised < trees);
+  CHECK(with_splits > 0);
+  CHECK(with_instances > 4);
+}
+
+TEST_CASE("the validation layers have nothing to say of trees, instances and either way to load them") {
+  Scene scene;
+  scene.image = {.width = 24, .height = 16};
+  scene.camera.eye = Vec3(0, 0, 6);
+  scene.camera.target = Vec3(0);
+  add(scene, make_phong({}));
+  add_point_light(scene, {3, 4, 5}, Vec3(1));
+  const int mesh = add(scene, globe(12, 6));
+  for (const double x : {-1.5, 1.5}) add_instance(scene, mesh, 0, translation({x, 0, 0}));
+  REQUIRE(!pack(scene).instances.empty());
+  for (const char* layer : {"core", "sync"}) {
+    for (const char* loads : {"texels", "storage"}) {
+      ExecutorOptions options;
+      options.validation = layer;
+      options.profile.loads = loads;
+      // A message is an error.
+      const auto gpu = make_executor(Backend::gpu, scene, options);
+      const Rendering ours = render(scene, *gpu, {.crop = {}, .first_hits = true, .progress = {}});
+      const Rendering twins = render(scene, *make_executor(Backend::twin, scene, {}), {});
+      CHECK(ours.color.samples() == twins.color.samples());
+      std::vector<QueryHit> hit(1);
+      const Query ray{{-1.5, 0, 6}, {0, 0, -1}};
+      gpu->query(std::span(&ray, 1), QueryKind::nearest, hit);
+      CHECK(hit[0].primitive >= 0);
+    }
+  }
+}
