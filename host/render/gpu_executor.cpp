@@ -286,9 +286,7 @@ class GpuExecutor final : public Executor {
 
     const std::vector<shader::QueryHit> answers = output.read_records<shader::QueryHit>(count);
     for (size_t i = 0; i < count; ++i) {
-      if (answers[i].hit.z & FLAG_LOOP_BUDGET)
-        throw Error(ExitCode::no_device, "{} ended the loop of a ray before it was traced",
-                    device_.info().driver_version);
+      check_traced(answers[i].hit.z);
       hits[i] = to_query_hit(answers[i]);
     }
     return time.seconds;

@@ -109,7 +109,7 @@ TEST_CASE(
     for (const bool instanced : {false, true}) {
       const PlacedMesh placed(mesh, place, instanced);
       Specialisation specialisation;
-      specialisation.profile = {.texel_buffers = instanced, .shift_stack = instanced};
+      specialisation.profile = {.texel_buffers = instanced, .packets = !instanced, .shift_stack = instanced};
       QueryKernel kernel(device, placed.packed, specialisation);
       for (const Aim aim : {Aim::random, Aim::edges, Aim::vertices}) {
         std::vector<shader::QueryRay> rays(static_cast<size_t>(count));

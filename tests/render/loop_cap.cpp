@@ -103,9 +103,9 @@ TEST_CASE("more iterations in a tree than a capped driver grants: every pixel is
     std::vector<Query> rays;
     for (int i = 0; i < 64; ++i) rays.push_back({Vec3(0.001 * i, 0, 5), Vec3(0, 0, -1)});
     std::vector<QueryHit> found(rays.size()), expected(rays.size());
-    twin->query(rays, kind, expected);
+    twin->query({rays, kind}, expected);
     try {
-      gpu->query(rays, kind, found);
+      gpu->query({rays, kind}, found);
       for (size_t i = 0; i < rays.size(); ++i) {
         CHECK(found[i].t == expected[i].t);
         CHECK(found[i].primitive == expected[i].primitive);

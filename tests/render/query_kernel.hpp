@@ -17,6 +17,7 @@ class QueryKernel {
  public:
   QueryKernel(gpu::Device& device, const PackedScene& scene, const Specialisation& specialisation)
       : device_(device), scene_(scene), specialisation_(specialisation) {
+    specialisation_.subgroup_size = device.info().limits.subgroup_size;
     const gpu::BindingKind large =
         specialisation.profile.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
     add(BINDING_PRIMITIVES, std::as_bytes(std::span(scene.primitives)), large);
@@ -30,6 +31,11 @@ class QueryKernel {
     add(BINDING_MEDIA, std::as_bytes(std::span(scene.media)));
     add(BINDING_LIGHTS, std::as_bytes(std::span(scene.lights)));
     add(BINDING_FRAME, std::as_bytes(std::span(&scene.frame, 1)));
+  }
+
+  // Whether rays are traced together, as the gpu executor would.
+  bool traces_packets() const {
+    return specialisation_.profile.packets && scene_.has_tree && scene_.instances.empty();
   }
 
   std::vector<shader::QueryHit> ask(std::span<const shader::QueryRay> rays, bool any) {
@@ -56,10 +62,11 @@ class QueryKernel {
   }
 
   std::unique_ptr<gpu::Kernel> make_kernel(bool any) {
-    const std::vector<uint32_t> spirv = gpu::strict_floats(
-        compile_entry("query.comp.glsl", scene_, specialisation_, any ? "#define QUERY_ANY\n" : ""),
-        device_.info().float_modes);
-    auto kernel = std::make_unique<gpu::Kernel>(device_, spirv, "query.comp.glsl", cache_);
+    const char* entry = traces_packets() ? "packet.comp.glsl" : "query.comp.glsl";
+    const std::vector<uint32_t> spirv =
+        gpu::strict_floats(compile_entry(entry, scene_, specialisation_, any ? "#define QUERY_ANY\n" : ""),
+                           device_.info().float_modes);
+    auto kernel = std::make_unique<gpu::Kernel>(device_, spirv, entry, cache_);
     for (const auto& [binding, buffer] : buffers_) kernel->set_buffer(binding, buffer);
     return kernel;
   }

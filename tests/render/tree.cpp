@@ -7,7 +7,7 @@
 #include "core/parallel_for.hpp"
 #include "hard_scene.hpp"
 #include "query_kernel.hpp"
-#include "render/executor.hpp"
+#include "render/render.hpp"
 
 #include "support/doctest.hpp"
 
@@ -93,8 +93,8 @@ TEST_CASE("10 000 hard scenes on the twin: the tree finds what brute force finds
 TEST_CASE("hard scenes on the GPU: a tree finds what the twin finds by brute force, whatever the profile") {
   gpu::Device device({});
   Tally tally;
-  int trees = 0, quantised = 0, with_splits = 0, with_instances = 0;
-  for (uint64_t seed = 20000; trees < 16; ++seed) {
+  int trees = 0, quantised = 0, with_splits = 0, with_instances = 0, together = 0;
+  for (uint64_t seed = 20000; trees < 24; ++seed) {
     HardScene hard{seed};
     const PackedScene brute = pack(hard.scene(), {.acceleration = Acceleration::brute_force});
     const PackedScene tree = pack(hard.scene(), {.acceleration = Acceleration::tree, .split = trees % 8 < 4});
@@ -104,10 +104,12 @@ TEST_CASE("hard scenes on the GPU: a tree finds what the twin finds by brute for
     with_splits += splits;
     with_instances += !tree.instances.empty();
     Specialisation specialisation;
-    specialisation.profile = {.texel_buffers = trees % 2 == 0, .shift_stack = trees % 4 < 2};
+    specialisation.profile = {
+        .texel_buffers = trees % 2 == 0, .packets = trees % 8 < 6, .shift_stack = trees % 4 < 2};
     ++trees;
     const std::vector<shader::QueryRay> rays = hard.rays(5000);
     QueryKernel kernel(device, tree, specialisation);
+    together += kernel.traces_packets();
     for (const bool any : {false, true})
       tally.compare(seed, any ? "any" : "nearest", rays, ask_twin(splits ? tree : brute, rays, any),
                     kernel.ask(rays, any));
@@ -125,6 +127,7 @@ TEST_CASE("hard scenes on the GPU: a tree finds what the twin finds by brute for
   CHECK(quantised < trees);
   CHECK(with_splits > 0);
   CHECK(with_instances > 4);
+  CHECK(together > 4);
 }
 
 TEST_CASE("the validation layers have nothing to say of trees, instances and either way to load them") {
@@ -149,7 +152,7 @@ TEST_CASE("the validation layers have nothing to say of trees, instances and eit
       CHECK(ours.color.samples() == twins.color.samples());
       std::vector<QueryHit> hit(1);
       const Query ray{{-1.5, 0, 6}, {0, 0, -1}};
-      gpu->query(std::span(&ray, 1), QueryKind::nearest, hit);
+      gpu->query({std::span(&ray, 1)}, hit);
       CHECK(hit[0].primitive >= 0);
     }
   }
