@@ -23,6 +23,7 @@ SHADER_BEGIN
 #define BINDING_PACKET_HITS 12
 #define BINDING_OCCLUSIONS 13
 #define BINDING_TEXELS 14
+#define BINDING_WIDE_NODES 15
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss

@@ -109,7 +109,8 @@ bool any_reflects(const PackedScene& scene) {
          });
 }
 
-// The kinds of shape that the trees hold.
+}  // namespace
+
 std::set<uint32_t> tree_kinds(const PackedScene& scene) {
   std::set<uint32_t> kinds;
   for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
@@ -117,8 +118,6 @@ std::set<uint32_t> tree_kinds(const PackedScene& scene) {
   if (!scene.instances.empty()) kinds.insert(shader::KIND_triangle);
   return kinds;
 }
-
-}  // namespace
 
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
   std::set<uint32_t> shapes_used;

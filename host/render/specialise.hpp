@@ -1,6 +1,7 @@
 // Made for one scene: the text of scene.glsl, with which the entries compile only what the scene has.
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "records/packer.hpp"
@@ -16,6 +17,9 @@ struct Specialisation {
   uint32_t subgroup_size = 8;  // of packet.comp.glsl
   uint32_t group_stride = 1;   // render.comp.glsl: runs of workgroups
 };
+
+// The kinds of shape that the trees hold.
+std::set<uint32_t> tree_kinds(const PackedScene& scene);
 
 std::string specialise(const PackedScene& scene, const Specialisation& options);
 

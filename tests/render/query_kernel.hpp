@@ -2,12 +2,15 @@
 // twin.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "gpu/command_list.hpp"
 #include "gpu/self_test.hpp"
+#include "render/wide_nodes.hpp"
 #include "support.hpp"
 #include "twin/twin.hpp"
 
@@ -15,7 +18,9 @@ namespace eyeray::test {
 
 class QueryKernel {
  public:
-  QueryKernel(gpu::Device& device, const PackedScene& scene, const Specialisation& specialisation)
+  // With a `wide_tree`, by wide.comp.glsl; else each ray alone.
+  QueryKernel(gpu::Device& device, const PackedScene& scene, const Specialisation& specialisation,
+              const WideTree* wide_tree = nullptr)
       : device_(device), scene_(scene), specialisation_(specialisation) {
     const gpu::BindingKind large =
         specialisation.profile.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
@@ -30,6 +35,11 @@ class QueryKernel {
     add(BINDING_MEDIA, std::as_bytes(std::span(scene.media)));
     add(BINDING_LIGHTS, std::as_bytes(std::span(scene.lights)));
     add(BINDING_FRAME, std::as_bytes(std::span(&scene.frame, 1)));
+    if (wide_tree) {
+      add(BINDING_WIDE_NODES, std::as_bytes(std::span(wide_tree->nodes)), large);
+      entry_ = "wide.comp.glsl";
+      defines_ = fmt::format("#define WIDE_STACK_SIZE {}\n", wide_tree->stack_size);
+    }
   }
 
   std::vector<shader::QueryHit> ask(std::span<const shader::QueryRay> rays, bool any) {
@@ -56,10 +66,11 @@ class QueryKernel {
   }
 
   std::unique_ptr<gpu::Kernel> make_kernel(bool any) {
-    const std::vector<uint32_t> spirv = gpu::strict_floats(
-        compile_entry("query.comp.glsl", scene_, specialisation_, any ? "#define QUERY_ANY\n" : ""),
-        device_.info().float_modes);
-    auto kernel = std::make_unique<gpu::Kernel>(device_, spirv, "query.comp.glsl", cache_);
+    const std::vector<uint32_t> spirv =
+        gpu::strict_floats(compile_entry(entry_, scene_, specialisation_,
+                                         (defines_ + (any ? "#define QUERY_ANY\n" : "")).c_str()),
+                           device_.info().float_modes);
+    auto kernel = std::make_unique<gpu::Kernel>(device_, spirv, entry_, cache_);
     for (const auto& [binding, buffer] : buffers_) kernel->set_buffer(binding, buffer);
     return kernel;
   }
@@ -67,6 +78,8 @@ class QueryKernel {
   gpu::Device& device_;
   const PackedScene& scene_;
   Specialisation specialisation_;
+  const char* entry_ = "query.comp.glsl";
+  std::string defines_;
   gpu::DiskCache cache_ = gpu::DiskCache::of_user();
   std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
   std::unique_ptr<gpu::Kernel> kernels_[2];  // by whether any hit will do
