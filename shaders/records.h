@@ -26,6 +26,7 @@ SHADER_BEGIN
 #define BINDING_LIST 16
 #define BINDING_NEXT_LIST 17
 #define BINDING_TEXELS 14
+#define BINDING_WIDE_NODES 15
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss

@@ -21,16 +21,20 @@ namespace {
 
 constexpr std::string_view default_scene = "scenes/whitted.toml";
 
-// Our executors of a scene, and what they spent on packing it.
+// Our executors of a scene, by the names that they race under.
 struct Ours {
   std::vector<std::unique_ptr<Executor>> executors;
   std::vector<Contender> contenders;
-  std::vector<Build> builds;
+  std::vector<double> seconds;  // that making each took
+
+  // What they spent on packing the scene, once they have raced: some of it is done when it is first needed.
+  std::vector<Build> builds() const;
 };
 
 struct Command {
   std::vector<std::string> scenes;  // files, and names of standard scenes
   PictureOptions pictures;
+  std::vector<std::string> scattered{""};  // ProfileOptions::scattered, each for a gpu executor of its own
   bool with_rays = true;
   bool with_pictures = true;
   std::string plot;
@@ -60,22 +64,38 @@ Scene Command::load(const std::string& name) const {
 
 Ours Command::executors(const Scene& scene) const {
   Ours ours;
-  for (const std::string& backend : pictures.backends) {
+  const auto add = [&](const std::string& name, Backend backend, const std::string& how) {
     const Stopwatch watch;
     ExecutorOptions options;
     options.device = pictures.device;
-    ours.executors.push_back(make_executor(parse_backend(backend), scene, options));
+    options.profile.scattered = how;
+    ours.executors.push_back(make_executor(backend, scene, options));
+    ours.seconds.push_back(watch.seconds());
     Executor* const executor = ours.executors.back().get();
-    ours.contenders.push_back({backend, Side::ours, [executor](const Batch& batch, std::span<QueryHit> hits) {
+    ours.contenders.push_back({name, Side::ours, [executor](const Batch& batch, std::span<QueryHit> hits) {
                                  return executor->query({batch.rays, batch.kind, batch.coherent}, hits);
                                }});
-    double seconds = watch.seconds();
-    for (const auto& [stage, spent] : executor->times().stages()) {
-      if (stage == "pack") seconds = spent;
-    }
-    ours.builds.push_back({backend, seconds, executor->geometry_bytes()});
+  };
+  for (const std::string& name : pictures.backends) {
+    const Backend backend = parse_backend(name);
+    if (backend == Backend::gpu)
+      for (const std::string& how : scattered) add(how.empty() ? name : name + " " + how, backend, how);
+    else
+      add(name, backend, "");
   }
   return ours;
+}
+
+std::vector<Build> Ours::builds() const {
+  std::vector<Build> builds;
+  for (size_t i = 0; i < executors.size(); ++i) {
+    double packing = 0;
+    for (const auto& [stage, spent] : executors[i]->times().stages())
+      if (stage == "pack" || stage == "widen") packing += spent;
+    builds.push_back(
+        {contenders[i].name, packing > 0 ? packing : seconds[i], executors[i]->geometry_bytes()});
+  }
+  return builds;
 }
 
 SceneReport Command::race_on(const std::string& name) const {
@@ -85,7 +105,7 @@ SceneReport Command::race_on(const std::string& name) const {
   const Ours ours = executors(scene);
   SceneReport report =
       run_field(name, standard ? std::string(standard->family) : name, scene, options, ours.contenders);
-  report.builds.insert(report.builds.end(), ours.builds.begin(), ours.builds.end());
+  for (Build& build : ours.builds()) report.builds.push_back(std::move(build));
   if (!json) fmt::print("{}", to_text({report}));
   return report;
 }
@@ -166,6 +186,12 @@ void add_bench(CLI::App& app, Run& run) {
       ->allow_extra_args(false)
       ->take_all();
   command->add_option("--device", pictures.device, "As for render.")->option_text("WHICH");
+  command
+      ->add_option("--scattered", options->scattered,
+                   "How gpu traces rays that part, out of wide, lanes and packets: each races by itself.")
+      ->option_text("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_flag_callback(
       "--no-rays", [options] { options->with_rays = false; }, "Whole pictures only.");
   command->add_flag_callback(

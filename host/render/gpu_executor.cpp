@@ -18,6 +18,7 @@
 #include "render/shader_files.hpp"
 #include "render/specialise.hpp"
 #include "render/waves.hpp"
+#include "render/wide_nodes.hpp"
 
 namespace eyeray {
 namespace {
@@ -59,6 +60,10 @@ class GpuExecutor final : public Executor {
     fault_.damage(packed);
     specialise_for(packed);
     times_.measure("upload", [&] { upload(packed); });
+    if (scattered_ == Rays::wide) {
+      binary_nodes_ = std::move(packed.nodes);
+      tree_ = packed.trees[0];
+    }
     if (packets_)
       make_waves(scene, packed);
     else
@@ -92,15 +97,12 @@ class GpuExecutor final : public Executor {
   double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
     CHECK_EQ(batch.rays.size(), hits.size());
     const bool any = batch.kind == QueryKind::any;
-    const bool together = packets_ && (batch.coherent || few_primitives_);
-    std::unique_ptr<gpu::Kernel>& kernel = query_kernels_[any][together];
-    if (!kernel)
-      kernel =
-          make_kernel(together ? "packet.comp.glsl" : "query.comp.glsl", any ? "#define QUERY_ANY\n" : "");
+    const Rays how = batch.coherent ? (packets_ ? Rays::packets : Rays::lanes) : scattered_;
+    gpu::Kernel& kernel = query_kernel(how, any);
     double seconds = 0;
     for (size_t first = 0; first < batch.rays.size(); first += most_pixels) {
       const size_t count = std::min(batch.rays.size() - first, size_t{most_pixels});
-      seconds += query_some(*kernel, together, batch.rays.subspan(first, count), hits.subspan(first, count));
+      seconds += query_some(kernel, how, batch.rays.subspan(first, count), hits.subspan(first, count));
     }
     check_validation();
     return seconds;
@@ -134,6 +136,18 @@ class GpuExecutor final : public Executor {
                   device_.info().driver_version);
   }
 
+  // How rays that part are traced in this scene.
+  Rays choose_scattered(const PackedScene& packed) const {
+    // So few primitives that packets pay even there.
+    const bool few = packed.primitives.size() <= 1 << 14;
+    const bool meshes = tree_kinds(packed) == std::set<uint32_t>{shader::KIND_triangle};
+    const Rays wanted = profile_.scattered.value_or(few ? Rays::packets : meshes ? Rays::wide : Rays::lanes);
+    const bool can_widen = packed.has_tree && packed.instances.empty() && packed.quantised_nodes &&
+                           device_.info().limits.subgroup_size >= wide_children;
+    const bool possible = wanted == Rays::packets ? packets_ : wanted == Rays::wide ? can_widen : true;
+    return possible ? wanted : Rays::lanes;
+  }
+
   void specialise_for(const PackedScene& packed) {
     Specialisation specialisation;
     specialisation.constants = options_.constants;
@@ -142,7 +156,7 @@ class GpuExecutor final : public Executor {
     packets_ = profile_.packets && packed.has_tree && packed.instances.empty() &&
                (lanes == 4 || lanes == 8 || lanes == 16);
     specialisation.subgroup_size = lanes;
-    few_primitives_ = packed.primitives.size() <= 1 << 14;
+    scattered_ = choose_scattered(packed);
     if (facts_.loop_cap) {
       // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer
       // iterations than there are primitives; where it does not, the shader sees that the driver stopped it.
@@ -162,9 +176,12 @@ class GpuExecutor final : public Executor {
     shaders_ = ShaderFiles(options_.shader_folder, specialise(packed, specialisation));
   }
 
+  gpu::BindingKind large_buffers() const {
+    return profile_.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
+  }
+
   void upload(const PackedScene& packed) {
-    const gpu::BindingKind kind =
-        profile_.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
+    const gpu::BindingKind kind = large_buffers();
     add_buffer(BINDING_PRIMITIVES, "primitives", std::span(packed.primitives), kind);
     add_buffer(BINDING_VERTICES, "vertices", std::span(packed.vertices), kind);
     add_buffer(BINDING_NODES, "nodes", std::span(packed.nodes), kind);
@@ -267,8 +284,25 @@ class GpuExecutor final : public Executor {
         options);
   }
 
-  double query_some(gpu::Kernel& kernel, bool together, std::span<const Query> rays,
-                    std::span<QueryHit> hits) {
+  gpu::Kernel& query_kernel(Rays how, bool any) {
+    std::unique_ptr<gpu::Kernel>& kernel = query_kernels_[any][size_t(how)];
+    if (kernel) return *kernel;
+    if (how == Rays::wide && !binary_nodes_.empty()) {
+      const WideTree tree = times_.measure("widen", [&] { return widen(binary_nodes_, tree_); });
+      binary_nodes_ = {};
+      wide_stack_ = tree.stack_size;
+      const uint64_t before = uploaded_;
+      add_buffer(BINDING_WIDE_NODES, "wide nodes", std::span(tree.nodes), large_buffers());
+      geometry_bytes_ += uploaded_ - before;
+    }
+    constexpr const char* entries[] = {"query.comp.glsl", "packet.comp.glsl", "wide.comp.glsl"};
+    const std::string defines =
+        fmt::format("#define WIDE_STACK_SIZE {}\n{}", wide_stack_, any ? "#define QUERY_ANY\n" : "");
+    kernel = make_kernel(entries[size_t(how)], defines);
+    return *kernel;
+  }
+
+  double query_some(gpu::Kernel& kernel, Rays how, std::span<const Query> rays, std::span<QueryHit> hits) {
     std::vector<shader::QueryRay> asked(rays.size());
     std::transform(rays.begin(), rays.end(), asked.begin(),
                    [&](const Query& ray) { return to_query_ray(ray, eye_); });
@@ -280,7 +314,7 @@ class GpuExecutor final : public Executor {
     const auto count = uint32_t(asked.size());
     shader::Dispatch push{};
     push.tile.x = count;
-    const uint32_t groups = together ? packet_groups(count) : whole_strides((count + 63) / 64);
+    const uint32_t groups = how == Rays::packets ? packet_groups(count) : whole_strides((count + 63) / 64);
     const gpu::RunTime time =
         gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)), {groups, 1, 1});
 
@@ -325,17 +359,19 @@ class GpuExecutor final : public Executor {
   gpu::DeviceFacts facts_;
   ShaderFiles shaders_;
   uint32_t group_stride_ = 1;
-  bool packets_ = false;         // whether packet.comp.glsl is used
-  bool few_primitives_ = false;  // so few that packets pay even for rays that part
+  bool packets_ = false;  // whether packet.comp.glsl is used
+  Rays scattered_ = Rays::lanes;
+  std::vector<shader::uvec4> binary_nodes_;  // until they are widened
+  shader::Tree tree_{};                      // of the world
+  uint32_t wide_stack_ = 1;                  // WideTree::stack_size
   uint64_t geometry_bytes_ = 0;
   std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
   std::optional<gpu::Buffer> output_;
   std::unique_ptr<gpu::Kernel> sample_kernel_;
   std::unique_ptr<gpu::Kernel> hit_kernel_;
-  std::optional<Waves> waves_;  // in place of sample_kernel_, where packets are traced
-  std::unique_ptr<gpu::Kernel> query_kernels_[2]
-                                             [2];  // by whether any hit will do, and whether traced together
-  uint64_t uploaded_ = 0;                          // bytes
+  std::optional<Waves> waves_;                        // in place of sample_kernel_, where packets are traced
+  std::unique_ptr<gpu::Kernel> query_kernels_[2][3];  // by whether any hit will do, and by Rays
+  uint64_t uploaded_ = 0;                             // bytes
   DispatchSize dispatch_size_;
 };
 

@@ -19,6 +19,7 @@ struct ProfileOptions {
   std::string loads;             // texels | storage
   std::string stack;             // shift | array
   std::string rays;              // packets: trace rays that run side by side together | lanes: each alone
+  std::string scattered;         // rays that part: wide (four lanes a ray) | lanes | packets
 };
 
 }  // namespace eyeray

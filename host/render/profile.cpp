@@ -14,6 +14,28 @@ bool chosen(const std::string& option, const std::string& choice, const std::str
   return choice == yes;
 }
 
+// Empty: by the scene where `cpu`, else lanes.
+std::optional<Rays> chosen_for_scattered(const std::string& choice, bool cpu) {
+  if (choice.empty()) return cpu ? std::nullopt : std::optional(Rays::lanes);
+  if (choice == "lanes") return Rays::lanes;
+  if (choice == "packets") return Rays::packets;
+  if (choice == "wide") return Rays::wide;
+  throw Error(ExitCode::bad_input, "--scattered is wide, lanes or packets, not '{}'", choice);
+}
+
+std::string_view describe(const std::optional<Rays>& scattered) {
+  if (!scattered) return "by the scene";
+  switch (*scattered) {
+    case Rays::lanes:
+      return "in lanes";
+    case Rays::packets:
+      return "in packets";
+    case Rays::wide:
+      return "wide";
+  }
+  return "";
+}
+
 }  // namespace
 
 Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& device) {
@@ -21,12 +43,14 @@ Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& dev
   const bool cpu = chosen("--profile", profile, "cpu", "gpu", device.type == gpu::DeviceType::cpu);
   return {chosen("--loads", options.loads, "texels", "storage", cpu),
           chosen("--rays", options.rays, "packets", "lanes", cpu),
-          chosen("--stack", options.stack, "shift", "array", cpu)};
+          chosen("--stack", options.stack, "shift", "array", cpu),
+          chosen_for_scattered(options.scattered, cpu)};
 }
 
 std::string describe(const Profile& profile) {
-  return fmt::format("{} loads, {}, {} stack", profile.texel_buffers ? "texel" : "storage",
-                     profile.packets ? "packets" : "lanes", profile.shift_stack ? "shifted" : "indexed");
+  return fmt::format("{} loads, {}, {} stack, scattered rays {}", profile.texel_buffers ? "texel" : "storage",
+                     profile.packets ? "packets" : "lanes", profile.shift_stack ? "shifted" : "indexed",
+                     describe(profile.scattered));
 }
 
 }  // namespace eyeray

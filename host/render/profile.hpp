@@ -2,6 +2,7 @@
 // (docs/performance.md).
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "gpu/device.hpp"
@@ -9,11 +10,17 @@
 
 namespace eyeray {
 
+// How rays are traced: each alone on its lane (query.comp.glsl), many together (packet.comp.glsl), or each by
+// four lanes (wide.comp.glsl).
+enum class Rays { lanes, packets, wide };
+
 struct Profile {
   bool texel_buffers = false;  // load the scene as texels of 16 bytes instead of from storage buffers
-  bool packets = false;        // trace rays that run side by side together (packet.comp.glsl)
+  bool packets = false;        // trace rays that run side by side together
   bool shift_stack =
       false;  // keep the stack in registers, shifted as a whole, instead of in an indexed array
+  // Rays that part, where the scene allows it; by itself it is wide in big trees, packets in small ones.
+  std::optional<Rays> scattered = Rays::lanes;
 };
 
 // Error (bad_input) for an unknown choice.

@@ -100,15 +100,6 @@ bool is_small(const PackedScene& scene) {
              most_records;
 }
 
-// The kinds of shape that the trees hold.
-std::set<uint32_t> tree_kinds(const PackedScene& scene) {
-  std::set<uint32_t> kinds;
-  for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
-    if (scene.kind_loose[kind] < scene.kind_first[kind + 1]) kinds.insert(kind);
-  if (!scene.instances.empty()) kinds.insert(shader::KIND_triangle);
-  return kinds;
-}
-
 }  // namespace
 
 bool any_reflects(const PackedScene& scene) {
@@ -117,6 +108,14 @@ bool any_reflects(const PackedScene& scene) {
            const shader::Texture& reflected = scene.textures[material.textures.z];
            return reflected.even != shader::vec4(0, 0, 0, TEXTURE_CONSTANT);
          });
+}
+
+std::set<uint32_t> tree_kinds(const PackedScene& scene) {
+  std::set<uint32_t> kinds;
+  for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
+    if (scene.kind_loose[kind] < scene.kind_first[kind + 1]) kinds.insert(kind);
+  if (!scene.instances.empty()) kinds.insert(shader::KIND_triangle);
+  return kinds;
 }
 
 std::string specialise(const PackedScene& scene, const Specialisation& options) {

@@ -2,12 +2,15 @@
 // twin.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "gpu/command_list.hpp"
 #include "gpu/self_test.hpp"
+#include "render/wide_nodes.hpp"
 #include "support.hpp"
 #include "twin/twin.hpp"
 
@@ -15,7 +18,9 @@ namespace eyeray::test {
 
 class QueryKernel {
  public:
-  QueryKernel(gpu::Device& device, const PackedScene& scene, const Specialisation& specialisation)
+  // With a `wide_tree`, by wide.comp.glsl; else in packets or each ray alone, as the profile says.
+  QueryKernel(gpu::Device& device, const PackedScene& scene, const Specialisation& specialisation,
+              const WideTree* wide_tree = nullptr)
       : device_(device), scene_(scene), specialisation_(specialisation) {
     specialisation_.subgroup_size = device.info().limits.subgroup_size;
     const gpu::BindingKind large =
@@ -31,6 +36,12 @@ class QueryKernel {
     add(BINDING_MEDIA, std::as_bytes(std::span(scene.media)));
     add(BINDING_LIGHTS, std::as_bytes(std::span(scene.lights)));
     add(BINDING_FRAME, std::as_bytes(std::span(&scene.frame, 1)));
+    if (traces_packets()) entry_ = "packet.comp.glsl";
+    if (wide_tree) {
+      add(BINDING_WIDE_NODES, std::as_bytes(std::span(wide_tree->nodes)), large);
+      entry_ = "wide.comp.glsl";
+      defines_ = fmt::format("#define WIDE_STACK_SIZE {}\n", wide_tree->stack_size);
+    }
   }
 
   // Whether rays are traced together, as the gpu executor would.
@@ -62,11 +73,11 @@ class QueryKernel {
   }
 
   std::unique_ptr<gpu::Kernel> make_kernel(bool any) {
-    const char* entry = traces_packets() ? "packet.comp.glsl" : "query.comp.glsl";
     const std::vector<uint32_t> spirv =
-        gpu::strict_floats(compile_entry(entry, scene_, specialisation_, any ? "#define QUERY_ANY\n" : ""),
+        gpu::strict_floats(compile_entry(entry_, scene_, specialisation_,
+                                         (defines_ + (any ? "#define QUERY_ANY\n" : "")).c_str()),
                            device_.info().float_modes);
-    auto kernel = std::make_unique<gpu::Kernel>(device_, spirv, entry, cache_);
+    auto kernel = std::make_unique<gpu::Kernel>(device_, spirv, entry_, cache_);
     for (const auto& [binding, buffer] : buffers_) kernel->set_buffer(binding, buffer);
     return kernel;
   }
@@ -74,6 +85,8 @@ class QueryKernel {
   gpu::Device& device_;
   const PackedScene& scene_;
   Specialisation specialisation_;
+  const char* entry_ = "query.comp.glsl";
+  std::string defines_;
   gpu::DiskCache cache_ = gpu::DiskCache::of_user();
   std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
   std::unique_ptr<gpu::Kernel> kernels_[2];  // by whether any hit will do

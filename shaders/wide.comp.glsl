@@ -1,0 +1,187 @@
+// Entry: rays from a buffer that run anywhere, four lanes a ray. Lane i looks at child i of a node of four, or at primitive i of a
+// leaf, and the stack is spread over the lanes: so fewer rays have to wait for each other, each for fewer steps.
+// What a ray hits is what `search` finds (traverse.glsl), since neither asks in which order. Without QUERY_ANY the nearest hit, with
+// it whether there is one.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#include "scene.glsl"
+#include "pixel.glsl"
+#include "tile.glsl"
+
+#ifdef QUERY_ANY
+#define ANY true
+#else
+#define ANY false
+#endif
+#define STACK_ROWS ((WIDE_STACK_SIZE + 3) / 4)
+#define FAR_AWAY 0x7fffffffu
+#define EACH_ROW [[unroll]] for (int i = 0; i < STACK_ROWS; i++)
+
+layout(local_size_x = 64) in;
+layout(std430, binding = BINDING_RAYS) readonly restrict buffer Rays { QueryRay rays[]; };
+layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { QueryHit results[]; };
+#if TEXEL_BUFFERS
+layout(rgba32ui, binding = BINDING_WIDE_NODES) readonly restrict uniform uimageBuffer wide_nodes;
+uvec4 load_wide_child(uint i) { return imageLoad(wide_nodes, int(i)); }
+#else
+layout(std430, binding = BINDING_WIDE_NODES) readonly restrict buffer WideNodes { uvec4 wide_nodes[]; };
+uvec4 load_wide_child(uint i) { return wide_nodes[i]; }
+#endif
+
+uint lane;   // of the ray's four
+uint first;  // the subgroup's lane where they begin
+
+uint from_lane(uint x, uint i) { return subgroupShuffle(x, first | i); }
+float from_lane(float x, uint i) { return subgroupShuffle(x, first | i); }
+vec2 from_lane(vec2 v, uint i) { return vec2(from_lane(v.x, i), from_lane(v.y, i)); }
+vec3 from_lane(vec3 v, uint i) { return vec3(from_lane(v.x, i), from_lane(v.y, i), from_lane(v.z, i)); }
+uvec3 from_lane(uvec3 v, uint i) { return uvec3(from_lane(v.x, i), from_lane(v.y, i), from_lane(v.z, i)); }
+
+// Over the four lanes.
+int least(int x) {
+  x = lesser(x, subgroupShuffleXor(x, 1u));
+  return lesser(x, subgroupShuffleXor(x, 2u));
+}
+uint least(uint x) {
+  uint y = subgroupShuffleXor(x, 1u);
+  x = y < x ? y : x;
+  y = subgroupShuffleXor(x, 2u);
+  return y < x ? y : x;
+}
+uint sum(uint x) {
+  x += subgroupShuffleXor(x, 1u);
+  return x + subgroupShuffleXor(x, 2u);
+}
+
+// The ray of these four lanes. What is found is what this lane has met, and `limit` the nearest of all four.
+Ray ray;
+BoxRay boxes;
+Found found;
+int limit;
+uint at;
+// Entry e of the stack is in row e / 4 on lane e % 4, the top is entry 0, and below the last one all is TREE_DONE. There is room for
+// the most that can wait in this tree (render/wide_nodes.cpp).
+uint stack[STACK_ROWS];
+
+// Pushes what the first `push` lanes have, or drops `drop` entries.
+void move_stack(uint push, uint drop, uint value) {
+  uint turn = (lane + drop - push) & 3u;
+  bool from_before = lane < push;
+  bool from_after = lane + drop >= 4u;
+  uint turned[STACK_ROWS + 1];
+  turned[STACK_ROWS] = TREE_DONE;
+  EACH_ROW turned[i] = from_lane(stack[i], turn);
+  EACH_ROW {
+    uint before = i > 0 ? turned[i > 0 ? i - 1 : 0] : value;
+    stack[i] = from_before ? before : from_after ? turned[i + 1] : turned[i];
+  }
+}
+
+void visit_node() {
+  bool here = at < LEAF;
+  uvec4 c = load_wide_child(4u * (here ? at : 0u) + lane);
+  Child child;
+  child.near = vec3(low_half(c.x >> boxes.backward.x), low_half(c.y >> boxes.backward.y), low_half(c.z >> boxes.backward.z));
+  child.far = vec3(low_half(c.x >> (16u - boxes.backward.x)), low_half(c.y >> (16u - boxes.backward.y)),
+                   low_half(c.z >> (16u - boxes.backward.z)));
+  int entry = entry_of(child, boxes);
+  bool meets = here && c.w != NONE && entry <= exit_of(child, boxes, limit);
+
+  // Go to the nearest child that is met, or to what waits.
+  uint key = meets ? (uint(entry) & ~3u) | lane : FAR_AWAY;
+  uint nearest = least(key);
+  bool some = nearest != FAR_AWAY;
+  uint child_met = from_lane(c.w, nearest & 3u);
+  uint top = from_lane(stack[0], 0u);
+  at = some ? child_met : here ? top : at;
+
+  // Sort the others onto the stack. rank: twice the number of lanes whose child is nearer; order: the lane of each rank, two bits
+  // each, and above them how many there are.
+  uint rank = 0u;
+  [[unroll]] for (uint i = 1u; i < 4u; i++) rank += from_lane(key, (lane + i) & 3u) < key ? 2u : 0u;
+  uint order = sum(meets ? (lane << rank) + 0x1000000u : 0u);
+  uint waits = from_lane(c.w, (order >> (2u * lane + 2u)) & 3u);
+  move_stack(some ? (order >> 24u) - 1u : 0u, here && !some ? 1u : 0u, waits);
+}
+
+void visit_leaf() {
+  bool here = at >= LEAF && at != TREE_DONE;
+  bool mine = here && lane <= (at & 7u);
+  uint slot = mine ? ((at & ~LEAF) >> 3u) + lane : 0u;
+  Primitive primitive = load_primitive(slot);
+  vec2 uv = vec2(0.0f, 0.0f);
+  float t = -1.0f;
+#define INTERSECT_WIDE(name, number) \
+  if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, ray, uv);
+  SHAPES(INTERSECT_WIDE)
+  meet(found, mine ? t : -1.0f, uv, slot, primitive.head.x, NONE, primitive.head.z, ANY);
+  uint next = from_lane(stack[0], 0u);
+#ifdef QUERY_ANY
+  next = sum(found.occluded) >= SHADOW_OPAQUE ? TREE_DONE : next;
+#else
+  limit = least(floatBitsToInt(found.hit.t));
+#endif
+  at = here ? next : at;
+  move_stack(0u, here ? 1u : 0u, 0u);
+}
+
+// From `root`.
+void walk_wide(uint root) {
+  EACH_ROW stack[i] = TREE_DONE;
+  at = root;
+  // The first way down stands by itself: a driver that runs both sides of every branch would else look at leaves without any.
+  do { visit_node(); } while (at < LEAF);
+  do {
+    do { visit_leaf(); } while (at >= LEAF && at != TREE_DONE);
+    do { visit_node(); } while (at < LEAF);
+  } while (at != TREE_DONE);
+}
+
+void main() {
+  uint i = dealt_out(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE) * 64u + gl_LocalInvocationIndex;
+  lane = gl_SubgroupInvocationID & 3u;
+  first = gl_SubgroupInvocationID & ~3u;
+  // Each lane prepares a ray and answers it; in between, its four lanes trace theirs one after the other.
+  bool there = i < dispatch.tile.x;
+  QueryRay asked = rays[there ? i : 0u];
+  Ray own = make_ray(vec3(asked.origin), vec3(asked.direction));
+  BoxRay own_boxes = box_ray(own, load_tree(0u));
+  Found own_found = nothing_found(there ? minimum(asked.direction.w, T_MISS) : -1.0f);
+  meet_loose(own_found, own, ANY);
+  uint turn = 0u;
+  do {
+    ray.o = from_lane(own.o, turn);
+    ray.d = from_lane(own.d, turn);
+    ray.inverse = from_lane(own.inverse, turn);
+    ray.major = from_lane(own.major, turn);
+    ray.shear = from_lane(own.shear, turn);
+    boxes.scale = from_lane(own_boxes.scale, turn);
+    boxes.near = from_lane(own_boxes.near, turn);
+    boxes.far = from_lane(own_boxes.far, turn);
+    boxes.backward = from_lane(own_boxes.backward, turn);
+    found = nothing_found(from_lane(own_found.hit.t, turn));
+    found.hit.slot = from_lane(own_found.hit.slot, turn);
+    found.hit.id = from_lane(own_found.hit.id, turn);
+    uint loose = from_lane(own_found.occluded, turn);
+    found.occluded = lane == 0u ? loose : 0u;
+    limit = floatBitsToInt(found.hit.t);
+    walk_wide(loose >= SHADOW_OPAQUE ? TREE_DONE : 0u);
+
+    // Of equally near ones the lowest id, as in `meet`.
+    bool mine = lane == turn;
+    bool nearest = floatBitsToInt(found.hit.t) == least(floatBitsToInt(found.hit.t));
+    uint id = least(nearest ? found.hit.id : NONE);
+    uint slot = least(nearest && found.hit.id == id ? found.hit.slot : NONE);
+    float t = uintBitsToFloat(uint(least(floatBitsToInt(found.hit.t))));
+    uint occluded = sum(found.occluded);
+    own_found.hit.t = mine ? t : own_found.hit.t;
+    own_found.hit.id = mine ? id : own_found.hit.id;
+    own_found.hit.slot = mine ? slot : own_found.hit.slot;
+    own_found.occluded = mine ? (occluded < SHADOW_OPAQUE ? occluded : SHADOW_OPAQUE) : own_found.occluded;
+    turn += 1u;
+  } while (turn < 4u);
+  if (there) results[i] = answer(own_found, ANY, loops_cut_off(LOOP_PROBE));
+}
