@@ -1,5 +1,5 @@
-// What a fuzzer asks of a mesh file's bytes: MESH_NAME says by its ending what they are. They are refused, or
-// what is made of them keeps every promise.
+// What a fuzzer asks of a mesh file's bytes: INPUT_NAME says by its ending what they are. They are refused,
+// or what is made of them keeps every promise.
 #include <cstdio>
 #include <cstdlib>
 
@@ -8,9 +8,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
     const std::string bytes(reinterpret_cast<const char*>(data), size);
-    const std::string broken = eyeray::test::broken_promise(eyeray::import_bytes(bytes, MESH_NAME));
+    const std::string broken = eyeray::test::broken_promise(eyeray::import_bytes(bytes, INPUT_NAME));
     if (broken.empty()) return 0;
-    std::fprintf(stderr, "%s: broken promise: %s\n", MESH_NAME, broken.c_str());
+    std::fprintf(stderr, "%s: broken promise: %s\n", INPUT_NAME, broken.c_str());
     std::abort();
   } catch (const eyeray::Error&) {
     return 0;

@@ -1,0 +1,24 @@
+// What a fuzzer asks of a picture's bytes: it is refused, or whole, and every point of it has a colour.
+#include <cstdlib>
+#include <memory>
+
+#include "core/error.hpp"
+#include "scene/image_texture_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  try {
+    const auto image = std::make_shared<eyeray::ImageTexture>(
+        eyeray::decode_image_texture(std::as_bytes(std::span(data, size)), INPUT_NAME));
+    if (image->width < 1 || image->height < 1 ||
+        image->texels.size() != size_t(image->width) * size_t(image->height))
+      std::abort();
+    const eyeray::Texture texture{.value = eyeray::Vec3(1), .checker = {}, .image = image};
+    for (const double u : {-1e9, 0.0, 0.3, 1.0, 1e9}) {
+      const eyeray::Vec3 color = texture.at({u, 1 - u});
+      for (int i = 0; i < 3; ++i)
+        if (!(color[i] >= 0 && color[i] <= 1 + 1e-12)) std::abort();  // weights sum to 1 but for rounding
+    }
+  } catch (const eyeray::Error&) {
+  }
+  return 0;
+}
