@@ -20,13 +20,15 @@ constexpr unsigned deepest =
     56;  // Embree makes leaves of whatever is left there; ours may go a little deeper
 
 struct BuildNode {
+  struct Inner {
+    BuildNode* child[2];
+    RTCBounds bounds[2];
+  };
+
   bool leaf;
   uint32_t count;  // of children or items
   union {
-    struct {
-      BuildNode* child[2];
-      RTCBounds bounds[2];
-    } inner;
+    Inner inner;
     uint32_t items[most_in_leaf];
   };
 };

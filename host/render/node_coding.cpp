@@ -14,8 +14,8 @@ constexpr double largest_code = 65535;
 struct Grid {
   explicit Grid(const accel::Box& box) {
     for (int axis = 0; axis < 3; ++axis) {
-      const double lower = box.lower[axis];
-      const double upper = box.upper[axis];
+      const auto lower = double(box.lower[axis]);
+      const auto upper = double(box.upper[axis]);
       // A little room, also for a box without extent.
       const double margin = std::ldexp(std::max({std::fabs(lower), std::fabs(upper), 1e-30}), -20);
       origin[axis] = float(lower - margin);

@@ -53,7 +53,7 @@ std::vector<Query> random_rays(size_t count, uint64_t seed) {
 }
 
 QueryHit brute_force(const Scene& scene, const Query& ray, QueryKind kind) {
-  QueryHit nearest{INFINITY, -1};
+  QueryHit nearest{HUGE_VAL, -1};
   for (size_t i = 0; i < scene.shapes.size(); ++i) {
     const Shape& shape = *scene.shapes[i];
     const auto hit = shape.intersect({ray.o, ray.d});

@@ -21,7 +21,7 @@ TEST_CASE("contenders take turns after a round that does not count, and are comp
                        return order.size() <= 2 ? 100.0 : double(order.size());
                      }};
   };
-  const Contender contenders[] = {contender('a', 2), contender('b', INFINITY)};
+  const Contender contenders[] = {contender('a', 2), contender('b', HUGE_VAL)};
   Batch batch;
   batch.rays.resize(5);
   const std::vector<Lap> laps = race(batch, contenders, 3);
@@ -37,9 +37,9 @@ TEST_CASE("contenders take turns after a round that does not count, and are comp
 TEST_CASE("hits agree to a thousandth, and a miss with a miss alone") {
   CHECK(agree({1, 0}, {1.0005, 7}));
   CHECK_FALSE(agree({1, 0}, {1.002, 0}));
-  CHECK(agree({INFINITY, -1}, {INFINITY, -1}));
-  CHECK_FALSE(agree({INFINITY, -1}, {1e30, 0}));
-  CHECK_FALSE(agree({3, 0}, {INFINITY, -1}));
+  CHECK(agree({HUGE_VAL, -1}, {HUGE_VAL, -1}));
+  CHECK_FALSE(agree({HUGE_VAL, -1}, {1e30, 0}));
+  CHECK_FALSE(agree({3, 0}, {HUGE_VAL, -1}));
   CHECK(agree({0, -1}, {0, -1}));
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("a run builds, races all batches, and lists every contender") {
   const Contender ours{"ours", Side::ours, [&](const Batch& batch, std::span<QueryHit> hits) {
                          ++asked;
                          CHECK(batch.rays.size() == hits.size());
-                         for (QueryHit& hit : hits) hit = {INFINITY, -1};
+                         for (QueryHit& hit : hits) hit = {HUGE_VAL, -1};
                          return 1.0;
                        }};
   const SceneReport report =
