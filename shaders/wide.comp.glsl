@@ -152,7 +152,7 @@ void main() {
   BoxRay own_boxes = box_ray(own, load_tree(0u));
   Found own_found = nothing_found(there ? minimum(asked.direction.w, T_MISS) : -1.0f);
   meet_loose(own_found, own, ANY);
-  uint flags = 0u;
+  uint flags = FLAG_LOOP_BUDGET;  // until its walk has ended: a driver may end this loop early, too
   uint turn = 0u;
   do {
     ray.o = from_lane(own.o, turn);
@@ -183,7 +183,7 @@ void main() {
     own_found.hit.id = mine ? id : own_found.hit.id;
     own_found.hit.slot = mine ? slot : own_found.hit.slot;
     own_found.occluded = mine ? (occluded < SHADOW_OPAQUE ? occluded : SHADOW_OPAQUE) : own_found.occluded;
-    flags = mine && !finished ? FLAG_LOOP_BUDGET : flags;
+    flags = mine && finished ? 0u : flags;
     turn += 1u;
   } while (turn < 4u);
   if (there) results[i] = answer(own_found, ANY, flags);

@@ -122,18 +122,6 @@ class GpuExecutor final : public Executor {
     return gpu::Device(device);
   }
 
-  // How rays that part are traced in this scene.
-  Rays choose_scattered(const PackedScene& packed) const {
-    // So few primitives that packets pay even there.
-    const bool few = packed.primitives.size() <= 1 << 14;
-    const bool meshes = tree_kinds(packed) == std::set<uint32_t>{shader::KIND_triangle};
-    const Rays wanted = profile_.scattered.value_or(few ? Rays::packets : meshes ? Rays::wide : Rays::lanes);
-    const bool can_widen = packed.has_tree && packed.instances.empty() && packed.quantised_nodes &&
-                           device_.info().limits.subgroup_size >= wide_children;
-    const bool possible = wanted == Rays::packets ? packets_ : wanted == Rays::wide ? can_widen : true;
-    return possible ? wanted : Rays::lanes;
-  }
-
   void specialise_for(const PackedScene& packed) {
     Specialisation specialisation;
     specialisation.constants = options_.constants;
@@ -143,7 +131,7 @@ class GpuExecutor final : public Executor {
                (lanes == 4 || lanes == 8 || lanes == 16);
     specialisation.subgroup_size = lanes;
     lights_ = uint32_t(packed.lights.size());
-    scattered_ = choose_scattered(packed);
+    scattered_ = scattered_rays(profile_, packed, packets_, lanes);
     if (facts_.loop_cap) {
       // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer
       // iterations than there are primitives; where it does not, the shader sees that the driver stopped it.
