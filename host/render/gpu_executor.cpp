@@ -252,8 +252,8 @@ class GpuExecutor final : public Executor {
       geometry_bytes_ += uploaded_ - before;
     }
     constexpr const char* entries[] = {"query.comp.glsl", "packet.comp.glsl", "wide.comp.glsl"};
-    const std::string defines =
-        fmt::format("#define WIDE_STACK_SIZE {}\n{}", wide_stack_, any ? "#define QUERY_ANY\n" : "");
+    std::string defines = any ? "#define QUERY_ANY\n" : "";
+    if (how == Rays::wide) defines += fmt::format("#define WIDE_STACK_SIZE {}\n", wide_stack_);
     kernel = make_kernel(entries[size_t(how)], defines);
     return *kernel;
   }
@@ -342,8 +342,8 @@ class GpuExecutor final : public Executor {
   gpu::DeviceFacts facts_;
   ShaderFiles shaders_;
   uint32_t group_stride_ = 1;
-  bool packets_ = false;  // whether packet.comp.glsl is used
-  Rays scattered_ = Rays::lanes;
+  bool packets_ = false;                     // whether packet.comp.glsl is used
+  Rays scattered_ = Rays::lanes;             // how rays that part are traced
   std::vector<shader::uvec4> binary_nodes_;  // until they are widened
   shader::Tree tree_{};                      // of the world
   uint32_t wide_stack_ = 1;                  // WideTree::stack_size
