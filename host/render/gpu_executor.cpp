@@ -136,18 +136,6 @@ class GpuExecutor final : public Executor {
                   device_.info().driver_version);
   }
 
-  // How rays that part are traced in this scene.
-  Rays choose_scattered(const PackedScene& packed) const {
-    // So few primitives that packets pay even there.
-    const bool few = packed.primitives.size() <= 1 << 14;
-    const bool meshes = tree_kinds(packed) == std::set<uint32_t>{shader::KIND_triangle};
-    const Rays wanted = profile_.scattered.value_or(few ? Rays::packets : meshes ? Rays::wide : Rays::lanes);
-    const bool can_widen = packed.has_tree && packed.instances.empty() && packed.quantised_nodes &&
-                           device_.info().limits.subgroup_size >= wide_children;
-    const bool possible = wanted == Rays::packets ? packets_ : wanted == Rays::wide ? can_widen : true;
-    return possible ? wanted : Rays::lanes;
-  }
-
   void specialise_for(const PackedScene& packed) {
     Specialisation specialisation;
     specialisation.constants = options_.constants;
@@ -156,7 +144,7 @@ class GpuExecutor final : public Executor {
     packets_ = profile_.packets && packed.has_tree && packed.instances.empty() &&
                (lanes == 4 || lanes == 8 || lanes == 16);
     specialisation.subgroup_size = lanes;
-    scattered_ = choose_scattered(packed);
+    scattered_ = scattered_rays(profile_, packed, packets_, lanes);
     if (facts_.loop_cap) {
       // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer
       // iterations than there are primitives; where it does not, the shader sees that the driver stopped it.
@@ -296,8 +284,8 @@ class GpuExecutor final : public Executor {
       geometry_bytes_ += uploaded_ - before;
     }
     constexpr const char* entries[] = {"query.comp.glsl", "packet.comp.glsl", "wide.comp.glsl"};
-    const std::string defines =
-        fmt::format("#define WIDE_STACK_SIZE {}\n{}", wide_stack_, any ? "#define QUERY_ANY\n" : "");
+    std::string defines = any ? "#define QUERY_ANY\n" : "";
+    if (how == Rays::wide) defines += fmt::format("#define WIDE_STACK_SIZE {}\n", wide_stack_);
     kernel = make_kernel(entries[size_t(how)], defines);
     return *kernel;
   }
@@ -359,8 +347,8 @@ class GpuExecutor final : public Executor {
   gpu::DeviceFacts facts_;
   ShaderFiles shaders_;
   uint32_t group_stride_ = 1;
-  bool packets_ = false;  // whether packet.comp.glsl is used
-  Rays scattered_ = Rays::lanes;
+  bool packets_ = false;                     // whether packet.comp.glsl is used
+  Rays scattered_ = Rays::lanes;             // how rays that part are traced
   std::vector<shader::uvec4> binary_nodes_;  // until they are widened
   shader::Tree tree_{};                      // of the world
   uint32_t wide_stack_ = 1;                  // WideTree::stack_size

@@ -1,6 +1,8 @@
 #include "render/profile.hpp"
 
 #include "core/error.hpp"
+#include "render/specialise.hpp"
+#include "render/wide_nodes.hpp"
 
 namespace eyeray {
 namespace {
@@ -45,6 +47,17 @@ Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& dev
           chosen("--rays", options.rays, "packets", "lanes", cpu),
           chosen("--stack", options.stack, "shift", "array", cpu),
           chosen_for_scattered(options.scattered, cpu)};
+}
+
+Rays scattered_rays(const Profile& profile, const PackedScene& scene, bool packets, uint32_t subgroup_size) {
+  const bool meshes = tree_kinds(scene) == std::set<uint32_t>{shader::KIND_triangle};
+  // Up to here packets pay even for rays that part (docs/performance.md).
+  const bool few = scene.primitives.size() <= (meshes ? 1 << 13 : 1 << 14);
+  const Rays wanted = profile.scattered.value_or(few ? Rays::packets : Rays::wide);
+  const bool can_widen =
+      scene.has_tree && scene.instances.empty() && scene.quantised_nodes && subgroup_size >= wide_children;
+  const bool possible = wanted == Rays::packets ? packets : wanted == Rays::wide ? can_widen : true;
+  return possible ? wanted : Rays::lanes;
 }
 
 std::string describe(const Profile& profile) {

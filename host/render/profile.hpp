@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gpu/device.hpp"
+#include "records/packer.hpp"
 #include "render/options.hpp"
 
 namespace eyeray {
@@ -19,14 +20,17 @@ struct Profile {
   bool packets = false;        // trace rays that run side by side together
   bool shift_stack =
       false;  // keep the stack in registers, shifted as a whole, instead of in an indexed array
-  // Rays that part, where the scene allows it; by itself it is wide in big trees, packets in small ones.
+  // Rays that part, where the scene allows it; by the scene it is wide in big trees, packets in small ones.
   std::optional<Rays> scattered = Rays::lanes;
 };
 
 // Error (bad_input) for an unknown choice.
 Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& device);
 
-// For people: "texel loads, shifted stack".
+// How rays that part are traced in this scene, where `packets` says whether any can be traced together.
+Rays scattered_rays(const Profile& profile, const PackedScene& scene, bool packets, uint32_t subgroup_size);
+
+// For people: "texel loads, packets, shifted stack, scattered rays by the scene".
 std::string describe(const Profile& profile);
 
 }  // namespace eyeray

@@ -91,3 +91,23 @@ TEST_CASE("bench as text, and a scene that is not there") {
   CHECK(text.out.find(": single") != std::string::npos);
   CHECK(run_eyeray({"bench", folder / "nope.toml"}).code == 4);
 }
+
+TEST_CASE("each way to trace rays that part races by itself; an unknown one is refused") {
+  const auto race = [](const std::string& ways) {
+    return run_eyeray({"bench", "terrain-51k", "-n", "1", "-s", "64x48", "--no-pictures", "--no-start",
+                       "--scattered", ways, "--json"});
+  };
+  const ProcessResult result = race("wide,lanes");
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  const auto builds = nlohmann::json::parse(result.out).at("field").at(0).at("builds");
+  REQUIRE(builds.size() == 3);
+  CHECK(builds.at(1).at("contender") == "gpu wide");
+  CHECK(builds.at(2).at("contender") == "gpu lanes");
+  // The wide tree is counted with what it was made of.
+  CHECK(builds.at(1).at("bytes") > builds.at(2).at("bytes"));
+
+  const ProcessResult refused = race("wider");
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("--scattered is wide, lanes or packets, not 'wider'") != std::string::npos);
+}

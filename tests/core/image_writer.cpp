@@ -58,9 +58,10 @@ constexpr int sizes[][2] = {{1, 1}, {1, 9}, {7, 5}, {8, 3}, {9, 4}, {129, 2}, {3
 TEST_CASE("pieces make the same file as the whole, and every format gives the pixels back") {
   const TemporaryFolder folder;
   Random random(1);
-  for (const auto& [width, height] : sizes) {
+  for (const auto& size : sizes) {
+    const auto [width, height] = size;
     for (const int channels : {1, 3}) {
-      CAPTURE(width);
+      CAPTURE(size.first);
       CAPTURE(channels);
       const Image image = mixed_image(width, height, channels);
       for (const std::string name : {"a.png", "a.pfm", "a.hdr"}) {

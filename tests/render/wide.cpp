@@ -126,3 +126,28 @@ TEST_CASE("nearest and any: four lanes a ray find what the twin finds, bit by bi
     CHECK(different == 0);
   }
 }
+
+TEST_CASE(
+    "four lanes a ray, more steps than a capped driver grants: every answer is the twin's, or flagged") {
+  gpu::Device device({});
+  Scene scene;
+  const int opaque = test::add(scene, make_phong({}));
+  TriangleValues triangle;
+  triangle.vertices = {Vec3(-1, -1, -2), Vec3(1, -1, -2), Vec3(0, 1, -2)};
+  for (int i = 0; i < 100'000; ++i) test::add(scene, make_triangle(triangle), opaque);
+  const PackedScene scene_packed = packed(scene, false);
+  const WideTree tree = widen(scene_packed.nodes, scene_packed.trees[0]);
+  const std::vector<shader::QueryRay> rays(64, {shader::vec4(0), shader::vec4(0, 0, -1, 1e30f)});
+  const std::vector<shader::QueryHit> nearest = test::ask_twin(scene_packed, rays, false);
+  test::QueryKernel kernel(device, scene_packed, {}, &tree);
+  const std::vector<shader::QueryHit> found = kernel.ask(rays, false);
+  int flagged = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    CHECK(nearest[i].hit.y == 0);
+    if (found[i].hit.z & FLAG_LOOP_BUDGET)
+      ++flagged;
+    else
+      CHECK(found[i].hit == nearest[i].hit);
+  }
+  MESSAGE(fmt::format("{} of {} rays flagged", flagged, rays.size()));
+}
