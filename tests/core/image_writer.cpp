@@ -59,9 +59,9 @@ TEST_CASE("pieces make the same file as the whole, and every format gives the pi
   const TemporaryFolder folder;
   Random random(1);
   for (const auto& size : sizes) {
-    const auto [width, height] = size;
+    const auto& [width, height] = size;
     for (const int channels : {1, 3}) {
-      CAPTURE(size.first);
+      CAPTURE(size[0]);
       CAPTURE(channels);
       const Image image = mixed_image(width, height, channels);
       for (const std::string name : {"a.png", "a.pfm", "a.hdr"}) {
