@@ -27,6 +27,9 @@ namespace {
 constexpr int64_t most_pixels = 1 << 20;
 // How long one dispatch should take: short enough for a desktop's GPU watchdog and for Ctrl-C.
 constexpr double wanted_seconds = 0.05;
+// Where a triangle is less than a pixel, rays of a packet hardly share a leaf: beyond so many primitives each
+// ray goes alone, unless packets are asked for (docs/performance.md).
+constexpr size_t most_in_packets = 1 << 20;
 // Of the 65 535 iterations that a capped driver grants an invocation, what we count on (docs/lavapipe.md).
 constexpr uint64_t granted_iterations = 60000;
 
@@ -141,7 +144,8 @@ class GpuExecutor final : public Executor {
     specialisation.constants = options_.constants;
     specialisation.profile = profile_;
     const uint32_t lanes = device_.info().limits.subgroup_size;
-    packets_ = profile_.packets && packed.has_tree && packed.instances.empty() &&
+    const bool worth_it = packed.primitives.size() <= most_in_packets || options_.profile.rays == "packets";
+    packets_ = profile_.packets && worth_it && packed.has_tree && packed.instances.empty() &&
                (lanes == 4 || lanes == 8 || lanes == 16);
     specialisation.subgroup_size = lanes;
     scattered_ = scattered_rays(profile_, packed, packets_, lanes);
