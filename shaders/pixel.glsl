@@ -25,21 +25,20 @@ SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
 
 HitResult first_hit(Frame frame, uint x, uint y) {
   Ray ray = camera_ray(frame, vec2(float(x) + 0.5f, float(y) + 0.5f));
-  uvec4 counts = uvec4(0u, 0u, 0u, 0u);
-  Hit hit = trace(ray, counts);
-  counts.z = counts.z | loops_cut_off(LOOP_PROBE);
+  Hit hit = trace(ray);
+  uint flags = loops_cut_off(LOOP_PROBE);
   HitResult result;
   result.position_t = vec4(0.0f, 0.0f, 0.0f, T_MISS);
   result.normal = vec4(0.0f, 0.0f, 0.0f, 0.0f);
   result.uv = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-  result.ids = uvec4(NONE, NONE, counts.z, 0u);
+  result.ids = uvec4(NONE, NONE, flags, 0u);
   if (hit.slot != NONE) {
     Primitive primitive = primitive_at(hit);
     Surface surface = surface_at(primitive, ray, hit);
     result.position_t = vec4(positive_zeros(surface.p), hit.t);
     result.normal = vec4(positive_zeros(surface.normal), 0.0f);
     result.uv = vec4(positive_zero(surface.uv.x), positive_zero(surface.uv.y), 0.0f, 0.0f);
-    result.ids = uvec4(hit.id, material_of(primitive), counts.z, 0u);
+    result.ids = uvec4(hit.id, material_of(primitive), flags, 0u);
   }
   return result;
 }
@@ -55,9 +54,8 @@ QueryHit answer(Found found, bool any, uint flags) {
 // A ray asked about alone: the nearest hit before its t_max, or whether anything keeps its light away.
 QueryHit query(QueryRay asked, bool any) {
   Ray ray = make_ray(vec3(asked.origin), vec3(asked.direction));
-  uvec4 counts = uvec4(0u, 0u, 0u, 0u);
-  Found found = search(ray, minimum(asked.direction.w, T_MISS), any, counts);
-  return answer(found, any, counts.z | loops_cut_off(LOOP_PROBE));
+  Found found = search(ray, minimum(asked.direction.w, T_MISS), any);
+  return answer(found, any, loops_cut_off(LOOP_PROBE));
 }
 
 SHADER_END

@@ -136,7 +136,7 @@ void meet_loose(INOUT(Found) found, Ray ray, bool any) {
 #endif
 }
 
-Found search(Ray ray, float t_max, bool any, INOUT(uvec4) counts) {
+Found search(Ray ray, float t_max, bool any) {
   Found found = nothing_found(t_max);
   meet_loose(found, ray, any);
 #ifndef SCENE_PRIMITIVES
@@ -157,11 +157,11 @@ Found search(Ray ray, float t_max, bool any, INOUT(uvec4) counts) {
 }
 
 // The nearest hit with t > 0.
-Hit trace(Ray ray, INOUT(uvec4) counts) { return search(ray, T_MISS, false, counts).hit; }
+Hit trace(Ray ray) { return search(ray, T_MISS, false).hit; }
 
 // How much of a shadow ray's light is lost on 0 < t < t_max: the sum of what every primitive on the way weakens it by, in
 // −log2 · SHADOW_SCALE, at most SHADOW_OPAQUE. An integer sum does not depend on the order of traversal.
-uint occlusion(Ray ray, float t_max, INOUT(uvec4) counts) { return search(ray, t_max, true, counts).occluded; }
+uint occlusion(Ray ray, float t_max) { return search(ray, t_max, true).occluded; }
 
 // The share of light that passes, from what `occlusion` counted.
 float visibility(uint occluded) {

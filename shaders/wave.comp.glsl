@@ -41,7 +41,7 @@ void main() {
   color = vec3(results[place].color);
   counts = results[place].counts;
   Ray ray = make_ray(path.o, path.d);
-  Hit hit = trace(ray, counts);
+  Hit hit = trace(ray);
 #endif
 
   Children children = follow(frame, path, ray, hit, color, counts);

@@ -6,7 +6,8 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "core/folder_trees.hpp"
 
 namespace eyeray {
 
@@ -24,7 +25,7 @@ class AllowedFolders {
   File find(std::string_view key, const std::string& name, const std::filesystem::path& from) const;
 
  private:
-  std::vector<std::filesystem::path> trees_;  // canonical
+  FolderTrees trees_;
 };
 
 }  // namespace eyeray

@@ -30,10 +30,10 @@ vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface
 #if STORED_HITS
       uint occluded = load_occlusion(i);
 #if HAS_SECONDARY && !WAVES
-      if (depth > 0u) occluded = occlusion(leave(seen, light.direction), light.distance, counts);
+      if (depth > 0u) occluded = occlusion(leave(seen, light.direction), light.distance);
 #endif
 #else
-      uint occluded = occlusion(leave(seen, light.direction), light.distance, counts);
+      uint occluded = occlusion(leave(seen, light.direction), light.distance);
 #endif
       float visible = visibility(occluded);
       float lobe = highlight(material, seen.normal, light.direction, to_viewer);
@@ -148,10 +148,10 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
 #if STORED_HITS
     Hit hit = hit_of_packet(load_packet_hit(), counts);
 #if HAS_SECONDARY
-    if (path.depth > 0u) hit = trace(ray, counts);
+    if (path.depth > 0u) hit = trace(ray);
 #endif
 #else
-    Hit hit = trace(ray, counts);
+    Hit hit = trace(ray);
 #endif
     Children children = follow(frame, path, ray, hit, color, counts);
 

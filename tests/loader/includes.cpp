@@ -1,8 +1,8 @@
 // Scenes in several files.
 #include <fstream>
 
+#include "folder.hpp"
 #include "loader/scene_file.hpp"
-#include "support/process.hpp"
 //
 #include "support/doctest.hpp"
 
@@ -11,14 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class Folder : public test::TemporaryFolder {
- public:
-  std::string write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path() / name).parent_path());
-    std::ofstream(path() / name) << text;
-    return (path() / name).string();
-  }
-};
+using test::Folder;
 
 std::string refusal(const std::string& scene) {
   try {

@@ -1,9 +1,9 @@
 // [[mesh]], and mesh files in place of scenes.
 #include <fstream>
 
+#include "folder.hpp"
 #include "loader/scene_file.hpp"
 #include "scene/camera_frame.hpp"
-#include "support/process.hpp"
 //
 #include "support/doctest.hpp"
 
@@ -12,14 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class Folder : public test::TemporaryFolder {
- public:
-  std::string write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path() / name).parent_path());
-    std::ofstream(path() / name) << text;
-    return (path() / name).string();
-  }
-};
+using test::Folder;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 const std::string light = "[[light]]\ntype = \"directional\"\ndirection = [0, -1, -1]\n";

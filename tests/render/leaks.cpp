@@ -156,9 +156,8 @@ TEST_CASE(
       while (rays.size() < count) {
         const glm::vec3 origin(placed.to_world(random.direction() * random.log_uniform(1.1, 100)));
         const glm::vec3 target(placed.to_world(random.point(0.5)));
-        shader::uvec4 counts(0);
         const shader::Ray ray = shader::make_ray(origin, glm::normalize(target - origin));
-        const shader::Hit hit = shader::trace(ray, counts);
+        const shader::Hit hit = shader::trace(ray);
         if (hit.slot == NONE || hit.id >= placed.triangles) continue;
         const shader::Surface surface = shader::surface_at(shader::primitive_at(hit), ray, hit);
         glm::vec3 away(random.direction());

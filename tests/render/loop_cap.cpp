@@ -36,16 +36,12 @@ ExecutorOptions one_by_one() {
   return options;
 }
 
-}  // namespace
-
-TEST_CASE("more iterations than a capped driver grants: every pixel is the twin's, or flagged") {
-  const Scene scene = hall_of_mirrors(1200, 60);
-  const auto gpu = make_executor(Backend::gpu, scene, one_by_one());
-  const auto twin = make_executor(Backend::twin, scene, one_by_one());
+// Every pixel of the GPU's is the twin's, or flagged.
+void check_right_or_flagged(const Scene& scene, Executor& gpu, Executor& twin) {
   const Rect all{0, 0, scene.image.width, scene.image.height};
   std::vector<PixelSample> ours(size_t(all.pixels())), theirs(size_t(all.pixels()));
-  REQUIRE(gpu->sample(all, 0, ours));
-  REQUIRE(twin->sample(all, 0, theirs));
+  REQUIRE(gpu.sample(all, 0, ours));
+  REQUIRE(twin.sample(all, 0, theirs));
   int flagged = 0;
   for (size_t i = 0; i < ours.size(); ++i) {
     if (ours[i].flags & loop_budget)
@@ -53,7 +49,16 @@ TEST_CASE("more iterations than a capped driver grants: every pixel is the twin'
     else
       CHECK(ours[i].color == theirs[i].color);
   }
-  MESSAGE(fmt::format("{} of {} pixels flagged on {}", flagged, ours.size(), gpu->description()));
+  MESSAGE(fmt::format("{} of {} pixels flagged on {}", flagged, ours.size(), gpu.description()));
+}
+
+}  // namespace
+
+TEST_CASE("more iterations than a capped driver grants: every pixel is the twin's, or flagged") {
+  const Scene scene = hall_of_mirrors(1200, 60);
+  const auto gpu = make_executor(Backend::gpu, scene, one_by_one());
+  const auto twin = make_executor(Backend::twin, scene, one_by_one());
+  check_right_or_flagged(scene, *gpu, *twin);
 }
 
 TEST_CASE("a scene too large for one ray on a capped driver is refused with the numbers, or rendered right") {
@@ -85,18 +90,7 @@ TEST_CASE("more iterations in a tree than a capped driver grants: every pixel is
   const auto gpu = make_executor(Backend::gpu, scene, {});
   const auto twin = make_executor(Backend::twin, scene, {});
 
-  const Rect all{0, 0, scene.image.width, scene.image.height};
-  std::vector<PixelSample> ours(size_t(all.pixels())), theirs(size_t(all.pixels()));
-  REQUIRE(gpu->sample(all, 0, ours));
-  REQUIRE(twin->sample(all, 0, theirs));
-  int flagged = 0;
-  for (size_t i = 0; i < ours.size(); ++i) {
-    if (ours[i].flags & loop_budget)
-      ++flagged;
-    else
-      CHECK(ours[i].color == theirs[i].color);
-  }
-  MESSAGE(fmt::format("{} of {} pixels flagged on {}", flagged, ours.size(), gpu->description()));
+  check_right_or_flagged(scene, *gpu, *twin);
 
   // Rays alone have no place for a flag: they are right, or an error.
   for (const QueryKind kind : {QueryKind::nearest, QueryKind::any}) {

@@ -66,10 +66,8 @@ TEST_CASE("a ray parallel to a plane, in it or beside it, is a miss in trace()")
   scene.kind_first.push_back(1);
   const shader::Binding binding(scene);
   for (const float height : {0.0f, -0.0f, 1.0f, -1.0f, 1e-30f}) {
-    shader::uvec4 counts(0);
-    const shader::Hit hit = shader::trace(shader::make_ray({0, height, 0}, {1, 0, 0}), counts);
+    const shader::Hit hit = shader::trace(shader::make_ray({0, height, 0}, {1, 0, 0}));
     CHECK(hit.slot == NONE);
     CHECK(hit.t == T_MISS);
-    CHECK(counts == shader::uvec4(0));
   }
 }
