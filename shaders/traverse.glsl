@@ -1,5 +1,5 @@
 // Rays against the whole scene. Everything else asks `trace` and `occlusion` and knows no traversal.
-// The entry gives the loaders, KIND_FIRST(name), KIND_LOOSE(name) and KIND_END(name), or SCENE_PRIMITIVES: every primitive as a
+// The entry gives the loaders and, of what is in no tree, KIND_FIRST(name) and KIND_END(name), or SCENE_PRIMITIVES: every primitive as a
 // constant.
 #ifndef TRAVERSE_GLSL
 #define TRAVERSE_GLSL
@@ -127,7 +127,7 @@ void meet_loose(INOUT(Found) found, Ray ray, bool any) {
   SCENE_PRIMITIVES(MEET_ONE)
 #else
 #define MEET_KIND(name, number)                                                               \
-  for (uint i = KIND_FIRST(name); i < KIND_LOOSE(name) && found.occluded < SHADOW_OPAQUE; i++) { \
+  for (uint i = KIND_FIRST(name); i < KIND_END(name) && found.occluded < SHADOW_OPAQUE; i++) { \
     Primitive primitive = load_primitive(i);                                                  \
     float t = name##_intersect(primitive, ray, uv);                                           \
     meet(found, t, uv, i, primitive.head.x, NONE, primitive.head.z, any);                     \

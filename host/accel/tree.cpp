@@ -3,11 +3,10 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
-#include <numeric>
 
 #include "core/error.hpp"
+#include "core/parallel_for.hpp"
 
 namespace eyeray::accel {
 namespace {
@@ -15,22 +14,23 @@ namespace {
 // How much more a test of an item costs than one of a node's two boxes.
 constexpr float node_cost = 1.0f;
 constexpr float item_cost = 1.0f;
-constexpr uint32_t wanted_in_leaf = 4;
-constexpr unsigned deepest =
-    56;  // Embree makes leaves of whatever is left there; ours may go a little deeper
+// Embree makes leaves of whatever is left there; ours may go a little deeper.
+constexpr unsigned deepest = 56;
 
+// A tree as Embree has it made. A node counts what becomes of it and all below: nodes, and places in
+// Tree::order.
 struct BuildNode {
-  struct Inner {
-    BuildNode* child[2];
-    RTCBounds bounds[2];
-  };
-
   bool leaf;
-  uint32_t count;  // of children or items
-  union {
-    Inner inner;
-    uint32_t items[most_in_leaf];
-  };
+  uint32_t nodes;
+  uint32_t items;
+};
+struct BuildInner : BuildNode {
+  BuildNode* child[2];
+  Box bounds[2];
+};
+struct BuildLeaf : BuildNode {
+  uint32_t count;
+  uint32_t all[most_in_leaf];  // sorted, so that lone ones are last
 };
 
 Box to_box(const RTCBounds& b) {
@@ -46,29 +46,42 @@ void set_bounds(RTCBounds& bounds, const Box& box) {
   bounds.upper_z = box.upper.z;
 }
 
-// What Embree calls back with.
-void* create_node(RTCThreadLocalAllocator allocator, unsigned children, void*) {
-  auto* node = static_cast<BuildNode*>(rtcThreadLocalAlloc(allocator, sizeof(BuildNode), 16));
+// What Embree calls back with. `user`: the TreeOptions.
+void* create_node(RTCThreadLocalAllocator allocator, unsigned, void*) {
+  auto* node = static_cast<BuildInner*>(rtcThreadLocalAlloc(allocator, sizeof(BuildInner), 16));
   node->leaf = false;
-  node->count = children;
   return node;
 }
 
-void set_children(void* node, void** children, unsigned count, void*) {
-  for (unsigned i = 0; i < count; ++i)
-    static_cast<BuildNode*>(node)->inner.child[i] = static_cast<BuildNode*>(children[i]);
+void set_child_bounds(void* node, const RTCBounds** bounds, unsigned, void*) {
+  for (int i = 0; i < 2; ++i) static_cast<BuildInner*>(node)->bounds[i] = to_box(*bounds[i]);
 }
 
-void set_child_bounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
-  for (unsigned i = 0; i < count; ++i) static_cast<BuildNode*>(node)->inner.bounds[i] = *bounds[i];
+// Called when the children are whole.
+void set_children(void* node, void** children, unsigned, void*) {
+  auto* inner = static_cast<BuildInner*>(node);
+  inner->nodes = 1;
+  inner->items = 0;
+  for (int i = 0; i < 2; ++i) {
+    inner->child[i] = static_cast<BuildNode*>(children[i]);
+    inner->nodes += inner->child[i]->nodes;
+    inner->items += inner->child[i]->items;
+  }
 }
 
-void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* items, size_t count, void*) {
-  auto* node = static_cast<BuildNode*>(rtcThreadLocalAlloc(allocator, sizeof(BuildNode), 16));
-  node->leaf = true;
-  node->count = uint32_t(count);
-  for (size_t i = 0; i < count; ++i) node->items[i] = items[i].primID;
-  return node;
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* items, size_t count,
+                  void* user) {
+  auto* leaf = static_cast<BuildLeaf*>(rtcThreadLocalAlloc(allocator, sizeof(BuildLeaf), 16));
+  leaf->leaf = true;
+  leaf->count = uint32_t(count);
+  for (size_t i = 0; i < count; ++i) leaf->all[i] = items[i].primID;
+  std::sort(leaf->all, leaf->all + count);
+
+  // Lone items part from the others at nodes of their own.
+  const uint32_t first_lone = static_cast<const TreeOptions*>(user)->first_lone;
+  leaf->items = uint32_t(std::lower_bound(leaf->all, leaf->all + count, first_lone) - leaf->all);
+  leaf->nodes = leaf->count - leaf->items - (leaf->items == 0 ? 1 : 0);
+  return leaf;
 }
 
 void split_item(const RTCBuildPrimitive* item, unsigned axis, float position, RTCBounds* below,
@@ -78,11 +91,10 @@ void split_item(const RTCBuildPrimitive* item, unsigned axis, float position, RT
   Box high = box;
   low.upper[int(axis)] = position;
   high.lower[int(axis)] = position;
-  if (const auto& cut = static_cast<const TreeOptions*>(user)->cut) {
-    const auto [cut_low, cut_high] = cut(item->primID, int(axis), position);
-    low = low.intersection(cut_low);
-    high = high.intersection(cut_high);
-  }
+  const auto [cut_low, cut_high] =
+      static_cast<const TreeOptions*>(user)->cut(item->primID, int(axis), position);
+  low = low.intersection(cut_low);
+  high = high.intersection(cut_high);
   set_bounds(*below, low);
   set_bounds(*above, high);
 }
@@ -97,109 +109,104 @@ struct Releaser {
 using Device = std::unique_ptr<RTCDeviceTy, Releaser<rtcReleaseDevice>>;
 using Bvh = std::unique_ptr<RTCBVHTy, Releaser<rtcReleaseBVH>>;
 
-// Embree's tree as ours: depth first, leaves of one kind.
+// Embree's tree as ours. Since every subtree knows its size, its halves are done in parallel.
 class Flattener {
  public:
-  Flattener(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint32_t kind_count,
-            std::optional<uint32_t> lone_kind)
-      : boxes_(boxes), kinds_(kinds), lone_kind_(lone_kind), next_(kind_count, 0) {}
-
-  Tree run(const BuildNode* root) {
-    count_items(root);
-    tree_.kind_ends = next_;
-    std::partial_sum(tree_.kind_ends.begin(), tree_.kind_ends.end(), tree_.kind_ends.begin());
-    for (size_t kind = next_.size(); kind-- > 0;) next_[kind] = tree_.kind_ends[kind] - next_[kind];
-    tree_.order.resize(tree_.kind_ends.back());
-
-    for (const Box& box : boxes_) tree_.box.include(box);
-    tree_.nodes.reserve(inner_ + 1);
-    flatten(root, 0);
-    return std::move(tree_);
+  Flattener(std::span<const Box> boxes, const BuildInner* root) : boxes_(boxes) {
+    tree_.nodes.resize(root->nodes);
+    tree_.order.resize(root->items);
+    Child whole;
+    tree_.depth = flatten(root, 0, 0, whole);
+    tree_.box.include(root->bounds[0]);
+    tree_.box.include(root->bounds[1]);
   }
+
+  Tree take() { return std::move(tree_); }
 
  private:
-  double weight(const Box& box) const { return tree_.box.area() > 0 ? box.area() / tree_.box.area() : 1.0; }
+  static constexpr uint32_t worth_a_task = 4096;
 
-  void count_items(const BuildNode* node) {
+  // Puts nodes at `node_at` and on, and items likewise. The child's box is left to the caller. Returns the
+  // depth in nodes.
+  int flatten(const BuildNode* node, uint32_t node_at, uint32_t item_at, Child& child) {
     if (node->leaf) {
-      for (uint32_t i = 0; i < node->count; ++i) ++next_[kinds_[node->items[i]]];
+      const auto* leaf = static_cast<const BuildLeaf*>(node);
+      std::copy_n(leaf->all, leaf->items, tree_.order.begin() + item_at);
+      return flatten_leaf({leaf->all, leaf->count}, leaf->items, node_at, item_at, child);
+    }
+    const auto* inner = static_cast<const BuildInner*>(node);
+    const auto [left, right] = inner->child;
+    Node& to = tree_.nodes[node_at];
+    int depths[2];
+    const auto go_left = [&] { depths[0] = flatten(left, node_at + 1, item_at, to.children[0]); };
+    const auto go_right = [&] {
+      depths[1] = flatten(right, node_at + 1 + left->nodes, item_at + left->items, to.children[1]);
+    };
+    if (inner->nodes >= worth_a_task) {
+      parallel_invoke(go_left, go_right);
     } else {
-      ++inner_;
-      for (uint32_t i = 0; i < node->count; ++i) count_items(node->inner.child[i]);
+      go_left();
+      go_right();
     }
+    for (int i = 0; i < 2; ++i) to.children[i].box = inner->bounds[i];
+    child.type = ChildType::node;
+    child.index = node_at;
+    return 1 + std::max(depths[0], depths[1]);
   }
 
-  Child flatten(const BuildNode* node, int depth) {
-    if (node->leaf) {
-      std::array<uint32_t, most_in_leaf> items;
-      std::copy_n(node->items, node->count, items.begin());
-      const std::span some(items.data(), node->count);
-      std::sort(some.begin(), some.end(),
-                [&](uint32_t a, uint32_t b) { return std::pair(kinds_[a], a) < std::pair(kinds_[b], b); });
-      return make_leaf(some, depth);
+  // The first `shared` items together, each other one at a node.
+  int flatten_leaf(std::span<const uint32_t> items, uint32_t shared, uint32_t node_at, uint32_t item_at,
+                   Child& child) {
+    if (items.size() == shared) {
+      child.type = ChildType::leaf;
+      child.index = item_at;
+      child.count = uint8_t(shared);
+      return 0;
     }
-    const auto index = add_node(depth);
-    Box box;
-    for (uint32_t i = 0; i < node->count; ++i) {
-      Child child = flatten(node->inner.child[i], depth + 1);
-      child.box = to_box(node->inner.bounds[i]);
-      box.include(child.box);
-      tree_.nodes[index].children[i] = child;
+    if (items.size() == 1) {
+      child.type = ChildType::lone_item;
+      child.index = items[0];
+      return 0;
     }
-    tree_.cost += weight(box) * double(node_cost);
-    return {box, false, index, 0};
-  }
-
-  // Items sorted by kind: a leaf, or a node of leaves where kinds meet, where each item is to be alone, and
-  // at the root.
-  Child make_leaf(std::span<const uint32_t> items, int depth) {
-    Box box;
-    for (const uint32_t item : items) box.include(boxes_[item]);
-    const uint8_t kind = kinds_[items[0]];
-    const auto same =
-        size_t(std::find_if(items.begin(), items.end(), [&](uint32_t i) { return kinds_[i] != kind; }) -
-               items.begin());
-    const bool alone = items.size() > 1 && (depth == 0 || kind == lone_kind_);
-    if (same < items.size() || alone) {
-      const size_t middle = same < items.size() ? same : items.size() / 2;
-      const auto index = add_node(depth);
-      const Child first = make_leaf(items.first(middle), depth + 1);
-      const Child rest = make_leaf(items.subspan(middle), depth + 1);
-      tree_.nodes[index] = {{first, rest}};
-      tree_.cost += weight(box) * double(node_cost);
-      return {box, false, index, 0};
-    }
-    tree_.cost += weight(box) * double(item_cost) * double(items.size());
-    const uint32_t first = next_[kind];
-    for (const uint32_t item : items) tree_.order[next_[kind]++] = item;
-    return {box, true, first, uint32_t(items.size())};
-  }
-
-  uint32_t add_node(int depth) {
-    tree_.depth = std::max(tree_.depth, depth + 1);
-    tree_.nodes.emplace_back();
-    return uint32_t(tree_.nodes.size() - 1);
+    Child(&children)[2] = tree_.nodes[node_at].children;
+    const auto last = items.size() - 1;
+    const int depth = flatten_leaf(items.first(last), shared, node_at + 1, item_at, children[0]);
+    flatten_leaf(items.subspan(last), 0, node_at + 1, item_at, children[1]);
+    for (size_t i = 0; i < items.size(); ++i) children[i < last ? 0 : 1].box.include(boxes_[items[i]]);
+    child.type = ChildType::node;
+    child.index = node_at;
+    return 1 + depth;
   }
 
   std::span<const Box> boxes_;
-  std::span<const uint8_t> kinds_;
-  std::optional<uint32_t> lone_kind_;
-  size_t inner_ = 0;            // nodes of Embree's that are no leaves
-  std::vector<uint32_t> next_;  // by kind: first how many items, then where in `order` the next goes
   Tree tree_;
 };
 
+// What Embree builds from, and sorts.
+struct BuildItems {
+  std::unique_ptr<RTCBuildPrimitive[]> all;
+  size_t count;
+  size_t room;
+};
+
+BuildItems build_items(std::span<const Box> boxes, bool split) {
+  BuildItems items{nullptr, boxes.size(), boxes.size() * (split ? 2 : 1)};
+  items.all = std::make_unique_for_overwrite<RTCBuildPrimitive[]>(items.room);
+  parallel_for(0, int(boxes.size()), [&](int i) {
+    const auto& [lower, upper] = boxes[size_t(i)];
+    items.all[size_t(i)] = {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, uint32_t(i)};
+  });
+  auto* end = std::remove_if(items.all.get(), items.all.get() + items.count,
+                             [&](const RTCBuildPrimitive& item) { return !boxes[item.primID].is_finite(); });
+  items.count = size_t(end - items.all.get());
+  return items;
+}
+
 }  // namespace
 
-Tree build_tree(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint32_t kind_count,
-                const TreeOptions& options) {
-  CHECK_LT(size_t{1}, boxes.size());
-  CHECK_EQ(boxes.size(), kinds.size());
-  std::vector<RTCBuildPrimitive> items(boxes.size() * (options.split ? 2 : 1));
-  for (size_t i = 0; i < boxes.size(); ++i) {
-    const Box& b = boxes[i];
-    items[i] = {b.lower.x, b.lower.y, b.lower.z, 0, b.upper.x, b.upper.y, b.upper.z, uint32_t(i)};
-  }
+Tree build_tree(std::span<const Box> boxes, const TreeOptions& options) {
+  BuildItems items = build_items(boxes, options.split);
+  CHECK_LT(size_t{1}, items.count);
 
   const Device device(rtcNewDevice(nullptr));
   if (!device)
@@ -211,13 +218,13 @@ Tree build_tree(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint
   arguments.maxDepth = deepest;
   arguments.sahBlockSize = 1;
   arguments.minLeafSize = 1;
-  arguments.maxLeafSize = wanted_in_leaf;
+  arguments.maxLeafSize = items.count > most_in_leaf ? most_in_leaf : 1;  // so that the root is no leaf
   arguments.traversalCost = node_cost;
   arguments.intersectionCost = item_cost;
   arguments.bvh = bvh.get();
-  arguments.primitives = items.data();
-  arguments.primitiveCount = boxes.size();
-  arguments.primitiveArrayCapacity = items.size();
+  arguments.primitives = items.all.get();
+  arguments.primitiveCount = items.count;
+  arguments.primitiveArrayCapacity = items.room;
   arguments.createNode = create_node;
   arguments.setNodeChildren = set_children;
   arguments.setNodeBounds = set_child_bounds;
@@ -226,9 +233,11 @@ Tree build_tree(std::span<const Box> boxes, std::span<const uint8_t> kinds, uint
   arguments.userPtr = const_cast<TreeOptions*>(&options);
   const auto* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
   if (!root)
-    throw Error(ExitCode::no_device, "Embree cannot build a tree over {} items: error {}", boxes.size(),
+    throw Error(ExitCode::no_device, "Embree cannot build a tree over {} items: error {}", items.count,
                 int(rtcGetDeviceError(device.get())));
-  return Flattener(boxes, kinds, kind_count, options.lone_kind).run(root);
+  CHECK_EQ(root->leaf, false);
+  items.all.reset();
+  return Flattener(boxes, static_cast<const BuildInner*>(root)).take();
 }
 
 }  // namespace eyeray::accel

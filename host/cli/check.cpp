@@ -50,7 +50,7 @@ Inventory take_inventory(const Scene& scene) {
   const PackedScene packed = pack(scene);
   Inventory inventory;
   std::vector<uint32_t> kinds;
-  for (uint32_t slot = 0; slot < packed.kind_first.back(); ++slot) {
+  for (uint32_t slot = 0; slot < packed.trees[0].head.z; ++slot) {
     // Of the world's own, the first are the shapes, and the others the triangles of meshes.
     if (packed.primitives[slot].head.x < scene.shapes.size())
       kinds.push_back(kind_of(packed.primitives[slot]));

@@ -2,6 +2,10 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/parallel_reduce.h>
+
+#include <functional>
 
 namespace eyeray {
 
@@ -11,6 +15,26 @@ void parallel_for(int begin, int end, const Body& body) {
   tbb::parallel_for(tbb::blocked_range<int>(begin, end), [&](const tbb::blocked_range<int>& range) {
     for (int i = range.begin(); i != range.end(); ++i) body(i);
   });
+}
+
+// The sum of term(i) for every i in [begin, end), on all cores, in the same order of additions every time.
+// term must not throw.
+template <typename Term>
+auto parallel_sum(int begin, int end, const Term& term) {
+  using Sum = decltype(term(begin));
+  return tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<int>(begin, end, 4096), Sum(0),
+      [&](const tbb::blocked_range<int>& range, Sum sum) {
+        for (int i = range.begin(); i != range.end(); ++i) sum += term(i);
+        return sum;
+      },
+      std::plus<>());
+}
+
+// Calls both, perhaps at the same time. Neither must throw.
+template <typename A, typename B>
+void parallel_invoke(const A& a, const B& b) {
+  tbb::parallel_invoke(a, b);
 }
 
 }  // namespace eyeray

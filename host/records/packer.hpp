@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <memory>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -13,11 +14,14 @@ namespace eyeray {
 
 // A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
-  // By slot: the world's own, grouped by kind in registry order, those in no tree first, the others as leaves
-  // hold them; then those of each mesh with a tree of its own.
+  // By slot: of the world's own those in no tree, by kind in registry order, then the others as leaves hold
+  // them; then those of each mesh with a tree of its own.
   std::vector<shader::Primitive> primitives;
-  std::vector<uint32_t> kind_first;  // by kind, the first of the world's slots; then the end of the world's
-  std::vector<uint32_t> kind_loose;  // by kind, the end of those in no tree
+  std::vector<uint32_t> loose_ends;  // by kind, the end of those in no tree
+  // Of those of `kind` in no tree.
+  uint32_t first_loose(uint32_t kind) const { return kind == 0 ? 0 : loose_ends[kind - 1]; }
+  std::set<uint32_t> tree_kinds;      // of the shapes in trees
+  std::set<uint32_t> material_kinds;  // of the materials in use
   std::vector<shader::uvec4> nodes;
   std::vector<shader::Tree> trees;  // the world's, then one a mesh of `instances`
   std::vector<shader::Instance> instances;

@@ -15,7 +15,6 @@ namespace {
 
 // Up to here testing everything is as fast as a tree.
 constexpr size_t few_primitives = 24;
-constexpr uint32_t instance_kind = shader::SHAPE_KINDS;
 
 float below(double x) {
   const float rounded = float(x);
@@ -36,18 +35,6 @@ accel::Box to_box(const Bounds& bounds, const Vec3& eye) {
     box.upper[axis] = above(upper + room);
   }
   return box;
-}
-
-accel::Box triangle_box(const shader::Primitive& triangle) {
-  accel::Box box;
-  for (const shader::vec4& corner : {triangle.a, triangle.b, triangle.c}) box.include(glm::vec3(corner));
-  return box;
-}
-
-bool is_bounded(const accel::Box& box) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (!std::isfinite(box.lower[axis]) || !std::isfinite(box.upper[axis])) return false;
-  return true;
 }
 
 // The boxes of what is below and above a plane, of a triangle.
@@ -87,10 +74,9 @@ class GeometryPacker {
     count_uses();
     add_shapes();
     add_meshes();
-    fill_densities();
     use_tree_ = options_.acceleration == Acceleration::tree ||
                 (options_.acceleration == Acceleration::automatic &&
-                 (world_.size() > few_primitives || !scene_.instances.empty()));
+                 (world_size() > few_primitives || !scene_.instances.empty()));
     packed_.has_tree = use_tree_ && has_bounded(2);
     if (packed_.has_tree) build_trees();
     lay_out_world();
@@ -99,10 +85,16 @@ class GeometryPacker {
   }
 
  private:
+  // Triangles that are the world's own, from its item `first` on.
+  struct Baked {
+    uint32_t first;
+    MeshRecords records;
+  };
   struct MeshTree {
-    int mesh;
     Vec3 origin;  // of its space, in the mesh's
-    std::vector<shader::Primitive> primitives;
+    MeshRecords records;
+    std::vector<accel::Box> boxes;  // of its triangles
+    accel::Box box;                 // around all
     accel::Tree tree;
   };
 
@@ -123,14 +115,15 @@ class GeometryPacker {
   void add_shapes() {
     for (const auto& shape : scene_.shapes) {
       shape->pack(packer_);
-      const shader::Primitive& record = packed_.primitives.back();
+      shader::Primitive& record = packed_.primitives.back();
+      record.head.x = uint32_t(boxes_.size());
+      record.head.z = use_material(material_of(record), false);
       boxes_.push_back(kind_of(record) == shader::KIND_triangle ? triangle_box(record)
                                                                 : to_box(shape->bounds(), scene_.camera.eye));
     }
-    world_ = std::move(packed_.primitives);
+    shapes_ = std::move(packed_.primitives);
     packed_.primitives.clear();
-    CHECK_EQ(world_.size(), scene_.shapes.size());
-    for (size_t i = 0; i < world_.size(); ++i) world_[i].head.x = uint32_t(i);
+    CHECK_EQ(shapes_.size(), scene_.shapes.size());
   }
 
   void add_meshes() {
@@ -141,17 +134,20 @@ class GeometryPacker {
       const Affine map(instance.transform);
       if (mesh.triangles.empty()) continue;
       if (uses_[size_t(instance.mesh)] == 1 || mesh.triangles.size() == 1) {
-        add_to_world(mesh_records(mesh, map, scene_.camera.eye, instance.material, id, packed_.vertices));
+        baked_.push_back({uint32_t(boxes_.size()),
+                          {mesh, map, scene_.camera.eye, instance.material,
+                           use_material(uint32_t(instance.material), true), id, packed_.vertices}});
+        append_boxes(baked_.back().records, boxes_);
       } else {
         int& tree = tree_of[size_t(instance.mesh)];
         if (tree < 0) {
           tree = int(mesh_trees_.size());
           const Bounds extent = bounds(mesh);
           const Vec3 centre = (extent.min + extent.max) * 0.5;
-          mesh_trees_.push_back({instance.mesh,
-                                 centre,
-                                 mesh_records(mesh, Affine(Mat4(1.0)), centre, 0, 0, packed_.vertices),
-                                 {}});
+          MeshTree& added = mesh_trees_.emplace_back(
+              MeshTree{centre, {mesh, Affine(Mat4(1.0)), centre, 0, 0, 0, packed_.vertices}, {}, {}, {}});
+          append_boxes(added.records, added.boxes);
+          for (const accel::Box& box : added.boxes) added.box.include(box);
         }
         add_instance(instance, map, uint32_t(tree), id);
       }
@@ -159,15 +155,10 @@ class GeometryPacker {
     }
   }
 
-  void add_to_world(std::vector<shader::Primitive> triangles) {
-    const size_t first = boxes_.size();
-    boxes_.resize(first + triangles.size());
-    parallel_for(0, int(triangles.size()),
-                 [&](int i) { boxes_[first + size_t(i)] = triangle_box(triangles[size_t(i)]); });
-    if (world_.empty())
-      world_ = std::move(triangles);
-    else
-      world_.insert(world_.end(), triangles.begin(), triangles.end());
+  static void append_boxes(const MeshRecords& records, std::vector<accel::Box>& boxes) {
+    const size_t first = boxes.size();
+    boxes.resize(first + records.size());
+    parallel_for(0, int(records.size()), [&](int i) { boxes[first + size_t(i)] = records.box(uint32_t(i)); });
   }
 
   void add_instance(const Instance& instance, const Affine& map, uint32_t tree, uint32_t first_id) {
@@ -178,7 +169,8 @@ class GeometryPacker {
     const Vec3 to_world_offset = map.point(centre) - eye;
     const Vec3 to_mesh_offset = inverse * -to_world_offset;
     shader::Instance record{};
-    record.head = {tree + 1, first_id, uint32_t(instance.material), 0u};
+    record.head = {tree + 1, first_id, uint32_t(instance.material),
+                   use_material(uint32_t(instance.material), true)};
     for (int row = 0; row < 3; ++row) {
       record.to_mesh[row] = to_vec4({inverse[0][row], inverse[1][row], inverse[2][row]}, to_mesh_offset[row]);
       record.to_world[row] =
@@ -187,36 +179,49 @@ class GeometryPacker {
     packed_.instances.push_back(record);
   }
 
-  // What a shadow ray loses to each: a shape weakens it once, a mesh half at each of its triangles, for a
-  // closed body is left as it was entered.
-  void fill_densities() {
-    const auto density = [&](uint32_t material, bool of_mesh) {
-      const uint32_t whole = packed_.materials[material].head.w;
-      return of_mesh && whole < SHADOW_OPAQUE ? whole / 2 : whole;
-    };
-    for (shader::Primitive& primitive : world_) {
-      primitive.head.z = density(material_of(primitive), primitive.head.x >= scene_.shapes.size());
-      translucent_ = translucent_ || primitive.head.z < SHADOW_OPAQUE;
-    }
-    for (shader::Instance& instance : packed_.instances) {
-      instance.head.w = density(instance.head.z, true);
-      translucent_ = translucent_ || instance.head.w < SHADOW_OPAQUE;
-    }
+  // Takes note that a material is used. Returns what a shadow ray loses to each: a shape weakens it once, a
+  // mesh half at each of its triangles, for a closed body is left as it was entered.
+  uint32_t use_material(uint32_t material, bool of_mesh) {
+    const shader::uvec4& head = packed_.materials[material].head;
+    packed_.material_kinds.insert(head.x);
+    translucent_ = translucent_ || head.w < SHADOW_OPAQUE;
+    return of_mesh && head.w < SHADOW_OPAQUE ? head.w / 2 : head.w;
+  }
+
+  // The world's own items: shapes, then the triangles of baked meshes.
+  uint32_t world_size() const {
+    return baked_.empty() ? uint32_t(shapes_.size()) : baked_.back().first + baked_.back().records.size();
+  }
+  uint32_t world_kind(uint32_t item) const {
+    return item < shapes_.size() ? kind_of(shapes_[item]) : uint32_t{shader::KIND_triangle};
+  }
+  shader::Primitive world_record(uint32_t item) const {
+    if (item < shapes_.size()) return shapes_[item];
+    const auto after = std::upper_bound(baked_.begin(), baked_.end(), item,
+                                        [](uint32_t i, const Baked& mesh) { return i < mesh.first; });
+    const Baked& mesh = *std::prev(after);
+    return mesh.records.record(item - mesh.first);
   }
 
   bool has_bounded(size_t least) const {
-    return packed_.instances.size() + size_t(std::count_if(boxes_.begin(), boxes_.end(), is_bounded)) >=
+    return packed_.instances.size() +
+               size_t(std::count_if(boxes_.begin(), boxes_.end(),
+                                    [](const accel::Box& box) { return box.is_finite(); })) >=
            least;
   }
 
-  accel::TreeOptions tree_options(std::span<const shader::Primitive> primitives) const {
+  // `record(item)` as for world_record.
+  template <typename Record>
+  accel::TreeOptions tree_options(uint32_t items, const Record& record) const {
     accel::TreeOptions options;
-    options.lone_kind = instance_kind;
+    options.first_lone = items;
     // An item that stands in two leaves would weaken a shadow ray twice.
     options.split = options_.split && !translucent_;
-    options.cut = [primitives](uint32_t item, int axis, float position) {
-      if (item < primitives.size() && kind_of(primitives[item]) == shader::KIND_triangle)
-        return cut_triangle(primitives[item], axis, position);
+    options.cut = [items, record](uint32_t item, int axis, float position) {
+      if (item < items) {
+        const shader::Primitive primitive = record(item);
+        if (kind_of(primitive) == shader::KIND_triangle) return cut_triangle(primitive, axis, position);
+      }
       const accel::Box everything{glm::vec3(-HUGE_VALF), glm::vec3(HUGE_VALF)};
       return std::pair(everything, everything);
     };
@@ -225,35 +230,15 @@ class GeometryPacker {
 
   void build_trees() {
     for (MeshTree& mesh : mesh_trees_) {
-      std::vector<accel::Box> boxes(mesh.primitives.size());
-      std::transform(mesh.primitives.begin(), mesh.primitives.end(), boxes.begin(), triangle_box);
-      mesh.tree = build_tree(boxes, std::vector<uint8_t>(boxes.size(), 0), 1, tree_options(mesh.primitives));
+      mesh.tree = build_tree(mesh.boxes, tree_options(mesh.records.size(), [&](uint32_t item) {
+                               return mesh.records.record(item);
+                             }));
+      mesh.boxes = {};
     }
-
-    // The world: bounded primitives, and instances as items of a kind of their own.
-    std::vector<accel::Box> boxes;
-    std::vector<uint8_t> kinds;
-    std::vector<shader::Primitive> items;
-    boxes.reserve(world_.size() + packed_.instances.size());
-    kinds.reserve(boxes.capacity());
-    in_tree_.reserve(world_.size());
-    for (size_t i = 0; i < world_.size(); ++i) {
-      if (!is_bounded(boxes_[i])) continue;
-      in_tree_.push_back(uint32_t(i));
-      boxes.push_back(boxes_[i]);
-      kinds.push_back(uint8_t(kind_of(world_[i])));
-    }
-    if (options_.split)
-      for (const uint32_t i : in_tree_) items.push_back(world_[i]);
-    for (const shader::Instance& instance : packed_.instances) {
-      boxes.push_back(instance_box(instance));
-      kinds.push_back(uint8_t(instance_kind));
-    }
-    world_tree_ = build_tree(boxes, kinds, instance_kind + 1, tree_options(items));
-    // An instance is known by its index, not by its place among the items.
-    for (uint32_t i = world_tree_.kind_ends[instance_kind - 1]; i < world_tree_.kind_ends[instance_kind]; ++i)
-      world_tree_.order[i] -= uint32_t(in_tree_.size());
-
+    const uint32_t first_instance = world_size();
+    for (const shader::Instance& instance : packed_.instances) boxes_.push_back(instance_box(instance));
+    world_tree_ = build_tree(
+        boxes_, tree_options(first_instance, [this](uint32_t item) { return world_record(item); }));
     packed_.quantised_nodes = quantising_is_harmless(world_tree_) &&
                               std::all_of(mesh_trees_.begin(), mesh_trees_.end(), [](const MeshTree& mesh) {
                                 return quantising_is_harmless(mesh.tree);
@@ -262,7 +247,7 @@ class GeometryPacker {
 
   // Around all corners of the mesh's box, with room for their rounding.
   accel::Box instance_box(const shader::Instance& instance) const {
-    const accel::Box& mesh = mesh_trees_[instance.head.x - 1].tree.box;
+    const accel::Box& mesh = mesh_trees_[instance.head.x - 1].box;
     accel::Box box;
     for (int corner = 0; corner < 8; ++corner) {
       const glm::dvec3 p(corner & 1 ? mesh.upper.x : mesh.lower.x, corner & 2 ? mesh.upper.y : mesh.lower.y,
@@ -299,48 +284,60 @@ class GeometryPacker {
   // Slots of the world: by kind, what is in no tree, then what is, as its leaves hold it.
   void lay_out_world() {
     std::vector<std::vector<uint32_t>> loose(shader::SHAPE_KINDS);
-    for (uint32_t i = 0; i < world_.size(); ++i)
-      if (!packed_.has_tree || !is_bounded(boxes_[i])) loose[kind_of(world_[i])].push_back(i);
-    std::vector<uint32_t> first_slots(shader::SHAPE_KINDS + 1, 0);
-    packed_.primitives.reserve(world_.size());
-    for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind) {
-      packed_.kind_first.push_back(uint32_t(packed_.primitives.size()));
-      for (const uint32_t i : loose[kind]) packed_.primitives.push_back(world_[i]);
-      packed_.kind_loose.push_back(uint32_t(packed_.primitives.size()));
-      if (!packed_.has_tree) continue;
-      const uint32_t begin = kind == 0 ? 0 : world_tree_.kind_ends[kind - 1];
-      first_slots[kind] = uint32_t(packed_.primitives.size()) - begin;
-      for (uint32_t i = begin; i < world_tree_.kind_ends[kind]; ++i)
-        packed_.primitives.push_back(world_[in_tree_[world_tree_.order[i]]]);
+    const uint32_t size = world_size();
+    for (uint32_t item = 0; item < size; ++item) {
+      if (!packed_.has_tree || !boxes_[item].is_finite())
+        loose[world_kind(item)].push_back(item);
+      else
+        packed_.tree_kinds.insert(world_kind(item));
     }
-    packed_.kind_first.push_back(uint32_t(packed_.primitives.size()));
-    world_ = {};
-    if (packed_.has_tree) {
-      add_tree(world_tree_, first_slots, instance_kind, packed_);
-      make_room_for_instances(packed_.trees.back());
-    } else
-      packed_.trees.emplace_back();
+    if (!mesh_trees_.empty()) packed_.tree_kinds.insert(shader::KIND_triangle);
+    boxes_ = {};
+    const auto record = [this](uint32_t item) { return world_record(item); };
+    for (const auto& items : loose) {
+      append_records(items, record);
+      packed_.loose_ends.push_back(uint32_t(packed_.primitives.size()));
+    }
+    lay_out(world_tree_, size, record);
+    if (packed_.has_tree) make_room_for_instances(packed_.trees.back());
   }
 
   void lay_out_meshes() {
     for (MeshTree& mesh : mesh_trees_) {
-      const auto first = uint32_t(packed_.primitives.size());
-      if (packed_.has_tree) {
-        for (const uint32_t i : mesh.tree.order) packed_.primitives.push_back(mesh.primitives[i]);
-        const uint32_t first_slots[] = {first};
-        add_tree(mesh.tree, first_slots, instance_kind, packed_);
-      } else {
-        packed_.primitives.insert(packed_.primitives.end(), mesh.primitives.begin(), mesh.primitives.end());
-        packed_.trees.emplace_back();
+      const auto record = [&](uint32_t item) { return mesh.records.record(item); };
+      if (!packed_.has_tree) {
+        mesh.tree.order.resize(mesh.records.size());
+        std::iota(mesh.tree.order.begin(), mesh.tree.order.end(), 0u);
       }
-      packed_.trees.back().head.y = first;
-      packed_.trees.back().head.z = uint32_t(packed_.primitives.size());
-      packed_.trees.back().reach = shader::vec4(reach(mesh.primitives), 0.0f);
-      mesh.primitives = {};
+      lay_out(mesh.tree, mesh.records.size(), record);
+      packed_.trees.back().reach =
+          shader::vec4(glm::max(glm::abs(mesh.box.lower), glm::abs(mesh.box.upper)), 0.0f);
     }
     if (packed_.primitives.size() > MOST_SLOTS)
       throw Error(ExitCode::bad_input, "the scene has {} primitives in memory; at most {} can be addressed",
                   packed_.primitives.size(), MOST_SLOTS);
+  }
+
+  template <typename Record>
+  void lay_out(accel::Tree& tree, uint32_t first_instance, const Record& record) {
+    const auto first_slot = uint32_t(packed_.primitives.size());
+    append_records(tree.order, record);
+    if (packed_.has_tree) {
+      add_tree(tree, first_slot, first_instance, packed_);
+    } else {
+      packed_.trees.emplace_back();
+      packed_.trees.back().head = {0u, first_slot, uint32_t(packed_.primitives.size()), 0u};
+    }
+    tree.nodes = {};
+    tree.order = {};
+  }
+
+  template <typename Record>
+  void append_records(std::span<const uint32_t> items, const Record& record) {
+    const size_t first = packed_.primitives.size();
+    packed_.primitives.resize(first + items.size());
+    parallel_for(0, int(items.size()),
+                 [&](int i) { packed_.primitives[first + size_t(i)] = record(items[size_t(i)]); });
   }
 
   int deepest_mesh() const {
@@ -349,21 +346,14 @@ class GeometryPacker {
     return depth;
   }
 
-  // The largest magnitudes of the coordinates.
-  static glm::vec3 reach(std::span<const shader::Primitive> triangles) {
-    accel::Box box;
-    for (const shader::Primitive& triangle : triangles) box.include(triangle_box(triangle));
-    return glm::max(glm::abs(box.lower), glm::abs(box.upper));
-  }
-
   const Scene& scene_;
   const PackOptions& options_;
   Packer& packer_;
   PackedScene& packed_;
-  std::vector<uint32_t> uses_;            // by mesh
-  std::vector<shader::Primitive> world_;  // by id, as far as they belong to the world
-  std::vector<accel::Box> boxes_;         // of each of them
-  std::vector<uint32_t> in_tree_;         // items of the world's tree: indices in world_
+  std::vector<uint32_t> uses_;  // by mesh
+  std::vector<shader::Primitive> shapes_;
+  std::vector<Baked> baked_;
+  std::vector<accel::Box> boxes_;  // of the world's items; then of the instances
   std::vector<MeshTree> mesh_trees_;
   accel::Tree world_tree_;
   bool use_tree_ = false;

@@ -1,56 +1,67 @@
 #include "render/mesh_records.hpp"
 
 #include "core/parallel_for.hpp"
-#include "scene/triangle.hpp"
 
 namespace eyeray {
-namespace {
 
-// Unit, and outward where the mesh's own is.
-Vec3 outward_normal(const Corners& corners, const Affine& map) {
-  const Vec3 normal = geometric_normal(corners);
-  return map.mirrors() ? -normal : normal;
+accel::Box triangle_box(const shader::Primitive& triangle) {
+  accel::Box box;
+  for (const shader::vec4& corner : {triangle.a, triangle.b, triangle.c}) box.include(glm::vec3(corner));
+  return box;
 }
 
-}  // namespace
-
-std::vector<shader::Primitive> mesh_records(const Mesh& mesh, const Affine& map, const Vec3& origin,
-                                            int material, uint32_t first_id,
-                                            std::vector<shader::uvec4>& vertices) {
+MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin, int material,
+                         uint32_t density, uint32_t first_id, std::vector<shader::uvec4>& vertices)
+    : mesh_(&mesh), map_(map), origin_(origin), mirrored_(map.mirrors()) {
   const bool normals = !mesh.normals.empty();
   const bool uv = !mesh.uv.empty();
+  head_ = Packer::head(shader::KIND_triangle, material);
+  head_.x = first_id;
+  head_.z = density;
+  if (!normals && !uv) return;
+
+  // What corners look up, and by triangle which its corners are.
   const auto first_vertex = uint32_t(vertices.size());
   const auto first_corners = uint32_t(first_vertex + mesh.positions.size());
-  const uint32_t corner_records = uv ? 2 : 1;
-  if (normals || uv) {
-    vertices.resize(first_corners + mesh.triangles.size() * corner_records);
-    parallel_for(0, int(mesh.positions.size()), [&](int i) {
-      const Vec3 normal = normals ? map.normal(mesh.normals[size_t(i)]) : Vec3(0);
-      vertices[first_vertex + size_t(i)] = to_bits(to_vec4(normal, uv ? mesh.uv[size_t(i)].x : 0.0));
-    });
-  }
-
-  std::vector<shader::Primitive> records(mesh.triangles.size());
+  head_.w = first_corners;
+  corner_records_ = uv ? 2 : 1;
+  vertices.resize(first_corners + mesh.triangles.size() * corner_records_);
+  parallel_for(0, int(mesh.positions.size()), [&](int i) {
+    const Vec3 normal = normals ? map.normal(mesh.normals[size_t(i)]) : Vec3(0);
+    vertices[first_vertex + size_t(i)] = to_bits(to_vec4(normal, uv ? mesh.uv[size_t(i)].x : 0.0));
+  });
   parallel_for(0, int(mesh.triangles.size()), [&](int i) {
     const auto& [v0, v1, v2] = mesh.triangles[size_t(i)];
-    const Corners corners{map.point(mesh.positions[v0]), map.point(mesh.positions[v1]),
-                          map.point(mesh.positions[v2])};
-    const Vec3 normal = outward_normal(corners, map);
-    uint32_t extra = NONE;
-    if (normals || uv) {
-      extra = first_corners + uint32_t(i) * corner_records;
-      vertices[extra] = {first_vertex + v0, first_vertex + v1, first_vertex + v2,
-                         (normals ? CORNERS_NORMALS : 0u) | (uv ? CORNERS_UV : 0u)};
-      if (uv) vertices[extra + 1] = to_bits(to_vec4({mesh.uv[v0].y, mesh.uv[v1].y, mesh.uv[v2].y}));
-    }
-    shader::Primitive& record = records[size_t(i)];
-    record.head = Packer::head(shader::KIND_triangle, material, extra);
-    record.head.x = first_id + uint32_t(i);
-    record.a = to_vec4(corners[0] - origin, normal.x);
-    record.b = to_vec4(corners[1] - origin, normal.y);
-    record.c = to_vec4(corners[2] - origin, normal.z);
+    shader::uvec4* corners = &vertices[first_corners + size_t(i) * corner_records_];
+    corners[0] = {first_vertex + v0, first_vertex + v1, first_vertex + v2,
+                  (normals ? CORNERS_NORMALS : 0u) | (uv ? CORNERS_UV : 0u)};
+    if (uv) corners[1] = to_bits(to_vec4({mesh.uv[v0].y, mesh.uv[v1].y, mesh.uv[v2].y}));
   });
-  return records;
+}
+
+shader::Primitive MeshRecords::record(uint32_t triangle) const {
+  const Corners at = corners(triangle);
+  const Vec3 outward = mirrored_ ? -geometric_normal(at) : geometric_normal(at);
+  shader::Primitive record;
+  record.head = head_;
+  record.head.x += triangle;
+  record.head.w += triangle * corner_records_;
+  record.a = to_vec4(at[0] - origin_, outward.x);
+  record.b = to_vec4(at[1] - origin_, outward.y);
+  record.c = to_vec4(at[2] - origin_, outward.z);
+  return record;
+}
+
+accel::Box MeshRecords::box(uint32_t triangle) const {
+  accel::Box box;
+  for (const Vec3& corner : corners(triangle)) box.include(glm::vec3(corner - origin_));
+  return box;
+}
+
+Corners MeshRecords::corners(uint32_t triangle) const {
+  const auto& [v0, v1, v2] = mesh_->triangles[triangle];
+  return {map_.point(mesh_->positions[v0]), map_.point(mesh_->positions[v1]),
+          map_.point(mesh_->positions[v2])};
 }
 
 }  // namespace eyeray

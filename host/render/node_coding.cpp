@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/parallel_for.hpp"
 
 namespace eyeray {
 namespace {
@@ -41,13 +42,6 @@ struct Grid {
   glm::vec3 origin, step;
 };
 
-uint32_t reference(const accel::Child& child, uint32_t first_node, uint32_t kind, const accel::Tree& tree,
-                   std::span<const uint32_t> first_slots, uint32_t instance_kind) {
-  if (!child.leaf) return first_node + child.index;
-  if (kind == instance_kind) return INSTANCE_LEAF | tree.order[child.index];
-  return LEAF | (first_slots[kind] + child.index) << 3 | (child.count - 1);
-}
-
 shader::uvec4 quantised(const accel::Box& box, const Grid& grid, uint32_t refers_to) {
   shader::uvec4 code(0, 0, 0, refers_to);
   for (int axis = 0; axis < 3; ++axis)
@@ -58,44 +52,57 @@ shader::uvec4 quantised(const accel::Box& box, const Grid& grid, uint32_t refers
 }  // namespace
 
 bool quantising_is_harmless(const accel::Tree& tree) {
-  double exact = 0;
-  double coded = 0;
   const glm::dvec3 step(Grid(tree.box).step);
-  for (const accel::Node& node : tree.nodes)
-    for (const accel::Child& child : node.children) {
+  const auto area = [](const glm::dvec3& size) {
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+  };
+  // Exact, and coded: two planes, each off by half a step in the mean.
+  const auto sum = parallel_sum(0, int(tree.nodes.size()), [&](int i) {
+    glm::dvec2 areas(0);
+    for (const accel::Child& child : tree.nodes[size_t(i)].children) {
       const glm::dvec3 size(child.box.upper - child.box.lower);
-      const glm::dvec3 wider = size + step;  // two planes, each off by half a step in the mean
-      exact += size.x * size.y + size.y * size.z + size.z * size.x;
-      coded += wider.x * wider.y + wider.y * wider.z + wider.z * wider.x;
+      areas += glm::dvec2(area(size), area(size + step));
     }
-  return coded <= 1.1 * exact;
+    return areas;
+  });
+  return sum.y <= 1.1 * sum.x;
 }
 
-void add_tree(const accel::Tree& tree, std::span<const uint32_t> first_slots, uint32_t instance_kind,
-              PackedScene& scene) {
+void add_tree(const accel::Tree& tree, uint32_t first_slot, uint32_t first_instance, PackedScene& scene) {
   const size_t width = scene.quantised_nodes ? 2 : 4;  // uvec4 a node
   const Grid grid(tree.box);
-  const auto first_node = uint32_t(scene.nodes.size() / width);
-  scene.nodes.reserve(scene.nodes.size() + tree.nodes.size() * width);
-  for (const accel::Node& node : tree.nodes) {
-    for (const accel::Child& child : node.children) {
-      const auto kind = uint32_t(std::upper_bound(tree.kind_ends.begin(), tree.kind_ends.end(), child.index) -
-                                 tree.kind_ends.begin());
-      const uint32_t refers_to = reference(child, first_node, kind, tree, first_slots, instance_kind);
+  const size_t begin = scene.nodes.size();
+  const auto first_node = uint32_t(begin / width);
+  const auto reference = [&](const accel::Child& child) {
+    switch (child.type) {
+      case accel::ChildType::node:
+        return first_node + child.index;
+      case accel::ChildType::leaf:
+        return LEAF | (first_slot + child.index) << 3 | (child.count - 1u);
+      case accel::ChildType::lone_item:
+        break;
+    }
+    return INSTANCE_LEAF | (child.index - first_instance);
+  };
+  scene.nodes.resize(begin + tree.nodes.size() * width);
+  CHECK_LT(scene.nodes.size() / width, size_t{LEAF});
+  parallel_for(0, int(tree.nodes.size()), [&](int i) {
+    shader::uvec4* code = &scene.nodes[begin + size_t(i) * width];
+    for (const accel::Child& child : tree.nodes[size_t(i)].children) {
       if (scene.quantised_nodes) {
-        scene.nodes.push_back(quantised(child.box, grid, refers_to));
+        *code++ = quantised(child.box, grid, reference(child));
       } else {
-        shader::uvec4 low = to_bits(shader::vec4(child.box.lower, 0.0f));
-        low.w = refers_to;
-        scene.nodes.push_back(low);
-        scene.nodes.push_back(to_bits(shader::vec4(child.box.upper, 0.0f)));
+        *code = to_bits(shader::vec4(child.box.lower, 0.0f));
+        code++->w = reference(child);
+        *code++ = to_bits(shader::vec4(child.box.upper, 0.0f));
       }
     }
-  }
-  CHECK_LT(scene.nodes.size() / width, size_t{LEAF});
+  });
 
   shader::Tree record{};
   record.head.x = first_node;
+  record.head.y = first_slot;
+  record.head.z = first_slot + uint32_t(tree.order.size());
   if (scene.quantised_nodes) {
     record.origin = shader::vec4(grid.origin, 0.0f);
     record.step = shader::vec4(grid.step, 0.0f);

@@ -1,8 +1,6 @@
 // Trees as the shaders' nodes (records.h, Tree).
 #pragma once
 
-#include <span>
-
 #include "accel/tree.hpp"
 #include "records/packer.hpp"
 
@@ -12,10 +10,8 @@ namespace eyeray {
 // against the whole they do not.
 bool quantising_is_harmless(const accel::Tree& tree);
 
-// Appends the nodes of `tree`, as scene.quantised_nodes has them, and its Tree record. A leaf of `kind` that
-// starts at i in Tree::order refers to the slot first_slots[kind] + i, one of `instance_kind` to the instance
-// item.
-void add_tree(const accel::Tree& tree, std::span<const uint32_t> first_slots, uint32_t instance_kind,
-              PackedScene& scene);
+// Appends the nodes of `tree`, as scene.quantised_nodes has them, and its Tree record. Tree::order begins at
+// `first_slot`; a lone item is an instance, of which the first is `first_instance`.
+void add_tree(const accel::Tree& tree, uint32_t first_slot, uint32_t first_instance, PackedScene& scene);
 
 }  // namespace eyeray

@@ -110,21 +110,10 @@ bool any_reflects(const PackedScene& scene) {
          });
 }
 
-std::set<uint32_t> tree_kinds(const PackedScene& scene) {
-  std::set<uint32_t> kinds;
-  for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
-    if (scene.kind_loose[kind] < scene.kind_first[kind + 1]) kinds.insert(kind);
-  if (!scene.instances.empty()) kinds.insert(shader::KIND_triangle);
-  return kinds;
-}
-
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
-  std::set<uint32_t> shapes_used;
-  for (const shader::Primitive& p : scene.primitives) shapes_used.insert(kind_of(p));
-  std::set<uint32_t> materials_used;
-  for (const shader::Primitive& p : scene.primitives)
-    materials_used.insert(scene.materials[material_of(p)].head.x);
-  for (const shader::Instance& i : scene.instances) materials_used.insert(scene.materials[i.head.z].head.x);
+  std::set<uint32_t> shapes_used = scene.tree_kinds;
+  for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
+    if (scene.first_loose(kind) < scene.loose_ends[kind]) shapes_used.insert(kind);
   const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
                                    [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
   const bool images = !scene.texels.empty();
@@ -153,21 +142,20 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_INSTANCES", int(!scene.instances.empty()));
   define("INSTANCE_COUNT", fmt::format("{}u", scene.instances.size()));
   // In a tree of one kind of shape nothing need ask for the kind.
-  const std::set<uint32_t> in_tree = tree_kinds(scene);
-  define("TREE_HOLDS(number, primitive)", in_tree.size() == 1
-                                              ? fmt::format("(number == {}u)", *in_tree.begin())
+  define("TREE_HOLDS(number, primitive)", scene.tree_kinds.size() == 1
+                                              ? fmt::format("(number == {}u)", *scene.tree_kinds.begin())
                                               : "(kind_of(primitive) == number)");
   if (options.loop_budget > 0) define("LOOP_BUDGET", fmt::format("{}u", options.loop_budget));
   define("GROUP_STRIDE", fmt::format("{}u", options.group_stride));
   for (const Row& shape : shapes) {
-    define(fmt::format("FIRST_{}", shape.name), fmt::format("{}u", scene.kind_first[shape.number]));
-    define(fmt::format("LOOSE_{}", shape.name), fmt::format("{}u", scene.kind_loose[shape.number]));
+    define(fmt::format("FIRST_{}", shape.name), fmt::format("{}u", scene.first_loose(shape.number)));
+    define(fmt::format("END_{}", shape.name), fmt::format("{}u", scene.loose_ends[shape.number]));
   }
-  text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_LOOSE(name) LOOSE_##name\n";
+  text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_END(name) END_##name\n";
   text += "#include \"bindings.glsl\"\n";
   text += unrolled ? constants(scene) : "#include \"loaders.glsl\"\n";
   text += registry("SHAPES", "shapes", shapes, shapes_used);
-  text += registry("MATERIALS", "materials", materials, materials_used);
+  text += registry("MATERIALS", "materials", materials, scene.material_kinds);
   text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.counts.z});
   return text;
 }

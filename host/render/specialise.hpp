@@ -1,7 +1,6 @@
 // Made for one scene: the text of scene.glsl, with which the entries compile only what the scene has.
 #pragma once
 
-#include <set>
 #include <string>
 
 #include "records/packer.hpp"
@@ -20,9 +19,6 @@ struct Specialisation {
 
 // Whether any material may send rays on.
 bool any_reflects(const PackedScene& scene);
-
-// The kinds of shape that the trees hold.
-std::set<uint32_t> tree_kinds(const PackedScene& scene);
 
 std::string specialise(const PackedScene& scene, const Specialisation& options);
 

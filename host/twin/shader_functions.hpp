@@ -53,8 +53,8 @@ class Binding {
 }  // namespace eyeray::shader
 
 // What a specialised kernel gets from its generated scene.glsl, here for every scene.
-#define KIND_FIRST(name) bound_scene->kind_first[KIND_##name]
-#define KIND_LOOSE(name) bound_scene->kind_loose[KIND_##name]
+#define KIND_FIRST(name) bound_scene->first_loose(KIND_##name)
+#define KIND_END(name) bound_scene->loose_ends[KIND_##name]
 #define LIGHT_COUNT bound_scene->frame.counts.x
 #define TRIANGLE_METHOD bound_scene->frame.counts.w
 #define HAS_TREE bound_scene->has_tree

@@ -197,7 +197,7 @@ class HardScene {
       }
       targets_.push_back(target);
     };
-    for (uint32_t i = 0; i < packed.kind_first.back(); ++i) take(packed.primitives[i], nullptr);
+    for (uint32_t i = 0; i < packed.trees[0].head.z; ++i) take(packed.primitives[i], nullptr);
     for (const shader::Instance& instance : packed.instances)
       for (uint32_t i = packed.trees[instance.head.x].head.y; i < packed.trees[instance.head.x].head.z; ++i)
         take(packed.primitives[i], &instance);

@@ -59,11 +59,8 @@ TEST_CASE("a ray parallel to a plane, in it or beside it, is a miss in trace()")
   PackedScene scene;
   scene.primitives = {make_plane({0, 1, 0}, 0)};
   scene.primitives[0].head = Packer::head(shader::KIND_plane, 0);
-  for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind) {
-    scene.kind_first.push_back(kind <= shader::KIND_plane ? 0 : 1);
-    scene.kind_loose.push_back(kind < shader::KIND_plane ? 0 : 1);
-  }
-  scene.kind_first.push_back(1);
+  for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
+    scene.loose_ends.push_back(kind < shader::KIND_plane ? 0 : 1);
   const shader::Binding binding(scene);
   for (const float height : {0.0f, -0.0f, 1.0f, -1.0f, 1e-30f}) {
     const shader::Hit hit = shader::trace(shader::make_ray({0, height, 0}, {1, 0, 0}));
