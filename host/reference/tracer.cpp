@@ -132,8 +132,9 @@ double Tracer::transmittance(const Ray& ray, double t_end) const {
 
 Vec3 departure(const SurfacePoint& point, const Vec3& d, double least) {
   const double offset = std::max(4 * point.position_error, least);
-  return point.position +
-         point.normal_geometric * (glm::dot(d, point.normal_geometric) >= 0 ? offset : -offset);
+  const double cosine = glm::dot(d, point.normal_geometric);
+  if (std::fabs(cosine) > 0.125) return point.position + d * (offset / std::fabs(cosine));
+  return point.position + point.normal_geometric * (cosine >= 0 ? offset : -offset);
 }
 
 }  // namespace eyeray::reference

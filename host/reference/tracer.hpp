@@ -60,7 +60,9 @@ class Tracer {
 };
 
 // Where a ray into direction `d` leaves from a surface point: off the surface by a few error bounds, and by
-// `least`, on the side of `d`, so that the ray does not meet the surface that it leaves.
+// `least`, on the side of `d`, so that the ray does not meet the surface that it leaves. As the shaders do
+// (ray.glsl), it stays on its line where that is steep: near an edge it then starts beyond the same other
+// face.
 Vec3 departure(const SurfacePoint& point, const Vec3& d, double least = 0);
 
 // Calls visit(t, surface) for each crossing of the body, a Shape or an InstanceGeometry, in order of t, until

@@ -24,4 +24,12 @@ struct TriangleValues {
 };
 std::unique_ptr<Shape> make_triangle(const TriangleValues& values, const Mat4& transform = Mat4(1.0));
 
+std::unique_ptr<Shape> make_box(const Vec3& min, const Vec3& max, const Mat4& transform = Mat4(1.0));
+std::unique_ptr<Shape> make_ellipsoid(const Vec3& center, const Vec3& radii,
+                                      const Mat4& transform = Mat4(1.0));
+std::unique_ptr<Shape> make_cylinder(const Vec3& from, const Vec3& to, double radius, bool open = false,
+                                     const Mat4& transform = Mat4(1.0));
+std::unique_ptr<Shape> make_cone(Vec3 from, Vec3 to, double radius, double to_radius = 0, bool open = false,
+                                 const Mat4& transform = Mat4(1.0));
+
 }  // namespace eyeray

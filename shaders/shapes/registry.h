@@ -4,5 +4,9 @@
 #define SHAPES(X)  \
   X(sphere, 0u)    \
   X(plane, 1u)     \
-  X(triangle, 2u)
+  X(triangle, 2u)  \
+  X(box, 3u)       \
+  X(ellipsoid, 4u) \
+  X(cylinder, 5u)  \
+  X(cone, 6u)
 #endif

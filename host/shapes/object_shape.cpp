@@ -1,0 +1,102 @@
+#include "shapes/object_shape.hpp"
+
+#include <cmath>
+
+#include "records/packer.hpp"
+
+namespace eyeray {
+
+ObjectShape::ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters)
+    : kind_(kind), to_world_(to_world), to_object_(glm::inverse(to_world)), parameters_(parameters) {}
+
+std::optional<Intersection> ObjectShape::intersect(const Ray& ray) const {
+  // Start at the point nearest to the centre, so that nothing cancels however far away the ray's own start
+  // is.
+  const Vec3 o = to_object_.point(ray.o);
+  const Vec3 d = to_object_.linear * ray.d;
+  const double start = -glm::dot(o, d) / glm::dot(d, d);
+  std::optional<Intersection> nearest;
+  for (Intersection crossing : crossings({o + d * start, d})) {
+    crossing.t += start;
+    if (crossing.t > 0 && std::isfinite(crossing.t) && (!nearest || crossing.t < nearest->t))
+      nearest = crossing;
+  }
+  return nearest;
+}
+
+SurfacePoint ObjectShape::surface(const Ray& ray, const Intersection& hit) const {
+  const Point local = point(to_object_.point(ray.o + ray.d * hit.t), hit);
+  const Mat3& linear = to_world_.linear;
+  const Vec3 size = glm::abs(local.position);
+  SurfacePoint surface;
+  surface.position = to_world_.point(local.position);
+  surface.position_error = 1e-13 * (magnitude(linear[0]) * size.x + magnitude(linear[1]) * size.y +
+                                    magnitude(linear[2]) * size.z + magnitude(to_world_.offset));
+  surface.normal_geometric = to_world_.normal(local.gradient);
+  surface.normal = surface.normal_geometric;
+  surface.uv = local.uv;
+  return surface;
+}
+
+Bounds ObjectShape::bounds() const {
+  const Bounds box = extent();
+  Bounds bounds;
+  for (int corner = 0; corner < 8; ++corner)
+    bounds.include(to_world_.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                    corner & 4 ? box.max.z : box.min.z}));
+  return bounds;
+}
+
+void ObjectShape::pack(Packer& packer) const {
+  // The world's origin is the eye there.
+  const Vec3 eye = -packer.relative(Vec3(0));
+  const auto row = [](const Affine& map, int i, const Vec3& offset) {
+    return to_vec4({map.linear[0][i], map.linear[1][i], map.linear[2][i]}, offset[i]);
+  };
+  const Vec3 back = packer.relative(to_world_.offset);
+  const uint32_t extra = packer.add_vertices(
+      {to_bits(row(to_world_, 0, back)), to_bits(row(to_world_, 1, back)), to_bits(row(to_world_, 2, back))});
+  for (size_t i = 0; i < parameters_.size(); i += 4) {
+    shader::vec4 some(0);
+    for (size_t k = 0; k < 4 && i + k < parameters_.size(); ++k) some[int(k)] = parameters_[i + k];
+    packer.add_vertices({to_bits(some)});
+  }
+  const Vec3 offset = to_object_.point(eye);
+  packer.add({.head = Packer::head(kind_, material, extra),
+              .a = row(to_object_, 0, offset),
+              .b = row(to_object_, 1, offset),
+              .c = row(to_object_, 2, offset)});
+}
+
+Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, double high) {
+  const Vec3 y = unit(to - from);
+  const Vec3 reference = std::fabs(y.x) < 0.99 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
+  const Vec3 x = unit(reference - y * glm::dot(reference, y));
+  const Vec3 z = glm::cross(x, y);
+  const Vec3 step = (to - from) / (high - low);
+  return {{x * radius, 0}, {step, 0}, {z * radius, 0}, {from - step * low, 1}};
+}
+
+bool out_of_range(TableReader& table, const Mat4& to_world) {
+  bool fits = magnitude(Vec3(to_world[3])) <= max_coordinate;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = magnitude(Vec3(to_world[axis]));
+    fits = fits && size >= min_radius && size <= max_coordinate;
+  }
+  if (!fits)
+    table.error("transform",
+                "the transformed shape is out of range (sizes 1e-12 to 1e12, coordinates up to 1e12)");
+  return !fits;
+}
+
+std::vector<double> quadratic_roots(double a, double b, double c) {
+  const double discriminant = b * b - a * c;
+  if (!(discriminant >= 0)) return {};
+  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+  std::vector<double> roots;
+  if (a != 0) roots.push_back(q / a);
+  if (q != 0) roots.push_back(c / q);
+  return roots;
+}
+
+}  // namespace eyeray

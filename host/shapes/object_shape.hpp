@@ -1,0 +1,67 @@
+// Shapes that are a plain one, such as the unit sphere, in a space of their own under any affine map: what
+// they have in common. In the shaders it is object_space.glsl.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "scene/affine.hpp"
+#include "scene/shape.hpp"
+
+namespace eyeray {
+
+class ObjectShape : public Shape {
+ public:
+  std::optional<Intersection> intersect(const Ray& ray) const final;
+  SurfacePoint surface(const Ray& ray, const Intersection& hit) const final;
+  Bounds bounds() const override;
+  void pack(Packer& packer) const final;
+
+ protected:
+  // Where a line meets the shape, in any order. u and v are the shape's own.
+  class Crossings {
+   public:
+    void add(const Intersection& crossing) { all_[count_++] = crossing; }
+    const Intersection* begin() const { return all_.data(); }
+    const Intersection* end() const { return all_.data() + count_; }
+
+   private:
+    std::array<Intersection, 4> all_;
+    size_t count_ = 0;
+  };
+  struct Point {
+    Vec3 position;  // on the shape
+    Vec3 gradient;  // points outward, of any length but 0
+    Vec2 uv;
+  };
+
+  // `kind` is the shape's number in the registry; `parameters` are what the shaders find after the maps.
+  ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters = {});
+
+  const Affine& to_world() const { return to_world_; }
+
+ private:
+  // All in object space. The ray starts near the shape; its t may be negative.
+  virtual Crossings crossings(const Ray& ray) const = 0;
+  virtual Point point(const Vec3& near, const Intersection& hit) const = 0;
+  virtual Bounds extent() const = 0;
+
+  uint32_t kind_;
+  Affine to_world_;
+  Affine to_object_;
+  std::vector<float> parameters_;
+};
+
+// The map under which y = low … high on the axis of object space comes to stand from `from` to `to`, and
+// whose other two axes are `radius` long and perpendicular to it. The first of them, where u = ½, is as near
+// to the world's +x as can be; if the axis is parallel to that, to +z.
+Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, double high);
+
+// Says at `transform` if the shape is too large, small or far away to be computed with under this map to the
+// world. Returns whether it is.
+bool out_of_range(TableReader& table, const Mat4& to_world);
+
+// The real roots of a·t² + 2b·t + c = 0, without cancellation; none where all of a, b and c are 0.
+std::vector<double> quadratic_roots(double a, double b, double c);
+
+}  // namespace eyeray

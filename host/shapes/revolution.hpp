@@ -1,0 +1,31 @@
+// Quadrics that are round about the y axis of object space, between two planes across it: what cylinders,
+// cones and their like share. In the shaders it is revolution.glsl.
+#pragma once
+
+#include "shapes/object_shape.hpp"
+
+namespace eyeray {
+
+class Revolution : public ObjectShape {
+ protected:
+  // x² + z² = square·y² + 2·linear·y + constant, for bottom ≤ y ≤ top.
+  struct Profile {
+    double square, linear, constant;
+    double bottom, top;
+
+    double radius(double y) const;
+  };
+
+  Revolution(uint32_t kind, const Mat4& to_world, const Profile& profile, bool open,
+             std::vector<float> parameters = {});
+
+ private:
+  Crossings crossings(const Ray& ray) const override;
+  Point point(const Vec3& near, const Intersection& hit) const override;
+  Bounds extent() const override;
+
+  Profile profile_;
+  bool open_;
+};
+
+}  // namespace eyeray

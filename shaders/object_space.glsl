@@ -1,0 +1,64 @@
+// Shapes that are a plain one, such as the unit sphere, in a space of their own.
+//   a, b, c = the rows of the affine map from the world into object space
+//   extra   = the first of its vertices: three with the rows of the map back, then the shape's own parameters
+#ifndef OBJECT_SPACE_GLSL
+#define OBJECT_SPACE_GLSL
+#include "ray.glsl"
+#include "records.h"
+
+SHADER_BEGIN
+
+#define OBJECT_PARAMETERS 3u  // where those begin
+
+// A ray in object space: at `t + s` of the world's ray it is at o + s·d.
+struct ObjectRay {
+  vec3 o;
+  vec3 d;
+  float t;
+};
+
+// Distances in object space are not the world's, but t and s are. A ray from afar is followed from its point nearest to the centre: what is
+// computed from there is as small as the shape, so that nothing cancels. `reach`: the farthest that the shape's points are from its
+// centre.
+ObjectRay object_ray(Primitive s, Ray ray, float reach) {
+  ObjectRay r;
+  r.o = vec3(dot3(vec3(s.a), ray.o) + s.a.w, dot3(vec3(s.b), ray.o) + s.b.w, dot3(vec3(s.c), ray.o) + s.c.w);
+  r.d = vec3(dot3(vec3(s.a), ray.d), dot3(vec3(s.b), ray.d), dot3(vec3(s.c), ray.d));
+  bool afar = dot3(r.o, r.o) > 4.0f * reach * reach;
+  r.t = afar ? -dot3(r.o, r.d) / dot3(r.d, r.d) : 0.0f;
+  r.o = afar ? r.o + r.d * r.t : r.o;
+  return r;
+}
+
+vec3 at_hit(ObjectRay ray, Hit hit) { return ray.o + ray.d * (hit.t - ray.t); }
+
+vec4 object_parameters(Primitive s) { return bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS)); }
+
+// The world's surface. `p`: on the shape. `gradient`: of any length but 0, points outward there.
+Surface object_surface(Primitive s, vec3 p, vec3 gradient, vec2 uv) {
+  vec4 x = bits_to_floats(load_vertex(s.head.w));
+  vec4 y = bits_to_floats(load_vertex(s.head.w + 1u));
+  vec4 z = bits_to_floats(load_vertex(s.head.w + 2u));
+  Surface surface;
+  surface.p = vec3(dot3(vec3(x), p) + x.w, dot3(vec3(y), p) + y.w, dot3(vec3(z), p) + z.w);
+
+  // Gradients map by the transpose.
+  vec3 n = vec3(s.a) * gradient.x + vec3(s.b) * gradient.y + vec3(s.c) * gradient.z;
+  float slope = sqrt(dot3(n, n));
+  surface.normal_geometric = n / slope;
+  surface.normal = surface.normal_geometric;
+  surface.uv = uv;
+
+  // Rounding on the way here, and when a ray that leaves is brought back into object space.
+  vec3 size = abs3(p);
+  vec3 here = vec3(dot3(abs3(vec3(x)), size) + abs(x.w), dot3(abs3(vec3(y)), size) + abs(y.w),
+                   dot3(abs3(vec3(z)), size) + abs(z.w));
+  size = abs3(surface.p);
+  vec3 back = vec3(dot3(abs3(vec3(s.a)), size) + abs(s.a.w), dot3(abs3(vec3(s.b)), size) + abs(s.b.w),
+                   dot3(abs3(vec3(s.c)), size) + abs(s.c.w));
+  surface.offset = 4.0f * EPSILON * (dot3(abs3(surface.normal_geometric), here) + dot3(abs3(gradient), back) / slope);
+  return surface;
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,28 @@
+// x² + z² ≤ w², w = 1 − taper·y, 0 ≤ y ≤ 1 in object space (object_space.glsl), 0 < taper ≤ 1.   parameters: 1 where there are no caps; taper
+#ifndef CONE_GLSL
+#define CONE_GLSL
+#include "revolution.glsl"
+
+SHADER_BEGIN
+
+float cone_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
+  vec4 parameters = object_parameters(s);
+  ObjectRay r = object_ray(s, ray, 1.4142136f);
+  float w = 1.0f - parameters.y * r.o.y;
+  float dw = -parameters.y * r.d.y;
+  float a = (r.d.x * r.d.x + r.d.z * r.d.z) - dw * dw;
+  float b = (r.o.x * r.d.x + r.o.z * r.d.z) - w * dw;
+  float c = (r.o.x * r.o.x + r.o.z * r.o.z) - w * w;
+  uv = vec2(0.0f, 0.0f);
+  return revolution_intersect(r, a, b, c, 0.0f, 1.0f, parameters.x != 0.0f, uv.x);
+}
+
+Surface cone_surface(Primitive s, Ray ray, Hit hit) {
+  float taper = object_parameters(s).y;
+  vec3 p = at_hit(object_ray(s, ray, 1.4142136f), hit);
+  float radius = 1.0f - taper * minimum(maximum(p.y, 0.0f), 1.0f);
+  return revolution_surface(s, p, hit.uv.x, 0.0f, 1.0f, radius, -taper, hit.uv.x == PART_BOTTOM ? 1.0f : 1.0f - taper);
+}
+
+SHADER_END
+#endif

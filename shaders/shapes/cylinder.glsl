@@ -1,0 +1,23 @@
+// x² + z² ≤ 1, |y| ≤ 1 in object space (object_space.glsl).   parameters: 1 where there are no caps
+#ifndef CYLINDER_GLSL
+#define CYLINDER_GLSL
+#include "revolution.glsl"
+
+SHADER_BEGIN
+
+float cylinder_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
+  ObjectRay r = object_ray(s, ray, 1.4142136f);
+  float a = r.d.x * r.d.x + r.d.z * r.d.z;
+  float b = r.o.x * r.d.x + r.o.z * r.d.z;
+  float c = (r.o.x * r.o.x + r.o.z * r.o.z) - 1.0f;
+  uv = vec2(0.0f, 0.0f);
+  return revolution_intersect(r, a, b, c, -1.0f, 1.0f, object_parameters(s).x != 0.0f, uv.x);
+}
+
+Surface cylinder_surface(Primitive s, Ray ray, Hit hit) {
+  vec3 p = at_hit(object_ray(s, ray, 1.4142136f), hit);
+  return revolution_surface(s, p, hit.uv.x, -1.0f, 1.0f, 1.0f, 0.0f, 1.0f);
+}
+
+SHADER_END
+#endif
