@@ -84,8 +84,7 @@ bool out_of_range(TableReader& table, const Mat4& to_world) {
     fits = fits && size >= min_radius && size <= max_coordinate;
   }
   if (!fits)
-    table.error("transform",
-                "the transformed shape is out of range (sizes 1e-12 to 1e12, coordinates up to 1e12)");
+    table.error("transform", "the shape is out of range (sizes 1e-12 to 1e12, coordinates up to 1e12)");
   return !fits;
 }
 

@@ -109,8 +109,8 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   const auto map = similarity(transform);
   if (!map) {
     table.error("transform",
-                "a sphere can be rotated, moved, scaled by one number and mirrored; for any other map use an "
-                "ellipsoid (a later version)");
+                "a sphere can be rotated, moved, scaled by one number and mirrored; for any other map use "
+                "[[ellipsoid]]");
   } else if (!(radius * map->scale >= min_radius && magnitude(map->point(center)) <= max_coordinate &&
                radius * map->scale <= max_coordinate)) {
     table.error("transform",

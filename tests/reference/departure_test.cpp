@@ -1,4 +1,5 @@
 #include "reference/tracer.hpp"
+#include "scene/affine.hpp"
 #include "scene/triangle.hpp"
 #include "scenes.hpp"
 #include "support/doctest.hpp"
@@ -36,7 +37,7 @@ void depart(const Shape& shape, const Shape& copy, const Ray& ray, double size, 
 
 TEST_CASE("a ray that leaves a surface does not meet it again") {
   Dice dice;
-  Count spheres, planes, triangles, needles;
+  Count spheres, planes, triangles, needles, cones, boxes;
   for (int i = 0; i < 30000; ++i) {
     const double size = dice.scale(-4, 4);
     const Vec3 center = dice.in_box(dice.scale(-4, 4));
@@ -57,6 +58,18 @@ TEST_CASE("a ray that leaves a surface does not meet it again") {
     depart(*triangle, *make_triangle({.vertices = {a, c, b}}), {eye, (a + b + c) / 3.0 - eye}, size, dice,
            triangles);
 
+    // Both stand for all that are in a space of their own. From the apex and the edges, rays may go on close
+    // by.
+    Mat4 map = glm::translate(Mat4(1.0), center);
+    for (int axis = 0; axis < 3; ++axis) map[axis] = Vec4(size * dice.direction(), 0);
+    if (why_singular(map).empty()) {
+      const auto cone = make_cone({0, -1, 0}, {0, 1, 0}, 1, 0.5, false, map);
+      depart(*cone, *make_cone({0, -1, 0}, {0, 1, 0}, 1, 0.5, true, map), {eye, center - eye}, 1e-4 * size,
+             dice, cones);
+      const auto box = make_box(Vec3(-1), Vec3(1), map);
+      depart(*box, *make_box(Vec3(-1), Vec3(1), map), {eye, center - eye}, 1e-4 * size, dice, boxes);
+    }
+
     // So rough is a needle's normal that turned over, it is another needle.
     const Corners needle{
         a, b, glm::mix(a, b, dice.between(-1, 2)) + size * dice.scale(-8, -2) * c / glm::length(c)};
@@ -72,6 +85,8 @@ TEST_CASE("a ray that leaves a surface does not meet it again") {
   };
   check("sphere", spheres);
   check("plane", planes);
+  check("cone", cones);
+  check("box", boxes);
   check("triangle", triangles);
   check("needle", needles);
 }

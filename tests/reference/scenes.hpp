@@ -50,6 +50,9 @@ inline PixelSample look(const Scene& scene) {
 inline bool near(double a, double b, double tolerance) {
   return std::abs(a - b) <= tolerance;
 }
+inline bool near(const Vec2& a, const Vec2& b, double tolerance) {
+  return near(a.x, b.x, tolerance) && near(a.y, b.y, tolerance);
+}
 inline bool near(const Vec3& a, const Vec3& b, double tolerance) {
   return glm::length(a - b) <= tolerance;
 }

@@ -1,0 +1,110 @@
+// Shapes in a space of their own against numbers worked out by hand.
+#include "scenes.hpp"
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+SurfacePoint struck(const Shape& shape, const Ray& ray) {
+  const auto hit = shape.intersect(ray);
+  REQUIRE(hit.has_value());
+  return shape.surface(ray, *hit);
+}
+
+double distance(const Shape& shape, const Ray& ray) {
+  const auto hit = shape.intersect(ray);
+  return hit ? hit->t : -1;
+}
+
+const Mat4 identity(1.0);
+
+}  // namespace
+
+TEST_CASE("box: from outside, inside, behind, beside, and along a face") {
+  const auto box = make_box({-1, 0, 2}, {1, 4, 3});
+  CHECK(near(distance(*box, {{0, 1, 9}, {0, 0, -1}}), 6, 1e-14));
+  CHECK(near(distance(*box, {{0, 1, 2.5}, {0, 0, -2}}), 0.25, 1e-14));
+  CHECK(distance(*box, {{0, 1, 0}, {0, 0, -1}}) == -1);
+  CHECK(distance(*box, {{1.001, 1, 9}, {0, 0, -1}}) == -1);
+  CHECK(near(distance(*box, {{1, 1, 9}, {0, 0, -1}}), 6, 1e-14));
+  CHECK(near(distance(*box, {{-5, 4, 2.5}, {1, 0, 0}}), 4, 1e-14));
+  CHECK(near(struck(*box, {{0.5, 9, 2.25}, {0, -1, 0}}).position, Vec3(0.5, 4, 2.25), 1e-14));
+  CHECK(box->bounds().min == Vec3(-1, 0, 2));
+  CHECK(box->bounds().max == Vec3(1, 4, 3));
+}
+
+TEST_CASE("box: uv are upright on every face, seen from outside") {
+  const auto box = make_box({0, 0, 0}, {1, 1, 1});
+  const auto uv = [&](const Vec3& at, const Vec3& outward) {
+    const SurfacePoint point = struck(*box, {at + outward, -outward});
+    CHECK(near(point.normal_geometric, outward, 1e-15));
+    return point.uv;
+  };
+  CHECK(near(uv({0.25, 0.75, 1}, {0, 0, 1}), Vec2(0.25, 0.75), 1e-14));
+  CHECK(near(uv({0.25, 0.75, 0}, {0, 0, -1}), Vec2(0.75, 0.75), 1e-14));
+  CHECK(near(uv({1, 0.75, 0.25}, {1, 0, 0}), Vec2(0.75, 0.75), 1e-14));
+  CHECK(near(uv({0, 0.75, 0.25}, {-1, 0, 0}), Vec2(0.25, 0.75), 1e-14));
+  CHECK(near(uv({0.25, 1, 0.75}, {0, 1, 0}), Vec2(0.25, 0.25), 1e-14));
+  CHECK(near(uv({0.25, 0, 0.75}, {0, -1, 0}), Vec2(0.25, 0.75), 1e-14));
+}
+
+TEST_CASE("ellipsoid: each radius along its axis, normals by the gradient, bounds touch it under any map") {
+  const auto ellipsoid = make_ellipsoid({1, 0, 0}, {3, 2, 1});
+  CHECK(near(distance(*ellipsoid, {{9, 0, 0}, {-1, 0, 0}}), 5, 1e-14));
+  CHECK(near(distance(*ellipsoid, {{1, 0, 0}, {0, 0, 1}}), 1, 1e-14));
+  CHECK(distance(*ellipsoid, {{1, 2.001, 9}, {0, 0, -1}}) == -1);
+  // x = 1 + 3·0.6, y = 2·0.8: the gradient is (0.6/3, 0.8/2, 0).
+  const SurfacePoint point = struck(*ellipsoid, {{2.8, 9, 0}, {0, -1, 0}});
+  CHECK(near(point.position, Vec3(2.8, 1.6, 0), 1e-14));
+  CHECK(near(point.normal, glm::normalize(Vec3(0.2, 0.4, 0)), 1e-14));
+
+  Mat4 shear(1.0);
+  shear[1][0] = 1;  // x += y
+  const Bounds bounds = make_ellipsoid({0, 0, 0}, {1, 1, 1}, shear)->bounds();
+  CHECK(near(bounds.max, Vec3(std::sqrt(2.0), 1, 1), 1e-15));
+}
+
+TEST_CASE("cylinder: side, caps, open, and rays along its axis") {
+  const auto closed = make_cylinder({0, 1, 0}, {0, 5, 0}, 2);
+  const auto open = make_cylinder({0, 1, 0}, {0, 5, 0}, 2, true);
+  CHECK(near(distance(*closed, {{9, 3, 0}, {-1, 0, 0}}), 7, 1e-14));
+  CHECK(near(distance(*closed, {{1, 9, 0}, {0, -1, 0}}), 4, 1e-14));
+  CHECK(near(distance(*closed, {{1, 3, 0}, {0, -1, 0}}), 2, 1e-14));
+  CHECK(distance(*open, {{1, 9, 0}, {0, -1, 0}}) == -1);
+  CHECK(distance(*closed, {{2.001, 9, 0}, {0, -1, 0}}) == -1);
+  // Through the open end onto the side, from within.
+  const SurfacePoint within = struck(*open, {{0, 7, 0}, {-1, -2, 0}});
+  CHECK(near(within.position, Vec3(-2, 3, 0), 1e-14));
+  CHECK(near(within.normal_geometric, Vec3(-1, 0, 0), 1e-14));
+  CHECK(near(struck(*closed, {{9, 2, 0}, {-1, 0, 0}}).uv, Vec2(0.5, 0.25), 1e-14));
+  CHECK(near(struck(*closed, {{0, 2, 9}, {0, 0, -1}}).uv, Vec2(0.25, 0.25), 1e-14));
+  CHECK(near(struck(*closed, {{1, 9, 0}, {0, -1, 0}}).uv, Vec2(0.75, 0.5), 1e-14));
+}
+
+TEST_CASE("cone: the apex, the slope, and not its mirror image") {
+  const auto cone = make_cone({0, 0, 0}, {0, 2, 0}, 1);
+  CHECK(near(distance(*cone, {{9, 1, 0}, {-1, 0, 0}}), 8.5, 1e-14));
+  CHECK(near(struck(*cone, {{9, 1, 0}, {-1, 0, 0}}).normal, glm::normalize(Vec3(2, 1, 0)), 1e-14));
+  CHECK(distance(*cone, {{9, 3, 0}, {-1, 0, 0}}) == -1);  // the other nappe
+  CHECK(near(distance(*cone, {{0.5, -3, 0}, {0, 1, 0}}), 3, 1e-14));
+  CHECK(near(distance(*cone, {{0.5, 0.5, 0}, {0, 1, 0}}), 0.5, 1e-14));
+  // Along the side's own line, the equation is linear.
+  CHECK(near(distance(*cone, {{-1, -2, 0}, {1, 2, 0}}), 1, 1e-13));
+
+  // The other way round, and cut off: the larger end is at `to`.
+  const auto cut = make_cone({0, 0, 0}, {0, 2, 0}, 1, 2, true);
+  CHECK(near(distance(*cut, {{9, 1, 0}, {-1, 0, 0}}), 7.5, 1e-14));
+  CHECK(distance(*cut, {{0, 9, 0}, {0, -1, 0}}) == -1);
+  CHECK(near(struck(*cut, {{9, 1.5, 0}, {-1, 0, 0}}).uv, Vec2(0.5, 0.25), 1e-14));
+}
+
+TEST_CASE("an axis keeps u = ½ towards the world's +x, and outside is outside under a mirror") {
+  for (const Vec3& to : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 3, -4)}) {
+    const auto cylinder = make_cylinder({0, 0, 0}, to, 0.5, true);
+    CHECK(near(struck(*cylinder, {to * 0.5 + Vec3(9, 0, 0), {-1, 0, 0}}).uv.x, 0.5, 1e-15));
+  }
+  const auto mirrored = make_cone({0, 0, 0}, {0, 2, 0}, 1, 0, false, glm::scale(identity, Vec3(1, -1, 1)));
+  CHECK(near(struck(*mirrored, {{9, -1, 0}, {-1, 0, 0}}).normal, glm::normalize(Vec3(2, -1, 0)), 1e-14));
+}
