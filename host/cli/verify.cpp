@@ -69,7 +69,9 @@ Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int 
     const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift);
     result.color += sample.color / double(scene.image.samples);
     result.sample_colors.push_back(sample.color);
-    result.contact_colors.push_back(renderer.sample(x, y, uint32_t(i), shift, float32_clearance).color);
+    for (const bool along_normal : {false, true})
+      result.contact_colors.push_back(
+          renderer.sample(x, y, uint32_t(i), shift, {float32_clearance, along_normal}).color);
     result.hits += sample.hits;
     result.direct = result.direct && sample.hits <= 1;
     const Vec2 place = reference::sample_place(scene.image, scene.render.seed, x, y, uint32_t(i));

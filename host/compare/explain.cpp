@@ -74,8 +74,11 @@ bool Neighbourhood::bounds_hold(const Vec3& value, const Tolerances& tolerances,
       least = glm::min(least, color(probe, i));
       greatest = glm::max(greatest, color(probe, i));
       if (!contact) continue;
-      least = glm::min(least, probe.contact_colors[i]);
-      greatest = glm::max(greatest, probe.contact_colors[i]);
+      const size_t of_each = probe.contact_colors.size() / samples;
+      for (size_t k = i * of_each; k < (i + 1) * of_each; ++k) {
+        least = glm::min(least, probe.contact_colors[k]);
+        greatest = glm::max(greatest, probe.contact_colors[k]);
+      }
     }
     low += least / double(samples);
     high += greatest / double(samples);

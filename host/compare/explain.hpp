@@ -13,7 +13,8 @@ namespace eyeray {
 struct Probe {
   Vec3 color{0.0};                  // the mean of the samples
   std::vector<Vec3> sample_colors;  // of each sample, where there are several
-  // As those, where rays leave surfaces as far off as float32 makes them; may be empty.
+  // As many of each sample, one after the other, where rays leave surfaces as far off as float32 makes them;
+  // may be empty.
   std::vector<Vec3> contact_colors;
   uint64_t hits = 0;  // surfaces struck, all samples together
   double hits_per_sample = 0;

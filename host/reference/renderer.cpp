@@ -14,7 +14,7 @@ Renderer::Renderer(const Scene& scene, Acceleration acceleration)
     if (!media_.push(material)) flags_ |= media_overflow;
 }
 
-PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, double clearance) const {
+PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const Clearance& clearance) const {
   const Vec2 place = sample_place(scene_.image, scene_.render.seed, x, y, index);
   const Ray ray = camera_.ray(Vec2(x, y) + place + shift);
   if (scene_.render.integrator == IntegratorType::raycast) return raycast(tracer_, ray);

@@ -6,6 +6,7 @@
 #include "reference/camera.hpp"
 #include "reference/media.hpp"
 #include "reference/tracer.hpp"
+#include "reference/whitted.hpp"
 
 namespace eyeray::reference {
 
@@ -16,7 +17,8 @@ class Renderer {
 
   // Sample `index` of pixel (x, y), by the scene's integrator. `shift`, in pixels, is added to the sample's
   // place; `clearance`: see whitted.hpp.
-  PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0}, double clearance = 0) const;
+  PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0},
+                     const Clearance& clearance = {}) const;
   // What the ray through the pixel's centre + `shift` meets.
   FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}) const;
 

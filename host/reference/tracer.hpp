@@ -63,7 +63,8 @@ class Tracer {
 // `least`, on the side of `d`, so that the ray does not meet the surface that it leaves. As the shaders do
 // (ray.glsl), it stays on its line where that is steep: near an edge it then starts beyond the same other
 // face.
-Vec3 departure(const SurfacePoint& point, const Vec3& d, double least = 0);
+// With `along_normal` it never does.
+Vec3 departure(const SurfacePoint& point, const Vec3& d, double least = 0, bool along_normal = false);
 
 // Calls visit(t, surface) for each crossing of the body, a Shape or an InstanceGeometry, in order of t, until
 // `visit` returns false.

@@ -26,7 +26,7 @@ struct View {
 
 class Tree {
  public:
-  Tree(const Tracer& tracer, double clearance)
+  Tree(const Tracer& tracer, const Clearance& clearance)
       : tracer_(tracer), scene_(tracer.scene()), clearance_(clearance) {}
 
   Vec3 radiance(const Path& path);
@@ -43,7 +43,7 @@ class Tree {
 
   const Tracer& tracer_;
   const Scene& scene_;
-  double clearance_;
+  Clearance clearance_;
 };
 
 // The vacuum where no medium is.
@@ -53,7 +53,8 @@ Medium Tree::medium(const MediaStack& media) const {
 
 Ray Tree::leave(const SurfacePoint& point, const Vec3& d) const {
   const Vec3 from_eye = glm::abs(point.position - scene_.camera.eye);
-  return {departure(point, d, clearance_ * glm::dot(glm::abs(point.normal_geometric), from_eye)), d};
+  const double least = clearance_.share * glm::dot(glm::abs(point.normal_geometric), from_eye);
+  return {departure(point, d, least, clearance_.along_normal), d};
 }
 
 // d of a ray that is bent at the boundary from ior n1 to n2; there is no total reflection.
@@ -137,7 +138,8 @@ Vec3 Tree::direct(const View& view, const Scattering& scattering) {
 
 }  // namespace
 
-PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media, double clearance) {
+PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media,
+                    const Clearance& clearance) {
   Tree tree(tracer, clearance);
   const Vec3 color = tree.radiance({ray, media, 0, Vec3(1)});
   return {color, tree.rays, tree.hits, tree.flags};

@@ -8,8 +8,14 @@
 
 namespace eyeray::reference {
 
-// What `ray` (with a unit direction) sees, starting in `media`. Rays leave surfaces at least `clearance` off,
-// as a share of |n|·|position − eye|.
-PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media, double clearance = 0);
+// How rays leave surfaces: at least this far off, and how (tracer.hpp, departure).
+struct Clearance {
+  double share = 0;  // of |n|·|position − eye|
+  bool along_normal = false;
+};
+
+// What `ray` (with a unit direction) sees, starting in `media`.
+PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media,
+                    const Clearance& clearance = {});
 
 }  // namespace eyeray::reference

@@ -49,6 +49,8 @@ set(some scenes/cornell.toml scenes/inside_glass.toml scenes/orthographic.toml)
 foreach(size 1x1 7x3 1x300 300x1 17x33)
   eyeray_verify(mode.size-${size} mode ${some} -s ${size})
 endforeach()
+# Rays that start beyond another face of the same glass box (docs/verification.md, contact).
+eyeray_verify(mode.contact mode scenes/shapes/box.toml -s 640x427 --crop 476,250,24,24)
 eyeray_verify(mode.crop mode ${some} -s 200x150 --crop 51,37,83,71)
 eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --spp 4 -D image.pattern=jittered)
 
