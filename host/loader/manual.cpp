@@ -68,7 +68,8 @@ std::string scene_manual() {
   text += key_table({transform_step_keys()});
   text += "A rotation is a table of two:\n\n" + key_table({rotation_keys()});
   text +=
-      "## `batch`\n\nMany shapes or instances of a mesh from one table: each key of `batch` holds a list "
+      "## `batch`\n\nMany shapes, or instances of a mesh or a group, from one table: each key of `batch` "
+      "holds a list "
       "with one value "
       "each, "
       "all lists equally "

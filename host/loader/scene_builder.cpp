@@ -6,12 +6,15 @@
 #include "loader/mesh_placement.hpp"
 #include "loader/sections.hpp"
 #include "loader/settings.hpp"
+#include "scene/affine.hpp"
 #include "scene/table.hpp"
 
 namespace eyeray {
 
 namespace {
 
+// Batches of groups in groups multiply: a few lines could show more than any memory holds.
+constexpr double most_placed = 0x4000000;
 constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
 
 // A batch of a shape's values, as it was checked.
@@ -19,6 +22,21 @@ struct Batch {
   const toml::table* lists = nullptr;  // null: the table is one shape
   size_t count = 1;                    // 0 after an error
 };
+
+// How many shapes, meshes and groups a table shows, groups in it included.
+double count_placed(const toml::table& table) {
+  double members = 1;
+  for (const std::string_view name : placed_names()) {
+    const toml::node* list = table.get(name);
+    if (!list || !list->is_array()) continue;
+    for (const toml::node& member : *list->as_array())
+      if (member.is_table()) members += count_placed(*member.as_table());
+  }
+  const toml::node* batch = table.get(batch_key);
+  if (!batch || !batch->is_table() || batch->as_table()->empty()) return members;
+  const toml::array* values = batch->as_table()->begin()->second.as_array();
+  return values ? members * double(values->size()) : members;
+}
 
 class Builder {
  public:
@@ -33,17 +51,17 @@ class Builder {
     TableReader render = read_single("render");
     scene_.render = read_render(render);
 
-    for_each("light", [&](const Section& section, const toml::table& table) {
+    for_each(root_, "light", [&](const Section& section, const toml::table& table) {
       TableReader light = read_table({section.title, &table, {section.keys}}, log_);
       scene_.lights.push_back(read_light(light));
     });
-    for_each("material",
+    for_each(root_, "material",
              [&](const Section& section, const toml::table& table) { add_material(section, table); });
-    for (const ShapeType* type : shape_types()) {
-      for_each(type->name,
-               [&](const Section& section, const toml::table& table) { add_shapes(section, table); });
-    }
-    for_each("mesh", [&](const Section& section, const toml::table& table) { add_meshes(section, table); });
+    if (count_placed(root_) <= most_placed)
+      add_placed(root_, Mat4(1.0));
+    else
+      log_.error({}, fmt::format("batches and groups show {:.0f} things; at most {:.0f} are possible",
+                                 count_placed(root_), most_placed));
     check_whole();
     return std::move(scene_);
   }
@@ -61,17 +79,30 @@ class Builder {
     return read_table({section.title, node ? node->as_table() : nullptr, {section.keys}}, log_);
   }
 
+  // Visits the tables of a list; one that should be a list or a table and is not is an error.
   template <typename Visit>
-  void for_each(std::string_view name, const Visit& visit) {
-    const toml::node* list = root_.get(name);
+  void for_each(const toml::table& holder, std::string_view name, const Visit& visit) {
+    const toml::node* list = holder.get(name);
     if (!list) return;
-    for (const toml::node& node : *list->as_array()) visit(*find_section(name), *node.as_table());
+    const Section& section = *find_section(name);
+    if (!list->is_array())
+      return log_.error(position_of(list->source()),
+                        fmt::format("`{0}` must be a list of tables, written [[group.{0}]]", name));
+    for (const toml::node& node : *list->as_array()) {
+      if (node.is_table())
+        visit(section, *node.as_table());
+      else
+        log_.error(position_of(node.source()), fmt::format("every {} must be a table", section.title));
+    }
   }
 
   void add_material(const Section& section, const toml::table& table);
-  void add_shapes(const Section& section, const toml::table& table);
-  void add_meshes(const Section& section, const toml::table& table);
-  void add_mesh(TableReader& reader);
+  void add_placed(const toml::table& holder, const Mat4& to_world);
+  template <typename Add>
+  void for_each_placed(const Section& section, const toml::table& table, const Mat4& to_world,
+                       const Add& add);
+  void add_shape(const Section& section, TableReader& reader, const Mat4& to_world);
+  void add_mesh(TableReader& reader, const Mat4& to_world);
   Batch read_batch(const Section& section, const toml::table& table);
   int find_material(TableReader& shape);
   void check_whole();
@@ -165,31 +196,62 @@ Batch Builder::read_batch(const Section& section, const toml::table& table) {
   return ok ? batch : Batch{nullptr, 0};
 }
 
-void Builder::add_shapes(const Section& section, const toml::table& table) {
-  tried_shapes_ = true;
-  const Batch batch = read_batch(section, table);
-  for (size_t i = 0; i < batch.count; ++i) {
-    TableReader reader = read_table(
-        {section.title, &table, {section.shape->keys, section.keys}, batch.lists, i, batch_key}, log_);
-    const int material = find_material(reader);
-    std::unique_ptr<Shape> shape = section.shape->parse(reader, reader.transform("transform"));
-    if (!shape) continue;
-    shape->material = material;
-    shape->position = reader.position();
-    scene_.shapes.push_back(std::move(shape));
+// The shapes, meshes and groups of a group, or of the scene.
+void Builder::add_placed(const toml::table& holder, const Mat4& to_world) {
+  for (const std::string_view name : placed_names()) {
+    for_each(holder, name, [&](const Section& section, const toml::table& table) {
+      for_each_placed(section, table, to_world, [&](TableReader& reader, const Mat4& placed) {
+        switch (section.kind) {
+          case Section::Kind::group:
+            return add_placed(table, placed);
+          case Section::Kind::mesh:
+            return add_mesh(reader, placed);
+          default:
+            return add_shape(section, reader, placed);
+        }
+      });
+    });
   }
 }
 
-void Builder::add_meshes(const Section& section, const toml::table& table) {
-  tried_shapes_ = true;
+// Calls add(reader, to_world) for the table, or for each element of its batch.
+template <typename Add>
+void Builder::for_each_placed(const Section& section, const toml::table& table, const Mat4& to_world,
+                              const Add& add) {
   const Batch batch = read_batch(section, table);
+  std::vector<std::string_view> elsewhere{batch_key};
+  if (section.kind == Section::Kind::group)
+    elsewhere.insert(elsewhere.end(), placed_names().begin(), placed_names().end());
+  else
+    tried_shapes_ = true;
   for (size_t i = 0; i < batch.count; ++i) {
-    TableReader reader = read_table({section.title, &table, {section.keys}, batch.lists, i, batch_key}, log_);
-    add_mesh(reader);
+    TableReader reader = read_table({.title = section.title,
+                                     .table = &table,
+                                     .keys = {section.shape ? section.shape->keys : section.keys,
+                                              section.shape ? section.keys : std::span<const Key>()},
+                                     .batch = batch.lists,
+                                     .element = i,
+                                     .extra_keys = elsewhere},
+                                    log_);
+    const Mat4 placed = to_world * reader.transform("transform");
+    if (const std::string why = why_singular(placed); !why.empty())
+      reader.error("transform",
+                   fmt::format("with the transforms of its groups, the map cannot be undone: {}", why));
+    else
+      add(reader, placed);
   }
 }
 
-void Builder::add_mesh(TableReader& reader) {
+void Builder::add_shape(const Section& section, TableReader& reader, const Mat4& to_world) {
+  const int material = find_material(reader);
+  std::unique_ptr<Shape> shape = section.shape->parse(reader, to_world);
+  if (!shape) return;
+  shape->material = material;
+  shape->position = reader.position();
+  scene_.shapes.push_back(std::move(shape));
+}
+
+void Builder::add_mesh(TableReader& reader, const Mat4& to_world) {
   const bool own_materials = !reader.has("material");
   const int material = own_materials ? 0 : find_material(reader);
   if (reader.failed()) return;
@@ -201,9 +263,8 @@ void Builder::add_mesh(TableReader& reader) {
     if (fresh) {
       for (const std::string& warning : import->warnings) log_.warning(reader.position(), warning);
     }
-    const std::string wrong =
-        placer_.place(*import, reader.transform("transform"),
-                      own_materials ? std::nullopt : std::optional(material), reader.position());
+    const std::string wrong = placer_.place(
+        *import, to_world, own_materials ? std::nullopt : std::optional(material), reader.position());
     if (!wrong.empty()) reader.error("transform", wrong);
   } catch (const Error& refused) {
     reader.error("file", refused.what());

@@ -1,6 +1,7 @@
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "loader/scene_file.hpp"
 #include "loader/sections.hpp"
@@ -143,8 +144,12 @@ Json material_schema(const Section& section) {
   return {{"oneOf", std::move(alternatives)}};
 }
 
+std::string reference_to(const Section& section) {
+  return fmt::format("#/$defs/{}", section.name);
+}
+
 // Required keys may stand in the batch instead.
-Json batch_schema(const Section& section) {
+Json placed_schema(const Section& section) {
   Json schema = table_schema(section.keys);
   if (section.shape) add_keys(schema, section.shape->keys);
   Json lists = Json::object();
@@ -161,15 +166,20 @@ Json batch_schema(const Section& section) {
       {"properties", std::move(lists)},
       {"minProperties", 1},
       {"additionalProperties", false}};
-  schema["anyOf"] = {{{"required", schema["required"]}}, {{"required", {batch_key}}}};
-  schema.erase("required");
+  if (schema.contains("required")) {
+    schema["anyOf"] = {{{"required", schema["required"]}}, {{"required", {batch_key}}}};
+    schema.erase("required");
+  }
+  if (section.kind == Section::Kind::group) {
+    for (const std::string_view name : placed_names())
+      schema["properties"][std::string(name)] = list_schema({{"$ref", reference_to(*find_section(name))}});
+  }
   return schema;
 }
 
 Json section_schema(const Section& section) {
-  using enum Section::Kind;
-  if (section.kind == material) return list_schema(material_schema(section));
-  if (section.batches()) return list_schema(batch_schema(section));
+  if (section.is_placed()) return list_schema({{"$ref", reference_to(section)}});
+  if (section.kind == Section::Kind::material) return list_schema(material_schema(section));
   return section.many() ? list_schema(table_schema(section.keys)) : table_schema(section.keys);
 }
 
@@ -177,13 +187,14 @@ Json section_schema(const Section& section) {
 
 std::string scene_schema() {
   const Json file_name = {{"type", "string"}};
-  Json properties;
+  Json properties, definitions;
   properties[std::string(include_key)] = {{"description", "Scene files to take in, relative to this one."},
                                           {"anyOf", {file_name, list_schema(file_name)}}};
   for (const Section& section : sections()) {
     Json described = section.doc.empty() ? Json::object() : Json{{"description", section.doc}};
     described.update(section_schema(section));
     properties[std::string(section.name)] = std::move(described);
+    if (section.is_placed()) definitions[std::string(section.name)] = placed_schema(section);
   }
   const Json schema = {
       {"$schema", "https://json-schema.org/draft/2020-12/schema"},
@@ -191,7 +202,8 @@ std::string scene_schema() {
       {"description", "Made from the keys that eyeray checks scenes by; docs/scene-file.md."},
       {"type", "object"},
       {"properties", std::move(properties)},
-      {"additionalProperties", false}};
+      {"additionalProperties", false},
+      {"$defs", std::move(definitions)}};
   return schema.dump(2) + "\n";
 }
 

@@ -73,6 +73,35 @@ constexpr Key mesh_keys[] = {
      .optional = true},
 };
 
+constexpr std::string_view group_manual =
+    R"(Holds shapes, meshes and other groups, written `[[group.sphere]]`, `[[group.mesh]]`, `[[group.group]]` below it, and moves them as one. Each transform
+of a `batch` shows the whole group once more. Materials are the scene's.
+
+```toml
+[[group]]
+batch = { transform = [[{ translate = [-2, 0, 0] }], [{ scale = 0.5 }, { translate = [2, 0, 0] }]] }
+
+[[group.cylinder]]
+from = [0, 0, 0]
+to = [0, 2, 0]
+radius = 0.1
+material = "wall"
+
+[[group.sphere]]
+center = [0, 2, 0]
+radius = 0.4
+material = "glass"
+```
+
+What a shape cannot be, it cannot be in a group either: a sphere in one that is stretched is an error; an ellipsoid is not.)";
+
+constexpr Key group_keys[] = {
+    {.name = "transform",
+     .type = KeyType::transform,
+     .doc = "Steps that move all of it, applied in the order written, after those of what it holds.",
+     .fallback = "[]"},
+};
+
 std::vector<Section> make_sections() {
   using enum Section::Kind;
   std::vector<Section> all = {
@@ -86,6 +115,8 @@ std::vector<Section> make_sections() {
   for (const ShapeType* type : shape_types()) {
     all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", shape_keys, type});
   }
+  all.push_back({group, "group", "[[group]]", "Shapes, meshes and groups that are moved as one.", group_keys,
+                 nullptr, group_manual});
   return all;
 }
 
@@ -101,6 +132,16 @@ const Section* find_section(std::string_view name) {
     if (section.name == name) return &section;
   }
   return nullptr;
+}
+
+std::span<const std::string_view> placed_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const Section& section : sections())
+      if (section.is_placed()) all.push_back(section.name);
+    return all;
+  }();
+  return names;
 }
 
 std::string suggest_section(std::string_view name) {

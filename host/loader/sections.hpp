@@ -12,7 +12,7 @@
 namespace eyeray {
 
 struct Section {
-  enum class Kind { image, camera, render, light, material, mesh, shape };
+  enum class Kind { image, camera, render, light, material, group, mesh, shape };
 
   Kind kind;
   std::string_view name;
@@ -23,7 +23,8 @@ struct Section {
   std::string_view manual = {};      // what the manual adds to `doc`; Markdown
 
   bool many() const { return title.starts_with("[["); }
-  bool batches() const { return kind == Kind::shape || kind == Kind::mesh; }
+  // Whether it stands in the world: such tables may have a batch, and may stand in a group.
+  bool is_placed() const { return kind == Kind::shape || kind == Kind::mesh || kind == Kind::group; }
 };
 
 // In the order in which the manual shows them; shapes in registry order.
@@ -33,7 +34,10 @@ const Section* find_section(std::string_view name);
 // "did you mean [[sphere]]?", or the names of all.
 std::string suggest_section(std::string_view name);
 
-// The key that lists the files to include, and the one that holds the batch of a shape or a mesh.
+// The names of those that may stand in a group.
+std::span<const std::string_view> placed_names();
+
+// The key that lists the files to include, and the one that holds the batch of what is placed.
 inline constexpr std::string_view include_key = "include";
 inline constexpr std::string_view batch_key = "batch";
 

@@ -18,9 +18,9 @@ struct TableSource {
   std::array<std::span<const Key>, 2> keys = {};  // those that all such tables share, and its own
   const toml::table* batch = nullptr;             // lists of values that stand in for values of the table …
   size_t element = 0;                             // … and which element of them to take
-  std::string_view extra_key = {};                // a key that is allowed and read elsewhere
-  bool open = false;                              // whether any other key is
-  ImageSource* images = nullptr;                  // loads the images of textures; null: none may be named
+  std::span<const std::string_view> extra_keys = {};  // that are allowed and read elsewhere
+  bool open = false;                                  // whether any other key is
+  ImageSource* images = nullptr;                      // loads the images of textures; null: none may be named
 };
 
 // Reads and checks every key; problems go to the log, which must outlive the reader.

@@ -84,7 +84,7 @@ void TableReader::Table::check_names() {
   if (!source.table || source.open) return;
   std::vector<std::string_view> names;
   for (const Row& row : rows) names.push_back(row.key->name);
-  if (!source.extra_key.empty()) names.push_back(source.extra_key);
+  names.insert(names.end(), source.extra_keys.begin(), source.extra_keys.end());
   for (const auto& [written, node] : *source.table) {
     if (std::ranges::find(names, written.str()) != names.end()) continue;
     const std::string nearest = nearest_name(written.str(), names);

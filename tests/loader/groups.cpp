@@ -1,0 +1,84 @@
+// Groups move what they hold as one, and show it once a transform of their batch.
+#include <fmt/format.h>
+
+#include "loader/scene_file.hpp"
+#include "scene/affine.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+constexpr std::string_view material = "[[material]]\nname = \"wall\"\ntype = \"phong\"\n";
+
+Scene parse(const std::string& text) {
+  return parse_scene(std::string(material) + text, "scene.toml");
+}
+
+std::string refused(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string sphere(const std::string& table, double x) {
+  return fmt::format("[[{}]]\ncenter = [{}, 0, 0]\nradius = 1\nmaterial = \"wall\"\n", table, x);
+}
+
+double middle_x(const Shape& shape) {
+  return (shape.bounds().min.x + shape.bounds().max.x) / 2;
+}
+
+}  // namespace
+
+TEST_CASE("a group's transform comes after its members', and its own group's after that") {
+  const Scene scene = parse(
+      "[[group]]\ntransform = [{ translate = [100, 0, 0] }]\n"
+      "[[group.group]]\ntransform = [{ scale = 10 }]\n" +
+      sphere("group.group.sphere", 1) + "transform = [{ translate = [2, 0, 0] }]\n");
+  REQUIRE(scene.shapes.size() == 1);
+  CHECK(std::abs(middle_x(*scene.shapes[0]) - 130) < 1e-9);
+  CHECK(std::abs(scene.shapes[0]->bounds().max.x - 140) < 1e-9);
+}
+
+TEST_CASE("a batch shows a group once more for each transform; batches multiply") {
+  const Scene scene = parse(
+      "[[group]]\nbatch = { transform = [[], [{ translate = [10, 0, 0] }], [{ translate = [20, 0, 0] }]] "
+      "}\n" +
+      sphere("group.sphere", 1) +
+      "[[group.box]]\nmin = [0, 0, 0]\nmaterial = \"wall\"\nbatch = { max = [[1, 1, 1], [2, 2, 2]] }\n");
+  REQUIRE(scene.shapes.size() == 9);
+  double sum = 0;
+  for (const auto& shape : scene.shapes) sum += middle_x(*shape);
+  CHECK(std::abs(sum - (3 * (1 + 0.5 + 1) + 3 * 30)) < 1e-6);
+}
+
+TEST_CASE("what stands in no group comes first, so that its ids do not depend on groups") {
+  const Scene scene = parse("[[group]]\n" + sphere("group.sphere", 5) + sphere("sphere", 1));
+  REQUIRE(scene.shapes.size() == 2);
+  CHECK(std::abs(middle_x(*scene.shapes[0]) - 1) < 1e-12);
+}
+
+TEST_CASE("a mistake in a group is said once, at its place, however often the group is shown") {
+  CHECK(refused("[[group]]\nbatch = { transform = [[], [], []] }\n[[group.sphere]]\nradius = 1\n"
+                "center = [0, 0, 0]\nmaterial = \"wal\"\n") ==
+        "scene.toml:9:12: error: no [[material]] is named \"wal\"; did you mean \"wall\"?\n"
+        "  material = \"wal\"\n"
+        "             ^");
+}
+
+TEST_CASE("groups that multiply beyond all memory are refused before they fill it") {
+  std::string text;
+  std::string table = "group";
+  for (int level = 0; level < 6; ++level, table += ".group") {
+    text += fmt::format("[[{}]]\nbatch = {{ transform = [", table);
+    for (int i = 0; i < 100; ++i) text += fmt::format("[{{ translate = [{}, 0, 0] }}],", i);
+    text += "] }\n";
+  }
+  const std::string said = refused(text + sphere(table + ".sphere", 1));
+  CHECK_MESSAGE(said.find("things; at most 67108864 are possible") != std::string::npos, said);
+}
