@@ -46,12 +46,13 @@ struct Primitive {
 #define TRIANGLE_WOOP 0u
 #define TRIANGLE_MOLLER_TRUMBORE 1u
 
-// ---- Corners of a triangle with normals or texture coordinates: 16 or 32 bytes in vertices ---------------------------
-//   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u
+// ---- Corners of a triangle with normals, texture coordinates or colours: 16 or 32 bytes in vertices ------------------
+//   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u; with CORNERS_COLORS then color.rgb, -
 //  12 CORNERS_ bits
 //  16 v 0  20 v 1  24 v 2  28 -             only with CORNERS_UV
 #define CORNERS_NORMALS 1u
 #define CORNERS_UV 2u
+#define CORNERS_COLORS 4u
 
 // ---- Tree: 80 bytes; a node of it ------------------------------------------------------------------------------------
 //   0 origin.xyz  12 -    16 step.xyz  28 -    a plane at q stands at origin + q · step

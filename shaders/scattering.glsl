@@ -10,6 +10,7 @@ SHADER_BEGIN
 
 struct ScatteringContext {
   vec2 uv;
+  vec3 color;      // of a mesh's vertices, white where they have none
   float cos_view;  // in [0, 1]
   float ior_from;
   float ior_to;

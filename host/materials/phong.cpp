@@ -53,8 +53,8 @@ class Phong final : public Material {
 
   Scattering scattering(const ScatteringContext& context) const override {
     Scattering scattering;
-    scattering.ambient = ambient().at(context.uv);
-    scattering.diffuse = values_.diffuse.at(context.uv);
+    scattering.ambient = ambient().at(context.uv) * context.color;
+    scattering.diffuse = values_.diffuse.at(context.uv) * context.color;
     scattering.reflected = values_.reflectance.at(context.uv);
     values_.highlight.apply(context.uv, scattering);
     return scattering;

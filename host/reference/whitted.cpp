@@ -92,7 +92,8 @@ Vec3 Tree::radiance(const Path& path) {
     }
   }
   const double ior_beyond = medium(beyond).ior;
-  const Scattering scattering = material.scattering({view.surface.uv, view.cos_view, before.ior, ior_beyond});
+  const Scattering scattering =
+      material.scattering({view.surface.uv, view.cos_view, before.ior, ior_beyond, view.surface.color});
 
   // Add up the light that the point scatters, mirrors and lets through, and dim it on its way here.
   Path arrived = path;

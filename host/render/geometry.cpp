@@ -140,6 +140,7 @@ class GeometryPacker {
       const Mesh& mesh = scene_.meshes[size_t(instance.mesh)];
       const Affine map(instance.transform);
       if (mesh.triangles.empty()) continue;
+      packed_.vertex_colors = packed_.vertex_colors || !mesh.colors.empty();
       if (uses_[size_t(instance.mesh)] == 1 || mesh.triangles.size() == 1) {
         add_to_world(mesh_records(mesh, map, scene_.camera.eye, instance.material, id, packed_.vertices));
       } else {

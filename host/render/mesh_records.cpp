@@ -19,14 +19,19 @@ std::vector<shader::Primitive> mesh_records(const Mesh& mesh, const Affine& map,
                                             std::vector<shader::uvec4>& vertices) {
   const bool normals = !mesh.normals.empty();
   const bool uv = !mesh.uv.empty();
+  const bool colors = !mesh.colors.empty();
+  const bool any = normals || uv || colors;
   const auto first_vertex = uint32_t(vertices.size());
-  const auto first_corners = uint32_t(first_vertex + mesh.positions.size());
+  const uint32_t vertex_records = colors ? 2 : 1;
+  const auto first_corners = uint32_t(first_vertex + mesh.positions.size() * vertex_records);
   const uint32_t corner_records = uv ? 2 : 1;
-  if (normals || uv) {
+  if (any) {
     vertices.resize(first_corners + mesh.triangles.size() * corner_records);
     parallel_for(0, int(mesh.positions.size()), [&](int i) {
       const Vec3 normal = normals ? map.normal(mesh.normals[size_t(i)]) : Vec3(0);
-      vertices[first_vertex + size_t(i)] = to_bits(to_vec4(normal, uv ? mesh.uv[size_t(i)].x : 0.0));
+      const size_t record = first_vertex + size_t(i) * vertex_records;
+      vertices[record] = to_bits(to_vec4(normal, uv ? mesh.uv[size_t(i)].x : 0.0));
+      if (colors) vertices[record + 1] = to_bits(to_vec4(mesh.colors[size_t(i)]));
     });
   }
 
@@ -37,10 +42,12 @@ std::vector<shader::Primitive> mesh_records(const Mesh& mesh, const Affine& map,
                           map.point(mesh.positions[v2])};
     const Vec3 normal = outward_normal(corners, map);
     uint32_t extra = NONE;
-    if (normals || uv) {
+    if (any) {
       extra = first_corners + uint32_t(i) * corner_records;
-      vertices[extra] = {first_vertex + v0, first_vertex + v1, first_vertex + v2,
-                         (normals ? CORNERS_NORMALS : 0u) | (uv ? CORNERS_UV : 0u)};
+      vertices[extra] = {
+          first_vertex + v0 * vertex_records, first_vertex + v1 * vertex_records,
+          first_vertex + v2 * vertex_records,
+          (normals ? CORNERS_NORMALS : 0u) | (uv ? CORNERS_UV : 0u) | (colors ? CORNERS_COLORS : 0u)};
       if (uv) vertices[extra + 1] = to_bits(to_vec4({mesh.uv[v0].y, mesh.uv[v1].y, mesh.uv[v2].y}));
     }
     shader::Primitive& record = records[size_t(i)];

@@ -139,6 +139,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.counts.w));
   define("HAS_CHECKER", int(checker));
   define("HAS_IMAGES", int(images));
+  define("HAS_COLORS", int(scene.vertex_colors));
   define("HAS_MEDIA", int(media));
   // Only where a ray splits in two does a child wait, and one a level at most.
   define("WHITTED_STACK", media ? scene.frame.camera.w : 0u);

@@ -38,6 +38,7 @@ struct ScatteringContext {
   double cos_view;  // cosine between the shading normal and the direction back along the ray, in [0, 1]
   double ior_from;  // of the medium the ray comes through
   double ior_to;    // of the medium behind the surface
+  Vec3 color{1.0};  // of a mesh's vertices: what the colours that scatter are multiplied by
 };
 
 class Material {

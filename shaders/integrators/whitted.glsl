@@ -88,6 +88,10 @@ Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, 
     float cos_view = minimum(maximum(-dot3(ray.d, seen.normal), 0.0f), 1.0f);
     ScatteringContext context;
     context.uv = surface.uv;
+    context.color = vec3(1.0f, 1.0f, 1.0f);
+#if HAS_COLORS
+    context.color = vertex_color(primitive, hit);
+#endif
     context.cos_view = cos_view;
     context.ior_from = 1.0f;
     context.ior_to = 1.0f;
