@@ -87,7 +87,7 @@ struct Instance {
 };
 
 // ---- Material: 48 bytes ---------------------------------------------------------------------------------------------
-//   0 kind       4 flags      8 medium that fills the shape: 1…255, 0 for none    12 shadow density
+//   0 kind       4 flags | emission, an index into textures, << 8      8 medium that fills the shape: 1…255, 0 for none    12 shadow density
 //  16 base      20 specular  24 reflected  28 ambient    indices into textures; base is what raycast shades
 //  32 shininess 36 -         40 -          44 -
 struct Material {
@@ -96,6 +96,7 @@ struct Material {
   vec4 parameters;
 };
 #define MATERIAL_BLINN 1u
+#define MATERIAL_EMISSION_SHIFT 8u
 // Shadow density: what a shadow ray loses to each primitive that it meets, in −log2(transmittance) · SHADOW_SCALE.
 #define SHADOW_OPAQUE 0x10000000u
 #define SHADOW_SCALE 1048576.0f

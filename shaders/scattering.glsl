@@ -22,6 +22,7 @@ struct Scattering {
   vec3 specular;     // × light · highlight lobe
   vec3 reflected;    // × what the mirror direction sees
   vec3 transmitted;  // × what the refracted direction sees
+  vec3 emitted;      // light of its own
 };
 
 Scattering no_scattering() {
@@ -31,6 +32,7 @@ Scattering no_scattering() {
   s.specular = s.ambient;
   s.reflected = s.ambient;
   s.transmitted = s.ambient;
+  s.emitted = s.ambient;
   return s;
 }
 

@@ -21,13 +21,9 @@ namespace {
 
 // Extensions that change nothing that we read without them.
 constexpr std::string_view known_extensions[] = {
-    "KHR_lights_punctual",
-    "KHR_materials_ior",
-    "KHR_materials_transmission",
-    "KHR_materials_volume",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
-    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_lights_punctual",   "KHR_materials_ior",     "KHR_materials_transmission",
+    "KHR_materials_volume",  "KHR_materials_unlit",   "KHR_materials_emissive_strength",
+    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_pbrSpecularGlossiness",
 };
 // Extensions without which the data cannot be read.
 constexpr std::string_view coded_extensions[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"};

@@ -1,7 +1,7 @@
 // Metallic-roughness in the terms of Phong and Whitted. With F0 what the surface mirrors at right angles
 // (0.04, or the base colour of a metal) and r its roughness: what is smooth mirrors F0 · (1 − r)², the lights
 // show a Blinn highlight of exponent 2 / r⁴ − 2 (Karis: Specular BRDF Reference, 2013), and what a rough
-// metal does not mirror it scatters.
+// metal does not mirror it scatters. What is unlit shows its base colour as light of its own.
 #include "importers/gltf_materials.hpp"
 
 #include <algorithm>
@@ -26,6 +26,9 @@ Vec3 share(const std::vector<double>& rgb) {
   return {share(rgb[0]), share(rgb[1]), share(rgb[2])};
 }
 
+// Brighter than any screen.
+constexpr double most_emission = 1e6;
+
 // What came before metallic-roughness; of it we take what scatters.
 constexpr const char* specular_glossiness = "KHR_materials_pbrSpecularGlossiness";
 
@@ -40,6 +43,22 @@ Wrap wrap(uint64_t code) {
   constexpr uint64_t clamp_to_edge = 33071;
   constexpr uint64_t mirrored_repeat = 33648;
   return code == clamp_to_edge ? Wrap::clamp : code == mirrored_repeat ? Wrap::mirror : Wrap::repeat;
+}
+
+GltfUv uv_of(const GltfObject& reference) {
+  GltfUv uv;
+  uv.set = reference.count("texCoord", 0);
+  if (const auto transform = reference.extension("KHR_texture_transform")) {
+    const std::vector<double> offset = transform->numbers("offset", {0, 0});
+    const std::vector<double> scale = transform->numbers("scale", {1, 1});
+    const double turn = transform->number("rotation", 0);
+    const double c = std::cos(turn);
+    const double s = std::sin(turn);
+    uv.set = transform->count("texCoord", uv.set);
+    uv.linear = glm::dmat2(c * scale[0], -s * scale[0], s * scale[1], c * scale[1]);
+    uv.offset = Vec2(offset[0], offset[1]);
+  }
+  return uv;
 }
 
 std::unique_ptr<Material> make_glass(const GltfObject& material) {
@@ -75,6 +94,7 @@ void GltfLeftOut::report(std::vector<std::string>& warnings) const {
 
 struct GltfMaterials::Surface {
   Vec3 base{1};
+  Texture emission = {};
   std::shared_ptr<const ImageTexture> image;
   double metalness = 1;
   double roughness = 1;
@@ -136,9 +156,28 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
   });
 }
 
+// What its picture takes of a mesh's uv must be what the base colour takes: a vertex has one uv.
+Texture GltfMaterials::emission(const GltfObject& material) {
+  Texture emission{share(material.numbers("emissiveFactor", {0, 0, 0})), {}};
+  if (emission.value == Vec3(0)) return emission;
+  if (const auto strength = material.extension("KHR_materials_emissive_strength"))
+    emission.value *= std::clamp(strength->number("emissiveStrength", 1), 0.0, most_emission);
+  const auto reference = material.object("emissiveTexture");
+  if (!reference) return emission;
+  emission.image = texture(*reference, true);
+  if (!emission.image) {
+    emission.value = Vec3(0);
+  } else if (const auto base = base_texture(material); base && uv_of(*reference) != uv_of(*base)) {
+    left_out_.add("emission maps with uv of their own");
+    return {};
+  }
+  return emission;
+}
+
 GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
   Surface surface;
   if (const auto reference = base_texture(material)) surface.image = texture(*reference, true);
+  surface.emission = emission(material);
   const auto pbr = material.object("pbrMetallicRoughness");
   if (!pbr) {
     if (const auto old = material.extension(specular_glossiness)) {
@@ -169,6 +208,9 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
   const auto transmission = source.extension("KHR_materials_transmission");
   if (transmission && transmission->number("transmissionFactor", 0) >= 0.5) {
     made = make_glass(source);
+  } else if (source.extension("KHR_materials_unlit")) {
+    const Surface s = surface(source);
+    made = make_phong({.diffuse = Texture{}, .emission = Texture{s.base, {}, s.image}});
   } else {
     const Surface s = surface(source);
     const double smooth = (1 - s.roughness) * (1 - s.roughness);
@@ -184,7 +226,8 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
     if (s.metalness * smooth > 0.95) {
       made = make_mirror({.reflectance = reflectance, .highlight = highlight});
     } else {
-      made = make_phong({.diffuse = diffuse, .reflectance = reflectance, .highlight = highlight});
+      made = make_phong(
+          {.diffuse = diffuse, .reflectance = reflectance, .emission = s.emission, .highlight = highlight});
     }
   }
   made->name = printable(source.text("name"));
@@ -199,28 +242,15 @@ std::optional<GltfObject> GltfMaterials::base_texture(const GltfObject& material
 }
 
 GltfUv GltfMaterials::uv(size_t index) const {
-  const auto reference = base_texture(document_.element("materials", index));
-  GltfUv uv;
-  if (!reference) return uv;
-  uv.set = reference->count("texCoord", 0);
-  if (const auto transform = reference->extension("KHR_texture_transform")) {
-    const std::vector<double> offset = transform->numbers("offset", {0, 0});
-    const std::vector<double> scale = transform->numbers("scale", {1, 1});
-    const double turn = transform->number("rotation", 0);
-    const double c = std::cos(turn);
-    const double s = std::sin(turn);
-    uv.set = transform->count("texCoord", uv.set);
-    uv.linear = glm::dmat2(c * scale[0], -s * scale[0], s * scale[1], c * scale[1]);
-    uv.offset = Vec2(offset[0], offset[1]);
-  }
-  return uv;
+  const GltfObject material = document_.element("materials", index);
+  auto reference = base_texture(material);
+  if (!reference) reference = material.object("emissiveTexture");
+  return reference ? uv_of(*reference) : GltfUv{};
 }
 
 void GltfMaterials::note_rest(const GltfObject& material) {
   if (material.has("normalTexture")) left_out_.add("normal maps");
   if (material.has("occlusionTexture")) left_out_.add("occlusion maps");
-  const Vec3 emission = share(material.numbers("emissiveFactor", {0, 0, 0}));
-  if (emission != Vec3(0)) left_out_.add("emission");
   const std::string alpha = material.text("alphaMode");
   if (alpha == "BLEND" || alpha == "MASK") left_out_.add("transparency by alpha");
 }

@@ -30,6 +30,8 @@ struct GltfUv {
   uint64_t set = 0;
   glm::dmat2 linear{1.0};
   Vec2 offset{0.0};
+
+  bool operator==(const GltfUv&) const = default;
 };
 
 class GltfMaterials {
@@ -38,13 +40,14 @@ class GltfMaterials {
                 GltfLeftOut& left_out);
 
   std::unique_ptr<Material> material(size_t index);
-  // What the material's base colour takes of a mesh's uv.
+  // What the material's pictures take of a mesh's uv.
   GltfUv uv(size_t index) const;
 
  private:
   struct Surface;  // metallic-roughness, as numbers and one picture
 
   Surface surface(const GltfObject& material);
+  Texture emission(const GltfObject& material);
   std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, bool srgb);
   ImageTexture decode_image(size_t index);
   static std::optional<GltfObject> base_texture(const GltfObject& material);

@@ -100,6 +100,13 @@ bool is_small(const PackedScene& scene) {
              most_records;
 }
 
+bool any_emits(const PackedScene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const shader::Material& material) {
+    const shader::Texture& emission = scene.textures[material.head.y >> MATERIAL_EMISSION_SHIFT];
+    return emission.even != shader::vec4(0, 0, 0, TEXTURE_CONSTANT);
+  });
+}
+
 }  // namespace
 
 bool any_reflects(const PackedScene& scene) {
@@ -140,6 +147,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_CHECKER", int(checker));
   define("HAS_IMAGES", int(images));
   define("HAS_COLORS", int(scene.vertex_colors));
+  define("HAS_EMISSION", int(any_emits(scene)));
   define("HAS_MEDIA", int(media));
   // Only where a ray splits in two does a child wait, and one a level at most.
   define("WHITTED_STACK", media ? scene.frame.camera.w : 0u);

@@ -30,6 +30,7 @@ struct Scattering {
   bool blinn = false;     // lobe (n·h)^shininess instead of Phong's (r·l)^shininess
   Vec3 reflected{0.0};    // × what the mirror direction sees
   Vec3 transmitted{0.0};  // × what the refracted direction sees; 0 under total internal reflection
+  Vec3 emitted{0.0};      // light of its own, which lights nothing else
 };
 
 // What a material may depend on at a point.

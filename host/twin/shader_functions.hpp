@@ -73,6 +73,7 @@ class Binding {
 #define HAS_CHECKER 1
 #define HAS_IMAGES 1
 #define HAS_COLORS 1
+#define HAS_EMISSION 1
 #define HAS_MEDIA 1
 
 #undef SHADER_BEGIN

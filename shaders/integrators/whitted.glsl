@@ -17,10 +17,13 @@ struct PathRay {
   uint media;
 };
 
-// Ambient light and what every visible light adds at a point, after `depth` reflections and refractions.
+// Its own light, the ambient one and what every visible light adds at a point, after `depth` reflections and refractions.
 vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface seen, vec3 to_viewer,
                   uint depth, INOUT(uvec4) counts) {
   vec3 color = scattering.ambient * vec3(frame.ambient);
+#if HAS_EMISSION
+  color = color + scattering.emitted;
+#endif
   for (uint i = 0u; i < LIGHT_COUNT; i++) {
     counts.w += 1u + TRACE_ITERATIONS;
     LightSample light = sample_light(load_light(i), seen.p);

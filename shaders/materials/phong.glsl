@@ -11,6 +11,9 @@ Scattering phong_scattering(Material material, ScatteringContext context) {
   s.diffuse = texture_color(material.textures.x, context.uv) * context.color;
   s.specular = texture_color(material.textures.y, context.uv);
   s.reflected = texture_color(material.textures.z, context.uv);
+#if HAS_EMISSION
+  s.emitted = texture_color(material.head.y >> MATERIAL_EMISSION_SHIFT, context.uv) * context.color;
+#endif
   return s;
 }
 

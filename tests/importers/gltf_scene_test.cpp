@@ -127,10 +127,8 @@ TEST_CASE("the first camera and all lights") {
 }
 
 TEST_CASE("what is left out is named once, and counted") {
-  GltfFile file = with_material({{"alphaMode", "BLEND"},
-                                 {"emissiveFactor", {1, 1, 1}},
-                                 {"normalTexture", {{"index", 0}}},
-                                 {"occlusionTexture", {{"index", 0}}}});
+  GltfFile file = with_material(
+      {{"alphaMode", "BLEND"}, {"normalTexture", {{"index", 0}}}, {"occlusionTexture", {{"index", 0}}}});
   file.json["materials"].push_back(file.json["materials"][0]);
   file.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_ior"};
   file.json["animations"] = Json::array({Json::object()});
@@ -141,7 +139,7 @@ TEST_CASE("what is left out is named once, and counted") {
   CHECK(scene.warnings ==
         std::vector<std::string>{
             "left out: the extension KHR_materials_clearcoat (1), normal maps (2), occlusion maps (2), "
-            "emission (2), transparency by alpha (2), animations (1), points and lines (1)"});
+            "transparency by alpha (2), animations (1), points and lines (1)"});
 }
 
 TEST_CASE("textures in formats that are not read leave the colour") {
@@ -152,6 +150,35 @@ TEST_CASE("textures in formats that are not read leave the colour") {
     file.json["textures"] = {{{"extensions", {{extension, {{"source", 0}}}}}}};
     CHECK(warns(import_sound(file.gltf(), "a.gltf"), fmt::format("textures in {} (1)", format)));
   }
+}
+
+TEST_CASE("emission, by factor, strength and picture; what is unlit emits its base colour") {
+  CHECK(scattering_of({{"emissiveFactor", {0.5, 0, 1}}}).emitted == Vec3(0.5, 0, 1));
+  const Json strong = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 3}}}};
+  CHECK(scattering_of({{"emissiveFactor", {0.5, 0, 1}}, {"extensions", strong}}).emitted == Vec3(1.5, 0, 3));
+  Json flat = surface({0.25, 0.5, 1, 1}, 0, 0.5);
+  flat["extensions"]["KHR_materials_unlit"] = Json::object();
+  const Scattering unlit = scattering_of(flat);
+  CHECK(unlit.emitted == Vec3(0.25, 0.5, 1));
+  CHECK(unlit.diffuse == Vec3(0));
+  CHECK(unlit.ambient == Vec3(0));
+  CHECK(unlit.specular == Vec3(0));
+
+  // A picture of its own, with the uv of the base colour's or with other ones.
+  std::ifstream png("tests/core/pictures/rgb.png", std::ios::binary);
+  const std::string picture{std::istreambuf_iterator<char>(png), {}};
+  GltfFile file =
+      with_material({{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}}});
+  file.json["textures"] = {{{"source", 0}}};
+  file.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
+  file.primitive()["attributes"]["TEXCOORD_1"] = file.add({0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
+  const ImportedScene alone = import_sound(file.gltf(), "a.gltf");
+  CHECK(alone.warnings.empty());
+  CHECK(alone.meshes[0].uv.size() == 4);
+  CHECK(alone.materials[0]->scattering({{0.1, 0.9}, 1, 1, 1}).emitted !=
+        alone.materials[0]->scattering({{0.9, 0.1}, 1, 1, 1}).emitted);
+  file.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
+  CHECK(warns(import_sound(file.gltf(), "a.gltf"), "emission maps with uv of their own (1)"));
 }
 
 TEST_CASE("specular-glossiness gives its diffuse part") {
