@@ -85,8 +85,7 @@ std::string constants(const PackedScene& scene) {
                      constant_loader("Texture", "texture", scene.textures) +
                      constant_loader("Medium", "medium", scene.media) +
                      constant_loader("Light", "light", scene.lights) +
-                     constant_loader("Primitive", "primitive", scene.primitives) +
-                     "uint load_texel(uint i) { return texels[i]; }\n";
+                     constant_loader("Primitive", "primitive", scene.primitives);
   text += "#define SCENE_PRIMITIVES(X)";
   for (size_t i = 0; i < scene.primitives.size(); ++i)
     text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[kind_of(scene.primitives[i])].name, i, i);
