@@ -9,10 +9,12 @@ layout(push_constant) uniform PushConstants { Dispatch dispatch; };
 layout(rgba32ui, binding = BINDING_PRIMITIVES) readonly restrict uniform uimageBuffer primitives;
 layout(rgba32ui, binding = BINDING_VERTICES) readonly restrict uniform uimageBuffer vertices;
 layout(rgba32ui, binding = BINDING_NODES) readonly restrict uniform uimageBuffer nodes;
+layout(rgba32ui, binding = BINDING_TEXELS) readonly restrict uniform uimageBuffer texels;
 #else
 layout(std430, binding = BINDING_PRIMITIVES) readonly restrict buffer Primitives { Primitive primitives[]; };
 layout(std430, binding = BINDING_VERTICES) readonly restrict buffer Vertices { uvec4 vertices[]; };
 layout(std430, binding = BINDING_NODES) readonly restrict buffer Nodes { uvec4 nodes[]; };
+layout(std430, binding = BINDING_TEXELS) readonly restrict buffer Texels { uint texels[]; };
 #endif
 #if STORED_HITS
 // What packet.comp.glsl found for this sample: what the eye rays hit, and how much of each light is lost there.
@@ -23,10 +25,20 @@ layout(std430, binding = BINDING_TREES) readonly restrict buffer Trees { Tree tr
 layout(std430, binding = BINDING_INSTANCES) readonly restrict buffer Instances { Instance instances[]; };
 layout(std430, binding = BINDING_MATERIALS) readonly restrict buffer Materials { Material materials[]; };
 layout(std430, binding = BINDING_TEXTURES) readonly restrict buffer Textures { Texture textures[]; };
-layout(std430, binding = BINDING_TEXELS) readonly restrict buffer Texels { uint texels[]; };
 layout(std430, binding = BINDING_MEDIA) readonly restrict buffer Media { Medium media[]; };
 layout(std430, binding = BINDING_LIGHTS) readonly restrict buffer Lights { Light lights[]; };
 layout(std430, binding = BINDING_FRAME) readonly restrict buffer FrameBuffer { Frame frame; };
 #define LOOP_PROBE frame.counts.y
+
+// Images are never compiled in, so that this is the same for all scenes.
+#if TEXEL_BUFFERS
+uint load_texel(uint i) {
+  uvec4 four = imageLoad(texels, int(i >> 2u));
+  uint which = i & 3u;
+  return which == 0u ? four.x : which == 1u ? four.y : which == 2u ? four.z : four.w;
+}
+#else
+uint load_texel(uint i) { return texels[i]; }
+#endif
 
 #endif

@@ -36,7 +36,6 @@ Tree load_tree(uint i) { return trees[i]; }
 Instance load_instance(uint i) { return instances[i]; }
 Material load_material(uint i) { return materials[i]; }
 Texture load_texture(uint i) { return textures[i]; }
-uint load_texel(uint i) { return texels[i]; }
 Medium load_medium(uint i) { return media[i]; }
 Light load_light(uint i) { return lights[i]; }
 

@@ -46,12 +46,13 @@ struct Primitive {
 #define TRIANGLE_WOOP 0u
 #define TRIANGLE_MOLLER_TRUMBORE 1u
 
-// ---- Corners of a triangle with normals or texture coordinates: 16 or 32 bytes in vertices ---------------------------
-//   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u
+// ---- Corners of a triangle with normals, texture coordinates or colours: 16 or 32 bytes in vertices ------------------
+//   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u; with CORNERS_COLORS then color.rgb, -
 //  12 CORNERS_ bits
 //  16 v 0  20 v 1  24 v 2  28 -             only with CORNERS_UV
 #define CORNERS_NORMALS 1u
 #define CORNERS_UV 2u
+#define CORNERS_COLORS 4u
 
 // ---- Tree: 80 bytes; a node of it ------------------------------------------------------------------------------------
 //   0 origin.xyz  12 -    16 step.xyz  28 -    a plane at q stands at origin + q · step
@@ -86,7 +87,7 @@ struct Instance {
 };
 
 // ---- Material: 48 bytes ---------------------------------------------------------------------------------------------
-//   0 kind       4 flags      8 medium that fills the shape: 1…255, 0 for none    12 shadow density
+//   0 kind       4 flags | emission, an index into textures, << 8      8 medium that fills the shape: 1…255, 0 for none    12 shadow density
 //  16 base      20 specular  24 reflected  28 ambient    indices into textures; base is what raycast shades
 //  32 shininess 36 -         40 -          44 -
 struct Material {
@@ -95,6 +96,7 @@ struct Material {
   vec4 parameters;
 };
 #define MATERIAL_BLINN 1u
+#define MATERIAL_EMISSION_SHIFT 8u
 // Shadow density: what a shadow ray loses to each primitive that it meets, in −log2(transmittance) · SHADOW_SCALE.
 #define SHADOW_OPAQUE 0x10000000u
 #define SHADOW_SCALE 1048576.0f

@@ -10,6 +10,7 @@ SHADER_BEGIN
 
 struct ScatteringContext {
   vec2 uv;
+  vec3 color;      // of a mesh's vertices, white where they have none
   float cos_view;  // in [0, 1]
   float ior_from;
   float ior_to;
@@ -21,6 +22,7 @@ struct Scattering {
   vec3 specular;     // × light · highlight lobe
   vec3 reflected;    // × what the mirror direction sees
   vec3 transmitted;  // × what the refracted direction sees
+  vec3 emitted;      // light of its own
 };
 
 Scattering no_scattering() {
@@ -30,6 +32,7 @@ Scattering no_scattering() {
   s.specular = s.ambient;
   s.reflected = s.ambient;
   s.transmitted = s.ambient;
+  s.emitted = s.ambient;
   return s;
 }
 

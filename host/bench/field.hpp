@@ -47,7 +47,8 @@ FieldReport read_field_report(const std::filesystem::path& file);
 
 // As a table, for people.
 std::string to_text(const FieldReport& report);
-// What changed from `old` to `report`: a line for each contender that both have on a batch.
+// What changed from `old` to `report`: a line for each contender that both have built or on
+// a batch.
 std::string changes(const FieldReport& old, const FieldReport& report);
 // As an SVG picture: rays a second over primitives, and how the others compare with Embree.
 std::string to_svg(const FieldReport& report);

@@ -62,6 +62,8 @@ FieldReport read_field_report(const std::filesystem::path& file) {
     for (const Json& scene : answer.at("field")) {
       SceneReport& entry = report.emplace_back(
           SceneReport{scene.at("scene"), scene.at("family"), scene.at("primitives"), {}, {}});
+      for (const Json& build : scene.at("builds"))
+        entry.builds.push_back({build.at("contender"), build.at("seconds"), build.at("bytes")});
       for (const Json& batch : scene.at("batches")) {
         BatchReport& rays = entry.batches.emplace_back(BatchReport{batch.at("name"), batch.at("rays"), {}});
         for (const Json& lap : batch.at("laps")) rays.laps.push_back(lap_from(lap));

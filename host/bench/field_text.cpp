@@ -58,6 +58,13 @@ std::string changes(const FieldReport& old, const FieldReport& report) {
   for (const SceneReport& scene : report) {
     const SceneReport* const old_scene = find(old, &SceneReport::scene, scene.scene);
     if (!old_scene) continue;
+    for (const Build& build : scene.builds) {
+      const Build* const old_build = find(old_scene->builds, &Build::contender, build.contender);
+      if (!old_build || !(old_build->seconds > 0)) continue;
+      text += fmt::format("{:<24} {:<9} {:<24} {:>8.3g} -> {:<8.3g} {:>+7.1f} %, {} -> {} bytes\n",
+                          scene.scene, "build, s", build.contender, old_build->seconds, build.seconds,
+                          100 * (build.seconds / old_build->seconds - 1), old_build->bytes, build.bytes);
+    }
     for (const BatchReport& batch : scene.batches) {
       const BatchReport* const old_batch = find(old_scene->batches, &BatchReport::name, batch.name);
       if (!old_batch) continue;
@@ -75,7 +82,7 @@ std::string changes(const FieldReport& old, const FieldReport& report) {
       }
     }
   }
-  return text.empty() ? "nothing in common with the older report\n" : text;
+  return text;
 }
 
 }  // namespace eyeray

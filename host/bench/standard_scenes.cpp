@@ -1,12 +1,19 @@
 #include "bench/standard_scenes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "core/atomic_file.hpp"
+#include "generate/ply_file.hpp"
 #include "generate/sphereflake.hpp"
 #include "generate/terrain.hpp"
 #include "loader/scene_file.hpp"
 
 namespace eyeray {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 // A stage with a mesh of its last material on it.
@@ -18,11 +25,28 @@ Scene with_mesh(const std::string& stage, const char* name, MeshInMemory&& made)
   return scene;
 }
 
+// The same as files.
+template <typename Make>
+void write_with_mesh(const fs::path& file, const std::string& stage, const char* material, const Make& make) {
+  const fs::path mesh = fs::path(file).replace_extension(".ply");
+  PlyFile sink(mesh, "eyeray bench");
+  make(sink);
+  sink.commit();
+  write_file_atomically(file, stage + fmt::format("\n[[mesh]]\nfile = \"{}\"\nmaterial = \"{}\"\n",
+                                                  mesh.filename().string(), material));
+}
+
 template <int grid>
 Scene terrain() {
   MeshInMemory sink;
   terrain_mesh({.grid = grid}, sink);
   return with_mesh(terrain_stage(), "terrain", std::move(sink));
+}
+
+template <int grid>
+void write_terrain(const fs::path& file) {
+  write_with_mesh(file, terrain_stage(), "ground",
+                  [](MeshSink& sink) { terrain_mesh({.grid = grid}, sink); });
 }
 
 template <int size_factor>
@@ -35,19 +59,32 @@ Scene sphereflake() {
   return parse_scene(sphereflake_text<size_factor>(), "sphereflake");
 }
 
+template <int size_factor>
+void write_sphereflake(const fs::path& file) {
+  write_file_atomically(file, sphereflake_text<size_factor>());
+}
+
+void tessellate_sphereflake(MeshSink& sink) {
+  sphereflake_mesh(4, sphereflake_divisions(4, 1'000'000), sink);
+}
+
 Scene sphereflake_of_triangles() {
   MeshInMemory sink;
-  sphereflake_mesh(4, sphereflake_divisions(4, 1'000'000), sink);
+  tessellate_sphereflake(sink);
   return with_mesh(sphereflake_stage(), "sphereflake", std::move(sink));
 }
 
+void write_sphereflake_of_triangles(const fs::path& file) {
+  write_with_mesh(file, sphereflake_stage(), "ball", tessellate_sphereflake);
+}
+
 constexpr StandardScene scenes[] = {
-    {"terrain-51k", "terrain", terrain<160>, nullptr},
-    {"terrain-1m", "terrain", terrain<707>, nullptr},
-    {"terrain-8m", "terrain", terrain<2000>, nullptr},
-    {"sphereflake-7k", "sphereflake", sphereflake<4>, sphereflake_text<4>},
-    {"sphereflake-66k", "sphereflake", sphereflake<5>, sphereflake_text<5>},
-    {"sphereflake-mesh", "sphereflake mesh", sphereflake_of_triangles, nullptr},
+    {"terrain-51k", "terrain", terrain<160>, write_terrain<160>},
+    {"terrain-1m", "terrain", terrain<707>, write_terrain<707>},
+    {"terrain-8m", "terrain", terrain<2000>, write_terrain<2000>},
+    {"sphereflake-7k", "sphereflake", sphereflake<4>, write_sphereflake<4>},
+    {"sphereflake-66k", "sphereflake", sphereflake<5>, write_sphereflake<5>},
+    {"sphereflake-mesh", "sphereflake mesh", sphereflake_of_triangles, write_sphereflake_of_triangles},
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 // something.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,7 +15,8 @@ struct StandardScene {
   std::string_view name;    // "terrain-1m"
   std::string_view family;  // "terrain": the same at another size
   Scene (*make)();          // in memory: nothing is written
-  std::string (*text)();    // the same as a scene file; null for a mesh, which is none
+  // The same as a scene file, "NAME.toml", with a mesh beside it as .ply. Error (file_io).
+  void (*write)(const std::filesystem::path& file);
 };
 
 std::span<const StandardScene> standard_scenes();

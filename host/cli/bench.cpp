@@ -4,6 +4,7 @@
 
 #include "bench/field_run.hpp"
 #include "bench/standard_scenes.hpp"
+#include "cli/bench_changes.hpp"
 #include "cli/bench_pictures.hpp"
 #include "cli/command.hpp"
 #include "cli/json.hpp"
@@ -11,6 +12,7 @@
 #include "core/atomic_file.hpp"
 #include "core/image_file.hpp"
 #include "core/stopwatch.hpp"
+#include "importers/import.hpp"
 #include "loader/scene_file.hpp"
 #include "rivals/povray_scene.hpp"
 
@@ -20,6 +22,11 @@ namespace eyeray::cli {
 namespace {
 
 constexpr std::string_view default_scene = "scenes/whitted.toml";
+
+// More primitives would take POV-Ray gigabytes and a minute to parse.
+constexpr uint64_t most_for_povray = 2'000'000;
+// Of the standard scenes, whose pictures take half a minute each: made when asked for by name.
+constexpr std::string_view large_scene = "terrain-8m";
 
 // Our executors of a scene, by the names that they race under.
 struct Ours {
@@ -110,17 +117,25 @@ SceneReport Command::race_on(const std::string& name) const {
   return report;
 }
 
-// A standard scene is written out first, for us and for POV-Ray; null for one that is no scene file.
+// A standard scene is written out first, for us and for POV-Ray, and a mesh file for POV-Ray.
 Json Command::render_all(const std::string& name) const {
   const StandardScene* const standard = as_standard(name);
-  if (!standard) return measure_pictures(name, name, pictures, !json);
-  if (!standard->text) return nullptr;
+  PictureOptions options = pictures;
   const ScratchFolder scratch;
-  const fs::path scene = scratch.path() / (name + ".toml");
-  write_file_atomically(scene, standard->text());
-  write_file_atomically(scratch.path() / (name + ".pov"),
-                        povray_scene(standard->make(), pictures.width, pictures.height));
-  return measure_pictures(name, scene, pictures, !json);
+  fs::path file = name;
+  if (standard) {
+    file = scratch.path() / (name + ".toml");
+    standard->write(file);
+  }
+  {
+    const Scene scene = load(name);  // gone before anything is measured
+    options.primitives = scene.primitive_count();
+    if (options.povray && options.primitives <= most_for_povray && (standard || is_mesh_file(name))) {
+      options.povray_scene = scratch.path() / "scene.pov";
+      write_file_atomically(options.povray_scene, povray_scene(scene, options.width, options.height));
+    }
+  }
+  return measure_pictures(name, file, options, !json);
 }
 
 ExitCode Command::run() {
@@ -128,7 +143,9 @@ ExitCode Command::run() {
   for (const std::string& backend : pictures.backends) parse_backend(backend);
   if (!plot.empty()) check_writable(plot);
   const FieldReport old = older.empty() ? FieldReport() : read_field_report(older);
-  if (scenes.empty()) {
+  const Json old_pictures = older.empty() ? Json::array() : read_older_pictures(older);
+  const bool named = !scenes.empty();
+  if (!named) {
     for (const StandardScene& standard : standard_scenes()) scenes.emplace_back(standard.name);
     if (fs::exists(default_scene)) scenes.emplace_back(default_scene);
   }
@@ -140,11 +157,13 @@ ExitCode Command::run() {
   Json rendered = Json::array();
   for (const std::string& name : scenes) {
     if (with_rays) field.push_back(race_on(name));
-    if (!with_pictures) continue;
-    if (Json entry = render_all(name); !entry.is_null()) rendered.push_back(std::move(entry));
+    if (with_pictures && (named || name != large_scene)) rendered.push_back(render_all(name));
   }
   if (!plot.empty()) write_file_atomically(plot, to_svg(field));
-  if (!older.empty() && !json) fmt::print("since {}:\n{}", older, changes(old, field));
+  if (!older.empty() && !json) {
+    const std::string changed = changes(old, field) + picture_changes(old_pictures, rendered);
+    fmt::print("since {}:\n{}", older, changed.empty() ? "nothing in common\n" : changed);
+  }
   if (json) print_json({{"bench", rendered}, {"field", to_json(field)}});
   return ExitCode::ok;
 }
@@ -198,7 +217,7 @@ void add_bench(CLI::App& app, Run& run) {
       "--no-pictures", [options] { options->with_pictures = false; }, "Rays only.");
   command->add_flag_callback(
       "--no-povray", [options] { options->pictures.povray = false; },
-      "Leave POV-Ray out, which else runs when installed and SCENE.pov is there.");
+      "Leave POV-Ray out, which else runs when installed, on SCENE.pov or what is written out for it.");
   command->add_flag_callback(
       "--no-start", [options] { options->pictures.start = false; }, "Leave cold and warm starts out.");
   command->add_option("--plot", options->plot, "Draw the rays a second, as an SVG picture.")
@@ -211,7 +230,8 @@ void add_bench(CLI::App& app, Run& run) {
       "Pictures: every run is a process of its own, and contenders take turns. A cold start has empty "
       "caches;\n"
       "both starts go from nothing to a written 640x480 picture. bench/whitted.pov is that scene for "
-      "POV-Ray.\n"
+      "POV-Ray;\n"
+      "standard scenes and meshes are written out for it. What takes long is run once.\n"
       "Example: eyeray bench scenes/whitted.toml -n 9 --backends gpu,twin,reference\n"
       "         eyeray bench --no-pictures --plot rays.svg --json > rays.json");
   command->callback([options, &run] { run = [options] { return options->run(); }; });

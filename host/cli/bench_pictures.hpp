@@ -17,8 +17,10 @@ struct PictureOptions {
   int height = 1024;
   int samples = 1;
   int runs = 5;
-  bool povray = true;  // where it is installed, and the scene is there as .pov too
-  bool start = true;   // also cold and warm starts
+  bool povray = true;                  // where it is installed, and the scene is there as .pov too
+  std::filesystem::path povray_scene;  // empty: looked for beside the scene
+  bool start = true;                   // also cold and warm starts
+  uint64_t primitives = 0;             // of the scene, to say what memory each takes; 0: not said
 };
 
 // Measures the scene file, called `name` in the report; prints the table where told to. Error when a run

@@ -41,6 +41,12 @@ Spread tracing_spread(const Series& series) {
   return spread(values);
 }
 
+Spread memory_spread(const Series& series) {
+  std::vector<double> values;
+  for (const TimedRun& run : series.runs) values.push_back(double(run.peak_memory));
+  return spread(values);
+}
+
 TimedRun run_eyeray(const std::vector<std::string>& arguments, const fs::path& output,
                     const Environment& environment) {
   std::vector<std::string> argv{fs::read_symlink("/proc/self/exe").string(), "render"};
@@ -54,6 +60,7 @@ TimedRun run_eyeray(const std::vector<std::string>& arguments, const fs::path& o
   for (const auto& [stage, seconds] : report.at("stages").items())
     run.seconds.emplace_back(stage, seconds.get<double>());
   run.rays = report.at("rays");
+  run.peak_memory = report.at("peak_memory");
   run.tracing = report.at("sampling_seconds");
   run.device = report.at("device");
   return run;

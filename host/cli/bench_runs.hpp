@@ -16,7 +16,8 @@ namespace eyeray::cli {
 struct TimedRun {
   std::vector<std::pair<std::string, double>> seconds;  // by stage, "whole process" first
   uint64_t rays = 0;
-  double tracing = 0;  // seconds spent on tracing alone, as the program itself says
+  uint64_t peak_memory = 0;  // bytes; 0 where unknown
+  double tracing = 0;        // seconds spent on tracing alone, as the program itself says
   std::string device;
 };
 
@@ -29,6 +30,7 @@ struct Series {
 // Of a stage over a series; a run without the stage counts as 0.
 Spread stage_spread(const Series& series, const std::string& stage);
 Spread tracing_spread(const Series& series);
+Spread memory_spread(const Series& series);
 
 // This program: eyeray render ARGUMENTS… -o OUTPUT, in a process of its own. Error when it fails.
 TimedRun run_eyeray(const std::vector<std::string>& arguments, const std::filesystem::path& output,

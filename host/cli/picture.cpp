@@ -7,6 +7,7 @@
 #include "cli/picture_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/image_file.hpp"
+#include "core/peak_memory.hpp"
 #include "render/render.hpp"
 
 namespace fs = std::filesystem;
@@ -181,6 +182,7 @@ Json to_json(const Picture& picture) {
             {"sampling_seconds", picture.sampling_seconds},
             {"rays_per_second", rays_per_second(picture)},
             {"stages", to_json(picture.times)},
+            {"peak_memory", peak_memory()},
             {"flagged_pixels", picture.flagged_pixels},
             {"flags", Json::array()},
             {"interrupted", picture.interrupted},

@@ -21,8 +21,9 @@ namespace {
 
 // Extensions that change nothing that we read without them.
 constexpr std::string_view known_extensions[] = {
-    "KHR_lights_punctual",  "KHR_materials_ior",     "KHR_materials_transmission",
-    "KHR_materials_volume", "KHR_mesh_quantization", "KHR_texture_transform",  // which warns where it stands
+    "KHR_lights_punctual",   "KHR_materials_ior",     "KHR_materials_transmission",
+    "KHR_materials_volume",  "KHR_materials_unlit",   "KHR_materials_emissive_strength",
+    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_pbrSpecularGlossiness",
 };
 // Extensions without which the data cannot be read.
 constexpr std::string_view coded_extensions[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"};
@@ -40,20 +41,18 @@ class GltfReader {
         container_(open_gltf(file.bytes, file.name)),
         json_(parse_gltf_json(container_.json, file.name)),
         document_(json_, "", file.name),
-        warnings_(scene_.warnings),
         textures_(file.assets, scene_.warnings),
         buffers_(document_, container_, file.assets),
-        materials_(document_, buffers_, textures_, warnings_),
-        meshes_(document_, buffers_, materials_, warnings_, file.name, file.smooth.value_or(0)) {}
+        materials_(document_, buffers_, textures_, left_out_),
+        meshes_(document_, buffers_, materials_, left_out_, file.name, file.smooth.value_or(0)) {}
 
   ImportedScene read() {
     check_extensions();
     for (size_t i = 0; i < document_.size("materials"); ++i)
       scene_.materials.push_back(materials_.material(i));
-    for (const char* list : {"animations", "skins"}) {
-      if (document_.size(list) > 0) warnings_.left_out(list);
-    }
+    if (const size_t count = document_.size("animations"); count > 0) left_out_.add("animations", count);
     read_nodes();
+    left_out_.report(scene_.warnings);
     if (flattened_ > 0) {
       scene_.warnings.push_back(fmt::format("{} whose transforms flatten everything {} left out",
                                             flattened_ == 1 ? "a node" : fmt::format("{} nodes", flattened_),
@@ -73,6 +72,7 @@ class GltfReader {
   std::vector<size_t> roots() const;
   void read_nodes();
   void read_node(const GltfObject& node, const Mat4& world);
+  void read_mesh(const GltfObject& node, size_t mesh, const Mat4& world);
   void read_camera(const GltfObject& source, const Mat4& world);
   void read_light(const GltfObject& source, const Mat4& world);
   static Mat4 transform(const GltfObject& node);
@@ -82,11 +82,13 @@ class GltfReader {
   nlohmann::json json_;
   GltfObject document_;
   ImportedScene scene_;
-  GltfWarnings warnings_;
+  GltfLeftOut left_out_;
   TextureFiles textures_;
   GltfBuffers buffers_;
   GltfMaterials materials_;
   GltfMeshes meshes_;
+  std::vector<std::optional<Mat4>> worlds_;               // of the nodes that stand in the scene
+  std::vector<std::optional<std::vector<Mat4>>> joints_;  // of the skins, once asked for
   size_t flattened_ = 0;
 };
 
@@ -97,7 +99,7 @@ void GltfReader::check_extensions() {
   }
   for (const std::string& name : document_.texts("extensionsUsed")) {
     if (std::ranges::find(known_extensions, name) == std::end(known_extensions))
-      warnings_.left_out("what the extension " + name + " says");
+      left_out_.add("the extension " + name);
   }
 }
 
@@ -129,6 +131,9 @@ void GltfReader::read_nodes() {
     for (size_t i = indices.size(); i-- > 0;) pending.push_back({indices[i], parent});
   };
   push(roots(), Mat4(1.0));
+  worlds_.resize(nodes);
+  joints_.resize(document_.size("skins"));
+  std::vector<size_t> order;
   while (!pending.empty()) {
     const Visit visit = pending.back();
     pending.pop_back();
@@ -136,9 +141,13 @@ void GltfReader::read_nodes() {
     if (seen[visit.node]) node.fail("is met twice: a node has one parent, and is not below itself");
     seen[visit.node] = true;
     const Mat4 world = visit.parent * transform(node);
-    read_node(node, world);
+    worlds_[visit.node] = world;
+    order.push_back(visit.node);
     push(node.indices("children", nodes), world);
   }
+
+  // Only now is known where the joints of skins are.
+  for (const size_t index : order) read_node(document_.element("nodes", index), *worlds_[index]);
 }
 
 Mat4 GltfReader::transform(const GltfObject& node) {
@@ -164,17 +173,10 @@ void GltfReader::read_node(const GltfObject& node, const Mat4& world) {
   const auto lights = document_.extension("KHR_lights_punctual");
   const auto light = node.extension("KHR_lights_punctual");
   if (!mesh && !camera && !light) return;
-  if (!why_singular(world).empty()) {
+  if (mesh) read_mesh(node, *mesh, world);
+  if ((camera || light) && !why_singular(world).empty()) {
     ++flattened_;
     return;
-  }
-  if (node.extension("EXT_mesh_gpu_instancing")) warnings_.left_out("instances (EXT_mesh_gpu_instancing)");
-  if (mesh) {
-    for (const GltfMeshes::Part& part : meshes_.parts(*mesh)) {
-      if (scene_.instances.size() == most_instances)
-        node.fail(fmt::format("is beyond the {} instances that a file may have", most_instances));
-      scene_.instances.push_back({part.mesh, world, part.material, {}});
-    }
   }
   if (camera) read_camera(document_.element("cameras", *camera), world);
   if (light) {
@@ -184,9 +186,32 @@ void GltfReader::read_node(const GltfObject& node, const Mat4& world) {
   }
 }
 
+void GltfReader::read_mesh(const GltfObject& node, size_t mesh, const Mat4& world) {
+  if (node.extension("EXT_mesh_gpu_instancing")) left_out_.add("instances (EXT_mesh_gpu_instancing)");
+  GltfPose pose{{}, node.numbers("weights")};
+  if (const auto skin = node.index("skin", document_.size("skins"))) {
+    auto& joints = joints_[*skin];
+    if (!joints) joints = joint_matrices(document_, buffers_, *skin, worlds_);
+    pose.joints = *joints;
+    if (joints->empty()) left_out_.add("skins whose joints are not in the scene");
+  }
+  // What joints hold is in the world already, wherever its node is.
+  const bool skinned = !pose.joints.empty();
+  if (!skinned && !why_singular(world).empty()) {
+    ++flattened_;
+    return;
+  }
+  for (const GltfMeshes::Part& part :
+       skinned || !pose.weights.empty() ? meshes_.posed_parts(mesh, pose) : meshes_.parts(mesh)) {
+    if (scene_.instances.size() == most_instances)
+      node.fail(fmt::format("is beyond the {} instances that a file may have", most_instances));
+    scene_.instances.push_back({part.mesh, skinned ? Mat4(1.0) : world, part.material, {}});
+  }
+}
+
 // The first one: it looks along −z, and y is up.
 void GltfReader::read_camera(const GltfObject& source, const Mat4& world) {
-  if (scene_.camera) return warnings_.left_out("cameras but the first");
+  if (scene_.camera) return left_out_.add("cameras but the first");
   Camera camera;
   camera.eye = Vec3(world[3]);
   camera.target = camera.eye - unit(Vec3(world[2])) * std::max(1.0, magnitude(camera.eye));
@@ -214,13 +239,13 @@ void GltfReader::read_light(const GltfObject& source, const Mat4& world) {
   const bool right =
       glm::all(glm::greaterThanEqual(light.intensity, Vec3(0))) && magnitude(light.intensity) < 1e12;
   if (!right) source.fail("has an intensity that no light has");
-  if (source.has("range")) warnings_.left_out("ranges of lights");
+  if (source.has("range")) left_out_.add("ranges of lights");
   if (type == "directional") {
     light.type = LightType::directional;
     light.to_light = unit(Vec3(world[2]));
   } else if (type == "point" || type == "spot") {
     light.position = Vec3(world[3]);
-    if (type == "spot") warnings_.left_out("cones of spot lights, which shine as points,");
+    if (type == "spot") left_out_.add("cones of spot lights (they shine as points)");
   } else {
     source.fail("has a type that glTF does not know");
   }

@@ -71,6 +71,8 @@ template <typename T>
 void set(T& element, size_t component, double value) {
   if constexpr (std::is_arithmetic_v<T>) {
     element = static_cast<T>(value);
+  } else if constexpr (std::is_same_v<T, Mat4>) {
+    element[static_cast<int>(component / 4)][static_cast<int>(component % 4)] = value;
   } else {
     element[static_cast<int>(component)] = value;
   }
@@ -193,6 +195,17 @@ std::vector<Vec2> GltfBuffers::vec2(size_t accessor) {
 }
 std::vector<Vec3> GltfBuffers::vec3(size_t accessor) {
   return read<Vec3>(accessor, "VEC3", 3);
+}
+std::vector<Vec4> GltfBuffers::vec4(size_t accessor) {
+  return read<Vec4>(accessor, "VEC4", 4);
+}
+std::vector<Mat4> GltfBuffers::mat4(size_t accessor) {
+  return read<Mat4>(accessor, "MAT4", 16);
+}
+std::vector<Vec3> GltfBuffers::colors(size_t accessor) {
+  if (document_.element("accessors", accessor).text("type") != "VEC4") return vec3(accessor);
+  const std::vector<Vec4> all = vec4(accessor);
+  return {all.begin(), all.end()};
 }
 std::vector<uint32_t> GltfBuffers::indices(size_t accessor) {
   const GltfObject source = document_.element("accessors", accessor);

@@ -31,6 +31,9 @@ class GltfBuffers {
   // The elements of an accessor. Normalized integers are numbers from −1 or 0 to 1.
   std::vector<Vec2> vec2(size_t accessor);
   std::vector<Vec3> vec3(size_t accessor);
+  std::vector<Vec4> vec4(size_t accessor);
+  std::vector<Mat4> mat4(size_t accessor);
+  std::vector<Vec3> colors(size_t accessor);  // RGB, or RGBA without its alpha
   std::vector<uint32_t> indices(size_t accessor);
 
  private:

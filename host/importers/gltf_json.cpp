@@ -97,6 +97,10 @@ std::vector<double> GltfObject::numbers(const char* key, std::vector<double> fal
   return fallback;
 }
 
+std::vector<double> GltfObject::numbers(const char* key) const {
+  return numbers(key, std::vector<double>(size(key)));
+}
+
 std::optional<GltfObject> GltfObject::object(const char* key) const {
   const Json* value = find(key);
   if (!value) return std::nullopt;

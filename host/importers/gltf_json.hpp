@@ -28,6 +28,8 @@ class GltfObject {
   std::string text(const char* key) const;  // "" where there is none
   // The numbers of a list, as many as the fallback, which is taken where there is no list.
   std::vector<double> numbers(const char* key, std::vector<double> fallback) const;
+  // The same, however many there are; empty where there is no list.
+  std::vector<double> numbers(const char* key) const;
   std::optional<GltfObject> object(const char* key) const;
   // A list of objects, of indices, of strings; empty where it is not written.
   size_t size(const char* key) const;

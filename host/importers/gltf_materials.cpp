@@ -1,7 +1,7 @@
 // Metallic-roughness in the terms of Phong and Whitted. With F0 what the surface mirrors at right angles
 // (0.04, or the base colour of a metal) and r its roughness: what is smooth mirrors F0 · (1 − r)², the lights
 // show a Blinn highlight of exponent 2 / r⁴ − 2 (Karis: Specular BRDF Reference, 2013), and what a rough
-// metal does not mirror it scatters.
+// metal does not mirror it scatters. What is unlit shows its base colour as light of its own.
 #include "importers/gltf_materials.hpp"
 
 #include <algorithm>
@@ -26,6 +26,12 @@ Vec3 share(const std::vector<double>& rgb) {
   return {share(rgb[0]), share(rgb[1]), share(rgb[2])};
 }
 
+// Brighter than any screen.
+constexpr double most_emission = 1e6;
+
+// What came before metallic-roughness; of it we take what scatters.
+constexpr const char* specular_glossiness = "KHR_materials_pbrSpecularGlossiness";
+
 // The mean of green and blue, linear: roughness and metalness.
 Vec2 mean_green_blue(const ImageTexture& image) {
   Vec2 sum(0);
@@ -37,6 +43,22 @@ Wrap wrap(uint64_t code) {
   constexpr uint64_t clamp_to_edge = 33071;
   constexpr uint64_t mirrored_repeat = 33648;
   return code == clamp_to_edge ? Wrap::clamp : code == mirrored_repeat ? Wrap::mirror : Wrap::repeat;
+}
+
+GltfUv uv_of(const GltfObject& reference) {
+  GltfUv uv;
+  uv.set = reference.count("texCoord", 0);
+  if (const auto transform = reference.extension("KHR_texture_transform")) {
+    const std::vector<double> offset = transform->numbers("offset", {0, 0});
+    const std::vector<double> scale = transform->numbers("scale", {1, 1});
+    const double turn = transform->number("rotation", 0);
+    const double c = std::cos(turn);
+    const double s = std::sin(turn);
+    uv.set = transform->count("texCoord", uv.set);
+    uv.linear = glm::dmat2(c * scale[0], -s * scale[0], s * scale[1], c * scale[1]);
+    uv.offset = Vec2(offset[0], offset[1]);
+  }
+  return uv;
 }
 
 std::unique_ptr<Material> make_glass(const GltfObject& material) {
@@ -54,16 +76,33 @@ std::unique_ptr<Material> make_glass(const GltfObject& material) {
 
 }  // namespace
 
+void GltfLeftOut::add(const std::string& what, size_t count) {
+  const auto known = std::ranges::find(counts_, what, [](const auto& entry) { return entry.first; });
+  if (known != counts_.end()) {
+    known->second += count;
+  } else {
+    counts_.emplace_back(what, count);
+  }
+}
+
+void GltfLeftOut::report(std::vector<std::string>& warnings) const {
+  std::string list;
+  for (const auto& [what, count] : counts_)
+    list += fmt::format("{}{} ({})", list.empty() ? "left out: " : ", ", what, count);
+  if (!list.empty()) warnings.push_back(list);
+}
+
 struct GltfMaterials::Surface {
   Vec3 base{1};
+  Texture emission = {};
   std::shared_ptr<const ImageTexture> image;
   double metalness = 1;
   double roughness = 1;
 };
 
 GltfMaterials::GltfMaterials(const GltfObject& document, GltfBuffers& buffers, TextureFiles& textures,
-                             GltfWarnings& warnings)
-    : document_(document), buffers_(buffers), textures_(textures), warnings_(warnings) {}
+                             GltfLeftOut& left_out)
+    : document_(document), buffers_(buffers), textures_(textures), left_out_(left_out) {}
 
 ImageTexture GltfMaterials::decode_image(size_t index) {
   const GltfObject image = document_.element("images", index);
@@ -82,12 +121,12 @@ ImageTexture GltfMaterials::decode_image(size_t index) {
 std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& reference, bool srgb) {
   const auto index = reference.index("index", document_.size("textures"));
   if (!index) reference.fail("has no index");
-  if (reference.extension("KHR_texture_transform"))
-    warnings_.left_out("transforms of uv (KHR_texture_transform)");
   const GltfObject texture = document_.element("textures", *index);
   const auto source = texture.index("source", document_.size("images"));
   if (!source) {
-    warnings_.left_out("textures in formats other than PNG and JPEG");
+    const bool webp = texture.extension("EXT_texture_webp").has_value();
+    const bool ktx2 = texture.extension("KHR_texture_basisu").has_value();
+    left_out_.add(webp ? "textures in WebP" : ktx2 ? "textures in KTX2" : "textures without a picture");
     return nullptr;
   }
   constexpr uint64_t nearest = 9728;
@@ -117,17 +156,43 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
   });
 }
 
+// What its picture takes of a mesh's uv must be what the base colour takes: a vertex has one uv.
+Texture GltfMaterials::emission(const GltfObject& material) {
+  Texture emission{share(material.numbers("emissiveFactor", {0, 0, 0})), {}};
+  if (emission.value == Vec3(0)) return emission;
+  if (const auto strength = material.extension("KHR_materials_emissive_strength"))
+    emission.value *= std::clamp(strength->number("emissiveStrength", 1), 0.0, most_emission);
+  const auto reference = material.object("emissiveTexture");
+  if (!reference) return emission;
+  emission.image = texture(*reference, true);
+  if (!emission.image) {
+    emission.value = Vec3(0);
+  } else if (const auto base = base_texture(material); base && uv_of(*reference) != uv_of(*base)) {
+    left_out_.add("emission maps with uv of their own");
+    return {};
+  }
+  return emission;
+}
+
 GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
   Surface surface;
+  if (const auto reference = base_texture(material)) surface.image = texture(*reference, true);
+  surface.emission = emission(material);
   const auto pbr = material.object("pbrMetallicRoughness");
-  if (!pbr) return surface;
+  if (!pbr) {
+    if (const auto old = material.extension(specular_glossiness)) {
+      surface.base = share(old->numbers("diffuseFactor", {1, 1, 1, 1}));
+      surface.metalness = 0;
+      surface.roughness = 1 - share(old->number("glossinessFactor", 1));
+    }
+    return surface;
+  }
   surface.base = share(pbr->numbers("baseColorFactor", {1, 1, 1, 1}));
   surface.metalness = share(pbr->number("metallicFactor", 1));
   surface.roughness = share(pbr->number("roughnessFactor", 1));
-  if (const auto reference = pbr->object("baseColorTexture")) surface.image = texture(*reference, true);
   if (const auto reference = pbr->object("metallicRoughnessTexture")) {
     if (const auto image = texture(*reference, false)) {
-      warnings_.left_out("variations of metalness and roughness within a texture");
+      left_out_.add("variations of metalness and roughness within textures");
       const Vec2 mean = mean_green_blue(*image);
       surface.roughness *= mean.x;
       surface.metalness *= mean.y;
@@ -138,11 +203,14 @@ GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
 
 std::unique_ptr<Material> GltfMaterials::material(size_t index) {
   const GltfObject source = document_.element("materials", index);
-  warn_of_rest(source);
+  note_rest(source);
   std::unique_ptr<Material> made;
   const auto transmission = source.extension("KHR_materials_transmission");
   if (transmission && transmission->number("transmissionFactor", 0) >= 0.5) {
     made = make_glass(source);
+  } else if (source.extension("KHR_materials_unlit")) {
+    const Surface s = surface(source);
+    made = make_phong({.diffuse = Texture{}, .emission = Texture{s.base, {}, s.image}});
   } else {
     const Surface s = surface(source);
     const double smooth = (1 - s.roughness) * (1 - s.roughness);
@@ -158,26 +226,33 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
     if (s.metalness * smooth > 0.95) {
       made = make_mirror({.reflectance = reflectance, .highlight = highlight});
     } else {
-      made = make_phong({.diffuse = diffuse, .reflectance = reflectance, .highlight = highlight});
+      made = make_phong(
+          {.diffuse = diffuse, .reflectance = reflectance, .emission = s.emission, .highlight = highlight});
     }
   }
   made->name = printable(source.text("name"));
   return made;
 }
 
-uint64_t GltfMaterials::uv_set(size_t index) const {
-  const auto pbr = document_.element("materials", index).object("pbrMetallicRoughness");
-  const auto reference = pbr ? pbr->object("baseColorTexture") : std::nullopt;
-  return reference ? reference->count("texCoord", 0) : 0;
+// Of metallic-roughness, or where there is only that of specular-glossiness.
+std::optional<GltfObject> GltfMaterials::base_texture(const GltfObject& material) {
+  if (const auto pbr = material.object("pbrMetallicRoughness")) return pbr->object("baseColorTexture");
+  const auto old = material.extension(specular_glossiness);
+  return old ? old->object("diffuseTexture") : std::nullopt;
 }
 
-void GltfMaterials::warn_of_rest(const GltfObject& material) {
-  if (material.has("normalTexture")) warnings_.left_out("normal maps");
-  if (material.has("occlusionTexture")) warnings_.left_out("occlusion maps");
-  const Vec3 emission = share(material.numbers("emissiveFactor", {0, 0, 0}));
-  if (emission != Vec3(0)) warnings_.left_out("emission and its maps");
+GltfUv GltfMaterials::uv(size_t index) const {
+  const GltfObject material = document_.element("materials", index);
+  auto reference = base_texture(material);
+  if (!reference) reference = material.object("emissiveTexture");
+  return reference ? uv_of(*reference) : GltfUv{};
+}
+
+void GltfMaterials::note_rest(const GltfObject& material) {
+  if (material.has("normalTexture")) left_out_.add("normal maps");
+  if (material.has("occlusionTexture")) left_out_.add("occlusion maps");
   const std::string alpha = material.text("alphaMode");
-  if (alpha == "BLEND" || alpha == "MASK") warnings_.left_out("transparencies by alpha (BLEND, MASK)");
+  if (alpha == "BLEND" || alpha == "MASK") left_out_.add("transparency by alpha");
 }
 
 }  // namespace eyeray

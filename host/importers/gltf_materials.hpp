@@ -2,8 +2,9 @@
 #pragma once
 
 #include <memory>
-#include <set>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "importers/gltf_buffers.hpp"
@@ -12,40 +13,50 @@
 
 namespace eyeray {
 
-// What a file has and we leave out: each is told once.
-class GltfWarnings {
+// What a file has and we leave out, counted.
+class GltfLeftOut {
  public:
-  explicit GltfWarnings(std::vector<std::string>& warnings) : warnings_(warnings) {}
-  void left_out(const std::string& what) {
-    if (told_.insert(what).second) warnings_.push_back(what + " were left out");
-  }
+  void add(const std::string& what, size_t count = 1);
+  // "left out: normal maps (3), animations (1)".
+  void report(std::vector<std::string>& warnings) const;
 
  private:
-  std::vector<std::string>& warnings_;
-  std::set<std::string> told_;
+  std::vector<std::pair<std::string, size_t>> counts_;
+};
+
+// Which of a mesh's sets of uv (TEXCOORD_0, …) a texture takes, and what it makes of them before they are
+// turned over: theirs starts at the top of the picture.
+struct GltfUv {
+  uint64_t set = 0;
+  glm::dmat2 linear{1.0};
+  Vec2 offset{0.0};
+
+  bool operator==(const GltfUv&) const = default;
 };
 
 class GltfMaterials {
  public:
   GltfMaterials(const GltfObject& document, GltfBuffers& buffers, TextureFiles& textures,
-                GltfWarnings& warnings);
+                GltfLeftOut& left_out);
 
   std::unique_ptr<Material> material(size_t index);
-  // Which of a mesh's sets of uv (TEXCOORD_0, …) the material's texture takes.
-  uint64_t uv_set(size_t index) const;
+  // What the material's pictures take of a mesh's uv.
+  GltfUv uv(size_t index) const;
 
  private:
   struct Surface;  // metallic-roughness, as numbers and one picture
 
   Surface surface(const GltfObject& material);
+  Texture emission(const GltfObject& material);
   std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, bool srgb);
   ImageTexture decode_image(size_t index);
-  void warn_of_rest(const GltfObject& material);
+  static std::optional<GltfObject> base_texture(const GltfObject& material);
+  void note_rest(const GltfObject& material);
 
   const GltfObject& document_;
   GltfBuffers& buffers_;
   TextureFiles& textures_;
-  GltfWarnings& warnings_;
+  GltfLeftOut& left_out_;
 };
 
 }  // namespace eyeray

@@ -36,66 +36,79 @@ std::vector<IndexTriangle> assemble(uint64_t mode, const std::vector<uint32_t>& 
 }  // namespace
 
 GltfMeshes::GltfMeshes(const GltfObject& document, GltfBuffers& buffers, const GltfMaterials& materials,
-                       GltfWarnings& warnings, const std::string& file, double smooth)
+                       GltfLeftOut& left_out, const std::string& file, double smooth)
     : document_(document),
       buffers_(buffers),
       materials_(materials),
-      warnings_(warnings),
+      left_out_(left_out),
       file_(file),
       smooth_(smooth),
       parts_(document.size("meshes")) {}
 
 const std::vector<GltfMeshes::Part>& GltfMeshes::parts(size_t index) {
-  if (parts_[index]) return *parts_[index];
+  if (!parts_[index]) parts_[index] = posed_parts(index, {});
+  return *parts_[index];
+}
+
+std::vector<GltfMeshes::Part> GltfMeshes::posed_parts(size_t index, const GltfPose& pose) {
   const GltfObject mesh = document_.element("meshes", index);
+  GltfPose whole = pose;
+  if (whole.weights.empty()) whole.weights = mesh.numbers("weights");
   std::vector<Part> parts;
   for (size_t i = 0; i < mesh.size("primitives"); ++i) {
     const GltfObject primitive = mesh.element("primitives", i);
     const auto material = primitive.index("material", document_.size("materials"));
-    std::optional<Mesh> made = read_primitive(primitive, material);
+    std::optional<Mesh> made = read_primitive(primitive, material, whole);
     if (!made || made->triangles.empty()) continue;
     const std::string name = mesh.text("name");
     made->name = fmt::format("{}: {}", file_, name.empty() ? primitive.place() : printable(name));
     parts.push_back({static_cast<int>(meshes_.size()), material ? static_cast<int>(*material) : -1});
     meshes_.push_back(std::move(*made));
   }
-  parts_[index] = std::move(parts);
-  return *parts_[index];
+  return parts;
 }
 
 // Nothing for points and lines.
-std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std::optional<size_t> material) {
+std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std::optional<size_t> material,
+                                               const GltfPose& pose) {
   const uint64_t mode = primitive.count("mode", triangle_list);
   if (mode < triangle_list) {
-    warnings_.left_out("points and lines");
+    left_out_.add("points and lines");
     return std::nullopt;
   }
   if (mode > triangle_fan) primitive.fail("has a mode that glTF does not know");
-  if (primitive.size("targets") > 0) warnings_.left_out("morph targets");
   const auto attributes = primitive.object("attributes");
   if (!attributes) primitive.fail("has no attributes");
-  if (attributes->has("COLOR_0")) warnings_.left_out("the colours of vertices");
 
   // Read the vertices.
   const size_t accessors = document_.size("accessors");
   const auto positions = attributes->index("POSITION", accessors);
   if (!positions) {
-    warnings_.left_out("meshes without positions");
+    left_out_.add("meshes without positions");
     return std::nullopt;
   }
-  const uint64_t uv_set = material ? materials_.uv_set(*material) : 0;
+  const GltfUv uv_use = material ? materials_.uv(*material) : GltfUv{};
   const auto normals = attributes->index("NORMAL", accessors);
-  const auto uv = attributes->index(fmt::format("TEXCOORD_{}", uv_set).c_str(), accessors);
+  const auto uv = attributes->index(fmt::format("TEXCOORD_{}", uv_use.set).c_str(), accessors);
+  const auto colors = attributes->index("COLOR_0", accessors);
   VertexPool pool;
   pool.positions = buffers_.vec3(*positions);
   if (normals) pool.normals = buffers_.vec3(*normals);
   if (uv) pool.uv = buffers_.vec2(*uv);
-  for (Vec2& place : pool.uv) place.y = 1 - place.y;  // theirs starts at the top of the picture
+  if (colors) pool.colors = buffers_.colors(*colors);
+  for (Vec3& color : pool.colors) color = sound_color(color);
+  for (Vec2& place : pool.uv) {
+    place = uv_use.linear * place + uv_use.offset;
+    place.y = 1 - place.y;  // theirs starts at the top of the picture
+  }
   const auto check = [&](bool has, size_t size) {
     if (has && size != pool.positions.size()) attributes->fail("do not all have as many elements");
   };
   check(normals.has_value(), pool.normals.size());
   check(uv.has_value(), pool.uv.size());
+  check(colors.has_value(), pool.colors.size());
+  add_targets(primitive, pose.weights, document_, buffers_, pool);
+  if (!pose.joints.empty()) move_to_joints(*attributes, pose.joints, document_, buffers_, pool);
 
   // Read the corners.
   std::vector<uint32_t> corners;

@@ -1,4 +1,5 @@
-// The meshes of a glTF file, each converted once, when a node first shows it. Private to the importers.
+// The meshes of a glTF file, each converted once, when a node first shows it, or for each node that bends it.
+// Private to the importers.
 #pragma once
 
 #include <optional>
@@ -6,6 +7,7 @@
 
 #include "importers/gltf_buffers.hpp"
 #include "importers/gltf_materials.hpp"
+#include "importers/gltf_skins.hpp"
 #include "importers/mesh_builder.hpp"
 
 namespace eyeray {
@@ -13,25 +15,28 @@ namespace eyeray {
 class GltfMeshes {
  public:
   GltfMeshes(const GltfObject& document, GltfBuffers& buffers, const GltfMaterials& materials,
-             GltfWarnings& warnings, const std::string& file, double smooth);
+             GltfLeftOut& left_out, const std::string& file, double smooth);
 
   // A primitive of a mesh: an index of all our meshes, and of the file's materials, or −1.
   struct Part {
     int mesh;
     int material;
   };
+  // Those of a mesh, as it is shown everywhere or as one node bends it.
   const std::vector<Part>& parts(size_t index);
+  std::vector<Part> posed_parts(size_t index, const GltfPose& pose);
 
   // All meshes so far, with warnings of what was wrong in them.
   std::vector<Mesh> take(std::vector<std::string>& warnings);
 
  private:
-  std::optional<Mesh> read_primitive(const GltfObject& primitive, std::optional<size_t> material);
+  std::optional<Mesh> read_primitive(const GltfObject& primitive, std::optional<size_t> material,
+                                     const GltfPose& pose);
 
   const GltfObject& document_;
   GltfBuffers& buffers_;
   const GltfMaterials& materials_;
-  GltfWarnings& warnings_;
+  GltfLeftOut& left_out_;
   const std::string& file_;
   double smooth_;  // degrees
   MeshCounts counts_;

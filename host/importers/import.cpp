@@ -69,9 +69,9 @@ ImportedScene import_bytes(std::string bytes, const std::string& name, const Imp
   return read_mesh_file(source);
 }
 
-std::unique_ptr<Material> plain_material() {
-  auto material = make_phong({.diffuse = Texture{Vec3(0.75), {}}});
-  material->name = "plain";
+std::unique_ptr<Material> plain_material(bool colored) {
+  auto material = make_phong({.diffuse = Texture{Vec3(colored ? 1.0 : 0.75), {}}});
+  material->name = colored ? "colored" : "plain";
   return material;
 }
 

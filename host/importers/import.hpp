@@ -42,7 +42,7 @@ ImportedScene import_file(const std::filesystem::path& file, const ImportOptions
 // refers to is refused.
 ImportedScene import_bytes(std::string bytes, const std::string& name, const ImportOptions& options = {});
 
-// What is shown of meshes whose file names no materials: a light grey.
-std::unique_ptr<Material> plain_material();
+// What is shown of meshes whose file names no materials: a light grey, or white where vertices have colours.
+std::unique_ptr<Material> plain_material(bool colored);
 
 }  // namespace eyeray

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel_for.hpp"
+#include "core/srgb.hpp"
 #include "importers/smooth.hpp"
 #include "scene/affine.hpp"
 #include "scene/triangle.hpp"
@@ -35,6 +36,26 @@ std::string counted(size_t count, std::string_view one, std::string_view many) {
 }
 
 }  // namespace
+
+Vec3 sound_color(const Vec3& rgb) {
+  const auto sound = [](double x) { return x > 0 ? std::min(x, 1.0) : 0.0; };
+  return {sound(rgb.x), sound(rgb.y), sound(rgb.z)};
+}
+
+Vec3 color_from_display(const Vec3& rgb) {
+  // Nearly all are codes of 8 bits, and a power takes its time.
+  static const std::vector<double> codes = [] {
+    std::vector<double> table;
+    for (int code = 0; code < 256; ++code) table.push_back(linear_from_srgb(code / 255.0));
+    return table;
+  }();
+  const auto linear = [](double value) {
+    const double code = value * 255;
+    return code == std::floor(code) ? codes[static_cast<size_t>(code)] : linear_from_srgb(value);
+  };
+  const Vec3 sound = sound_color(rgb);
+  return {linear(sound.x), linear(sound.y), linear(sound.z)};
+}
 
 void MeshCounts::report(std::vector<std::string>& warnings) const {
   const auto add = [&](size_t count, std::string_view one, std::string_view many) {
@@ -103,6 +124,7 @@ void MeshBuilder::append(Mesh& mesh, const RawTriangles& raw, const Source& sour
   mesh.positions.push_back(pool_.positions[source.position]);
   if (raw.has_normals) mesh.normals.push_back(normal);
   if (raw.has_uv) mesh.uv.push_back(source.uv == no_index ? Vec2(0) : pool_.uv[source.uv]);
+  if (!pool_.colors.empty()) mesh.colors.push_back(pool_.colors[source.position]);
 }
 
 Mesh MeshBuilder::build(const RawTriangles& raw, double smooth) {

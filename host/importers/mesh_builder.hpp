@@ -34,7 +34,13 @@ struct VertexPool {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  // of any length
   std::vector<Vec2> uv;
+  std::vector<Vec3> colors;  // linear RGB, one a position, or none
 };
+
+// Within 0 to 1; 0 for what is not a number.
+Vec3 sound_color(const Vec3& rgb);
+// From values that are shown as they are, which is how PLY and OBJ have colours.
+Vec3 color_from_display(const Vec3& rgb);
 
 // Triangles as indices of a pool, in range.
 struct RawTriangles {

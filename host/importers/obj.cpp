@@ -54,7 +54,6 @@ class ObjReader {
   std::vector<Part> parts;
   ObjMaterials materials;
   size_t lines_and_points = 0;
-  bool colors = false;
   bool curves = false;
 
  private:
@@ -152,7 +151,13 @@ void ObjReader::read_vertex() {
   const int count = read_numbers(numbers, 7);
   if (count < 3) fail(begin_, "a vertex has three numbers");
   vertices.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
-  colors = colors || count >= 6;
+  if (count < 6 && vertices.colors.empty()) return;
+
+  // A colour comes last, behind the weight where there is one. Vertices without one are white.
+  vertices.colors.resize(vertices.positions.size() - 1, Vec3(1));
+  const auto first = static_cast<size_t>(count) - 3;
+  vertices.colors.push_back(
+      count < 6 ? Vec3(1) : color_from_display({numbers[first], numbers[first + 1], numbers[first + 2]}));
 }
 
 // As many numbers as there are, up to `most`; what follows them is left.
@@ -281,7 +286,6 @@ ImportedScene import_obj(MeshFile& file) {
   }
   if (reader.lines_and_points > 0)
     scene.warnings.push_back(fmt::format("{} lines and points were left out", reader.lines_and_points));
-  if (reader.colors) scene.warnings.emplace_back("the colours of vertices were left out");
   if (reader.curves) scene.warnings.emplace_back("free-form curves and surfaces were left out");
   counts.report(scene.warnings);
   return scene;

@@ -14,16 +14,46 @@ namespace eyeray {
 namespace {
 
 // What a property of a vertex is, or none of it.
-enum Slot { x, y, z, nx, ny, nz, u, v, none };
+enum Slot { x, y, z, nx, ny, nz, u, v, red, green, blue, none };
 
 constexpr std::pair<std::string_view, Slot> slot_names[] = {
-    {"x", x}, {"y", y}, {"z", z}, {"nx", nx},       {"ny", ny},       {"nz", nz},       {"s", u},
-    {"t", v}, {"u", u}, {"v", v}, {"texture_u", u}, {"texture_v", v}, {"texture_s", u}, {"texture_t", v},
+    {"x", x},
+    {"y", y},
+    {"z", z},
+    {"nx", nx},
+    {"ny", ny},
+    {"nz", nz},
+    {"s", u},
+    {"t", v},
+    {"u", u},
+    {"v", v},
+    {"texture_u", u},
+    {"texture_v", v},
+    {"texture_s", u},
+    {"texture_t", v},
+    {"red", red},
+    {"green", green},
+    {"blue", blue},
+    {"r", red},
+    {"g", green},
+    {"b", blue},
+    {"diffuse_red", red},
+    {"diffuse_green", green},
+    {"diffuse_blue", blue},
 };
 
-bool is_color(std::string_view name) {
-  if (name.starts_with("diffuse_")) name.remove_prefix(8);
-  return name == "red" || name == "green" || name == "blue" || name == "alpha";
+// What a colour is at its brightest.
+double brightest(PlyType type) {
+  switch (type) {
+    case PlyType::uint8:
+    case PlyType::int8:
+      return 255;
+    case PlyType::uint16:
+    case PlyType::int16:
+      return 65535;
+    default:
+      return 1;
+  }
 }
 
 // The corners of polygons, one after the other.
@@ -102,12 +132,12 @@ void PlyReader<Values>::read_vertices(const PlyElement& element) {
   if (!has[x] || !has[y] || !has[z]) values_.fail("the vertices have no x, y and z");
   const bool normals = has[nx] && has[ny] && has[nz];
   const bool uv = has[u] && has[v];
-  if (std::ranges::any_of(element.properties, is_color, &PlyProperty::name))
-    warnings.emplace_back("the colours of vertices were left out");
+  const bool colors = has[red] && has[green] && has[blue];
 
   vertices.positions.reserve(element.count);
   if (normals) vertices.normals.reserve(element.count);
   if (uv) vertices.uv.reserve(element.count);
+  if (colors) vertices.colors.reserve(element.count);
   std::array<double, none + 1> row{};
   for (uint64_t i = 0; i < element.count; ++i) {
     for (size_t k = 0; k < meaning.size(); ++k) {
@@ -115,12 +145,14 @@ void PlyReader<Values>::read_vertices(const PlyElement& element) {
       if (property.list) {
         skip_value(property);
       } else {
-        row[meaning[k]] = values_.next(property.type);
+        const double value = values_.next(property.type);
+        row[meaning[k]] = meaning[k] >= red ? value / brightest(property.type) : value;
       }
     }
     vertices.positions.emplace_back(row[x], row[y], row[z]);
     if (normals) vertices.normals.emplace_back(row[nx], row[ny], row[nz]);
     if (uv) vertices.uv.emplace_back(row[u], row[v]);
+    if (colors) vertices.colors.push_back(color_from_display({row[red], row[green], row[blue]}));
   }
 }
 

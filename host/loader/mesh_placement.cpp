@@ -35,12 +35,14 @@ void MeshPlacer::take_materials(ImportedScene& import, Place& place) {
   std::ranges::move(import.materials, std::back_inserter(scene_.materials));
 }
 
-int MeshPlacer::plain_material_index() {
-  if (plain_ < 0) {
-    plain_ = static_cast<int>(scene_.materials.size());
-    scene_.materials.push_back(plain_material());
+int MeshPlacer::plain_material_index(const Mesh& mesh) {
+  const bool colored = !mesh.colors.empty();
+  int& index = plain_[colored];
+  if (index < 0) {
+    index = static_cast<int>(scene_.materials.size());
+    scene_.materials.push_back(plain_material(colored));
   }
-  return plain_;
+  return index;
 }
 
 std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
@@ -79,9 +81,10 @@ std::string MeshPlacer::place(ImportedScene& import, const Mat4& transform, std:
     Instance placed{place.first_mesh + instance.mesh, transform * instance.transform, 0, position};
     if (std::string wrong = check(static_cast<size_t>(placed.mesh), placed.transform); !wrong.empty())
       return wrong;
-    placed.material = material                ? *material
-                      : instance.material < 0 ? plain_material_index()
-                                              : place.first_material + instance.material;
+    placed.material = material ? *material
+                      : instance.material < 0
+                          ? plain_material_index(scene_.meshes[static_cast<size_t>(placed.mesh)])
+                          : place.first_material + instance.material;
     scene_.instances.push_back(std::move(placed));
   }
   return "";

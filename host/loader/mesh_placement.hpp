@@ -35,13 +35,13 @@ class MeshPlacer {
 
   void take_meshes(ImportedScene& import, Place& place);
   void take_materials(ImportedScene& import, Place& place);
-  int plain_material_index();
+  int plain_material_index(const Mesh& mesh);
   std::string check(size_t mesh, const Mat4& transform) const;
 
   Scene& scene_;
   std::map<const ImportedScene*, Place> places_;
   std::vector<Extent> extents_;  // one a mesh of the scene
-  int plain_ = -1;
+  int plain_[2] = {-1, -1};  // the materials of meshes that have none: without and with colours of vertices
 };
 
 }  // namespace eyeray

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scene/affine.hpp"
 
@@ -9,8 +10,8 @@ namespace eyeray {
 
 namespace {
 
-constexpr double fov_degrees = 40;
-const Vec3 towards_eye = glm::normalize(Vec3(0.6, 0.45, 1.0));
+constexpr double fov_degrees = 30;
+const Vec3 towards_eye = glm::normalize(Vec3(0.6, 0.55, 1.0));
 // How much of the picture's shorter side is left free.
 constexpr double margin = 0.06;
 
@@ -45,21 +46,31 @@ void each_point(const ImportedScene& import, const Visit& visit) {
 Camera framing(const ImportedScene& import) {
   Bounds box;
   each_point(import, [&](const Vec3& p) { box.include(p); });
-  Camera camera;
-  camera.fov_degrees = fov_degrees;
-  camera.fov_axis = FovAxis::shorter;
-  camera.target = box.min + (box.max - box.min) / 2.0;
+  const Vec3 centre = box.min + (box.max - box.min) / 2.0;
+
+  // Four planes through the eye bound what is seen. Push each towards the points until it touches one: two
+  // that face each other then meet where the nearest eye is by that direction. The farther one of both
+  // directions sees everything, with as much room on either side.
   const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), towards_eye));
   const Vec3 up = glm::cross(towards_eye, right);
   const double slope = std::tan(glm::radians(fov_degrees / 2)) * (1 - margin);
-  double distance = 0;
+  constexpr double lowest = std::numeric_limits<double>::lowest();
+  Vec2 most[2] = {Vec2(lowest), Vec2(lowest)};  // by right and up: on the positive side, on the negative
   each_point(import, [&](const Vec3& p) {
-    const Vec3 from_target = p - camera.target;
-    const double aside =
-        std::max(std::fabs(glm::dot(from_target, right)), std::fabs(glm::dot(from_target, up)));
-    distance = std::max(distance, glm::dot(from_target, towards_eye) + aside / slope);
+    const Vec3 from_centre = p - centre;
+    const double nearer = slope * glm::dot(from_centre, towards_eye);
+    const Vec2 aside(glm::dot(from_centre, right), glm::dot(from_centre, up));
+    most[0] = glm::max(most[0], aside + nearer);
+    most[1] = glm::max(most[1], -aside + nearer);
   });
-  camera.eye = camera.target + towards_eye * distance;
+  const Vec2 middle = (most[0] - most[1]) / 2.0;
+  const Vec2 distance = (most[0] + most[1]) / (2 * slope);
+
+  Camera camera;
+  camera.fov_degrees = fov_degrees;
+  camera.fov_axis = FovAxis::shorter;
+  camera.target = centre + right * middle.x + up * middle.y;
+  camera.eye = camera.target + towards_eye * std::max(distance.x, distance.y);
   return camera;
 }
 

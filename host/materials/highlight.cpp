@@ -24,7 +24,8 @@ static uint32_t shadow_density(double transmittance) {
 shader::Material make_record(uint32_t kind, const Highlight& highlight, double shadow_transmittance,
                              Packer& packer) {
   const uint32_t black = packer.add_texture({});
-  return {.head = {kind, highlight.blinn ? MATERIAL_BLINN : 0u, 0u, shadow_density(shadow_transmittance)},
+  const uint32_t flags = (highlight.blinn ? MATERIAL_BLINN : 0u) | black << MATERIAL_EMISSION_SHIFT;
+  return {.head = {kind, flags, 0u, shadow_density(shadow_transmittance)},
           .textures = {black, packer.add_texture(highlight.specular), black, black},
           .parameters = shader::vec4(float(highlight.shininess), 0.0f, 0.0f, 0.0f)};
 }

@@ -34,8 +34,8 @@ inline constexpr Key highlight_key{
     .choices = highlight_models};
 Highlight read_highlight(const TableReader& table);
 
-// The record of a material of `kind`, with its highlight and its shadow density; base, reflected and ambient
-// are black, and it has no medium.
+// The record of a material of `kind`, with its highlight and its shadow density; base, reflected, ambient
+// and emission are black, and it has no medium.
 shader::Material make_record(uint32_t kind, const Highlight& highlight, double shadow_transmittance,
                              Packer& packer);
 

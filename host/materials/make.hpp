@@ -14,6 +14,7 @@ struct PhongValues {
   Texture diffuse{Vec3(0.8), {}};
   std::optional<Texture> ambient = {};  // absent: as diffuse
   Texture reflectance = {};
+  Texture emission = {};
   Highlight highlight = {};
 };
 std::unique_ptr<Material> make_phong(const PhongValues& values);

@@ -18,7 +18,7 @@ specular = 0.3
 shininess = 50
 ```
 
-colour = ambient · (the scene's ambient light) + Σ light · (diffuse · n·l + specular · lobe) + reflectance · (what the mirror
+colour = emission + ambient · (the scene's ambient light) + Σ light · (diffuse · n·l + specular · lobe) + reflectance · (what the mirror
 direction sees), summed over the lights that the point sees and that stand before it. These are the classic units,
 without a factor π: a white surface square to a light of intensity 1 shows 1. `lobe` is max(0, r·v)^shininess with
 r the mirrored direction of the light (`highlight = "phong"`) or max(0, n·h)^shininess with h halfway between light and
@@ -42,6 +42,10 @@ constexpr Key keys[] = {
      .doc = "Share of what the mirror direction sees.",
      .fallback = "0",
      .max = 1},
+    {.name = "emission",
+     .type = KeyType::texture,
+     .doc = "Light of the surface's own, whatever shines on it; it lights nothing else.",
+     .fallback = "0"},
     specular_key,
     shininess_key,
     highlight_key,
@@ -53,8 +57,9 @@ class Phong final : public Material {
 
   Scattering scattering(const ScatteringContext& context) const override {
     Scattering scattering;
-    scattering.ambient = ambient().at(context.uv);
-    scattering.diffuse = values_.diffuse.at(context.uv);
+    scattering.ambient = ambient().at(context.uv) * context.color;
+    scattering.diffuse = values_.diffuse.at(context.uv) * context.color;
+    scattering.emitted = values_.emission.at(context.uv) * context.color;
     scattering.reflected = values_.reflectance.at(context.uv);
     values_.highlight.apply(context.uv, scattering);
     return scattering;
@@ -67,6 +72,8 @@ class Phong final : public Material {
     record.textures[0] = packer.add_texture(values_.diffuse);
     record.textures[2] = packer.add_texture(values_.reflectance);
     record.textures[3] = packer.add_texture(ambient());
+    record.head.y = (record.head.y & MATERIAL_BLINN) | packer.add_texture(values_.emission)
+                                                           << MATERIAL_EMISSION_SHIFT;
     packer.add(record);
   }
 
@@ -79,6 +86,7 @@ class Phong final : public Material {
 std::unique_ptr<Material> parse(TableReader& table) {
   PhongValues values{.diffuse = table.texture("diffuse"),
                      .reflectance = table.texture("reflectance"),
+                     .emission = table.texture("emission"),
                      .highlight = read_highlight(table)};
   if (table.has("ambient")) values.ambient = table.texture("ambient");
   if (table.failed()) return nullptr;

@@ -29,6 +29,7 @@ struct PackedScene {
   bool quantised_nodes = false;  // how `nodes` are coded
   uint32_t stack_size = 1;       // what a walk through the trees may have waiting
   std::vector<shader::uvec4> vertices;
+  bool vertex_colors = false;  // whether any of `vertices` have colours
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
   std::vector<uint32_t> texels;                                   // records.h says how; empty without images

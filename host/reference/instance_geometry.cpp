@@ -54,6 +54,7 @@ SurfacePoint InstanceGeometry::surface(const Ray&, const TriangleHit& hit) const
     const Vec3 shading = to_world_.cotangent * interpolate(mesh.normals, triangle, hit);
     if (glm::dot(shading, point.normal_geometric) > 0) point.normal = unit(shading);
   }
+  if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, triangle, hit);
   point.uv = mesh.uv.empty() ? Vec2(hit.u, hit.v) : interpolate(mesh.uv, triangle, hit);
 
   // The next ray starts here and goes back into the mesh's space: there it may be off by the rounding of both

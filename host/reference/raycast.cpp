@@ -24,8 +24,8 @@ PixelSample raycast(const Tracer& tracer, const Ray& ray) {
       if (cosine > 0) light += illumination.color * cosine;
     }
   }
-  return {
-      .color = scene.materials[size_t(hit->material)]->base_color(surface.uv) * light, .rays = 1, .hits = 1};
+  const Vec3 base = scene.materials[size_t(hit->material)]->base_color(surface.uv) * surface.color;
+  return {.color = base * light, .rays = 1, .hits = 1};
 }
 
 }  // namespace eyeray::reference

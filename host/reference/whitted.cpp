@@ -93,7 +93,8 @@ Vec3 Tree::radiance(const Path& path) {
     }
   }
   const double ior_beyond = medium(beyond).ior;
-  const Scattering scattering = material.scattering({view.surface.uv, view.cos_view, before.ior, ior_beyond});
+  const Scattering scattering =
+      material.scattering({view.surface.uv, view.cos_view, before.ior, ior_beyond, view.surface.color});
 
   // Add up the light that the point scatters, mirrors and lets through, and dim it on its way here.
   Path arrived = path;
@@ -116,10 +117,11 @@ Vec3 Tree::child(const Path& path, const View& view, const Vec3& d, const MediaS
   return share * radiance({leave(view.surface, d), media, path.depth + 1, weight});
 }
 
-// The scene's ambient light, and that of each light which stands before the surface and is seen from it.
+// Its own light, the scene's ambient one, and that of each light which stands before the surface and is seen
+// from it.
 Vec3 Tree::direct(const View& view, const Scattering& scattering) {
   const Vec3 n = view.surface.normal;
-  Vec3 color = scattering.ambient * scene_.render.ambient;
+  Vec3 color = scattering.emitted + scattering.ambient * scene_.render.ambient;
   for (const Light& light : scene_.lights) {
     const auto [l, arriving, distance] = illuminate(light, view.surface.position);
     const double cosine = glm::dot(n, l);

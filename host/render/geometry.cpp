@@ -133,6 +133,7 @@ class GeometryPacker {
       const Mesh& mesh = scene_.meshes[size_t(instance.mesh)];
       const Affine map(instance.transform);
       if (mesh.triangles.empty()) continue;
+      packed_.vertex_colors = packed_.vertex_colors || !mesh.colors.empty();
       if (uses_[size_t(instance.mesh)] == 1 || mesh.triangles.size() == 1) {
         baked_.push_back({uint32_t(boxes_.size()),
                           {mesh, map, scene_.camera.eye, instance.material,

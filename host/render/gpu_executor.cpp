@@ -182,7 +182,7 @@ class GpuExecutor final : public Executor {
     geometry_bytes_ = uploaded_;
     add_buffer(BINDING_MATERIALS, "materials", std::span(packed.materials));
     add_buffer(BINDING_TEXTURES, "textures", std::span(packed.textures));
-    add_buffer(BINDING_TEXELS, "texels", std::span(packed.texels));
+    add_buffer(BINDING_TEXELS, "texels", std::span(packed.texels), kind);
     add_buffer(BINDING_MEDIA, "media", std::span(packed.media));
     add_buffer(BINDING_LIGHTS, "lights", std::span(packed.lights));
     add_buffer(BINDING_FRAME, "frame", std::span(&packed.frame, 1));

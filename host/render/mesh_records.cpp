@@ -15,26 +15,31 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
     : mesh_(&mesh), map_(map), origin_(origin), mirrored_(map.mirrors()) {
   const bool normals = !mesh.normals.empty();
   const bool uv = !mesh.uv.empty();
+  const bool colors = !mesh.colors.empty();
   head_ = Packer::head(shader::KIND_triangle, material);
   head_.x = first_id;
   head_.z = density;
-  if (!normals && !uv) return;
+  if (!normals && !uv && !colors) return;
 
   // What corners look up, and by triangle which its corners are.
   const auto first_vertex = uint32_t(vertices.size());
-  const auto first_corners = uint32_t(first_vertex + mesh.positions.size());
+  const uint32_t vertex_records = colors ? 2 : 1;
+  const auto first_corners = uint32_t(first_vertex + mesh.positions.size() * vertex_records);
   head_.w = first_corners;
   corner_records_ = uv ? 2 : 1;
   vertices.resize(first_corners + mesh.triangles.size() * corner_records_);
   parallel_for(0, int(mesh.positions.size()), [&](int i) {
     const Vec3 normal = normals ? map.normal(mesh.normals[size_t(i)]) : Vec3(0);
-    vertices[first_vertex + size_t(i)] = to_bits(to_vec4(normal, uv ? mesh.uv[size_t(i)].x : 0.0));
+    shader::uvec4* vertex = &vertices[first_vertex + size_t(i) * vertex_records];
+    vertex[0] = to_bits(to_vec4(normal, uv ? mesh.uv[size_t(i)].x : 0.0));
+    if (colors) vertex[1] = to_bits(to_vec4(mesh.colors[size_t(i)]));
   });
   parallel_for(0, int(mesh.triangles.size()), [&](int i) {
     const auto& [v0, v1, v2] = mesh.triangles[size_t(i)];
     shader::uvec4* corners = &vertices[first_corners + size_t(i) * corner_records_];
-    corners[0] = {first_vertex + v0, first_vertex + v1, first_vertex + v2,
-                  (normals ? CORNERS_NORMALS : 0u) | (uv ? CORNERS_UV : 0u)};
+    corners[0] = {first_vertex + v0 * vertex_records, first_vertex + v1 * vertex_records,
+                  first_vertex + v2 * vertex_records,
+                  (normals ? CORNERS_NORMALS : 0u) | (uv ? CORNERS_UV : 0u) | (colors ? CORNERS_COLORS : 0u)};
     if (uv) corners[1] = to_bits(to_vec4({mesh.uv[v0].y, mesh.uv[v1].y, mesh.uv[v2].y}));
   });
 }

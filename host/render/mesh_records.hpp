@@ -18,7 +18,7 @@ class MeshRecords {
  public:
   // The triangles of `mesh` under `map`, with `origin` as the origin: positions are rounded after it was
   // subtracted. Their ids count from `first_id`; `density` is what a shadow ray loses to each. Appends
-  // normals and texture coordinates to `vertices`.
+  // normals, texture coordinates and colours to `vertices`.
   MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin, int material, uint32_t density,
               uint32_t first_id, std::vector<shader::uvec4>& vertices);
 

@@ -85,8 +85,7 @@ std::string constants(const PackedScene& scene) {
                      constant_loader("Texture", "texture", scene.textures) +
                      constant_loader("Medium", "medium", scene.media) +
                      constant_loader("Light", "light", scene.lights) +
-                     constant_loader("Primitive", "primitive", scene.primitives) +
-                     "uint load_texel(uint i) { return texels[i]; }\n";
+                     constant_loader("Primitive", "primitive", scene.primitives);
   text += "#define SCENE_PRIMITIVES(X)";
   for (size_t i = 0; i < scene.primitives.size(); ++i)
     text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[kind_of(scene.primitives[i])].name, i, i);
@@ -98,6 +97,13 @@ bool is_small(const PackedScene& scene) {
          scene.vertices.size() + scene.materials.size() + scene.textures.size() + scene.media.size() +
                  scene.lights.size() <=
              most_records;
+}
+
+bool any_emits(const PackedScene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const shader::Material& material) {
+    const shader::Texture& emission = scene.textures[material.head.y >> MATERIAL_EMISSION_SHIFT];
+    return emission.even != shader::vec4(0, 0, 0, TEXTURE_CONSTANT);
+  });
 }
 
 }  // namespace
@@ -128,6 +134,8 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.counts.w));
   define("HAS_CHECKER", int(checker));
   define("HAS_IMAGES", int(images));
+  define("HAS_COLORS", int(scene.vertex_colors));
+  define("HAS_EMISSION", int(any_emits(scene)));
   define("HAS_MEDIA", int(media));
   // Only where a ray splits in two does a child wait, and one a level at most.
   define("WHITTED_STACK", media ? scene.frame.camera.w : 0u);

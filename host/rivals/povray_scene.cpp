@@ -62,7 +62,8 @@ std::string texture(const Material& material, const Vec3& ambient_light) {
   const Vec3 pigment = glm::max(s.diffuse, Vec3(1e-6));
   return fmt::format(
       "texture {{ pigment {{ rgb {} }} finish {{ diffuse 1 ambient rgb {} {} reflection rgb {} }} }}",
-      vector(pigment), vector(s.ambient * ambient_light / pigment), highlight, vector(s.reflected));
+      vector(pigment), vector((s.ambient * ambient_light + s.emitted) / pigment), highlight,
+      vector(s.reflected));
 }
 
 // "texture { M3 }", and the interior of glass.

@@ -30,6 +30,7 @@ struct Scattering {
   bool blinn = false;     // lobe (n·h)^shininess instead of Phong's (r·l)^shininess
   Vec3 reflected{0.0};    // × what the mirror direction sees
   Vec3 transmitted{0.0};  // × what the refracted direction sees; 0 under total internal reflection
+  Vec3 emitted{0.0};      // light of its own, which lights nothing else
 };
 
 // What a material may depend on at a point.
@@ -38,6 +39,7 @@ struct ScatteringContext {
   double cos_view;  // cosine between the shading normal and the direction back along the ray, in [0, 1]
   double ior_from;  // of the medium the ray comes through
   double ior_to;    // of the medium behind the surface
+  Vec3 color{1.0};  // of a mesh's vertices: what the colours that scatter are multiplied by
 };
 
 class Material {

@@ -34,6 +34,7 @@ struct SurfacePoint {
   Vec3 normal_geometric;  // unit; outward for closed shapes, by counter-clockwise winding for open ones
   Vec3 normal;            // unit shading normal, on the side of normal_geometric
   Vec2 uv;
+  Vec3 color{1.0};  // of a mesh's vertices
 };
 
 // A shape in the terms that other renderers share.

@@ -72,6 +72,8 @@ class Binding {
 #define WHITTED_STACK 64
 #define HAS_CHECKER 1
 #define HAS_IMAGES 1
+#define HAS_COLORS 1
+#define HAS_EMISSION 1
 #define HAS_MEDIA 1
 
 #undef SHADER_BEGIN

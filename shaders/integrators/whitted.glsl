@@ -17,10 +17,13 @@ struct PathRay {
   uint media;
 };
 
-// Ambient light and what every visible light adds at a point, after `depth` reflections and refractions.
+// Its own light, the ambient one and what every visible light adds at a point, after `depth` reflections and refractions.
 vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface seen, vec3 to_viewer,
                   uint depth, INOUT(uvec4) counts) {
   vec3 color = scattering.ambient * vec3(frame.ambient);
+#if HAS_EMISSION
+  color = color + scattering.emitted;
+#endif
   for (uint i = 0u; i < LIGHT_COUNT; i++) {
     counts.w += 1u + TRACE_ITERATIONS;
     LightSample light = sample_light(load_light(i), seen.p);
@@ -88,6 +91,10 @@ Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, 
     float cos_view = minimum(maximum(-dot3(ray.d, seen.normal), 0.0f), 1.0f);
     ScatteringContext context;
     context.uv = surface.uv;
+    context.color = vec3(1.0f, 1.0f, 1.0f);
+#if HAS_COLORS
+    context.color = vertex_color(primitive, hit);
+#endif
     context.cos_view = cos_view;
     context.ior_from = 1.0f;
     context.ior_to = 1.0f;

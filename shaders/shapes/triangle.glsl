@@ -101,5 +101,18 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   return surface;
 }
 
+#if HAS_COLORS
+// What a mesh's vertices multiply the material's colour by; white where they say nothing, and for other shapes, which have no corners.
+vec3 vertex_color(Primitive s, Hit hit) {
+  if (s.head.w == NONE) return vec3(1.0f, 1.0f, 1.0f);
+  uvec4 corners = load_vertex(s.head.w);
+  if ((corners.w & CORNERS_COLORS) == 0u) return vec3(1.0f, 1.0f, 1.0f);
+  vec3 a = vec3(bits_to_floats(load_vertex(corners.x + 1u)));
+  vec3 b = vec3(bits_to_floats(load_vertex(corners.y + 1u)));
+  vec3 c = vec3(bits_to_floats(load_vertex(corners.z + 1u)));
+  return (a * ((1.0f - hit.uv.x) - hit.uv.y) + b * hit.uv.x) + c * hit.uv.y;
+}
+#endif
+
 SHADER_END
 #endif

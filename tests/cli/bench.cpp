@@ -82,6 +82,49 @@ TEST_CASE("rays are raced beside Embree, plotted, and compared with an older run
   CHECK(run_eyeray({"bench", "-s", "70000x1"}).code == 2);
 }
 
+TEST_CASE("a mesh from its file to a picture, beside POV-Ray and an older run") {
+  const SceneFolder folder;
+  const auto run = [&](std::vector<std::string> more) {
+    const std::vector<std::string> command{"bench", "terrain-51k", "scenes/meshes/gem.obj", "-n", "1", "-s",
+                                           "64x48", "--no-rays"};
+    more.insert(more.begin(), command.begin(), command.end());
+    return run_eyeray(more);
+  };
+  const ProcessResult json = run({"--json"});
+  CAPTURE(json.err);
+  REQUIRE(json.code == 0);
+  const auto pictures = nlohmann::json::parse(json.out).at("bench");
+  REQUIRE(pictures.size() == 2);
+  CHECK(pictures[0].at("scene") == "terrain-51k");
+  CHECK(pictures[0].at("primitives") == 51200);
+  const bool povray = std::system("povray --version > /dev/null 2>&1") == 0;
+  for (const auto& picture : pictures) {
+    std::vector<std::string> names;
+    for (const auto& series : picture.at("series")) {
+      names.push_back(series.at("name"));
+      if (names.back() == "povray") continue;
+      CHECK(series.at("seconds").at("load").at("median") > 0);
+      CHECK(series.at("seconds").at("pack").at("median") > 0);
+      CHECK(series.at("peak_memory").at("median") > 1 << 20);
+    }
+    const std::vector<std::string> ours{"gpu", "cold start", "warm start"};
+    const std::vector<std::string> all{"gpu", "povray", "cold start", "warm start"};
+    CHECK(names == (povray ? all : ours));
+  }
+
+  write_text(folder / "old.json", json.out);
+  const ProcessResult text = run({"--compare", folder / "old.json"});
+  CHECK(text.code == 0);
+  CHECK(text.out.find("bytes a primitive") != std::string::npos);
+  CHECK(text.out.find("time to first pixel: cold start ") != std::string::npos);
+  for (const char* row : {"gpu          whole process", "gpu          tracing", "warm start   memory"}) {
+    CAPTURE(row);
+    CHECK(text.out.find(row) != std::string::npos);
+  }
+  write_text(folder / "wrong.json", R"({"bench": [{"scene": "terrain-51k"}], "field": []})");
+  CHECK(run({"--compare", folder / "wrong.json"}).code == 2);
+}
+
 TEST_CASE("bench as text, and a scene that is not there") {
   const SceneFolder folder;
   const ProcessResult text = run_eyeray({"bench", folder.scene(), "-n", "1", "-s", "16x16", "--no-start"});

@@ -108,6 +108,18 @@ TEST_CASE("each material has its mesh, and its .mtl is read") {
   CHECK(scene.files.size() == 3);
 }
 
+TEST_CASE("colours of vertices, with and without a weight before them; those without are white") {
+  const ImportedScene scene = import_sound(
+      "v 0 0 0\nv 1 0 0 1 0.5 0\nv 1 1 0 1 0 7 nan\nv 0 1 0 1 0.25 0.5 0.75\nf 1 2 3 4\n", "a.obj");
+  const std::vector<Vec3>& colors = scene.meshes[0].colors;
+  REQUIRE(colors.size() == 4);
+  CHECK(colors[0] == Vec3(1));
+  CHECK(colors[1].y == doctest::Approx(0.2140).epsilon(1e-3));
+  CHECK(colors[2] == Vec3(0, 1, 0));
+  CHECK(colors[3].x == doctest::Approx(0.0509).epsilon(1e-2));
+  CHECK(scene.warnings.empty());
+}
+
 TEST_CASE("materials outside the folder tree are not read") {
   const Folder folder;
   folder.write("red.mtl", "newmtl red\nKd 1 0 0\n");

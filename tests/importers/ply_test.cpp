@@ -92,7 +92,36 @@ TEST_CASE("other elements and properties are stepped over, wherever they are") {
   CHECK(mesh.positions[1] == Vec3(1, 0, 0));
   CHECK(mesh.normals[1] == Vec3(0, 0, 1));
   CHECK(mesh.uv == std::vector<Vec2>{{0, 0}, {5, 0}, {0, -1}});
-  CHECK(scene.warnings == std::vector<std::string>{"the colours of vertices were left out"});
+  CHECK(mesh.colors.empty());  // red alone is no colour
+  CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("colours of vertices, of every type, are what a screen shows") {
+  for (const auto& [type, one] :
+       {std::pair("uchar", 255.0), std::pair("ushort", 65535.0), std::pair("float", 1.0)}) {
+    for (const std::string prefix : {"", "diffuse_"}) {
+      CAPTURE(type);
+      Bytes data;
+      for (const Vec2& p : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}) {
+        data.add(float(p.x)).add(float(p.y)).add(0.0f);
+        data.add_as(type, p.x * one).add_as(type, one).add_as(type, std::floor(0.6 * one * p.y));
+      }
+      data.add(uint8_t(3)).add(0).add(1).add(2);
+      const ImportedScene scene = import_sound(
+          header("binary_little_endian",
+                 fmt::format("element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                             "property {0} {1}red\nproperty {0} {1}green\nproperty {0} {1}blue\n"
+                             "element face 1\nproperty list uchar int vertex_indices\n",
+                             type, prefix)) +
+              data.text(),
+          "a.ply");
+      const std::vector<Vec3>& colors = scene.meshes[0].colors;
+      REQUIRE(colors.size() == 3);
+      CHECK(colors[0] == Vec3(0, 1, 0));
+      CHECK(colors[1] == Vec3(1, 1, 0));
+      if (one > 1) CHECK(colors[2].z == doctest::Approx(0.3185).epsilon(1e-3));
+    }
+  }
 }
 
 TEST_CASE("names of uv") {

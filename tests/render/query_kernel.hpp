@@ -32,7 +32,7 @@ class QueryKernel {
     add(BINDING_INSTANCES, std::as_bytes(std::span(scene.instances)));
     add(BINDING_MATERIALS, std::as_bytes(std::span(scene.materials)));
     add(BINDING_TEXTURES, std::as_bytes(std::span(scene.textures)));
-    add(BINDING_TEXELS, std::as_bytes(std::span(scene.texels)));
+    add(BINDING_TEXELS, std::as_bytes(std::span(scene.texels)), large);
     add(BINDING_MEDIA, std::as_bytes(std::span(scene.media)));
     add(BINDING_LIGHTS, std::as_bytes(std::span(scene.lights)));
     add(BINDING_FRAME, std::as_bytes(std::span(&scene.frame, 1)));

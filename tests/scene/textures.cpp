@@ -84,14 +84,17 @@ TEST_CASE("images at random: the GPU is the twin, bit by bit, and the reference 
   for (const auto& [across, down] : {std::pair{3, 3}, {3, 3}, {9, 7}}) {
     const Scene scene = patchwork(random, across, down);
     const Frame twin = render_frame(scene, Backend::twin);
-    for (const bool constants : {true, false}) {
-      CAPTURE(constants);
-      ExecutorOptions options;
-      options.constants = constants;
-      const ExactComparison bits = compare_exactly(render_frame(scene, Backend::gpu, options), twin);
-      CHECK(bits.different_pixels == 0);
-      CHECK(bits.passes(0));
-    }
+    for (const bool constants : {true, false})
+      for (const char* loads : {"texels", "storage"}) {
+        CAPTURE(constants);
+        CAPTURE(loads);
+        ExecutorOptions options;
+        options.constants = constants;
+        options.profile.loads = loads;
+        const ExactComparison bits = compare_exactly(render_frame(scene, Backend::gpu, options), twin);
+        CHECK(bits.different_pixels == 0);
+        CHECK(bits.passes(0));
+      }
     const ReferenceComparison reference = test::compare_with_reference(scene, twin);
     CHECK(reference.first_hits.passes());
     CHECK(reference.colors.unexplained == 0);
@@ -102,7 +105,7 @@ TEST_CASE("images at random: the GPU is the twin, bit by bit, and the reference 
   MESSAGE(fmt::format("{} pixels, {} of them explained", pixels, explained));
 }
 
-TEST_CASE("more texels than the device shows a shader are refused with the numbers") {
+TEST_CASE("more texels than a storage buffer shows are read as texel buffers, or refused with the numbers") {
   Random random(1);
   Scene scene = patchwork(random, 1, 1);
   const auto image = std::make_shared<ImageTexture>();
@@ -112,11 +115,19 @@ TEST_CASE("more texels than the device shows a shader are refused with the numbe
   Texture texture{Vec3(1), {}};
   texture.image = image;
   scene.materials[0] = make_phong({.diffuse = texture});
-  try {
-    const Frame gpu = render_frame(scene, Backend::gpu);
-    CHECK(compare_exactly(gpu, render_frame(scene, Backend::twin)).different_pixels == 0);
-  } catch (const Error& error) {
-    CHECK(error.code() == ExitCode::no_device);
-    CHECK(std::string(error.what()).find("'texels' has 134252544 bytes") != std::string::npos);
+  image->texels.back() = {255, 128, 0, 255};
+  const Frame twin = render_frame(scene, Backend::twin);
+  for (const std::string loads : {"texels", "storage"}) {
+    CAPTURE(loads);
+    ExecutorOptions options;
+    options.profile.loads = loads;
+    try {
+      const Frame gpu = render_frame(scene, Backend::gpu, options);
+      CHECK(compare_exactly(gpu, twin).different_pixels == 0);
+    } catch (const Error& error) {
+      CHECK(loads == "storage");
+      CHECK(error.code() == ExitCode::no_device);
+      CHECK(std::string(error.what()).find("'texels' has 134252544 bytes") != std::string::npos);
+    }
   }
 }

@@ -20,6 +20,10 @@ inline std::string broken_promise(const Mesh& mesh) {
   if (mesh.triangles.empty()) return "no triangles";
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) return "number of normals";
   if (!mesh.uv.empty() && mesh.uv.size() != mesh.positions.size()) return "number of uv";
+  if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size()) return "number of colours";
+  for (const Vec3& color : mesh.colors)
+    for (int i = 0; i < 3; ++i)
+      if (!(color[i] >= 0 && color[i] <= 1)) return "colour out of range";
   for (const Vec3& position : mesh.positions)
     if (!finite(position)) return "position not finite";
   for (const Vec2& uv : mesh.uv)
