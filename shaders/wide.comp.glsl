@@ -82,13 +82,13 @@ void move_stack(uint push, uint drop, uint value) {
 
 void visit_node() {
   bool here = at < LEAF;
-  uvec4 c = load_wide_child(4u * (here ? at : 0u) + lane);
-  Child child;
-  child.near = vec3(low_half(c.x >> boxes.backward.x), low_half(c.y >> boxes.backward.y), low_half(c.z >> boxes.backward.z));
-  child.far = vec3(low_half(c.x >> (16u - boxes.backward.x)), low_half(c.y >> (16u - boxes.backward.y)),
-                   low_half(c.z >> (16u - boxes.backward.z)));
+  // Of a leaf the root, and a limit that nothing meets: selects cost less than branches, and a minimum less than a select.
+  uvec4 c = load_wide_child(4u * uint(greater(int(at), 0)) + lane);
+  Child child = coded_child(c, boxes);
+  int bound = here ? limit : -1;
+  bound = c.w == NONE ? -1 : bound;
   int entry = entry_of(child, boxes);
-  bool meets = here && c.w != NONE && entry <= exit_of(child, boxes, limit);
+  bool meets = entry <= exit_of(child, boxes, bound);
 
   // Go to the nearest child that is met, or to what waits.
   uint key = meets ? (uint(entry) & ~3u) | lane : FAR_AWAY;
@@ -161,7 +161,7 @@ void main() {
     boxes.scale = from_lane(own_boxes.scale, turn);
     boxes.near = from_lane(own_boxes.near, turn);
     boxes.far = from_lane(own_boxes.far, turn);
-    boxes.backward = from_lane(own_boxes.backward, turn);
+    boxes.turn = from_lane(own_boxes.turn, turn);
     found = nothing_found(from_lane(own_found.hit.t, turn));
     found.hit.slot = from_lane(own_found.hit.slot, turn);
     found.hit.id = from_lane(own_found.hit.id, turn);
