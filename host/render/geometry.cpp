@@ -16,6 +16,10 @@ namespace {
 // Up to here testing everything is as fast as a tree.
 constexpr size_t few_primitives = 24;
 constexpr uint32_t instance_kind = shader::SHAPE_KINDS;
+// A box that takes this part of the scene's own is met by nearly every ray that meets the scene. To test what
+// is in it straight away is cheaper than steps that lead there, while such primitives are few.
+constexpr double most_of_scene = 0.5;
+constexpr size_t most_beside_tree = 4;
 
 float below(double x) {
   const float rounded = float(x);
@@ -91,6 +95,7 @@ class GeometryPacker {
     use_tree_ = options_.acceleration == Acceleration::tree ||
                 (options_.acceleration == Acceleration::automatic &&
                  (world_.size() > few_primitives || !scene_.instances.empty()));
+    if (world_.size() > few_primitives && packed_.instances.empty()) unbind_largest();
     packed_.has_tree = use_tree_ && has_bounded(2);
     if (packed_.has_tree) build_trees();
     lay_out_world();
@@ -202,6 +207,21 @@ class GeometryPacker {
       instance.head.w = density(instance.head.z, true);
       translucent_ = translucent_ || instance.head.w < SHADOW_OPAQUE;
     }
+  }
+
+  // A floor under many small shapes, say: it stays beside the tree, whose boxes are then coded more finely,
+  // and whose leaves may be of one kind.
+  void unbind_largest() {
+    accel::Box all;
+    for (const accel::Box& box : boxes_)
+      if (is_bounded(box)) all.include(box);
+    std::vector<size_t> large;
+    for (size_t i = 0; i < boxes_.size() && large.size() <= most_beside_tree; ++i)
+      if (is_bounded(boxes_[i]) && boxes_[i].area() >= most_of_scene * all.area()) large.push_back(i);
+    if (large.size() > most_beside_tree) return;
+    for (const size_t i : large)
+      boxes_[i] = {glm::vec3(-std::numeric_limits<float>::infinity()),
+                   glm::vec3(std::numeric_limits<float>::infinity())};
   }
 
   bool has_bounded(size_t least) const {
@@ -362,7 +382,7 @@ class GeometryPacker {
   PackedScene& packed_;
   std::vector<uint32_t> uses_;            // by mesh
   std::vector<shader::Primitive> world_;  // by id, as far as they belong to the world
-  std::vector<accel::Box> boxes_;         // of each of them
+  std::vector<accel::Box> boxes_;         // of each of them; without bounds, it is in no tree
   std::vector<uint32_t> in_tree_;         // items of the world's tree: indices in world_
   std::vector<MeshTree> mesh_trees_;
   accel::Tree world_tree_;
