@@ -18,6 +18,11 @@
 #endif
 #define STACK_ROWS ((WIDE_STACK_SIZE + 3) / 4)
 #define FAR_AWAY 0x7fffffffu
+// How many of a ray's waiting children the common way down may leave behind: whole rows of the stack.
+#define WAITING_ROWS (STACK_ROWS < 2 ? STACK_ROWS : 2)
+#define WAITING (4 * WAITING_ROWS)
+// The common way ends where fewer of eight rays go on to the same child.
+#define TOGETHER (SUBGROUP_SIZE > 4 ? 5u : 3u)
 #define EACH_ROW [[unroll]] for (int i = 0; i < STACK_ROWS; i++)
 
 layout(local_size_x = 64) in;
@@ -128,16 +133,74 @@ void visit_leaf() {
   move_stack(0u, here ? 1u : 0u, 0u);
 }
 
-// From `root`.
-void walk_wide(uint root) {
-  EACH_ROW stack[i] = TREE_DONE;
-  at = root;
+// From `at`, with what waits on the stack.
+void walk_wide() {
   // The first way down stands by itself: a driver that runs both sides of every branch would else look at leaves without any.
   do { visit_node(); } while (at < LEAF);
   do {
     do { visit_leaf(); } while (at >= LEAF && at != TREE_DONE);
     do { visit_node(); } while (at < LEAF);
   } while (at != TREE_DONE);
+}
+
+// What waits for the lane's own ray, the top first.
+uint waiting[WAITING];
+
+void push_waiting(bool push, uint value) {
+  [[unroll]] for (int i = WAITING - 1; i > 0; i--) waiting[i] = push ? waiting[i > 0 ? i - 1 : 0] : waiting[i];
+  waiting[0] = push ? value : waiting[0];
+}
+
+// Where rays start close to each other, they go down the same way at first, whatever their directions: the way to where they start.
+// There each lane looks at all children of one node with its own ray. Returns where the ray has to go on by itself.
+uint walk_together(BoxRay own, int own_limit) {
+  [[unroll]] for (int i = 0; i < WAITING; i++) waiting[i] = TREE_DONE;
+  uint eight = gl_SubgroupInvocationID & ~7u;
+  uint node = 0u;
+  bool on_the_way = own_limit >= 0;
+  bool go_on;
+  do {
+    uvec4 c = load_wide_child(4u * node + lane);
+    uint keys[4];
+    [[unroll]] for (uint k = 0u; k < 4u; k++) {
+      uvec4 one = uvec4(subgroupShuffle(c.x, eight | k), subgroupShuffle(c.y, eight | k), subgroupShuffle(c.z, eight | k),
+                        subgroupShuffle(c.w, eight | k));
+      Child child = coded_child(one, own);
+      int bound = on_the_way ? own_limit : -1;
+      bound = one.w == NONE ? -1 : bound;
+      int entry = entry_of(child, own);
+      keys[k] = entry <= exit_of(child, own, bound) ? (uint(entry) & ~3u) | k : FAR_AWAY;
+    }
+    uint nearer_01 = keys[1] < keys[0] ? keys[1] : keys[0];
+    uint nearer_23 = keys[3] < keys[2] ? keys[3] : keys[2];
+    uint nearest = nearer_23 < nearer_01 ? nearer_23 : nearer_01;
+
+    // Vote: a byte a child, and above them whether anybody has no room left.
+    uint votes = nearest != FAR_AWAY ? 1u << (8u * (nearest & 3u)) : 0u;
+    votes += waiting[WAITING - 3] != TREE_DONE ? 0x10000000u : 0u;
+    votes = sum(votes);
+#if SUBGROUP_SIZE > 4
+    votes += subgroupShuffleXor(votes, 4u);
+#endif
+    uint chosen = 0u;
+    uint most = votes & 15u;
+    [[unroll]] for (uint k = 1u; k < 4u; k++) {
+      uint here = (votes >> (8u * k)) & 15u;
+      chosen = here > most ? k : chosen;
+      most = here > most ? here : most;
+    }
+    uint next = subgroupShuffle(c.w, eight | chosen);
+    go_on = most >= TOGETHER && votes < 0x10000000u && next < LEAF;
+    [[unroll]] for (uint k = 0u; k < 4u; k++)
+      push_waiting(go_on && k != chosen && keys[k] != FAR_AWAY, subgroupShuffle(c.w, eight | k));
+    uint key = chosen == 0u ? keys[0] : chosen == 1u ? keys[1] : chosen == 2u ? keys[2] : keys[3];
+    on_the_way = go_on ? key != FAR_AWAY : on_the_way;
+    node = go_on ? next : node;
+  } while (go_on);
+  uint start = on_the_way ? node : waiting[0];
+  [[unroll]] for (int i = 0; i < WAITING; i++)
+    waiting[i] = on_the_way ? waiting[i] : i + 1 < WAITING ? waiting[i + 1 < WAITING ? i + 1 : i] : TREE_DONE;
+  return start;
 }
 
 void main() {
@@ -151,6 +214,7 @@ void main() {
   BoxRay own_boxes = box_ray(own, load_tree(0u));
   Found own_found = nothing_found(there ? minimum(asked.direction.w, T_MISS) : -1.0f);
   meet_loose(own_found, own, ANY);
+  uint start = walk_together(own_boxes, own_found.occluded >= SHADOW_OPAQUE ? -1 : floatBitsToInt(own_found.hit.t));
   uint turn = 0u;
   do {
     ray.o = from_lane(own.o, turn);
@@ -168,7 +232,16 @@ void main() {
     uint loose = from_lane(own_found.occluded, turn);
     found.occluded = lane == 0u ? loose : 0u;
     limit = floatBitsToInt(found.hit.t);
-    walk_wide(loose >= SHADOW_OPAQUE ? TREE_DONE : 0u);
+    at = from_lane(start, turn);
+    EACH_ROW stack[i] = TREE_DONE;
+    [[unroll]] for (int i = 0; i < WAITING_ROWS; i++) {
+      uint e0 = from_lane(waiting[4 * i], turn);
+      uint e1 = from_lane(waiting[4 * i + 1], turn);
+      uint e2 = from_lane(waiting[4 * i + 2], turn);
+      uint e3 = from_lane(waiting[4 * i + 3], turn);
+      stack[i] = lane == 0u ? e0 : lane == 1u ? e1 : lane == 2u ? e2 : e3;
+    }
+    walk_wide();
 
     // Of equally near ones the lowest id, as in `meet`.
     bool mine = lane == turn;
