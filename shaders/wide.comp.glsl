@@ -23,6 +23,7 @@
 #define WAITING (4 * WAITING_ROWS)
 // The common way ends where fewer of eight rays go on to the same child.
 #define TOGETHER (SUBGROUP_SIZE > 4 ? 5u : 3u)
+#define EACH_WAITING [[unroll]] for (int i = 0; i < WAITING; i++)
 #define EACH_ROW [[unroll]] for (int i = 0; i < STACK_ROWS; i++)
 
 layout(local_size_x = 64) in;
@@ -154,14 +155,18 @@ void push_waiting(bool push, uint value) {
 // Where rays start close to each other, they go down the same way at first, whatever their directions: the way to where they start.
 // There each lane looks at all children of one node with its own ray. Returns where the ray has to go on by itself.
 uint walk_together(BoxRay own, int own_limit) {
-  [[unroll]] for (int i = 0; i < WAITING; i++) waiting[i] = TREE_DONE;
+  EACH_WAITING waiting[i] = TREE_DONE;
   uint eight = gl_SubgroupInvocationID & ~7u;
-  uint node = 0u;
+  own.turn = from_lane(own.turn, lane);  // the same, but no longer one of two constants: so the driver makes one rotation of it
   bool on_the_way = own_limit >= 0;
+  int room = WAITING;
+  uint node = 0u;
   bool go_on;
   do {
-    uvec4 c = load_wide_child(4u * node + lane);
-    uint keys[4];
+    // The children that are met as bits, and the nearest of them.
+    uvec4 c = load_wide_child(4u * (node < LEAF ? node : 0u) + lane);
+    uint met = 0u;
+    uint nearest = FAR_AWAY;
     [[unroll]] for (uint k = 0u; k < 4u; k++) {
       uvec4 one = uvec4(subgroupShuffle(c.x, eight | k), subgroupShuffle(c.y, eight | k), subgroupShuffle(c.z, eight | k),
                         subgroupShuffle(c.w, eight | k));
@@ -169,15 +174,17 @@ uint walk_together(BoxRay own, int own_limit) {
       int bound = on_the_way ? own_limit : -1;
       bound = one.w == NONE ? -1 : bound;
       int entry = entry_of(child, own);
-      keys[k] = entry <= exit_of(child, own, bound) ? (uint(entry) & ~3u) | k : FAR_AWAY;
+      bool meets = entry <= exit_of(child, own, bound);
+      uint key = (uint(entry) & ~3u) | k;
+      met = meets ? met | (1u << k) : met;
+      nearest = meets && key < nearest ? key : nearest;
+      room = meets ? room - 1 : room;
     }
-    uint nearer_01 = keys[1] < keys[0] ? keys[1] : keys[0];
-    uint nearer_23 = keys[3] < keys[2] ? keys[3] : keys[2];
-    uint nearest = nearer_23 < nearer_01 ? nearer_23 : nearer_01;
+    room += met != 0u ? 1 : 0;
 
-    // Vote: a byte a child, and above them whether anybody has no room left.
-    uint votes = nearest != FAR_AWAY ? 1u << (8u * (nearest & 3u)) : 0u;
-    votes += waiting[WAITING - 3] != TREE_DONE ? 0x10000000u : 0u;
+    // Vote for where to go: a byte a child, and above them those who would have no room for what is left behind there.
+    uint votes = met != 0u ? 1u << (8u * (nearest & 3u)) : 0u;
+    votes += room < 3 ? 0x10000000u : 0u;
     votes = sum(votes);
 #if SUBGROUP_SIZE > 4
     votes += subgroupShuffleXor(votes, 4u);
@@ -185,21 +192,23 @@ uint walk_together(BoxRay own, int own_limit) {
     uint chosen = 0u;
     uint most = votes & 15u;
     [[unroll]] for (uint k = 1u; k < 4u; k++) {
-      uint here = (votes >> (8u * k)) & 15u;
-      chosen = here > most ? k : chosen;
-      most = here > most ? here : most;
+      uint count = (votes >> (8u * k)) & 15u;
+      chosen = count > most ? k : chosen;
+      most = count > most ? count : most;
     }
-    uint next = subgroupShuffle(c.w, eight | chosen);
-    go_on = most >= TOGETHER && votes < 0x10000000u && next < LEAF;
-    [[unroll]] for (uint k = 0u; k < 4u; k++)
-      push_waiting(go_on && k != chosen && keys[k] != FAR_AWAY, subgroupShuffle(c.w, eight | k));
-    uint key = chosen == 0u ? keys[0] : chosen == 1u ? keys[1] : chosen == 2u ? keys[2] : keys[3];
-    on_the_way = go_on ? key != FAR_AWAY : on_the_way;
-    node = go_on ? next : node;
+    go_on = most >= TOGETHER && votes < 0x10000000u && subgroupShuffle(c.w, eight | chosen) < LEAF;
+
+    // Leave the others behind.
+    uint mine = go_on ? chosen : nearest & 3u;
+    [[unroll]] for (uint k = 1u; k < 4u; k++) {
+      uint other = (mine + k) & 3u;
+      push_waiting((met & (1u << other)) != 0u, subgroupShuffle(c.w, eight | other));
+    }
+    on_the_way = (met & (1u << mine)) != 0u;
+    node = subgroupShuffle(c.w, eight | mine);
   } while (go_on);
   uint start = on_the_way ? node : waiting[0];
-  [[unroll]] for (int i = 0; i < WAITING; i++)
-    waiting[i] = on_the_way ? waiting[i] : i + 1 < WAITING ? waiting[i + 1 < WAITING ? i + 1 : i] : TREE_DONE;
+  EACH_WAITING waiting[i] = on_the_way ? waiting[i] : i + 1 < WAITING ? waiting[i + 1 < WAITING ? i + 1 : i] : TREE_DONE;
   return start;
 }
 
