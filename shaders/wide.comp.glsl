@@ -152,6 +152,13 @@ void push_waiting(bool push, uint value) {
   waiting[0] = push ? value : waiting[0];
 }
 
+// The greater first.
+void order(inout uint a, inout uint b) {
+  uint greatest = a < b ? b : a;
+  b = a < b ? a : b;
+  a = greatest;
+}
+
 // Where rays start close to each other, they go down the same way at first, whatever their directions: the way to where they start.
 // There each lane looks at all children of one node with its own ray. Returns where the ray has to go on by itself.
 uint walk_together(BoxRay own, int own_limit) {
@@ -167,6 +174,7 @@ uint walk_together(BoxRay own, int own_limit) {
     uvec4 c = load_wide_child(4u * (node < LEAF ? node : 0u) + lane);
     uint met = 0u;
     uint nearest = FAR_AWAY;
+    uint keys[4];
     [[unroll]] for (uint k = 0u; k < 4u; k++) {
       uvec4 one = uvec4(subgroupShuffle(c.x, eight | k), subgroupShuffle(c.y, eight | k), subgroupShuffle(c.z, eight | k),
                         subgroupShuffle(c.w, eight | k));
@@ -177,7 +185,8 @@ uint walk_together(BoxRay own, int own_limit) {
       bool meets = entry <= exit_of(child, own, bound);
       uint key = (uint(entry) & ~3u) | k;
       met = meets ? met | (1u << k) : met;
-      nearest = meets && key < nearest ? key : nearest;
+      keys[k] = meets ? key : FAR_AWAY;
+      nearest = keys[k] < nearest ? keys[k] : nearest;
       room = meets ? room - 1 : room;
     }
     room += met != 0u ? 1 : 0;
@@ -198,12 +207,15 @@ uint walk_together(BoxRay own, int own_limit) {
     }
     go_on = most >= TOGETHER && votes < 0x10000000u && subgroupShuffle(c.w, eight | chosen) < LEAF;
 
-    // Leave the others behind.
+    // Leave the others behind, the nearest on top.
     uint mine = go_on ? chosen : nearest & 3u;
-    [[unroll]] for (uint k = 1u; k < 4u; k++) {
-      uint other = (mine + k) & 3u;
-      push_waiting((met & (1u << other)) != 0u, subgroupShuffle(c.w, eight | other));
-    }
+    [[unroll]] for (uint k = 0u; k < 4u; k++) keys[k] = k == mine ? FAR_AWAY : keys[k];
+    order(keys[0], keys[1]);
+    order(keys[2], keys[3]);
+    order(keys[0], keys[2]);
+    order(keys[1], keys[3]);
+    order(keys[1], keys[2]);
+    [[unroll]] for (uint k = 1u; k < 4u; k++) push_waiting(keys[k] != FAR_AWAY, subgroupShuffle(c.w, eight | (keys[k] & 3u)));
     on_the_way = (met & (1u << mine)) != 0u;
     node = subgroupShuffle(c.w, eight | mine);
   } while (go_on);
