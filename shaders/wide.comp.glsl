@@ -137,7 +137,6 @@ void visit_leaf() {
 // From `at`, with what waits on the stack.
 void walk_wide() {
   // The first way down stands by itself: a driver that runs both sides of every branch would else look at leaves without any.
-  do { visit_node(); } while (at < LEAF);
   do {
     do { visit_leaf(); } while (at >= LEAF && at != TREE_DONE);
     do { visit_node(); } while (at < LEAF);
