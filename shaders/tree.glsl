@@ -19,8 +19,11 @@ struct BoxRay {
   vec3 scale;
   vec3 near;
   vec3 far;
-  uvec3 backward;  // by axis: 16 where the ray runs towards lower coordinates, else 0
+  uvec3 turn;  // by axis: by how many bits to turn a word of two planes so that the one the ray enters by is where coded_plane looks
 };
+#define TURN_FORWARD 7u
+#define TURN_BACKWARD 23u  // where the ray runs towards lower coordinates
+
 
 BoxRay box_ray(Ray ray, Tree tree) {
   vec3 offset = ray.o - vec3(tree.origin);
@@ -30,7 +33,13 @@ BoxRay box_ray(Ray ray, Tree tree) {
   boxes.scale = vec3(tree.step) * ray.inverse;
   boxes.near = offset * ray.inverse + slack;
   boxes.far = offset * ray.inverse - slack;
-  boxes.backward = uvec3(ray.inverse.x < 0.0f ? 16u : 0u, ray.inverse.y < 0.0f ? 16u : 0u, ray.inverse.z < 0.0f ? 16u : 0u);
+  if (QUANTISED_NODES) {
+    boxes.scale = boxes.scale * 65536.0f;
+    boxes.near = boxes.near + boxes.scale;
+    boxes.far = boxes.far + boxes.scale;
+  }
+  boxes.turn = uvec3(ray.inverse.x < 0.0f ? TURN_BACKWARD : TURN_FORWARD, ray.inverse.y < 0.0f ? TURN_BACKWARD : TURN_FORWARD,
+                     ray.inverse.z < 0.0f ? TURN_BACKWARD : TURN_FORWARD);
   return boxes;
 }
 
@@ -43,23 +52,33 @@ struct Child {
 
 float low_half(uint word) { return float(int(word & 0xffffu)); }
 
+uint turned(uint word, uint by) { return (word << by) | (word >> (32u - by)); }
+
+// A plane coded as q in bits 7 … 22, as 1 + q / 65536: what those bits are in a float. On a CPU that is quicker than to convert q.
+float coded_plane(uint word) { return uintBitsToFloat((word & 0x7fff80u) | 0x3f800000u); }
+
+Child coded_child(uvec4 c, BoxRay ray) {
+  uvec3 enters = uvec3(turned(c.x, ray.turn.x), turned(c.y, ray.turn.y), turned(c.z, ray.turn.z));
+  Child child;
+  child.near = vec3(coded_plane(enters.x), coded_plane(enters.y), coded_plane(enters.z));
+  child.far = vec3(coded_plane(turned(enters.x, 16u)), coded_plane(turned(enters.y, 16u)), coded_plane(turned(enters.z, 16u)));
+  child.refers_to = c.w;
+  return child;
+}
+
 Child load_child(uint node, uint which, BoxRay ray) {
   Child child;
   if (QUANTISED_NODES) {
-    uvec4 c = load_node(2u * node + which);
-    child.near = vec3(low_half(c.x >> ray.backward.x), low_half(c.y >> ray.backward.y), low_half(c.z >> ray.backward.z));
-    child.far = vec3(low_half(c.x >> (16u - ray.backward.x)), low_half(c.y >> (16u - ray.backward.y)),
-                     low_half(c.z >> (16u - ray.backward.z)));
-    child.refers_to = c.w;
+    child = coded_child(load_node(2u * node + which), ray);
   } else {
     uvec4 low_bits = load_node(4u * node + 2u * which);
     vec3 low = vec3(uintBitsToFloat(low_bits.x), uintBitsToFloat(low_bits.y), uintBitsToFloat(low_bits.z));
     uvec4 high_bits = load_node(4u * node + 2u * which + 1u);
     vec3 high = vec3(uintBitsToFloat(high_bits.x), uintBitsToFloat(high_bits.y), uintBitsToFloat(high_bits.z));
-    child.near = vec3(ray.backward.x == 0u ? low.x : high.x, ray.backward.y == 0u ? low.y : high.y,
-                      ray.backward.z == 0u ? low.z : high.z);
-    child.far = vec3(ray.backward.x == 0u ? high.x : low.x, ray.backward.y == 0u ? high.y : low.y,
-                     ray.backward.z == 0u ? high.z : low.z);
+    child.near = vec3(ray.turn.x == TURN_FORWARD ? low.x : high.x, ray.turn.y == TURN_FORWARD ? low.y : high.y,
+                      ray.turn.z == TURN_FORWARD ? low.z : high.z);
+    child.far = vec3(ray.turn.x == TURN_FORWARD ? high.x : low.x, ray.turn.y == TURN_FORWARD ? high.y : low.y,
+                     ray.turn.z == TURN_FORWARD ? high.z : low.z);
     child.refers_to = low_bits.w;
   }
   return child;

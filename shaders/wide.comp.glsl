@@ -18,6 +18,12 @@
 #endif
 #define STACK_ROWS ((WIDE_STACK_SIZE + 3) / 4)
 #define FAR_AWAY 0x7fffffffu
+// How many of a ray's waiting children the common way down may leave behind: whole rows of the stack.
+#define WAITING_ROWS (STACK_ROWS < 2 ? STACK_ROWS : 2)
+#define WAITING (4 * WAITING_ROWS)
+// The common way ends where fewer of eight rays go on to the same child.
+#define TOGETHER (SUBGROUP_SIZE > 4 ? 5u : 3u)
+#define EACH_WAITING [[unroll]] for (int i = 0; i < WAITING; i++)
 #define EACH_ROW [[unroll]] for (int i = 0; i < STACK_ROWS; i++)
 
 layout(local_size_x = 64) in;
@@ -82,13 +88,13 @@ void move_stack(uint push, uint drop, uint value) {
 
 void visit_node() {
   bool here = at < LEAF;
-  uvec4 c = load_wide_child(4u * (here ? at : 0u) + lane);
-  Child child;
-  child.near = vec3(low_half(c.x >> boxes.backward.x), low_half(c.y >> boxes.backward.y), low_half(c.z >> boxes.backward.z));
-  child.far = vec3(low_half(c.x >> (16u - boxes.backward.x)), low_half(c.y >> (16u - boxes.backward.y)),
-                   low_half(c.z >> (16u - boxes.backward.z)));
+  // Of a leaf the root, and a limit that nothing meets: selects cost less than branches, and a minimum less than a select.
+  uvec4 c = load_wide_child(4u * uint(greater(int(at), 0)) + lane);
+  Child child = coded_child(c, boxes);
+  int bound = here ? limit : -1;
+  bound = c.w == NONE ? -1 : bound;
   int entry = entry_of(child, boxes);
-  bool meets = here && c.w != NONE && entry <= exit_of(child, boxes, limit);
+  bool meets = entry <= exit_of(child, boxes, bound);
 
   // Go to the nearest child that is met, or to what waits.
   uint key = meets ? (uint(entry) & ~3u) | lane : FAR_AWAY;
@@ -128,16 +134,93 @@ void visit_leaf() {
   move_stack(0u, here ? 1u : 0u, 0u);
 }
 
-// From `root`.
-void walk_wide(uint root) {
-  EACH_ROW stack[i] = TREE_DONE;
-  at = root;
+// From `at`, with what waits on the stack.
+void walk_wide() {
   // The first way down stands by itself: a driver that runs both sides of every branch would else look at leaves without any.
-  do { visit_node(); } while (at < LEAF);
   do {
     do { visit_leaf(); } while (at >= LEAF && at != TREE_DONE);
     do { visit_node(); } while (at < LEAF);
   } while (at != TREE_DONE);
+}
+
+// What waits for the lane's own ray, the top first.
+uint waiting[WAITING];
+
+void push_waiting(bool push, uint value) {
+  [[unroll]] for (int i = WAITING - 1; i > 0; i--) waiting[i] = push ? waiting[i > 0 ? i - 1 : 0] : waiting[i];
+  waiting[0] = push ? value : waiting[0];
+}
+
+// The greater first.
+void order(inout uint a, inout uint b) {
+  uint greatest = a < b ? b : a;
+  b = a < b ? a : b;
+  a = greatest;
+}
+
+// Where rays start close to each other, they go down the same way at first, whatever their directions: the way to where they start.
+// There each lane looks at all children of one node with its own ray. Returns where the ray has to go on by itself.
+uint walk_together(BoxRay own, int own_limit) {
+  EACH_WAITING waiting[i] = TREE_DONE;
+  uint eight = gl_SubgroupInvocationID & ~7u;
+  own.turn = from_lane(own.turn, lane);  // the same, but no longer one of two constants: so the driver makes one rotation of it
+  bool on_the_way = own_limit >= 0;
+  int room = WAITING;
+  uint node = 0u;
+  bool go_on;
+  do {
+    // The children that are met as bits, and the nearest of them.
+    uvec4 c = load_wide_child(4u * (node < LEAF ? node : 0u) + lane);
+    uint met = 0u;
+    uint nearest = FAR_AWAY;
+    uint keys[4];
+    [[unroll]] for (uint k = 0u; k < 4u; k++) {
+      uvec4 one = uvec4(subgroupShuffle(c.x, eight | k), subgroupShuffle(c.y, eight | k), subgroupShuffle(c.z, eight | k),
+                        subgroupShuffle(c.w, eight | k));
+      Child child = coded_child(one, own);
+      int bound = on_the_way ? own_limit : -1;
+      bound = one.w == NONE ? -1 : bound;
+      int entry = entry_of(child, own);
+      bool meets = entry <= exit_of(child, own, bound);
+      uint key = (uint(entry) & ~3u) | k;
+      met = meets ? met | (1u << k) : met;
+      keys[k] = meets ? key : FAR_AWAY;
+      nearest = keys[k] < nearest ? keys[k] : nearest;
+      room = meets ? room - 1 : room;
+    }
+    room += met != 0u ? 1 : 0;
+
+    // Vote for where to go: a byte a child, and above them those who would have no room for what is left behind there.
+    uint votes = met != 0u ? 1u << (8u * (nearest & 3u)) : 0u;
+    votes += room < 3 ? 0x10000000u : 0u;
+    votes = sum(votes);
+#if SUBGROUP_SIZE > 4
+    votes += subgroupShuffleXor(votes, 4u);
+#endif
+    uint chosen = 0u;
+    uint most = votes & 15u;
+    [[unroll]] for (uint k = 1u; k < 4u; k++) {
+      uint count = (votes >> (8u * k)) & 15u;
+      chosen = count > most ? k : chosen;
+      most = count > most ? count : most;
+    }
+    go_on = most >= TOGETHER && votes < 0x10000000u && subgroupShuffle(c.w, eight | chosen) < LEAF;
+
+    // Leave the others behind, the nearest on top.
+    uint mine = go_on ? chosen : nearest & 3u;
+    [[unroll]] for (uint k = 0u; k < 4u; k++) keys[k] = k == mine ? FAR_AWAY : keys[k];
+    order(keys[0], keys[1]);
+    order(keys[2], keys[3]);
+    order(keys[0], keys[2]);
+    order(keys[1], keys[3]);
+    order(keys[1], keys[2]);
+    [[unroll]] for (uint k = 1u; k < 4u; k++) push_waiting(keys[k] != FAR_AWAY, subgroupShuffle(c.w, eight | (keys[k] & 3u)));
+    on_the_way = (met & (1u << mine)) != 0u;
+    node = subgroupShuffle(c.w, eight | mine);
+  } while (go_on);
+  uint start = on_the_way ? node : waiting[0];
+  EACH_WAITING waiting[i] = on_the_way ? waiting[i] : i + 1 < WAITING ? waiting[i + 1 < WAITING ? i + 1 : i] : TREE_DONE;
+  return start;
 }
 
 void main() {
@@ -151,6 +234,7 @@ void main() {
   BoxRay own_boxes = box_ray(own, load_tree(0u));
   Found own_found = nothing_found(there ? minimum(asked.direction.w, T_MISS) : -1.0f);
   meet_loose(own_found, own, ANY);
+  uint start = walk_together(own_boxes, own_found.occluded >= SHADOW_OPAQUE ? -1 : floatBitsToInt(own_found.hit.t));
   uint turn = 0u;
   do {
     ray.o = from_lane(own.o, turn);
@@ -161,14 +245,23 @@ void main() {
     boxes.scale = from_lane(own_boxes.scale, turn);
     boxes.near = from_lane(own_boxes.near, turn);
     boxes.far = from_lane(own_boxes.far, turn);
-    boxes.backward = from_lane(own_boxes.backward, turn);
+    boxes.turn = from_lane(own_boxes.turn, turn);
     found = nothing_found(from_lane(own_found.hit.t, turn));
     found.hit.slot = from_lane(own_found.hit.slot, turn);
     found.hit.id = from_lane(own_found.hit.id, turn);
     uint loose = from_lane(own_found.occluded, turn);
     found.occluded = lane == 0u ? loose : 0u;
     limit = floatBitsToInt(found.hit.t);
-    walk_wide(loose >= SHADOW_OPAQUE ? TREE_DONE : 0u);
+    at = from_lane(start, turn);
+    EACH_ROW stack[i] = TREE_DONE;
+    [[unroll]] for (int i = 0; i < WAITING_ROWS; i++) {
+      uint e0 = from_lane(waiting[4 * i], turn);
+      uint e1 = from_lane(waiting[4 * i + 1], turn);
+      uint e2 = from_lane(waiting[4 * i + 2], turn);
+      uint e3 = from_lane(waiting[4 * i + 3], turn);
+      stack[i] = lane == 0u ? e0 : lane == 1u ? e1 : lane == 2u ? e2 : e3;
+    }
+    walk_wide();
 
     // Of equally near ones the lowest id, as in `meet`.
     bool mine = lane == turn;

@@ -21,6 +21,11 @@ struct Box {
     upper = glm::max(upper, box.upper);
   }
   Box intersection(const Box& box) const { return {glm::max(lower, box.lower), glm::min(upper, box.upper)}; }
+  // Half the surface.
+  double area() const {
+    const glm::dvec3 size(upper - lower);
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+  }
   bool is_finite() const {
     for (int axis = 0; axis < 3; ++axis)
       if (!std::isfinite(lower[axis]) || !std::isfinite(upper[axis])) return false;

@@ -15,6 +15,10 @@ namespace {
 
 // Up to here testing everything is as fast as a tree.
 constexpr size_t few_primitives = 24;
+// A box that takes this part of the scene's own is met by nearly every ray that meets the scene. To test what
+// is in it straight away is cheaper than steps that lead there, while such primitives are few.
+constexpr double most_of_scene = 0.5;
+constexpr size_t most_beside_tree = 4;
 
 float below(double x) {
   const float rounded = float(x);
@@ -77,6 +81,7 @@ class GeometryPacker {
     use_tree_ = options_.acceleration == Acceleration::tree ||
                 (options_.acceleration == Acceleration::automatic &&
                  (world_size() > few_primitives || !scene_.instances.empty()));
+    if (world_size() > few_primitives && packed_.instances.empty()) unbind_largest();
     packed_.has_tree = use_tree_ && has_bounded(2);
     if (packed_.has_tree) build_trees();
     lay_out_world();
@@ -202,6 +207,21 @@ class GeometryPacker {
                                         [](uint32_t i, const Baked& mesh) { return i < mesh.first; });
     const Baked& mesh = *std::prev(after);
     return mesh.records.record(item - mesh.first);
+  }
+
+  // A floor under many small shapes, say: it stays beside the tree, whose boxes are then coded more finely,
+  // and whose leaves may be of one kind.
+  void unbind_largest() {
+    accel::Box all;
+    for (const accel::Box& box : boxes_)
+      if (box.is_finite()) all.include(box);
+    std::vector<size_t> large;
+    for (size_t i = 0; i < boxes_.size() && large.size() <= most_beside_tree; ++i)
+      if (boxes_[i].is_finite() && boxes_[i].area() >= most_of_scene * all.area()) large.push_back(i);
+    if (large.size() > most_beside_tree) return;
+    for (const size_t i : large)
+      boxes_[i] = {glm::vec3(-std::numeric_limits<float>::infinity()),
+                   glm::vec3(std::numeric_limits<float>::infinity())};
   }
 
   bool has_bounded(size_t least) const {
@@ -354,7 +374,8 @@ class GeometryPacker {
   std::vector<uint32_t> uses_;  // by mesh
   std::vector<shader::Primitive> shapes_;
   std::vector<Baked> baked_;
-  std::vector<accel::Box> boxes_;  // of the world's items; then of the instances
+  std::vector<accel::Box>
+      boxes_;  // of the world's items, then of the instances; one without bounds is in no tree
   std::vector<MeshTree> mesh_trees_;
   accel::Tree world_tree_;
   bool use_tree_ = false;

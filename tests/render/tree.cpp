@@ -7,7 +7,9 @@
 #include "core/parallel_for.hpp"
 #include "hard_scene.hpp"
 #include "query_kernel.hpp"
+#include "random_scene.hpp"
 #include "render/render.hpp"
+#include "render/specialise.hpp"
 
 #include "support/doctest.hpp"
 
@@ -156,4 +158,37 @@ TEST_CASE("the validation layers have nothing to say of trees, instances and eit
       CHECK(hit[0].primitive >= 0);
     }
   }
+}
+
+TEST_CASE("a floor under many spheres stands beside the tree, whose leaves hold spheres alone") {
+  Random random(5);
+  Scene scene;
+  const int material = test::add(scene, make_phong({}));
+  for (int i = 0; i < 40; ++i)
+    test::add(scene, make_sphere(random.point(2) * Vec3(1, 0.2, 1), random.log_uniform(0.05, 0.3)), material);
+  for (const double side : {-3, 3}) {
+    TriangleValues triangle;
+    triangle.vertices = {Vec3(-3, -0.5, -3), Vec3(3, -0.5, 3), Vec3(side, -0.5, -side)};
+    test::add(scene, make_triangle(triangle), material);
+  }
+  const auto loose_triangles = [](const PackedScene& packed) {
+    return packed.kind_loose[shader::KIND_triangle] - packed.kind_first[shader::KIND_triangle];
+  };
+  const PackedScene packed = pack(scene, {});
+  CHECK(loose_triangles(packed) == 2);
+  CHECK(tree_kinds(packed) == std::set<uint32_t>{shader::KIND_sphere});
+
+  std::vector<shader::QueryRay> rays(5000);
+  for (shader::QueryRay& ray : rays) ray = test::random_ray(random);
+  const PackedScene brute = pack(scene, {.acceleration = Acceleration::brute_force});
+  for (const bool any : {false, true})
+    CHECK(test::differences(test::ask_twin(packed, rays, any), test::ask_twin(brute, rays, any)) == 0);
+
+  // Of five such, each would be tested by every ray: they go into the tree.
+  for (int i = 0; i < 3; ++i) {
+    TriangleValues triangle;
+    triangle.vertices = {Vec3(-3, -0.5, -3), Vec3(3, 0.1 * i, 3), Vec3(3, -0.5, -3)};
+    test::add(scene, make_triangle(triangle), material);
+  }
+  CHECK(loose_triangles(pack(scene, {})) == 0);
 }
