@@ -202,6 +202,7 @@ uint place_of(uint packet, uint i) {
 Ray eye_ray(uint place) {
   uint x = dispatch.tile.x + place % dispatch.tile.z;
   uint y = dispatch.tile.y + place / dispatch.tile.z;
+  Frame frame = load_frame();
   return camera_ray(frame, sample_place(frame, x, y, dispatch.sample_index.x));
 }
 #endif

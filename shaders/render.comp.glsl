@@ -18,6 +18,7 @@ void main() {
   uvec2 pixel = pixel_of_block(block, gl_LocalInvocationIndex, dispatch.tile);
   if (pixel.x >= dispatch.tile.z || pixel.y >= dispatch.tile.w) return;
   uint i = pixel.y * dispatch.tile.z + pixel.x;
+  Frame frame = load_frame();
 
 #ifdef FIRST_HITS
   results[i] = first_hit(frame, dispatch.tile.x + pixel.x, dispatch.tile.y + pixel.y);

@@ -16,6 +16,7 @@ layout(std430, binding = BINDING_LIST) readonly restrict buffer List { uint list
 layout(std430, binding = BINDING_NEXT_LIST) restrict buffer NextList { uint next_list[]; };
 
 void main() {
+  Frame frame = load_frame();
   uint group = dealt_out(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE);
   vec3 color = vec3(0.0f, 0.0f, 0.0f);
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);

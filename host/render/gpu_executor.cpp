@@ -185,7 +185,7 @@ class GpuExecutor final : public Executor {
     add_buffer(BINDING_TEXELS, "texels", std::span(packed.texels));
     add_buffer(BINDING_MEDIA, "media", std::span(packed.media));
     add_buffer(BINDING_LIGHTS, "lights", std::span(packed.lights));
-    add_buffer(BINDING_FRAME, "frame", std::span(&packed.frame, 1));
+    add_buffer(BINDING_FRAME, "frame", std::span(&packed.frame, 1), kind);
   }
 
   template <typename Record>

@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string_view>
 
 namespace eyeray {
 namespace {
 
-// Above this many records the code outgrows what it saves, and its compilation what a frame saves.
-constexpr size_t most_primitives = 24;
-constexpr size_t most_records = 96;
+// Above this many records of a kind the code outgrows what it saves, and its compilation what a frame saves.
+constexpr size_t most_records = 24;
+constexpr size_t most_vertices = 96;
 
 struct Row {
   std::string_view name;
@@ -78,26 +79,70 @@ std::string constant_loader(std::string_view type, std::string_view name,
   return text + "  return r;\n}\n";
 }
 
-// The whole scene as constants, but for its texels, and the list of primitives that traverse.glsl unrolls.
-std::string constants(const PackedScene& scene) {
-  std::string text = constant_loader("uvec4", "vertex", scene.vertices) +
-                     constant_loader("Material", "material", scene.materials) +
+bool few_looks(const PackedScene& scene) {
+  return std::max({scene.materials.size(), scene.textures.size(), scene.media.size(), scene.lights.size()}) <=
+         most_records;
+}
+
+bool few_primitives(const PackedScene& scene) {
+  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_records &&
+         scene.vertices.size() <= most_vertices;
+}
+
+// Everything but geometry and texels as constants, and the list of materials that material.glsl unrolls. Not
+// of images: each of them is far more code than what chooses between them.
+std::string looks_as_constants(const PackedScene& scene, const std::set<uint32_t>& materials_used) {
+  std::string text = constant_loader("Material", "material", scene.materials) +
                      constant_loader("Texture", "texture", scene.textures) +
                      constant_loader("Medium", "medium", scene.media) +
-                     constant_loader("Light", "light", scene.lights) +
+                     constant_loader("Light", "light", scene.lights) + "#define LOOKS_AS_CONSTANTS\n";
+  if (!scene.texels.empty()) return text;
+  text += "#define SCENE_MATERIALS(X)";
+  for (const uint32_t i : materials_used) {
+    const auto row = std::ranges::find(materials, scene.materials[i].head.x, &Row::number);
+    text += fmt::format(" X({0}, {1}u, load_material({1}u))", row->name, i);
+  }
+  return text + "\n";
+}
+
+// What is the same for all pixels, as a constant.
+std::string frame_as_constant(const shader::Frame& f) {
+  return fmt::format(
+      "Frame load_frame() {{ return Frame({}, {}, {}, {}, {}, {}, {}, {}); }}\n#define FRAME_AS_CONSTANT\n",
+      literal(f.image), literal(f.camera), literal(f.counts), literal(f.right), literal(f.up),
+      literal(f.forward), literal(f.background), literal(f.ambient));
+}
+
+// Geometry as constants, and the list of primitives that traverse.glsl unrolls.
+std::string primitives_as_constants(const PackedScene& scene) {
+  std::string text = constant_loader("uvec4", "vertex", scene.vertices) +
                      constant_loader("Primitive", "primitive", scene.primitives) +
-                     "uint load_texel(uint i) { return texels[i]; }\n";
-  text += "#define SCENE_PRIMITIVES(X)";
+                     "#define SCENE_PRIMITIVES(X)";
   for (size_t i = 0; i < scene.primitives.size(); ++i)
     text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[kind_of(scene.primitives[i])].name, i, i);
   return text + "\n";
 }
 
-bool is_small(const PackedScene& scene) {
-  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_primitives &&
-         scene.vertices.size() + scene.materials.size() + scene.textures.size() + scene.media.size() +
-                 scene.lights.size() <=
-             most_records;
+// The materials of all primitives and instances.
+std::set<uint32_t> materials_of(const PackedScene& scene) {
+  std::set<uint32_t> used;
+  for (const shader::Primitive& p : scene.primitives) used.insert(material_of(p));
+  for (const shader::Instance& i : scene.instances) used.insert(i.head.z);
+  return used;
+}
+
+// The kinds of shape over which a texture varies.
+std::set<uint32_t> kinds_with_uv(const PackedScene& scene) {
+  const auto varies = [&](uint32_t material) {
+    const shader::uvec4& used = scene.materials[material].textures;
+    return std::ranges::any_of(std::array{used.x, used.y, used.z, used.w}, [&](uint32_t texture) {
+      return scene.textures[texture].even.w != TEXTURE_CONSTANT;
+    });
+  };
+  std::set<uint32_t> kinds;
+  for (const shader::Primitive& p : scene.primitives)
+    if (varies(material_of(p))) kinds.insert(kind_of(p));
+  return kinds;
 }
 
 }  // namespace
@@ -121,15 +166,18 @@ std::set<uint32_t> tree_kinds(const PackedScene& scene) {
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
   std::set<uint32_t> shapes_used;
   for (const shader::Primitive& p : scene.primitives) shapes_used.insert(kind_of(p));
-  std::set<uint32_t> materials_used;
-  for (const shader::Primitive& p : scene.primitives)
-    materials_used.insert(scene.materials[material_of(p)].head.x);
-  for (const shader::Instance& i : scene.instances) materials_used.insert(scene.materials[i.head.z].head.x);
+  const std::set<uint32_t> materials_used = materials_of(scene);
+  std::set<uint32_t> material_kinds;
+  for (const uint32_t i : materials_used) material_kinds.insert(scene.materials[i].head.x);
+  const std::set<uint32_t> with_uv = kinds_with_uv(scene);
   const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
                                    [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
   const bool images = !scene.texels.empty();
   const bool media = scene.media.size() > 1;
-  const bool unrolled = options.constants && is_small(scene);
+  const bool absorption = std::any_of(scene.media.begin(), scene.media.end(), [](const shader::Medium& m) {
+    return glm::vec3(m.absorption_ior) != glm::vec3(0);
+  });
+  const bool unrolled = options.constants && few_primitives(scene);
 
   std::string text = "// Made for this scene by render/specialise.cpp.\n";
   const auto define = [&](std::string_view name, const auto& value) {
@@ -140,6 +188,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_CHECKER", int(checker));
   define("HAS_IMAGES", int(images));
   define("HAS_MEDIA", int(media));
+  define("HAS_ABSORPTION", int(absorption));
   // Only where a ray splits in two does a child wait, and one a level at most.
   define("WHITTED_STACK", media ? scene.frame.camera.w : 0u);
   define("TRACE_ITERATIONS", fmt::format("{}u", unrolled || scene.has_tree ? 0 : scene.primitives.size()));
@@ -162,12 +211,18 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   for (const Row& shape : shapes) {
     define(fmt::format("FIRST_{}", shape.name), fmt::format("{}u", scene.kind_first[shape.number]));
     define(fmt::format("LOOSE_{}", shape.name), fmt::format("{}u", scene.kind_loose[shape.number]));
+    define(fmt::format("UV_{}", shape.name), with_uv.contains(shape.number) ? "true" : "false");
   }
   text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_LOOSE(name) LOOSE_##name\n";
+  // Whoever looks at first hits looks at uv too.
+  text += "#ifdef FIRST_HITS\n#define UV_OF(name) true\n#else\n#define UV_OF(name) UV_##name\n#endif\n";
   text += "#include \"bindings.glsl\"\n";
-  text += unrolled ? constants(scene) : "#include \"loaders.glsl\"\n";
+  if (options.constants && few_looks(scene)) text += looks_as_constants(scene, materials_used);
+  // Where the eye moves, so do primitives: such a kernel is made anew for each camera as it is.
+  if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
+  text += "#include \"loaders.glsl\"\n";
   text += registry("SHAPES", "shapes", shapes, shapes_used);
-  text += registry("MATERIALS", "materials", materials, materials_used);
+  text += registry("MATERIALS", "materials", materials, material_kinds);
   text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.counts.z});
   return text;
 }

@@ -73,6 +73,8 @@ class Binding {
 #define HAS_CHECKER 1
 #define HAS_IMAGES 1
 #define HAS_MEDIA 1
+#define HAS_ABSORPTION 1
+#define UV_OF(name) true
 
 #undef SHADER_BEGIN
 #undef SHADER_END

@@ -21,7 +21,9 @@ struct PathRay {
 vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface seen, vec3 to_viewer,
                   uint depth, INOUT(uvec4) counts) {
   vec3 color = scattering.ambient * vec3(frame.ambient);
-  for (uint i = 0u; i < LIGHT_COUNT; i++) {
+  // Tested at the bottom: Mesa 22.3.6 would go round once more, with all lanes idle.
+  uint i = 0u;
+  if (LIGHT_COUNT > 0u) do {
     counts.w += 1u + TRACE_ITERATIONS;
     LightSample light = sample_light(load_light(i), seen.p);
     float cosine = dot3(seen.normal, light.direction);
@@ -39,7 +41,8 @@ vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface
       float lobe = highlight(material, seen.normal, light.direction, to_viewer);
       color = color + light.color * (scattering.diffuse * cosine + scattering.specular * lobe) * visible;
     }
-  }
+    i += 1u;
+  } while (i < LIGHT_COUNT);
   return color;
 }
 
@@ -77,8 +80,10 @@ Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, 
     vec3 weight = path.weight;
 #if HAS_MEDIA
     Medium from = load_medium(innermost_medium(path.media));
+#if HAS_ABSORPTION
     weight = weight * vec3(exp_negative(-from.absorption_ior.x * hit.t), exp_negative(-from.absorption_ior.y * hit.t),
                            exp_negative(-from.absorption_ior.z * hit.t));
+#endif
 #endif
 
     // Find the surface as the viewer sees it, and the medium behind it.
@@ -101,7 +106,7 @@ Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, 
 #endif
 
     // Shade.
-    Scattering scattering = scattering_of(material, context);
+    Scattering scattering = scattering_of(material_of(primitive), material, context);
     color = color + weight * direct_light(frame, material, scattering, seen, -ray.d, path.depth, counts);
 
 #if HAS_SECONDARY
