@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/parallel_for.hpp"
 #include "gpu/command_list.hpp"
 #include "gpu/float_policy.hpp"
 #include "gpu/self_test.hpp"
@@ -79,7 +80,11 @@ class GpuExecutor final : public Executor {
       return waves_ ? waves_->run(push, output) : dispatch(*sample_kernel_, push, output);
     };
     return for_bands<shader::SampleResult>(tile, index, trace, [&](size_t first, auto results) {
-      for (size_t i = 0; i < results.size(); ++i) out[first + i] = to_sample(results[i]);
+      constexpr size_t piece = 4096;
+      parallel_for(0, int((results.size() + piece - 1) / piece), [&](int p) {
+        const size_t begin = size_t(p) * piece, end = std::min(results.size(), begin + piece);
+        for (size_t i = begin; i < end; ++i) out[first + i] = to_sample(results[i]);
+      });
       fault_.damage(out.subspan(first, results.size()));
     });
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -113,12 +114,14 @@ std::string frame_as_constant(const shader::Frame& f) {
       literal(f.forward), literal(f.background), literal(f.ambient));
 }
 
-// Geometry as constants, and the list of primitives that traverse.glsl unrolls.
+// Geometry as constants, and the list of primitives that traverse.glsl unrolls, in the order of their ids.
 std::string primitives_as_constants(const PackedScene& scene) {
   std::string text = constant_loader("uvec4", "vertex", scene.vertices) +
                      constant_loader("Primitive", "primitive", scene.primitives) +
                      "#define SCENE_PRIMITIVES(X)";
-  for (size_t i = 0; i < scene.primitives.size(); ++i)
+  std::map<uint32_t, size_t> by_id;  // slots
+  for (size_t i = 0; i < scene.primitives.size(); ++i) by_id.emplace(scene.primitives[i].head.x, i);
+  for (const auto& [id, i] : by_id)
     text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[kind_of(scene.primitives[i])].name, i, i);
   return text + "\n";
 }
