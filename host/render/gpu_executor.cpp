@@ -265,14 +265,13 @@ class GpuExecutor final : public Executor {
         .seconds;
   }
 
-  // Where no ray splits in two, a path is one ray after the other, and every step of it a wave.
   void make_waves(const Scene& scene, const PackedScene& packed) {
-    const bool whitted = scene.render.integrator == IntegratorType::whitted;
     WaveOptions options;
+    options.whitted = scene.render.integrator == IntegratorType::whitted;
     options.lights = uint32_t(packed.lights.size());
-    options.shadows = whitted && options.lights > 0;
-    options.paths = whitted && packed.media.size() == 1;
     options.depth = any_reflects(packed) ? packed.frame.camera.w : 0;
+    // Where no ray splits in two, a path is one ray after the other, and every step of it a wave.
+    options.paths = packed.media.size() == 1;
     options.stride = group_stride_;
     options.subgroup = device_.info().limits.subgroup_size;
     waves_.emplace(

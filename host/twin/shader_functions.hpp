@@ -63,7 +63,6 @@ class Binding {
 #define HAS_INSTANCES 1
 #define INSTANCE_COUNT uint(bound_scene->instances.size())
 #define STORED_HITS 0
-#define WAVES 0
 #define HAS_SECONDARY 1
 #define SHIFT_STACK 0
 #define STACK_SIZE 128

@@ -17,9 +17,9 @@ struct PathRay {
   uint media;
 };
 
-// Ambient light and what every visible light adds at a point, after `depth` reflections and refractions.
+// Ambient light and what every visible light adds at a point.
 vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface seen, vec3 to_viewer,
-                  uint depth, INOUT(uvec4) counts) {
+                  INOUT(uvec4) counts) {
   vec3 color = scattering.ambient * vec3(frame.ambient);
   // Tested at the bottom: Mesa 22.3.6 would go round once more, with all lanes idle.
   uint i = 0u;
@@ -31,9 +31,6 @@ vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface
       counts.x += 1u;
 #if STORED_HITS
       uint occluded = load_occlusion(i);
-#if HAS_SECONDARY && !WAVES
-      if (depth > 0u) occluded = occlusion(leave(seen, light.direction), light.distance);
-#endif
 #else
       uint occluded = occlusion(leave(seen, light.direction), light.distance);
 #endif
@@ -107,7 +104,7 @@ Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, 
 
     // Shade.
     Scattering scattering = scattering_of(material_of(primitive), material, context);
-    color = color + weight * direct_light(frame, material, scattering, seen, -ray.d, path.depth, counts);
+    color = color + weight * direct_light(frame, material, scattering, seen, -ray.d, counts);
 
 #if HAS_SECONDARY
     // Send out the children that count for enough.
@@ -150,14 +147,7 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
   bool going = true;
   do {
     Ray ray = make_ray(path.o, path.d);
-#if STORED_HITS
-    Hit hit = hit_of_packet(load_packet_hit(), counts);
-#if HAS_SECONDARY
-    if (path.depth > 0u) hit = trace(ray);
-#endif
-#else
     Hit hit = trace(ray);
-#endif
     Children children = follow(frame, path, ray, hit, color, counts);
 
     // Go on with one child, and let the other wait.
