@@ -1,5 +1,5 @@
-// What the entries share: the buffers. Those that grow with the scene are texel buffers where TEXEL_BUFFERS is set: a storage
-// buffer's range can be as small as 128 MiB, and a CPU driver loads texels faster.
+// What the entries share: the buffers. Those that grow with the scene, and the frame, are texel buffers where TEXEL_BUFFERS is set:
+// a storage buffer's range can be as small as 128 MiB, and a CPU driver loads texels faster.
 #ifndef BINDINGS_GLSL
 #define BINDINGS_GLSL
 #include "records.h"
@@ -10,11 +10,15 @@ layout(rgba32ui, binding = BINDING_PRIMITIVES) readonly restrict uniform uimageB
 layout(rgba32ui, binding = BINDING_VERTICES) readonly restrict uniform uimageBuffer vertices;
 layout(rgba32ui, binding = BINDING_NODES) readonly restrict uniform uimageBuffer nodes;
 layout(rgba32ui, binding = BINDING_TEXELS) readonly restrict uniform uimageBuffer texels;
+layout(rgba32ui, binding = BINDING_FRAME) readonly restrict uniform uimageBuffer frame_words;
+#define LOOP_PROBE imageLoad(frame_words, 2).y
 #else
 layout(std430, binding = BINDING_PRIMITIVES) readonly restrict buffer Primitives { Primitive primitives[]; };
 layout(std430, binding = BINDING_VERTICES) readonly restrict buffer Vertices { uvec4 vertices[]; };
 layout(std430, binding = BINDING_NODES) readonly restrict buffer Nodes { uvec4 nodes[]; };
 layout(std430, binding = BINDING_TEXELS) readonly restrict buffer Texels { uint texels[]; };
+layout(std430, binding = BINDING_FRAME) readonly restrict buffer FrameBuffer { Frame frame_record; };
+#define LOOP_PROBE frame_record.counts.y
 #endif
 #if STORED_HITS
 // What packet.comp.glsl found for this sample: what the eye rays hit, and how much of each light is lost there.
@@ -27,18 +31,5 @@ layout(std430, binding = BINDING_MATERIALS) readonly restrict buffer Materials {
 layout(std430, binding = BINDING_TEXTURES) readonly restrict buffer Textures { Texture textures[]; };
 layout(std430, binding = BINDING_MEDIA) readonly restrict buffer Media { Medium media[]; };
 layout(std430, binding = BINDING_LIGHTS) readonly restrict buffer Lights { Light lights[]; };
-layout(std430, binding = BINDING_FRAME) readonly restrict buffer FrameBuffer { Frame frame; };
-#define LOOP_PROBE frame.counts.y
-
-// Images are never compiled in, so that this is the same for all scenes.
-#if TEXEL_BUFFERS
-uint load_texel(uint i) {
-  uvec4 four = imageLoad(texels, int(i >> 2u));
-  uint which = i & 3u;
-  return which == 0u ? four.x : which == 1u ? four.y : which == 2u ? four.z : four.w;
-}
-#else
-uint load_texel(uint i) { return texels[i]; }
-#endif
 
 #endif

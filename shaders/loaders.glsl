@@ -1,8 +1,9 @@
-// How everything else reads the scene, when it is in the buffers; a small scene is compiled in instead (render/specialise.cpp).
+// How everything else reads the scene, when it is in the buffers; what is small is compiled in instead (render/specialise.cpp).
 #ifndef LOADERS_GLSL
 #define LOADERS_GLSL
 #include "bindings.glsl"
 
+#ifndef SCENE_PRIMITIVES
 #if TEXEL_BUFFERS
 uvec4 load_vertex(uint i) { return imageLoad(vertices, int(i)); }
 uvec4 load_node(uint i) { return imageLoad(nodes, int(i)); }
@@ -27,6 +28,25 @@ uvec4 load_primitive_word(uint i) {
                        : floatBitsToUint(primitives[i >> 2u].c);
 }
 #endif
+#endif
+#ifndef FRAME_AS_CONSTANT
+#if TEXEL_BUFFERS
+Frame load_frame() {
+  Frame f;
+  f.image = imageLoad(frame_words, 0);
+  f.camera = imageLoad(frame_words, 1);
+  f.counts = imageLoad(frame_words, 2);
+  f.right = uintBitsToFloat(imageLoad(frame_words, 3));
+  f.up = uintBitsToFloat(imageLoad(frame_words, 4));
+  f.forward = uintBitsToFloat(imageLoad(frame_words, 5));
+  f.background = uintBitsToFloat(imageLoad(frame_words, 6));
+  f.ambient = uintBitsToFloat(imageLoad(frame_words, 7));
+  return f;
+}
+#else
+Frame load_frame() { return frame_record; }
+#endif
+#endif
 #if STORED_HITS
 uint stored_place;  // of this invocation's pixel
 PacketHit load_packet_hit() { return packet_hits[stored_place]; }
@@ -34,9 +54,20 @@ uint load_occlusion(uint light) { return occlusions[light * dispatch.sample_inde
 #endif
 Tree load_tree(uint i) { return trees[i]; }
 Instance load_instance(uint i) { return instances[i]; }
+#if TEXEL_BUFFERS
+uint load_texel(uint i) {
+  uvec4 four = imageLoad(texels, int(i >> 2u));
+  uint which = i & 3u;
+  return which == 0u ? four.x : which == 1u ? four.y : which == 2u ? four.z : four.w;
+}
+#else
+uint load_texel(uint i) { return texels[i]; }
+#endif
+#ifndef LOOKS_AS_CONSTANTS
 Material load_material(uint i) { return materials[i]; }
 Texture load_texture(uint i) { return textures[i]; }
 Medium load_medium(uint i) { return media[i]; }
 Light load_light(uint i) { return lights[i]; }
+#endif
 
 #endif

@@ -15,6 +15,12 @@ float maximum(float x, float y) { return x < y ? y : x; }
 // x, with 0 for −0. llvmpipe takes 0·x as 0 where a factor is a constant, whatever the sign of x: what leaves a kernel goes
 // through here, so that the sign of a zero is the same everywhere.
 float positive_zero(float x) { return x == 0.0f ? 0.0f : x; }
+// a / b for b > 0 and a < 2^24. A CPU driver divides integers lane by lane, floats all at once; they are off by one at most, on any device.
+uint quotient(uint a, uint b) {
+  uint q = uint(float(a) / float(b));
+  q = q * b > a ? q - 1u : q;
+  return a - q * b >= b ? q + 1u : q;
+}
 vec4 bits_to_floats(uvec4 v) {
   return vec4(uintBitsToFloat(v.x), uintBitsToFloat(v.y), uintBitsToFloat(v.z), uintBitsToFloat(v.w));
 }

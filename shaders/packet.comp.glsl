@@ -200,8 +200,10 @@ uint place_of(uint packet, uint i) {
 #if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
 // The sample's ray through the pixel at `place` of the tile.
 Ray eye_ray(uint place) {
-  uint x = dispatch.tile.x + place % dispatch.tile.z;
-  uint y = dispatch.tile.y + place / dispatch.tile.z;
+  uint row = quotient(place, dispatch.tile.z);
+  uint x = dispatch.tile.x + place - row * dispatch.tile.z;
+  uint y = dispatch.tile.y + row;
+  Frame frame = load_frame();
   return camera_ray(frame, sample_place(frame, x, y, dispatch.sample_index.x));
 }
 #endif

@@ -32,7 +32,20 @@ void meet(INOUT(Found) found, float t, vec2 uv, uint slot, uint id, uint instanc
   }
 }
 
-#ifndef SCENE_PRIMITIVES
+#ifdef SCENE_PRIMITIVES
+// The same where ids come in ascending order: of equal ones the first stays.
+void meet_in_order(INOUT(Found) found, float t, vec2 uv, uint slot, uint id, uint density, bool any) {
+  if (any) {
+    meet(found, t, uv, slot, id, NONE, density, true);
+  } else {
+    bool nearer = t > 0.0f && t < found.hit.t;
+    found.hit.t = nearer ? t : found.hit.t;
+    found.hit.slot = nearer ? slot : found.hit.slot;
+    found.hit.id = nearer ? id : found.hit.id;
+    found.hit.uv = nearer ? uv : found.hit.uv;
+  }
+}
+#else
 // A primitive of the tree that `place` is in.
 void meet_slot(INOUT(Found) found, uint slot, Place place, bool any) {
   Primitive primitive = load_primitive(slot);
@@ -122,7 +135,7 @@ void meet_loose(INOUT(Found) found, Ray ray, bool any) {
 #define MEET_ONE(name, index, constants)                                                    \
   {                                                                                         \
     float t = name##_intersect(constants, ray, uv);                                         \
-    meet(found, t, uv, index, constants.head.x, NONE, constants.head.z, any);               \
+    meet_in_order(found, t, uv, index, constants.head.x, constants.head.z, any);            \
   }
   SCENE_PRIMITIVES(MEET_ONE)
 #else

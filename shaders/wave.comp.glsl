@@ -1,6 +1,7 @@
-// Entry: one step of the paths of a tile, all at the same depth, where no ray splits in two. The first wave takes every pixel, and what
-// packet.comp.glsl found for it (STORED_HITS); a later one the list of pixels whose paths go on, so that no lane is idle. Each adds
-// what its ray sees and enters itself in the next list if its path goes on. The order of a list changes nothing.
+// Entry: one step of the paths of a tile, all at the same depth. The first wave takes every pixel, and what packet.comp.glsl found for it
+// (STORED_HITS); a later one the list of pixels whose paths go on, so that no lane is idle. Each adds what its ray sees and enters itself
+// in the next list if its path goes on. The order of a list changes nothing. With ENDS_ONLY the first wave keeps nothing of paths
+// that go on: render.comp.glsl starts them anew, where rays split in two.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -16,6 +17,7 @@ layout(std430, binding = BINDING_LIST) readonly restrict buffer List { uint list
 layout(std430, binding = BINDING_NEXT_LIST) restrict buffer NextList { uint next_list[]; };
 
 void main() {
+  Frame frame = load_frame();
   uint group = dealt_out(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE);
   vec3 color = vec3(0.0f, 0.0f, 0.0f);
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
@@ -24,11 +26,8 @@ void main() {
   uvec2 pixel = pixel_of_block(group, gl_LocalInvocationIndex, dispatch.tile);
   if (pixel.x >= dispatch.tile.z || pixel.y >= dispatch.tile.w) return;
   uint place = pixel.y * dispatch.tile.z + pixel.x;
-  stored_place = place;
   path = eye_path(frame, camera_ray(frame, sample_place(frame, dispatch.tile.x + pixel.x, dispatch.tile.y + pixel.y,
                                                         dispatch.sample_index.x)));
-  Ray ray = make_ray(path.o, path.d);
-  Hit hit = hit_of_packet(load_packet_hit(), counts);
 #else
   uint i = group * 64u + gl_LocalInvocationIndex;
   if (i >= list[0]) return;
@@ -40,17 +39,32 @@ void main() {
   path.media = 0u;
   color = vec3(results[place].color);
   counts = results[place].counts;
-  Ray ray = make_ray(path.o, path.d);
-  Hit hit = trace(ray);
 #endif
 
+  Ray ray = make_ray(path.o, path.d);
+#if STORED_HITS
+  stored_place = place;
+  Hit hit = hit_of_packet(load_packet_hit(), counts);
+#else
+  Hit hit = trace(ray);
+#endif
   Children children = follow(frame, path, ray, hit, color, counts);
+  counts.z = counts.z | loops_cut_off(LOOP_PROBE);
+
+#ifdef ENDS_ONLY
+  if (children.reflects || children.transmits) {
+    next_list[1u + atomicAdd(next_list[0], 1u)] = place;
+    return;
+  }
+#endif
   results[place].color = vec4(positive_zeros(color), 1.0f);
   results[place].counts = counts;
+#ifndef ENDS_ONLY
   if (children.reflects) {
     paths[place].origin = vec4(children.reflected.o, 0.0f);
     paths[place].direction = vec4(children.reflected.d, 0.0f);
     paths[place].weight = vec4(children.reflected.weight, 0.0f);
     next_list[1u + atomicAdd(next_list[0], 1u)] = place;
   }
+#endif
 }

@@ -135,7 +135,7 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options) {
   command
       .add_flag_callback(
           "--no-constants", [&options] { options.constants = false; },
-          "Keep a small scene's shapes in buffers instead of in the kernel.")
+          "Keep materials, lights and a small scene's shapes in buffers instead of in the kernel.")
       ->group(group);
   const auto choose = [&](const char* name, std::string& value, const char* text, const char* description) {
     command.add_option(name, value, description)->option_text(text)->group("How hits are found (not which)");

@@ -21,7 +21,7 @@ struct PackedScene {
   // Of those of `kind` in no tree.
   uint32_t first_loose(uint32_t kind) const { return kind == 0 ? 0 : loose_ends[kind - 1]; }
   std::set<uint32_t> tree_kinds;      // of the shapes in trees
-  std::set<uint32_t> material_kinds;  // of the materials in use
+  std::set<std::pair<uint32_t, uint32_t>> uses;  // kinds of shape, and materials that they are made of
   std::vector<shader::uvec4> nodes;
   std::vector<shader::Tree> trees;  // the world's, then one a mesh of `instances`
   std::vector<shader::Instance> instances;

@@ -122,7 +122,7 @@ class GeometryPacker {
       shape->pack(packer_);
       shader::Primitive& record = packed_.primitives.back();
       record.head.x = uint32_t(boxes_.size());
-      record.head.z = use_material(material_of(record), false);
+      record.head.z = use_material(kind_of(record), material_of(record), false);
       boxes_.push_back(kind_of(record) == shader::KIND_triangle ? triangle_box(record)
                                                                 : to_box(shape->bounds(), scene_.camera.eye));
     }
@@ -140,9 +140,10 @@ class GeometryPacker {
       if (mesh.triangles.empty()) continue;
       packed_.vertex_colors = packed_.vertex_colors || !mesh.colors.empty();
       if (uses_[size_t(instance.mesh)] == 1 || mesh.triangles.size() == 1) {
-        baked_.push_back({uint32_t(boxes_.size()),
-                          {mesh, map, scene_.camera.eye, instance.material,
-                           use_material(uint32_t(instance.material), true), id, packed_.vertices}});
+        baked_.push_back(
+            {uint32_t(boxes_.size()),
+             {mesh, map, scene_.camera.eye, instance.material,
+              use_material(shader::KIND_triangle, uint32_t(instance.material), true), id, packed_.vertices}});
         append_boxes(baked_.back().records, boxes_);
       } else {
         int& tree = tree_of[size_t(instance.mesh)];
@@ -176,7 +177,7 @@ class GeometryPacker {
     const Vec3 to_mesh_offset = inverse * -to_world_offset;
     shader::Instance record{};
     record.head = {tree + 1, first_id, uint32_t(instance.material),
-                   use_material(uint32_t(instance.material), true)};
+                   use_material(shader::KIND_triangle, uint32_t(instance.material), true)};
     for (int row = 0; row < 3; ++row) {
       record.to_mesh[row] = to_vec4({inverse[0][row], inverse[1][row], inverse[2][row]}, to_mesh_offset[row]);
       record.to_world[row] =
@@ -185,11 +186,11 @@ class GeometryPacker {
     packed_.instances.push_back(record);
   }
 
-  // Takes note that a material is used. Returns what a shadow ray loses to each: a shape weakens it once, a
-  // mesh half at each of its triangles, for a closed body is left as it was entered.
-  uint32_t use_material(uint32_t material, bool of_mesh) {
+  // Takes note that shapes of a kind are made of a material. Returns what a shadow ray loses to each: a shape
+  // weakens it once, a mesh half at each of its triangles, for a closed body is left as it was entered.
+  uint32_t use_material(uint32_t kind, uint32_t material, bool of_mesh) {
     const shader::uvec4& head = packed_.materials[material].head;
-    packed_.material_kinds.insert(head.x);
+    packed_.uses.emplace(kind, material);
     translucent_ = translucent_ || head.w < SHADOW_OPAQUE;
     return of_mesh && head.w < SHADOW_OPAQUE ? head.w / 2 : head.w;
   }

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/parallel_for.hpp"
 #include "gpu/command_list.hpp"
 #include "gpu/float_policy.hpp"
 #include "gpu/self_test.hpp"
@@ -79,7 +80,11 @@ class GpuExecutor final : public Executor {
       return waves_ ? waves_->run(push, output) : dispatch(*sample_kernel_, push, output);
     };
     return for_bands<shader::SampleResult>(tile, index, trace, [&](size_t first, auto results) {
-      for (size_t i = 0; i < results.size(); ++i) out[first + i] = to_sample(results[i]);
+      constexpr size_t piece = 4096;
+      parallel_for(0, int((results.size() + piece - 1) / piece), [&](int p) {
+        const size_t begin = size_t(p) * piece, end = std::min(results.size(), begin + piece);
+        for (size_t i = begin; i < end; ++i) out[first + i] = to_sample(results[i]);
+      });
       fault_.damage(out.subspan(first, results.size()));
     });
   }
@@ -185,7 +190,7 @@ class GpuExecutor final : public Executor {
     add_buffer(BINDING_TEXELS, "texels", std::span(packed.texels), kind);
     add_buffer(BINDING_MEDIA, "media", std::span(packed.media));
     add_buffer(BINDING_LIGHTS, "lights", std::span(packed.lights));
-    add_buffer(BINDING_FRAME, "frame", std::span(&packed.frame, 1));
+    add_buffer(BINDING_FRAME, "frame", std::span(&packed.frame, 1), kind);
   }
 
   template <typename Record>
@@ -260,14 +265,13 @@ class GpuExecutor final : public Executor {
         .seconds;
   }
 
-  // Where no ray splits in two, a path is one ray after the other, and every step of it a wave.
   void make_waves(const Scene& scene, const PackedScene& packed) {
-    const bool whitted = scene.render.integrator == IntegratorType::whitted;
     WaveOptions options;
+    options.whitted = scene.render.integrator == IntegratorType::whitted;
     options.lights = uint32_t(packed.lights.size());
-    options.shadows = whitted && options.lights > 0;
-    options.paths = whitted && packed.media.size() == 1;
     options.depth = any_reflects(packed) ? packed.frame.camera.w : 0;
+    // Where no ray splits in two, a path is one ray after the other, and every step of it a wave.
+    options.paths = packed.media.size() == 1;
     options.stride = group_stride_;
     options.subgroup = device_.info().limits.subgroup_size;
     waves_.emplace(

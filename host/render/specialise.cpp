@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 #include <string_view>
 
 namespace eyeray {
 namespace {
 
-// Above this many records the code outgrows what it saves, and its compilation what a frame saves.
-constexpr size_t most_primitives = 24;
-constexpr size_t most_records = 96;
+// Above this many records of a kind the code outgrows what it saves, and its compilation what a frame saves.
+constexpr size_t most_records = 24;
+constexpr size_t most_vertices = 96;
 
 struct Row {
   std::string_view name;
@@ -78,25 +80,58 @@ std::string constant_loader(std::string_view type, std::string_view name,
   return text + "  return r;\n}\n";
 }
 
-// The whole scene as constants, but for its texels, and the list of primitives that traverse.glsl unrolls.
-std::string constants(const PackedScene& scene) {
-  std::string text = constant_loader("uvec4", "vertex", scene.vertices) +
-                     constant_loader("Material", "material", scene.materials) +
+bool few_looks(const PackedScene& scene) {
+  return std::max({scene.materials.size(), scene.textures.size(), scene.media.size(), scene.lights.size()}) <=
+         most_records;
+}
+
+bool few_primitives(const PackedScene& scene) {
+  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_records &&
+         scene.vertices.size() <= most_vertices;
+}
+
+// Everything but geometry and texels as constants, and the list of materials that material.glsl unrolls. Not
+// of images: each of them is far more code than what chooses between them.
+std::string looks_as_constants(const PackedScene& scene, const std::set<uint32_t>& materials_used) {
+  std::string text = constant_loader("Material", "material", scene.materials) +
                      constant_loader("Texture", "texture", scene.textures) +
                      constant_loader("Medium", "medium", scene.media) +
-                     constant_loader("Light", "light", scene.lights) +
-                     constant_loader("Primitive", "primitive", scene.primitives);
-  text += "#define SCENE_PRIMITIVES(X)";
-  for (size_t i = 0; i < scene.primitives.size(); ++i)
+                     constant_loader("Light", "light", scene.lights) + "#define LOOKS_AS_CONSTANTS\n";
+  if (!scene.texels.empty()) return text;
+  text += "#define SCENE_MATERIALS(X)";
+  for (const uint32_t i : materials_used) {
+    const auto row = std::ranges::find(materials, scene.materials[i].head.x, &Row::number);
+    text += fmt::format(" X({0}, {1}u, load_material({1}u))", row->name, i);
+  }
+  return text + "\n";
+}
+
+// What is the same for all pixels, as a constant.
+std::string frame_as_constant(const shader::Frame& f) {
+  return fmt::format(
+      "Frame load_frame() {{ return Frame({}, {}, {}, {}, {}, {}, {}, {}); }}\n#define FRAME_AS_CONSTANT\n",
+      literal(f.image), literal(f.camera), literal(f.counts), literal(f.right), literal(f.up),
+      literal(f.forward), literal(f.background), literal(f.ambient));
+}
+
+// Geometry as constants, and the list of primitives that traverse.glsl unrolls, in the order of their ids.
+std::string primitives_as_constants(const PackedScene& scene) {
+  std::string text = constant_loader("uvec4", "vertex", scene.vertices) +
+                     constant_loader("Primitive", "primitive", scene.primitives) +
+                     "#define SCENE_PRIMITIVES(X)";
+  std::map<uint32_t, size_t> by_id;  // slots
+  for (size_t i = 0; i < scene.primitives.size(); ++i) by_id.emplace(scene.primitives[i].head.x, i);
+  for (const auto& [id, i] : by_id)
     text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[kind_of(scene.primitives[i])].name, i, i);
   return text + "\n";
 }
 
-bool is_small(const PackedScene& scene) {
-  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_primitives &&
-         scene.vertices.size() + scene.materials.size() + scene.textures.size() + scene.media.size() +
-                 scene.lights.size() <=
-             most_records;
+// Whether any texture of the material varies over a surface.
+bool varies(const PackedScene& scene, const shader::Material& material) {
+  const shader::uvec4& used = material.textures;
+  return std::ranges::any_of(
+      std::array{used.x, used.y, used.z, used.w, material.head.y >> MATERIAL_EMISSION_SHIFT},
+      [&](uint32_t texture) { return scene.textures[texture].even.w != TEXTURE_CONSTANT; });
 }
 
 bool any_emits(const PackedScene& scene) {
@@ -117,14 +152,21 @@ bool any_reflects(const PackedScene& scene) {
 }
 
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
-  std::set<uint32_t> shapes_used = scene.tree_kinds;
-  for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
-    if (scene.first_loose(kind) < scene.loose_ends[kind]) shapes_used.insert(kind);
+  std::set<uint32_t> shapes_used, materials_used, material_kinds, kinds_with_uv;
+  for (const auto& [kind, material] : scene.uses) {
+    shapes_used.insert(kind);
+    materials_used.insert(material);
+    material_kinds.insert(scene.materials[material].head.x);
+    if (varies(scene, scene.materials[material])) kinds_with_uv.insert(kind);
+  }
   const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
                                    [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
   const bool images = !scene.texels.empty();
   const bool media = scene.media.size() > 1;
-  const bool unrolled = options.constants && is_small(scene);
+  const bool absorption = std::any_of(scene.media.begin(), scene.media.end(), [](const shader::Medium& m) {
+    return glm::vec3(m.absorption_ior) != glm::vec3(0);
+  });
+  const bool unrolled = options.constants && few_primitives(scene);
 
   std::string text = "// Made for this scene by render/specialise.cpp.\n";
   const auto define = [&](std::string_view name, const auto& value) {
@@ -137,6 +179,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_COLORS", int(scene.vertex_colors));
   define("HAS_EMISSION", int(any_emits(scene)));
   define("HAS_MEDIA", int(media));
+  define("HAS_ABSORPTION", int(absorption));
   // Only where a ray splits in two does a child wait, and one a level at most.
   define("WHITTED_STACK", media ? scene.frame.camera.w : 0u);
   define("TRACE_ITERATIONS", fmt::format("{}u", unrolled || scene.has_tree ? 0 : scene.primitives.size()));
@@ -158,12 +201,18 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   for (const Row& shape : shapes) {
     define(fmt::format("FIRST_{}", shape.name), fmt::format("{}u", scene.first_loose(shape.number)));
     define(fmt::format("END_{}", shape.name), fmt::format("{}u", scene.loose_ends[shape.number]));
+    define(fmt::format("UV_{}", shape.name), kinds_with_uv.contains(shape.number) ? "true" : "false");
   }
   text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_END(name) END_##name\n";
+  // Whoever looks at first hits looks at uv too.
+  text += "#ifdef FIRST_HITS\n#define UV_OF(name) true\n#else\n#define UV_OF(name) UV_##name\n#endif\n";
   text += "#include \"bindings.glsl\"\n";
-  text += unrolled ? constants(scene) : "#include \"loaders.glsl\"\n";
+  if (options.constants && few_looks(scene)) text += looks_as_constants(scene, materials_used);
+  // Where the eye moves, so do primitives: such a kernel is made anew for each camera as it is.
+  if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
+  text += "#include \"loaders.glsl\"\n";
   text += registry("SHAPES", "shapes", shapes, shapes_used);
-  text += registry("MATERIALS", "materials", materials, scene.material_kinds);
+  text += registry("MATERIALS", "materials", materials, material_kinds);
   text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.counts.z});
   return text;
 }

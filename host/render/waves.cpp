@@ -9,10 +9,16 @@ namespace eyeray {
 Waves::Waves(gpu::Device& device, const MakeKernel& make_kernel, const WaveOptions& options)
     : device_(device), options_(options) {
   primary_ = make_kernel("packet.comp.glsl", "#define PACKET_PRIMARY\n");
-  if (options.shadows) shadow_ = make_kernel("packet.comp.glsl", "#define PACKET_SHADOW\n");
-  first_ = options.paths ? make_kernel("wave.comp.glsl", "#define STORED_HITS 1\n#define WAVES 1\n")
-                         : make_kernel("render.comp.glsl", "#define STORED_HITS 1\n");
-  if (options.paths && options.depth > 0) later_ = make_kernel("wave.comp.glsl", "#define WAVES 1\n");
+  const std::string stored = "#define STORED_HITS 1\n";
+  if (!options.whitted) {
+    first_ = make_kernel("render.comp.glsl", stored);
+    return;
+  }
+  if (options.lights > 0) shadow_ = make_kernel("packet.comp.glsl", "#define PACKET_SHADOW\n");
+  first_ = make_kernel("wave.comp.glsl", options.paths ? stored : stored + "#define ENDS_ONLY\n");
+  if (options.depth == 0) return;
+  later_ =
+      options.paths ? make_kernel("wave.comp.glsl", "") : make_kernel("render.comp.glsl", "#define LISTED\n");
 }
 
 std::optional<double> Waves::run(shader::Dispatch push, gpu::Buffer& results) {
@@ -22,7 +28,7 @@ std::optional<double> Waves::run(shader::Dispatch push, gpu::Buffer& results) {
   const uint32_t packet_groups = whole_strides((blocks * 64 + rays_a_group - 1) / rays_a_group);
   make_room(push.tile.z * push.tile.w);
 
-  // The eye rays and their shadow rays in packets, and what they see.
+  // The eye rays and their shadow rays, and what they see.
   lists_[0]->clear(sizeof(uint32_t));
   first_->set_buffer(BINDING_OUTPUT, results);
   first_->set_buffer(BINDING_LIST, *lists_[1]);
@@ -37,9 +43,10 @@ std::optional<double> Waves::run(shader::Dispatch push, gpu::Buffer& results) {
   commands.dispatch(*first_, bytes, {whole_strides(blocks), 1, 1});
   double seconds = commands.run().seconds;
 
-  // Then wave after wave the paths that go on, each alone.
+  // Then the paths that go on, each alone: wave after wave, or all the way.
+  const uint32_t waves = options_.paths ? options_.depth : 1;
   uint32_t& depth = push.sample_index.y;
-  for (depth = 1; later_ && depth <= options_.depth; ++depth) {
+  for (depth = 1; later_ && depth <= waves; ++depth) {
     gpu::Buffer& list = *lists_[(depth + 1) % 2];
     gpu::Buffer& next = *lists_[depth % 2];
     const uint32_t count = list.read_records<uint32_t>(1)[0];

@@ -1,5 +1,5 @@
 // Pictures by waves: rays of all pixels of a tile at once, those that run side by side in packets
-// (packet.comp.glsl).
+// (packet.comp.glsl), then those of the pixels whose paths go on.
 #pragma once
 
 #include <functional>
@@ -12,12 +12,12 @@
 namespace eyeray {
 
 struct WaveOptions {
-  bool shadows = false;  // whether shadow rays are traced too
+  bool whitted = false;  // else raycast: no shadow rays, and no path goes on
   uint32_t lights = 0;
-  bool paths = false;   // each reflection is a wave (wave.comp.glsl); else render.comp.glsl goes on from the
-                        // eye rays' hits
-  uint32_t depth = 0;   // reflections in a row
-  uint32_t stride = 1;  // GROUP_STRIDE
+  uint32_t depth = 0;     // reflections or refractions in a row, at most
+  bool paths = false;     // each is a wave of its own (wave.comp.glsl), where no ray splits in two; else
+                          // render.comp.glsl starts the pixels anew whose paths go on
+  uint32_t stride = 1;    // GROUP_STRIDE
   uint32_t subgroup = 8;  // lanes
 };
 
@@ -40,8 +40,8 @@ class Waves {
   WaveOptions options_;
   std::unique_ptr<gpu::Kernel> primary_;
   std::unique_ptr<gpu::Kernel> shadow_;  // null without shadow rays
-  std::unique_ptr<gpu::Kernel> first_;   // shades what they found
-  std::unique_ptr<gpu::Kernel> later_;   // traces and shades where paths go on; null where none does
+  std::unique_ptr<gpu::Kernel> first_;   // shades what eye rays hit
+  std::unique_ptr<gpu::Kernel> later_;   // goes on with the paths that do; null where none does
   uint32_t pixels_ = 0;                  // that the buffers have room for
   std::optional<gpu::Buffer> hits_, occlusions_, paths_, lists_[2];
 };

@@ -115,10 +115,12 @@ class Triangle final : public Shape {
           {{first, first + 1, first + 2, (normals_ ? CORNERS_NORMALS : 0u) | (uv_ ? CORNERS_UV : 0u)},
            to_bits(to_vec4({uv[0].y, uv[1].y, uv[2].y}))});
     }
+    // Without −0, so that compiled-in triangles of one plane share what is computed of it.
+    const Vec3 normal = normal_ + 0.0;
     packer.add({.head = Packer::head(shader::KIND_triangle, material, attributes),
-                .a = to_vec4(packer.relative(vertices_[0]), normal_.x),
-                .b = to_vec4(packer.relative(vertices_[1]), normal_.y),
-                .c = to_vec4(packer.relative(vertices_[2]), normal_.z)});
+                .a = to_vec4(packer.relative(vertices_[0]), normal.x),
+                .b = to_vec4(packer.relative(vertices_[1]), normal.y),
+                .c = to_vec4(packer.relative(vertices_[2]), normal.z)});
   }
 
  private:

@@ -63,7 +63,6 @@ class Binding {
 #define HAS_INSTANCES 1
 #define INSTANCE_COUNT uint(bound_scene->instances.size())
 #define STORED_HITS 0
-#define WAVES 0
 #define HAS_SECONDARY 1
 #define SHIFT_STACK 0
 #define STACK_SIZE 128
@@ -75,6 +74,8 @@ class Binding {
 #define HAS_COLORS 1
 #define HAS_EMISSION 1
 #define HAS_MEDIA 1
+#define HAS_ABSORPTION 1
+#define UV_OF(name) true
 
 #undef SHADER_BEGIN
 #undef SHADER_END

@@ -17,14 +17,16 @@ struct PathRay {
   uint media;
 };
 
-// Its own light, the ambient one and what every visible light adds at a point, after `depth` reflections and refractions.
+// Its own light, the ambient one and what every visible light adds at a point.
 vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface seen, vec3 to_viewer,
-                  uint depth, INOUT(uvec4) counts) {
+                  INOUT(uvec4) counts) {
   vec3 color = scattering.ambient * vec3(frame.ambient);
 #if HAS_EMISSION
   color = color + scattering.emitted;
 #endif
-  for (uint i = 0u; i < LIGHT_COUNT; i++) {
+  // Tested at the bottom: Mesa 22.3.6 would go round once more, with all lanes idle.
+  uint i = 0u;
+  if (LIGHT_COUNT > 0u) do {
     counts.w += 1u + TRACE_ITERATIONS;
     LightSample light = sample_light(load_light(i), seen.p);
     float cosine = dot3(seen.normal, light.direction);
@@ -32,9 +34,6 @@ vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface
       counts.x += 1u;
 #if STORED_HITS
       uint occluded = load_occlusion(i);
-#if HAS_SECONDARY && !WAVES
-      if (depth > 0u) occluded = occlusion(leave(seen, light.direction), light.distance);
-#endif
 #else
       uint occluded = occlusion(leave(seen, light.direction), light.distance);
 #endif
@@ -42,7 +41,8 @@ vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface
       float lobe = highlight(material, seen.normal, light.direction, to_viewer);
       color = color + light.color * (scattering.diffuse * cosine + scattering.specular * lobe) * visible;
     }
-  }
+    i += 1u;
+  } while (i < LIGHT_COUNT);
   return color;
 }
 
@@ -80,8 +80,10 @@ Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, 
     vec3 weight = path.weight;
 #if HAS_MEDIA
     Medium from = load_medium(innermost_medium(path.media));
+#if HAS_ABSORPTION
     weight = weight * vec3(exp_negative(-from.absorption_ior.x * hit.t), exp_negative(-from.absorption_ior.y * hit.t),
                            exp_negative(-from.absorption_ior.z * hit.t));
+#endif
 #endif
 
     // Find the surface as the viewer sees it, and the medium behind it.
@@ -108,8 +110,8 @@ Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, 
 #endif
 
     // Shade.
-    Scattering scattering = scattering_of(material, context);
-    color = color + weight * direct_light(frame, material, scattering, seen, -ray.d, path.depth, counts);
+    Scattering scattering = scattering_of(material_of(primitive), material, context);
+    color = color + weight * direct_light(frame, material, scattering, seen, -ray.d, counts);
 
 #if HAS_SECONDARY
     // Send out the children that count for enough.
@@ -152,14 +154,7 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
   bool going = true;
   do {
     Ray ray = make_ray(path.o, path.d);
-#if STORED_HITS
-    Hit hit = hit_of_packet(load_packet_hit(), counts);
-#if HAS_SECONDARY
-    if (path.depth > 0u) hit = trace(ray);
-#endif
-#else
     Hit hit = trace(ray);
-#endif
     Children children = follow(frame, path, ray, hit, color, counts);
 
     // Go on with one child, and let the other wait.

@@ -30,6 +30,17 @@ float sphere_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return discriminant >= 0.0f ? t : -1.0f;
 }
 
+// Longitude and latitude of the unit normal n.
+vec2 sphere_uv(Primitive s, vec3 n) {
+  vec3 pole = vec3(s.b);
+  vec3 meridian = vec3(s.c);
+  float x = dot3(n, meridian);
+  float y = dot3(n, pole);
+  float z = dot3(n, cross3(meridian, pole)) * s.c.w;
+  float u = 0.5f + atan_yx(-z, x) / (2.0f * PI);
+  return vec2(u < 1.0f ? u : 0.0f, atan_yx(sqrt(x * x + z * z), -y) / PI);
+}
+
 Surface sphere_surface(Primitive s, Ray ray, Hit hit) {
   vec3 centre = vec3(s.a);
   // A sphere smaller than the rounding of its distance may be met at its very centre.
@@ -40,13 +51,8 @@ Surface sphere_surface(Primitive s, Ray ray, Hit hit) {
   surface.p = centre + n * s.a.w;
   surface.normal_geometric = n;
   surface.normal = n;
-  vec3 pole = vec3(s.b);
-  vec3 meridian = vec3(s.c);
-  float x = dot3(n, meridian);
-  float y = dot3(n, pole);
-  float z = dot3(n, cross3(meridian, pole)) * s.c.w;
-  float u = 0.5f + atan_yx(-z, x) / (2.0f * PI);
-  surface.uv = vec2(u < 1.0f ? u : 0.0f, atan_yx(sqrt(x * x + z * z), -y) / PI);
+  surface.uv = vec2(0.0f, 0.0f);
+  if (UV_OF(sphere)) surface.uv = sphere_uv(s, n);
   surface.offset = 4.0f * EPSILON * (dot3(abs3(n), abs3(centre)) + s.a.w);
   return surface;
 }

@@ -20,7 +20,7 @@ inline void add_instance(Scene& scene, int mesh, int material, const Mat4& trans
 }
 
 inline Mesh make_mesh(std::vector<Vec3> positions, std::vector<std::array<uint32_t, 3>> triangles) {
-  return {"", std::move(positions), std::move(triangles), {}, {}};
+  return {"", std::move(positions), std::move(triangles), {}, {}, {}};
 }
 
 // The cube [−1, 1]³: 8 vertices, 12 triangles, outward.

@@ -79,8 +79,8 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                {MEMBER(SampleResult, color), MEMBER(SampleResult, counts)});
   CHECK(samples.push_constant_bytes == sizeof(shader::Dispatch));
 
-  const gpu::Reflection waves = gpu::reflect(
-      test::compile_entry("wave.comp.glsl", scene, {}, "#define STORED_HITS 1\n#define WAVES 1\n"));
+  const gpu::Reflection waves =
+      gpu::reflect(test::compile_entry("wave.comp.glsl", scene, {}, "#define STORED_HITS 1\n"));
   check_struct(waves, "PacketHit", sizeof(shader::PacketHit),
                {MEMBER(PacketHit, hit), MEMBER(PacketHit, uv)});
   check_struct(waves, "PathState", sizeof(shader::PathState),

@@ -35,7 +35,7 @@ class QueryKernel {
     add(BINDING_TEXELS, std::as_bytes(std::span(scene.texels)), large);
     add(BINDING_MEDIA, std::as_bytes(std::span(scene.media)));
     add(BINDING_LIGHTS, std::as_bytes(std::span(scene.lights)));
-    add(BINDING_FRAME, std::as_bytes(std::span(&scene.frame, 1)));
+    add(BINDING_FRAME, std::as_bytes(std::span(&scene.frame, 1)), large);
     if (traces_packets()) entry_ = "packet.comp.glsl";
     if (wide_tree) {
       add(BINDING_WIDE_NODES, std::as_bytes(std::span(wide_tree->nodes)), large);

@@ -44,6 +44,19 @@ TEST_CASE("exp_negative is within 2.5e-7 of e^x, relative, and 0 from -87 down")
   CHECK(shader::exp_negative(-std::numeric_limits<float>::infinity()) == 0.0f);
 }
 
+TEST_CASE("quotient is the quotient of integers, for numerators below 2^24") {
+  Random random(8);
+  int wrong = 0;
+  for (int i = 0; i < trials; ++i) {
+    const auto b = uint32_t(1 + random.below(1 << int(1 + random.below(23))));
+    const auto many = uint32_t(random.below((1 << 24) / b + 1));
+    // A multiple, its neighbours, and anything.
+    for (const uint32_t a : {many * b, many * b + 1, many * b - 1, uint32_t(random.below(1 << 24))})
+      if (a < 1u << 24) wrong += shader::quotient(a, b) != a / b;
+  }
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("log_positive is within 2e-7 of ln x, relative or absolute") {
   Random random(2);
   const double most = worst([&](int) {
