@@ -88,7 +88,7 @@ struct Instance {
 
 // ---- Material: 48 bytes ---------------------------------------------------------------------------------------------
 //   0 kind       4 flags | emission, an index into textures, << 8      8 medium that fills the shape: 1…255, 0 for none    12 shadow density
-//  16 base      20 specular  24 reflected  28 ambient    indices into textures; base is what raycast shades
+//  16 base      20 specular  24 reflected  28 ambient    indices into textures; base, with emission, is what raycast shades
 //  32 shininess 36 -         40 -          44 -
 struct Material {
   uvec4 head;

@@ -6,6 +6,7 @@
 #include "cli/evidence.hpp"
 #include "compare/report.hpp"
 #include "reference/renderer.hpp"
+#include "render/executors.hpp"
 
 namespace fs = std::filesystem;
 
@@ -26,7 +27,7 @@ struct Command {
 
   ExitCode run() const;
   Report verify(const SceneOptions& options) const;
-  Frame render_frame(Backend backend, const Scene& scene, Report& report) const;
+  Frame render_frame(Backend backend, Executor& maker, const Scene& scene, Report& report) const;
   fs::path folder_for(const std::string& scene) const;
 };
 
@@ -82,9 +83,8 @@ Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int 
   return result;
 }
 
-Frame Command::render_frame(Backend backend, const Scene& scene, Report& report) const {
-  const std::unique_ptr<Executor> maker = make_executor(backend, scene, executor);
-  Rendering rendering = render(scene, *maker, {crop, true, progress_reporter(quiet)});
+Frame Command::render_frame(Backend backend, Executor& maker, const Scene& scene, Report& report) const {
+  Rendering rendering = render(scene, maker, {crop, true, progress_reporter(quiet)});
   if (rendering.interrupted) throw Error(ExitCode::interrupted, "interrupted; nothing was decided");
 
   Frame frame;
@@ -95,7 +95,7 @@ Frame Command::render_frame(Backend backend, const Scene& scene, Report& report)
   frame.rays = rendering.rays;
   frame.flagged_pixels = rendering.flagged_pixels;
   frame.flags = rendering.flags;
-  report.participants.push_back({std::string(backend_name(backend)), maker->description(), rendering.seconds,
+  report.participants.push_back({std::string(backend_name(backend)), maker.description(), rendering.seconds,
                                  rendering.rays, inspect(frame)});
   return frame;
 }
@@ -119,8 +119,10 @@ Report Command::verify(const SceneOptions& options) const {
 
   // Render, the reference last.
   std::vector<Frame> frames;
-  for (const Backend backend : backends) frames.push_back(render_frame(backend, scene, report));
-  frames.push_back(render_frame(Backend::reference, scene, report));
+  for (const Backend backend : backends)
+    frames.push_back(render_frame(backend, *make_executor(backend, scene, executor), scene, report));
+  const auto renderer = std::make_shared<const reference::Renderer>(scene, executor.pack.acceleration);
+  frames.push_back(render_frame(Backend::reference, *make_reference_executor(renderer), scene, report));
   const Frame& reference_frame = frames.back();
 
   // Gate A: every executor of the shaders with the first of them.
@@ -130,9 +132,8 @@ Report Command::verify(const SceneOptions& options) const {
   }
 
   // Gates B and C.
-  const reference::Renderer renderer(scene);
   const Reference reference = [&](int x, int y, const Vec2& shift) {
-    return probe(scene, renderer, x, y, shift);
+    return probe(scene, *renderer, x, y, shift);
   };
   for (size_t i = 0; i < backends.size(); ++i) {
     ReferenceResult result;

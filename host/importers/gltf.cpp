@@ -95,7 +95,9 @@ class GltfReader {
 void GltfReader::check_extensions() {
   for (const std::string& name : document_.texts("extensionsRequired")) {
     if (std::ranges::find(coded_extensions, name) != std::end(coded_extensions))
-      throw malformed(file_.name, fmt::format("its data are coded by {}, which eyeray cannot read", name));
+      throw malformed(
+          file_.name,
+          fmt::format("its data are coded by {}, which eyeray cannot read: export it without", name));
   }
   for (const std::string& name : document_.texts("extensionsUsed")) {
     if (std::ranges::find(known_extensions, name) == std::end(known_extensions))

@@ -39,6 +39,8 @@ void drop_empty(ImportedScene& scene) {
 ImportedScene read_mesh_file(MeshFile& file) {
   const Reader read = find_reader(file.name);
   if (!read) throw malformed(file.name, "a mesh file ends in .obj, .ply, .gltf or .glb");
+  if (file.bytes.starts_with("\xff\xfe") || file.bytes.starts_with("\xfe\xff"))
+    throw malformed(file.name, "it is text in UTF-16: save it as UTF-8");
   ImportedScene scene = read(file);
   drop_empty(scene);
   if (scene.instances.empty()) {

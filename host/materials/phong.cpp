@@ -65,7 +65,7 @@ class Phong final : public Material {
     return scattering;
   }
 
-  Vec3 base_color(const Vec2& uv) const override { return values_.diffuse.at(uv); }
+  Vec3 base_color(const Vec2& uv) const override { return values_.diffuse.at(uv) + values_.emission.at(uv); }
 
   void pack(Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_phong, values_.highlight, shadow_transmittance(), packer);

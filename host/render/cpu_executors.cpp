@@ -80,24 +80,25 @@ class TwinExecutor final : public Executor {
 
 class ReferenceExecutor final : public Executor {
  public:
-  ReferenceExecutor(const Scene& scene, Acceleration acceleration) : renderer_(scene, acceleration) {}
+  explicit ReferenceExecutor(std::shared_ptr<const reference::Renderer> renderer)
+      : renderer_(std::move(renderer)) {}
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
     return times_.measure("trace", [&] {
-      return for_each_pixel(tile, out, [&](int x, int y) { return renderer_.sample(x, y, index); });
+      return for_each_pixel(tile, out, [&](int x, int y) { return renderer_->sample(x, y, index); });
     });
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
-    for_each_pixel(tile, out, [&](int x, int y) { return renderer_.first_hit(x, y); });
+    for_each_pixel(tile, out, [&](int x, int y) { return renderer_->first_hit(x, y); });
   }
 
   double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
     return timed_queries(batch.rays, hits, [&](const Query& ray) -> QueryHit {
       constexpr double none = std::numeric_limits<double>::infinity();
       if (batch.kind == QueryKind::any)
-        return {renderer_.tracer().transmittance({ray.o, ray.d}, ray.t_max) == 0 ? 0 : none, -1};
-      const auto hit = renderer_.tracer().trace({ray.o, ray.d});
+        return {renderer_->tracer().transmittance({ray.o, ray.d}, ray.t_max) == 0 ? 0 : none, -1};
+      const auto hit = renderer_->tracer().trace({ray.o, ray.d});
       if (!hit || hit->at.t >= ray.t_max) return {none, -1};
       return {hit->at.t, int64_t(hit->primitive)};
     });
@@ -108,7 +109,7 @@ class ReferenceExecutor final : public Executor {
   }
 
  private:
-  reference::Renderer renderer_;
+  std::shared_ptr<const reference::Renderer> renderer_;
 };
 
 }  // namespace
@@ -118,7 +119,12 @@ std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorO
 }
 
 std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options) {
-  return std::make_unique<ReferenceExecutor>(scene, options.pack.acceleration);
+  return make_reference_executor(
+      std::make_shared<const reference::Renderer>(scene, options.pack.acceleration));
+}
+
+std::unique_ptr<Executor> make_reference_executor(std::shared_ptr<const reference::Renderer> renderer) {
+  return std::make_unique<ReferenceExecutor>(std::move(renderer));
 }
 
 }  // namespace eyeray

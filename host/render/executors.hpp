@@ -1,6 +1,7 @@
 // The executors, each behind its maker.
 #pragma once
 
+#include "reference/renderer.hpp"
 #include "render/executor.hpp"
 
 namespace eyeray {
@@ -8,5 +9,7 @@ namespace eyeray {
 std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOptions& options);
 std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorOptions& options);
 std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options);
+// The same by a renderer that others use too: its trees are built once.
+std::unique_ptr<Executor> make_reference_executor(std::shared_ptr<const reference::Renderer> renderer);
 
 }  // namespace eyeray

@@ -32,7 +32,11 @@ vec3 raycast_radiance(Frame frame, Ray ray, INOUT(uvec4) counts) {
   }
   float headlight = abs(dot3(seen.normal, ray.d));
   if (LIGHT_COUNT == 0u) light = vec3(headlight, headlight, headlight);
-  vec3 base = texture_color(load_material(material_of(primitive)).textures.x, surface.uv);
+  Material material = load_material(material_of(primitive));
+  vec3 base = texture_color(material.textures.x, surface.uv);
+#if HAS_EMISSION
+  base = base + texture_color(material.head.y >> MATERIAL_EMISSION_SHIFT, surface.uv);
+#endif
 #if HAS_COLORS
   base = base * vertex_color(primitive, hit);
 #endif

@@ -120,6 +120,11 @@ TEST_CASE("colours of vertices, with and without a weight before them; those wit
   CHECK(scene.warnings.empty());
 }
 
+TEST_CASE("text in UTF-16 is called that") {
+  for (const std::string start : {"\xff\xfe", "\xfe\xff"})
+    CHECK(refusal(start + "v", "a.obj") == "a.obj: error: it is text in UTF-16: save it as UTF-8");
+}
+
 TEST_CASE("materials outside the folder tree are not read") {
   const Folder folder;
   folder.write("red.mtl", "newmtl red\nKd 1 0 0\n");

@@ -127,3 +127,24 @@ TEST_CASE("of equal hits the lowest primitive wins") {
   scene.camera.target = {0, 9, 5};
   CHECK(reference::Renderer(scene).first_hit(0, 0).primitive == -1);
 }
+
+TEST_CASE("crossings end, whatever a body says") {
+  // Met again and again: every so far along the ray, or at one point that no step gets away from.
+  struct Body {
+    double step;
+    std::optional<Intersection> intersect(const Ray&) const { return Intersection{step}; }
+    SurfacePoint surface(const Ray& ray, const Intersection& hit) const {
+      return {ray.o + hit.t * ray.d, 0, -ray.d, -ray.d, {}};
+    }
+  };
+  const auto count = [](double step) {
+    int crossings = 0;
+    reference::for_each_crossing(Body{step}, {{1, 0, 0}, {1, 0, 0}}, [&](double, const SurfacePoint&) {
+      ++crossings;
+      return true;
+    });
+    return crossings;
+  };
+  CHECK(count(0.5) == reference::most_crossings);
+  CHECK(count(1e-300) == 1);
+}
