@@ -1,5 +1,6 @@
 // Entry: rays from a buffer that run anywhere, four lanes a ray. Lane i looks at child i of a node of four, or at primitive i of a
-// leaf, and the stack is spread over the lanes: so fewer rays have to wait for each other, each for fewer steps.
+// leaf, and the stack is spread over the lanes: so fewer rays have to wait for each other, each for fewer steps. Before that, a group
+// of rays goes down as one for as long as most of it takes the same way.
 // What a ray hits is what `search` finds (traverse.glsl), since neither asks in which order. Without QUERY_ANY the nearest hit, with
 // it whether there is one.
 #version 460
@@ -18,10 +19,13 @@
 #endif
 #define STACK_ROWS ((WIDE_STACK_SIZE + 3) / 4)
 #define FAR_AWAY 0x7fffffffu
+// Rays that go down together at first and then take turns, one a lane; so many at once.
+#define GROUP (SUBGROUP_SIZE > 4 ? 8u : 4u)
+#define AT_ONCE (GROUP / 4u)
 // How many of a ray's waiting children the common way down may leave behind: whole rows of the stack.
 #define WAITING_ROWS (STACK_ROWS < 2 ? STACK_ROWS : 2)
 #define WAITING (4 * WAITING_ROWS)
-// The common way ends where fewer of eight rays go on to the same child.
+// The common way ends where fewer of a group go on to the same child.
 #define TOGETHER (SUBGROUP_SIZE > 4 ? 5u : 3u)
 #define EACH_WAITING [[unroll]] for (int i = 0; i < WAITING; i++)
 #define EACH_ROW [[unroll]] for (int i = 0; i < STACK_ROWS; i++)
@@ -37,14 +41,20 @@ layout(std430, binding = BINDING_WIDE_NODES) readonly restrict buffer WideNodes 
 uvec4 load_wide_child(uint i) { return wide_nodes[i]; }
 #endif
 
-uint lane;   // of the ray's four
-uint first;  // the subgroup's lane where they begin
+uint lane;    // of the ray's four
+uint first;   // the subgroup's lane where they begin
+uint member;  // of a group
+uint group;   // the subgroup's lane where it begins
+uint source;  // the lane whose ray these four trace
 
 uint from_lane(uint x, uint i) { return subgroupShuffle(x, first | i); }
-float from_lane(float x, uint i) { return subgroupShuffle(x, first | i); }
-vec2 from_lane(vec2 v, uint i) { return vec2(from_lane(v.x, i), from_lane(v.y, i)); }
-vec3 from_lane(vec3 v, uint i) { return vec3(from_lane(v.x, i), from_lane(v.y, i), from_lane(v.z, i)); }
 uvec3 from_lane(uvec3 v, uint i) { return uvec3(from_lane(v.x, i), from_lane(v.y, i), from_lane(v.z, i)); }
+uint from_member(uint x, uint i) { return subgroupShuffle(x, group | i); }
+uint of_source(uint x) { return subgroupShuffle(x, source); }
+float of_source(float x) { return subgroupShuffle(x, source); }
+vec2 of_source(vec2 v) { return vec2(of_source(v.x), of_source(v.y)); }
+vec3 of_source(vec3 v) { return vec3(of_source(v.x), of_source(v.y), of_source(v.z)); }
+uvec3 of_source(uvec3 v) { return uvec3(of_source(v.x), of_source(v.y), of_source(v.z)); }
 
 // Over the four lanes.
 int least(int x) {
@@ -60,6 +70,13 @@ uint least(uint x) {
 uint sum(uint x) {
   x += subgroupShuffleXor(x, 1u);
   return x + subgroupShuffleXor(x, 2u);
+}
+uint sum_of_group(uint x) {
+  x = sum(x);
+#if SUBGROUP_SIZE > 4
+  x += subgroupShuffleXor(x, 4u);
+#endif
+  return x;
 }
 
 // The ray of these four lanes. What is found is what this lane has met, and `limit` the nearest of all four.
@@ -136,7 +153,7 @@ void visit_leaf() {
 
 // From `at`, with what waits on the stack.
 void walk_wide() {
-  // The first way down stands by itself: a driver that runs both sides of every branch would else look at leaves without any.
+  // Leaves first: at the end of the common way most rays are at one.
   do {
     do { visit_leaf(); } while (at >= LEAF && at != TREE_DONE);
     do { visit_node(); } while (at < LEAF);
@@ -151,8 +168,7 @@ void push_waiting(bool push, uint value) {
   waiting[0] = push ? value : waiting[0];
 }
 
-// The greater first.
-void order(inout uint a, inout uint b) {
+void greater_first(inout uint a, inout uint b) {
   uint greatest = a < b ? b : a;
   b = a < b ? a : b;
   a = greatest;
@@ -162,7 +178,6 @@ void order(inout uint a, inout uint b) {
 // There each lane looks at all children of one node with its own ray. Returns where the ray has to go on by itself.
 uint walk_together(BoxRay own, int own_limit) {
   EACH_WAITING waiting[i] = TREE_DONE;
-  uint eight = gl_SubgroupInvocationID & ~7u;
   own.turn = from_lane(own.turn, lane);  // the same, but no longer one of two constants: so the driver makes one rotation of it
   bool on_the_way = own_limit >= 0;
   int room = WAITING;
@@ -175,8 +190,7 @@ uint walk_together(BoxRay own, int own_limit) {
     uint nearest = FAR_AWAY;
     uint keys[4];
     [[unroll]] for (uint k = 0u; k < 4u; k++) {
-      uvec4 one = uvec4(subgroupShuffle(c.x, eight | k), subgroupShuffle(c.y, eight | k), subgroupShuffle(c.z, eight | k),
-                        subgroupShuffle(c.w, eight | k));
+      uvec4 one = uvec4(from_member(c.x, k), from_member(c.y, k), from_member(c.z, k), from_member(c.w, k));
       Child child = coded_child(one, own);
       int bound = on_the_way ? own_limit : -1;
       bound = one.w == NONE ? -1 : bound;
@@ -190,13 +204,11 @@ uint walk_together(BoxRay own, int own_limit) {
     }
     room += met != 0u ? 1 : 0;
 
-    // Vote for where to go: a byte a child, and above them those who would have no room for what is left behind there.
+    // Vote for where to go: a byte a child, and above them those who would have no room for what is left behind there: three at most,
+    // for one is gone on to, or the ray leaves the way.
     uint votes = met != 0u ? 1u << (8u * (nearest & 3u)) : 0u;
     votes += room < 3 ? 0x10000000u : 0u;
-    votes = sum(votes);
-#if SUBGROUP_SIZE > 4
-    votes += subgroupShuffleXor(votes, 4u);
-#endif
+    votes = sum_of_group(votes);
     uint chosen = 0u;
     uint most = votes & 15u;
     [[unroll]] for (uint k = 1u; k < 4u; k++) {
@@ -204,19 +216,19 @@ uint walk_together(BoxRay own, int own_limit) {
       chosen = count > most ? k : chosen;
       most = count > most ? count : most;
     }
-    go_on = most >= TOGETHER && votes < 0x10000000u && subgroupShuffle(c.w, eight | chosen) < LEAF;
+    go_on = most >= TOGETHER && votes < 0x10000000u && from_member(c.w, chosen) < LEAF;
 
     // Leave the others behind, the nearest on top.
     uint mine = go_on ? chosen : nearest & 3u;
     [[unroll]] for (uint k = 0u; k < 4u; k++) keys[k] = k == mine ? FAR_AWAY : keys[k];
-    order(keys[0], keys[1]);
-    order(keys[2], keys[3]);
-    order(keys[0], keys[2]);
-    order(keys[1], keys[3]);
-    order(keys[1], keys[2]);
-    [[unroll]] for (uint k = 1u; k < 4u; k++) push_waiting(keys[k] != FAR_AWAY, subgroupShuffle(c.w, eight | (keys[k] & 3u)));
+    greater_first(keys[0], keys[1]);
+    greater_first(keys[2], keys[3]);
+    greater_first(keys[0], keys[2]);
+    greater_first(keys[1], keys[3]);
+    greater_first(keys[1], keys[2]);
+    [[unroll]] for (uint k = 1u; k < 4u; k++) push_waiting(keys[k] != FAR_AWAY, from_member(c.w, (keys[k] & 3u)));
     on_the_way = (met & (1u << mine)) != 0u;
-    node = subgroupShuffle(c.w, eight | mine);
+    node = from_member(c.w, mine);
   } while (go_on);
   uint start = on_the_way ? node : waiting[0];
   EACH_WAITING waiting[i] = on_the_way ? waiting[i] : i + 1 < WAITING ? waiting[i + 1 < WAITING ? i + 1 : i] : TREE_DONE;
@@ -227,6 +239,8 @@ void main() {
   uint i = dealt_out(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE) * 64u + gl_LocalInvocationIndex;
   lane = gl_SubgroupInvocationID & 3u;
   first = gl_SubgroupInvocationID & ~3u;
+  member = gl_SubgroupInvocationID & (GROUP - 1u);
+  group = gl_SubgroupInvocationID & ~(GROUP - 1u);
   // Each lane prepares a ray and answers it; in between, its four lanes trace theirs one after the other.
   bool there = i < dispatch.tile.x;
   QueryRay asked = rays[there ? i : 0u];
@@ -235,46 +249,64 @@ void main() {
   Found own_found = nothing_found(there ? minimum(asked.direction.w, T_MISS) : -1.0f);
   meet_loose(own_found, own, ANY);
   uint start = walk_together(own_boxes, own_found.occluded >= SHADOW_OPAQUE ? -1 : floatBitsToInt(own_found.hit.t));
+
+  // Those who trace at once should have as much to do: order the rays by how many children wait for them. place: how many have more;
+  // order: the member of each place, three bits each.
+  uint work = start != TREE_DONE ? 1u : 0u;
+  EACH_WAITING work += waiting[i] != TREE_DONE ? 1u : 0u;
+  work = (work << 3u) | member;
+  uint place = 0u;
+  [[unroll]] for (uint k = 1u; k < GROUP; k++)
+    place += from_member(work, (member + k) & (GROUP - 1u)) > work ? 1u : 0u;
+  uint order = sum_of_group(member << (3u * place));
+  uint with_work = sum_of_group(work > 7u ? 1u : 0u);
+
   uint turn = 0u;
   do {
-    ray.o = from_lane(own.o, turn);
-    ray.d = from_lane(own.d, turn);
-    ray.inverse = from_lane(own.inverse, turn);
-    ray.major = from_lane(own.major, turn);
-    ray.shear = from_lane(own.shear, turn);
-    boxes.scale = from_lane(own_boxes.scale, turn);
-    boxes.near = from_lane(own_boxes.near, turn);
-    boxes.far = from_lane(own_boxes.far, turn);
-    boxes.turn = from_lane(own_boxes.turn, turn);
-    found = nothing_found(from_lane(own_found.hit.t, turn));
-    found.hit.slot = from_lane(own_found.hit.slot, turn);
-    found.hit.id = from_lane(own_found.hit.id, turn);
-    uint loose = from_lane(own_found.occluded, turn);
+    source = group | ((order >> (3u * (turn * AT_ONCE + member / 4u))) & 7u);
+    ray.o = of_source(own.o);
+    ray.d = of_source(own.d);
+    ray.inverse = of_source(own.inverse);
+    ray.major = of_source(own.major);
+    ray.shear = of_source(own.shear);
+    boxes.scale = of_source(own_boxes.scale);
+    boxes.near = of_source(own_boxes.near);
+    boxes.far = of_source(own_boxes.far);
+    boxes.turn = of_source(own_boxes.turn);
+    found = nothing_found(of_source(own_found.hit.t));
+    found.hit.slot = of_source(own_found.hit.slot);
+    found.hit.id = of_source(own_found.hit.id);
+    uint loose = of_source(own_found.occluded);
     found.occluded = lane == 0u ? loose : 0u;
     limit = floatBitsToInt(found.hit.t);
-    at = from_lane(start, turn);
+    at = of_source(start);
     EACH_ROW stack[i] = TREE_DONE;
     [[unroll]] for (int i = 0; i < WAITING_ROWS; i++) {
-      uint e0 = from_lane(waiting[4 * i], turn);
-      uint e1 = from_lane(waiting[4 * i + 1], turn);
-      uint e2 = from_lane(waiting[4 * i + 2], turn);
-      uint e3 = from_lane(waiting[4 * i + 3], turn);
+      uint e0 = of_source(waiting[4 * i]);
+      uint e1 = of_source(waiting[4 * i + 1]);
+      uint e2 = of_source(waiting[4 * i + 2]);
+      uint e3 = of_source(waiting[4 * i + 3]);
       stack[i] = lane == 0u ? e0 : lane == 1u ? e1 : lane == 2u ? e2 : e3;
     }
     walk_wide();
 
-    // Of equally near ones the lowest id, as in `meet`.
-    bool mine = lane == turn;
-    bool nearest = floatBitsToInt(found.hit.t) == least(floatBitsToInt(found.hit.t));
+    // Of equally near ones the lowest id, as in `meet`; back to the lane whose ray it was.
+    int nearest_t = least(floatBitsToInt(found.hit.t));
+    bool nearest = floatBitsToInt(found.hit.t) == nearest_t;
     uint id = least(nearest ? found.hit.id : NONE);
     uint slot = least(nearest && found.hit.id == id ? found.hit.slot : NONE);
-    float t = uintBitsToFloat(uint(least(floatBitsToInt(found.hit.t))));
     uint occluded = sum(found.occluded);
-    own_found.hit.t = mine ? t : own_found.hit.t;
-    own_found.hit.id = mine ? id : own_found.hit.id;
-    own_found.hit.slot = mine ? slot : own_found.hit.slot;
-    own_found.occluded = mine ? (occluded < SHADOW_OPAQUE ? occluded : SHADOW_OPAQUE) : own_found.occluded;
+    uint tracer = (place % AT_ONCE) * 4u;
+    uint t_back = from_member(uint(nearest_t), tracer);
+    uint id_back = from_member(id, tracer);
+    uint slot_back = from_member(slot, tracer);
+    uint occluded_back = from_member(occluded < SHADOW_OPAQUE ? occluded : SHADOW_OPAQUE, tracer);
+    bool mine = place / AT_ONCE == turn;
+    own_found.hit.t = mine ? uintBitsToFloat(t_back) : own_found.hit.t;
+    own_found.hit.id = mine ? id_back : own_found.hit.id;
+    own_found.hit.slot = mine ? slot_back : own_found.hit.slot;
+    own_found.occluded = mine ? occluded_back : own_found.occluded;
     turn += 1u;
-  } while (turn < 4u);
+  } while (turn * AT_ONCE < with_work);
   if (there) results[i] = answer(own_found, ANY, loops_cut_off(LOOP_PROBE));
 }
