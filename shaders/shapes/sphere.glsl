@@ -30,6 +30,21 @@ float sphere_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return discriminant >= 0.0f ? t : -1.0f;
 }
 
+void sphere_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
+  vec3 r = vec3(s.a.w, s.a.w, s.a.w);
+  lower = vec3(s.a) - r;
+  upper = vec3(s.a) + r;
+}
+
+bool sphere_may_hit(Primitive s, Ray ray) {
+  vec3 f = ray.o - vec3(s.a);
+  float a = dot3(ray.d, ray.d);
+  float inverse_a = 1.0f / a;
+  float b = -dot3(f, ray.d);
+  vec3 nearest = f + ray.d * (b * inverse_a);
+  return s.a.w * s.a.w - dot3(nearest, nearest) >= 0.0f;
+}
+
 Surface sphere_surface(Primitive s, Ray ray, Hit hit) {
   vec3 centre = vec3(s.a);
   // A sphere smaller than the rounding of its distance may be met at its very centre.

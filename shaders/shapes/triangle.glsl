@@ -31,9 +31,10 @@ float triangle_t(Primitive s, Ray ray, vec3 a, vec3 b, vec3 c) {
 // Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2013). The edge functions of a shared edge are
 // each other's exact negatives, so a ray cannot slip between neighbours; one that hits the edge itself belongs to both.
 float triangle_intersect_woop(Primitive s, Ray ray, OUT(vec2) uv) {
-  vec3 a = permute(vec3(s.a) - ray.o, ray.major);
-  vec3 b = permute(vec3(s.b) - ray.o, ray.major);
-  vec3 c = permute(vec3(s.c) - ray.o, ray.major);
+  vec3 o = permute(ray.o, ray.major);
+  vec3 a = permute(vec3(s.a), ray.major) - o;
+  vec3 b = permute(vec3(s.b), ray.major) - o;
+  vec3 c = permute(vec3(s.c), ray.major) - o;
   float ax = a.x - ray.shear.x * a.z;
   float ay = a.y - ray.shear.y * a.z;
   float bx = b.x - ray.shear.x * b.z;
@@ -48,6 +49,28 @@ float triangle_intersect_woop(Primitive s, Ray ray, OUT(vec2) uv) {
   float inverse = 1.0f / det;
   uv = vec2(v * inverse, w * inverse);
   return inside && det != 0.0f ? triangle_t(s, ray, a, b, c) : -1.0f;
+}
+
+bool triangle_may_hit(Primitive s, Ray ray) {
+  vec3 o = permute(ray.o, ray.major);
+  vec3 a = permute(vec3(s.a), ray.major) - o;
+  vec3 b = permute(vec3(s.b), ray.major) - o;
+  vec3 c = permute(vec3(s.c), ray.major) - o;
+  float ax = a.x - ray.shear.x * a.z;
+  float ay = a.y - ray.shear.y * a.z;
+  float bx = b.x - ray.shear.x * b.z;
+  float by = b.y - ray.shear.y * b.z;
+  float cx = c.x - ray.shear.x * c.z;
+  float cy = c.y - ray.shear.y * c.z;
+  float u = cx * by - cy * bx;
+  float v = ax * cy - ay * cx;
+  float w = bx * ay - by * ax;
+  return minimum(u, minimum(v, w)) >= 0.0f || maximum(u, maximum(v, w)) <= 0.0f;
+}
+
+void triangle_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
+  lower = vec3(minimum(s.a.x, minimum(s.b.x, s.c.x)), minimum(s.a.y, minimum(s.b.y, s.c.y)), minimum(s.a.z, minimum(s.b.z, s.c.z)));
+  upper = vec3(maximum(s.a.x, maximum(s.b.x, s.c.x)), maximum(s.a.y, maximum(s.b.y, s.c.y)), maximum(s.a.z, maximum(s.b.z, s.c.z)));
 }
 
 // Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), without its epsilon. Not watertight: kept for
