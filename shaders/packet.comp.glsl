@@ -1,6 +1,4 @@
-// Entry: rays that run side by side, PACKET at a time. All lanes of a subgroup walk the tree together, each with several rays: a node is
-// loaded once for all, a word a lane, and so is the stack kept, an entry a lane. What a ray hits is what `search` finds
-// (traverse.glsl), since neither asks in which order.
+// Entry: rays that run side by side (packet.glsl).
 //   PACKET_PRIMARY   the rays of a tile's pixels → PacketHit
 //   PACKET_SHADOW    from what those hit to every light → occlusion
 //   otherwise rays from a buffer → QueryHit, with QUERY_ANY whether there is one
@@ -18,6 +16,7 @@
 #else
 #define ANY false
 #endif
+#include "packet.glsl"
 
 layout(local_size_x = 64) in;
 #if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
@@ -27,163 +26,6 @@ layout(std430, binding = BINDING_OCCLUSIONS) writeonly restrict buffer Occlusion
 layout(std430, binding = BINDING_RAYS) readonly restrict buffer Rays { QueryRay rays[]; };
 layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { QueryHit results[]; };
 #endif
-
-#define LANES uint(SUBGROUP_SIZE)
-#define RAYS_A_LANE (PACKET / SUBGROUP_SIZE)
-#define STACK_WORDS ((STACK_SIZE + SUBGROUP_SIZE - 1) / SUBGROUP_SIZE)
-#define NODE_WORDS (QUANTISED_NODES ? 2u : 4u)
-#define FAR_AWAY 0x7fffffff
-#define EACH [[unroll]] for (int k = 0; k < RAYS_A_LANE; k++)
-
-// Written out: 22.3.6 compiles subgroupAny and subgroupAdd to loops.
-int sum_of_lanes(int x) {
-  x += subgroupShuffleXor(x, 1u);
-  x += subgroupShuffleXor(x, 2u);
-#if SUBGROUP_SIZE >= 8
-  x += subgroupShuffleXor(x, 4u);
-#endif
-#if SUBGROUP_SIZE >= 16
-  x += subgroupShuffleXor(x, 8u);
-#endif
-  return x;
-}
-uvec4 from_lane(uvec4 word, uint lane) {
-  return uvec4(subgroupShuffle(word.x, lane), subgroupShuffle(word.y, lane), subgroupShuffle(word.z, lane),
-               subgroupShuffle(word.w, lane));
-}
-float largest_of_lanes(float x) {
-  x = maximum(x, subgroupShuffleXor(x, 1u));
-  x = maximum(x, subgroupShuffleXor(x, 2u));
-#if SUBGROUP_SIZE >= 8
-  x = maximum(x, subgroupShuffleXor(x, 4u));
-#endif
-#if SUBGROUP_SIZE >= 16
-  x = maximum(x, subgroupShuffleXor(x, 8u));
-#endif
-  return x;
-}
-
-Ray ray[RAYS_A_LANE];
-Found found[RAYS_A_LANE];
-vec3 scale[RAYS_A_LANE];
-vec3 shift[RAYS_A_LANE];
-
-// A box that all rays are tested against: its planes, moved outwards by what BoxRay allows for.
-struct PacketChild {
-  vec3 lower;
-  vec3 upper;
-  uint refers_to;
-};
-
-PacketChild child_of(uvec4 word, uint which, vec3 slack) {
-  PacketChild child;
-  if (QUANTISED_NODES) {
-    uvec4 c = from_lane(word, which);
-    child.lower = vec3(low_half(c.x), low_half(c.y), low_half(c.z)) - slack;
-    child.upper = vec3(low_half(c.x >> 16u), low_half(c.y >> 16u), low_half(c.z >> 16u)) + slack;
-    child.refers_to = c.w;
-  } else {
-    uvec4 c = from_lane(word, 2u * which);
-    uvec4 d = from_lane(word, 2u * which + 1u);
-    child.lower = vec3(uintBitsToFloat(c.x), uintBitsToFloat(c.y), uintBitsToFloat(c.z)) - slack;
-    child.upper = vec3(uintBitsToFloat(d.x), uintBitsToFloat(d.y), uintBitsToFloat(d.z)) + slack;
-    child.refers_to = c.w;
-  }
-  return child;
-}
-
-// The least distance at which a ray of this lane enters, FAR_AWAY if none does.
-int first_entry(PacketChild child) {
-  int first = FAR_AWAY;
-  EACH {
-    vec3 a = child.lower * scale[k] - shift[k];
-    vec3 b = child.upper * scale[k] - shift[k];
-    float near = maximum(maximum(minimum(a.x, b.x), minimum(a.y, b.y)), minimum(a.z, b.z));
-    float far = minimum(minimum(maximum(a.x, b.x), maximum(a.y, b.y)), maximum(a.z, b.z));
-    int entry = greater(floatBitsToInt(near), 0);
-    int exit = lesser(floatBitsToInt(far), floatBitsToInt(found[k].hit.t));
-    first = lesser(first, entry <= exit ? entry : FAR_AWAY);
-  }
-  return first;
-}
-
-void walk_together(uint lane) {
-  // Widen the boxes for the ray that starts farthest away.
-  Tree tree = load_tree(0u);
-  float reach = 0.0f;
-  EACH {
-    vec3 offset = ray[k].o - vec3(tree.origin);
-    scale[k] = vec3(tree.step) * ray[k].inverse;
-    shift[k] = offset * ray[k].inverse;
-    reach = maximum(reach, max_component(abs3(offset) + vec3(tree.extent)));
-  }
-  vec3 slack = vec3(tree.extent.w * largest_of_lanes(reach)) / vec3(tree.step);
-
-  uint stack[STACK_WORDS];
-  [[unroll]] for (int i = 0; i < STACK_WORDS; i++) stack[i] = TREE_DONE;
-  uint waiting = 1u;
-  uint at = tree.head.x;
-  do {
-    do {
-      uvec4 word = load_node(NODE_WORDS * at + (lane & (NODE_WORDS - 1u)));
-      PacketChild a = child_of(word, 0u, slack);
-      PacketChild b = child_of(word, 1u, slack);
-      int first_a = first_entry(a);
-      int first_b = first_entry(b);
-      // Lanes vote on which child to visit, and which first.
-      int votes = sum_of_lanes((first_a != FAR_AWAY ? 1 : 0) + (first_b != FAR_AWAY ? 0x100 : 0) +
-                               (first_b < first_a ? 0x10000 : 0) - (first_a < first_b ? 0x10000 : 0));
-      bool meets_a = (votes & 0xff) != 0;
-      bool meets_b = (votes & 0xff00) != 0;
-      bool swap = votes < 0x10000 ? false : true;
-      bool push = meets_a && meets_b;
-      bool pop = !meets_a && !meets_b;
-      uint later = swap ? a.refers_to : b.refers_to;
-      uint next = push ? (swap ? b.refers_to : a.refers_to) : meets_a ? a.refers_to : b.refers_to;
-      uint top = waiting - (pop ? 1u : 0u);
-      bool mine = (top & (LANES - 1u)) == lane;
-      uint held = TREE_DONE;
-      [[unroll]] for (int i = 0; i < STACK_WORDS; i++) {
-        bool here = top / LANES == uint(i);
-        held = here ? stack[i] : held;
-        stack[i] = push && here && mine ? later : stack[i];
-      }
-      at = pop ? subgroupShuffle(held, top & (LANES - 1u)) : next;
-      waiting = push ? waiting + 1u : top;
-    } while (at < LEAF);
-
-    if (at != TREE_DONE) {
-      do {
-        uint slot = (at & ~LEAF) >> 3u;
-        uint end = slot + (at & 7u) + 1u;
-        for (; slot < end; slot++) {
-          uvec4 word = load_primitive_word(4u * slot + (lane & 3u));
-          Primitive primitive;
-          primitive.head = from_lane(word, 0u);
-          primitive.a = bits_to_floats(from_lane(word, 1u));
-          primitive.b = bits_to_floats(from_lane(word, 2u));
-          primitive.c = bits_to_floats(from_lane(word, 3u));
-          EACH {
-            vec2 uv = vec2(0.0f, 0.0f);
-            float t = -1.0f;
-#define INTERSECT_TOGETHER(name, number) \
-            if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, ray[k], uv);
-            SHAPES(INTERSECT_TOGETHER)
-            meet(found[k], t, uv, slot, primitive.head.x, NONE, primitive.head.z, ANY);
-          }
-        }
-        waiting -= 1u;
-        uint held = TREE_DONE;
-        [[unroll]] for (int i = 0; i < STACK_WORDS; i++) held = waiting / LANES == uint(i) ? stack[i] : held;
-        at = subgroupShuffle(held, waiting & (LANES - 1u));
-#if defined(PACKET_SHADOW) || defined(QUERY_ANY)
-        // A ray that is wholly in shadow meets nothing more.
-        EACH found[k].hit.t = found[k].occluded >= SHADOW_OPAQUE ? -1.0f : found[k].hit.t;
-#endif
-      } while (at >= LEAF && at != TREE_DONE);
-    }
-  } while (at != TREE_DONE);
-}
 
 // Where the result of ray i of a packet goes; NONE where there is no such ray.
 uint place_of(uint packet, uint i) {

@@ -62,7 +62,8 @@ struct Primitive {
 //  64 root   68 first slot of its primitives   72 end of its slots   76 -
 // A node is two children. Quantised, a child is 16 bytes, its planes integers: lower | upper << 16 for x, y and z, then what it refers
 // to; else it is 32: lower.xyz as floats, what it refers to, upper.xyz, -.
-// A node of wide.comp.glsl is four quantised children; those that are not there refer to NONE.
+// A node of wide.comp.glsl is four quantised children, one of packet.glsl as many as a subgroup has lanes; those that are not there
+// refer to NONE.
 // A child refers to a node, to 1 … 8 primitives, LEAF | slot << 3 | count − 1, or to an instance, INSTANCE_LEAF | index.
 struct Tree {
   vec4 origin;

@@ -64,10 +64,6 @@ class GpuExecutor final : public Executor {
     fault_.damage(packed);
     specialise_for(packed);
     times_.measure("upload", [&] { upload(packed); });
-    if (scattered_ == Rays::wide) {
-      binary_nodes_ = std::move(packed.nodes);
-      tree_ = packed.trees[0];
-    }
     if (packets_)
       make_waves(scene, packed);
     else
@@ -144,16 +140,22 @@ class GpuExecutor final : public Executor {
                   device_.info().driver_version);
   }
 
-  void specialise_for(const PackedScene& packed) {
+  void specialise_for(PackedScene& packed) {
     Specialisation specialisation;
     specialisation.constants = options_.constants;
     specialisation.profile = profile_;
     const uint32_t lanes = device_.info().limits.subgroup_size;
     const bool worth_it = packed.primitives.size() <= most_in_packets || options_.profile.rays == "packets";
-    packets_ = profile_.packets && worth_it && packed.has_tree && packed.instances.empty() &&
-               (lanes == 4 || lanes == 8 || lanes == 16);
+    packets_ = profile_.packets && worth_it && packed.has_tree && packed.quantised_nodes &&
+               packed.instances.empty() && (lanes == 4 || lanes == 8 || lanes == 16);
     specialisation.subgroup_size = lanes;
     scattered_ = scattered_rays(profile_, packed, packets_, lanes);
+    if (scattered_ == Rays::wide) {
+      binary_nodes_ = packed.nodes;
+      tree_ = packed.trees[0];
+    }
+    if (packets_)
+      specialisation.packet_tree = times_.measure("widen", [&] { return add_packet_tree(packed, lanes); });
     if (facts_.loop_cap) {
       // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer
       // iterations than there are primitives; where it does not, the shader sees that the driver stopped it.

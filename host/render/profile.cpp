@@ -51,9 +51,9 @@ Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& dev
 
 Rays scattered_rays(const Profile& profile, const PackedScene& scene, bool packets, uint32_t subgroup_size) {
   const bool meshes = scene.tree_kinds == std::set<uint32_t>{shader::KIND_triangle};
-  // Up to here packets pay even for rays that part (docs/performance.md).
+  // Up to here trees are so shallow that a ray is best alone (docs/performance.md).
   const bool few = scene.primitives.size() <= (meshes ? 1 << 9 : 1 << 10);
-  const Rays wanted = profile.scattered.value_or(few ? Rays::packets : Rays::wide);
+  const Rays wanted = profile.scattered.value_or(few ? Rays::lanes : Rays::wide);
   const bool can_widen =
       scene.has_tree && scene.instances.empty() && scene.quantised_nodes && subgroup_size >= wide_children;
   const bool possible = wanted == Rays::packets ? packets : wanted == Rays::wide ? can_widen : true;

@@ -20,7 +20,7 @@ struct Profile {
   bool packets = false;        // trace rays that run side by side together
   bool shift_stack =
       false;  // keep the stack in registers, shifted as a whole, instead of in an indexed array
-  // Rays that part, where the scene allows it; by the scene it is wide in big trees, packets in small ones.
+  // Rays that part, where the scene allows it; by the scene it is wide in big trees, lanes in small ones.
   std::optional<Rays> scattered = Rays::lanes;
 };
 

@@ -188,6 +188,8 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");
   define("HAS_SECONDARY", int(scene.frame.camera.w > 0 && any_reflects(scene)));
   define("SUBGROUP_SIZE", options.subgroup_size);
+  define("PACKET_ROOT", fmt::format("{}u", options.packet_tree.first_node));
+  define("PACKET_STACK", options.packet_tree.stack_size);
   define("SHIFT_STACK", int(options.profile.shift_stack));
   define("STACK_SIZE", scene.stack_size);
   define("HAS_INSTANCES", int(!scene.instances.empty()));

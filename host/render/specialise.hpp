@@ -5,6 +5,7 @@
 
 #include "records/packer.hpp"
 #include "render/profile.hpp"
+#include "render/wide_nodes.hpp"
 
 namespace eyeray {
 
@@ -14,7 +15,8 @@ struct Specialisation {
       0;  // iterations an invocation may make before it gives up with FLAG_LOOP_BUDGET; 0: no cap
   Profile profile = {};
   uint32_t subgroup_size = 8;  // of packet.comp.glsl
-  uint32_t group_stride = 1;   // render.comp.glsl: runs of workgroups
+  PacketTree packet_tree = {};
+  uint32_t group_stride = 1;  // render.comp.glsl: runs of workgroups
 };
 
 // Whether any material may send rays on.

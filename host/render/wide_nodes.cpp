@@ -9,7 +9,7 @@
 namespace eyeray {
 namespace {
 
-// What a step of wide.comp.glsl costs at a node, and at a leaf.
+// What a step costs at a node, and at a leaf.
 constexpr float node_cost = 1.0f;
 constexpr float leaf_cost = 1.0f;
 constexpr float never = std::numeric_limits<float>::infinity();
@@ -27,16 +27,20 @@ uint32_t make_leaf(uint32_t first, uint32_t count) {
   return LEAF | first << 3 | (count - 1);
 }
 
-// How a part of the binary tree is best covered by at most i = 1 … 4 children of one wide node.
+// How a part of the binary tree is best covered by at most i = 1 … width children of one wide node.
+template <uint32_t width>
 struct Cover {
-  std::array<float, wide_children + 1> cost{};    // by i; [0] is not used
-  std::array<uint8_t, wide_children + 1> left{};  // of i, how many go to the left half; 0: as with i − 1
-  uint8_t within = 0;    // as one child that is a node: how many of its four go to the left half
+  std::array<float, width + 1> cost{};    // by i; [0] is not used
+  std::array<uint8_t, width + 1> left{};  // of i, how many go to the left half; 0: as with i − 1
+  uint8_t within = 0;    // as one child that is a node: how many of its children go to the left half
   uint32_t leaf = NONE;  // the one leaf that holds all of it, where there can be one
   bool whole = false;    // whether that leaf is better than a node
 };
 
+template <uint32_t width>
 class Widener {
+  static constexpr uint32_t most_in_leaf = std::min(width, 8u);
+
  public:
   Widener(std::span<const shader::uvec4> nodes, const shader::Tree& tree)
       : nodes_(nodes), tree_(tree), covers_(nodes.size() / 2) {}
@@ -66,24 +70,24 @@ class Widener {
     return both;
   }
 
-  Cover cover(const shader::uvec4& child) const {
+  Cover<width> cover(const shader::uvec4& child) const {
     if (!is_leaf(child.w)) return covers_[child.w];
-    Cover leaf;
-    leaf.leaf = count(child.w) <= wide_children ? child.w : NONE;
+    Cover<width> leaf;
+    leaf.leaf = count(child.w) <= most_in_leaf ? child.w : NONE;
     leaf.whole = leaf.leaf != NONE;
     leaf.cost.fill(area(child) * leaf_cost * (leaf.whole ? 1.0f : 2.0f));
     return leaf;
   }
 
-  Cover cover_node(uint32_t node) const {
+  Cover<width> cover_node(uint32_t node) const {
     const shader::uvec4& a = nodes_[2 * node];
     const shader::uvec4& b = nodes_[2 * node + 1];
-    const Cover left = cover(a);
-    const Cover right = cover(b);
-    Cover both;
-    std::array<float, wide_children + 1> split{};
-    std::array<uint8_t, wide_children + 1> to_left{};
-    for (uint32_t i = 2; i <= wide_children; ++i) {
+    const Cover<width> left = cover(a);
+    const Cover<width> right = cover(b);
+    Cover<width> both;
+    std::array<float, width + 1> split{};
+    std::array<uint8_t, width + 1> to_left{};
+    for (uint32_t i = 2; i <= width; ++i) {
       split[i] = never;
       for (uint32_t j = 1; j < i; ++j) {
         const float cost = left.cost[j] + right.cost[i - j];
@@ -94,12 +98,12 @@ class Widener {
     }
     const float size = area(around(a, b));
     if (left.leaf != NONE && right.leaf != NONE) both.leaf = joined(left.leaf, right.leaf);
-    const float as_node = size * node_cost + split[wide_children];
+    const float as_node = size * node_cost + split[width];
     const float as_leaf = both.leaf == NONE ? never : size * leaf_cost;
     both.whole = as_leaf <= as_node;
-    both.within = to_left[wide_children];
+    both.within = to_left[width];
     both.cost[1] = std::min(as_leaf, as_node);
-    for (uint32_t i = 2; i <= wide_children; ++i) {
+    for (uint32_t i = 2; i <= width; ++i) {
       const bool better = split[i] < both.cost[i - 1];
       both.cost[i] = better ? split[i] : both.cost[i - 1];
       both.left[i] = better ? to_left[i] : uint8_t(0);
@@ -111,25 +115,25 @@ class Widener {
   static uint32_t joined(uint32_t a, uint32_t b) {
     if (first_slot(a) > first_slot(b)) std::swap(a, b);
     const uint32_t together = count(a) + count(b);
-    return first_slot(a) + count(a) == first_slot(b) && together <= wide_children
+    return first_slot(a) + count(a) == first_slot(b) && together <= most_in_leaf
                ? make_leaf(first_slot(a), together)
                : NONE;
   }
 
   uint32_t add_node() {
-    wide_nodes_.insert(wide_nodes_.end(), wide_children, shader::uvec4(0xffffu, 0xffffu, 0xffffu, NONE));
-    return uint32_t(wide_nodes_.size() / wide_children - 1);
+    wide_nodes_.insert(wide_nodes_.end(), width, shader::uvec4(0xffffu, 0xffffu, 0xffffu, NONE));
+    return uint32_t(wide_nodes_.size() / width - 1);
   }
 
   struct Children {
-    std::array<shader::uvec4, wide_children> list;
+    std::array<shader::uvec4, width> list;
     uint32_t count = 0;
   };
 
   // The children that stand for `child`, at most `most`.
   void gather(const shader::uvec4& child, uint32_t most, Children& children) const {
     if (!is_leaf(child.w)) {
-      const Cover& cover = covers_[child.w];
+      const Cover<width>& cover = covers_[child.w];
       while (most > 1 && cover.left[most] == 0) --most;
       if (most > 1) {
         gather(nodes_[2 * child.w], cover.left[most], children);
@@ -144,19 +148,19 @@ class Widener {
   void fill(uint32_t to, uint32_t from) {
     Children children;
     gather(nodes_[2 * from], covers_[from].within, children);
-    gather(nodes_[2 * from + 1], wide_children - covers_[from].within, children);
+    gather(nodes_[2 * from + 1], width - covers_[from].within, children);
     place(to, children);
   }
 
   void place(uint32_t to, const Children& children) {
     for (uint32_t i = 0; i < children.count; ++i) {
       shader::uvec4 child = children.list[i];
-      const Cover all = cover(child);
+      const Cover<width> all = cover(child);
       child.w = all.whole ? all.leaf : add_node();
-      wide_nodes_[wide_children * to + i] = child;
+      wide_nodes_[width * to + i] = child;
     }
     for (uint32_t i = 0; i < children.count; ++i) {
-      const uint32_t node = wide_nodes_[wide_children * to + i].w;
+      const uint32_t node = wide_nodes_[width * to + i].w;
       const uint32_t from = children.list[i].w;
       if (is_leaf(node)) continue;
       if (is_leaf(from))
@@ -169,20 +173,20 @@ class Widener {
   // A leaf of too many becomes a node of two.
   void halve(uint32_t to, shader::uvec4 leaf) {
     const uint32_t all = leaf.w;
-    leaf.w = make_leaf(first_slot(all), wide_children);
-    wide_nodes_[wide_children * to] = leaf;
-    leaf.w = make_leaf(first_slot(all) + wide_children, count(all) - wide_children);
-    wide_nodes_[wide_children * to + 1] = leaf;
+    leaf.w = make_leaf(first_slot(all), most_in_leaf);
+    wide_nodes_[width * to] = leaf;
+    leaf.w = make_leaf(first_slot(all) + most_in_leaf, count(all) - most_in_leaf);
+    wide_nodes_[width * to + 1] = leaf;
   }
 
   // With a node's first child, the deepest, all others wait.
   uint32_t stack_size() const {
-    std::vector<uint32_t> below(wide_nodes_.size() / wide_children);
+    std::vector<uint32_t> below(wide_nodes_.size() / width);
     for (size_t node = below.size(); node-- > 0;) {
       uint32_t children = 0;
       uint32_t deepest = 0;
-      for (size_t i = 0; i < wide_children; ++i) {
-        const uint32_t child = wide_nodes_[wide_children * node + i].w;
+      for (size_t i = 0; i < width; ++i) {
+        const uint32_t child = wide_nodes_[width * node + i].w;
         children += child != NONE;
         if (!is_leaf(child)) deepest = std::max(deepest, below[child]);
       }
@@ -193,15 +197,26 @@ class Widener {
 
   std::span<const shader::uvec4> nodes_;
   const shader::Tree& tree_;
-  std::vector<Cover> covers_;  // by binary node
+  std::vector<Cover<width>> covers_;  // by binary node
   std::vector<shader::uvec4> wide_nodes_;
 };
 
 }  // namespace
 
-WideTree widen(std::span<const shader::uvec4> nodes, const shader::Tree& tree) {
+WideTree widen(std::span<const shader::uvec4> nodes, const shader::Tree& tree, uint32_t children) {
   CHECK_LT(size_t{1}, nodes.size());
-  return Widener(nodes, tree).run();
+  if (children == 4) return Widener<4>(nodes, tree).run();
+  if (children == 8) return Widener<8>(nodes, tree).run();
+  CHECK_EQ(children, uint32_t{16});
+  return Widener<16>(nodes, tree).run();
+}
+
+PacketTree add_packet_tree(PackedScene& scene, uint32_t lanes) {
+  CHECK(scene.has_tree && scene.quantised_nodes && scene.instances.empty());
+  const WideTree tree = widen(scene.nodes, scene.trees[0], lanes);
+  const PacketTree place{uint32_t(scene.nodes.size()), tree.stack_size};
+  scene.nodes.insert(scene.nodes.end(), tree.nodes.begin(), tree.nodes.end());
+  return place;
 }
 
 }  // namespace eyeray

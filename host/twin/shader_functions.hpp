@@ -95,5 +95,6 @@ class Binding {
 #include "materials/all.glsl"
 #include "integrators/all.glsl"
 #include "pixel.glsl"
+#include "shaft.glsl"
 // clang-format on
 #pragma GCC diagnostic pop

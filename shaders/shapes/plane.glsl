@@ -13,6 +13,13 @@ float plane_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return (s.a.w - dot3(n, ray.o)) / dot3(n, ray.d);
 }
 
+// Never asked: what is unbounded is in no tree.
+bool plane_may_hit(Primitive s, Ray ray) { return true; }
+void plane_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
+  lower = vec3(-T_MISS, -T_MISS, -T_MISS);
+  upper = vec3(T_MISS, T_MISS, T_MISS);
+}
+
 Surface plane_surface(Primitive s, Ray ray, Hit hit) {
   vec3 n = vec3(s.a);
   vec3 p = ray.o + ray.d * hit.t;

@@ -7,23 +7,27 @@
 
 SHADER_BEGIN
 
+// How near the ray's line comes to the centre decides: r² less the square of that distance, measured as a distance.
+float sphere_discriminant(Primitive s, Ray ray) {
+  vec3 f = ray.o - vec3(s.a);
+  float inverse_a = 1.0f / dot3(ray.d, ray.d);  // the same for every sphere, and so divided once
+  vec3 nearest = f + ray.d * (-dot3(f, ray.d) * inverse_a);
+  return s.a.w * s.a.w - dot3(nearest, nearest);
+}
+
 float sphere_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uv = vec2(0.0f, 0.0f);
   vec3 f = ray.o - vec3(s.a);
   float a = dot3(ray.d, ray.d);
-  float inverse_a = 1.0f / a;  // the same for every sphere, and so divided once
   float b = -dot3(f, ray.d);
-
-  // Measure the discriminant as a distance: from the point of the ray nearest to the centre.
-  vec3 nearest = f + ray.d * (b * inverse_a);
-  float discriminant = s.a.w * s.a.w - dot3(nearest, nearest);
+  float discriminant = sphere_discriminant(s, ray);
 
   // Take the root without cancellation first; the product of the roots gives the other.
   float c = dot3(f, f) - s.a.w * s.a.w;
   float root = sqrt(maximum(a * discriminant, 0.0f));
   float q = b < 0.0f ? b - root : b + root;
   float t0 = c / q;
-  float t1 = q * inverse_a;
+  float t1 = q * (1.0f / a);
   float low = t0 < t1 ? t0 : t1;
   float high = t0 < t1 ? t1 : t0;
   float t = low > 0.0f ? low : high;
@@ -39,6 +43,14 @@ vec2 sphere_uv(Primitive s, vec3 n) {
   float z = dot3(n, cross3(meridian, pole)) * s.c.w;
   float u = 0.5f + atan_yx(-z, x) / (2.0f * PI);
   return vec2(u < 1.0f ? u : 0.0f, atan_yx(sqrt(x * x + z * z), -y) / PI);
+}
+
+bool sphere_may_hit(Primitive s, Ray ray) { return sphere_discriminant(s, ray) >= 0.0f; }
+
+void sphere_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
+  vec3 r = vec3(s.a.w, s.a.w, s.a.w);
+  lower = vec3(s.a) - r;
+  upper = vec3(s.a) + r;
 }
 
 Surface sphere_surface(Primitive s, Ray ray, Hit hit) {

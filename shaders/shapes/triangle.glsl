@@ -30,24 +30,44 @@ float triangle_t(Primitive s, Ray ray, vec3 a, vec3 b, vec3 c) {
 
 // Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2013). The edge functions of a shared edge are
 // each other's exact negatives, so a ray cannot slip between neighbours; one that hits the edge itself belongs to both.
+struct TriangleEdges {
+  vec3 a;  // the vertices from the ray's start, permuted
+  vec3 b;
+  vec3 c;
+  float u;
+  float v;
+  float w;
+};
+
+TriangleEdges triangle_edges(Primitive s, Ray ray) {
+  // Vertex and start are permuted apart, so that it is done once for rays that run together.
+  vec3 o = permute(ray.o, ray.major);
+  TriangleEdges edges;
+  edges.a = permute(vec3(s.a), ray.major) - o;
+  edges.b = permute(vec3(s.b), ray.major) - o;
+  edges.c = permute(vec3(s.c), ray.major) - o;
+  float ax = edges.a.x - ray.shear.x * edges.a.z;
+  float ay = edges.a.y - ray.shear.y * edges.a.z;
+  float bx = edges.b.x - ray.shear.x * edges.b.z;
+  float by = edges.b.y - ray.shear.y * edges.b.z;
+  float cx = edges.c.x - ray.shear.x * edges.c.z;
+  float cy = edges.c.y - ray.shear.y * edges.c.z;
+  edges.u = cx * by - cy * bx;
+  edges.v = ax * cy - ay * cx;
+  edges.w = bx * ay - by * ax;
+  return edges;
+}
+
+bool triangle_inside(TriangleEdges edges) {
+  return minimum(edges.u, minimum(edges.v, edges.w)) >= 0.0f || maximum(edges.u, maximum(edges.v, edges.w)) <= 0.0f;
+}
+
 float triangle_intersect_woop(Primitive s, Ray ray, OUT(vec2) uv) {
-  vec3 a = permute(vec3(s.a) - ray.o, ray.major);
-  vec3 b = permute(vec3(s.b) - ray.o, ray.major);
-  vec3 c = permute(vec3(s.c) - ray.o, ray.major);
-  float ax = a.x - ray.shear.x * a.z;
-  float ay = a.y - ray.shear.y * a.z;
-  float bx = b.x - ray.shear.x * b.z;
-  float by = b.y - ray.shear.y * b.z;
-  float cx = c.x - ray.shear.x * c.z;
-  float cy = c.y - ray.shear.y * c.z;
-  float u = cx * by - cy * bx;
-  float v = ax * cy - ay * cx;
-  float w = bx * ay - by * ax;
-  bool inside = (u >= 0.0f && v >= 0.0f && w >= 0.0f) || (u <= 0.0f && v <= 0.0f && w <= 0.0f);
-  float det = (u + v) + w;
+  TriangleEdges edges = triangle_edges(s, ray);
+  float det = (edges.u + edges.v) + edges.w;
   float inverse = 1.0f / det;
-  uv = vec2(v * inverse, w * inverse);
-  return inside && det != 0.0f ? triangle_t(s, ray, a, b, c) : -1.0f;
+  uv = vec2(edges.v * inverse, edges.w * inverse);
+  return triangle_inside(edges) && det != 0.0f ? triangle_t(s, ray, edges.a, edges.b, edges.c) : -1.0f;
 }
 
 // Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), without its epsilon. Not watertight: kept for
@@ -68,6 +88,15 @@ float triangle_intersect_moller_trumbore(Primitive s, Ray ray, OUT(vec2) uv) {
 float triangle_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   if (TRIANGLE_METHOD == TRIANGLE_MOLLER_TRUMBORE) return triangle_intersect_moller_trumbore(s, ray, uv);
   return triangle_intersect_woop(s, ray, uv);
+}
+
+bool triangle_may_hit(Primitive s, Ray ray) {
+  return TRIANGLE_METHOD == TRIANGLE_MOLLER_TRUMBORE || triangle_inside(triangle_edges(s, ray));
+}
+
+void triangle_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
+  lower = vec3(minimum(s.a.x, minimum(s.b.x, s.c.x)), minimum(s.a.y, minimum(s.b.y, s.c.y)), minimum(s.a.z, minimum(s.b.z, s.c.z)));
+  upper = vec3(maximum(s.a.x, maximum(s.b.x, s.c.x)), maximum(s.a.y, maximum(s.b.y, s.c.y)), maximum(s.a.z, maximum(s.b.z, s.c.z)));
 }
 
 Surface triangle_surface(Primitive s, Ray ray, Hit hit) {

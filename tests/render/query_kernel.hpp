@@ -27,7 +27,10 @@ class QueryKernel {
         specialisation.profile.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
     add(BINDING_PRIMITIVES, std::as_bytes(std::span(scene.primitives)), large);
     add(BINDING_VERTICES, std::as_bytes(std::span(scene.vertices)), large);
-    add(BINDING_NODES, std::as_bytes(std::span(scene.nodes)), large);
+    PackedScene with_packets = scene;
+    if (traces_packets())
+      specialisation_.packet_tree = add_packet_tree(with_packets, specialisation_.subgroup_size);
+    add(BINDING_NODES, std::as_bytes(std::span(with_packets.nodes)), large);
     add(BINDING_TREES, std::as_bytes(std::span(scene.trees)));
     add(BINDING_INSTANCES, std::as_bytes(std::span(scene.instances)));
     add(BINDING_MATERIALS, std::as_bytes(std::span(scene.materials)));
@@ -46,7 +49,8 @@ class QueryKernel {
 
   // Whether rays are traced together, as the gpu executor would.
   bool traces_packets() const {
-    return specialisation_.profile.packets && scene_.has_tree && scene_.instances.empty();
+    return specialisation_.profile.packets && scene_.has_tree && scene_.quantised_nodes &&
+           scene_.instances.empty();
   }
 
   std::vector<shader::QueryHit> ask(std::span<const shader::QueryRay> rays, bool any) {

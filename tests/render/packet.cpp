@@ -1,0 +1,81 @@
+// Rays side by side, in packets: they find what the twin finds, where a shaft is narrow and where it takes
+// too long and is begun again.
+#include <fmt/format.h>
+
+#include "query_kernel.hpp"
+#include "random_scene.hpp"
+
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using test::Random;
+
+namespace {
+
+// A cloud of small triangles and spheres, every other one of them half transparent.
+Scene cloud(Random& random, int count, double size) {
+  Scene scene;
+  scene.camera.eye = Vec3(0, 0, 8);
+  const int opaque = test::add(scene, make_phong({}));
+  const int glass = test::add(scene, make_dielectric({.shadow = 0.9}));
+  for (int i = 0; i < count; ++i) {
+    const Vec3 a = random.point(3);
+    const int material = random.below(2) == 0 ? glass : opaque;
+    if (random.below(3) == 0) {
+      test::add(scene, make_sphere(a, size * random.uniform(0.1, 0.5)), material);
+    } else {
+      TriangleValues triangle;
+      triangle.vertices = {a, a + random.point(size), a + random.point(size)};
+      test::add(scene, make_triangle(triangle), material);
+    }
+  }
+  return scene;
+}
+
+// Through the pixels of a picture, row by row; every seventh ends early, and one in `strays` goes elsewhere.
+std::vector<shader::QueryRay> picture(Random& random, int size, int strays) {
+  std::vector<shader::QueryRay> rays;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const Vec3 pixel((x + 0.5) / size - 0.5, 0.5 - (y + 0.5) / size, -1);
+      const bool stray = strays > 0 && random.below(strays) == 0;
+      const Vec3 start = stray ? random.point(3) - Vec3(0, 0, 8) : Vec3(0);
+      const double t_max = rays.size() % 7 == 0 ? random.uniform(0, 9) : 1e30;
+      rays.push_back({to_vec4(start), to_vec4(stray ? random.direction() : glm::normalize(pixel), t_max)});
+    }
+  }
+  return rays;
+}
+
+}  // namespace
+
+TEST_CASE("nearest and any: rays in packets find what the twin finds, bit by bit") {
+  gpu::Device device({});
+  Random random(17);
+  for (const auto& [count, size, pixels, strays] :
+       {std::tuple(3000, 0.1, 199, 0),  // narrow shafts
+        {200, 1.0, 199, 0},
+        {20'000, 0.05, 33, 0},  // wide ones, with hundreds of triangles
+        {3000, 0.1, 101, 5}}) {
+    const PackedScene scene = pack(cloud(random, count, size), {.acceleration = Acceleration::tree});
+    REQUIRE(scene.has_tree);
+    Specialisation specialisation;
+    specialisation.profile = {.texel_buffers = true, .packets = true};
+    test::QueryKernel kernel(device, scene, specialisation);
+    REQUIRE(kernel.traces_packets());
+    const std::vector<shader::QueryRay> rays = picture(random, pixels, strays);
+    const std::vector<shader::QueryHit> nearest = test::ask_twin(scene, rays, false);
+    const std::vector<shader::QueryHit> any = test::ask_twin(scene, rays, true);
+    const auto hits =
+        std::ranges::count_if(nearest, [](const shader::QueryHit& hit) { return hit.hit.y != NONE; });
+    const auto half = std::ranges::count_if(
+        any, [](const shader::QueryHit& hit) { return hit.hit.w > 0 && hit.hit.w < SHADOW_OPAQUE; });
+    const int different =
+        test::differences(kernel.ask(rays, false), nearest) + test::differences(kernel.ask(rays, true), any);
+    MESSAGE(fmt::format("{} primitives: {} of {} rays hit, {} half in shadow, {} differ",
+                        scene.primitives.size(), hits, rays.size(), half, different));
+    CHECK(hits > int(rays.size()) / 20);
+    CHECK(half > 10);
+    CHECK(different == 0);
+  }
+}
