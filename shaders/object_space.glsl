@@ -32,6 +32,17 @@ ObjectRay object_ray(Primitive s, Ray ray, float reach) {
 
 vec3 at_hit(ObjectRay ray, Hit hit) { return ray.o + ray.d * (hit.t - ray.t); }
 
+// Around all points up to `extent` from the centre of object space along its axes.
+void object_box(Primitive s, vec3 extent, OUT(vec3) lower, OUT(vec3) upper) {
+  vec4 x = bits_to_floats(load_vertex(s.head.w));
+  vec4 y = bits_to_floats(load_vertex(s.head.w + 1u));
+  vec4 z = bits_to_floats(load_vertex(s.head.w + 2u));
+  vec3 centre = vec3(x.w, y.w, z.w);
+  vec3 reach = vec3(dot3(abs3(vec3(x)), extent), dot3(abs3(vec3(y)), extent), dot3(abs3(vec3(z)), extent));
+  lower = centre - reach;
+  upper = centre + reach;
+}
+
 vec4 object_parameters(Primitive s) { return bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS)); }
 
 // The world's surface. `p`: on the shape. `gradient`: of any length but 0, points outward there.

@@ -201,6 +201,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   if (options.loop_budget > 0) define("LOOP_BUDGET", fmt::format("{}u", options.loop_budget));
   define("GROUP_STRIDE", fmt::format("{}u", options.group_stride));
   for (const Row& shape : shapes) {
+    define(fmt::format("KIND_{}", shape.name), fmt::format("{}u", shape.number));
     define(fmt::format("FIRST_{}", shape.name), fmt::format("{}u", scene.first_loose(shape.number)));
     define(fmt::format("END_{}", shape.name), fmt::format("{}u", scene.loose_ends[shape.number]));
     define(fmt::format("UV_{}", shape.name), kinds_with_uv.contains(shape.number) ? "true" : "false");

@@ -29,6 +29,10 @@ float box_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return near <= far ? r.t + (enters ? near : far) : -1.0f;
 }
 
+bool box_may_hit(Primitive s, Ray ray) { return true; }
+
+void box_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
+
 Surface box_surface(Primitive s, Ray ray, Hit hit) {
   // Onto the face. Seen from outside u runs to the right and v up; what is up on top is −z, below +z.
   vec3 p = at_hit(object_ray(s, ray, 1.7320508f), hit);

@@ -17,6 +17,10 @@ float cone_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return revolution_intersect(r, a, b, c, 0.0f, 1.0f, parameters.x != 0.0f, uv.x);
 }
 
+bool cone_may_hit(Primitive s, Ray ray) { return true; }
+
+void cone_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
+
 Surface cone_surface(Primitive s, Ray ray, Hit hit) {
   float taper = object_parameters(s).y;
   vec3 p = at_hit(object_ray(s, ray, 1.4142136f), hit);

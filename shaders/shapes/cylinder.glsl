@@ -14,6 +14,10 @@ float cylinder_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return revolution_intersect(r, a, b, c, -1.0f, 1.0f, object_parameters(s).x != 0.0f, uv.x);
 }
 
+bool cylinder_may_hit(Primitive s, Ray ray) { return true; }
+
+void cylinder_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
+
 Surface cylinder_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = at_hit(object_ray(s, ray, 1.4142136f), hit);
   return revolution_surface(s, p, hit.uv.x, -1.0f, 1.0f, 1.0f, 0.0f, 1.0f);

@@ -23,6 +23,10 @@ float ellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return discriminant >= 0.0f ? (low > 0.0f ? low : high) : -1.0f;
 }
 
+bool ellipsoid_may_hit(Primitive s, Ray ray) { return true; }
+
+void ellipsoid_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
+
 Surface ellipsoid_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = at_hit(object_ray(s, ray, 1.0f), hit);
   p = dot3(p, p) > 0.0f ? normalize3(p) : vec3(0.0f, 1.0f, 0.0f);

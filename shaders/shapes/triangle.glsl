@@ -131,9 +131,9 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
 }
 
 #if HAS_COLORS
-// What a mesh's vertices multiply the material's colour by; white where they say nothing, and for other shapes, which have no corners.
+// What a mesh's vertices multiply the material's colour by; white where they say nothing, and on other shapes.
 vec3 vertex_color(Primitive s, Hit hit) {
-  if (s.head.w == NONE) return vec3(1.0f, 1.0f, 1.0f);
+  if (kind_of(s) != KIND_triangle || s.head.w == NONE) return vec3(1.0f, 1.0f, 1.0f);
   uvec4 corners = load_vertex(s.head.w);
   if ((corners.w & CORNERS_COLORS) == 0u) return vec3(1.0f, 1.0f, 1.0f);
   vec3 a = vec3(bits_to_floats(load_vertex(corners.x + 1u)));
