@@ -43,6 +43,7 @@ class HardScene {
     } else {
       add_spheres(random_.below(8));
       if (chance(0.3)) add(scene_, make_plane(point(center_, size_), random_.direction()), material());
+      if (chance(0.4)) add_object_shapes(1 + random_.below(4));
       if (chance(0.7)) add_shapes(hard_triangles(1 + random_.below(20)));
       if (chance(0.6)) add_instances(1);
       if (chance(0.6)) add_instances(2 + random_.below(4));
@@ -133,6 +134,31 @@ class HardScene {
     }
   }
 
+  // In spaces of their own, up to 1 : 100 out of shape.
+  void add_object_shapes(int count) {
+    Mat4 map(1.0);
+    for (int i = 0; i < count; ++i) {
+      if (i == 0 || !chance(0.2)) {
+        map = some_map() * translation(point(center_, size_));
+        map = glm::scale(map, Vec3(size_ * random_.log_uniform(1e-3, 1)));
+      }
+      const bool open = chance(0.5);
+      switch (random_.below(4)) {
+        case 0:
+          add(scene_, make_box(Vec3(-1), Vec3(1), map), material());
+          break;
+        case 1:
+          add(scene_, make_ellipsoid(Vec3(0), Vec3(1), map), material());
+          break;
+        case 2:
+          add(scene_, make_cylinder({0, -1, 0}, {0, 1, 0}, 1, open, map), material());
+          break;
+        default:
+          add(scene_, make_cone({0, -1, 0}, {0, 1, 0}, 1, random_.below(2) * 0.5, open, map), material());
+      }
+    }
+  }
+
   // Each around the next, and all but alike: the deepest of trees.
   void add_nest() {
     const int count = 30 + random_.below(100);
@@ -182,6 +208,14 @@ class HardScene {
         pole[random_.below(3)] = chance(0.5) ? p.a.w : -p.a.w;
         target.b = target.a + pole;
         target.c = target.a + glm::vec3(random_.direction()) * p.a.w;
+      } else if (kind_of(p) > shader::KIND_triangle) {
+        // The centre of object space, and where two of its axes leave the unit cube.
+        glm::vec4 rows[3];
+        for (int i = 0; i < 3; ++i)
+          rows[i] = std::bit_cast<glm::vec4>(packed.vertices[p.head.w + uint32_t(i)]);
+        target.a = {rows[0].w, rows[1].w, rows[2].w};
+        target.b = target.a + glm::vec3(rows[0].x, rows[1].x, rows[2].x);
+        target.c = target.a + glm::vec3(rows[0].y, rows[1].y, rows[2].y);
       } else if (kind_of(p) == shader::KIND_plane) {
         target = {target.a * p.a.w, target.a * p.a.w + target.b, target.a * p.a.w + target.c};
       }

@@ -172,11 +172,11 @@ TEST_CASE("a floor under many spheres stands beside the tree, whose leaves hold 
     test::add(scene, make_triangle(triangle), material);
   }
   const auto loose_triangles = [](const PackedScene& packed) {
-    return packed.kind_loose[shader::KIND_triangle] - packed.kind_first[shader::KIND_triangle];
+    return packed.loose_ends[shader::KIND_triangle] - packed.first_loose(shader::KIND_triangle);
   };
   const PackedScene packed = pack(scene, {});
   CHECK(loose_triangles(packed) == 2);
-  CHECK(tree_kinds(packed) == std::set<uint32_t>{shader::KIND_sphere});
+  CHECK(packed.tree_kinds == std::set<uint32_t>{shader::KIND_sphere});
 
   std::vector<shader::QueryRay> rays(5000);
   for (shader::QueryRay& ray : rays) ray = test::random_ray(random);
