@@ -5,6 +5,7 @@
 
 #if TEXEL_BUFFERS
 uvec4 load_vertex(uint i) { return imageLoad(vertices, int(i)); }
+uvec4 load_outline(uint i) { return load_vertex(i); }
 uvec4 load_node(uint i) { return imageLoad(nodes, int(i)); }
 uvec4 load_primitive_word(uint i) { return imageLoad(primitives, int(i)); }
 Primitive load_primitive(uint i) {
@@ -17,6 +18,7 @@ Primitive load_primitive(uint i) {
 }
 #else
 uvec4 load_vertex(uint i) { return vertices[i]; }
+uvec4 load_outline(uint i) { return load_vertex(i); }
 uvec4 load_node(uint i) { return nodes[i]; }
 Primitive load_primitive(uint i) { return primitives[i]; }
 uvec4 load_primitive_word(uint i) {

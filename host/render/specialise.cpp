@@ -86,7 +86,10 @@ std::string constants(const PackedScene& scene) {
                      constant_loader("Medium", "medium", scene.media) +
                      constant_loader("Light", "light", scene.lights) +
                      constant_loader("Primitive", "primitive", scene.primitives) +
-                     "uint load_texel(uint i) { return texels[i]; }\n";
+                     "uint load_texel(uint i) { return texels[i]; }\n"
+                     // Looked up in a loop: a choice among constants would be made anew at each turn.
+                     "#if TEXEL_BUFFERS\nuvec4 load_outline(uint i) { return imageLoad(vertices, int(i)); }\n"
+                     "#else\nuvec4 load_outline(uint i) { return vertices[i]; }\n#endif\n";
   text += "#define SCENE_PRIMITIVES(X)";
   for (size_t i = 0; i < scene.primitives.size(); ++i)
     text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[kind_of(scene.primitives[i])].name, i, i);
@@ -110,6 +113,10 @@ bool any_reflects(const PackedScene& scene) {
          });
 }
 
+uint64_t trace_iterations(const PackedScene& scene, bool unrolled) {
+  return scene.has_tree ? 0 : (unrolled ? 0 : scene.primitives.size()) + scene.shape_iterations;
+}
+
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
   std::set<uint32_t> shapes_used = scene.tree_kinds;
   for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
@@ -131,7 +138,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_MEDIA", int(media));
   // Only where a ray splits in two does a child wait, and one a level at most.
   define("WHITTED_STACK", media ? scene.frame.camera.w : 0u);
-  define("TRACE_ITERATIONS", fmt::format("{}u", unrolled || scene.has_tree ? 0 : scene.primitives.size()));
+  define("TRACE_ITERATIONS", fmt::format("{}u", trace_iterations(scene, unrolled)));
   define("TEXEL_BUFFERS", int(options.profile.texel_buffers));
   define("HAS_TREE", scene.has_tree ? "true" : "false");
   define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");
