@@ -54,13 +54,16 @@ uint load_occlusion(uint light) { return occlusions[light * dispatch.sample_inde
 #endif
 Tree load_tree(uint i) { return trees[i]; }
 Instance load_instance(uint i) { return instances[i]; }
+// Vertices that a loop looks up: a choice among constants would be made anew at each turn.
 #if TEXEL_BUFFERS
+uvec4 load_outline(uint i) { return imageLoad(vertices, int(i)); }
 uint load_texel(uint i) {
   uvec4 four = imageLoad(texels, int(i >> 2u));
   uint which = i & 3u;
   return which == 0u ? four.x : which == 1u ? four.y : which == 2u ? four.z : four.w;
 }
 #else
+uvec4 load_outline(uint i) { return vertices[i]; }
 uint load_texel(uint i) { return texels[i]; }
 #endif
 #ifndef LOOKS_AS_CONSTANTS

@@ -83,6 +83,8 @@ Json value_schema(const Key& key) {
       return list_schema(vector_schema(key, 2));
     case KeyType::vec3_list:
       return list_schema(vector_schema(key, 3));
+    case KeyType::outlines:
+      return list_schema(list_schema(vector_schema(key, 3)));
     case KeyType::color:
       return either(number_schema(positive, "number"), vector_schema(positive, 3));
     case KeyType::scale2:

@@ -30,9 +30,9 @@ uint32_t image_flags(const ImageTexture& image) {
 
 }  // namespace
 
-uint32_t Packer::add_vertices(std::initializer_list<shader::uvec4> data) {
+uint32_t Packer::add_vertices(std::span<const shader::uvec4> data) {
   const auto first = uint32_t(scene.vertices.size());
-  scene.vertices.insert(scene.vertices.end(), data);
+  scene.vertices.insert(scene.vertices.end(), data.begin(), data.end());
   return first;
 }
 

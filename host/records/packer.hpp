@@ -4,6 +4,7 @@
 #include <bit>
 #include <memory>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct PackedScene {
   uint32_t stack_size = 1;       // what a walk through the trees may have waiting
   std::vector<shader::uvec4> vertices;
   bool vertex_colors = false;  // whether any of `vertices` have colours
+  uint64_t shape_iterations = 0;  // that shapes' own loops take, all shapes together
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
   std::vector<uint32_t> texels;                                   // records.h says how; empty without images
@@ -53,7 +55,10 @@ class Packer {
   }
   void add(const shader::Material& material) { scene.materials.push_back(material); }
   // The index at which `data` now starts in the vertices.
-  uint32_t add_vertices(std::initializer_list<shader::uvec4> data);
+  uint32_t add_vertices(std::initializer_list<shader::uvec4> data) { return add_vertices(std::span(data)); }
+  uint32_t add_vertices(std::span<const shader::uvec4> data);
+  // Every shape that loops says how often it may.
+  void add_iterations(size_t count) { scene.shape_iterations += count; }
   // The index of a texture; equal textures share one.
   uint32_t add_texture(const Texture& texture);
   // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there

@@ -159,13 +159,16 @@ class GpuExecutor final : public Executor {
     if (facts_.loop_cap) {
       // One ray with its shadow rays must fit whatever came before it. In a tree it makes far fewer
       // iterations than there are primitives; where it does not, the shader sees that the driver stopped it.
-      const uint64_t loose = packed.has_tree ? 0 : packed.primitives.size();
-      const uint64_t one_ray = (loose + 1) * (packed.lights.size() + 1);
+      const uint64_t one_ray = (trace_iterations(packed, false) + 1) * (packed.lights.size() + 1);
       if (one_ray >= granted_iterations)
         throw Error(ExitCode::no_device,
-                    "{} ends loops after 65 535 iterations and says nothing, too few for {} primitives and "
+                    "{} ends loops after 65 535 iterations and says nothing, too few for {} primitives{} and "
                     "{} lights without a tree: use a newer driver, or --backend twin",
-                    device_.info().driver_version, packed.primitives.size(), packed.lights.size());
+                    device_.info().driver_version, packed.primitives.size(),
+                    packed.shape_iterations > 0
+                        ? fmt::format(" ({} iterations round their outlines)", packed.shape_iterations)
+                        : "",
+                    packed.lights.size());
       specialisation.loop_budget = uint32_t(granted_iterations - one_ray);
     }
     // A CPU driver splits the workgroups of a dispatch evenly over its threads.

@@ -151,6 +151,10 @@ bool any_reflects(const PackedScene& scene) {
          });
 }
 
+uint64_t trace_iterations(const PackedScene& scene, bool unrolled) {
+  return scene.has_tree ? 0 : (unrolled ? 0 : scene.primitives.size()) + scene.shape_iterations;
+}
+
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
   std::set<uint32_t> shapes_used, materials_used, material_kinds, kinds_with_uv;
   for (const auto& [kind, material] : scene.uses) {
@@ -182,7 +186,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_ABSORPTION", int(absorption));
   // Only where a ray splits in two does a child wait, and one a level at most.
   define("WHITTED_STACK", media ? scene.frame.camera.w : 0u);
-  define("TRACE_ITERATIONS", fmt::format("{}u", unrolled || scene.has_tree ? 0 : scene.primitives.size()));
+  define("TRACE_ITERATIONS", fmt::format("{}u", trace_iterations(scene, unrolled)));
   define("TEXEL_BUFFERS", int(options.profile.texel_buffers));
   define("HAS_TREE", scene.has_tree ? "true" : "false");
   define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");

@@ -22,6 +22,10 @@ struct Specialisation {
 // Whether any material may send rays on.
 bool any_reflects(const PackedScene& scene);
 
+// How many loop iterations a ray takes at most through what is in no tree. Through a tree it takes far fewer
+// than there are primitives, nobody knows how many.
+uint64_t trace_iterations(const PackedScene& scene, bool unrolled);
+
 std::string specialise(const PackedScene& scene, const Specialisation& options);
 
 }  // namespace eyeray

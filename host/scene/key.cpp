@@ -68,6 +68,8 @@ std::string describe(const Key& declared) {
       return "a list of points [[x, y], …]" + each(key);
     case KeyType::vec3_list:
       return "a list of points [[x, y, z], …]" + each(key);
+    case KeyType::outlines:
+      return "a list of lists of points [[[x, y, z], …], …]" + each(key);
     case KeyType::color:
       return "a color [r, g, b] or one number for all three" + each(key);
     case KeyType::texture:

@@ -157,6 +157,9 @@ std::vector<Vec2> TableReader::vec2_list(std::string_view key) const {
 std::vector<Vec3> TableReader::vec3_list(std::string_view key) const {
   return table_->get<std::vector<Vec3>>(key);
 }
+std::vector<std::vector<Vec3>> TableReader::outlines(std::string_view key) const {
+  return table_->get<std::vector<std::vector<Vec3>>>(key);
+}
 Vec3 TableReader::color(std::string_view key) const {
   return table_->get<Vec3>(key);
 }
@@ -173,14 +176,17 @@ Mat4 TableReader::transform(std::string_view key) const {
   return table_->get<Mat4>(key);
 }
 
-void TableReader::error(std::string_view key, std::string message) {
+void TableReader::error(std::string_view key, std::string message, std::initializer_list<size_t> element) {
   const Row& row = table_->row(key);
   if (row.failed) return;
   if (!row.node && table_->log.damaged()) {  // it may stand in what could not be parsed
     table_->failed = true;
     return;
   }
-  table_->error(position(key), std::move(message));
+  const toml::node* at = row.node;
+  for (const size_t i : element)
+    if (at) at = at->as_array()->get(i);
+  table_->error(at ? position_of(at->source()) : position(key), std::move(message));
 }
 
 bool TableReader::valid(std::string_view key) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <span>
@@ -27,6 +28,7 @@ enum class KeyType {
   vec3,       // [x, y, z]
   vec2_list,  // [[x, y], …]
   vec3_list,  // [[x, y, z], …]
+  outlines,   // [[[x, y, z], …], …]
   color,      // [r, g, b], each ≥ 0, or one number for all three
   texture,    // a color, { checker = { even = color, odd = color, size = number or [u, v] } },
               // or { image = file, filter = …, wrap = …, color_space = …, scale = …, tint = color }
@@ -73,6 +75,7 @@ class TableReader {
   Vec3 vec3(std::string_view key) const;
   std::vector<Vec2> vec2_list(std::string_view key) const;
   std::vector<Vec3> vec3_list(std::string_view key) const;
+  std::vector<std::vector<Vec3>> outlines(std::string_view key) const;
   Vec3 color(std::string_view key) const;
   Texture texture(std::string_view key) const;
   Vec2 scale2(std::string_view key) const;
@@ -80,8 +83,8 @@ class TableReader {
   Mat4 transform(std::string_view key) const;
 
   // Adds an error at the key's value, or at the table where the key is absent; nothing when the value already
-  // had one.
-  void error(std::string_view key, std::string message);
+  // had one. `element`: of a list, [i], or of a list in it, [i, k], to which the error belongs.
+  void error(std::string_view key, std::string message, std::initializer_list<size_t> element = {});
   // Whether the key's value, written or default, is right: false after an error in it, or where it is
   // missing.
   bool valid(std::string_view key) const;

@@ -91,6 +91,7 @@ class Reader {
   glm::vec<N, double> vector(const toml::node& node, bool or_one_number = false);
   template <int N>
   std::vector<glm::vec<N, double>> vector_list(const toml::node& node);
+  std::vector<std::vector<Vec3>> vector_lists(const toml::node& node);
 
   const Key& key_;
   DiagnosticLog& log_;
@@ -167,6 +168,18 @@ std::vector<glm::vec<N, double>> Reader::vector_list(const toml::node& node) {
   if (!list) return mismatch(node), values;
   values.reserve(list->size());
   for (const toml::node& element : *list) values.push_back(vector<N>(element));
+  return values;
+}
+
+std::vector<std::vector<Vec3>> Reader::vector_lists(const toml::node& node) {
+  std::vector<std::vector<Vec3>> values;
+  const toml::array* list = node.as_array();
+  if (!list) return mismatch(node), values;
+  for (const toml::node& element : *list) {
+    const toml::array* points = element.as_array();
+    if (!points || !std::ranges::all_of(*points, &toml::node::is_array)) return mismatch(element), values;
+    values.push_back(vector_list<3>(element));
+  }
   return values;
 }
 
@@ -247,6 +260,8 @@ Value Reader::value(const toml::node& node) {
       return vector_list<2>(node);
     case KeyType::vec3_list:
       return vector_list<3>(node);
+    case KeyType::outlines:
+      return vector_lists(node);
     case KeyType::color:
       return vector<3>(node, true);
     case KeyType::texture:
@@ -318,6 +333,8 @@ Value stand_in(const Key& key) {
       return std::vector<Vec2>();
     case KeyType::vec3_list:
       return std::vector<Vec3>();
+    case KeyType::outlines:
+      return std::vector<std::vector<Vec3>>();
     case KeyType::texture:
       return Texture{Vec3(number), {}};
     case KeyType::transform:

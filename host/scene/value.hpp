@@ -15,8 +15,9 @@ namespace eyeray {
 
 // boolean bool; integer and choice int64_t; choice2 two of them; number double; string std::string; color
 // Vec3; scale2, scale3 Vec2, Vec3.
-using Value = std::variant<bool, int64_t, std::array<int64_t, 2>, double, std::string, Vec2, Vec3,
-                           std::vector<Vec2>, std::vector<Vec3>, Texture, Mat4>;
+using Value =
+    std::variant<bool, int64_t, std::array<int64_t, 2>, double, std::string, Vec2, Vec3, std::vector<Vec2>,
+                 std::vector<Vec3>, std::vector<std::vector<Vec3>>, Texture, Mat4>;
 
 // Numbers beyond this have squares that float32 arithmetic cannot hold, and positive ones below its inverse
 // vanish.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "scene/shape.hpp"
+#include "shapes/planar_region.hpp"
 
 namespace eyeray {
 
@@ -31,5 +32,13 @@ std::unique_ptr<Shape> make_cylinder(const Vec3& from, const Vec3& to, double ra
                                      const Mat4& transform = Mat4(1.0));
 std::unique_ptr<Shape> make_cone(Vec3 from, Vec3 to, double radius, double to_radius = 0, bool open = false,
                                  const Mat4& transform = Mat4(1.0));
+
+// Without `u_axis`, the default of planes.
+std::unique_ptr<Shape> make_polygon(const PlanarRegion& region, const Mat4& transform = Mat4(1.0),
+                                    const std::optional<Vec3>& u_axis = {});
+std::unique_ptr<Shape> make_parallelogram(const Vec3& origin, const Vec3& edge_u, const Vec3& edge_v,
+                                          const Mat4& transform = Mat4(1.0));
+std::unique_ptr<Shape> make_prism(const PlanarRegion& region, const Vec3& extrusion,
+                                  const Mat4& transform = Mat4(1.0));
 
 }  // namespace eyeray

@@ -6,8 +6,13 @@
 
 namespace eyeray {
 
-ObjectShape::ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters)
-    : kind_(kind), to_world_(to_world), to_object_(glm::inverse(to_world)), parameters_(parameters) {}
+ObjectShape::ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters,
+                         size_t iterations)
+    : kind_(kind),
+      to_world_(to_world),
+      to_object_(glm::inverse(to_world)),
+      parameters_(parameters),
+      iterations_(iterations) {}
 
 std::optional<Intersection> ObjectShape::intersect(const Ray& ray) const {
   // Start at the point nearest to the centre, so that nothing cancels however far away the ray's own start
@@ -62,6 +67,7 @@ void ObjectShape::pack(Packer& packer) const {
     packer.add_vertices({to_bits(some)});
   }
   const Vec3 offset = to_object_.point(eye);
+  packer.add_iterations(iterations_);
   packer.add({.head = Packer::head(kind_, material, extra),
               .a = row(to_object_, 0, offset),
               .b = row(to_object_, 1, offset),

@@ -2,7 +2,6 @@
 // they have in common. In the shaders it is object_space.glsl.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "scene/affine.hpp"
@@ -21,13 +20,12 @@ class ObjectShape : public Shape {
   // Where a line meets the shape, in any order. u and v are the shape's own.
   class Crossings {
    public:
-    void add(const Intersection& crossing) { all_[count_++] = crossing; }
-    const Intersection* begin() const { return all_.data(); }
-    const Intersection* end() const { return all_.data() + count_; }
+    void add(const Intersection& crossing) { all_.push_back(crossing); }
+    auto begin() const { return all_.begin(); }
+    auto end() const { return all_.end(); }
 
    private:
-    std::array<Intersection, 4> all_;
-    size_t count_ = 0;
+    std::vector<Intersection> all_;
   };
   struct Point {
     Vec3 position;  // on the shape
@@ -35,8 +33,10 @@ class ObjectShape : public Shape {
     Vec2 uv;
   };
 
-  // `kind` is the shape's number in the registry; `parameters` are what the shaders find after the maps.
-  ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters = {});
+  // `kind` is the shape's number in the registry; `parameters` are what the shaders find after the maps;
+  // `iterations` is how often its loops may go round there.
+  ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters = {},
+              size_t iterations = 0);
 
   const Affine& to_world() const { return to_world_; }
 
@@ -50,6 +50,7 @@ class ObjectShape : public Shape {
   Affine to_world_;
   Affine to_object_;
   std::vector<float> parameters_;
+  size_t iterations_;
 };
 
 // The map under which y = low … high on the axis of object space comes to stand from `from` to `to`, and

@@ -3,6 +3,7 @@
 #include "records/packer.hpp"
 #include "scene/affine.hpp"
 #include "shapes/make.hpp"
+#include "shapes/plane_axes.hpp"
 
 namespace eyeray {
 
@@ -45,17 +46,6 @@ constexpr Key keys[] = {
      .doc = "Direction along which u grows, projected onto the plane.",
      .optional = true},
 };
-
-// The axis of u where the file names none.
-Vec3 default_u_axis(const Vec3& normal) {
-  const bool vertical = std::hypot(normal.x, normal.z) < 1e-6;
-  return vertical ? Vec3(1, 0, 0) : Vec3(normal.z, 0, -normal.x);
-}
-
-// What is left of `v` in the plane of the unit `normal`.
-Vec3 tangential(const Vec3& v, const Vec3& normal) {
-  return v - normal * glm::dot(v, normal);
-}
 
 class Plane final : public Shape {
  public:
@@ -105,10 +95,9 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   // Check that every direction is one, before and after the map.
   if (normal == Vec3(0)) {
     table.error("normal", "the normal has no length");
-  } else if (u_axis && *u_axis == Vec3(0)) {
-    table.error("u_axis", "the axis has no length");
-  } else if (u_axis && magnitude(tangential(unit(*u_axis), unit(normal))) < 1e-9) {
-    table.error("u_axis", "the axis must not be parallel to the normal");
+  } else if (u_axis) {
+    const std::string why = why_no_u_axis(normal, *u_axis);
+    if (!why.empty()) table.error("u_axis", why);
   }
   if (!(magnitude(Affine(transform).point(point)) <= max_coordinate)) {
     table.error("transform", "the transformed point is out of range (coordinates up to 1e12)");
@@ -127,8 +116,7 @@ std::unique_ptr<Shape> make_plane(const Vec3& point, const Vec3& normal, const M
 
   // Lay the axes in the plane's own space, where uv are distances.
   const Vec3 n = unit(normal);
-  const Vec3 u = unit(tangential(u_axis ? unit(*u_axis) : default_u_axis(n), n));
-  const Vec3 v = glm::cross(n, u);
+  const auto [u, v] = plane_axes(n, u_axis);
 
   // Gradients map as normals do, but keep their length; off the plane they need not count.
   const Vec3 world_normal = map.normal(n);

@@ -24,6 +24,9 @@ class Binding {
 [[maybe_unused]] const uvec4& load_vertex(uint i) {
   return bound_scene->vertices[i];
 }
+[[maybe_unused]] const uvec4& load_outline(uint i) {
+  return bound_scene->vertices[i];
+}
 [[maybe_unused]] const uvec4& load_node(uint i) {
   return bound_scene->nodes[i];
 }

@@ -8,5 +8,8 @@
   X(box, 3u)       \
   X(ellipsoid, 4u) \
   X(cylinder, 5u)  \
-  X(cone, 6u)
+  X(cone, 6u)      \
+  X(polygon, 7u)   \
+  X(parallelogram, 8u) \
+  X(prism, 9u)
 #endif

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <numbers>
 
 #include "core/parallel_for.hpp"
 #include "reference/tracer.hpp"
@@ -36,6 +37,25 @@ Mat4 some_map(Random& random, double size) {
   return {{linear[0] * size, 0}, {linear[1] * size, 0}, {linear[2] * size, 0}, {random.point(3 * size), 1}};
 }
 
+// Within 1 about the origin, in a plane near it: a regular one, a star, a gear, with a hole or without.
+PlanarRegion some_region(Random& random) {
+  const int corners = 3 + random.below(40);
+  const double waist = random.below(2) == 0 ? 1 : random.uniform(0.5, 1);
+  const auto ring = [&](double radius, double turn) {
+    Outline outline;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = turn + 2 * std::numbers::pi * i / corners;
+      const double r = i % 2 == 0 ? radius : radius * waist;
+      outline.push_back({r * std::cos(angle), r * std::sin(angle), 0.1});
+    }
+    return outline;
+  };
+  const double turn = random.uniform(0, 6);
+  PlanarRegion region{ring(1, turn)};
+  if (random.below(2) == 0) region.holes.push_back(ring(0.25, -turn));
+  return region;
+}
+
 // A shape about as large as `size`.
 using MakeShape = std::unique_ptr<Shape> (*)(Random& random, double size);
 const std::map<std::string, MakeShape> makers = {
@@ -59,6 +79,17 @@ const std::map<std::string, MakeShape> makers = {
      [](Random& random, double size) {
        return make_cone({0, -1, 0}, {0, 1, 0}, 0.7, random.below(2) * random.uniform(0, 1.4),
                         random.below(2) == 0, some_map(random, size));
+     }},
+    {"polygon",
+     [](Random& random, double size) { return make_polygon(some_region(random), some_map(random, size)); }},
+    {"parallelogram",
+     [](Random& random, double size) {
+       return make_parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, some_map(random, size));
+     }},
+    {"prism",
+     [](Random& random, double size) {
+       return make_prism(some_region(random), {0, random.uniform(-0.5, 0.5), random.uniform(0.3, 1.4)},
+                         some_map(random, size));
      }},
 };
 

@@ -22,6 +22,7 @@ constexpr Key keys[] = {
     {.name = "tint", .type = KeyType::choice, .doc = "A tint.", .fallback = "\"green\"", .choices = colors},
     {.name = "uv", .type = KeyType::vec2, .doc = "A pair.", .fallback = "[1, 2]"},
     {.name = "points", .type = KeyType::vec3_list, .doc = "Points.", .fallback = "[[1, 2, 3]]"},
+    {.name = "rings", .type = KeyType::outlines, .doc = "Lists of points.", .fallback = "[]"},
     {.name = "pairs", .type = KeyType::vec2_list, .doc = "Pairs.", .fallback = "[]"},
     {.name = "stretch", .type = KeyType::scale3, .doc = "A stretch.", .fallback = "2"},
     {.name = "maybe", .type = KeyType::number, .doc = "Perhaps.", .optional = true},
@@ -53,6 +54,7 @@ tint = "red"
 uv = [3, -4.5]
 points = [[1, 2, 3], [4, 5, 6]]
 pairs = [[7, 8]]
+rings = [[[1, 2, 3]], [[4, 5, 6], [7, 8, 9]]]
 stretch = [1, 2, 3]
 maybe = -1
 must = [5, 6, 7])");
@@ -66,6 +68,8 @@ must = [5, 6, 7])");
   CHECK(t.reader.vec2("uv") == Vec2(3, -4.5));
   CHECK(t.reader.vec3_list("points") == std::vector{Vec3(1, 2, 3), Vec3(4, 5, 6)});
   CHECK(t.reader.vec2_list("pairs") == std::vector{Vec2(7, 8)});
+  CHECK(t.reader.outlines("rings") ==
+        std::vector<std::vector<Vec3>>{{Vec3(1, 2, 3)}, {Vec3(4, 5, 6), Vec3(7, 8, 9)}});
   CHECK(t.reader.scale3("stretch") == Vec3(1, 2, 3));
   CHECK(t.reader.has("maybe"));
   CHECK(t.reader.vec3("must") == Vec3(5, 6, 7));

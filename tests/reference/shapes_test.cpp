@@ -201,3 +201,82 @@ TEST_CASE("triangle: no ray passes between neighbours") {
   }
   CHECK(leaks == 0);
 }
+
+TEST_CASE("polygon: concave and with a hole, from both sides; uv in its own units") {
+  const PlanarRegion region{{{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {2, 1, 0}, {0, 3, 0}},
+                            {{{0.5, 0.5, 0}, {1, 0.5, 0}, {1, 1, 0}}}};
+  const auto polygon = make_polygon(region);
+  const auto down = [&](double x, double y) { return distance(*polygon, {{x, y, 5}, {0, 0, -1}}); };
+  CHECK(down(2, 0.5) == 5);
+  CHECK(down(3, 1.5) == 5);
+  CHECK(down(2, 2) == -1);      // in the notch
+  CHECK(down(0.9, 0.6) == -1);  // in the hole
+  CHECK(down(0.6, 0.9) == 5);
+  CHECK(down(-0.1, 1) == -1);
+  CHECK(down(4.1, 1) == -1);
+  CHECK(distance(*polygon, {{2, 0.5, -3}, {0, 0, 2}}) == 1.5);
+  CHECK(distance(*polygon, {{2, 0.5, 5}, {0, 0, 1}}) == -1);
+  CHECK(distance(*polygon, {{-1, 0.5, 0}, {1, 0, 0}}) == -1);
+  CHECK(struck(*polygon, {{3, 1, -5}, {0, 0, 1}}).normal == Vec3(0, 0, 1));
+  CHECK(struck(*polygon, {{3, 1, 5}, {0, 0, -1}}).uv == Vec2(3, 1));
+  CHECK(struck(*make_polygon(region, identity, Vec3(0, 2, 9)), {{3, 1, 5}, {0, 0, -1}}).uv == Vec2(1, -3));
+
+  const auto mirrored = make_polygon(region, glm::scale(identity, Vec3(-2, 1, 1)));
+  const SurfacePoint point = struck(*mirrored, {{-6, 1, 5}, {0, 0, -1}});
+  CHECK(point.normal_geometric == Vec3(0, 0, 1));
+  CHECK(point.uv == Vec2(3, 1));
+}
+
+TEST_CASE("parallelogram: its edges, its uv, a mirror") {
+  const auto shape = make_parallelogram({1, 0, 0}, {2, 0, 0}, {0.5, 1, 0});
+  CHECK(distance(*shape, {{2.25, 0.5, 4}, {0, 0, -2}}) == 2);
+  CHECK(distance(*shape, {{1.1, 0.9, 4}, {0, 0, -2}}) == -1);
+  CHECK(distance(*shape, {{3.4, 0.9, 4}, {0, 0, -2}}) == 2);
+  CHECK(distance(*shape, {{3.2, 0.1, 4}, {0, 0, -2}}) == -1);
+  const SurfacePoint point = struck(*shape, {{2.375, 0.75, 4}, {0, 0, -2}});
+  CHECK(near(point.uv.x, 0.5, 1e-15));
+  CHECK(near(point.uv.y, 0.75, 1e-15));
+  CHECK(point.normal == Vec3(0, 0, 1));
+  const auto mirrored =
+      make_parallelogram({1, 0, 0}, {2, 0, 0}, {0.5, 1, 0}, glm::scale(identity, Vec3(-1, 1, 1)));
+  CHECK(struck(*mirrored, {{-2.375, 0.75, 4}, {0, 0, -2}}).normal == Vec3(0, 0, 1));
+}
+
+TEST_CASE("prism: caps and walls, from outside, inside and through its notch") {
+  const PlanarRegion region{{{0, 0, 0}, {3, 0, 0}, {3, 0, 2}, {2, 0, 2}, {2, 0, 1}, {0, 0, 1}}};
+  const auto prism = make_prism(region, {0, 2, 0});
+  const struct {
+    Ray ray;
+    double t;
+    Vec3 normal;
+    Vec2 uv;
+  } hits[] = {{{{1, 5, 0.5}, {0, -1, 0}}, 3, {0, 1, 0}, {1, -0.5}},
+              {{{1, -4, 0.5}, {0, 1, 0}}, 4, {0, -1, 0}, {-1, -0.5}},
+              {{{-1, 1, 0.5}, {1, 0, 0}}, 1, {-1, 0, 0}, {0.5, 1}},
+              {{{1, 1, 0.5}, {1, 0, 0}}, 2, {1, 0, 0}, {6.5, 1}},
+              {{{1, 1, 0.5}, {0, 1, 0}}, 1, {0, 1, 0}, {1, -0.5}},
+              {{{1, 0.5, 3}, {0, 0, -1}}, 2, {0, 0, 1}, {2, 0.5}},
+              {{{-1, 1, 1.5}, {1, 0, 0}}, 3, {-1, 0, 0}, {3.5, 1}}};
+  for (const auto& [ray, t, normal, uv] : hits) {
+    CHECK(near(distance(*prism, ray), t, 1e-14));
+    const SurfacePoint point = struck(*prism, ray);
+    CHECK(near(point.normal_geometric, normal, 1e-15));
+    CHECK(near(point.uv.x, uv.x, 1e-14));
+    CHECK(near(point.uv.y, uv.y, 1e-14));
+  }
+  CHECK(distance(*prism, {{1, 5, 1.5}, {0, -1, 0}}) == -1);
+  CHECK(distance(*prism, {{-1, 3, 0.5}, {1, 0, 0}}) == -1);
+
+  // Swept down the body is below, and outside stays outside; so it does in a hole, and under a mirror.
+  const auto sunk = make_prism(region, {0, -2, 0}, glm::scale(identity, Vec3(-1, 1, 1)));
+  CHECK(near(struck(*sunk, {{-1, 5, 0.5}, {0, -1, 0}}).normal, Vec3(0, 1, 0), 1e-15));
+  CHECK(near(distance(*sunk, {{-1, 5, 0.5}, {0, -1, 0}}), 5, 1e-14));
+  CHECK(near(struck(*sunk, {{1, -1, 0.5}, {-1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-15));
+  const PlanarRegion frame{{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}},
+                           {{{1, 1, 0}, {3, 1, 0}, {3, 3, 0}, {1, 3, 0}}}};
+  const auto oblique = make_prism(frame, {1, 0, 2});
+  CHECK(distance(*oblique, {{2.5, 2, 5}, {0, 0, -1}}) == -1);
+  const SurfacePoint within = struck(*oblique, {{2.5, 2, 1}, {1, 0, 0}});
+  CHECK(near(within.position, Vec3(3.5, 2, 1), 1e-14));
+  CHECK(near(within.normal, glm::normalize(Vec3(-2, 0, 1)), 1e-14));
+}

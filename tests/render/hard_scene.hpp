@@ -2,6 +2,8 @@
 // just touch.
 #pragma once
 
+#include <numbers>
+
 #include "random_scene.hpp"
 #include "reference/media.hpp"
 
@@ -45,6 +47,7 @@ class HardScene {
       if (chance(0.3)) add(scene_, make_plane(point(center_, size_), random_.direction()), material());
       if (chance(0.4)) add_object_shapes(1 + random_.below(4));
       if (chance(0.7)) add_shapes(hard_triangles(1 + random_.below(20)));
+      if (chance(0.3)) add_polygons(1 + random_.below(5));
       if (chance(0.6)) add_instances(1);
       if (chance(0.6)) add_instances(2 + random_.below(4));
       if (scene_.shapes.empty() && scene_.instances.empty()) add_single();
@@ -114,6 +117,29 @@ class HardScene {
   }
 
   void add_shapes(const Mesh& mesh) { add_triangles(scene_, mesh, material()); }
+
+  // Stars, and parallelograms; some as thin as needles, some as flat as their boxes.
+  void add_polygons(int count) {
+    for (int i = 0; i < count; ++i) {
+      const Mat4 map = chance(0.5) ? some_map() : Mat4(1.0);
+      const Vec3 at = point(center_, size_);
+      const double reach = size_ * random_.log_uniform(1e-3, 1);
+      const Vec3 thin(1, 1, chance(0.3) ? random_.log_uniform(1e-6, 1) : 1);
+      if (chance(0.3)) {
+        add(scene_, make_parallelogram(at, Vec3(reach, 0, 0), reach * thin * Vec3(0.3, 0, 1), map),
+            material());
+        continue;
+      }
+      PlanarRegion star;
+      const int corners = 3 + random_.below(12);
+      for (int k = 0; k < corners; ++k) {
+        const double angle = 2 * std::numbers::pi * k / corners;
+        star.outer.push_back(at +
+                             (k % 2 ? 0.6 : 1) * reach * thin * Vec3(std::sin(angle), 0, std::cos(angle)));
+      }
+      if (star.normal() != Vec3(0)) add(scene_, make_polygon(star, map), material());
+    }
+  }
 
   void add_single() {
     if (chance(0.5)) {

@@ -1,6 +1,8 @@
 // A driver that ends loops early must not go unnoticed: a pixel is right, or it is flagged.
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "loader/scene_file.hpp"
 #include "query_kernel.hpp"
 #include "random_scene.hpp"
@@ -34,6 +36,23 @@ ExecutorOptions one_by_one() {
   ExecutorOptions options;
   options.pack.acceleration = Acceleration::brute_force;
   return options;
+}
+
+// Two mirrors that face each other, and between them rings of so many vertices that a ray has to go round.
+Scene hall_of_rings(int count, int depth) {
+  const auto circle = [](double radius) {
+    Outline outline;
+    for (int i = 0; i < 8000; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 8000;
+      outline.emplace_back(0, radius * std::cos(angle), radius * std::sin(angle));
+    }
+    return outline;
+  };
+  const PlanarRegion ring{circle(3), {circle(2)}};
+  Scene scene = hall_of_mirrors(0, depth);
+  for (int i = 0; i < count; ++i)
+    test::add(scene, make_polygon(ring, test::translation({-1.5 + 3.0 * i / count, 0, 0})), 0);
+  return scene;
 }
 
 // Every pixel of the GPU's is the twin's, or flagged.
@@ -74,6 +93,27 @@ TEST_CASE("a scene too large for one ray on a capped driver is refused with the 
   } catch (const Error& error) {
     CHECK(error.code() == ExitCode::no_device);
     CHECK(std::string(error.what()).find("31002 primitives") != std::string::npos);
+  }
+}
+
+TEST_CASE(
+    "iterations round outlines count: every pixel is the twin's, or flagged, and too many are refused") {
+  // A ray and its shadow ray take 8 000 iterations with one ring, 24 000 with three.
+  for (const int rings : {1, 3}) {
+    const Scene scene = hall_of_rings(rings, 4);
+    const auto gpu = make_executor(Backend::gpu, scene, one_by_one());
+    const auto twin = make_executor(Backend::twin, scene, one_by_one());
+    check_right_or_flagged(scene, *gpu, *twin);
+  }
+
+  const Scene large = hall_of_rings(8, 1);
+  try {
+    const auto capless = make_executor(Backend::gpu, large, one_by_one());
+    check_right_or_flagged(large, *capless, *make_executor(Backend::twin, large, one_by_one()));
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::no_device);
+    CHECK(std::string(error.what()).find("10 primitives (32008 iterations round their outlines)") !=
+          std::string::npos);
   }
 }
 

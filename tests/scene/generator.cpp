@@ -163,6 +163,8 @@ std::string Writer::value(const Key& key) {
       if (mishap()) points[1] = "[]";
       return fmt::format("[{}]", fmt::join(points, ", "));
     }
+    case KeyType::outlines:
+      return fmt::format("[[{}, {}, {}]]", numbers(key, 3), numbers(key, 3), numbers(key, 3));
     case KeyType::color:
       return chance(0.7) ? numbers(key, 3) : fmt::format("{}", number(key));
     case KeyType::texture:

@@ -1,0 +1,59 @@
+// A piece of a plane with straight edges, perhaps with holes: what polygons and prisms are made of.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/vec.hpp"
+#include "scene/affine.hpp"
+#include "scene/table_reader.hpp"
+
+namespace eyeray {
+
+// Vertices in order, either way round; the last is joined to the first.
+using Outline = std::vector<Vec3>;
+
+struct PlanarRegion {
+  Outline outer;
+  std::vector<Outline> holes = {};
+
+  size_t size() const;  // how many vertices it has, all outlines together
+  // Unit, to where the outer outline runs counter-clockwise; (0, 0, 0) where it has no area.
+  Vec3 normal() const;
+  PlanarRegion transformed(const Affine& map) const;
+};
+
+// Why a region in the world cannot be computed with in float32, or "".
+std::string why_out_of_range(const PlanarRegion& region);
+
+// Twice the area within an outline, signed: above 0 where it runs counter-clockwise.
+double signed_area(std::span<const Vec2> outline);
+// How often an outline winds round a point, counter-clockwise.
+int winding(std::span<const Vec2> outline, const Vec2& point);
+
+// Vertices that are farther off the plane than this share of the outline's size are no rounding.
+inline constexpr double most_unevenness = 1e-5;
+inline constexpr size_t most_outline_vertices = 16384;
+
+// `vertices` and `holes`: the keys of shapes that are made of a region.
+inline constexpr Key vertices_key{.name = "vertices",
+                                  .type = KeyType::vec3_list,
+                                  .doc = "The outline's corners, in order; the last is joined to the first.",
+                                  .min = -max_coordinate,
+                                  .max = max_coordinate};
+inline constexpr Key holes_key{.name = "holes",
+                               .type = KeyType::outlines,
+                               .doc = "Outlines of holes, in either direction.",
+                               .fallback = "[]",
+                               .min = -max_coordinate,
+                               .max = max_coordinate};
+
+// The region in a table with these keys; nothing, with one error at the vertex that is to blame, where it is
+// none: its outlines must be flat, have an area and at least 3 vertices each, no two at the same place; must
+// neither cross nor touch themselves or each other; and holes must lie within the outer outline, beside each
+// other.
+std::optional<PlanarRegion> read_region(TableReader& table);
+
+}  // namespace eyeray

@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <cmath>
+
+#include "records/records.hpp"
+#include "shapes/make.hpp"
+#include "shapes/object_shape.hpp"
+#include "shapes/plane_axes.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(The body that an outline, less its holes, sweeps along `extrusion`: all points p + s·extrusion with p in the polygon and s from 0 to 1. Closed; the
+normals point outward, into holes too.
+
+```toml
+[[prism]]
+vertices = [[0, 0, 0], [3, 0, 0], [3, 0, 2], [2, 0, 2], [2, 0, 1], [0, 0, 1]]
+holes = [[[2.2, 0, 0.3], [2.7, 0, 0.3], [2.7, 0, 0.8]]]
+extrusion = [0, 0.5, 0]
+material = "wall"
+```
+
+`transform` may be any affine map that can be undone. The extrusion may be oblique, outline and holes may run in either direction. What outlines may be
+is said at the polygon.
+
+**uv.** In the prism's own units, as before `transform`. On a wall u is the length along the outline, or the hole, from its first vertex, to the right seen from
+outside, and v the share of the extrusion times its length. On the cap at the tip of the extrusion uv are distances from the first vertex along two axes, as on a
+polygon that faces that way; on the other cap u is the negative of that, so that seen from outside nothing is mirrored.
+
+**Numeric trap.** Walls and caps that are tested apart let rays through where they meet. Here, seen along the extrusion, the ray is a line that passes the
+outline's edges at certain distances, an even number of them; a cap is hit where an odd number of these are less than its own.
+
+**Source.** Kajiya: New Techniques for Ray Tracing Procedurally Defined Objects, SIGGRAPH 1983, section 4 (prisms).
+)";
+
+constexpr Key keys[] = {
+    vertices_key,
+    holes_key,
+    {.name = "extrusion",
+     .type = KeyType::vec3,
+     .doc = "How far and whither the outline is swept.",
+     .min = -max_coordinate,
+     .max = max_coordinate},
+};
+
+// Less than this share of the extrusion off the outline's plane is no height.
+constexpr double least_height = 1e-6;
+
+// Intersection::u: what was hit. Walls count on from there.
+constexpr double bottom_cap = 0;
+constexpr double top_cap = 1;
+constexpr size_t first_wall = 2;
+
+// A prism in a space of its own: the outline in the xz plane, |x|, |z| ≤ 1, from y = −1 to y = 1.
+struct PrismForm {
+  struct Wall {
+    Vec2 from, to;
+    double u_from, u_to;
+    Vec2 normal;  // unit, outward
+  };
+
+  Mat4 to_world;
+  std::vector<std::vector<Vec2>>
+      outlines;  // x and z; the outer one and holes run so that the body is to the left
+  std::vector<Wall> walls;
+  double height;
+  Vec3 u_cap, v_cap;  // u = u_cap · (x, z, 1) on the cap at y = 1
+
+  PrismForm(const PlanarRegion& region, const Vec3& extrusion);
+  std::vector<float> parameters() const;
+};
+
+PrismForm::PrismForm(const PlanarRegion& region, const Vec3& extrusion) : height(glm::length(extrusion)) {
+  // Axes that are right-handed seen from the tip, and the bounds along them.
+  const Vec3 flat_normal = region.normal();
+  const auto [u, v] = plane_axes(glm::dot(flat_normal, extrusion) < 0 ? -flat_normal : flat_normal);
+  const Vec3 first = region.outer[0];
+  const auto in_plane = [&, u = u, v = v](const Vec3& p) {
+    return Vec2(glm::dot(u, p - first), glm::dot(v, p - first));
+  };
+  Vec2 low(0), high(0);
+  for (const Vec3& vertex : region.outer) {
+    low = glm::min(low, in_plane(vertex));
+    high = glm::max(high, in_plane(vertex));
+  }
+  const Vec2 middle = (low + high) * 0.5, half = (high - low) * 0.5;
+  to_world = Mat4(Vec4(u * half.x, 0), Vec4(extrusion * 0.5, 0), Vec4(v * half.y, 0),
+                  Vec4(first + u * middle.x + v * middle.y + extrusion * 0.5, 1));
+  u_cap = {half.x, 0, middle.x};
+  v_cap = {0, half.y, middle.y};
+
+  const auto add = [&](const Outline& written, bool hole) {
+    std::vector<Vec2> outline;
+    for (const Vec3& vertex : written) outline.push_back(in_plane(vertex));
+    if ((signed_area(outline) < 0) != hole) std::reverse(outline.begin() + 1, outline.end());
+    double length = 0;
+    for (size_t i = 0; i < outline.size(); ++i) {
+      const Vec2 from = outline[i], to = outline[(i + 1) % outline.size()];
+      const Vec2 a = (from - middle) / half, b = (to - middle) / half;
+      const double so_far = length;
+      length += glm::length(to - from);
+      walls.push_back({a, b, so_far, length, glm::normalize(Vec2(b.y - a.y, a.x - b.x))});
+    }
+    for (Vec2& point : outline) point = (point - middle) / half;
+    outlines.push_back(std::move(outline));
+  };
+  add(region.outer, false);
+  for (const Outline& hole : region.holes) add(hole, true);
+}
+
+std::vector<float> PrismForm::parameters() const {
+  std::vector<float> all;
+  const auto add = [&](double x, double y, double z, double w) {
+    for (const double value : {x, y, z, w}) all.push_back(float(value));
+  };
+  add(double(walls.size()), height, 0, 0);
+  add(u_cap.x, u_cap.y, u_cap.z, 0);
+  add(v_cap.x, v_cap.y, v_cap.z, 0);
+  for (const Wall& wall : walls) add(wall.from.x, wall.from.y, wall.to.x, wall.to.y);
+  for (const Wall& wall : walls) add(wall.u_from, wall.u_to, wall.normal.x, wall.normal.y);
+  return all;
+}
+
+class Prism final : public ObjectShape {
+ public:
+  explicit Prism(PrismForm form, const Mat4& transform)
+      : ObjectShape(shader::KIND_prism, transform * form.to_world, form.parameters(), form.walls.size()),
+        form_(std::move(form)) {}
+
+ private:
+  // Each face by itself: a wall where the line meets its plane between its ends, a cap where the outlines
+  // wind round the point.
+  Crossings crossings(const Ray& ray) const override {
+    constexpr double room = 1e-14;  // for edges, where faces meet
+    const auto& [o, d] = ray;
+    const Vec2 start(o.x, o.z), line(d.x, d.z);
+    Crossings all;
+    for (size_t i = 0; i < form_.walls.size(); ++i) {
+      const auto& wall = form_.walls[i];
+      const Vec2 along = wall.to - wall.from, to_wall = wall.from - start;
+      const double across = line.x * along.y - line.y * along.x;
+      if (across == 0) continue;
+      const double share = (to_wall.x * line.y - to_wall.y * line.x) / across;
+      const double t = (to_wall.x * along.y - to_wall.y * along.x) / across;
+      if (share >= -room && share <= 1 + room && std::fabs(o.y + t * d.y) <= 1 + room)
+        all.add({t, double(first_wall + i), 0});
+    }
+    if (d.y == 0) return all;
+    for (const double cap : {bottom_cap, top_cap}) {
+      const double t = ((cap == top_cap ? 1 : -1) - o.y) / d.y;
+      const Vec2 point = start + line * t;
+      int turns = 0;
+      for (const auto& outline : form_.outlines) turns += winding(outline, point);
+      if (turns != 0) all.add({t, cap, 0});
+    }
+    return all;
+  }
+
+  Point point(const Vec3& near, const Intersection& hit) const override {
+    if (hit.u < double(first_wall)) {
+      const double up = hit.u == top_cap ? 1 : -1;
+      const Vec3 place(near.x, near.z, 1);
+      return {{near.x, up, near.z},
+              {0, up, 0},
+              {up * glm::dot(form_.u_cap, place), glm::dot(form_.v_cap, place)}};
+    }
+    const auto& wall = form_.walls[size_t(hit.u) - first_wall];
+    const Vec2 along = wall.to - wall.from;
+    const double share =
+        std::clamp(glm::dot(Vec2(near.x, near.z) - wall.from, along) / glm::dot(along, along), 0.0, 1.0);
+    const Vec2 foot = wall.from + along * share;
+    const double y = std::clamp(near.y, -1.0, 1.0);
+    return {{foot.x, y, foot.y},
+            {wall.normal.x, 0, wall.normal.y},
+            {glm::mix(wall.u_from, wall.u_to, share), form_.height * (0.5 * y + 0.5)}};
+  }
+
+  Bounds extent() const override { return {Vec3(-1), Vec3(1)}; }
+
+  PrismForm form_;
+};
+
+std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
+  const auto region = read_region(table);
+  const Vec3 extrusion = table.vec3("extrusion");
+  if (table.failed() || !region) return nullptr;
+  if (extrusion == Vec3(0)) {
+    table.error("extrusion", "the prism has no volume: its extrusion has no length");
+    return nullptr;
+  }
+  if (std::fabs(glm::dot(unit(extrusion), region->normal())) < least_height) {
+    table.error("extrusion", "the prism has no volume: its extrusion lies in the outline's plane");
+    return nullptr;
+  }
+  if (out_of_range(table, transform * PrismForm(*region, extrusion).to_world)) return nullptr;
+  return make_prism(*region, extrusion, transform);
+}
+
+}  // namespace
+
+extern const ShapeType prism_type{.name = "prism", .manual = manual, .keys = keys, .parse = parse};
+
+std::unique_ptr<Shape> make_prism(const PlanarRegion& region, const Vec3& extrusion, const Mat4& transform) {
+  return std::make_unique<Prism>(PrismForm(region, extrusion), transform);
+}
+
+}  // namespace eyeray

@@ -1,0 +1,110 @@
+// A polygon of the xz plane from y = −1 to y = 1 in object space (object_space.glsl), |x|, |z| ≤ 1.
+//   parameters: number of walls, height; U, u0 and V, v0 (u = U·(x, z) + u0, v = V·(x, z) + v0 on the caps); x, z of both ends of each wall; then
+//   of each wall u at both ends and the x, z of its unit normal.
+#ifndef PRISM_GLSL
+#define PRISM_GLSL
+#include "object_space.glsl"
+
+SHADER_BEGIN
+
+// Parameter of a hit: the bottom, the top, or a wall.
+#define PRISM_BOTTOM 0.0f
+#define PRISM_TOP 1.0f
+#define PRISM_WALLS 2.0f
+
+// Seen along y the ray is a line, and the walls are edges that it passes at certain distances. On which side of the line an edge's end
+// lies depends on that end alone, so the line passes an even number of edges. It is within the outline where it has passed an odd number; so the
+// caps are asked of the very distances at which the walls are hit, and no ray passes between them.
+float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
+  ObjectRay r = object_ray(s, ray, 1.7320508f);
+  float least = 1.0e-12f * max_component(abs3(r.d));
+
+  // Between the planes of the caps.
+  float to_bottom = (-1.0f - r.o.y) * bounded_inverse(r.d.y, least);
+  float to_top = (1.0f - r.o.y) * bounded_inverse(r.d.y, least);
+  float enter = minimum(to_bottom, to_top);
+  float leave = maximum(to_bottom, to_top);
+
+  // The line; any will do for a ray along y.
+  float longest = maximum(abs(r.d.x), abs(r.d.z));
+  vec2 line = longest < least ? vec2(1.0f, 0.0f) : vec2(r.d.x / longest, r.d.z / longest);
+  vec2 per_distance = line / (maximum(longest, least) * (line.x * line.x + line.y * line.y));
+
+  // Only a ray that passes the bounds looks at the walls.
+  vec2 inverse = vec2(bounded_inverse(r.d.x, least), bounded_inverse(r.d.z, least));
+  vec2 a = (vec2(-1.0f, -1.0f) - vec2(r.o.x, r.o.z)) * inverse;
+  vec2 b = (vec2(1.0f, 1.0f) - vec2(r.o.x, r.o.z)) * inverse;
+  float near = maximum(enter, maximum(minimum(a.x, b.x), minimum(a.y, b.y)));
+  float far = minimum(leave, minimum(maximum(a.x, b.x), maximum(a.y, b.y)));
+  uint at = s.head.w + OBJECT_PARAMETERS + 3u;
+  uint end = near <= far && r.t + far > 0.0f ? at + uint(object_parameters(s).x) : at;
+
+  bool enters = false;
+  bool leaves = false;
+  float nearest = T_MISS;
+  float wall = PRISM_WALLS;
+  uv = vec2(PRISM_BOTTOM, 0.0f);
+  for (; at < end; at++) {
+    vec4 edge = bits_to_floats(load_outline(at));
+    vec2 p = vec2(edge.x - r.o.x, edge.y - r.o.z);
+    vec2 q = vec2(edge.z - r.o.x, edge.w - r.o.z);
+    float side_p = line.x * p.y - line.y * p.x;
+    float side_q = line.x * q.y - line.y * q.x;
+    float along_p = per_distance.x * p.x + per_distance.y * p.y;
+    float along_q = per_distance.x * q.x + per_distance.y * q.y;
+    float distance = (along_p * side_q - along_q * side_p) / (side_q - side_p);
+    bool passed = (side_p > 0.0f) != (side_q > 0.0f);
+    enters = enters != (passed && distance < enter);
+    leaves = leaves != (passed && distance < leave);
+    bool nearer = passed && distance >= enter && distance < leave && r.t + distance > 0.0f && distance < nearest;
+    nearest = nearer ? distance : nearest;
+    uv.x = nearer ? wall : uv.x;
+    wall += 1.0f;
+  }
+
+  bool upwards = to_bottom < to_top;
+  bool first = enters && r.t + enter > 0.0f && enter < nearest;
+  nearest = first ? enter : nearest;
+  uv.x = first ? (upwards ? PRISM_BOTTOM : PRISM_TOP) : uv.x;
+  bool last = leaves && r.t + leave > 0.0f && leave < nearest;
+  nearest = last ? leave : nearest;
+  uv.x = last ? (upwards ? PRISM_TOP : PRISM_BOTTOM) : uv.x;
+  return nearest < T_MISS ? r.t + nearest : -1.0f;
+}
+
+bool prism_may_hit(Primitive s, Ray ray) { return true; }
+
+void prism_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
+
+Surface prism_surface(Primitive s, Ray ray, Hit hit) {
+  vec3 p = at_hit(object_ray(s, ray, 1.7320508f), hit);
+  uint first = s.head.w + OBJECT_PARAMETERS;
+  vec4 sizes = object_parameters(s);
+  vec3 gradient = vec3(0.0f, hit.uv.x == PRISM_BOTTOM ? -1.0f : 1.0f, 0.0f);
+  vec2 uv = vec2(0.0f, 0.0f);
+  if (hit.uv.x < PRISM_WALLS) {
+    vec4 u = bits_to_floats(load_vertex(first + 1u));
+    vec4 v = bits_to_floats(load_vertex(first + 2u));
+    p.y = gradient.y;
+    uv = vec2(((u.x * p.x + u.y * p.z) + u.z) * gradient.y, (v.x * p.x + v.y * p.z) + v.z);
+  } else {
+    uint wall = uint(hit.uv.x - PRISM_WALLS);
+    vec4 edge = bits_to_floats(load_outline(first + 3u + wall));
+    vec4 more = bits_to_floats(load_outline(first + 3u + uint(sizes.x) + wall));
+    vec2 along = vec2(edge.z - edge.x, edge.w - edge.y);
+    float share = (along.x * (p.x - edge.x) + along.y * (p.z - edge.y)) / (along.x * along.x + along.y * along.y);
+    share = minimum(maximum(share, 0.0f), 1.0f);
+    p = vec3(edge.x + along.x * share, minimum(maximum(p.y, -1.0f), 1.0f), edge.y + along.y * share);
+    gradient = vec3(more.z, 0.0f, more.w);
+    uv = vec2(more.x + (more.y - more.x) * share, sizes.y * (0.5f * p.y + 0.5f));
+  }
+  Surface surface = object_surface(s, p, gradient, uv);
+
+  // A wall is where its ends are, and those are rounded however close to the middle it passes.
+  vec3 slope = vec3(s.a) * gradient.x + vec3(s.b) * gradient.y + vec3(s.c) * gradient.z;
+  surface.offset += 8.0f * EPSILON / sqrt(dot3(slope, slope));
+  return surface;
+}
+
+SHADER_END
+#endif
