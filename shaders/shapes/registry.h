@@ -1,12 +1,17 @@
 // Every kind of shape: a row is all that has to be added outside the shape's own files. Its number is its kind in
 // Primitive.head.x and its place in the scene's order. A specialised kernel overrides the list with its scene's kinds.
 #ifndef SHAPES
-#define SHAPES(X)  \
-  X(sphere, 0u)    \
-  X(plane, 1u)     \
-  X(triangle, 2u)  \
-  X(box, 3u)       \
-  X(ellipsoid, 4u) \
-  X(cylinder, 5u)  \
-  X(cone, 6u)
+#define SHAPES(X)    \
+  X(sphere, 0u)      \
+  X(plane, 1u)       \
+  X(triangle, 2u)    \
+  X(box, 3u)         \
+  X(ellipsoid, 4u)   \
+  X(cylinder, 5u)    \
+  X(cone, 6u)        \
+  X(disk, 7u)        \
+  X(paraboloid, 8u)  \
+  X(hyperboloid, 9u) \
+  X(capsule, 10u)    \
+  X(quadric, 11u)
 #endif

@@ -60,6 +60,37 @@ const std::map<std::string, MakeShape> makers = {
        return make_cone({0, -1, 0}, {0, 1, 0}, 0.7, random.below(2) * random.uniform(0, 1.4),
                         random.below(2) == 0, some_map(random, size));
      }},
+    {"disk",
+     [](Random& random, double size) {
+       return make_disk(Vec3(0), {0, 1, 0}, 1, random.below(2) * random.uniform(0, 0.9),
+                        some_map(random, size));
+     }},
+    {"paraboloid",
+     [](Random& random, double size) {
+       return make_paraboloid({0, -1, 0}, {0, random.uniform(-0.5, 1), 0}, 0.9, random.below(2) == 0,
+                              some_map(random, size));
+     }},
+    {"hyperboloid",
+     [](Random& random, double size) {
+       const double waist = random.uniform(0.1, 0.5);
+       const double narrow = random.below(4) == 0 ? waist : waist + random.uniform(0, 0.4);
+       return make_hyperboloid({0, -1, 0}, {0, 1, 0}, 0.9, narrow, waist, random.below(2) == 0,
+                               some_map(random, size));
+     }},
+    {"capsule",
+     [](Random& random, double size) {
+       return make_capsule({0, -0.7, 0}, {0, 0.7, 0}, random.log_uniform(0.1, 0.7), some_map(random, size));
+     }},
+    {"quadric",
+     [](Random& random, double size) {
+       // One in four is a cone, its apex in the box.
+       const bool cone = random.below(4) == 0;
+       const QuadricValues values{.square = random.point(1),
+                                  .product = random.point(1),
+                                  .linear = cone ? Vec3(0) : random.point(1),
+                                  .constant = cone ? 0 : random.uniform(-0.5, 0.5)};
+       return make_quadric(values, Vec3(-1), Vec3(1), random.below(2) == 0, some_map(random, size));
+     }},
 };
 
 // One shape as a scene, in both forms.

@@ -1,0 +1,32 @@
+// x² + z² ≤ square·y² + waist², bottom ≤ y ≤ bottom + 2 in object space (object_space.glsl), the widest radius 1, the waist at y = 0.
+//   parameters: 1 where there are no caps; square; waist²; bottom
+#ifndef HYPERBOLOID_GLSL
+#define HYPERBOLOID_GLSL
+#include "revolution.glsl"
+
+SHADER_BEGIN
+
+#define HYPERBOLOID_REACH 2.2360680f
+
+float hyperboloid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
+  vec4 parameters = object_parameters(s);
+  ObjectRay r = object_ray(s, ray, HYPERBOLOID_REACH);
+  float a = (r.d.x * r.d.x + r.d.z * r.d.z) - parameters.y * r.d.y * r.d.y;
+  float b = (r.o.x * r.d.x + r.o.z * r.d.z) - parameters.y * r.o.y * r.d.y;
+  float c = (r.o.x * r.o.x + r.o.z * r.o.z) - (parameters.y * r.o.y * r.o.y + parameters.z);
+  uv = vec2(0.0f, 0.0f);
+  return revolution_intersect(r, a, b, c, parameters.w, parameters.w + 2.0f, parameters.x != 0.0f, uv.x);
+}
+
+Surface hyperboloid_surface(Primitive s, Ray ray, Hit hit) {
+  vec4 parameters = object_parameters(s);
+  vec3 p = at_hit(object_ray(s, ray, HYPERBOLOID_REACH), hit);
+  float bottom = parameters.w;
+  float top = bottom + 2.0f;
+  float y = hit.uv.x == PART_BOTTOM ? bottom : hit.uv.x == PART_TOP ? top : minimum(maximum(p.y, bottom), top);
+  float radius = sqrt(parameters.y * y * y + parameters.z);
+  return revolution_surface(s, p, hit.uv.x, bottom, top, radius, parameters.y * y / radius, radius);
+}
+
+SHADER_END
+#endif
