@@ -12,9 +12,15 @@ SHADER_BEGIN
 // The first s with t + s > 0 at which the ray meets the boundary of a·s² + 2b·s + c ≤ 0 between s = enter and s = leave, and what is met there:
 // the quadric, or the piece's own boundary where the ray enters or leaves it. `open`: only the quadric. T_MISS if there is none. Where the
 // quadric and the piece's boundary meet, both come from the same four numbers, so that no ray passes between them.
-float clipped_quadric(float t, float a, float b, float c, float enter, float leave, bool open, OUT(float) part) {
+// `equation`: a, b, c. `nearest_equation`: the same from the ray's point nearest to the centre. The discriminant is that of either; there
+// the products whose difference it is are smallest, so that a ray that grazes is met where it should be.
+float clipped_quadric(float t, vec3 equation, vec3 nearest_equation, float enter, float leave, bool open, OUT(float) part) {
+  float a = equation.x;
+  float b = equation.y;
+  float c = equation.z;
+
   // Inside the quadric: between its roots, or where a < 0 outside of them; without roots everywhere or nowhere. A root may be infinite.
-  float discriminant = b * b - a * c;
+  float discriminant = nearest_equation.y * nearest_equation.y - a * nearest_equation.z;
   bool real = discriminant >= 0.0f && (a != 0.0f || b != 0.0f);
   float root = sqrt(maximum(discriminant, 0.0f));
   float q = b < 0.0f ? root - b : -root - b;

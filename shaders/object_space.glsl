@@ -30,6 +30,15 @@ ObjectRay object_ray(Primitive s, Ray ray, float reach) {
   return r;
 }
 
+// The same ray from its point nearest to the centre.
+ObjectRay from_nearest(ObjectRay ray) {
+  ObjectRay r = ray;
+  float s = -dot3(r.o, r.d) / dot3(r.d, r.d);
+  r.o = r.o + r.d * s;
+  r.t = r.t + s;
+  return r;
+}
+
 vec3 at_hit(ObjectRay ray, Hit hit) { return ray.o + ray.d * (hit.t - ray.t); }
 
 vec4 object_parameters(Primitive s) { return bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS)); }

@@ -10,13 +10,13 @@ SHADER_BEGIN
 #define PART_BOTTOM 1.0f
 #define PART_TOP 2.0f
 
-// Where the first boundary with t > 0 is of a·s² + 2b·s + c ≤ 0 between the planes y = bottom and y = top; −1 if there is none. `part` says what
-// it is.
-float revolution_intersect(ObjectRay r, float a, float b, float c, float bottom, float top, bool open, OUT(float) part) {
+// Where the first boundary with t > 0 is of a quadric between the planes y = bottom and y = top; −1 if there is none. `part` says what it is. The equations are
+// clipped_quadric's.
+float revolution_intersect(ObjectRay r, vec3 equation, vec3 nearest_equation, float bottom, float top, bool open, OUT(float) part) {
   float inverse = bounded_inverse(r.d.y, 1.0e-12f * max_component(abs3(r.d)));
   float to_bottom = (bottom - r.o.y) * inverse;
   float to_top = (top - r.o.y) * inverse;
-  float nearest = clipped_quadric(r.t, a, b, c, minimum(to_bottom, to_top), maximum(to_bottom, to_top), open, part);
+  float nearest = clipped_quadric(r.t, equation, nearest_equation, minimum(to_bottom, to_top), maximum(to_bottom, to_top), open, part);
   part = part == PART_QUADRIC ? PART_SIDE : nearest == to_bottom ? PART_BOTTOM : PART_TOP;
   return nearest < T_MISS ? r.t + nearest : -1.0f;
 }

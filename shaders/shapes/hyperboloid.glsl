@@ -8,14 +8,19 @@ SHADER_BEGIN
 
 #define HYPERBOLOID_REACH 2.2360680f
 
+vec3 hyperboloid_equation(ObjectRay r, float square, float waist_squared) {
+  return vec3((r.d.x * r.d.x + r.d.z * r.d.z) - square * r.d.y * r.d.y,
+              (r.o.x * r.d.x + r.o.z * r.d.z) - square * r.o.y * r.d.y,
+              (r.o.x * r.o.x + r.o.z * r.o.z) - (square * r.o.y * r.o.y + waist_squared));
+}
+
 float hyperboloid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   vec4 parameters = object_parameters(s);
   ObjectRay r = object_ray(s, ray, HYPERBOLOID_REACH);
-  float a = (r.d.x * r.d.x + r.d.z * r.d.z) - parameters.y * r.d.y * r.d.y;
-  float b = (r.o.x * r.d.x + r.o.z * r.d.z) - parameters.y * r.o.y * r.d.y;
-  float c = (r.o.x * r.o.x + r.o.z * r.o.z) - (parameters.y * r.o.y * r.o.y + parameters.z);
+  vec3 equation = hyperboloid_equation(r, parameters.y, parameters.z);
+  vec3 nearest = hyperboloid_equation(from_nearest(r), parameters.y, parameters.z);
   uv = vec2(0.0f, 0.0f);
-  return revolution_intersect(r, a, b, c, parameters.w, parameters.w + 2.0f, parameters.x != 0.0f, uv.x);
+  return revolution_intersect(r, equation, nearest, parameters.w, parameters.w + 2.0f, parameters.x != 0.0f, uv.x);
 }
 
 Surface hyperboloid_surface(Primitive s, Ray ray, Hit hit) {

@@ -7,14 +7,17 @@ SHADER_BEGIN
 
 #define PARABOLOID_REACH 1.4142136f
 
+vec3 paraboloid_equation(ObjectRay r) {
+  return vec3(r.d.x * r.d.x + r.d.z * r.d.z, (r.o.x * r.d.x + r.o.z * r.d.z) - 0.5f * r.d.y,
+              (r.o.x * r.o.x + r.o.z * r.o.z) - r.o.y);
+}
+
 // The plane y = 0 cuts nothing off: it only touches the tip.
 float paraboloid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   ObjectRay r = object_ray(s, ray, PARABOLOID_REACH);
-  float a = r.d.x * r.d.x + r.d.z * r.d.z;
-  float b = (r.o.x * r.d.x + r.o.z * r.d.z) - 0.5f * r.d.y;
-  float c = (r.o.x * r.o.x + r.o.z * r.o.z) - r.o.y;
   uv = vec2(0.0f, 0.0f);
-  return revolution_intersect(r, a, b, c, -1.0f, 1.0f, object_parameters(s).x != 0.0f, uv.x);
+  return revolution_intersect(r, paraboloid_equation(r), paraboloid_equation(from_nearest(r)), -1.0f, 1.0f,
+                              object_parameters(s).x != 0.0f, uv.x);
 }
 
 Surface paraboloid_surface(Primitive s, Ray ray, Hit hit) {

@@ -31,19 +31,22 @@ vec3 quadric_slope(vec3 squares, vec3 products, vec3 v) {
               2.0f * squares.z * v.z + products.y * v.x + products.z * v.y);
 }
 
+vec3 quadric_equation(Quadric quadric, ObjectRay r) {
+  vec3 linear = vec3(quadric.linear);
+  vec3 along = quadric_slope(vec3(quadric.squares), vec3(quadric.products), r.d);
+  vec3 here = quadric_slope(vec3(quadric.squares), vec3(quadric.products), r.o);
+  return vec3(0.5f * dot3(along, r.d), 0.5f * (dot3(along, r.o) + dot3(linear, r.d)),
+              (0.5f * dot3(here, r.o) + dot3(linear, r.o)) + quadric.products.w);
+}
+
 // uv: the axis and the side of the cube's face, or QUADRIC_ITSELF.
 float quadric_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   Quadric quadric = load_quadric(s);
-  vec3 linear = vec3(quadric.linear);
   ObjectRay r = object_ray(s, ray, QUADRIC_REACH);
-  vec3 along = quadric_slope(vec3(quadric.squares), vec3(quadric.products), r.d);
-  vec3 here = quadric_slope(vec3(quadric.squares), vec3(quadric.products), r.o);
-  float a = 0.5f * dot3(along, r.d);
-  float b = 0.5f * (dot3(along, r.o) + dot3(linear, r.d));
-  float c = (0.5f * dot3(here, r.o) + dot3(linear, r.o)) + quadric.products.w;
   CubeSpan span = cube_span(r);
   float part = PART_QUADRIC;
-  float nearest = clipped_quadric(r.t, a, b, c, span.enter, span.leave, quadric.squares.w != 0.0f, part);
+  float nearest = clipped_quadric(r.t, quadric_equation(quadric, r), quadric_equation(quadric, from_nearest(r)), span.enter,
+                                  span.leave, quadric.squares.w != 0.0f, part);
   uv = part == PART_QUADRIC ? vec2(QUADRIC_ITSELF, 0.0f) : cube_face(span, r, part == PART_ENTRY);
   return nearest < T_MISS ? r.t + nearest : -1.0f;
 }
