@@ -149,13 +149,12 @@ void for_shapes(const std::string& name, const Body& body) {
 
 // Whether the exact t varies to `t` when the ray is moved by as little as `room`: then it grazes an edge or a
 // side.
-bool is_grazing(const Sample& sample, const shader::Ray& ray, double t, double room) {
+bool is_grazing(const Sample& sample, const shader::Ray& ray, double t, double room, int probes) {
   const Vec3 o(ray.o), d = glm::normalize(Vec3(ray.d));
   const Vec3 x = glm::normalize(glm::cross(d, std::fabs(d.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
   const Vec3 y = glm::cross(d, x);
   double least = HUGE_VAL, greatest = -HUGE_VAL;
   bool misses = false;
-  constexpr int probes = 500;
   for (int step = 0; step < probes; ++step) {
     const double angle = step * 2.399963;  // the golden one: all over the disc
     const double far = room * std::sqrt((step + 1.0) / probes);
@@ -190,7 +189,8 @@ TEST_CASE("first hits at distances 1 … 1e4: no wrong answer but where a ray gr
         const double t = double(hit.t);
         if (exact == HUGE_VAL ? hit.t == T_MISS : std::fabs(t - exact) <= 1e-6 * exact) return;
         const double room = 32 * 0x1p-24 * (glm::length(from) + glm::length(sample.center) + sample.radius);
-        if (is_grazing(sample, ray, t, room))
+        // What is seen all but edge-on is so thin that few of the probes meet it.
+        if (is_grazing(sample, ray, t, room, 500) || is_grazing(sample, ray, t, room, 100'000))
           ++grazing;
         else
           ++wrong;
