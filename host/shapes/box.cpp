@@ -46,6 +46,8 @@ class Box final : public ObjectShape {
  public:
   explicit Box(const Mat4& to_world) : ObjectShape(shader::KIND_box, to_world) {}
 
+  ShapeForm form() const override { return BoxForm{to_world().matrix()}; }
+
  private:
   // u = the face.
   Crossings crossings(const Ray& ray) const override {

@@ -70,6 +70,8 @@ class Capsule final : public ObjectShape {
     return bounds;
   }
 
+  ShapeForm form() const override { return CapsuleForm{to_world().matrix(), half_}; }
+
  private:
   // Each part by itself, where it is the outermost.
   Crossings crossings(const Ray& ray) const override {

@@ -58,6 +58,8 @@ class Disk final : public ObjectShape {
   Disk(const Mat4& to_world, double inner)
       : ObjectShape(shader::KIND_disk, to_world, {float(inner * inner)}), inner_(inner) {}
 
+  ShapeForm form() const override { return DiskForm{to_world().matrix(), inner_}; }
+
  private:
   Crossings crossings(const Ray& ray) const override {
     Crossings crossings;

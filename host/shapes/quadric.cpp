@@ -133,6 +133,11 @@ class Quadric final : public ObjectShape {
         form_(form),
         open_(open) {}
 
+  ShapeForm form() const override {
+    const auto& [square, product, linear, constant] = form_.values;
+    return QuadricForm{to_world().matrix(), square, product, linear, constant, extent(), open_};
+  }
+
  private:
   static constexpr double itself = 6;  // Intersection::u, beside the cube's faces
 

@@ -29,6 +29,19 @@ Revolution::Revolution(uint32_t kind, const Mat4& to_world, const Profile& profi
                        std::vector<float> parameters)
     : ObjectShape(kind, to_world, with_open(open, parameters)), profile_(profile), open_(open) {}
 
+ShapeForm Revolution::form() const {
+  const auto& [square, linear, constant, bottom, top] = profile_;
+  // The clip's other faces stay clear of the side.
+  const double wide = 2 * extent().max.x;
+  return QuadricForm{.to_world = to_world().matrix(),
+                     .square = {1, -square, 1},
+                     .product = Vec3(0),
+                     .linear = {0, -2 * linear, 0},
+                     .constant = -constant,
+                     .clip = {{-wide, bottom, -wide}, {wide, top, wide}},
+                     .open = open_};
+}
+
 // Each part by itself: the side where it is between the planes, the caps where they are within the side.
 ObjectShape::Crossings Revolution::crossings(const Ray& ray) const {
   const auto& [o, d] = ray;
