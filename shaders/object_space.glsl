@@ -1,5 +1,5 @@
 // Shapes that are a plain one, such as the unit sphere, in a space of their own.
-//   a, b, c = the rows of the affine map from the world into object space
+//   a, b, c = the rows of the linear map from the world into object space; their w's are the centre, its origin, in the world
 //   extra   = the first of its vertices: three with the rows of the map back, then the shape's own parameters
 #ifndef OBJECT_SPACE_GLSL
 #define OBJECT_SPACE_GLSL
@@ -17,16 +17,31 @@ struct ObjectRay {
   float t;
 };
 
+vec3 into_object(Primitive s, vec3 v) { return vec3(dot3(vec3(s.a), v), dot3(vec3(s.b), v), dot3(vec3(s.c), v)); }
+
+// The same ray from its point nearest to the centre.
+ObjectRay from_nearest(ObjectRay ray) {
+  ObjectRay r = ray;
+  float s = -dot3(r.o, r.d) / dot3(r.d, r.d);
+  r.o = r.o + r.d * s;
+  r.t = r.t + s;
+  return r;
+}
+
 // Distances in object space are not the world's, but t and s are. A ray from afar is followed from its point nearest to the centre: what is
-// computed from there is as small as the shape, so that nothing cancels. `reach`: the farthest that the shape's points are from its
-// centre.
+// computed from there is as small as the shape, so that nothing cancels. In the world first: what the map makes of the direction's
+// rounding does not count on the long way then. `reach`: the farthest that the shape's points are from its centre.
 ObjectRay object_ray(Primitive s, Ray ray, float reach) {
+  vec3 from_center = ray.o - vec3(s.a.w, s.b.w, s.c.w);
   ObjectRay r;
-  r.o = vec3(dot3(vec3(s.a), ray.o) + s.a.w, dot3(vec3(s.b), ray.o) + s.b.w, dot3(vec3(s.c), ray.o) + s.c.w);
-  r.d = vec3(dot3(vec3(s.a), ray.d), dot3(vec3(s.b), ray.d), dot3(vec3(s.c), ray.d));
-  bool afar = dot3(r.o, r.o) > 4.0f * reach * reach;
-  r.t = afar ? -dot3(r.o, r.d) / dot3(r.d, r.d) : 0.0f;
-  r.o = afar ? r.o + r.d * r.t : r.o;
+  r.o = into_object(s, from_center);
+  r.d = into_object(s, ray.d);
+  r.t = 0.0f;
+  if (dot3(r.o, r.o) > 4.0f * reach * reach) {
+    r.t = -dot3(from_center, ray.d) / dot3(ray.d, ray.d);
+    r.o = into_object(s, from_center + ray.d * r.t);
+    r = from_nearest(r);
+  }
   return r;
 }
 
@@ -64,9 +79,8 @@ Surface object_surface(Primitive s, vec3 p, vec3 gradient, vec2 uv) {
   vec3 size = abs3(p);
   vec3 here = vec3(dot3(abs3(vec3(x)), size) + abs(x.w), dot3(abs3(vec3(y)), size) + abs(y.w),
                    dot3(abs3(vec3(z)), size) + abs(z.w));
-  size = abs3(surface.p);
-  vec3 back = vec3(dot3(abs3(vec3(s.a)), size) + abs(s.a.w), dot3(abs3(vec3(s.b)), size) + abs(s.b.w),
-                   dot3(abs3(vec3(s.c)), size) + abs(s.c.w));
+  size = abs3(surface.p) + abs3(vec3(s.a.w, s.b.w, s.c.w));
+  vec3 back = vec3(dot3(abs3(vec3(s.a)), size), dot3(abs3(vec3(s.b)), size), dot3(abs3(vec3(s.c)), size));
   surface.offset = 4.0f * EPSILON * (dot3(abs3(surface.normal_geometric), here) + dot3(abs3(gradient), back) / slope);
   return surface;
 }

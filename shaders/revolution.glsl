@@ -1,6 +1,7 @@
 // Quadrics that are round about the y axis of object space, between two planes across it: with caps, solids; without, sheets.
 #ifndef REVOLUTION_GLSL
 #define REVOLUTION_GLSL
+#include "clipped_quadric.glsl"
 #include "object_space.glsl"
 
 SHADER_BEGIN
@@ -9,45 +10,14 @@ SHADER_BEGIN
 #define PART_BOTTOM 1.0f
 #define PART_TOP 2.0f
 
-// Where the first boundary with t > 0 is of a·s² + 2b·s + c ≤ 0 between the planes y = bottom and y = top; −1 if there is none. `part` says what
-// it is. Where the side and a cap meet, both come from the same four numbers, so that no ray passes between them.
-float revolution_intersect(ObjectRay r, float a, float b, float c, float bottom, float top, bool open, OUT(float) part) {
-  // Between the planes.
+// Where the first boundary with t > 0 is of a quadric between the planes y = bottom and y = top; −1 if there is none. `part` says what it is. The equations are
+// clipped_quadric's.
+float revolution_intersect(ObjectRay r, vec3 equation, vec3 nearest_equation, float bottom, float top, bool open, OUT(float) part) {
   float inverse = bounded_inverse(r.d.y, 1.0e-12f * max_component(abs3(r.d)));
   float to_bottom = (bottom - r.o.y) * inverse;
   float to_top = (top - r.o.y) * inverse;
-  float enter = minimum(to_bottom, to_top);
-  float leave = maximum(to_bottom, to_top);
-
-  // Inside the quadric: between its roots, or where a < 0 outside of them; without roots everywhere or nowhere. A root may be infinite.
-  float discriminant = b * b - a * c;
-  bool real = discriminant >= 0.0f && (a != 0.0f || b != 0.0f);
-  float root = sqrt(maximum(discriminant, 0.0f));
-  float q = b < 0.0f ? root - b : -root - b;
-  float s0 = q / a;
-  float s1 = q == 0.0f ? 0.0f : c / q;
-  float low = real ? minimum(s0, s1) : c <= 0.0f ? -T_MISS : T_MISS;
-  float high = real ? maximum(s0, s1) : -low;
-
-  // The solid is inside of both: from `first` to `second`, and where it is outside the roots also from `third` to `leave`.
-  bool between = a >= 0.0f || !real;
-  float first = between ? maximum(enter, low) : enter;
-  float second = minimum(leave, between ? high : low);
-  float third = between ? T_MISS : maximum(enter, high);
-  bool one = first <= second;
-  bool two = third <= leave;
-
-  float nearest = T_MISS;
-  if (open) {
-    if (low >= enter && low <= leave && r.t + low > 0.0f) nearest = low;
-    if (high >= enter && high <= leave && r.t + high > 0.0f) nearest = minimum(nearest, high);
-  } else {
-    if (one && r.t + first > 0.0f) nearest = first;
-    if (one && r.t + second > 0.0f) nearest = minimum(nearest, second);
-    if (two && r.t + third > 0.0f) nearest = minimum(nearest, third);
-    if (two && r.t + leave > 0.0f) nearest = minimum(nearest, leave);
-  }
-  part = nearest == low || nearest == high ? PART_SIDE : nearest == to_bottom ? PART_BOTTOM : PART_TOP;
+  float nearest = clipped_quadric(r.t, equation, nearest_equation, minimum(to_bottom, to_top), maximum(to_bottom, to_top), open, part);
+  part = part == PART_QUADRIC ? PART_SIDE : nearest == to_bottom ? PART_BOTTOM : PART_TOP;
   return nearest < T_MISS ? r.t + nearest : -1.0f;
 }
 

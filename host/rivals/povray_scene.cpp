@@ -73,6 +73,22 @@ std::string look(const Scene& scene, int material) {
                      medium ? fmt::format(" interior {{ ior {} }}", medium->ior) : "");
 }
 
+std::string matrix(const Mat4& map) {
+  std::string numbers;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 3; ++row) append(numbers, "{}{}", numbers.empty() ? "" : ",", map[column][row]);
+  }
+  return fmt::format("matrix <{}>", numbers);
+}
+
+std::string quadric(const QuadricForm& form) {
+  const std::string surface = fmt::format("quadric {{{},{},{},{}", vector(form.square), vector(form.product),
+                                          vector(form.linear), form.constant + 0.0);
+  const std::string clip = fmt::format("box {{{},{}}}", vector(form.clip.min), vector(form.clip.max));
+  return form.open ? fmt::format("{} clipped_by {{{}}}", surface, clip)
+                   : fmt::format("intersection {{{}}} {}", surface, clip);
+}
+
 void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
   const std::string material = look(scene, shape.material);
   const ShapeForm form = shape.form();
@@ -84,6 +100,15 @@ void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
   } else if (const auto* triangle = std::get_if<TriangleForm>(&form)) {
     const auto& [a, b, c] = triangle->vertices;
     append(text, "triangle {{{},{},{} {}}}\n", vector(a), vector(b), vector(c), material);
+  } else if (const auto* box = std::get_if<BoxForm>(&form)) {
+    append(text, "box {{-1,1 {} {}}}\n", matrix(box->to_world), material);
+  } else if (const auto* disk = std::get_if<DiskForm>(&form)) {
+    append(text, "disc {{0,y,1,{} {} {}}}\n", disk->inner, matrix(disk->to_world), material);
+  } else if (const auto* capsule = std::get_if<CapsuleForm>(&form)) {
+    append(text, "merge {{cylinder {{-y*{0},y*{0},1}} sphere {{-y*{0},1}} sphere {{y*{0},1}} {1} {2}}}\n",
+           capsule->half, matrix(capsule->to_world), material);
+  } else if (const auto* shape_quadric = std::get_if<QuadricForm>(&form)) {
+    append(text, "{} {} {}}}\n", quadric(*shape_quadric), matrix(shape_quadric->to_world), material);
   } else {
     throw Error(ExitCode::bad_input, "{}:{}: POV-Ray has no such shape", shape.position.file,
                 shape.position.line);
@@ -120,12 +145,7 @@ std::string povray_scene(const Scene& scene, int width, int height) {
   for (const auto& shape : scene.shapes) add_shape(text, scene, *shape);
   for (size_t i = 0; i < scene.meshes.size(); ++i) add_mesh(text, scene.meshes[i], i);
   for (const Instance& instance : scene.instances) {
-    std::string matrix;
-    for (int column = 0; column < 4; ++column) {
-      for (int row = 0; row < 3; ++row)
-        append(matrix, "{}{}", matrix.empty() ? "" : ",", instance.transform[column][row]);
-    }
-    append(text, "object {{ Mesh{} matrix <{}> {} }}\n", instance.mesh, matrix,
+    append(text, "object {{ Mesh{} {} {} }}\n", instance.mesh, matrix(instance.transform),
            look(scene, instance.material));
   }
   return text;

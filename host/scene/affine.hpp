@@ -24,6 +24,7 @@ Vec3 unit(const Vec3& v);
 struct Affine {
   explicit Affine(const Mat4& transform);
 
+  Mat4 matrix() const { return {{linear[0], 0}, {linear[1], 0}, {linear[2], 0}, {offset, 1}}; }
   Vec3 point(const Vec3& p) const { return linear * p + offset; }
   Vec3 normal(const Vec3& n) const { return unit(cotangent * n); }
   bool mirrors() const { return glm::determinant(linear) < 0; }

@@ -49,7 +49,29 @@ struct PlaneForm {
 struct TriangleForm {
   std::array<Vec3, 3> vertices;
 };
-using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm>;
+// The rest in a space of their own, which `to_world` maps.
+struct BoxForm {  // the cube from −1 to 1
+  Mat4 to_world;
+};
+struct DiskForm {  // y = 0, inner ≤ the distance from the origin ≤ 1
+  Mat4 to_world;
+  double inner;
+};
+struct CapsuleForm {  // within 1 of the y axis from −half to half
+  Mat4 to_world;
+  double half;
+};
+// square · (x², y², z²) + product · (xy, xz, yz) + linear · (x, y, z) + constant ≤ 0 within `clip`; only the
+// surface without the faces of `clip` where `open`.
+struct QuadricForm {
+  Mat4 to_world;
+  Vec3 square, product, linear;
+  double constant;
+  Bounds clip;
+  bool open;
+};
+using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm,
+                               CapsuleForm, QuadricForm>;
 
 class Shape {
  public:

@@ -54,6 +54,16 @@ class Ellipsoid final : public ObjectShape {
     return {to_world().offset - reach, to_world().offset + reach};
   }
 
+  ShapeForm form() const override {
+    return QuadricForm{.to_world = to_world().matrix(),
+                       .square = Vec3(1),
+                       .product = Vec3(0),
+                       .linear = Vec3(0),
+                       .constant = -1,
+                       .clip = {Vec3(-2), Vec3(2)},
+                       .open = false};
+  }
+
  private:
   Crossings crossings(const Ray& ray) const override {
     Crossings both;

@@ -32,6 +32,24 @@ std::unique_ptr<Shape> make_cylinder(const Vec3& from, const Vec3& to, double ra
                                      const Mat4& transform = Mat4(1.0));
 std::unique_ptr<Shape> make_cone(Vec3 from, Vec3 to, double radius, double to_radius = 0, bool open = false,
                                  const Mat4& transform = Mat4(1.0));
+std::unique_ptr<Shape> make_disk(const Vec3& center, const Vec3& normal, double radius,
+                                 double inner_radius = 0, const Mat4& transform = Mat4(1.0));
+std::unique_ptr<Shape> make_paraboloid(const Vec3& tip, const Vec3& to, double radius, bool open = false,
+                                       const Mat4& transform = Mat4(1.0));
+std::unique_ptr<Shape> make_hyperboloid(const Vec3& from, const Vec3& to, double radius, double to_radius,
+                                        double waist, bool open = false, const Mat4& transform = Mat4(1.0));
+std::unique_ptr<Shape> make_capsule(const Vec3& from, const Vec3& to, double radius,
+                                    const Mat4& transform = Mat4(1.0));
+
+// A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + J z + K.
+struct QuadricValues {
+  Vec3 square;      // A, B, C
+  Vec3 product;     // D, E, F
+  Vec3 linear;      // G, H, J
+  double constant;  // K
+};
+std::unique_ptr<Shape> make_quadric(const QuadricValues& values, const Vec3& min, const Vec3& max,
+                                    bool open = false, const Mat4& transform = Mat4(1.0));
 
 // Without `u_axis`, the default of planes.
 std::unique_ptr<Shape> make_polygon(const PlanarRegion& region, const Mat4& transform = Mat4(1.0),

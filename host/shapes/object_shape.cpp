@@ -53,25 +53,23 @@ Bounds ObjectShape::bounds() const {
 }
 
 void ObjectShape::pack(Packer& packer) const {
-  // The world's origin is the eye there.
-  const Vec3 eye = -packer.relative(Vec3(0));
   const auto row = [](const Affine& map, int i, const Vec3& offset) {
     return to_vec4({map.linear[0][i], map.linear[1][i], map.linear[2][i]}, offset[i]);
   };
-  const Vec3 back = packer.relative(to_world_.offset);
-  const uint32_t extra = packer.add_vertices(
-      {to_bits(row(to_world_, 0, back)), to_bits(row(to_world_, 1, back)), to_bits(row(to_world_, 2, back))});
+  const Vec3 center = packer.relative(to_world_.offset);
+  const uint32_t extra =
+      packer.add_vertices({to_bits(row(to_world_, 0, center)), to_bits(row(to_world_, 1, center)),
+                           to_bits(row(to_world_, 2, center))});
   for (size_t i = 0; i < parameters_.size(); i += 4) {
     shader::vec4 some(0);
     for (size_t k = 0; k < 4 && i + k < parameters_.size(); ++k) some[int(k)] = parameters_[i + k];
     packer.add_vertices({to_bits(some)});
   }
-  const Vec3 offset = to_object_.point(eye);
   packer.add_iterations(iterations_);
   packer.add({.head = Packer::head(kind_, material, extra),
-              .a = row(to_object_, 0, offset),
-              .b = row(to_object_, 1, offset),
-              .c = row(to_object_, 2, offset)});
+              .a = row(to_object_, 0, center),
+              .b = row(to_object_, 1, center),
+              .c = row(to_object_, 2, center)});
 }
 
 Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, double high) {

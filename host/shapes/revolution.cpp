@@ -29,6 +29,19 @@ Revolution::Revolution(uint32_t kind, const Mat4& to_world, const Profile& profi
                        std::vector<float> parameters)
     : ObjectShape(kind, to_world, with_open(open, parameters)), profile_(profile), open_(open) {}
 
+ShapeForm Revolution::form() const {
+  const auto& [square, linear, constant, bottom, top] = profile_;
+  // The clip's other faces stay clear of the side.
+  const double wide = 2 * extent().max.x;
+  return QuadricForm{.to_world = to_world().matrix(),
+                     .square = {1, -square, 1},
+                     .product = Vec3(0),
+                     .linear = {0, -2 * linear, 0},
+                     .constant = -constant,
+                     .clip = {{-wide, bottom, -wide}, {wide, top, wide}},
+                     .open = open_};
+}
+
 // Each part by itself: the side where it is between the planes, the caps where they are within the side.
 ObjectShape::Crossings Revolution::crossings(const Ray& ray) const {
   const auto& [o, d] = ray;
@@ -58,11 +71,13 @@ ObjectShape::Point Revolution::point(const Vec3& near, const Intersection& hit) 
     const double y = std::clamp(near.y, bottom, top);
     const double radius = profile_.radius(y);
     const Vec3 p(outward.x * radius, y, outward.y * radius);
-    // Half the gradient of x² + z² − square·y² − 2·linear·y, over the radius; at an apex, what it tends to.
+    // Half the gradient of x² + z² − square·y² − 2·linear·y, over the radius; at an apex or a tip, what it
+    // tends to.
     const double rise = square * y + linear;
     const double slope = radius > 0 ? rise / radius : std::copysign(std::sqrt(std::fabs(square)), rise);
+    const Vec3 gradient = radius > 0 || square != 0 ? Vec3(outward.x, -slope, outward.y) : Vec3(0, -rise, 0);
     const double u = 0.5 + std::atan2(-outward.y, outward.x) / (2 * std::numbers::pi);
-    return {p, {outward.x, -slope, outward.y}, {u < 1 ? u : 0, (y - bottom) / (top - bottom)}};
+    return {p, gradient, {u < 1 ? u : 0, (y - bottom) / (top - bottom)}};
   }
   const double y = hit.u == bottom_cap ? bottom : top;
   const double rim = profile_.radius(y);

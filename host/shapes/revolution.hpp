@@ -7,6 +7,9 @@
 namespace eyeray {
 
 class Revolution : public ObjectShape {
+ public:
+  ShapeForm form() const override;
+
  protected:
   // x² + z² = square·y² + 2·linear·y + constant, for bottom ≤ y ≤ top.
   struct Profile {

@@ -5,16 +5,19 @@
 
 SHADER_BEGIN
 
+vec3 cone_equation(ObjectRay r, float taper) {
+  float w = 1.0f - taper * r.o.y;
+  float dw = -taper * r.d.y;
+  return vec3((r.d.x * r.d.x + r.d.z * r.d.z) - dw * dw, (r.o.x * r.d.x + r.o.z * r.d.z) - w * dw,
+              (r.o.x * r.o.x + r.o.z * r.o.z) - w * w);
+}
+
 float cone_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   vec4 parameters = object_parameters(s);
   ObjectRay r = object_ray(s, ray, 1.4142136f);
-  float w = 1.0f - parameters.y * r.o.y;
-  float dw = -parameters.y * r.d.y;
-  float a = (r.d.x * r.d.x + r.d.z * r.d.z) - dw * dw;
-  float b = (r.o.x * r.d.x + r.o.z * r.d.z) - w * dw;
-  float c = (r.o.x * r.o.x + r.o.z * r.o.z) - w * w;
   uv = vec2(0.0f, 0.0f);
-  return revolution_intersect(r, a, b, c, 0.0f, 1.0f, parameters.x != 0.0f, uv.x);
+  return revolution_intersect(r, cone_equation(r, parameters.y), cone_equation(from_nearest(r), parameters.y), 0.0f, 1.0f,
+                              parameters.x != 0.0f, uv.x);
 }
 
 bool cone_may_hit(Primitive s, Ray ray) { return true; }

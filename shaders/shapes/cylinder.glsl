@@ -5,13 +5,15 @@
 
 SHADER_BEGIN
 
+vec3 cylinder_equation(ObjectRay r) {
+  return vec3(r.d.x * r.d.x + r.d.z * r.d.z, r.o.x * r.d.x + r.o.z * r.d.z, (r.o.x * r.o.x + r.o.z * r.o.z) - 1.0f);
+}
+
 float cylinder_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   ObjectRay r = object_ray(s, ray, 1.4142136f);
-  float a = r.d.x * r.d.x + r.d.z * r.d.z;
-  float b = r.o.x * r.d.x + r.o.z * r.d.z;
-  float c = (r.o.x * r.o.x + r.o.z * r.o.z) - 1.0f;
   uv = vec2(0.0f, 0.0f);
-  return revolution_intersect(r, a, b, c, -1.0f, 1.0f, object_parameters(s).x != 0.0f, uv.x);
+  return revolution_intersect(r, cylinder_equation(r), cylinder_equation(from_nearest(r)), -1.0f, 1.0f,
+                              object_parameters(s).x != 0.0f, uv.x);
 }
 
 bool cylinder_may_hit(Primitive s, Ray ray) { return true; }

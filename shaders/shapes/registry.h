@@ -1,15 +1,20 @@
 // Every kind of shape: a row is all that has to be added outside the shape's own files. Its number is its kind in
 // Primitive.head.x and its place in the scene's order. A specialised kernel overrides the list with its scene's kinds.
 #ifndef SHAPES
-#define SHAPES(X)  \
-  X(sphere, 0u)    \
-  X(plane, 1u)     \
-  X(triangle, 2u)  \
-  X(box, 3u)       \
+#define SHAPES(X) \
+  X(sphere, 0u) \
+  X(plane, 1u) \
+  X(triangle, 2u) \
+  X(box, 3u) \
   X(ellipsoid, 4u) \
-  X(cylinder, 5u)  \
-  X(cone, 6u)      \
-  X(polygon, 7u)   \
+  X(cylinder, 5u) \
+  X(cone, 6u) \
+  X(polygon, 7u) \
   X(parallelogram, 8u) \
-  X(prism, 9u)
+  X(prism, 9u) \
+  X(disk, 10u) \
+  X(paraboloid, 11u) \
+  X(hyperboloid, 12u) \
+  X(capsule, 13u) \
+  X(quadric, 14u)
 #endif

@@ -75,3 +75,64 @@ material = "g"
   CHECK(has(text, "face_indices {8,"));
   CHECK(has(text, "object { Mesh0 matrix <1,0,0,0,1,0,0,0,1,7,8,9> texture {M0} }"));
 }
+
+TEST_CASE("shapes that are a plain one under a map, in POV-Ray's words") {
+  const std::string text = povray_scene(parse_scene(R"([camera]
+eye = [0, 0, 5]
+target = [0, 0, 0]
+[[material]]
+name = "m"
+type = "phong"
+[[box]]
+min = [-1, -2, -3]
+max = [1, 2, 3]
+material = "m"
+[[cylinder]]
+from = [0, -1, 0]
+to = [0, 1, 0]
+radius = 1
+open = true
+material = "m"
+[[disk]]
+center = [4, 5, 6]
+normal = [0, 1, 0]
+radius = 2
+inner_radius = 1
+material = "m"
+[[paraboloid]]
+tip = [0, 0, 0]
+to = [0, 1, 0]
+radius = 1
+material = "m"
+[[capsule]]
+from = [0, -3, 0]
+to = [0, 3, 0]
+radius = 2
+material = "m"
+[[quadric]]
+square = [4, 0, -1]
+product = [0, 2, 0]
+linear = [0, -1, 0]
+constant = -0.5
+min = [-1, -1, -1]
+max = [1, 1, 1]
+material = "m"
+)",
+                                                    "a"),
+                                        200, 100);
+  CHECK(has(text, "box {-1,1 matrix <1,0,0,0,2,0,0,0,3,0,0,0> texture {M0}}"));
+  CHECK(has(text,
+            "quadric {<1,0,1>,<0,0,0>,<0,0,0>,-1 clipped_by {box {<-2,-1,-2>,<2,1,2>}} matrix "
+            "<1,0,0,0,1,0,0,0,1,0,0,0> texture {M0}}"));
+  CHECK(has(text, "disc {0,y,1,0.5 matrix <2,0,0,0,2,0,0,0,2,4,5,6> texture {M0}}"));
+  CHECK(has(text,
+            "intersection {quadric {<1,0,1>,<0,0,0>,<0,-1,0>,0} box {<-2,0,-2>,<2,1,2>} matrix "
+            "<1,0,0,0,1,0,0,0,1,0,0,0> texture {M0}}"));
+  CHECK(has(text,
+            "merge {cylinder {-y*1.5,y*1.5,1} sphere {-y*1.5,1} sphere {y*1.5,1} matrix "
+            "<2,0,0,0,2,0,0,0,2,0,0,0> texture {M0}}"));
+  CHECK(
+      has(text,
+          "intersection {quadric {<1,0,-0.25>,<0,0.5,0>,<0,-0.25,0>,-0.125} box {<-1,-1,-1>,<1,1,1>} matrix "
+          "<1,0,0,0,1,0,0,0,1,0,0,0> texture {M0}}"));
+}

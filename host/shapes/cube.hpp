@@ -1,0 +1,32 @@
+// The cube from −1 to 1 in object space: a box, or what cuts another shape. In the shaders it is cube.glsl.
+#pragma once
+
+#include <optional>
+
+#include "scene/shape.hpp"
+
+namespace eyeray::cube {
+
+// A face by its number: 2 · axis, and 1 more for the upper.
+struct Crossing {
+  double t;
+  int face;
+};
+struct Span {
+  Crossing in, out;
+};
+
+// Where a line is within the cube; nothing where it passes by.
+std::optional<Span> span(const Ray& ray);
+
+// The map to the box between two corners of another space.
+Mat4 placed(const Vec3& min, const Vec3& max);
+
+Vec3 normal(int face);
+// The point of the face that is nearest to `near`.
+Vec3 onto(int face, const Vec3& near);
+// Each face has the texture upright: seen from outside u runs to the right and v up; on top of the top face
+// is −z, and of the bottom face +z.
+Vec2 uv(int face, const Vec3& p);
+
+}  // namespace eyeray::cube

@@ -1,0 +1,55 @@
+// Where a ray meets a quadric that is cut to a convex piece of space.
+#ifndef CLIPPED_QUADRIC_GLSL
+#define CLIPPED_QUADRIC_GLSL
+#include "math.glsl"
+
+SHADER_BEGIN
+
+#define PART_QUADRIC 0.0f
+#define PART_ENTRY 1.0f
+#define PART_EXIT 2.0f
+
+// The first s with t + s > 0 at which the ray meets the boundary of a·s² + 2b·s + c ≤ 0 between s = enter and s = leave, and what is met there:
+// the quadric, or the piece's own boundary where the ray enters or leaves it. `open`: only the quadric. T_MISS if there is none. Where the
+// quadric and the piece's boundary meet, both come from the same four numbers, so that no ray passes between them.
+// `equation`: a, b, c. `nearest_equation`: the same from the ray's point nearest to the centre. The discriminant is that of either; there
+// the products whose difference it is are smallest, so that a ray that grazes is met where it should be.
+float clipped_quadric(float t, vec3 equation, vec3 nearest_equation, float enter, float leave, bool open, OUT(float) part) {
+  float a = equation.x;
+  float b = equation.y;
+  float c = equation.z;
+
+  // Inside the quadric: between its roots, or where a < 0 outside of them; without roots everywhere or nowhere. A root may be infinite.
+  float discriminant = nearest_equation.y * nearest_equation.y - a * nearest_equation.z;
+  bool real = discriminant >= 0.0f && (a != 0.0f || b != 0.0f);
+  float root = sqrt(maximum(discriminant, 0.0f));
+  float q = b < 0.0f ? root - b : -root - b;
+  float s0 = q / a;
+  float s1 = q == 0.0f ? 0.0f : c / q;
+  float low = real ? minimum(s0, s1) : c <= 0.0f ? -T_MISS : T_MISS;
+  float high = real ? maximum(s0, s1) : -low;
+
+  // The solid is inside of both: from `first` to `second`, and where it is outside the roots also from `third` to `leave`.
+  bool between = a >= 0.0f || !real;
+  float first = between ? maximum(enter, low) : enter;
+  float second = minimum(leave, between ? high : low);
+  float third = between ? T_MISS : maximum(enter, high);
+  bool one = first <= second;
+  bool two = third <= leave;
+
+  float nearest = T_MISS;
+  if (open) {
+    if (low >= enter && low <= leave && t + low > 0.0f) nearest = low;
+    if (high >= enter && high <= leave && t + high > 0.0f) nearest = minimum(nearest, high);
+  } else {
+    if (one && t + first > 0.0f) nearest = first;
+    if (one && t + second > 0.0f) nearest = minimum(nearest, second);
+    if (two && t + third > 0.0f) nearest = minimum(nearest, third);
+    if (two && t + leave > 0.0f) nearest = minimum(nearest, leave);
+  }
+  part = nearest == low || nearest == high ? PART_QUADRIC : nearest == enter ? PART_ENTRY : PART_EXIT;
+  return nearest;
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,113 @@
+// Shapes of absurd sizes and proportions: each is refused with an error, or it can be computed with, in both
+// halves.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "loader/scene_file.hpp"
+#include "support/random.hpp"
+#include "twin/shader_functions.hpp"
+
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using test::Random;
+
+namespace {
+
+// Mostly sizes that are meant, some that are not.
+std::string some_number(Random& random) {
+  constexpr double absurd[] = {0, -1, 1, 1e-300, 1e-12, 1e-7, 1 - 1e-7, 1 + 1e-7, 1e6, 1e12, 1e300};
+  if (random.below(2) == 0) return fmt::format("{}", random.uniform(-2, 2));
+  return fmt::format("{}", absurd[random.below(int(std::size(absurd)))]);
+}
+
+std::string some_vector(Random& random) {
+  return fmt::format("[{}, {}, {}]", some_number(random), some_number(random), some_number(random));
+}
+
+// A table of the shape; empty where a key is of a type that has no absurd values here.
+std::string some_table(Random& random, const ShapeType& type) {
+  std::string text = fmt::format("[[{}]]\nmaterial = \"m\"\n", type.name);
+  std::string vector;  // often the same again
+  for (const Key& key : type.keys) {
+    if (key.type == KeyType::vec3) {
+      if (vector.empty() || random.below(4) != 0) vector = some_vector(random);
+      text += fmt::format("{} = {}\n", key.name, vector);
+    } else if (key.type == KeyType::number) {
+      text += fmt::format("{} = {}\n", key.name, some_number(random));
+    } else if (key.type == KeyType::boolean) {
+      text += fmt::format("{} = {}\n", key.name, random.below(2) == 0);
+    } else {
+      return "";
+    }
+  }
+  return text;
+}
+
+bool finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Whether what a ray from somewhere meets, in either half, is a surface or nothing.
+bool can_be_met(const Shape& shape, const PackedScene& packed, Random& random) {
+  const Bounds bounds = shape.bounds();
+  if (!finite(bounds.min) || !finite(bounds.max)) return false;
+  const Vec3 center = (bounds.min + bounds.max) * 0.5;
+  const double radius = glm::length(bounds.max - bounds.min) * 0.5;
+  const Vec3 target = center + random.direction() * radius * random.uniform(0, 1);
+  const Vec3 from = target + random.direction() * radius * random.log_uniform(0.01, 100);
+  const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(glm::normalize(target - from)));
+  const shader::Primitive& primitive = packed.primitives[0];
+  shader::Hit hit{};
+  shader::Surface surface{};
+#define SHOOT(name, number)                                   \
+  if (kind_of(primitive) == number) {                         \
+    hit.t = shader::name##_intersect(primitive, ray, hit.uv); \
+    if (hit.t > 0 && hit.t < T_MISS)                          \
+      surface = shader::name##_surface(primitive, ray, hit);  \
+    else                                                      \
+      surface.normal_geometric = glm::vec3(1, 0, 0);          \
+  }
+  SHAPES(SHOOT)
+  if (!finite(Vec3(surface.p)) || !std::isfinite(surface.offset)) return false;
+  if (std::fabs(glm::length(Vec3(surface.normal_geometric)) - 1) > 1e-3) return false;
+
+  const auto exact = shape.intersect({Vec3(ray.o), Vec3(ray.d)});
+  if (!exact) return true;
+  const SurfacePoint point = shape.surface({Vec3(ray.o), Vec3(ray.d)}, *exact);
+  return exact->t > 0 && finite(point.position) && std::fabs(glm::length(point.normal_geometric) - 1) < 1e-6;
+}
+
+}  // namespace
+
+TEST_CASE("absurd shapes are refused or can be computed with") {
+  for (const ShapeType* type : shape_types()) {
+    Random random{7};
+    int accepted = 0, refused = 0, wrong = 0;
+    std::string first_wrong;
+    for (int i = 0; i < 3000; ++i) {
+      const std::string table = some_table(random, *type);
+      if (table.empty() || type->name == "plane") break;
+      Scene scene;
+      try {
+        scene = parse_scene("[[material]]\nname = \"m\"\ntype = \"phong\"\n" + table, "a");
+      } catch (const InputError& error) {
+        REQUIRE_FALSE(error.diagnostics().empty());
+        ++refused;
+        continue;
+      }
+      ++accepted;
+      const Shape& shape = *scene.shapes[0];
+      Packer packer(Vec3(0));
+      shape.pack(packer);
+      const shader::Binding binding(packer.scene);
+      for (int k = 0; k < 20; ++k) {
+        if (can_be_met(shape, packer.scene, random)) continue;
+        if (wrong++ == 0) first_wrong = table;
+      }
+    }
+    MESSAGE(fmt::format("{}: {} refused, {} accepted", type->name, refused, accepted));
+    CHECK_MESSAGE(wrong == 0, first_wrong);
+  }
+}
