@@ -31,5 +31,7 @@ std::unique_ptr<Shape> make_cylinder(const Vec3& from, const Vec3& to, double ra
                                      const Mat4& transform = Mat4(1.0));
 std::unique_ptr<Shape> make_cone(Vec3 from, Vec3 to, double radius, double to_radius = 0, bool open = false,
                                  const Mat4& transform = Mat4(1.0));
+std::unique_ptr<Shape> make_torus(const Vec3& center, const Vec3& axis, double major_radius,
+                                  double minor_radius, const Mat4& transform = Mat4(1.0));
 
 }  // namespace eyeray

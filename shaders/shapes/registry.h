@@ -8,5 +8,6 @@
   X(box, 3u)       \
   X(ellipsoid, 4u) \
   X(cylinder, 5u)  \
-  X(cone, 6u)
+  X(cone, 6u)      \
+  X(torus, 7u)
 #endif

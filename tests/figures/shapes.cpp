@@ -60,6 +60,11 @@ const std::map<std::string, MakeShape> makers = {
        return make_cone({0, -1, 0}, {0, 1, 0}, 0.7, random.below(2) * random.uniform(0, 1.4),
                         random.below(2) == 0, some_map(random, size));
      }},
+    {"torus",
+     [](Random& random, double size) {
+       return make_torus(Vec3(0), {0, 1, 0}, 1, random.below(2) == 0 ? 0.4 : random.log_uniform(0.01, 0.99),
+                         some_map(random, size));
+     }},
 };
 
 // One shape as a scene, in both forms.
