@@ -33,5 +33,8 @@ std::unique_ptr<Shape> make_cone(Vec3 from, Vec3 to, double radius, double to_ra
                                  const Mat4& transform = Mat4(1.0));
 std::unique_ptr<Shape> make_torus(const Vec3& center, const Vec3& axis, double major_radius,
                                   double minor_radius, const Mat4& transform = Mat4(1.0));
+// e and n: 0.1 to 2.
+std::unique_ptr<Shape> make_superellipsoid(const Vec3& center, const Vec3& radii, double e, double n,
+                                           const Mat4& transform = Mat4(1.0));
 
 }  // namespace eyeray

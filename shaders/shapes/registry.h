@@ -9,5 +9,6 @@
   X(ellipsoid, 4u) \
   X(cylinder, 5u)  \
   X(cone, 6u)      \
-  X(torus, 7u)
+  X(torus, 7u)     \
+  X(superellipsoid, 8u)
 #endif

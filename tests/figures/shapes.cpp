@@ -65,6 +65,11 @@ const std::map<std::string, MakeShape> makers = {
        return make_torus(Vec3(0), {0, 1, 0}, 1, random.below(2) == 0 ? 0.4 : random.log_uniform(0.01, 0.99),
                          some_map(random, size));
      }},
+    {"superellipsoid",
+     [](Random& random, double size) {
+       return make_superellipsoid(Vec3(0), Vec3(1), random.log_uniform(0.1, 2), random.log_uniform(0.1, 2),
+                                  some_map(random, size));
+     }},
 };
 
 // One shape as a scene, in both forms.
