@@ -86,6 +86,8 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     float next = x - depth / slope;
     bool newton = next > low && next < high && abs(next - x) < 0.5f * abs(before);
     next = newton ? next : 0.5f * (low + high);
+    // As near as the rounding of the distance: on the surface.
+    next = abs(depth) <= 4.0f * EPSILON * minor ? x : next;
     before = step;
     step = next - x;
     x = next;
