@@ -36,5 +36,7 @@ std::unique_ptr<Shape> make_torus(const Vec3& center, const Vec3& axis, double m
 // e and n: 0.1 to 2.
 std::unique_ptr<Shape> make_superellipsoid(const Vec3& center, const Vec3& radii, double e, double n,
                                            const Mat4& transform = Mat4(1.0));
+// Around the patch.
+std::unique_ptr<Shape> make_bilinear(const std::array<Vec3, 4>& corners, const Mat4& transform = Mat4(1.0));
 
 }  // namespace eyeray

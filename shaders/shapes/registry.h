@@ -10,5 +10,6 @@
   X(cylinder, 5u)  \
   X(cone, 6u)      \
   X(torus, 7u)     \
-  X(superellipsoid, 8u)
+  X(superellipsoid, 8u) \
+  X(bilinear, 9u)
 #endif
