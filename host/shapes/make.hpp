@@ -58,5 +58,12 @@ std::unique_ptr<Shape> make_parallelogram(const Vec3& origin, const Vec3& edge_u
                                           const Mat4& transform = Mat4(1.0));
 std::unique_ptr<Shape> make_prism(const PlanarRegion& region, const Vec3& extrusion,
                                   const Mat4& transform = Mat4(1.0));
+std::unique_ptr<Shape> make_torus(const Vec3& center, const Vec3& axis, double major_radius,
+                                  double minor_radius, const Mat4& transform = Mat4(1.0));
+// e and n: 0.1 to 2.
+std::unique_ptr<Shape> make_superellipsoid(const Vec3& center, const Vec3& radii, double e, double n,
+                                           const Mat4& transform = Mat4(1.0));
+// Around the patch.
+std::unique_ptr<Shape> make_bilinear(const std::array<Vec3, 4>& corners, const Mat4& transform = Mat4(1.0));
 
 }  // namespace eyeray

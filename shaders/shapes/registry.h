@@ -16,5 +16,8 @@
   X(paraboloid, 11u) \
   X(hyperboloid, 12u) \
   X(capsule, 13u) \
-  X(quadric, 14u)
+  X(quadric, 14u) \
+  X(torus, 15u) \
+  X(superellipsoid, 16u) \
+  X(bilinear, 17u)
 #endif

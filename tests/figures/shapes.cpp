@@ -122,6 +122,23 @@ const std::map<std::string, MakeShape> makers = {
                                   .constant = cone ? 0 : random.uniform(-0.5, 0.5)};
        return make_quadric(values, Vec3(-1), Vec3(1), random.below(2) == 0, some_map(random, size));
      }},
+    {"torus",
+     [](Random& random, double size) {
+       return make_torus(Vec3(0), {0, 1, 0}, 1, random.below(2) == 0 ? 0.4 : random.log_uniform(0.01, 0.99),
+                         some_map(random, size));
+     }},
+    {"superellipsoid",
+     [](Random& random, double size) {
+       return make_superellipsoid(Vec3(0), Vec3(1), random.log_uniform(0.1, 2), random.log_uniform(0.1, 2),
+                                  some_map(random, size));
+     }},
+    {"bilinear",
+     [](Random& random, double size) {
+       const double bend = random.log_uniform(0.03, 1);
+       return make_bilinear({Vec3(-1, 0, -1), Vec3(1, bend, -1), Vec3(random.uniform(0.5, 1.5), 0, 1),
+                             Vec3(-1, 0.5 * bend, 1)},
+                            some_map(random, size));
+     }},
 };
 
 // One shape as a scene, in both forms.

@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "records/records.hpp"
+#include "shapes/make.hpp"
+#include "shapes/object_shape.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(A box whose edges are rounded, a ball, a cylinder, a pillow, two cones or an octahedron, and all between: (|x|^(2/e) + |z|^(2/e))^(e/n) + |y|^(2/n) = 1,
+measured from `center` in units of `radii`. `e` is how it is round about the y axis, `n` from pole to pole: 0.1 is nearly square, 1 is round, and 2 is a straight bevel.
+Closed; the normals point outward.
+
+```toml
+[[superellipsoid]]
+center = [0, 1, 0]
+radii = [1, 1, 1]
+e = 0.3
+n = 0.3
+material = "wall"
+```
+
+`transform` may be any affine map that can be undone. Exponents beyond 2, which would make it hollow and with spikes, are refused: the shape is always convex.
+
+**uv.** As on an [ellipsoid](#ellipsoid): u runs from 0 to 1 about the y axis with ½ towards +x, v from 0 at the bottom to 1 at the top, by the angle seen from the centre.
+
+**Numeric trap.** |x|^20 is 0 or infinite for most x. The shape is the unit ball of a norm, ‖‖x, z‖, y‖, and that is taken instead, the largest coordinate in front of it. It is
+convex along a ray, so that Newton's method finds the way in from outside and the way out from beyond, each without a bracket.
+
+**Source.** Barr: Superquadrics and Angle-Preserving Transformations, IEEE CG&A 1(1), 1981.
+)";
+
+constexpr Key keys[] = {
+    {.name = "center",
+     .type = KeyType::vec3,
+     .doc = "The middle.",
+     .min = -max_coordinate,
+     .max = max_coordinate},
+    {.name = "radii",
+     .type = KeyType::vec3,
+     .doc = "How far it reaches from there along x, y and z.",
+     .min = min_radius,
+     .max = max_coordinate},
+    {.name = "e",
+     .type = KeyType::number,
+     .doc = "Exponent about the y axis.",
+     .fallback = "1",
+     .min = 0.1,
+     .max = 2},
+    {.name = "n",
+     .type = KeyType::number,
+     .doc = "Exponent from pole to pole.",
+     .fallback = "1",
+     .min = 0.1,
+     .max = 2},
+};
+
+class Superellipsoid final : public ObjectShape {
+ public:
+  // The powers of Barr's equation are p = 2/e and q = 2/n.
+  Superellipsoid(const Mat4& to_world, double p, double q)
+      : ObjectShape(shader::KIND_superellipsoid, to_world, {float(p), float(q)}), p_(p), q_(q) {}
+
+ private:
+  struct Sample {
+    double s, value, slope;
+  };
+
+  double norm(const Vec3& at) const {
+    const double around = std::pow(std::fabs(at.x), p_) + std::pow(std::fabs(at.z), p_);
+    return std::pow(std::pow(around, q_ / p_) + std::pow(std::fabs(at.y), q_), 1 / q_);
+  }
+
+  // Of the norm, by differentiating Barr's equation.
+  Vec3 gradient(const Vec3& at) const {
+    const double around = std::pow(std::fabs(at.x), p_) + std::pow(std::fabs(at.z), p_);
+    const double shared = around > 0 ? std::pow(around, q_ / p_ - 1) : 0;
+    const auto derivative = [](double x, double power) {
+      return std::copysign(std::pow(std::fabs(x), power - 1), x);
+    };
+    const Vec3 of_sum(shared * derivative(at.x, p_), derivative(at.y, q_), shared * derivative(at.z, p_));
+    return of_sum * std::pow(norm(at), 1 - q_);
+  }
+
+  Sample sample(const Ray& ray, double s) const {
+    const Vec3 at = ray.o + ray.d * s;
+    return {s, norm(at) - 1, glm::dot(gradient(at), ray.d)};
+  }
+
+  // A place within the shape, by cutting planes: between two places on either side of the least value the
+  // tangents say how low it can be.
+  std::optional<double> inner(const Ray& ray, Sample low, Sample high) const {
+    for (int i = 0; i < 200; ++i) {
+      if (low.value < 0) return low.s;
+      if (high.value < 0) return high.s;
+      if (low.slope >= 0 || high.slope <= 0) return std::nullopt;
+      const double fall = high.value - low.value - low.slope * (high.s - low.s);
+      const double meeting = high.s - fall / (high.slope - low.slope);
+      if (low.value + low.slope * (meeting - low.s) > 0) return std::nullopt;
+      const double width = high.s - low.s;
+      const double next = std::clamp(meeting, low.s + 0.1 * width, high.s - 0.1 * width);
+      if (!(next > low.s && next < high.s)) return std::nullopt;
+      const Sample middle = sample(ray, next);
+      (middle.slope < 0 ? low : high) = middle;
+    }
+    return std::nullopt;
+  }
+
+  double boundary(const Ray& ray, double inside, double outside) const {
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (inside + outside);
+      (norm(ray.o + ray.d * middle) < 1 ? inside : outside) = middle;
+    }
+    return 0.5 * (inside + outside);
+  }
+
+  Crossings crossings(const Ray& ray) const override {
+    Crossings both;
+    const double speed = glm::length(ray.d);
+    const Ray unit_ray{ray.o, ray.d / speed};
+    const double room = 3.01 - glm::dot(ray.o, ray.o);
+    if (room <= 0) return both;
+    const double half = std::sqrt(room);
+    const auto middle = inner(unit_ray, sample(unit_ray, -half), sample(unit_ray, half));
+    if (!middle) return both;
+    both.add({boundary(unit_ray, *middle, -half) / speed, 0, 0});
+    both.add({boundary(unit_ray, *middle, half) / speed, 0, 0});
+    return both;
+  }
+
+  Point point(const Vec3& near, const Intersection&) const override {
+    const Vec3 p = near / norm(near);
+    const double u = 0.5 + std::atan2(-p.z, p.x) / (2 * std::numbers::pi);
+    const double v = std::atan2(std::hypot(p.x, p.z), -p.y) / std::numbers::pi;
+    return {p, gradient(p), {u < 1 ? u : 0, v}};
+  }
+
+  Bounds extent() const override { return {Vec3(-1), Vec3(1)}; }
+
+  double p_, q_;
+};
+
+Mat4 placed(const Vec3& center, const Vec3& radii) {
+  return {{radii.x, 0, 0, 0}, {0, radii.y, 0, 0}, {0, 0, radii.z, 0}, {center, 1}};
+}
+
+std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
+  const Vec3 center = table.vec3("center");
+  const Vec3 radii = table.vec3("radii");
+  const double e = table.number("e");
+  const double n = table.number("n");
+  if (table.failed() || out_of_range(table, transform * placed(center, radii))) return nullptr;
+  return make_superellipsoid(center, radii, e, n, transform);
+}
+
+}  // namespace
+
+extern const ShapeType superellipsoid_type{
+    .name = "superellipsoid", .manual = manual, .keys = keys, .parse = parse};
+
+std::unique_ptr<Shape> make_superellipsoid(const Vec3& center, const Vec3& radii, double e, double n,
+                                           const Mat4& transform) {
+  return std::make_unique<Superellipsoid>(transform * placed(center, radii), 2 / e, 2 / n);
+}
+
+}  // namespace eyeray
