@@ -1,12 +1,11 @@
 #include "generate/sphereflake.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.hpp"
+#include "generate/batch_text.hpp"
+#include "generate/classic.hpp"
 #include "generate/octasphere.hpp"
 
 namespace eyeray {
@@ -65,85 +64,28 @@ void for_each_ball(int size_factor, const std::function<void(const Ball&)>& visi
 }
 
 std::string sphereflake_stage() {
-  // The original's 45° reach from the middle of the first pixel to that of the last, of 512.
-  const double fov = 2 * std::atan(std::tan(std::numbers::pi / 8) * 512 / 511) * 180 / std::numbers::pi;
-  return fmt::format(R"([image]
-width = 512
-height = 512
-
-[camera]
-eye = [2.1, 1.3, 1.7]
-target = [0, 0, 0]
-up = [0, 0, 1]
-fov = {:.10g}
-
-[render]
-max_depth = 4
-min_weight = 0
-background = [0.078, 0.361, 0.753]
-ambient = {:.10g}
-
-)",
-                     fov, std::sqrt(3.0) / 6) +
-         fmt::format(R"([[light]]
-type = "point"
-falloff = "none"
-position = [4, 3, 2]
-intensity = {0:.10g}
-
-[[light]]
-type = "point"
-falloff = "none"
-position = [1, -4, 4]
-intensity = {0:.10g}
-
-[[light]]
-type = "point"
-falloff = "none"
-position = [-3, 1, 5]
-intensity = {0:.10g}
-)",
-                     1 / std::sqrt(3.0)) +
-         R"(
-[[material]]
-name = "floor"
-type = "phong"
-diffuse = [0.8, 0.6, 0.264]
-ambient = [0.2, 0.15, 0.066]
-
-[[material]]
-name = "ball"
-type = "phong"
-diffuse = [0.5, 0.45, 0.35]
-ambient = 0
-reflectance = 0.5
-specular = 0.5
-shininess = 3.0827007755568205
-
-[[triangle]]
-vertices = [[12, 12, -0.5], [-12, 12, -0.5], [-12, -12, -0.5]]
-material = "floor"
-
-[[triangle]]
-vertices = [[-12, -12, -0.5], [12, -12, -0.5], [12, 12, -0.5]]
-material = "floor"
-)";
+  return classic_stage(
+             {.eye = {2.1, 1.3, 1.7}, .target = {0, 0, 0}, .lights = {{4, 3, 2}, {1, -4, 4}, {-3, 1, 5}}}) +
+         classic_material({.name = "floor", .color = {1, 0.75, 0.33}, .diffuse = 0.8}) +
+         classic_material({.name = "ball",
+                           .color = {1, 0.9, 0.7},
+                           .diffuse = 0.5,
+                           .reflectance = 0.5,
+                           .specular = 0.5,
+                           .ambient = 0}) +
+         classic_square("floor", {{{12, 12, -0.5}, {-12, 12, -0.5}, {-12, -12, -0.5}, {12, -12, -0.5}}});
 }
 
 std::string sphereflake_spheres(int size_factor) {
-  std::string centers, radii;
-  for_each_ball(size_factor, [&](const Ball& ball) {
-    fmt::format_to(std::back_inserter(centers), "[{},{},{}],\n", ball.center.x, ball.center.y, ball.center.z);
-    fmt::format_to(std::back_inserter(radii), "{},\n", ball.radius);
-  });
-  return fmt::format("\n[[sphere]]\nmaterial = \"ball\"\nbatch = {{ center = [\n{}], radius = [\n{}] }}\n",
-                     centers, radii);
+  BatchText spheres("sphere", "material = \"ball\"\n", {"center", "radius"});
+  for_each_ball(size_factor, [&](const Ball& ball) { spheres.add(ball.center, ball.radius); });
+  return spheres.text();
 }
 
 void sphereflake_mesh(int size_factor, int divisions, MeshSink& sink) {
   const Mesh unit = octasphere(divisions);
   const uint64_t balls = sphereflake_count(size_factor);
-  sink.begin(balls * unit.positions.size(), sphereflake_triangles(size_factor, divisions));
+  sink.begin(balls * unit.positions.size(), sphereflake_triangles(size_factor, divisions), Shading::smooth);
   for_each_ball(size_factor, [&](const Ball& ball) {
     for (const Vec3& n : unit.positions) sink.vertex(ball.center + ball.radius * n, n);
   });

@@ -4,11 +4,12 @@
 
 #include "generate/octasphere.hpp"
 #include "loader/scene_file.hpp"
-#include "scene/camera_frame.hpp"
 //
+#include "pixel.hpp"
 #include "support/doctest.hpp"
 
 using namespace eyeray;
+using eyeray::test::pixel;
 
 namespace {
 
@@ -16,15 +17,6 @@ std::vector<Ball> balls(int size_factor) {
   std::vector<Ball> all;
   for_each_ball(size_factor, [&](const Ball& ball) { all.push_back(ball); });
   return all;
-}
-
-// Where a point of the world lies in the picture of a scene, in pixels from its top left corner.
-Vec2 pixel(const Scene& scene, const Vec3& point) {
-  const CameraFrame frame = camera_frame(scene.camera, scene.image.width, scene.image.height);
-  const Vec3 p = point - scene.camera.eye;
-  const double scale = frame.distance / glm::dot(p, frame.w);
-  return {(1 + scale * glm::dot(p, frame.u)) / 2 * scene.image.width,
-          (1 - scale * glm::dot(p, frame.v)) / 2 * scene.image.height};
 }
 
 }  // namespace

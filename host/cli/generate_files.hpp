@@ -1,0 +1,38 @@
+// The files that `eyeray generate` writes: a scene, and perhaps its mesh beside it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "generate/classic.hpp"
+
+namespace eyeray::cli {
+
+struct GenerateOutput {
+  std::filesystem::path scene;
+  bool force = false;
+  bool json = false;
+
+  std::filesystem::path mesh() const { return std::filesystem::path(scene).replace_extension(".ply"); }
+};
+
+struct Generated {
+  std::string recipe = {};         // the words after `eyeray generate` that make the same again
+  std::vector<Count> counts = {};  // of what the scene file has
+  std::string scene = {};
+  std::function<void(MeshSink&)> mesh = {};  // empty: none
+  std::string mesh_keys = {};                // of its [[mesh]], beside `file`
+};
+
+// Error (bad_input) beyond what a mesh may have.
+void check_triangles(double triangles);
+
+// Writes the mesh, then the scene, so that no scene names a mesh that is not there, and tells what it was.
+// `make` is called once the files are known to be writable. Error: file_io where they are not, or hold what
+// somebody else made, unless forced.
+void write_generated(const GenerateOutput& output, bool with_mesh, const std::function<Generated()>& make);
+
+}  // namespace eyeray::cli

@@ -1,0 +1,13 @@
+// "tetra" of Haines' databases: a tetrahedron of tetrahedra, Sierpiński's.
+#pragma once
+
+#include "generate/classic.hpp"
+
+namespace eyeray {
+
+// 4ⁿ triangles; coordinates are dyadic, hence exact in float32 too.
+void tetra_mesh(int size_factor, MeshSink& sink);
+
+extern const Classic tetra_classic;
+
+}  // namespace eyeray

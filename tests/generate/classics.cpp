@@ -1,0 +1,227 @@
+// The databases as their descriptions have them: counts, places, heights, and the pixels on which points
+// fall.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "generate/mount.hpp"
+#include "generate/rings.hpp"
+#include "generate/teapot.hpp"
+#include "generate/tetra.hpp"
+#include "generate/tree.hpp"
+#include "loader/scene_file.hpp"
+//
+#include "pixel.hpp"
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using eyeray::test::pixel;
+
+namespace {
+
+Mesh mesh_of(const Classic& classic, int size_factor) {
+  MeshInMemory sink;
+  classic.mesh(size_factor, sink);
+  return std::move(sink.mesh);
+}
+
+Scene scene_of(const Classic& classic, int size_factor) {
+  return parse_scene(classic.scene(size_factor), std::string(classic.name));
+}
+
+// A point falls on a pixel, to a hundredth of one.
+void check_pixel(const Scene& scene, const Vec3& point, const Vec2& expected) {
+  CAPTURE(point.x);
+  const Vec2 p = pixel(scene, point);
+  CHECK(std::abs(p.x - expected.x) < 0.01);
+  CHECK(std::abs(p.y - expected.y) < 0.01);
+}
+
+Vec3 face_normal(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
+  const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+  return glm::cross(b - a, c - b);
+}
+
+}  // namespace
+
+TEST_CASE("every classic is a scene without warnings, at its smallest and at its published size") {
+  for (const Classic& classic : classics()) {
+    CAPTURE(classic.name);
+    for (const int size_factor : {1, 2, classic.size_factor}) {
+      uint64_t shapes = 0;
+      for (const auto& [what, number] : classic.counts(size_factor))
+        shapes += what == "squares" ? 2 * number : number;
+      const Scene scene = scene_of(classic, size_factor);
+      CHECK(scene.shapes.size() == shapes);
+      CHECK(scene.image.width == 512);
+      CHECK(scene.image.height == 512);
+      CHECK(scene.camera.fov_degrees == doctest::Approx(45.0792615).epsilon(1e-9));
+      if (!classic.mesh) CHECK(scene.warnings.empty());
+    }
+  }
+}
+
+TEST_CASE("tetra has 4^n triangles that look outward") {
+  for (const auto& [size_factor, count] : std::map<int, size_t>{{1, 4}, {2, 16}, {3, 64}, {6, 4096}}) {
+    const Mesh mesh = mesh_of(tetra_classic, size_factor);
+    CHECK(mesh.triangles.size() == count);
+    CHECK(mesh.normals.empty());
+    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+      Vec3 middle(0.0);
+      for (size_t k = 0; k < 4; ++k) middle += mesh.positions[i / 4 * 4 + k] / 4.0;
+      CHECK(glm::dot(face_normal(mesh, mesh.triangles[i]), mesh.positions[mesh.triangles[i][0]] - middle) >
+            0);
+    }
+  }
+  const Mesh mesh = mesh_of(tetra_classic, 6);
+  CHECK(mesh.positions.front() == Vec3(-1, -1, 1));  // depth first, the first corner's copy first
+  CHECK(mesh.positions.back() == Vec3(1, 1, 1));
+  const Scene scene = scene_of(tetra_classic, 1);
+  check_pixel(scene, {-1, 1, -1}, {19.87, 356.25});
+  check_pixel(scene, {1, 1, 1}, {384.20, 345.93});
+}
+
+TEST_CASE("tree has 2^(n+1) - 1 branches, each shorter and thinner than the one it stands on") {
+  for (const auto& [size_factor, count] : std::map<int, size_t>{{1, 3}, {2, 7}, {3, 15}, {11, 4095}}) {
+    std::vector<Branch> all;
+    for_each_branch(size_factor, [&](const Branch& branch) { all.push_back(branch); });
+    CHECK(all.size() == count);
+    std::set<std::array<double, 3>> tips;
+    for (const Branch& branch : all) {
+      CHECK(branch.tip_radius == doctest::Approx(0.67 * branch.radius));
+      tips.insert({branch.tip.x, branch.tip.y, branch.tip.z});
+    }
+    for (size_t i = 1; i < all.size(); ++i)
+      CHECK(tips.contains({all[i].foot.x, all[i].foot.y, all[i].foot.z}));
+  }
+  std::vector<Branch> all;
+  for_each_branch(3, [&](const Branch& branch) { all.push_back(branch); });
+  CHECK(all[0].foot == Vec3(0.0));
+  CHECK(all[0].tip == Vec3(0, 0, 1));
+  CHECK(all[0].radius == 0.15);
+  // Leaning by 40° towards what was y turned by 90°, to −x.
+  CHECK(glm::distance(all[1].tip, Vec3(0.65 * 0.6427876096865394, 0, 1 + 0.65 * 0.766044443118978)) < 1e-15);
+  CHECK(glm::distance(all[8].tip, {-0.226621, 0.190158, 1.634415}) < 1e-6);
+  CHECK(all[8].radius == doctest::Approx(0.15 * 0.67));
+
+  const Scene scene = scene_of(tree_classic, 1);
+  CHECK(scene.lights.size() == 7);
+  check_pixel(scene, {0, 0, 1}, {256.00, 322.64});
+  check_pixel(scene, {-0.226621, 0.190158, 1.634415}, {283.27, 235.62});
+}
+
+TEST_CASE("rings has 5n(n+1)(2n+1) rods, in closed rings of five that interlock and do not touch") {
+  for (const auto& [size_factor, count] : std::map<int, size_t>{{1, 30}, {2, 150}, {3, 420}, {7, 4200}}) {
+    std::vector<Rod> all;
+    for_each_rod(size_factor, [&](const Rod& rod) { all.push_back(rod); });
+    CHECK(all.size() == count);
+    for (size_t i = 0; i < all.size(); ++i) {
+      CHECK(all[i].ring == int(i / 5 % 6));
+      const Rod& before = all[i / 5 * 5 + (i + 4) % 5];
+      CHECK(glm::distance(all[i].to, before.from) < 1e-14);
+      CHECK(glm::distance(all[i].from, all[i].to) ==
+            doctest::Approx(2 * std::sin(M_PI / 5) / (1 + rod_radius)).epsilon(1e-14));
+    }
+  }
+  // The first stands in the middle of the first layer; the points of the last layer's far corner are known.
+  std::vector<Rod> all;
+  for_each_rod(7, [&](const Rod& rod) { all.push_back(rod); });
+  CHECK(glm::distance(all[0].from, Vec3(1 / (1 + rod_radius), 2.613125929752753, 0)) < 1e-14);
+  // Ring 1 is ring 0, tilted by atan 2 and turned by 36°.
+  const Vec3 tilted =
+      Vec3(0.3090169943749474, 0.9510565162951535 / std::sqrt(5), 2 * 0.9510565162951535 / std::sqrt(5));
+  const double c = 0.8090169943749475, s = 0.5877852522924731;
+  CHECK(glm::distance(all[6].from - Vec3(0, 2.613125929752753, 0),
+                      Vec3(c * tilted.x - s * tilted.y, s * tilted.x + c * tilted.y, tilted.z) /
+                          (1 + rod_radius)) < 1e-14);
+
+  const Scene scene = scene_of(rings_classic, 7);
+  check_pixel(scene, {0, 2.613126, 0}, {374.03, 315.01});
+  check_pixel(scene, {-6, 18.291882, 6}, {108.47, 93.71});
+}
+
+TEST_CASE("mount's random numbers and heights are the package's") {
+  CHECK(mount_gauss(21) == doctest::Approx(-0.190909456).epsilon(1e-8));
+  CHECK(mount_gauss(100) == doctest::Approx(-0.582944767).epsilon(1e-8));
+  CHECK(mount_gauss(65556) == doctest::Approx(0.530489757).epsilon(1e-8));
+  for (uint32_t seed = 21; seed < 21 + 65536; ++seed) CHECK(std::abs(mount_gauss(seed)) < 6);  // no NaN
+
+  const std::map<std::pair<int, int>, uint32_t> seeds = {{{32, 0}, 85},     {{64, 32}, 16533},
+                                                         {{32, 64}, 32853}, {{0, 32}, 16405},
+                                                         {{32, 32}, 16469}, {{63, 63}, 32403}};
+  for (const auto& [at, seed] : seeds) CHECK(mount_seed(6, at.first, at.second) == seed);
+
+  const std::vector<double> heights = mount_heights(6);
+  const auto at = [&](size_t i, size_t j) { return heights[j * 65 + i]; };
+  CHECK(std::abs(at(32, 32) - 0.5295507072) < 1e-10);
+  CHECK(std::abs(at(16, 16) - 0.3436389489) < 1e-10);
+  CHECK(std::abs(at(1, 0) + 0.0160409387) < 1e-10);
+  CHECK(std::abs(at(63, 63) - 0.0027787144) < 1e-10);
+  CHECK(at(0, 0) == 0);
+  CHECK(at(64, 64) == 0);
+  CHECK(std::abs(*std::ranges::min_element(heights) + 0.7029532627) < 1e-10);
+  CHECK(std::abs(*std::ranges::max_element(heights) - 0.9231396182) < 1e-10);
+}
+
+TEST_CASE("mount has 2 * 4^n triangles that look up, and four balls") {
+  for (const auto& [size_factor, count] : std::map<int, size_t>{{1, 8}, {2, 32}, {3, 128}, {6, 8192}}) {
+    const Mesh mesh = mesh_of(mount_classic, size_factor);
+    CHECK(mesh.triangles.size() == count);
+    double area = 0;
+    bool up = true;
+    for (const auto& triangle : mesh.triangles) {
+      const double twice = face_normal(mesh, triangle).z;
+      up &= twice > 0;
+      area += twice / 2;
+    }
+    CHECK(up);
+    CHECK(area == doctest::Approx(4));
+  }
+  // Quarters of quarters of squares follow each other.
+  const Mesh mesh = mesh_of(mount_classic, 2);
+  CHECK(mesh.triangles[0] == std::array<uint32_t, 3>{0, 1, 6});
+  CHECK(mesh.triangles[1] == std::array<uint32_t, 3>{6, 5, 0});
+  CHECK(mesh.triangles[4] == std::array<uint32_t, 3>{6, 7, 12});
+  CHECK(mesh.triangles[6] == std::array<uint32_t, 3>{5, 6, 11});
+  CHECK(mesh.triangles[8] == std::array<uint32_t, 3>{2, 3, 8});
+  CHECK(mesh.triangles[16] == std::array<uint32_t, 3>{12, 13, 18});
+
+  const Scene scene = scene_of(mount_classic, 6);
+  check_pixel(scene, {1, 0, 0.657244}, {110.65, 60.68});
+  check_pixel(scene, {-1, 0, -0.314742}, {433.74, 426.02});
+  // The balls touch each other.
+  std::vector<Vec3> centers;
+  for (const auto& shape : scene.shapes) centers.push_back((shape->bounds().min + shape->bounds().max) / 2.0);
+  for (size_t i = 0; i < 4; ++i) {
+    for (size_t j = 0; j < i; ++j)
+      CHECK(glm::distance(centers[i], centers[j]) == doctest::Approx(0.34).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("teapot has 64n^2 - 8n triangles, from n = 6 on with all normals on their side") {
+  for (const auto& [size_factor, count] :
+       std::map<int, size_t>{{1, 56}, {2, 240}, {3, 552}, {4, 992}, {5, 1560}, {6, 2256}, {12, 9120}}) {
+    const Mesh mesh = mesh_of(teapot_classic, size_factor);
+    CHECK(mesh.triangles.size() == count);
+    CAPTURE(size_factor);
+    size_t inward = 0, empty = 0;
+    for (const auto& triangle : mesh.triangles) {
+      const Vec3 n = face_normal(mesh, triangle);
+      empty += n == Vec3(0.0);
+      for (const uint32_t corner : triangle) inward += glm::dot(mesh.normals[corner], n) <= 0;
+    }
+    CHECK(empty == (size_factor == 1 ? 4 : 0));  // the spout's end is flat there
+    CHECK((inward > 0) == (size_factor < 6));    // coarse patches turn by more than a right angle
+    for (const Vec3& n : mesh.normals) CHECK(glm::length(n) == doctest::Approx(1).epsilon(1e-12));
+  }
+  // Spout and handle, rim and cusps are where the tables have them.
+  const Mesh mesh = mesh_of(teapot_classic, 6);
+  Bounds box;
+  for (const Vec3& p : mesh.positions) box.include(p);
+  CHECK(box.min.x == doctest::Approx(-3));
+  CHECK(box.max.z == doctest::Approx(3.15));
+  CHECK(box.min.z == 0);
+  const Scene scene = scene_of(teapot_classic, 12);
+  check_pixel(scene, {3.2, 0, 2.4}, {36.13, 165.39});
+  check_pixel(scene, {-3, 0, 1.8}, {399.30, 116.84});
+}
