@@ -15,6 +15,10 @@ void BatchText::append(std::string& text, double number) {
   fmt::format_to(std::back_inserter(text), "{}", number);
 }
 
+void BatchText::append(std::string& text, const std::string& name) {
+  fmt::format_to(std::back_inserter(text), "\"{}\"", name);
+}
+
 void BatchText::append(std::string& text, const Vec3& point) {
   fmt::format_to(std::back_inserter(text), "[{},{},{}]", point.x, point.y, point.z);
 }

@@ -16,7 +16,7 @@ class BatchText {
   // `table` such as "sphere"; `common`, the lines that hold for every shape; `keys` have a value for each.
   BatchText(std::string_view table, std::string common, const std::vector<std::string_view>& keys);
 
-  // A shape: a value for each key, which is a number, a point or a list of points.
+  // A shape: a value for each key, which is a number, a point, a list of points or a name.
   template <typename... Values>
   void add(const Values&... values) {
     size_t list = 0;
@@ -34,6 +34,7 @@ class BatchText {
   };
 
   static void append(std::string& text, double number);
+  static void append(std::string& text, const std::string& name);
   static void append(std::string& text, const Vec3& point);
   static void append(std::string& text, std::span<const Vec3> points);
 

@@ -9,7 +9,8 @@
 namespace eyeray {
 
 std::span<const Classic> classics() {
-  static const Classic all[] = {tetra_classic, tree_classic, rings_classic, mount_classic, teapot_classic};
+  static const Classic all[] = {tetra_classic, tree_classic,  rings_classic,
+                                mount_classic, teapot_classic};
   return all;
 }
 

@@ -83,7 +83,7 @@ const Classic rings_classic = {
     .doc = "Rings of cylinders and spheres that interlock.",
     .sizes = "Layers: 7 has 4200 cylinders and as many spheres.",
     .size_factor = 7,
-    .largest = 50,
+    .largest = 55,
     .limit = most_text,
     .counts =
         [](int n) {

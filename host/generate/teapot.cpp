@@ -110,7 +110,7 @@ const Classic teapot_classic = {
     .doc = "Newell's teapot on a chessboard.",
     .sizes = "Cuts of each patch: 6 has 2256 triangles, 12 has 9120.",
     .size_factor = 6,
-    .largest = 800,
+    .largest = 1000,
     .limit = most_text,
     .counts =
         [](int n) {

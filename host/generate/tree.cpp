@@ -70,7 +70,7 @@ const Classic tree_classic = {
     .doc = "Cones and spheres: each branch bears two.",
     .sizes = "Forks in a row: 11 has 4095 cones and as many spheres.",
     .size_factor = 11,
-    .largest = 18,
+    .largest = 19,
     .limit = most_text,
     .counts =
         [](int n) {
