@@ -1,5 +1,6 @@
 #include <iterator>
 
+#include "generate/gears.hpp"
 #include "generate/mount.hpp"
 #include "generate/rings.hpp"
 #include "generate/teapot.hpp"
@@ -10,7 +11,7 @@ namespace eyeray {
 
 std::span<const Classic> classics() {
   static const Classic all[] = {tetra_classic, tree_classic,  rings_classic,
-                                mount_classic, teapot_classic};
+                                gears_classic, mount_classic, teapot_classic};
   return all;
 }
 

@@ -62,6 +62,7 @@ TEST_CASE("every classic is a scene that passes verify, its mesh beside it") {
       {"tetra", "3", {{"triangles", 64}, {"vertices", 64}}},
       {"tree", "3", {{"cones", 15}, {"spheres", 15}, {"squares", 1}}},
       {"rings", "1", {{"cylinders", 30}, {"spheres", 30}, {"squares", 1}}},
+      {"gears", "1", {{"polygons", 146}, {"squares", 1}}},
       {"mount", "3", {{"spheres", 4}, {"triangles", 128}, {"vertices", 81}}},
       {"teapot", "6", {{"squares", 36}, {"triangles", 2256}, {"vertices", 32 * 49}}},
   };

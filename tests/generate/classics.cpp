@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "generate/gears.hpp"
 #include "generate/mount.hpp"
 #include "generate/rings.hpp"
 #include "generate/teapot.hpp"
@@ -138,6 +139,45 @@ TEST_CASE("rings has 5n(n+1)(2n+1) rods, in closed rings of five that interlock 
   const Scene scene = scene_of(rings_classic, 7);
   check_pixel(scene, {0, 2.613126, 0}, {374.03, 315.01});
   check_pixel(scene, {-6, 18.291882, 6}, {108.47, 93.71});
+}
+
+TEST_CASE("gears has n^3 of them, whose sides join top and bottom to the last bit") {
+  for (const auto& [size_factor, count, glass] : {std::array{1, 1, 1}, {2, 8, 2}, {3, 27, 6}, {4, 64, 13}}) {
+    std::vector<Gear> all;
+    for_each_gear(size_factor, [&](const Gear& gear) { all.push_back(gear); });
+    CHECK(all.size() == size_t(count));
+    CHECK(gears_classic.counts(size_factor)[0].number == uint64_t(146 * count));
+    CHECK(std::ranges::count_if(all, &Gear::glass) == glass);
+    for (const Gear& gear : all) {
+      std::set<std::array<double, 2>> top, bottom;
+      double twice_area = 0;
+      for (size_t i = 0; i < 144; ++i) {
+        const Vec3 &a = gear.top[i], &b = gear.top[(i + 1) % 144], &c = gear.bottom[i];
+        top.insert({a.x, a.y});
+        bottom.insert({c.x, c.y});
+        twice_area +=
+            (a.x - gear.center.x) * (b.y - gear.center.y) - (b.x - gear.center.x) * (a.y - gear.center.y);
+        CHECK(a.z == gear.center.z);
+        CHECK(c.z == gear.center.z - gear.thickness);
+        CHECK(glm::length(Vec2(a - gear.center)) == doctest::Approx((i % 4 < 2 ? 0.995 : 0.9) * gear.radius));
+      }
+      CHECK(top.size() == 144);
+      CHECK(top == bottom);
+      CHECK(twice_area / 2 > 0.81 * 3.1 * gear.radius * gear.radius);  // counter-clockwise
+      CHECK(twice_area / 2 < 0.99 * 3.1 * gear.radius * gear.radius);
+      // The corners from which its normals are made are convex.
+      CHECK(glm::cross(gear.top[1] - gear.top[0], gear.top[2] - gear.top[1]).z > 0);
+      CHECK(glm::cross(gear.bottom[1] - gear.bottom[0], gear.bottom[2] - gear.bottom[1]).z < 0);
+      CHECK(std::max({gear.color.x, gear.color.y, gear.color.z}) == 1);
+    }
+  }
+  std::vector<Gear> all;
+  for_each_gear(4, [&](const Gear& gear) { all.push_back(gear); });
+  CHECK(all[0].glass);
+  CHECK(all[1].color == Vec3(1));
+  const Scene scene = scene_of(gears_classic, 4);
+  check_pixel(scene, all[0].center, {164.56, 274.92});
+  check_pixel(scene, all[1].center, {290.08, 227.46});
 }
 
 TEST_CASE("mount's random numbers and heights are the package's") {
