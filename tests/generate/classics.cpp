@@ -111,7 +111,7 @@ TEST_CASE("tree has 2^(n+1) - 1 branches, each shorter and thinner than the one 
   check_pixel(scene, {-0.226621, 0.190158, 1.634415}, {283.27, 235.62});
 }
 
-TEST_CASE("rings has 5n(n+1)(2n+1) rods, in closed rings of five that interlock and do not touch") {
+TEST_CASE("rings has 5n(n+1)(2n+1) rods, in closed rings of five") {
   for (const auto& [size_factor, count] : std::map<int, size_t>{{1, 30}, {2, 150}, {3, 420}, {7, 4200}}) {
     std::vector<Rod> all;
     for_each_rod(size_factor, [&](const Rod& rod) { all.push_back(rod); });
@@ -254,6 +254,16 @@ TEST_CASE("teapot has 64n^2 - 8n triangles, from n = 6 on with all normals on th
     CHECK((inward > 0) == (size_factor < 6));    // coarse patches turn by more than a right angle
     for (const Vec3& n : mesh.normals) CHECK(glm::length(n) == doctest::Approx(1).epsilon(1e-12));
   }
+  const std::vector<BezierPatch> patches = teapot_patches();
+  REQUIRE(patches.size() == 32);
+  CHECK(patches[0][1][2] == Vec3(0.56 * 1.3375, -1.3375, 2.53125));
+  CHECK(patches[16][0] ==
+        std::array<Vec3, 4>{{{1.7, 0, 1.425}, {1.7, -0.66, 1.425}, {1.7, -0.66, 0.6}, {1.7, 0, 0.6}}});
+  CHECK(glm::distance(patches[20][1][1], Vec3(0.8, -0.45, 3.15)) <
+        1e-15);  // Newell's bulge for once, not 0.56
+  CHECK(patches[21][1][0] == Vec3(0, -0.8, 3.15));
+  CHECK(patches[29][3][0] == Vec3(0, 1.5, 0.15));
+
   // Spout and handle, rim and cusps are where the tables have them.
   const Mesh mesh = mesh_of(teapot_classic, 6);
   Bounds box;
