@@ -1,6 +1,7 @@
 // The flat buffers that the shaders read, and the way shapes and materials write them.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <memory>
 #include <set>
@@ -21,7 +22,7 @@ struct PackedScene {
   std::vector<uint32_t> loose_ends;  // by kind, the end of those in no tree
   // Of those of `kind` in no tree.
   uint32_t first_loose(uint32_t kind) const { return kind == 0 ? 0 : loose_ends[kind - 1]; }
-  std::set<uint32_t> tree_kinds;      // of the shapes in trees
+  std::set<uint32_t> tree_kinds;                 // of the shapes in trees
   std::set<std::pair<uint32_t, uint32_t>> uses;  // kinds of shape, and materials that they are made of
   std::vector<shader::uvec4> nodes;
   std::vector<shader::Tree> trees;  // the world's, then one a mesh of `instances`
@@ -31,6 +32,9 @@ struct PackedScene {
   uint32_t stack_size = 1;       // what a walk through the trees may have waiting
   std::vector<shader::uvec4> vertices;
   bool vertex_colors = false;  // whether any of `vertices` have colours
+  // How much larger, seen from the world, rounding is in a shape's own space: |linear| · |inverse|, the
+  // largest of all shapes.
+  float map_growth = 1;
   uint64_t shape_iterations = 0;  // that shapes' own loops take, all shapes together
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
@@ -58,6 +62,7 @@ class Packer {
   uint32_t add_vertices(std::initializer_list<shader::uvec4> data) { return add_vertices(std::span(data)); }
   uint32_t add_vertices(std::span<const shader::uvec4> data);
   // Every shape that loops says how often it may.
+  void add_map_growth(double growth) { scene.map_growth = std::max(scene.map_growth, float(growth)); }
   void add_iterations(size_t count) { scene.shape_iterations += count; }
   // The index of a texture; equal textures share one.
   uint32_t add_texture(const Texture& texture);

@@ -287,10 +287,11 @@ class GeometryPacker {
 
   // A ray is mapped into an instance with errors that grow with its coordinates, wherever the tree's own
   // origin is. Seen from the world they are |linear| · |inverse| times as large: 3 at most where axes are
-  // stretched and then turned, more under shears.
-  void make_room_for_instances(shader::Tree& tree) const {
-    if (packed_.instances.empty()) return;
-    float growth = 1;
+  // stretched and then turned, more under shears. So they are in a shape's own space, but from its centre.
+  void make_room_for_maps(shader::Tree& tree) const {
+    constexpr float harmless = 3;  // what the boxes have room for without this
+    if (packed_.instances.empty() && packed_.map_growth <= harmless) return;
+    float growth = packed_.map_growth;
     for (const shader::Instance& instance : packed_.instances)
       for (const shader::vec4& row : instance.to_world) {
         float sum = 0;
@@ -321,7 +322,7 @@ class GeometryPacker {
       packed_.loose_ends.push_back(uint32_t(packed_.primitives.size()));
     }
     lay_out(world_tree_, size, record);
-    if (packed_.has_tree) make_room_for_instances(packed_.trees.back());
+    if (packed_.has_tree) make_room_for_maps(packed_.trees.back());
   }
 
   void lay_out_meshes() {

@@ -1,10 +1,29 @@
 #include "shapes/object_shape.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "records/packer.hpp"
 
 namespace eyeray {
+
+namespace {
+
+// |linear| · |inverse|, its largest row.
+double growth(const Affine& map, const Affine& inverse) {
+  double largest = 0;
+  for (int row = 0; row < 3; ++row) {
+    double sum = 0;
+    for (int column = 0; column < 3; ++column)
+      for (int k = 0; k < 3; ++k) sum += std::fabs(map.linear[k][row] * inverse.linear[column][k]);
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
+}  // namespace
 
 ObjectShape::ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters,
                          size_t iterations)
@@ -66,6 +85,7 @@ void ObjectShape::pack(Packer& packer) const {
     packer.add_vertices({to_bits(some)});
   }
   packer.add_iterations(iterations_);
+  packer.add_map_growth(growth(to_world_, to_object_));
   packer.add({.head = Packer::head(kind_, material, extra),
               .a = row(to_object_, 0, center),
               .b = row(to_object_, 1, center),
@@ -87,8 +107,13 @@ bool out_of_range(TableReader& table, const Mat4& to_world) {
     const double size = magnitude(Vec3(to_world[axis]));
     fits = fits && size >= min_radius && size <= max_coordinate;
   }
-  if (!fits)
+  if (!fits) {
     table.error("transform", "the shape is out of range (sizes 1e-12 to 1e12, coordinates up to 1e12)");
+  } else if (const std::string why = why_singular(to_world); !why.empty()) {
+    table.error("transform",
+                fmt::format("the shape is too thin for its size: as a map of a plain one, {}", why));
+    fits = false;
+  }
   return !fits;
 }
 
