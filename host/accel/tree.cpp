@@ -135,7 +135,8 @@ class Flattener {
       return flatten_leaf({leaf->all, leaf->count}, leaf->items, node_at, item_at, child);
     }
     const auto* inner = static_cast<const BuildInner*>(node);
-    const auto [left, right] = inner->child;
+    const BuildNode* const left = inner->child[0];
+    const BuildNode* const right = inner->child[1];
     Node& to = tree_.nodes[node_at];
     int depths[2];
     const auto go_left = [&] { depths[0] = flatten(left, node_at + 1, item_at, to.children[0]); };

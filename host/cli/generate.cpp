@@ -148,7 +148,7 @@ void add_terrain(CLI::App& generate, Run& run) {
 void add_classic(CLI::App& generate, const Classic& classic, Run& run) {
   CLI::App* const command = generate.add_subcommand(std::string(classic.name),
                                                     fmt::format("{} One of Haines' databases.", classic.doc));
-  const auto options = std::make_shared<ClassicCommand>(classic);
+  const auto options = std::make_shared<ClassicCommand>(ClassicCommand{classic});
   add_output(*command, options->output);
   command->add_option("--size-factor", options->size_factor, std::string(classic.sizes))
       ->option_text(fmt::format("N={}", classic.size_factor))

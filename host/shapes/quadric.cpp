@@ -114,12 +114,13 @@ Form in_cube(const QuadricValues& values, const Vec3& min, const Vec3& max) {
 // Whether f is surely above 0 in the whole cube (1), or below (−1), else 0. Sure of all that have no
 // products.
 int sign_in_cube(const Form& form) {
-  const auto& [square, product, linear, constant] = form.values;
-  const double products = std::fabs(product.x) + std::fabs(product.y) + std::fabs(product.z);
-  double least = constant - products, greatest = constant + products;
+  const QuadricValues& f = form.values;
+  const double products = std::fabs(f.product.x) + std::fabs(f.product.y) + std::fabs(f.product.z);
+  double least = f.constant - products, greatest = f.constant + products;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto along = [&](double x) { return (square[axis] * x + linear[axis]) * x; };
-    const double vertex = square[axis] != 0 ? std::clamp(-linear[axis] / (2 * square[axis]), -1.0, 1.0) : 1;
+    const auto along = [&](double x) { return (f.square[axis] * x + f.linear[axis]) * x; };
+    const double vertex =
+        f.square[axis] != 0 ? std::clamp(-f.linear[axis] / (2 * f.square[axis]), -1.0, 1.0) : 1;
     least += std::min({along(-1), along(1), along(vertex)});
     greatest += std::max({along(-1), along(1), along(vertex)});
   }

@@ -165,8 +165,9 @@ class HardScene {
     Mat4 map(1.0);
     for (int i = 0; i < count; ++i) {
       if (i == 0 || !chance(0.2)) {
-        map = some_map() * translation(point(center_, size_));
-        map = glm::scale(map, Vec3(size_ * random_.log_uniform(1e-3, 1)));
+        // Not as far and small as the others: a million sizes away no digit of such a shape is left.
+        map = some_map() * translation(center_ + random_.point(1) * size_);
+        map = glm::scale(map, Vec3(size_ * random_.log_uniform(0.03, 1)));
       }
       const bool open = chance(0.5);
       switch (random_.below(4)) {
