@@ -42,6 +42,13 @@ ObjectRay object_ray(Primitive s, Ray ray, float reach) {
     r.o = into_object(s, from_center + ray.d * r.t);
     r = from_nearest(r);
   }
+  // What passes far from the shape is let pass before squares overflow; and a direction so short that its squares are lost, as no
+  // unit vector's are, meets nothing.
+  if (!(dot3(r.o, r.o) <= 4.0f * reach * reach && dot3(r.d, r.d) >= 1.0e-30f)) {
+    r.o = vec3(0.0f, 4.0f * reach, 0.0f);
+    r.d = vec3(1.0f, 0.0f, 0.0f);
+    r.t = 0.0f;
+  }
   return r;
 }
 
