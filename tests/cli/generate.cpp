@@ -67,7 +67,8 @@ TEST_CASE("every classic is a scene that passes verify, its mesh beside it") {
       {"teapot", "6", {{"squares", 36}, {"triangles", 2256}, {"vertices", 32 * 49}}},
   };
   for (const auto& [name, size_factor, counts] : cases) {
-    CAPTURE(name);
+    const std::string classic = name;
+    CAPTURE(classic);
     const TemporaryFolder folder;
     const std::string scene = folder / (name + ".toml");
     const ProcessResult made =

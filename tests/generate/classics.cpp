@@ -243,7 +243,8 @@ TEST_CASE("teapot has 64n^2 - 8n triangles, from n = 6 on with all normals on th
        std::map<int, size_t>{{1, 56}, {2, 240}, {3, 552}, {4, 992}, {5, 1560}, {6, 2256}, {12, 9120}}) {
     const Mesh mesh = mesh_of(teapot_classic, size_factor);
     CHECK(mesh.triangles.size() == count);
-    CAPTURE(size_factor);
+    const int factor = size_factor;
+    CAPTURE(factor);
     size_t inward = 0, empty = 0;
     for (const auto& triangle : mesh.triangles) {
       const Vec3 n = face_normal(mesh, triangle);

@@ -10,7 +10,8 @@ TEST_CASE("colours of vertices are linear, with and without alpha, and kept with
   for (const auto& [component, one] :
        {std::pair(5121, 255.0), std::pair(5123, 65535.0), std::pair(5126, 1.0)}) {
     for (const bool alpha : {false, true}) {
-      CAPTURE(component);
+      const int component_type = component;
+      CAPTURE(component_type);
       std::vector<double> colors;
       for (int i = 0; i < 4; ++i) {
         colors.insert(colors.end(), {one * (i % 2), one / 5, component == 5126 ? 7.0 : one});

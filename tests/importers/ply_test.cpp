@@ -100,7 +100,8 @@ TEST_CASE("colours of vertices, of every type, are what a screen shows") {
   for (const auto& [type, one] :
        {std::pair("uchar", 255.0), std::pair("ushort", 65535.0), std::pair("float", 1.0)}) {
     for (const std::string prefix : {"", "diffuse_"}) {
-      CAPTURE(type);
+      const std::string of_type = type;
+      CAPTURE(of_type);
       Bytes data;
       for (const Vec2& p : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}) {
         data.add(float(p.x)).add(float(p.y)).add(0.0f);
