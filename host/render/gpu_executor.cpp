@@ -31,6 +31,10 @@ constexpr double wanted_seconds = 0.05;
 // Where a triangle is less than a pixel, rays of a packet hardly share a leaf: beyond so many primitives each
 // ray goes alone, unless packets are asked for (docs/performance.md).
 constexpr size_t most_in_packets = 1 << 20;
+// Pictures take packets where they save more than their kernels take to make: of so many samples, and up to
+// so many primitives.
+constexpr int64_t least_samples_in_waves = 1 << 22;
+constexpr size_t most_in_waves = 1 << 18;
 // Of the 65 535 iterations that a capped driver grants an invocation, what we count on (docs/lavapipe.md).
 constexpr uint64_t granted_iterations = 60000;
 
@@ -64,7 +68,7 @@ class GpuExecutor final : public Executor {
     fault_.damage(packed);
     specialise_for(packed);
     times_.measure("upload", [&] { upload(packed); });
-    if (packets_)
+    if (packets_ && worth_waves(scene.image, packed))
       make_waves(scene, packed);
     else
       sample_kernel_ = make_kernel("render.comp.glsl", "");
@@ -138,6 +142,12 @@ class GpuExecutor final : public Executor {
                   "{} ends loops after 65 535 iterations, before a ray was traced: use a newer driver, or "
                   "--backend twin",
                   device_.info().driver_version);
+  }
+
+  bool worth_waves(const ImageSettings& image, const PackedScene& packed) const {
+    const int64_t samples = int64_t{image.width} * image.height * image.samples;
+    return options_.profile.rays == "packets" ||
+           (samples >= least_samples_in_waves && packed.primitives.size() <= most_in_waves);
   }
 
   void specialise_for(PackedScene& packed) {
