@@ -34,16 +34,8 @@ linear one. Sides and caps are cut as a cylinder's are.
 )";
 
 constexpr Key keys[] = {
-    {.name = "from",
-     .type = KeyType::vec3,
-     .doc = "Where the axis begins.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
-    {.name = "to",
-     .type = KeyType::vec3,
-     .doc = "Where it ends.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
+    axis_from_key,
+    axis_to_key,
     {.name = "radius",
      .type = KeyType::number,
      .doc = "Distance of the side from the axis at `from`.",

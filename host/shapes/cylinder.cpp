@@ -31,16 +31,8 @@ between them. Here the ray's stretch between the planes of the caps is cut with 
 )";
 
 constexpr Key keys[] = {
-    {.name = "from",
-     .type = KeyType::vec3,
-     .doc = "Where the axis begins.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
-    {.name = "to",
-     .type = KeyType::vec3,
-     .doc = "Where it ends.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
+    axis_from_key,
+    axis_to_key,
     {.name = "radius",
      .type = KeyType::number,
      .doc = "Distance of the side from the axis.",

@@ -37,16 +37,8 @@ runs within the cone that the side tends to, it is inside beyond the roots of th
 )";
 
 constexpr Key keys[] = {
-    {.name = "from",
-     .type = KeyType::vec3,
-     .doc = "Where the axis begins.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
-    {.name = "to",
-     .type = KeyType::vec3,
-     .doc = "Where it ends.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
+    axis_from_key,
+    axis_to_key,
     {.name = "radius",
      .type = KeyType::number,
      .doc = "Distance of the side from the axis at `from`.",

@@ -53,6 +53,18 @@ class ObjectShape : public Shape {
   size_t iterations_;
 };
 
+// The keys of shapes with an axis.
+inline constexpr Key axis_from_key = {.name = "from",
+                                      .type = KeyType::vec3,
+                                      .doc = "Where the axis begins.",
+                                      .min = -max_coordinate,
+                                      .max = max_coordinate};
+inline constexpr Key axis_to_key = {.name = "to",
+                                    .type = KeyType::vec3,
+                                    .doc = "Where it ends.",
+                                    .min = -max_coordinate,
+                                    .max = max_coordinate};
+
 // The map under which y = low … high on the axis of object space comes to stand from `from` to `to`, and
 // whose other two axes are `radius` long and perpendicular to it. The first of them, where u = ½, is as near
 // to the world's +x as can be; if the axis is parallel to that, to +z.

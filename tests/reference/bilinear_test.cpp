@@ -6,11 +6,6 @@ using namespace eyeray::test;
 
 namespace {
 
-double distance(const Shape& shape, const Ray& ray) {
-  const auto hit = shape.intersect(ray);
-  return hit ? hit->t : -1;
-}
-
 // z = x·y above the unit square; the normal is (−y, −x, 1).
 const std::array<Vec3, 4> saddle = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 1), Vec3(0, 1, 0)};
 

@@ -7,17 +7,6 @@ using namespace eyeray::test;
 
 namespace {
 
-SurfacePoint struck(const Shape& shape, const Ray& ray) {
-  const auto hit = shape.intersect(ray);
-  REQUIRE(hit.has_value());
-  return shape.surface(ray, *hit);
-}
-
-double distance(const Shape& shape, const Ray& ray) {
-  const auto hit = shape.intersect(ray);
-  return hit ? hit->t : -1;
-}
-
 const Mat4 identity(1.0);
 
 }  // namespace

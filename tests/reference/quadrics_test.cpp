@@ -9,18 +9,6 @@ using namespace eyeray::test;
 
 namespace {
 
-// The surface that a ray meets; the test ends if it meets none.
-SurfacePoint struck(const Shape& shape, const Ray& ray) {
-  const auto hit = shape.intersect(ray);
-  REQUIRE(hit.has_value());
-  return shape.surface(ray, *hit);
-}
-
-double distance(const Shape& shape, const Ray& ray) {
-  const auto hit = shape.intersect(ray);
-  return hit ? hit->t : -1;
-}
-
 // The heights at which a ray upward through (x, z) meets the shape.
 std::vector<double> heights(const Shape& shape, double x, double z) {
   std::vector<double> all;

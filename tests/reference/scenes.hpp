@@ -57,6 +57,16 @@ inline bool near(const Vec3& a, const Vec3& b, double tolerance) {
   return glm::length(a - b) <= tolerance;
 }
 
+// The surface that a ray meets; the test ends if it meets none.
+inline SurfacePoint struck(const Shape& shape, const Ray& ray) {
+  return shape.surface(ray, shape.intersect(ray).value());
+}
+// Along the ray; -1 if it meets nothing.
+inline double distance(const Shape& shape, const Ray& ray) {
+  const auto hit = shape.intersect(ray);
+  return hit ? hit->t : -1;
+}
+
 // Repeatable random values.
 class Dice {
  public:

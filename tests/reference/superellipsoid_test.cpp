@@ -4,21 +4,6 @@
 using namespace eyeray;
 using namespace eyeray::test;
 
-namespace {
-
-double distance(const Shape& shape, const Ray& ray) {
-  const auto hit = shape.intersect(ray);
-  return hit ? hit->t : -1;
-}
-
-SurfacePoint struck(const Shape& shape, const Ray& ray) {
-  const auto hit = shape.intersect(ray);
-  REQUIRE(hit.has_value());
-  return shape.surface(ray, *hit);
-}
-
-}  // namespace
-
 TEST_CASE("superellipsoid: with exponents of 1 an ellipsoid, of 2 an octahedron, and a pillow of power 4") {
   const auto ball = make_superellipsoid({1, 2, 3}, {2, 3, 4}, 1, 1);
   CHECK(near(distance(*ball, {{9, 2, 3}, {-1, 0, 0}}), 6, 1e-13));

@@ -4,21 +4,6 @@
 using namespace eyeray;
 using namespace eyeray::test;
 
-namespace {
-
-double distance(const Shape& shape, const Ray& ray) {
-  const auto hit = shape.intersect(ray);
-  return hit ? hit->t : -1;
-}
-
-SurfacePoint struck(const Shape& shape, const Ray& ray) {
-  const auto hit = shape.intersect(ray);
-  REQUIRE(hit.has_value());
-  return shape.surface(ray, *hit);
-}
-
-}  // namespace
-
 TEST_CASE("torus: four crossings, one after the other, the hole and the pole") {
   // About the x axis through (1, 2, 3): the tube runs at the distance 2 and is 0.5 thick.
   const auto torus = make_torus({1, 2, 3}, {2, 0, 0}, 2, 0.5);
