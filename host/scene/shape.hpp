@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "core/diagnostic.hpp"
 #include "core/vec.hpp"
@@ -25,6 +26,12 @@ struct Intersection {
   double t = 0;
   double u = 0;
   double v = 0;
+  uint32_t part = 0;  // of a solid, whose surface it is
+};
+
+// A stretch of a ray's line, from where it enters a closed shape to where it leaves it.
+struct Span {
+  Intersection in, out;
 };
 
 // The surface at an intersection, world space.
@@ -70,8 +77,15 @@ struct QuadricForm {
   Bounds clip;
   bool open;
 };
+class Shape;
+// What is within any of `operands`, or where `all` within all of them, and within none of `removed`.
+struct SolidForm {
+  bool all;
+  std::vector<const Shape*> operands;
+  std::vector<const Shape*> removed;
+};
 using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm,
-                               CapsuleForm, QuadricForm>;
+                               CapsuleForm, QuadricForm, SolidForm>;
 
 class Shape {
  public:
@@ -81,6 +95,12 @@ class Shape {
   virtual std::optional<Intersection> intersect(const Ray& ray) const = 0;
   virtual SurfacePoint surface(const Ray& ray, const Intersection& hit) const = 0;
   virtual Bounds bounds() const = 0;
+  // The shape that has the surface there, and whose material it is of: itself, or a solid's part.
+  virtual const Shape& part(const Intersection&) const { return *this; }
+  // Whether it encloses a volume, so that solids can be made of it.
+  virtual bool is_closed() const { return false; }
+  // Of a closed shape, where the ray's whole line is within it, t < 0 included: in order, none touches another.
+  virtual std::vector<Span> spans(const Ray&) const { return {}; }
   // For exporters and for comparing with other renderers; monostate for what they do not have.
   virtual ShapeForm form() const { return {}; }
   // Appends the shape's one Primitive (and what it refers to).
@@ -96,7 +116,11 @@ struct ShapeType {
   std::string_view manual;    // equation, parameters' meaning, the numeric trap, the source; Markdown
   std::span<const Key> keys;  // beside `material` and `transform`, which every shape has
   // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
-  std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform);
+  std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform) = nullptr;
+  // Where shapes of this kind are made of others, instead: from those that stand in its table, already
+  // where they belong, and from those to be removed from them.
+  using Shapes = std::vector<std::unique_ptr<Shape>>;
+  std::unique_ptr<Shape> (*combine)(TableReader& table, Shapes operands, Shapes removed) = nullptr;
 };
 
 // Every kind of shape, in registry order: the order of Scene::shapes, hence of primitive indices.

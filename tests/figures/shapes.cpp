@@ -58,7 +58,10 @@ PlanarRegion some_region(Random& random) {
 
 // A shape about as large as `size`.
 using MakeShape = std::unique_ptr<Shape> (*)(Random& random, double size);
+std::unique_ptr<Shape> some_solid(Random& random, double size);
+
 const std::map<std::string, MakeShape> makers = {
+    {"solid", some_solid},
     {"sphere",
      [](Random& random, double size) {
        return make_sphere(random.point(3 * size), size * random.uniform(0.3, 1));
@@ -140,6 +143,44 @@ const std::map<std::string, MakeShape> makers = {
                             some_map(random, size));
      }},
 };
+
+std::unique_ptr<Shape> some_closed_shape(Random& random, double size) {
+  for (;;) {
+    const auto [name, make] = *std::next(makers.begin(), random.below(int(makers.size())));
+    if (name == "solid") continue;
+    auto shape = make(random, size);
+    if (shape->is_closed()) return shape;
+  }
+}
+
+// Of all closed shapes, at most 5, nested now and then.
+std::unique_ptr<Shape> some_solid(Random& random, double size) {
+  for (;;) {
+    ShapeType::Shapes operands, removed;
+    for (int i = 2 + random.below(2); i > 0; --i) {
+      operands.push_back(some_closed_shape(random, size));
+      if (random.below(4) == 0) {
+        ShapeType::Shapes inner;
+        for (int k = 0; k < 2; ++k) inner.push_back(some_closed_shape(random, size));
+        operands.back() = make_solid(random.below(2) == 0, std::move(inner));
+      }
+    }
+    if (random.below(2) == 0) removed.push_back(some_closed_shape(random, size));
+    auto solid = make_solid(random.below(2) == 0, std::move(operands), std::move(removed));
+    // What is within all of its parts may be next to nothing.
+    const Bounds bounds = solid->bounds();
+    const Vec3 extent = bounds.max - bounds.min;
+    if (std::min({extent.x, extent.y, extent.z}) < 0.3 * size) continue;
+    int hits = 0;
+    const Vec3 center = (bounds.min + bounds.max) * 0.5;
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 target = center + random.direction() * glm::length(extent) * 0.25;
+      const Vec3 from = target + random.direction() * glm::length(extent);
+      hits += solid->intersect({from, target - from}).has_value();
+    }
+    if (hits > 4) return solid;
+  }
+}
 
 // One shape as a scene, in both forms.
 struct Sample {
