@@ -12,11 +12,10 @@ SHADER_BEGIN
 #define PRISM_TOP 1.0f
 #define PRISM_WALLS 2.0f
 
-// Where the ray next crosses the prism with t > after, and what is crossed there. `odd`: whether that many times, as a vertex may not be.
 // Seen along y the ray is a line, and the walls are edges that it passes at certain distances. On which side of the line an edge's end
 // lies depends on that end alone, so the line passes an even number of edges. It is within the outline where it has passed an odd number; so the
 // caps are asked of the very distances at which the walls are hit, and no ray passes between them.
-float prism_next(Primitive s, Ray ray, float after, OUT(vec2) uv, OUT(bool) odd) {
+float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   ObjectRay r = object_ray(s, ray, 1.7320508f);
   float least = 1.0e-12f * max_component(abs3(r.d));
 
@@ -38,14 +37,16 @@ float prism_next(Primitive s, Ray ray, float after, OUT(vec2) uv, OUT(bool) odd)
   float near = maximum(enter, maximum(minimum(a.x, b.x), minimum(a.y, b.y)));
   float far = minimum(leave, minimum(maximum(a.x, b.x), maximum(a.y, b.y)));
   uint at = s.head.w + OBJECT_PARAMETERS + 3u;
-  uint end = near <= far && r.t + far > after ? at + uint(object_parameters(s).x) : at;
+  uint end = near <= far && r.t + far > AFTER(ray) ? at + uint(object_parameters(s).x) : at;
 
   bool enters = false;
   bool leaves = false;
+#if HAS_SOLIDS
+  bool inside = false;  // having crossed what is not beyond AFTER(ray)
+#endif
   float nearest = T_MISS;
   float wall = PRISM_WALLS;
   uv = vec2(PRISM_BOTTOM, 0.0f);
-  odd = false;
   for (; at < end; at++) {
     vec4 edge = bits_to_floats(load_outline(at));
     vec2 p = vec2(edge.x - r.o.x, edge.y - r.o.z);
@@ -58,36 +59,30 @@ float prism_next(Primitive s, Ray ray, float after, OUT(vec2) uv, OUT(bool) odd)
     bool passed = (side_p > 0.0f) != (side_q > 0.0f);
     enters = enters != (passed && distance < enter);
     leaves = leaves != (passed && distance < leave);
-    bool within = passed && distance >= enter && distance < leave && r.t + distance > after;
-    bool nearer = within && distance < nearest;
-    odd = within && r.t + distance == r.t + nearest ? !odd : nearer || odd;
+    bool nearer = passed && distance >= enter && distance < leave && r.t + distance > AFTER(ray) && distance < nearest;
     nearest = nearer ? distance : nearest;
     uv.x = nearer ? wall : uv.x;
     wall += 1.0f;
+#if HAS_SOLIDS
+    inside = inside != (passed && distance >= enter && distance < leave && r.t + distance <= AFTER(ray));
+#endif
   }
 
   bool upwards = to_bottom < to_top;
-  enters = enters && r.t + enter > after;
-  bool first = enters && enter < nearest;
-  odd = enters && r.t + enter == r.t + nearest ? !odd : first || odd;
+  bool first = enters && r.t + enter > AFTER(ray) && enter < nearest;
   nearest = first ? enter : nearest;
   uv.x = first ? (upwards ? PRISM_BOTTOM : PRISM_TOP) : uv.x;
-  leaves = leaves && r.t + leave > after;
-  bool last = leaves && leave < nearest;
-  odd = leaves && r.t + leave == r.t + nearest ? !odd : last || odd;
+  bool last = leaves && r.t + leave > AFTER(ray) && leave < nearest;
   nearest = last ? leave : nearest;
   uv.x = last ? (upwards ? PRISM_TOP : PRISM_BOTTOM) : uv.x;
-  return nearest < T_MISS ? r.t + nearest : T_NONE;
-}
-
-float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
-  bool odd = false;
-  float t = prism_next(s, ray, AFTER(ray), uv, odd);
 #if HAS_SOLIDS
-  // To cross it twice at once is not to cross it.
-  for (; ray.side != SIDE_UNKNOWN && t > T_NONE && !odd;) t = prism_next(s, ray, t, uv, odd);
+  // Where it crosses two walls at the same t, at a vertex or where the prism is thin, the second is still to come: at the next t there is.
+  inside = inside != (enters && r.t + enter <= AFTER(ray));
+  inside = inside != (leaves && r.t + leave <= AFTER(ray));
+  bool late = ray.side != SIDE_UNKNOWN && inside != (ray.side == SIDE_INSIDE);
+  if (late) return ray.after + (2.0f * EPSILON * abs(ray.after) + 1.0e-37f);
 #endif
-  return t;
+  return nearest < T_MISS ? r.t + nearest : T_NONE;
 }
 
 bool prism_may_hit(Primitive s, Ray ray) { return true; }
