@@ -297,7 +297,8 @@ std::unique_ptr<Shape> Builder::read_solid(const Section& section, const toml::t
   if (!ok) return nullptr;
   auto solid = section.shape->combine(reader, std::move(operands), std::move(removed));
   if (!solid) return nullptr;
-  if (const std::string why = why_two_media(*solid, scene_.materials); !why.empty()) reader.error("material", why);
+  if (const std::string why = why_two_media(*solid, scene_.materials); !why.empty())
+    reader.error("material", why);
   solid->material = material.value_or(0);
   solid->position = reader.position();
   return solid;
@@ -317,13 +318,14 @@ bool Builder::read_parts(const toml::table& holder, const Mat4& to_world, std::o
       Section section = written;
       section.keys = part_keys();
       size_t added = 0;
-      const size_t wanted = for_each_placed(section, table, to_world, [&](TableReader& reader, const Mat4& placed) {
-        auto part = section.is_combined() ? read_solid(section, table, reader, placed, material)
-                                          : read_part(section, reader, placed, material);
-        if (!part) return;
-        parts.push_back(std::move(part));
-        ++added;
-      });
+      const size_t wanted =
+          for_each_placed(section, table, to_world, [&](TableReader& reader, const Mat4& placed) {
+            auto part = section.is_combined() ? read_solid(section, table, reader, placed, material)
+                                              : read_part(section, reader, placed, material);
+            if (!part) return;
+            parts.push_back(std::move(part));
+            ++added;
+          });
       ok = ok && wanted > 0 && added == wanted;
     };
     ok = for_each(holder, name, add_part, "solid") && ok;
@@ -337,7 +339,8 @@ std::unique_ptr<Shape> Builder::read_part(const Section& section, TableReader& r
   if (reader.has("material")) {
     material = find_material(reader);
   } else if (!material) {
-    reader.error("material", fmt::format("no material: neither this {} nor a solid around it has one", section.title));
+    reader.error("material",
+                 fmt::format("no material: neither this {} nor a solid around it has one", section.title));
   }
   std::unique_ptr<Shape> part = section.shape->parse(reader, to_world);
   if (!part || !material) return nullptr;

@@ -39,7 +39,8 @@ std::string suggest_section(std::string_view name);
 // The names of those that may stand in a group.
 std::span<const std::string_view> placed_names();
 
-// The keys that all shapes in a solid share, as solids do: what is of no material of its own is of that around it.
+// The keys that all shapes in a solid share, as solids do: what is of no material of its own is of that
+// around it.
 std::span<const Key> part_keys();
 // The table in a solid's of what is taken away.
 inline constexpr std::string_view minus_key = "minus";

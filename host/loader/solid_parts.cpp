@@ -35,7 +35,8 @@ std::string why_no_part(const Section& section) {
 
 Blame why_not_closed(const ShapeType& type) {
   if (std::ranges::find(type.keys, "open", &Key::name) != type.keys.end())
-    return {"open", fmt::format("a solid is made of closed shapes: a {} that is open encloses nothing", type.name)};
+    return {"open",
+            fmt::format("a solid is made of closed shapes: a {} that is open encloses nothing", type.name)};
   return {"material", fmt::format("a solid is made of closed shapes: a {} encloses nothing", type.name)};
 }
 
@@ -46,8 +47,9 @@ std::string why_two_media(const Shape& solid, const std::vector<std::unique_ptr<
     if (size_t(index) >= materials.size()) return false;  // after an error
     if (!materials[size_t(index)]->medium() || index == first) return true;
     if (first >= 0)
-      why = fmt::format("a solid is filled with one medium, and light passes through its surfaces of \"{}\" and of \"{}\"",
-                        materials[size_t(first)]->name, materials[size_t(index)]->name);
+      why = fmt::format(
+          "a solid is filled with one medium, and light passes through its surfaces of \"{}\" and of \"{}\"",
+          materials[size_t(first)]->name, materials[size_t(index)]->name);
     first = index;
     return why.empty();
   });

@@ -86,8 +86,8 @@ bool few_looks(const PackedScene& scene) {
 }
 
 bool few_primitives(const PackedScene& scene) {
-  return !scene.has_tree && scene.instances.empty() && scene.leaf_uses.empty() && scene.primitives.size() <= most_records &&
-         scene.vertices.size() <= most_vertices;
+  return !scene.has_tree && scene.instances.empty() && scene.leaf_uses.empty() &&
+         scene.primitives.size() <= most_records && scene.vertices.size() <= most_vertices;
 }
 
 // Everything but geometry and texels as constants, and the list of materials that material.glsl unrolls. Not

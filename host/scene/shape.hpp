@@ -99,7 +99,8 @@ class Shape {
   virtual const Shape& part(const Intersection&) const { return *this; }
   // Whether it encloses a volume, so that solids can be made of it.
   virtual bool is_closed() const { return false; }
-  // Of a closed shape, where the ray's whole line is within it, t < 0 included: in order, none touches another.
+  // Of a closed shape, where the ray's whole line is within it, t < 0 included: in order, none touches
+  // another.
   virtual std::vector<Span> spans(const Ray&) const { return {}; }
   // For exporters and for comparing with other renderers; monostate for what they do not have.
   virtual ShapeForm form() const { return {}; }

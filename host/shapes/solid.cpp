@@ -22,6 +22,11 @@ uint32_t kind_of(const Shape& shape) {
   return eyeray::kind_of(packer.scene.primitives[0]);
 }
 
+std::pair<Vec3, Vec3> center_and_half(const Bounds& bounds) {
+  const Vec3 half = (bounds.max - bounds.min) * 0.5;
+  return {bounds.min + half, half};
+}
+
 bool is_empty(const Bounds& bounds) {
   return !(bounds.min.x < bounds.max.x && bounds.min.y < bounds.max.y && bounds.min.z < bounds.max.z);
 }
@@ -44,6 +49,8 @@ Solid::Solid(bool all, Shapes operands, Shapes removed)
     }
     for (uint32_t number = 0; number < own.size(); ++number) origins.emplace_back(i, number);
     parts_.emplace_back(own.size());
+    const auto [center, half] = center_and_half(operand(i).bounds());
+    balls_.push_back({center, 1.0001 * glm::length(half)});
   }
   CHECK_LE(leaves.size(), most_solid_leaves);
 
@@ -58,6 +65,8 @@ Solid::Solid(bool all, Shapes operands, Shapes removed)
 }
 
 std::vector<Span> Solid::spans_of(size_t operand_index, const Ray& ray) const {
+  const auto& [center, radius] = balls_[operand_index];
+  if (glm::length(glm::cross(center - ray.o, ray.d)) > radius * glm::length(ray.d)) return {};
   std::vector<Span> spans = operand(operand_index).spans(ray);
   for (Span& span : spans) {
     span.in.part = parts_[operand_index][span.in.part];
@@ -174,20 +183,22 @@ void Solid::pack(Packer& packer) const {
     const shader::Primitive leaf = packer.scene.primitives.back();
     packer.scene.primitives.pop_back();
     CHECK_EQ(eyeray::kind_of(leaf), leaves_[i].kind);
-    leaves.insert(leaves.end(), {leaf.head, to_bits(leaf.a), to_bits(leaf.b), to_bits(leaf.c)});
+    const auto [center, half] = center_and_half(leaves_[i].shape->bounds());
+    leaves.insert(leaves.end(), {leaf.head, to_bits(leaf.a), to_bits(leaf.b), to_bits(leaf.c),
+                                 to_bits(to_vec4(packer.relative(center))), to_bits(to_vec4(half))});
     removed |= leaves_[i].removed ? 1u << i : 0;
   }
   leaves.push_back({0u, ~0u, 0u, 0u});
-  const uint32_t extra = packer.add_vertices({{uint32_t(nodes.size()), removed, uint32_t(leaves_.size()), 0u}});
+  const uint32_t extra =
+      packer.add_vertices({{uint32_t(nodes.size()), removed, uint32_t(leaves_.size()), 0u}});
   packer.add_vertices(nodes);
   packer.add_vertices(leaves);
 
   // Once round all leaves a crossing; most are crossed twice.
   packer.add_iterations((2 * leaves_.size() + 1) * (leaves_.size() + nodes.size()));
-  const Bounds box = bounds();
-  const Vec3 half = (box.max - box.min) * 0.5;
+  const auto [center, half] = center_and_half(bounds());
   packer.add({.head = Packer::head(shader::KIND_solid, material, extra),
-              .a = to_vec4(packer.relative(box.min + half)),
+              .a = to_vec4(packer.relative(center)),
               .b = to_vec4(half),
               .c = {}});
 }
@@ -270,14 +281,15 @@ std::unique_ptr<Shape> combine(TableReader& table, ShapeType::Shapes operands, S
   if (operands.empty()) {
     table.error("operation", "an empty solid: no shape stands in it, such as [[solid.sphere]]");
   } else if (leaves > most_solid_leaves) {
-    table.error("operation",
-                fmt::format("the solid is made of {} shapes; at most {} are possible", leaves, most_solid_leaves));
+    table.error("operation", fmt::format("the solid is made of {} shapes; at most {} are possible", leaves,
+                                         most_solid_leaves));
   }
   if (table.failed()) return nullptr;
   const bool all = operations[size_t(table.choice("operation"))] == "intersection";
   auto solid = make_solid(all, std::move(operands), std::move(removed));
   if (is_empty(solid->bounds())) {
-    table.error("operation", "an empty solid: its parts lie beside each other, so none is within all of them");
+    table.error("operation",
+                "an empty solid: its parts lie beside each other, so none is within all of them");
     return nullptr;
   }
   return solid;

@@ -56,6 +56,11 @@ class Solid final : public Shape {
   bool all_;
   Shapes operands_, removed_;
   std::vector<Leaf> leaves_;
+  struct Ball {
+    Vec3 center;
+    double radius;
+  };
+  std::vector<Ball> balls_;                   // around the operands, removed ones last
   std::vector<std::vector<uint32_t>> parts_;  // by operand, removed ones last: what their parts are here
 };
 

@@ -1,6 +1,6 @@
 // Union, intersection and difference of closed shapes, its leaves.   a = centre of its bounds    b = half of their size
-// extra: how many nodes, and as bits the leaves that are taken away; the nodes; the leaves, each a Primitive, by kind in registry order;
-// then a word of no kind.
+// extra: how many nodes, as bits the leaves that are taken away, how many leaves; the nodes; the leaves by kind in registry order, each a Primitive,
+// the centre of its bounds and half of their size; then a word of no kind.
 // A node: its operands as bits, leaves and nodes before it, and whether it is within all of them or within any. Within what is taken away is
 // without. The last node is the solid.
 #ifndef SOLID_GLSL
@@ -11,6 +11,8 @@
 SHADER_BEGIN
 
 #if HAS_SOLIDS
+#define LEAF_WORDS 6u
+
 struct SolidHit {
   float t;       // T_NONE where there is none
   uint leaf;     // whose surface it is
@@ -19,7 +21,7 @@ struct SolidHit {
   uint density;  // of all surfaces on the way, the greatest
 };
 
-uint solid_leaf_at(Primitive s, uint leaf) { return s.head.w + 1u + load_outline(s.head.w).x + 4u * leaf; }
+uint solid_leaf_at(Primitive s, uint leaf) { return s.head.w + 1u + load_outline(s.head.w).x + LEAF_WORDS * leaf; }
 
 Primitive load_leaf(uint at) {
   Primitive leaf;
@@ -30,12 +32,12 @@ Primitive load_leaf(uint at) {
   return leaf;
 }
 
-// Whether the ray's line passes the bounds, at any t > 0.
-bool solid_in_reach(Primitive s, Ray ray) {
-  vec3 centre = vec3(s.a) - ray.o;
-  float room = 16.0f * EPSILON * max_component(abs3(centre) + vec3(s.b));
+// Whether the ray passes a box at t > 0. The room is as in outline.glsl.
+bool passes_box(Ray ray, vec3 box_centre, vec3 half_size) {
+  vec3 centre = box_centre - ray.o;
+  float room = 16.0f * EPSILON * max_component(abs3(centre) + half_size);
   vec3 middle = centre * ray.inverse;
-  vec3 reach = abs3(ray.inverse) * (vec3(s.b) + vec3(room, room, room));
+  vec3 reach = abs3(ray.inverse) * (half_size + vec3(room, room, room));
   float exit = -max_component(-middle - reach);
   return exit > 0.0f && max_component(middle - reach) <= exit;
 }
@@ -63,35 +65,52 @@ float leaf_crossing(float t, Ray ray) {
   return t > ray.after ? t : otherwise;
 }
 
-// Follows the ray's line from t = −∞, where it is outside of all that is closed, from crossing to crossing of the leaves to the first at which it
-// enters or leaves the solid with t > 0, and on to one that weakens a shadow ray by `enough`. So nothing is ever asked where a ray starts. All
-// leaves that are crossed at the same t are crossed at once.
+// Follows the ray from t = −∞, where it is outside of all that is closed: past what each leaf crosses up to t = 0, then from crossing to crossing
+// of all leaves to the first at which it enters or leaves the solid, and on to one that weakens a shadow ray by `enough`. So nothing is ever asked
+// where a ray starts. All leaves that are crossed at the same t are crossed at once.
 SolidHit solid_walk(Primitive s, Ray ray, float t_max, uint enough) {
   uvec4 head = load_outline(s.head.w);
   uint nodes = s.head.w + 1u;
   uint leaves = nodes + head.x;
   SolidHit hit;
-  hit.t = T_NONE;
+  hit.t = 0.0f;
   hit.leaf = 0u;
-  hit.after = T_NONE;
+  hit.after = 0.0f;
   hit.side = SIDE_OUTSIDE;
   hit.density = 0u;
-  uint inside = 0u;  // of which leaves, as bits
-  bool within = false;
+
+  // As bits, the leaves that the ray comes near to, and those that it is inside of.
+  uint near = 0u;
+  uint inside = 0u;
+  uint bit = 1u;
+  uint end = passes_box(ray, vec3(s.a), vec3(s.b)) ? leaves + LEAF_WORDS * head.z : leaves;
+  for (uint at = leaves; at < end; at += LEAF_WORDS) {
+    near = passes_box(ray, vec3(bits_to_floats(load_outline(at + 4u))), vec3(bits_to_floats(load_outline(at + 5u)))) ? near | bit : near;
+    bit = bit << 1u;
+  }
+
+  // Each round ends farther along, or leaves at the same t what was entered there.
   Ray r = ray;
-  bool going = solid_in_reach(s, ray);
-  // It ends: t grows, or what was entered at t is left there.
+  float from = T_NONE;
+  bool going = near != 0u;
   for (; going;) {
-    r.after = hit.t;
     float next = T_MISS;
     uint crossed = 0u;
-    uint bit = 1u;
     uint at = leaves;
+    bit = 1u;
     vec2 uv = vec2(0.0f, 0.0f);
+    // Only a loop keeps a driver that runs both sides of every branch from what is not near.
 #define CROSS_KIND(name, number)                                                       \
-    for (; (load_outline(at).y >> 24u) == number; at += 4u) {                          \
-      r.side = (inside & bit) != 0u ? SIDE_INSIDE : SIDE_OUTSIDE;                      \
-      float t = leaf_crossing(name##_intersect(load_leaf(at), r, uv), r);              \
+    for (; (load_outline(at).y >> 24u) == number; at += LEAF_WORDS) {                  \
+      float t = T_MISS;                                                                \
+      r.after = from;                                                                  \
+      for (bool behind = (near & bit) != 0u; behind;) {                                \
+        r.side = (inside & bit) != 0u ? SIDE_INSIDE : SIDE_OUTSIDE;                    \
+        t = leaf_crossing(name##_intersect(load_leaf(at), r, uv), r);                  \
+        behind = t <= 0.0f;                                                            \
+        inside = behind ? inside ^ bit : inside;                                       \
+        r.after = t;                                                                   \
+      }                                                                                \
       crossed = t < next ? bit : t == next ? crossed | bit : crossed;                  \
       next = minimum(t, next);                                                         \
       bit = bit << 1u;                                                                 \
@@ -101,21 +120,20 @@ SolidHit solid_walk(Primitive s, Ray ray, float t_max, uint enough) {
     // The surface is that of the first leaf whose crossing brings the ray to where it is then.
     uint literals = (inside ^ crossed) ^ head.y;
     bool now = solid_holds(nodes, head.x, literals);
+    bool boundary = now != solid_holds(nodes, head.x, inside ^ head.y) && next < t_max;
     uint changed = crossed & (now ? literals : ~literals);
-    uint first = changed & (~changed + 1u);
-    uint leaf = first > 0u ? (floatBitsToUint(float(first)) >> 23u) - 127u : 0u;
-    bool meets = now != within && next > 0.0f && next < t_max;
-    uint density = meets ? load_outline(leaves + 4u * leaf).z : 0u;
+    uint first = boundary ? changed & (~changed + 1u) : 1u;
+    hit.leaf = (floatBitsToUint(float(first)) >> 23u) - 127u;
+    uint density = boundary ? load_outline(leaves + LEAF_WORDS * hit.leaf).z : 0u;
     hit.density = density > hit.density ? density : hit.density;
-    hit.leaf = leaf;
     hit.side = (inside & first) != 0u ? SIDE_INSIDE : SIDE_OUTSIDE;
     hit.after = hit.t;
     hit.t = next;
+    from = next;
     inside = inside ^ crossed;
-    within = now;
-    going = next < t_max && !(meets && hit.density >= enough);
+    going = next < t_max && !(boundary && hit.density >= enough);
   }
-  hit.t = hit.t < T_MISS ? hit.t : T_NONE;
+  hit.t = hit.t > 0.0f && hit.t < T_MISS ? hit.t : T_NONE;
   return hit;
 }
 
@@ -129,7 +147,7 @@ float solid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
 // What a shadow ray loses before t_max: as much as the densest surface on its way takes.
 uint solid_density(Primitive s, Ray ray, float t_max) { return solid_walk(s, ray, t_max, s.head.z).density; }
 
-bool solid_may_hit(Primitive s, Ray ray) { return solid_in_reach(s, ray); }
+bool solid_may_hit(Primitive s, Ray ray) { return passes_box(ray, vec3(s.a), vec3(s.b)); }
 
 void solid_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   lower = vec3(s.a) - vec3(s.b);
@@ -147,10 +165,10 @@ Surface solid_surface(Primitive s, Ray ray, Hit hit) {
   r.side = leaf & 3u;
   Hit own = hit;
   Surface surface = no_surface();
-#define LEAF_SURFACE(name, number)                   \
-  if (kind_of(primitive) == number) {                \
-    name##_intersect(primitive, r, own.uv);          \
-    surface = name##_surface(primitive, ray, own);   \
+#define LEAF_SURFACE(name, number)                                           \
+  for (bool is = kind_of(primitive) == number; is; is = false) {             \
+    name##_intersect(primitive, r, own.uv);                                  \
+    surface = name##_surface(primitive, ray, own);                           \
   }
   CLOSED_SHAPES(LEAF_SURFACE)
 

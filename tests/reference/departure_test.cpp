@@ -139,10 +139,11 @@ TEST_CASE("crossings end, whatever a body says") {
   };
   const auto count = [](double step) {
     int crossings = 0;
-    reference::for_each_crossing(Body{step}, {{1, 0, 0}, {1, 0, 0}}, [&](double, const auto&, const SurfacePoint&) {
-      ++crossings;
-      return true;
-    });
+    reference::for_each_crossing(Body{step}, {{1, 0, 0}, {1, 0, 0}},
+                                 [&](double, const auto&, const SurfacePoint&) {
+                                   ++crossings;
+                                   return true;
+                                 });
     return crossings;
   };
   CHECK(count(0.5) == reference::most_crossings);
