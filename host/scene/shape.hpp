@@ -27,6 +27,7 @@ struct Intersection {
   double u = 0;
   double v = 0;
   uint32_t part = 0;  // of a solid, whose surface it is
+  bool ran_out = false;  // it meets nothing up to t; beyond, the steps allowed did not suffice to tell
 };
 
 // A stretch of a ray's line, from where it enters a closed shape to where it leaves it.
@@ -91,7 +92,7 @@ class Shape {
  public:
   virtual ~Shape() = default;
 
-  // The nearest intersection with t > 0, if there is one.
+  // The nearest intersection with t > 0, if there is one; with `ran_out` there need be none.
   virtual std::optional<Intersection> intersect(const Ray& ray) const = 0;
   virtual SurfacePoint surface(const Ray& ray, const Intersection& hit) const = 0;
   virtual Bounds bounds() const = 0;

@@ -19,6 +19,7 @@ struct SolidHit {
   float after;   // where the crossing before was, of any leaf
   uint side;     // on which the ray was of the leaf
   uint density;  // of all surfaces on the way, the greatest
+  bool ran_out;  // a leaf did not find its next crossing: beyond `after` nothing is sure
 };
 
 uint solid_leaf_at(Primitive s, uint leaf) { return s.head.w + 1u + load_outline(s.head.w).x + LEAF_WORDS * leaf; }
@@ -78,6 +79,7 @@ SolidHit solid_walk(Primitive s, Ray ray, float t_max, uint enough) {
   hit.after = 0.0f;
   hit.side = SIDE_OUTSIDE;
   hit.density = 0u;
+  hit.ran_out = false;
 
   // As bits, the leaves that the ray comes near to, and those that it is inside of.
   uint near = 0u;
@@ -106,7 +108,9 @@ SolidHit solid_walk(Primitive s, Ray ray, float t_max, uint enough) {
       r.after = from;                                                                  \
       for (bool behind = (near & bit) != 0u; behind;) {                                \
         r.side = (inside & bit) != 0u ? SIDE_INSIDE : SIDE_OUTSIDE;                    \
-        t = leaf_crossing(name##_intersect(load_leaf(at), r, uv), r);                  \
+        t = name##_intersect(load_leaf(at), r, uv);                                    \
+        hit.ran_out = hit.ran_out || t == T_RAN_OUT;                                   \
+        t = leaf_crossing(t, r);                                                       \
         behind = t <= 0.0f;                                                            \
         inside = behind ? inside ^ bit : inside;                                       \
         r.after = t;                                                                   \
@@ -131,7 +135,7 @@ SolidHit solid_walk(Primitive s, Ray ray, float t_max, uint enough) {
     hit.t = next;
     from = next;
     inside = inside ^ crossed;
-    going = next < t_max && !(boundary && hit.density >= enough);
+    going = next < t_max && !hit.ran_out && !(boundary && hit.density >= enough);
   }
   hit.t = hit.t > 0.0f && hit.t < T_MISS ? hit.t : T_NONE;
   return hit;
@@ -140,8 +144,8 @@ SolidHit solid_walk(Primitive s, Ray ray, float t_max, uint enough) {
 // uv: the leaf and on which side of it the ray was, and `after`, by which the leaf will tell its own.
 float solid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   SolidHit hit = solid_walk(s, ray, T_MISS, 0u);
-  uv = vec2(float(4u * hit.leaf + hit.side), hit.after);
-  return hit.t;
+  uv = hit.ran_out ? vec2(hit.after, 0.0f) : vec2(float(4u * hit.leaf + hit.side), hit.after);
+  return hit.ran_out ? T_RAN_OUT : hit.t;
 }
 
 // What a shadow ray loses before t_max: as much as the densest surface on its way takes.
