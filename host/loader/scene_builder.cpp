@@ -290,7 +290,7 @@ std::unique_ptr<Shape> Builder::read_solid(const Section& section, const toml::t
       }
       ok = read_parts(*held, to_world, material, removed) && ok;
     } else {
-      reader.error("operation", "`minus` must be a table, written [[solid.minus.sphere]]");
+      log_.error(position_of(minus->source()), "`minus` must be a table, written [[solid.minus.sphere]]");
       ok = false;
     }
   }
