@@ -147,6 +147,17 @@ vec3 vertex_color(Primitive s, Hit hit) {
   vec3 c = vec3(bits_to_floats(load_vertex(corners.z + 1u)));
   return (a * ((1.0f - hit.uv.x) - hit.uv.y) + b * hit.uv.x) + c * hit.uv.y;
 }
+
+// Their alpha, likewise. Where all three are equal, that very value.
+float vertex_alpha(Primitive s, vec2 uv) {
+  if (kind_of(s) != KIND_triangle || s.head.w == NONE) return 1.0f;
+  uvec4 corners = load_vertex(s.head.w);
+  if ((corners.w & CORNERS_COLORS) == 0u) return 1.0f;
+  float a = bits_to_floats(load_vertex(corners.x + 1u)).w;
+  float b = bits_to_floats(load_vertex(corners.y + 1u)).w;
+  float c = bits_to_floats(load_vertex(corners.z + 1u)).w;
+  return (a + (b - a) * uv.x) + (c - a) * uv.y;
+}
 #endif
 
 SHADER_END
