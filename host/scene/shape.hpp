@@ -25,6 +25,7 @@ struct Intersection {
   double t = 0;
   double u = 0;
   double v = 0;
+  bool ran_out = false;  // it meets nothing up to t; beyond, the steps allowed did not suffice to tell
 };
 
 // The surface at an intersection, world space.
@@ -77,7 +78,7 @@ class Shape {
  public:
   virtual ~Shape() = default;
 
-  // The nearest intersection with t > 0, if there is one.
+  // The nearest intersection with t > 0, if there is one; with `ran_out` there need be none.
   virtual std::optional<Intersection> intersect(const Ray& ray) const = 0;
   virtual SurfacePoint surface(const Ray& ray, const Intersection& hit) const = 0;
   virtual Bounds bounds() const = 0;
