@@ -149,6 +149,13 @@ void Builder::add_material(const Section& section, const toml::table& table) {
     reader.error("type",
                  fmt::format("a scene can have at most {} materials that light passes through", most_media));
   }
+  if (reader.has("alpha")) {
+    if (material->medium())
+      reader.error("alpha", "what light passes through fills its shape, which can have no holes");
+    material->mask = AlphaMask{reader.texture("alpha"), reader.number("alpha_cutoff")};
+  } else if (reader.has("alpha_cutoff")) {
+    reader.error("alpha_cutoff", "without `alpha` there is nothing to cut off");
+  }
   material->name = name;
   entry->second.index = static_cast<int>(scene_.materials.size());
   scene_.materials.push_back(std::move(material));
@@ -246,6 +253,13 @@ void Builder::add_shape(const Section& section, TableReader& reader, const Mat4&
   const int material = find_material(reader);
   std::unique_ptr<Shape> shape = section.shape->parse(reader, to_world);
   if (!shape) return;
+  if (!section.shape->flat && !scene_.materials.empty() && scene_.materials[size_t(material)]->mask)
+    reader.error(
+        "material",
+        fmt::format(
+            "a material with `alpha` has holes, and a ray may meet a {} again behind one; only planes, "
+            "triangles, polygons, parallelograms, disks and meshes can be of it",
+            section.shape->name));
   shape->material = material;
   shape->position = reader.position();
   scene_.shapes.push_back(std::move(shape));

@@ -25,6 +25,20 @@ std::span<const Key> material_keys() {
        .type = KeyType::string,
        .doc = "The name by which shapes refer to it, unique in the scene."},
       {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = material_names()},
+      {.name = "alpha",
+       .type = KeyType::texture,
+       .doc = "Where it is below `alpha_cutoff`, there is no surface. Of a color the first component counts, "
+              "of an "
+              "image its alpha. Only on shapes that a ray meets once.",
+       .max = 1,
+       .optional = true},
+      {.name = "alpha_cutoff",
+       .type = KeyType::number,
+       .doc = "The least `alpha` that is not a hole.",
+       .fallback = "0.5",
+       .min = 0,
+       .max = 1,
+       .above_min = true},
   };
   return keys;
 }

@@ -20,8 +20,9 @@ struct Mesh {
   std::vector<Vec3> positions;
   std::vector<std::array<uint32_t, 3>> triangles;  // corners as indices of vertices
   std::vector<Vec3> normals;                       // unit shading normals, one a vertex; empty: flat
-  std::vector<Vec2> uv;           // one a vertex; empty: the weights of the second and third corner
-  std::vector<Vec3> colors = {};  // linear RGB from 0 to 1, one a vertex; empty: white
+  std::vector<Vec2> uv;             // one a vertex; empty: the weights of the second and third corner
+  std::vector<Vec3> colors = {};    // linear RGB from 0 to 1, one a vertex; empty: white
+  std::vector<double> alphas = {};  // from 0 to 1, one a vertex, only beside colours; empty: 1
 };
 
 // A mesh in the world. Under a transform that mirrors, the outside stays outside.

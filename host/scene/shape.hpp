@@ -98,6 +98,8 @@ struct ShapeType {
   std::span<const Key> keys;  // beside `material` and `transform`, which every shape has
   // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
   std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform);
+  // Whether a ray meets it once at most, so that it may be of a material with holes.
+  bool flat = false;
 };
 
 // Every kind of shape, in registry order: the order of Scene::shapes, hence of primitive indices.
