@@ -67,6 +67,7 @@ class Binding {
 #define INSTANCE_COUNT uint(bound_scene->instances.size())
 #define STORED_HITS 0
 #define HAS_SECONDARY 1
+#define RAY_KINDS 1
 #define SHIFT_STACK 0
 #define STACK_SIZE 128
 #define TRACE_ITERATIONS 0u
