@@ -66,7 +66,8 @@ void PictureRequest::add_to(CLI::App& command) {
       .add_option_function<std::string>(
           "--aov", parse,
           "Also write depth, position, normal, uv, primitive, material, hits, or all of them: each as data "
-          "(FILE.NAME.pfm) and in false colour (FILE.NAME.png).")
+          "(FILE.NAME.pfm) and in false colour (FILE.NAME.png), ids with what they stand for "
+          "(FILE.NAME.json).")
       ->option_text("LIST");
   add_crop_option(command, crop);
   add_backend_option(command, backend);
@@ -121,7 +122,7 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
   StageTimes encoding;
   const RenderTotals totals = render_rows(scene, *executor, options, [&](const FinishedRows& rows) {
     encoding.measure("encode", [&] {
-      if (!files) files.emplace(request.outputs, request.aovs, crop.width, crop.height);
+      if (!files) files.emplace(request.outputs, request.aovs, crop.width, crop.height, scene);
       files->write(request.classic ? corners.add(rows) : rows);
     });
   });

@@ -13,11 +13,13 @@
 #include "core/diagnostic.hpp"
 #include "core/vec.hpp"
 #include "scene/bounds.hpp"
+#include "scene/names.hpp"
 #include "scene/table_reader.hpp"
 
 namespace eyeray {
 
 class Packer;  // records/packer.hpp
+struct ShapeType;
 
 // Where a ray meets a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
 // …).
@@ -86,8 +88,10 @@ class Shape {
   // Appends the shape's one Primitive (and what it refers to).
   virtual void pack(Packer& packer) const = 0;
 
-  int material = 0;         // index in Scene::materials
-  SourcePosition position;  // of its table in the scene file
+  int material = 0;                 // index in Scene::materials
+  const ShapeType* type = nullptr;  // its kind; null where no file made it
+  NameRef name;                     // in Scene::names
+  SourcePosition position;          // of its table in the scene file
 };
 
 // A row of the registry: what the loader and the manual know of a kind of shape.
