@@ -47,7 +47,7 @@ class PictureFiles {
   PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width, int height,
                const Scene& scene);
 
-  // The next rows, from the top down, of the picture and of the AOV `hits`.
+  // The next rows, from the top down, of the picture and of the AOVs `hits` and `flags`.
   void write(const FinishedRows& rows);
   // The same of the other AOVs.
   void write(std::span<const FirstHit> hits);

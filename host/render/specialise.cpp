@@ -195,6 +195,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("SUBGROUP_SIZE", options.subgroup_size);
   define("PACKET_ROOT", fmt::format("{}u", options.packet_tree.first_node));
   define("PACKET_STACK", options.packet_tree.stack_size);
+  define("STEPS_MAY_RUN_OUT", int(scene.steps_may_run_out));
   define("SHIFT_STACK", int(options.profile.shift_stack));
   define("STACK_SIZE", scene.stack_size);
   define("HAS_INSTANCES", int(!scene.instances.empty()));

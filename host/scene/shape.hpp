@@ -27,6 +27,7 @@ struct Intersection {
   double t = 0;
   double u = 0;
   double v = 0;
+  bool ran_out = false;  // it meets nothing up to t; beyond, the steps allowed did not suffice to tell
 };
 
 // The surface at an intersection, world space.
@@ -79,7 +80,7 @@ class Shape {
  public:
   virtual ~Shape() = default;
 
-  // The nearest intersection with t > 0, if there is one.
+  // The nearest intersection with t > 0, if there is one; with `ran_out` there need be none.
   virtual std::optional<Intersection> intersect(const Ray& ray) const = 0;
   virtual SurfacePoint surface(const Ray& ray, const Intersection& hit) const = 0;
   virtual Bounds bounds() const = 0;
@@ -98,7 +99,7 @@ class Shape {
 struct ShapeType {
   std::string_view name;      // its table in a scene, its .glsl, its scene file
   std::string_view manual;    // equation, parameters' meaning, the numeric trap, the source; Markdown
-  std::span<const Key> keys;  // beside `material` and `transform`, which every shape has
+  std::span<const Key> keys;  // beside `name`, `material` and `transform`, which every shape has
   // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
   std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform);
 };

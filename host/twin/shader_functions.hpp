@@ -66,6 +66,7 @@ class Binding {
 #define HAS_INSTANCES 1
 #define INSTANCE_COUNT uint(bound_scene->instances.size())
 #define STORED_HITS 0
+#define STEPS_MAY_RUN_OUT 1
 #define HAS_SECONDARY 1
 #define RAY_KINDS 1
 #define SHIFT_STACK 0

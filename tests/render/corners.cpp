@@ -45,7 +45,12 @@ TEST_CASE("the pixels' centres are where the corners were, by every camera") {
 
 TEST_CASE("a pixel is the mean of its corners, however the rows come") {
   const int width = 4, height = 6;
-  FinishedRows all{.first = 0, .color = Image(width, height, 3), .hits = Image(width, height, 1)};
+  FinishedRows all{.first = 0,
+                   .color = Image(width, height, 3),
+                   .hits = Image(width, height, 1),
+                   .flagged = Image(width, height, 1)};
+  *all.flagged.pixel(2, 3) = float(stack_overflow);
+  *all.flagged.pixel(3, 3) = float(media_overflow);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       for (int c = 0; c < 3; ++c) all.color.pixel(x, y)[c] = float(x * x + 10 * y * y + 100 * c);
@@ -58,7 +63,11 @@ TEST_CASE("a pixel is the mean of its corners, however the rows come") {
     int next = 0;
     for (int first = 0; first < height; first += rows) {
       const int count = std::min(rows, height - first);
-      FinishedRows some{.first = first, .color = Image(width, count, 3), .hits = Image(width, count, 1)};
+      FinishedRows some{.first = first,
+                        .color = Image(width, count, 3),
+                        .hits = Image(width, count, 1),
+                        .flagged = Image(width, count, 1)};
+      std::copy_n(all.flagged.pixel(0, first), some.flagged.sample_count(), some.flagged.pixel(0, 0));
       std::copy_n(all.color.pixel(0, first), some.color.sample_count(), some.color.pixel(0, 0));
       std::copy_n(all.hits.pixel(0, first), some.hits.sample_count(), some.hits.pixel(0, 0));
       some.flags = first == 0 ? uint32_t(stack_overflow) : 0u;
@@ -73,6 +82,8 @@ TEST_CASE("a pixel is the mean of its corners, however the rows come") {
           const float squares =
               float(x * x + (x + 1) * (x + 1)) / 2 + 10 * float(y * y + (y + 1) * (y + 1)) / 2;
           for (int c = 0; c < 3; ++c) CHECK(pixels.color.pixel(x, row)[c] == squares + float(100 * c));
+          const bool below = y == 2 || y == 3;
+          CHECK(*pixels.flagged.pixel(x, row) == (!below || x == 0 ? 0.0f : x == 1 ? 2.0f : 3.0f));
           CHECK(*pixels.hits.pixel(x, row) == float((2 * x + 1) * (2 * y + 1)) / 4);
         }
       }
