@@ -188,7 +188,8 @@ struct Dispatch {
 };
 
 // ---- Results --------------------------------------------------------------------------------------------------------
-// One sample of one pixel, 32 bytes: colour.rgb and a 1 that says "written"; rays, hits, flags, loop iterations.
+// One sample of one pixel, 32 bytes: colour.rgb and a 1 that says "written"; rays, hits, flags, loop iterations. With RAY_KINDS the
+// last two are flags | refracted rays << REFRACTED_SHIFT, and reflected rays | total reflections << TOTAL_SHIFT.
 struct SampleResult {
   vec4 color;
   uvec4 counts;
@@ -227,6 +228,9 @@ struct PathState {
   vec4 direction;
   vec4 weight;
 };
+
+#define REFRACTED_SHIFT 8u
+#define TOTAL_SHIFT 20u
 
 // Bits of SampleResult.counts.z; core/pixel.hpp names them for the host.
 #define FLAG_MEDIA_OVERFLOW 1u

@@ -194,6 +194,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_TREE", scene.has_tree ? "true" : "false");
   define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");
   define("HAS_SECONDARY", int(scene.frame.camera.w > 0 && any_reflects(scene)));
+  define("RAY_KINDS", int(options.ray_kinds));
   define("SUBGROUP_SIZE", options.subgroup_size);
   define("PACKET_ROOT", fmt::format("{}u", options.packet_tree.first_node));
   define("PACKET_STACK", options.packet_tree.stack_size);

@@ -9,6 +9,7 @@
 #include "core/diagnostic.hpp"
 #include "core/vec.hpp"
 #include "scene/bounds.hpp"
+#include "scene/names.hpp"
 
 namespace eyeray {
 
@@ -31,6 +32,7 @@ struct Instance {
   Mat4 transform{1.0};  // mesh to world: affine, and can be undone
   int material = 0;     // index in Scene::materials
   SourcePosition position;
+  NameRef name = {};  // in Scene::names
 };
 
 Bounds bounds(const Mesh& mesh);

@@ -68,6 +68,7 @@ class Binding {
 #define STORED_HITS 0
 #define STEPS_MAY_RUN_OUT 1
 #define HAS_SECONDARY 1
+#define RAY_KINDS 1
 #define SHIFT_STACK 0
 #define STACK_SIZE 128
 #define TRACE_ITERATIONS 0u
