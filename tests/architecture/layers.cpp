@@ -10,7 +10,7 @@ using namespace eyeray::test;
 namespace {
 
 const std::set<std::string> everything = {
-    "accel",  "bench",     "cli",     "compare",   "core",   "dev",    "generate", "gpu",    "importers",
+    "accel",  "bench",     "cli",     "compare",   "core",   "derive", "dev",    "generate", "gpu",    "importers",
     "loader", "materials", "records", "reference", "render", "rivals", "scene",    "shapes", "twin"};
 
 // What each layer sees beside itself. That the reference sees neither records nor shaders is the point of
@@ -26,6 +26,7 @@ const std::map<std::string, std::set<std::string>> visible = {
     {"reference", {"core", "scene"}},
     {"twin", {"core", "records"}},
     {"gpu", {"core"}},
+    {"derive", {"core", "gpu"}},
     {"accel", {"core"}},
     {"render", {"core", "scene", "records", "reference", "twin", "gpu", "accel"}},
     {"compare", {"core"}},
@@ -53,7 +54,7 @@ struct Library {
       public_in;  // of them, those whose headers may include it: what sees these sees it too
 };
 const Library libraries[] = {
-    {std::regex(R"((volk|vulkan|glslang|spirv-tools|spirv)([/.].*))"), {"gpu"}, {"gpu"}},
+    {std::regex(R"((volk|vulkan|glslang|spirv-tools|spirv)([/.].*))"), {"gpu", "derive"}, {"gpu", "derive"}},
     {std::regex(R"(toml\+\+/.*)"), {"scene", "loader"}, {"scene", "loader"}},
     {std::regex(R"(nlohmann/json\.hpp)"), {"bench", "cli", "compare", "importers", "loader"}, {"importers"}},
     {std::regex(R"(tiny_.*)"), {"importers"}, {}},
