@@ -1,18 +1,28 @@
 // The first root along a ray, from enclosures of the function (enclosure.glsl): piece after piece, each as long as its enclosure can do
 // with. Whoever marches asks for the function's enclosure on march_middle(march) ± march_half(march) until march.over.
+// A root is where the sign changes. No change is overlooked but within a piece that is passed over, because it is as short as can be or its
+// enclosure no sharper than twice that of a point in it: there the function is zero up to what float32 rounds. If the sign is
+// another after that, the root is taken to be in the middle.
 #ifndef ENCLOSURE_MARCH_GLSL
 #define ENCLOSURE_MARCH_GLSL
 #include "enclosure.glsl"
 
 SHADER_BEGIN
 
+#define MARCH_LONGEST_PASS 16384.0f  // of the finest pieces
+
 struct March {
-  float t;        // no root lies before it
+  float t;        // up to here the sign is known, but for what was passed over
   float h;        // half the length of the piece that is next
   float end;      // of the ray
   float finest;   // a piece with a smaller h is not told from a point
-  float certain;  // a root lies before it, for certain; beyond `end` where none is known
-  float root;     // -1 where there is none
+  float sign;     // the last that was known; 0 where none was
+  float unknown;  // from here to t pieces were passed over
+  float coarse;   // e of the piece before, where that was undecided; beyond all else
+  float noise;    // e of a point nearby; 0 where it is not known
+  float waiting;  // while a point is asked for its e: h of the piece after that; else 0
+  float root;
+  bool found;
   bool over;
 };
 
@@ -22,8 +32,13 @@ March march_begin(float start, float end, float finest) {
   march.h = 0.125f * (end - start);
   march.end = end;
   march.finest = finest;
-  march.certain = 2.0f * abs(end) + 1.0f;
-  march.root = -1.0f;
+  march.sign = 0.0f;
+  march.unknown = start;
+  march.coarse = 3.0e38f;
+  march.noise = 0.0f;
+  march.waiting = 0.0f;
+  march.root = end;
+  march.found = false;
   march.over = !(start < end);
   return march;
 }
@@ -34,30 +49,53 @@ float march_half(March march) { return march.h + 4.0f * EPSILON * (abs(march.t) 
 
 // The march after the piece on which the function is a + b·s ± e.
 March march_on(March march, vec3 f) {
+  March next = march;
+  if (march.waiting > 0.0f) {
+    next.noise = maximum(f.z, 1.0e-30f);
+    next.h = march.waiting;
+    next.waiting = 0.0f;
+    return next;
+  }
+
+  // Only where |a + b·s| ≤ e can a root be; and one is, by the signs at both ends, where the line leads from -e to e within the piece.
   float middle = march_middle(march);
   float h = march_half(march);
   bool none = abs(f.x) > abs(f.y) + f.z;
-  // Only where |a + b·s| ≤ e can a root be; one is, by the signs at both ends, where the line leads from -e to e within the piece.
+  bool crosses = abs(f.y) > abs(f.x) + f.z;
   float centre = -f.x / f.y;
   float width = f.z / abs(f.y) * ENCLOSURE_GROW + 8.0f * EPSILON * (1.0f + abs(centre));
   float left = middle + h * maximum(-1.0f, centre - width);
   float right = middle + h * minimum(1.0f, centre + width);
-  float length = right - left;
-  bool crosses = abs(f.y) > abs(f.x) + f.z;
 
-  March next = march;
-  next.t = none ? middle + march.h : maximum(march.t, left);
-  next.certain = crosses ? minimum(march.certain, right) : march.certain;
-  // As narrow as float32 tells: the root is where the line has it; or, where the sign says nothing, the function touches zero there.
-  bool narrow = crosses && length <= 16.0f * march.finest;
-  bool touches = !none && march.h <= march.finest;
-  float between = next.certain - next.t <= 128.0f * march.finest ? 0.5f * (next.t + next.certain) : middle;
-  next.root = narrow ? middle + h * minimum(1.0f, maximum(-1.0f, centre)) : touches ? between : -1.0f;
-  next.over = narrow || touches || next.t >= march.end;
+  // The sign where the piece begins: if it is another than before, the root is behind.
+  bool known = none || centre - width > -1.0f;
+  float sign = f.x < f.y ? -1.0f : 1.0f;
+  bool changed = known && march.sign != 0.0f && sign != march.sign;
+  // Shorter pieces tell no more. (A NaN is passed over too.)
+  bool blunt = march.h <= march.finest || (march.noise > 0.0f && !(f.z > 2.0f * march.noise));
+  bool narrow = crosses && (blunt || right - left <= 16.0f * march.finest);
+  bool passes = !none && !narrow && blunt;
 
-  float closer = maximum(0.625f * length, crosses ? 0.0f : 0.125f * march.h);
-  next.h = none ? 2.0f * march.h : minimum(closer, 0.5f * march.h);
+  next.sign = known ? sign : march.sign;
+  next.found = changed || narrow;
+  next.root = changed ? 0.5f * (march.unknown + march.t) : narrow ? middle + h * centre : march.root;
+  next.t = none || passes ? middle + march.h : maximum(march.t, left);
+  bool sure = march.unknown == march.t;
+  next.unknown = none ? next.t : known ? maximum(march.t, left) : sure && !passes ? next.t : march.unknown;
+  next.noise = none ? 0.0f : passes && march.noise == 0.0f ? maximum(f.z, 1.0e-30f) : march.noise;
+  next.coarse = none || passes ? 3.0e38f : f.z;
+
+  // Next, a piece around what is left, or a longer one. If e hardly shrinks with h, it may be rounding: ask a point.
+  float closer = minimum(maximum(0.625f * (right - left), crosses ? 0.0f : 0.125f * march.h), 0.5f * march.h);
+  bool doubt = !none && !blunt && march.noise == 0.0f && f.z > 0.7f * march.coarse;
+  next.h = none ? 2.0f * march.h
+           : passes ? minimum(2.0f * march.h, MARCH_LONGEST_PASS * march.finest)
+           : crosses && doubt ? march.h : closer;
   next.h = minimum(maximum(next.h, march.finest), maximum(0.5f * (march.end - next.t), march.finest));
+  next.waiting = doubt ? next.h : 0.0f;
+  next.h = doubt ? march.finest : next.h;
+  next.over = next.found || next.t >= march.end;
+  next.found = next.found && next.root < march.end;
   return next;
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr size_t most_instructions = 400'000;  // followed, those of loops each time
 constexpr size_t most_steps = 20'000;          // written down, dead ones too
-constexpr int most_turns = 4'096;              // of one loop
+constexpr int most_turns = 1'000;              // of one loop
 
 // A literal such as 0.25 is what was meant; 0.1 as float32 is half a unit in the last place off it at most.
 double literal_error(float x) {
@@ -101,7 +101,7 @@ void Execution::run_loop(Call& call, size_t header) {
   for (int turns = 0; call.ways.contains(block.label); ++turns) {
     if (turns == most_turns)
       refuse(block.instructions.back(),
-             fmt::format("this loop does not end within {} turns, whatever p is", most_turns));
+             fmt::format("this loop goes round more than {} times, or as often as p says", most_turns));
     run_block(call, block);
     run_blocks(call, header + 1, end);
   }
@@ -162,7 +162,7 @@ void Execution::run_instruction(Call& call, const Instruction& instruction) {
     std::vector<Value> from;
     for (size_t i = 2; i < instruction.words.size(); ++i) {
       if (call.pointers.contains(instruction.words[i]))
-        refuse(instruction, "functions such as modf are not known here");
+        refuse(instruction, "this function is not known here: modf and the like");
       from.push_back(value(call, instruction.words[i]));
     }
     result = glsl_function(tape_, instruction.words[1], from);

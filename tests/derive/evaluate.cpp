@@ -21,34 +21,85 @@ namespace {
 using derive::Op;
 
 // One step by the functions `prefix`_…; constants, inputs and truths are the caller's.
-#define EVALUATE(prefix, step, number, truth)                                             \
-  switch ((step).op) {                                                                    \
-    case Op::negate:      number = prefix##_negate(x); break;                             \
-    case Op::add:         number = prefix##_add(x, y); break;                             \
-    case Op::subtract:    number = prefix##_subtract(x, y); break;                        \
-    case Op::multiply:    number = prefix##_multiply(x, y); break;                        \
-    case Op::scale:       number = prefix##_scale(float(tape.value((step).from[0])), y); break; \
-    case Op::square:      number = prefix##_square(x); break;                             \
-    case Op::reciprocal:  number = prefix##_reciprocal(x); break;                         \
-    case Op::absolute:    number = prefix##_absolute(x); break;                           \
-    case Op::minimum:     number = prefix##_minimum(x, y); break;                         \
-    case Op::maximum:     number = prefix##_maximum(x, y); break;                         \
-    case Op::square_root: number = prefix##_square_root(x); break;                        \
-    case Op::power:       number = prefix##_power(x, float((step).value)); break;         \
-    case Op::sine:        number = prefix##_sine(x); break;                               \
-    case Op::cosine:      number = prefix##_cosine(x); break;                             \
-    case Op::exponential: number = prefix##_exponential(x); break;                        \
-    case Op::logarithm:   number = prefix##_logarithm(x); break;                          \
-    case Op::angle:       number = prefix##_angle(x, y); break;                           \
-    case Op::floor:       number = prefix##_floor(x); break;                              \
-    case Op::choose:      number = prefix##_choose(c, y, z); break;                       \
-    case Op::less:        truth = prefix##_less(x, y); break;                             \
-    case Op::less_equal:  truth = prefix##_less_equal(x, y); break;                       \
-    case Op::equal:       truth = prefix##_equal(x, y); break;                            \
-    case Op::both:        truth = prefix##_both(c, b); break;                             \
-    case Op::either:      truth = prefix##_either(c, b); break;                           \
-    case Op::opposite:    truth = prefix##_opposite(c); break;                            \
-    default: break;                                                                       \
+#define EVALUATE(prefix, step, number, truth)                        \
+  switch ((step).op) {                                               \
+    case Op::negate:                                                 \
+      number = prefix##_negate(x);                                   \
+      break;                                                         \
+    case Op::add:                                                    \
+      number = prefix##_add(x, y);                                   \
+      break;                                                         \
+    case Op::subtract:                                               \
+      number = prefix##_subtract(x, y);                              \
+      break;                                                         \
+    case Op::multiply:                                               \
+      number = prefix##_multiply(x, y);                              \
+      break;                                                         \
+    case Op::scale:                                                  \
+      number = prefix##_scale(float(tape.value((step).from[0])), y); \
+      break;                                                         \
+    case Op::square:                                                 \
+      number = prefix##_square(x);                                   \
+      break;                                                         \
+    case Op::reciprocal:                                             \
+      number = prefix##_reciprocal(x);                               \
+      break;                                                         \
+    case Op::absolute:                                               \
+      number = prefix##_absolute(x);                                 \
+      break;                                                         \
+    case Op::minimum:                                                \
+      number = prefix##_minimum(x, y);                               \
+      break;                                                         \
+    case Op::maximum:                                                \
+      number = prefix##_maximum(x, y);                               \
+      break;                                                         \
+    case Op::square_root:                                            \
+      number = prefix##_square_root(x);                              \
+      break;                                                         \
+    case Op::power:                                                  \
+      number = prefix##_power(x, float((step).value));               \
+      break;                                                         \
+    case Op::sine:                                                   \
+      number = prefix##_sine(x);                                     \
+      break;                                                         \
+    case Op::cosine:                                                 \
+      number = prefix##_cosine(x);                                   \
+      break;                                                         \
+    case Op::exponential:                                            \
+      number = prefix##_exponential(x);                              \
+      break;                                                         \
+    case Op::logarithm:                                              \
+      number = prefix##_logarithm(x);                                \
+      break;                                                         \
+    case Op::angle:                                                  \
+      number = prefix##_angle(x, y);                                 \
+      break;                                                         \
+    case Op::floor:                                                  \
+      number = prefix##_floor(x);                                    \
+      break;                                                         \
+    case Op::choose:                                                 \
+      number = prefix##_choose(c, y, z);                             \
+      break;                                                         \
+    case Op::less:                                                   \
+      truth = prefix##_less(x, y);                                   \
+      break;                                                         \
+    case Op::less_equal:                                             \
+      truth = prefix##_less_equal(x, y);                             \
+      break;                                                         \
+    case Op::equal:                                                  \
+      truth = prefix##_equal(x, y);                                  \
+      break;                                                         \
+    case Op::both:                                                   \
+      truth = prefix##_both(c, b);                                   \
+      break;                                                         \
+    case Op::either:                                                 \
+      truth = prefix##_either(c, b);                                 \
+      break;                                                         \
+    case Op::opposite:                                               \
+      truth = prefix##_opposite(c);                                  \
+      break;                                                         \
+    default:                                                         \
+      break;                                                         \
   }
 
 template <typename T>
@@ -71,8 +122,8 @@ double evaluate(const derive::Tape& tape, derive::Term result, const Vec3& p) {
   return values[size_t(result)];
 }
 
-shader::vec3 enclose(const derive::Tape& tape, derive::Term result, const shader::vec3& o, const shader::vec3& d,
-                     float m, float h) {
+shader::vec3 enclose(const derive::Tape& tape, derive::Term result, const shader::vec3& o,
+                     const shader::vec3& d, float m, float h) {
   std::vector<shader::vec3> numbers;
   std::vector<shader::uint> truths;
   for (const derive::Step& step : tape.steps()) {
@@ -113,14 +164,14 @@ shader::vec4 differentiate(const derive::Tape& tape, derive::Term result, const 
   return numbers[size_t(result)];
 }
 
-FirstRoot march(const derive::Tape& tape, derive::Term result, const shader::vec3& o, const shader::vec3& d, float start,
-                float end, float finest, int most) {
+FirstRoot march(const derive::Tape& tape, derive::Term result, const shader::vec3& o, const shader::vec3& d,
+                float start, float end, float finest, int most) {
   shader::March march = shader::march_begin(start, end, finest);
   int steps = 0;
   for (; steps < most && !march.over; ++steps)
     march = shader::march_on(
         march, enclose(tape, result, o, d, shader::march_middle(march), shader::march_half(march)));
-  return {march.root, steps, march.over};
+  return {march.found ? march.root : -1, steps, march.over};
 }
 
 }  // namespace eyeray::test
