@@ -2,7 +2,7 @@
 // with. Whoever marches asks for the function's enclosure on march_middle(march) ± march_half(march) until march.over.
 // A root is where the sign changes. No change is overlooked but within a piece that is passed over, because it is as short as can be or its
 // enclosure no sharper than twice that of a point in it: there the function is zero up to what float32 rounds. If the sign is
-// another after that, the root is taken to be in the middle.
+// another after that, the root is taken to be where the first line among them is zero, else in the middle.
 #ifndef ENCLOSURE_MARCH_GLSL
 #define ENCLOSURE_MARCH_GLSL
 #include "enclosure.glsl"
@@ -21,7 +21,7 @@ struct March {
   float coarse;   // e of the piece before, where that was undecided; beyond all else
   float noise;    // e of a point nearby; 0 where it is not known
   float waiting;  // while a point is asked for its e: h of the piece after that; else 0
-  float root;
+  float root;     // once found; before that where a line was zero
   bool found;
   bool over;
 };
@@ -37,7 +37,7 @@ March march_begin(float start, float end, float finest) {
   march.coarse = 3.0e38f;
   march.noise = 0.0f;
   march.waiting = 0.0f;
-  march.root = end;
+  march.root = start - 1.0f;
   march.found = false;
   march.over = !(start < end);
   return march;
@@ -78,7 +78,9 @@ March march_on(March march, vec3 f) {
 
   next.sign = known ? sign : march.sign;
   next.found = changed || narrow;
-  next.root = changed ? 0.5f * (march.unknown + march.t) : narrow ? middle + h * centre : march.root;
+  bool guessed = march.root >= march.unknown && march.root <= march.t;
+  float behind = guessed ? march.root : 0.5f * (march.unknown + march.t);
+  next.root = changed ? behind : narrow || (passes && !guessed && abs(centre) <= 1.0f) ? middle + h * centre : march.root;
   next.t = none || passes ? middle + march.h : maximum(march.t, left);
   bool sure = march.unknown == march.t;
   next.unknown = none ? next.t : known ? maximum(march.t, left) : sure && !passes ? next.t : march.unknown;
