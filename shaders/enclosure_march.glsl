@@ -9,7 +9,10 @@
 
 SHADER_BEGIN
 
-#define MARCH_LONGEST_PASS 16384.0f  // of the finest pieces
+// Of the finest pieces: the h of the first piece that may be passed over, and of the longest; each is up to twice as long as the one before, so that
+// where a jump of the function was met instead of rounding little is lost.
+#define MARCH_FIRST_PASS 64.0f
+#define MARCH_LONGEST_PASS 16384.0f
 
 struct March {
   float t;        // up to here the sign is known, but for what was passed over
@@ -20,6 +23,7 @@ struct March {
   float unknown;  // from here to t pieces were passed over
   float coarse;   // e of the piece before, where that was undecided; beyond all else
   float noise;    // e of a point nearby; 0 where it is not known
+  float pass;     // the h of a piece that may be passed over
   float waiting;  // while a point is asked for its e: h of the piece after that; else 0
   float root;     // once found; before that where a line was zero
   bool found;
@@ -36,6 +40,7 @@ March march_begin(float start, float end, float finest) {
   march.unknown = start;
   march.coarse = 3.0e38f;
   march.noise = 0.0f;
+  march.pass = MARCH_FIRST_PASS * finest;
   march.waiting = 0.0f;
   march.root = start - 1.0f;
   march.found = false;
@@ -74,7 +79,7 @@ March march_on(March march, vec3 f) {
   // Shorter pieces tell no more. (A NaN is passed over too.)
   bool blunt = march.h <= march.finest || (march.noise > 0.0f && !(f.z > 2.0f * march.noise));
   bool narrow = crosses && (blunt || right - left <= 16.0f * march.finest);
-  bool passes = !none && !narrow && blunt;
+  bool passes = !none && !narrow && blunt && march.h <= march.pass;
 
   next.sign = known ? sign : march.sign;
   next.found = changed || narrow;
@@ -85,6 +90,7 @@ March march_on(March march, vec3 f) {
   bool sure = march.unknown == march.t;
   next.unknown = none ? next.t : known ? maximum(march.t, left) : sure && !passes ? next.t : march.unknown;
   next.noise = none ? 0.0f : passes && march.noise == 0.0f ? maximum(f.z, 1.0e-30f) : march.noise;
+  next.pass = none ? MARCH_FIRST_PASS * march.finest : passes ? 2.0f * march.h : march.pass;
   next.coarse = none || passes ? 3.0e38f : f.z;
 
   // Next, a piece around what is left, or a longer one. If e hardly shrinks with h, it may be rounding: ask a point.
@@ -92,7 +98,7 @@ March march_on(March march, vec3 f) {
   bool doubt = !none && !blunt && march.noise == 0.0f && f.z > 0.7f * march.coarse;
   next.h = none ? 2.0f * march.h
            : passes ? minimum(2.0f * march.h, MARCH_LONGEST_PASS * march.finest)
-           : crosses && doubt ? march.h : closer;
+           : crosses && doubt ? march.h : blunt ? march.pass : closer;
   next.h = minimum(maximum(next.h, march.finest), maximum(0.5f * (march.end - next.t), march.finest));
   next.waiting = doubt ? next.h : 0.0f;
   next.h = doubt ? march.finest : next.h;

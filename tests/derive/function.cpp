@@ -1,10 +1,12 @@
 // What read_function makes of GLSL, what it refuses, and the text and the gradient made of it.
 #include <cmath>
+#include <fstream>
 
 #include "derive/emit.hpp"
 #include "derive/evaluate.hpp"
 #include "derive/function.hpp"
 #include "derive/surfaces.hpp"
+#include "gpu/shader_compiler.hpp"
 #include "support/random.hpp"
 
 #include "support/doctest.hpp"
@@ -70,6 +72,27 @@ TEST_CASE("the gradient is the derivative") {
   }
 }
 
+TEST_CASE("the texts are GLSL") {
+  const gpu::SourceProvider shaders = [](std::string_view path) -> std::optional<std::string> {
+    std::ifstream file("shaders/" + std::string(path));
+    if (!file) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  for (const test::TestSurface& surface : test::test_surfaces()) {
+    CAPTURE(surface.name);
+    const derive::Derivable function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
+    const std::string text =
+        "#include \"enclosure_march.glsl\"\n#include \"dual.glsl\"\n"
+        "layout(set = 0, binding = 0) buffer Values { vec4 values[2]; };\n" +
+        derive::enclosure_text(function.tape, function.result, "enclosed") +
+        derive::gradient_text(function.tape, function.result, "gradient") +
+        "void main() { values[0] = gradient(vec3(values[1])); values[1].xyz = enclosed(values[0].xyz, "
+        "values[1].xyz, values[1].xyz); }";
+    const auto provider = [&](std::string_view path) { return path == "all.glsl" ? text : shaders(path); };
+    CHECK_NOTHROW(gpu::compile_shader(gpu::read_shader(provider, "all.glsl"), ""));
+  }
+}
+
 TEST_CASE("loops, calls and branches come down to what they compute") {
   const auto text = [](std::string_view glsl) {
     const derive::Derivable function = derive::read_function(glsl, {"f.glsl", 1, 0});
@@ -105,7 +128,7 @@ TEST_CASE("what cannot be straight-line code is refused, at its line") {
                 "< 999; ++k) "
                 "x = sin(x) + p.y;\n  return x;\n}") ==
         "f.glsl:13: error: with all turns of its loops the function is too long");
-  
+
   CHECK(refusal("float f(vec3 p) {\n  return length(q);\n}")
             .starts_with("f.glsl:11:17: error: 'q': undeclared identifier\n"));
 }

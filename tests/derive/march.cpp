@@ -24,7 +24,7 @@ struct Count {
 // The first change of sign of f on o + t·d, 0 ≤ t ≤ end, or -1.
 template <typename F>
 double first_change(const F& f, const Vec3& o, const Vec3& d, double end) {
-  constexpr int samples = 4000;
+  constexpr int samples = 2000;
   double before = f(o);
   for (int i = 1; i <= samples; ++i) {
     const double t = end * i / samples;
@@ -67,7 +67,7 @@ Count march_often(const test::TestSurface& surface, int rays) {
         farthest = std::max(farthest, std::abs(surface.f(Vec3(o) + Vec3(d) * (t + again * k / 100))));
       return again >= 0 && farthest <= 2 * noise(t);
     };
-    const double slack = 1e-4 * surface.reach;
+    const double slack = (surface.jumps ? 5e-4 : 1e-4) * surface.reach;
     const double t = double(found.t);
     if (root >= 0 && std::abs(t - root) <= slack) {
       ++count.hits;
@@ -86,16 +86,16 @@ Count march_often(const test::TestSurface& surface, int rays) {
 
 }  // namespace
 
-TEST_CASE("4 000 rays at each surface: no root is missed, none comes out of nothing") {
+TEST_CASE("2 000 rays at each surface: no root is missed, none comes out of nothing") {
   for (const test::TestSurface& surface : test::test_surfaces()) {
     CAPTURE(surface.name);
-    const Count count = march_often(surface, 4'000);
+    const Count count = march_often(surface, 2'000);
     MESSAGE(
         fmt::format("{:14} hits {:5}, grazing {:3}, missed {}, wrong {}, ran out {}; steps {:5.1f}, at most "
                     "{}; off by {:.1e}",
                     surface.name, count.hits, count.grazing, count.missed, count.wrong, count.ran_out,
                     count.steps, count.most, count.worst));
-    CHECK(count.hits > 200);
+    CHECK(count.hits > 100);
     CHECK(count.missed == 0);
     CHECK(count.wrong == 0);
     CHECK(count.ran_out <= 4);

@@ -13,7 +13,8 @@ struct TestSurface {
   std::string_view name;
   std::string_view glsl;
   double (*f)(const Vec3& p);
-  double reach;  // of the cube around 0 within which it is looked at
+  double reach;        // of the cube around 0 within which it is looked at
+  bool jumps = false;  // not continuous, or made of functions that are not
 };
 
 const std::vector<TestSurface>& test_surfaces();
