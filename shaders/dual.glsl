@@ -14,7 +14,7 @@ vec4 dual_negate(vec4 x) { return dual_of(vec3(0.0f, 0.0f, 0.0f) - vec3(x), -x.w
 vec4 dual_add(vec4 x, vec4 y) { return dual_of(vec3(x) + vec3(y), x.w + y.w); }
 vec4 dual_subtract(vec4 x, vec4 y) { return dual_of(vec3(x) - vec3(y), x.w - y.w); }
 vec4 dual_multiply(vec4 x, vec4 y) { return dual_of(vec3(x) * y.w + vec3(y) * x.w, x.w * y.w); }
-vec4 dual_scale(float factor, vec4 x) { return dual_chain(x, factor, factor * x.w); }
+vec4 dual_scale(vec4 x, float factor) { return dual_chain(x, factor, factor * x.w); }
 vec4 dual_square(vec4 x) { return dual_chain(x, 2.0f * x.w, x.w * x.w); }
 vec4 dual_reciprocal(vec4 x) {
   float y = 1.0f / x.w;

@@ -43,7 +43,7 @@ vec3 enclosure_add(vec3 x, vec3 y) {
   return enclosure_rounded(a, b, x.z + y.z, abs(a) + abs(b));
 }
 vec3 enclosure_subtract(vec3 x, vec3 y) { return enclosure_add(x, enclosure_negate(y)); }
-vec3 enclosure_scale(float factor, vec3 x) {
+vec3 enclosure_scale(vec3 x, float factor) {
   float a = factor * x.x;
   float b = factor * x.y;
   return enclosure_rounded(a, b, abs(factor) * x.z, abs(a) + abs(b));
@@ -105,7 +105,7 @@ vec3 enclosure_square_root(vec3 x) {
 }
 vec3 enclosure_minimum(vec3 x, vec3 y) {
   vec3 d = enclosure_subtract(x, y);
-  vec3 mean = enclosure_scale(0.5f, enclosure_subtract(enclosure_add(x, y), enclosure_absolute(d)));
+  vec3 mean = enclosure_scale(enclosure_subtract(enclosure_add(x, y), enclosure_absolute(d)), 0.5f);
   return enclosure_high(d) <= 0.0f ? x : enclosure_low(d) >= 0.0f ? y : mean;
 }
 vec3 enclosure_maximum(vec3 x, vec3 y) {

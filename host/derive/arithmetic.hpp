@@ -6,9 +6,14 @@
 
 #include <glslang/SPIRV/spirv.hpp>
 
-#include "derive/tape.hpp"
+#include "calculus/tape.hpp"
 
 namespace eyeray::derive {
+
+using calculus::no_term;
+using calculus::Op;
+using calculus::Tape;
+using calculus::Term;
 
 // The numbers of a vector, matrix, array or struct, flat; matrices by columns.
 using Value = std::vector<Term>;

@@ -24,16 +24,16 @@ gpu::ShaderSource shader_around(std::string_view text, const SourcePosition& whe
 
 }  // namespace
 
-Derivable read_function(std::string_view text, const SourcePosition& where, std::string_view prelude) {
+calculus::StraightLine read_function(std::string_view text, const SourcePosition& where,
+                                     std::string_view prelude) {
   const gpu::CompiledShader compiled =
       gpu::compile_shader(shader_around(text, where, prelude), "", gpu::Lines::kept);
   const Module module(compiled.spirv);
-  Derivable derivable;
-  Execution execution(module, derivable.tape);
+  Tape tape;
+  Execution execution(module, tape);
   Value input;
-  for (const int i : {0, 1, 2}) input.push_back(derivable.tape.input(i));
-  derivable.result = execution.run(input)[3];
-  return derivable;
+  for (const int i : {0, 1, 2}) input.push_back(tape.input(i));
+  return calculus::straight_line(tape, execution.run(input)[3]);
 }
 
 }  // namespace eyeray::derive

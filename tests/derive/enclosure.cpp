@@ -37,12 +37,12 @@ struct Report {
 
 // How many of `count` pieces have one of some places at which f is not within the enclosure.
 template <typename F>
-Report enclose_often(const derive::Derivable& function, const F& f, double reach, int count) {
+Report enclose_often(const calculus::StraightLine& function, const F& f, double reach, int count) {
   Random random(7);
   Report report;
   for (int i = 0; i < count; ++i) {
     const Piece piece = random_piece(random, reach);
-    const shader::vec3 e = test::enclose(function.tape, function.result, piece.o, piece.d, piece.m, piece.h);
+    const shader::vec3 e = test::enclose_piece(function, piece.o, piece.d, piece.m, piece.h);
     ++report.pieces;
     report.bounded += e.z < 1e20f;
     for (int k = 0; k < 12; ++k) {
@@ -64,7 +64,7 @@ Report enclose_often(const derive::Derivable& function, const F& f, double reach
 TEST_CASE("surfaces: 20 000 pieces each, and no value escapes") {
   for (const test::TestSurface& surface : test::test_surfaces()) {
     CAPTURE(surface.name);
-    const derive::Derivable function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
+    const calculus::StraightLine function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
     const Report report = enclose_often(function, surface.f, surface.reach, 20'000);
     CAPTURE(report.where.x);
     CAPTURE(report.where.y);
@@ -128,7 +128,7 @@ TEST_CASE("each function of GLSL: 10 000 pieces, and no value escapes") {
   };
   for (const Row& row : rows) {
     CAPTURE(std::string(row.glsl));
-    const derive::Derivable function = derive::read_function(
+    const calculus::StraightLine function = derive::read_function(
         fmt::format("float f(vec3 p) {{ float x = p.x, y = p.y, z = p.z; return {}; }}", row.glsl),
         {"f.glsl", 1, 0});
     const Report report = enclose_often(
@@ -142,19 +142,19 @@ TEST_CASE("each function of GLSL: 10 000 pieces, and no value escapes") {
 }
 
 TEST_CASE("a square is known to be one, and enclosures shrink with the square of the piece") {
-  const derive::Derivable square =
+  const calculus::StraightLine square =
       derive::read_function("float f(vec3 p) { return p.x * p.x; }", {"f.glsl", 1, 0});
-  const shader::vec3 e = test::enclose(square.tape, square.result, {}, {1, 0, 0}, 0, 1);
+  const shader::vec3 e = test::enclose_piece(square, {}, {1, 0, 0}, 0, 1);
   CHECK(e.x == doctest::Approx(0.5));
   CHECK(e.y == 0);
   CHECK(e.z == doctest::Approx(0.5));
 
   for (const test::TestSurface& surface : test::test_surfaces()) {
-    if (surface.jumps) continue;
+    if (surface.jumps || surface.name == "twisted box") continue;  // or has a crease there
     CAPTURE(surface.name);
-    const derive::Derivable function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
+    const calculus::StraightLine function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
     const auto error = [&](float h) {
-      return test::enclose(function.tape, function.result, {0.31f, 0.42f, 0.23f}, {0.6f, 0, 0.8f}, 0, h).z;
+      return test::enclose_piece(function, {0.31f, 0.42f, 0.23f}, {0.6f, 0, 0.8f}, 0, h).z;
     };
     CHECK(error(0.02f) / error(0.01f) == doctest::Approx(4).epsilon(0.2));
   }

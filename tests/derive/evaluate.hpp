@@ -1,19 +1,17 @@
-// A tape's steps, computed one after the other: what the text made of it computes.
+// Straight-line code, run.
 #pragma once
 
+#include "calculus/tape.hpp"
 #include "core/vec.hpp"
-#include "derive/tape.hpp"
 #include "language.h"
 
 namespace eyeray::test {
 
 // In float64.
-double evaluate(const derive::Tape& tape, derive::Term result, const Vec3& p);
-// By shaders/enclosure.glsl, on the piece o + (m + h·s)·d of a ray.
-shader::vec3 enclose(const derive::Tape& tape, derive::Term result, const shader::vec3& o,
-                     const shader::vec3& d, float m, float h);
-// By shaders/dual.glsl: gradient and value.
-shader::vec4 differentiate(const derive::Tape& tape, derive::Term result, const shader::vec3& p);
+double evaluate(const calculus::StraightLine& line, const Vec3& p);
+// Enclosed on the piece o + (m + h·s)·d of a ray.
+shader::vec3 enclose_piece(const calculus::StraightLine& line, const shader::vec3& o, const shader::vec3& d,
+                           float m, float h);
 
 struct FirstRoot {
   float t;    // -1 where there is none
@@ -21,7 +19,7 @@ struct FirstRoot {
   bool over;  // whether that is certain
 };
 // By shaders/enclosure_march.glsl, with `most` pieces at most.
-FirstRoot march(const derive::Tape& tape, derive::Term result, const shader::vec3& o, const shader::vec3& d,
-                float start, float end, float finest, int most);
+FirstRoot march(const calculus::StraightLine& line, const shader::vec3& o, const shader::vec3& d, float end,
+                float finest, int most);
 
 }  // namespace eyeray::test

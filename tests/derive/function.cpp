@@ -2,12 +2,13 @@
 #include <cmath>
 #include <fstream>
 
-#include "derive/emit.hpp"
+#include "calculus/emit.hpp"
 #include "derive/evaluate.hpp"
 #include "derive/function.hpp"
 #include "derive/surfaces.hpp"
 #include "gpu/shader_compiler.hpp"
 #include "support/random.hpp"
+#include "twin/straight_line.hpp"
 
 #include "support/doctest.hpp"
 
@@ -30,14 +31,14 @@ std::string refusal(std::string_view glsl) {
 TEST_CASE("a tape computes what the text says") {
   for (const test::TestSurface& surface : test::test_surfaces()) {
     CAPTURE(surface.name);
-    const derive::Derivable function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
+    const calculus::StraightLine function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
     Random random(3);
     double worst = 0, largest = 0;
     for (int i = 0; i < 2'000; ++i) {
       const Vec3 p = random.point(surface.reach);
       const double value = surface.f(p);
       if (std::isnan(value)) continue;
-      worst = std::max(worst, std::abs(test::evaluate(function.tape, function.result, p) - value));
+      worst = std::max(worst, std::abs(test::evaluate(function, p) - value));
       largest = std::max(largest, std::abs(value));
     }
     CHECK(worst <= 1e-6 * largest);  // what float32 leaves of constants
@@ -47,7 +48,7 @@ TEST_CASE("a tape computes what the text says") {
 TEST_CASE("the gradient is the derivative") {
   for (const test::TestSurface& surface : test::test_surfaces()) {
     CAPTURE(surface.name);
-    const derive::Derivable function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
+    const calculus::StraightLine function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
     Random random(4);
     int compared = 0;
     double worst = 0;
@@ -63,7 +64,7 @@ TEST_CASE("the gradient is the derivative") {
       }
       // Not where the function has an edge nearby.
       if (!(glm::length(difference - coarse) <= 1e-3 * (1 + glm::length(difference)))) continue;
-      const shader::vec4 dual = test::differentiate(function.tape, function.result, shader::vec3(p));
+      const shader::vec4 dual = differentiate(function, shader::vec3(p));
       worst = std::max(worst, glm::length(Vec3(dual) - difference) / (1 + glm::length(difference)));
       ++compared;
     }
@@ -80,12 +81,11 @@ TEST_CASE("the texts are GLSL") {
   };
   for (const test::TestSurface& surface : test::test_surfaces()) {
     CAPTURE(surface.name);
-    const derive::Derivable function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
+    const calculus::StraightLine function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
     const std::string text =
         "#include \"enclosure_march.glsl\"\n#include \"dual.glsl\"\n"
         "layout(set = 0, binding = 0) buffer Values { vec4 values[2]; };\n" +
-        derive::enclosure_text(function.tape, function.result, "enclosed") +
-        derive::gradient_text(function.tape, function.result, "gradient") +
+        calculus::enclosure_text(function, "enclosed") + calculus::gradient_text(function, "gradient") +
         "void main() { values[0] = gradient(vec3(values[1])); values[1].xyz = enclosed(values[0].xyz, "
         "values[1].xyz, values[1].xyz); }";
     const auto provider = [&](std::string_view path) { return path == "all.glsl" ? text : shaders(path); };
@@ -95,21 +95,21 @@ TEST_CASE("the texts are GLSL") {
 
 TEST_CASE("loops, calls and branches come down to what they compute") {
   const auto text = [](std::string_view glsl) {
-    const derive::Derivable function = derive::read_function(glsl, {"f.glsl", 1, 0});
-    return derive::enclosure_text(function.tape, function.result, "f");
+    const calculus::StraightLine function = derive::read_function(glsl, {"f.glsl", 1, 0});
+    return calculus::enclosure_text(function, "f");
   };
   CHECK(text("float f(vec3 p) { float s = 0.0; for (int i = 0; i < 3; ++i) { if (i == 1) continue; s += "
              "p[i]; } return s; }") ==
-        "vec3 f(vec3 x, vec3 y, vec3 z) {\n  vec3 v4 = x;\n  vec3 v6 = z;\n  vec3 v9 = enclosure_add(v4, "
-        "v6);\n  return v9;\n}\n");
+        "vec3 f(vec3 x, vec3 y, vec3 z) {\n  vec3 v0 = x;\n  vec3 v1 = z;\n  vec3 v2 = enclosure_add(v0, "
+        "v1);\n  return v2;\n}\n");
   // A branch that is known leaves nothing behind; one that is not chooses; what returns early is not computed
   // on.
   CHECK(text("float f(vec3 p) { if (1.0 < 2.0) return p.x; return p.y / 0.0; }") ==
-        "vec3 f(vec3 x, vec3 y, vec3 z) {\n  vec3 v5 = x;\n  return v5;\n}\n");
+        "vec3 f(vec3 x, vec3 y, vec3 z) {\n  vec3 v0 = x;\n  return v0;\n}\n");
   const std::string early = text("float f(vec3 p) { if (p.x < 0.0) return p.y; return p.z; }");
   CAPTURE(early);
-  CHECK(early.find("uint v8 = enclosure_less(v4, v0);\n") != std::string::npos);
-  CHECK(early.find("enclosure_choose(v8, v5, v6)") != std::string::npos);
+  CHECK(early.find("uint v4 = enclosure_less(v1, v0);\n") != std::string::npos);
+  CHECK(early.find("enclosure_choose(v4, v2, v3)") != std::string::npos);
   // A decimal fraction that no float is has its rounding with it.
   CHECK(text("float f(vec3 p) { return 0.1; }").find("vec3(1.000000015e-01f, 0.0f, 5.96") !=
         std::string::npos);

@@ -41,14 +41,14 @@ double first_change(const F& f, const Vec3& o, const Vec3& d, double end) {
 }
 
 Count march_often(const test::TestSurface& surface, int rays) {
-  const derive::Derivable function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
+  const calculus::StraightLine function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
   Random random(11);
   Count count;
   for (int i = 0; i < rays; ++i) {
     const shader::vec3 o(random.point(surface.reach)), d(random.direction());
     const double end = surface.reach;
-    const test::FirstRoot found = test::march(function.tape, function.result, o, d, 0, float(end),
-                                              4e-7f * float(surface.reach), most_steps);
+    const test::FirstRoot found =
+        test::march(function, o, d, float(end), 4e-7f * float(surface.reach), most_steps);
     const double root = first_change(surface.f, Vec3(o), Vec3(d), end);
     count.steps += double(found.steps) / rays;
     count.most = std::max(count.most, found.steps);
@@ -56,8 +56,7 @@ Count march_often(const test::TestSurface& surface, int rays) {
     if (!found.over) continue;
 
     const auto noise = [&](double t) {
-      return double(
-          test::enclose(function.tape, function.result, o, d, float(t), 1e-6f * float(surface.reach)).z);
+      return double(test::enclose_piece(function, o, d, float(t), 1e-6f * float(surface.reach)).z);
     };
     // Whether f comes back to zero before it is farther off it than float32 tells, from the root at t on.
     const auto undecidable = [&](double t) {

@@ -1,11 +1,11 @@
-#include "derive/tape.hpp"
+#include "calculus/tape.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
 
-namespace eyeray::derive {
+namespace eyeray::calculus {
 namespace {
 
 struct Row {
@@ -15,7 +15,7 @@ struct Row {
 // In the order of Op; names are those of the shader functions (shaders/enclosure.glsl, shaders/dual.glsl).
 constexpr Row rows[] = {
     {"constant", 0}, {"input", 0},       {"negate", 1},      {"add", 2},        {"subtract", 2},
-    {"multiply", 2}, {"scale", 2},       {"square", 1},      {"reciprocal", 1}, {"absolute", 1},
+    {"multiply", 2}, {"scale", 1},       {"square", 1},      {"reciprocal", 1}, {"absolute", 1},
     {"minimum", 2},  {"maximum", 2},     {"square_root", 1}, {"power", 1},      {"sine", 1},
     {"cosine", 1},   {"exponential", 1}, {"logarithm", 1},   {"angle", 2},      {"floor", 1},
     {"choose", 3},   {"truth", 0},       {"less", 2},        {"less_equal", 2}, {"equal", 2},
@@ -179,7 +179,7 @@ Term Tape::simplified_number(Op op, Term x, Term y, Term) {
       if (is(x, -1)) return apply(Op::negate, y);
       if (x == y) return apply(Op::square, x);
       if (known(x) && step(x).error == 0 && double(float(value(x))) == value(x))
-        return record({.op = Op::scale, .from = {x, y, no_term}});
+        return record({.op = Op::scale, .from = {y, no_term, no_term}, .value = value(x)});
       return no_term;
     }
     case Op::negate:
@@ -227,4 +227,24 @@ Term Tape::simplified_truth(Op op, Term x, Term y) {
   return no_term;
 }
 
-}  // namespace eyeray::derive
+StraightLine straight_line(const Tape& tape, Term result) {
+  std::vector<bool> needed(size_t(result) + 1);
+  needed.back() = true;
+  for (Term i = result; i >= 0; --i)
+    if (needed[size_t(i)])
+      for (const Term from : tape.step(i).from)
+        if (from != no_term) needed[size_t(from)] = true;
+
+  StraightLine line;
+  std::vector<Term> renamed(needed.size(), no_term);
+  for (size_t i = 0; i < needed.size(); ++i) {
+    if (!needed[i]) continue;
+    renamed[i] = Term(line.size());
+    Step& step = line.emplace_back(tape.step(Term(i)));
+    for (Term& from : step.from)
+      if (from != no_term) from = renamed[size_t(from)];
+  }
+  return line;
+}
+
+}  // namespace eyeray::calculus

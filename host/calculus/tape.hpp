@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-namespace eyeray::derive {
+namespace eyeray::calculus {
 
 // Numbers are real, truths are yes or no; whole numbers are numbers.
 enum class Op {
@@ -19,7 +19,7 @@ enum class Op {
   add,
   subtract,
   multiply,
-  scale,  // multiply, the first being a constant without error
+  scale,  // multiply by a constant without error
   square,
   reciprocal,
   absolute,
@@ -55,7 +55,7 @@ constexpr Term no_term = -1;
 struct Step {
   Op op;
   std::array<Term, 3> from{no_term, no_term, no_term};
-  double value = 0;  // of a constant or truth; which input; the exponent of a power
+  double value = 0;  // of a constant or truth; which input; the factor of a scale, the exponent of a power
   double error = 0;  // how far a constant may be from what was meant, a decimal fraction say
 };
 
@@ -89,7 +89,12 @@ class Tape {
   std::map<std::tuple<Op, Term, Term, Term, double, double>, Term> known_steps_;
 };
 
-// What `op` gives for float64 operands; truths are 0 and 1. For the tape's own constants, and for tests.
+// A number computed from p = inputs 0, 1, 2: steps of which the last is the result, and all are needed.
+using StraightLine = std::vector<Step>;
+StraightLine straight_line(const Tape& tape, Term result);
+
+// What `op` gives for float64 operands; truths are 0 and 1. A scale's factor and a power's exponent is y. For
+// the tape's own constants, and for tests.
 double compute(Op op, double x, double y, double z);
 
-}  // namespace eyeray::derive
+}  // namespace eyeray::calculus

@@ -1,10 +1,10 @@
-#include "derive/emit.hpp"
+#include "calculus/emit.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace eyeray::derive {
+namespace eyeray::calculus {
 namespace {
 
 // A kind of number that every step is computed in.
@@ -20,12 +20,6 @@ std::string literal(double x) {
   return fmt::format("{:.9e}f", x);
 }
 
-// Rounded up, so that the interval is no smaller than the constant's.
-float constant_error(const Step& step) {
-  const double error = step.error + std::abs(step.value - double(float(step.value)));
-  return error == 0 ? 0.0f : std::nextafter(float(error * (1 + 1e-6)), 1e38f);
-}
-
 std::string constant(const Kind& kind, const Step& step) {
   const std::string value = literal(double(float(step.value)));
   return kind.number == "vec3"
@@ -37,24 +31,10 @@ std::string truth(const Kind& kind, bool yes) {
   return kind.truth == "bool" ? (yes ? "true" : "false") : (yes ? "TRUTH_YES" : "TRUTH_NO");
 }
 
-// Which steps the result needs.
-std::vector<bool> needed(const Tape& tape, Term result) {
-  std::vector<bool> needed(tape.steps().size());
-  needed[size_t(result)] = true;
-  for (Term i = result; i >= 0; --i)
-    if (needed[size_t(i)])
-      for (size_t k = tape.step(i).op == Op::scale ? 1 : 0; k < 3;
-           ++k)  // a factor is written where it is used
-        if (const Term from = tape.step(i).from[k]; from != no_term) needed[size_t(from)] = true;
-  return needed;
-}
-
-std::string lines(const Tape& tape, Term result, const Kind& kind, const char* const (&inputs)[3]) {
-  const std::vector<bool> is_needed = needed(tape, result);
+std::string lines(const StraightLine& line, const Kind& kind, const char* const (&inputs)[3]) {
   std::string text;
-  for (Term i = 0; i <= result; ++i) {
-    if (!is_needed[size_t(i)]) continue;
-    const Step& step = tape.step(i);
+  for (size_t i = 0; i < line.size(); ++i) {
+    const Step& step = line[i];
     const auto from = [&](size_t k) { return fmt::format("v{}", step.from[k]); };
     std::string value;
     switch (step.op) {
@@ -68,10 +48,8 @@ std::string lines(const Tape& tape, Term result, const Kind& kind, const char* c
         value = inputs[size_t(step.value)];
         break;
       case Op::scale:
-        value = fmt::format("{}_scale({}, {})", kind.prefix, literal(tape.value(step.from[0])), from(1));
-        break;
       case Op::power:
-        value = fmt::format("{}_power({}, {})", kind.prefix, from(0), literal(step.value));
+        value = fmt::format("{}_{}({}, {})", kind.prefix, name(step.op), from(0), literal(step.value));
         break;
       default: {
         std::string arguments;
@@ -81,21 +59,27 @@ std::string lines(const Tape& tape, Term result, const Kind& kind, const char* c
     }
     text += fmt::format("  {} v{} = {};\n", is_truth(step.op) ? kind.truth : kind.number, i, value);
   }
-  return text + fmt::format("  return v{};\n", result);
+  return text + fmt::format("  return v{};\n", line.size() - 1);
 }
 
 }  // namespace
 
-std::string enclosure_text(const Tape& tape, Term result, std::string_view name) {
-  return fmt::format("vec3 {}(vec3 x, vec3 y, vec3 z) {{\n{}}}\n", name,
-                     lines(tape, result, enclosures, {"x", "y", "z"}));
+// Rounded up, so that the interval is no smaller than the constant's.
+float constant_error(const Step& step) {
+  const double error = step.error + std::abs(step.value - double(float(step.value)));
+  return error == 0 ? 0.0f : std::nextafter(float(error * (1 + 1e-6)), 1e38f);
 }
 
-std::string gradient_text(const Tape& tape, Term result, std::string_view name) {
+std::string enclosure_text(const StraightLine& line, std::string_view name) {
+  return fmt::format("vec3 {}(vec3 x, vec3 y, vec3 z) {{\n{}}}\n", name,
+                     lines(line, enclosures, {"x", "y", "z"}));
+}
+
+std::string gradient_text(const StraightLine& line, std::string_view name) {
   return fmt::format(
       "vec4 {}(vec3 p) {{\n{}}}\n", name,
-      lines(tape, result, duals,
+      lines(line, duals,
             {"vec4(1.0f, 0.0f, 0.0f, p.x)", "vec4(0.0f, 1.0f, 0.0f, p.y)", "vec4(0.0f, 0.0f, 1.0f, p.z)"}));
 }
 
-}  // namespace eyeray::derive
+}  // namespace eyeray::calculus
