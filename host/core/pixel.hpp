@@ -22,6 +22,7 @@ enum SampleFlag : uint32_t {
   media_overflow = 1u << 0,  // more than four media nested
   stack_overflow = 1u << 1,  // more rays pending than the shader's stack holds
   loop_budget = 1u << 2,     // the driver's cap on loop iterations was near (docs/lavapipe.md)
+  endless = 1u << 4,  // a formula's loops did not end: whoever reads samples fails (render/samples.hpp)
 };
 
 // What the eye ray through the centre of a pixel meets first.

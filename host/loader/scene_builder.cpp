@@ -40,8 +40,12 @@ double count_placed(const toml::table& table) {
 
 class Builder {
  public:
-  Builder(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log)
-      : root_(root), images_(images), meshes_(meshes), log_(log) {}
+  Builder(const toml::table& root, const SceneSources& sources, DiagnosticLog& log)
+      : root_(root),
+        images_(sources.images),
+        meshes_(sources.meshes),
+        formulas_(sources.formulas),
+        log_(log) {}
 
   Scene build() {
     TableReader image = read_single("image");
@@ -110,6 +114,7 @@ class Builder {
   const toml::table& root_;
   ImageSource* images_;
   MeshImports* meshes_;
+  FormulaSource* formulas_;
   DiagnosticLog& log_;
   Scene scene_;
   std::map<std::string, NamedMaterial, std::less<>> materials_;
@@ -231,7 +236,8 @@ void Builder::for_each_placed(const Section& section, const toml::table& table, 
                                               section.shape ? section.keys : std::span<const Key>()},
                                      .batch = batch.lists,
                                      .element = i,
-                                     .extra_keys = elsewhere},
+                                     .extra_keys = elsewhere,
+                                     .formulas = formulas_},
                                     log_);
     const Mat4 placed = to_world * reader.transform("transform");
     if (const std::string why = why_singular(placed); !why.empty())
@@ -309,8 +315,8 @@ void Builder::check_whole() {
 
 }  // namespace
 
-Scene build_scene(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log) {
-  return Builder(root, images, meshes, log).build();
+Scene build_scene(const toml::table& root, const SceneSources& sources, DiagnosticLog& log) {
+  return Builder(root, sources, log).build();
 }
 
 }  // namespace eyeray

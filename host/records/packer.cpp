@@ -36,6 +36,14 @@ uint32_t Packer::add_vertices(std::span<const shader::uvec4> data) {
   return first;
 }
 
+uint32_t Packer::add_formula(const std::shared_ptr<const Formula>& formula) {
+  auto& all = scene.formulas;
+  for (size_t i = 0; i < all.size(); ++i)
+    if (formula->same(*all[i])) return uint32_t(i);
+  all.push_back(formula);
+  return uint32_t(all.size() - 1);
+}
+
 uint32_t Packer::add_medium(double ior, const Vec3& absorption) {
   CHECK_LT(scene.media.size(), size_t{256});
   scene.media.push_back({to_vec4(absorption, ior)});

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "formula/formula.hpp"
 #include "records/records.hpp"
 #include "scene/texture.hpp"
 
@@ -35,7 +36,8 @@ struct PackedScene {
   // How much larger, seen from the world, rounding is in a shape's own space: |linear| · |inverse|, the
   // largest of all shapes.
   float map_growth = 1;
-  uint64_t shape_iterations = 0;  // that shapes' own loops take, all shapes together
+  std::vector<std::shared_ptr<const Formula>> formulas;  // of implicit shapes, by number
+  uint64_t shape_iterations = 0;                         // that shapes' own loops take, all shapes together
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
   std::vector<uint32_t> texels;                                   // records.h says how; empty without images
@@ -69,6 +71,8 @@ class Packer {
   // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there
   // are more than an index can tell apart.
   uint32_t add_image(const std::shared_ptr<const ImageTexture>& image);
+  // The number of a formula; equal formulas share one.
+  uint32_t add_formula(const std::shared_ptr<const Formula>& formula);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
   uint32_t add_medium(double ior, const Vec3& absorption);
 

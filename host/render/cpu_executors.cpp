@@ -47,6 +47,7 @@ class TwinExecutor final : public Executor {
  public:
   TwinExecutor(const Scene& scene, const PackOptions& options) : eye_(scene.camera.eye) {
     times_.measure("pack", [&] { packed_ = pack(scene, options); });
+    for (const auto& formula : packed_.formulas) times_.measure("C++ compile", [&] { formula->compile(); });
   }
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
@@ -119,6 +120,8 @@ std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorO
 }
 
 std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options) {
+  for (const auto& shape : scene.shapes)
+    if (shape->formula_use()) shape->formula_use()->formula->compile();
   return make_reference_executor(
       std::make_shared<const reference::Renderer>(scene, options.pack.acceleration));
 }

@@ -7,7 +7,11 @@
 
 namespace eyeray {
 
+// Error (timed_out) where the flags say that a formula's loops did not end; so do the three below.
+void check_ended(uint32_t flags);
+
 inline PixelSample to_sample(const shader::SampleResult& result) {
+  check_ended(result.counts.z);
   return {Vec3(result.color), result.counts.x, result.counts.y, result.counts.z};
 }
 

@@ -126,6 +126,32 @@ std::string primitives_as_constants(const PackedScene& scene) {
   return text + "\n";
 }
 
+// What shapes/implicit.glsl marches along: each formula that the scene has, and its own march.
+std::string formulas(const PackedScene& scene) {
+  if (scene.formulas.empty()) return "#define FORMULAS(X)\n";
+  std::string text = "#include \"implicit.glsl\"\n";
+  if (std::ranges::any_of(scene.formulas, [](const auto& formula) { return formula->loops(); }))
+    text +=
+        "uint formula_turns = 0u;\nbool formula_overran = false;\n#define FORMULA_OVERRAN formula_overran\n"
+        "bool formula_turn() {\n  formula_turns = formula_turns + 1u;\n"
+        "  formula_overran = formula_overran || formula_turns > FORMULA_TURNS;\n  return "
+        "!formula_overran;\n}\n";
+  std::string rows;
+  for (size_t i = 0; i < scene.formulas.size(); ++i) {
+    const Formula& formula = *scene.formulas[i];
+    const std::string name = fmt::format("f{}_", i);
+    text += formula.kernel(name);
+    text += fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i,
+                        formula.loops() ? "formula_turns = 0u; " : "", name);
+    text += fmt::format(
+        "#define FORMULA_NAME(part) formula{0}_##part\n#define FORMULA_VALUE(it, p) formula{0}_value(p)\n"
+        "#include \"implicit_march.glsl\"\n#undef FORMULA_NAME\n#undef FORMULA_VALUE\n",
+        i);
+    rows += fmt::format(" X({0}u, formula{0})", i);
+  }
+  return text + "#define FORMULAS(X)" + rows + "\n";
+}
+
 // Whether any texture of the material varies over a surface.
 bool varies(const PackedScene& scene, const shader::Material& material) {
   const shader::uvec4& used = material.textures;
@@ -218,6 +244,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   // Where the eye moves, so do primitives: such a kernel is made anew for each camera as it is.
   if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
   text += "#include \"loaders.glsl\"\n";
+  text += formulas(scene);
   text += registry("SHAPES", "shapes", shapes, shapes_used);
   text += registry("MATERIALS", "materials", materials, material_kinds);
   text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.counts.z});

@@ -12,6 +12,7 @@
 
 #include "core/diagnostic.hpp"
 #include "core/vec.hpp"
+#include "formula/formula.hpp"
 #include "scene/bounds.hpp"
 #include "scene/table_reader.hpp"
 
@@ -73,6 +74,13 @@ struct QuadricForm {
 using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm,
                                CapsuleForm, QuadricForm>;
 
+// A formula that bounds a shape: negative within, on one side of a box of its own space.
+struct FormulaUse {
+  std::shared_ptr<const Formula> formula;
+  Bounds box;
+  double lipschitz;  // as steep as it is declared to be
+};
+
 class Shape {
  public:
   virtual ~Shape() = default;
@@ -83,6 +91,8 @@ class Shape {
   virtual Bounds bounds() const = 0;
   // For exporters and for comparing with other renderers; monostate for what they do not have.
   virtual ShapeForm form() const { return {}; }
+  // Of shapes that are made of one.
+  virtual const FormulaUse* formula_use() const { return nullptr; }
   // Appends the shape's one Primitive (and what it refers to).
   virtual void pack(Packer& packer) const = 0;
 

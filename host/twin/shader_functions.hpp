@@ -2,6 +2,8 @@
 // that a Binding of this thread names. For the twin and for tests of single functions.
 #pragma once
 
+#include <array>
+
 #include "records/packer.hpp"
 
 namespace eyeray::shader {
@@ -35,6 +37,9 @@ class Binding {
 }
 [[maybe_unused]] const Instance& load_instance(uint i) {
   return bound_scene->instances[i];
+}
+[[maybe_unused]] float load_formula_value(uint number, const vec3& p) {
+  return bound_scene->formulas[number]->value(std::array{p.x, p.y, p.z});
 }
 [[maybe_unused]] const Material& load_material(uint i) {
   return bound_scene->materials[i];
@@ -79,6 +84,10 @@ class Binding {
 #define HAS_MEDIA 1
 #define HAS_ABSORPTION 1
 #define UV_OF(name) true
+// One march for all formulas.
+#define FORMULAS(X) X(it.formula, formula)
+#define FORMULA_NAME(part) formula_##part
+#define FORMULA_VALUE(it, p) load_formula_value(it.formula, p)
 
 #undef SHADER_BEGIN
 #undef SHADER_END
@@ -94,6 +103,8 @@ class Binding {
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 // What is dispatched to stands before the dispatch.
 // clang-format off
+#include "implicit.glsl"
+#include "implicit_march.glsl"
 #include "shapes/all.glsl"
 #include "materials/all.glsl"
 #include "integrators/all.glsl"

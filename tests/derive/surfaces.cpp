@@ -193,8 +193,8 @@ float f(vec3 p) { return smooth_min(distance(p, vec3(0.4, 0.0, 0.0)) - 0.6, toru
   return 0.5 * log(r) * r / dr - 0.01;
 })",
        bulb, 1.3, true},
-      {"stairs", "float f(vec3 p) { return p.y - 0.25 * floor(4.0 * p.x) - mod(p.z, 2.0) * 0.1; }", stairs,
-       2},
+      {"stairs", "float f(vec3 p) { return p.y - 0.25 * floor(4.0 * p.x) - mod(p.z, 2.0) * 0.1; }", stairs, 2,
+       true},
   };
   return surfaces;
 }
