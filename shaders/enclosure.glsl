@@ -36,6 +36,14 @@ vec3 enclosure_of_coordinate(float o, float d, float m, float h) {
   return enclosure_rounded(o + way, d * h, 0.0f, abs(o) + abs(way) + abs(d * h));
 }
 
+// The same of center + extent · (o + t·d).
+vec3 enclosure_of_placed(float center, float extent, float o, float d, float m, float h) {
+  float way = d * m;
+  float a = extent * (o + way);
+  float b = extent * (d * h);
+  return enclosure_rounded(center + a, b, 0.0f, abs(center) + abs(extent) * (abs(o) + abs(way)) + abs(b));
+}
+
 vec3 enclosure_negate(vec3 x) { return vec3(-x.x, -x.y, x.z); }
 vec3 enclosure_add(vec3 x, vec3 y) {
   float a = x.x + y.x;

@@ -58,8 +58,12 @@ float fn_log(float x) {
 }
 float fn_exp2(float x) { return fn_exp(x * 0.693147181f); }
 float fn_log2(float x) { return fn_log(x) * 1.44269504f; }
-// Of x ≥ 0; below, as GLSL leaves it open, no number. The relative error grows with |y ln x|.
-float fn_pow(float x, float y) { return x == 0.0f ? (y > 0.0f ? 0.0f : y == 0.0f ? 1.0f : INFINITE) : fn_exp(y * fn_log(x)); }
+// Of x < 0, which GLSL leaves open, for whole y alone, as in C. The relative error grows with |y ln x|.
+float fn_pow(float x, float y) {
+  float power = x == 0.0f ? (y > 0.0f ? 0.0f : y == 0.0f ? 1.0f : INFINITE) : fn_exp(y * fn_log(abs(x)));
+  bool odd = floor(0.5f * y) != 0.5f * y;
+  return x >= 0.0f ? power : floor(y) != y ? NOT_A_NUMBER : odd ? -power : power;
+}
 float fn_sinh(float x) {
   float z = x * x;
   float e = fn_exp(abs(x));

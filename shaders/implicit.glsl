@@ -2,6 +2,8 @@
 #ifndef IMPLICIT_GLSL
 #define IMPLICIT_GLSL
 #include "cube.glsl"
+#include "dual.glsl"
+#include "enclosure_march.glsl"
 #include "formula.glsl"
 
 SHADER_BEGIN
@@ -28,6 +30,9 @@ struct Implicit {
 #define IMPLICIT_LEAST_STEP 4.0e-6f
 #define IMPLICIT_WIDTH 1.2e-7f
 #define IMPLICIT_DIFFERENCE 0.00390625f
+#define IMPLICIT_PIECES 512u
+#define IMPLICIT_FINEST 2.5e-7f
+#define IMPLICIT_MOST_CLEARANCE 64.0f
 
 SHADER_END
 #endif

@@ -75,37 +75,37 @@ constexpr std::string_view types = R"cpp(
     inline T& operator op##=(T& a, T b) { \
       return a = a op b;                  \
     }
-#define OPERATORS(T, S)                                                                                   \
-    WRAPS(T, S, +)                                                                                          \
-    WRAPS(T, S, -) WRAPS(T, S, *) WRAPS(T, S, &) WRAPS(T, S, |) WRAPS(T, S, ^) inline T operator<<(T a,     \
-                                                                                                   T b) {   \
-      return T(S(uint(a.v) << (uint(b.v) & 31u)));                                                          \
-    }                                                                                                       \
-    COMPARES(T, ==)                                                                                         \
-    COMPARES(T, !=) COMPARES(T, <) COMPARES(T, <=) COMPARES(T, >) COMPARES(T, >=) STORES(T, +) STORES(T, -) \
-        STORES(T, *) STORES(T, /) STORES(T, %) STORES(T, &) STORES(T, |) STORES(T, ^) STORES(T, <<)         \
-            STORES(T, >>) inline T                                                                          \
-            operator-(T a) {                                                                                \
-      return T(S(0u - uint(a.v)));                                                                          \
-    }                                                                                                       \
-    inline T operator~(T a) {                                                                               \
-      return T(S(~uint(a.v)));                                                                              \
-    }                                                                                                       \
-    inline T& operator++(T& a) {                                                                            \
-      return a = T(S(uint(a.v) + 1u));                                                                      \
-    }                                                                                                       \
-    inline T& operator--(T& a) {                                                                            \
-      return a = T(S(uint(a.v) - 1u));                                                                      \
-    }                                                                                                       \
-    inline T operator++(T& a, int) {                                                                        \
-      T b = a;                                                                                              \
-      ++a;                                                                                                  \
-      return b;                                                                                             \
-    }                                                                                                       \
-    inline T operator--(T& a, int) {                                                                        \
-      T b = a;                                                                                              \
-      --a;                                                                                                  \
-      return b;                                                                                             \
+#define OPERATORS(T, S)                                                                                      \
+    WRAPS(T, S, +)                                                                                             \
+    WRAPS(T, S, -) WRAPS(T, S, *) WRAPS(T, S, &) WRAPS(T, S, |) WRAPS(T, S, ^) inline T operator<<(T a, T b) { \
+      return T(S(uint(a.v) << (uint(b.v) & 31u)));                                                             \
+    }                                                                                                          \
+    COMPARES(T, ==)                                                                                            \
+    COMPARES(T, !=)                                                                                            \
+    COMPARES(T, <) COMPARES(T, <=) COMPARES(T, >) COMPARES(T, >=) STORES(T, +) STORES(T, -) STORES(T, *)       \
+        STORES(T, /) STORES(T, %) STORES(T, &) STORES(T, |) STORES(T, ^) STORES(T, <<)                         \
+            STORES(T, >>) inline T                                                                             \
+            operator-(T a) {                                                                                   \
+      return T(S(0u - uint(a.v)));                                                                             \
+    }                                                                                                          \
+    inline T operator~(T a) {                                                                                  \
+      return T(S(~uint(a.v)));                                                                                 \
+    }                                                                                                          \
+    inline T& operator++(T& a) {                                                                               \
+      return a = T(S(uint(a.v) + 1u));                                                                         \
+    }                                                                                                          \
+    inline T& operator--(T& a) {                                                                               \
+      return a = T(S(uint(a.v) - 1u));                                                                         \
+    }                                                                                                          \
+    inline T operator++(T& a, int) {                                                                           \
+      T b = a;                                                                                                 \
+      ++a;                                                                                                     \
+      return b;                                                                                                \
+    }                                                                                                          \
+    inline T operator--(T& a, int) {                                                                           \
+      T b = a;                                                                                                 \
+      --a;                                                                                                     \
+      return b;                                                                                                \
     }
   OPERATORS(Int, int)
   OPERATORS(Uint, uint)
@@ -416,7 +416,7 @@ constexpr std::string_view library_functions = R"cpp(
   ONE(log, __builtin_log(x))
   ONE(exp2, __builtin_exp2(x))
   ONE(log2, __builtin_log2(x))
-  TWO(pow, x < 0 ? __builtin_nan("") : __builtin_pow(x, y))
+  TWO(pow, __builtin_pow(x, y))
   ONE(sinh, __builtin_sinh(x))
   ONE(cosh, __builtin_cosh(x))
   ONE(tanh, __builtin_tanh(x))

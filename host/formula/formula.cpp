@@ -92,6 +92,10 @@ bool Formula::same(const Formula& other) const {
   return text_.text == other.text_.text && parameters_ == other.parameters_;
 }
 
+std::string Formula::declarations() const {
+  return constants(parameters_, "", "const ", "float", decimal);
+}
+
 Formula::Checkable Formula::checkable() const {
   return {constants(parameters_, check_prefix, "const ", "float", decimal),
           formula::checked_glsl(*program_, check_prefix).text};

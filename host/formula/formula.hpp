@@ -46,6 +46,8 @@ class Formula {
   bool same(const Formula& other) const;
 
   // ---- As GLSL ----
+  // Declarations of the parameters, to stand before the text as it was written.
+  std::string declarations() const;
   // For a compiler to judge: constants, then from line 1 of a file of its own the text. Both with names of
   // their own.
   struct Checkable {

@@ -47,7 +47,8 @@ class TwinExecutor final : public Executor {
  public:
   TwinExecutor(const Scene& scene, const PackOptions& options) : eye_(scene.camera.eye) {
     times_.measure("pack", [&] { packed_ = pack(scene, options); });
-    for (const auto& formula : packed_.formulas) times_.measure("C++ compile", [&] { formula->compile(); });
+    for (const auto& formula : packed_.formulas)
+      if (!formula.enclosed) times_.measure("C++ compile", [&] { formula.formula->compile(); });
   }
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {

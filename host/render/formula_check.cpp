@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "derive/function.hpp"
 #include "gpu/spirv_cache.hpp"
 #include "render/shader_files.hpp"
 
@@ -96,13 +97,30 @@ Steepest steepest(const FormulaUse& use) {
 
 void compile_formulas(const Scene& scene) {
   const DiskCache cache = DiskCache::of_user();
-  for (const Shape* shape : users(scene)) compile(*shape->formula_use()->formula, cache);
+  for (const Shape* shape : users(scene)) {
+    compile(*shape->formula_use()->formula, cache);
+    if (shape->formula_use()->lipschitz == 0) enclose_formula(*shape->formula_use()->formula);
+  }
+}
+
+calculus::StraightLine enclose_formula(const Formula& formula) {
+  try {
+    return derive::read_function(formula.text().text, {"formula", 1, 0}, formula.declarations());
+  } catch (const InputError& error) {
+    std::vector<Diagnostic> diagnostics;
+    for (Diagnostic diagnostic : error.diagnostics()) {
+      diagnostic.message += "; so no interval can be computed for it: declare a `lipschitz`";
+      diagnostics.push_back(formula.in_user_text(diagnostic));
+    }
+    throw InputError(std::move(diagnostics));
+  }
 }
 
 std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene) {
   std::vector<Diagnostic> warnings;
   for (const Shape* shape : users(scene)) {
     const FormulaUse& use = *shape->formula_use();
+    if (use.lipschitz == 0) continue;
     Steepest found;
     try {
       found = steepest(use);

@@ -8,6 +8,8 @@
 #include <set>
 #include <string_view>
 
+#include "calculus/emit.hpp"
+
 namespace eyeray {
 namespace {
 
@@ -130,7 +132,8 @@ std::string primitives_as_constants(const PackedScene& scene) {
 std::string formulas(const PackedScene& scene) {
   if (scene.formulas.empty()) return "#define FORMULAS(X)\n";
   std::string text = "#include \"implicit.glsl\"\n";
-  if (std::ranges::any_of(scene.formulas, [](const auto& formula) { return formula->loops(); }))
+  const auto loops = [](const PackedFormula& f) { return !f.enclosed && f.formula->loops(); };
+  if (std::ranges::any_of(scene.formulas, loops))
     text +=
         "uint formula_turns = 0u;\nbool formula_overran = false;\n#define FORMULA_OVERRAN formula_overran\n"
         "bool formula_turn() {\n  formula_turns = formula_turns + 1u;\n"
@@ -138,8 +141,21 @@ std::string formulas(const PackedScene& scene) {
         "!formula_overran;\n}\n";
   std::string rows;
   for (size_t i = 0; i < scene.formulas.size(); ++i) {
-    const Formula& formula = *scene.formulas[i];
+    const Formula& formula = *scene.formulas[i].formula;
     const std::string name = fmt::format("f{}_", i);
+    rows += fmt::format(" X({0}u, formula{0})", i);
+    if (scene.formulas[i].enclosed) {
+      const calculus::StraightLine& line = scene.formulas[i].line;
+      text += calculus::enclosure_text(line, fmt::format("formula{}_enclosure", i)) +
+              calculus::gradient_text(line, fmt::format("formula{}_gradient", i));
+      text += fmt::format(
+          "#define FORMULA_NAME(part) formula{0}_##part\n"
+          "#define FORMULA_ENCLOSURE(it, x, y, z) formula{0}_enclosure(x, y, z)\n"
+          "#define FORMULA_GRADIENT(it, p) formula{0}_gradient(p)\n#include \"implicit_enclosed.glsl\"\n"
+          "#undef FORMULA_NAME\n#undef FORMULA_ENCLOSURE\n#undef FORMULA_GRADIENT\n",
+          i);
+      continue;
+    }
     text += formula.kernel(name);
     text += fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i,
                         formula.loops() ? "formula_turns = 0u; " : "", name);
@@ -147,7 +163,6 @@ std::string formulas(const PackedScene& scene) {
         "#define FORMULA_NAME(part) formula{0}_##part\n#define FORMULA_VALUE(it, p) formula{0}_value(p)\n"
         "#include \"implicit_march.glsl\"\n#undef FORMULA_NAME\n#undef FORMULA_VALUE\n",
         i);
-    rows += fmt::format(" X({0}u, formula{0})", i);
   }
   return text + "#define FORMULAS(X)" + rows + "\n";
 }

@@ -78,7 +78,7 @@ using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleFo
 struct FormulaUse {
   std::shared_ptr<const Formula> formula;
   Bounds box;
-  double lipschitz;  // as steep as it is declared to be
+  double lipschitz;  // as steep as it is declared to be; 0 where nothing is declared
 };
 
 class Shape {

@@ -1,6 +1,10 @@
 #include "shapes/formula_surface.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "shapes/chebyshev.hpp"
 
 namespace eyeray {
 
@@ -56,6 +60,53 @@ class Search {
   int values_ = 0;
 };
 
+// The same where nothing says how steep f is: piece by piece as Chebyshev series.
+class SeriesSearch {
+ public:
+  SeriesSearch(const FormulaSurface& surface, const Ray& ray, double unit)
+      : surface_(surface), ray_(ray), unit_(unit) {}
+
+  std::optional<double> between(double from, double to, bool inside) {
+    std::array<double, ChebyshevSeries::points> values;
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i] = value(0.5 * (from + to) + 0.5 * (to - from) * ChebyshevSeries::places()[i]);
+    double size = 0;
+    for (const double v : values) size = std::max(size, std::fabs(v));
+    largest_ = std::max(largest_, size);
+
+    // Nothing, or what the signs at the ends say, where the series knows.
+    const ChebyshevSeries series(values);
+    const bool ends = series.ends(1e-10 * size + 1e-14 * largest_);
+    const bool narrow = (to - from) / unit_ < least_gap;
+    if (series.clearance() > (ends ? 1e-9 : 0.8) * size && (values[0] < 0) == inside) return std::nullopt;
+    if (narrow || (ends && series.monotone()) || values_ > most_values)
+      return (values[0] < 0) != inside ? std::optional(narrowed(from, to, inside)) : std::nullopt;
+
+    const double middle = 0.5 * (from + to);
+    if (const auto left = between(from, middle, inside)) return left;
+    return between(middle, to, inside);
+  }
+
+ private:
+  double value(double s) {
+    ++values_;
+    return surface_.value(ray_.o + ray_.d * s);
+  }
+  double narrowed(double from, double to, bool inside) {
+    for (int i = 0; i < 60 && (to - from) / unit_ > least_width; ++i) {
+      const double middle = 0.5 * (from + to);
+      ((value(middle) < 0) == inside ? from : to) = middle;
+    }
+    return 0.5 * (from + to);
+  }
+
+  const FormulaSurface& surface_;
+  const Ray& ray_;
+  double unit_;
+  double largest_ = 0;
+  int values_ = 0;
+};
+
 }  // namespace
 
 FormulaSurface::FormulaSurface(const FormulaUse& use)
@@ -79,7 +130,10 @@ Vec3 FormulaSurface::gradient(const Vec3& q) const {
 }
 
 std::optional<double> FormulaSurface::first_change(const Ray& ray, double start, double end) const {
-  Search search(*this, ray, use_.lipschitz * glm::length(extent_ * ray.d), 1 / glm::length(ray.d));
+  const double unit = 1 / glm::length(ray.d);
+  if (use_.lipschitz == 0)
+    return SeriesSearch(*this, ray, unit).between(start, end, value(ray.o + ray.d * start) < 0);
+  Search search(*this, ray, use_.lipschitz * glm::length(extent_ * ray.d), unit);
   const Search::Sample first = search.sample(start);
   return search.between(first, search.sample(end), first.f < 0);
 }

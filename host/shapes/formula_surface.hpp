@@ -17,7 +17,8 @@ class FormulaSurface {
   Vec3 gradient(const Vec3& q) const;
   // The first place from `start` to `end` at which the sign is another than at `start`. Between two places no
   // more than what the values there clear of roots, by the Lipschitz constant, is left out; so none is passed
-  // by, but pairs of roots closer than 1e-9.
+  // by, but pairs of roots closer than 1e-9. Where there is no such constant, Chebyshev series take its
+  // place.
   std::optional<double> first_change(const Ray& ray, double start, double end) const;
 
  private:
