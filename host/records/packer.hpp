@@ -9,11 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "formula/formula.hpp"
 #include "records/records.hpp"
 #include "scene/texture.hpp"
 
 namespace eyeray {
+
+class Formula;  // formula/formula.hpp
 
 // A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
@@ -38,6 +39,7 @@ struct PackedScene {
   float map_growth = 1;
   std::vector<std::shared_ptr<const Formula>> formulas;  // of implicit shapes, by number
   uint64_t shape_iterations = 0;                         // that shapes' own loops take, all shapes together
+  bool steps_may_run_out = false;                        // whether any shape may return T_RAN_OUT
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
   std::vector<uint32_t> texels;                                   // records.h says how; empty without images
@@ -66,6 +68,8 @@ class Packer {
   // Every shape that loops says how often it may.
   void add_map_growth(double growth) { scene.map_growth = std::max(scene.map_growth, float(growth)); }
   void add_iterations(size_t count) { scene.shape_iterations += count; }
+  // Every shape whose `intersect` may return T_RAN_OUT says so.
+  void add_steps() { scene.steps_may_run_out = true; }
   // The index of a texture; equal textures share one.
   uint32_t add_texture(const Texture& texture);
   // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there

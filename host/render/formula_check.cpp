@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "formula/formula.hpp"
 #include "gpu/spirv_cache.hpp"
 #include "render/shader_files.hpp"
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "formula/formula.hpp"
+
 namespace eyeray {
 
 namespace {
@@ -10,7 +12,7 @@ constexpr double difference = 1e-4;
 // Lengths in the cube: pairs of roots closer than this are not seen, and a root is known to that.
 constexpr double least_gap = 1e-9;
 constexpr double least_width = 1e-14;
-// Beyond so many values a ray is taken to meet nothing: along a surface that is flat on it, no search ends.
+// The search gives up after so many values: along a surface that is flat on the ray, none ends.
 constexpr int most_values = 20000;
 
 // Looks through a segment, from its start on.
@@ -29,13 +31,14 @@ class Search {
     return {s, surface_.value(ray_.o + ray_.d * s)};
   }
 
-  std::optional<double> between(const Sample& a, const Sample& b, bool inside) {
+  using Change = FormulaSurface::Change;
+  std::optional<Change> between(const Sample& a, const Sample& b, bool inside) {
     const bool changes = (b.f < 0) != inside;
     if (!changes && (std::fabs(a.f) + std::fabs(b.f) > rate_ * (b.s - a.s) || std::isnan(a.f + b.f)))
       return std::nullopt;
     const double width = (b.s - a.s) / unit_;
-    if (width < least_gap) return changes ? std::optional(narrow(a, b, inside)) : std::nullopt;
-    if (values_ > most_values) return std::nullopt;
+    if (width < least_gap) return changes ? std::optional(Change{narrow(a, b, inside)}) : std::nullopt;
+    if (values_ > most_values) return Change{a.s, true};
     const Sample middle = sample(0.5 * (a.s + b.s));
     if (const auto left = between(a, middle, inside)) return left;
     return (middle.f < 0) == inside ? between(middle, b, inside) : std::nullopt;
@@ -78,7 +81,8 @@ Vec3 FormulaSurface::gradient(const Vec3& q) const {
   return gradient;
 }
 
-std::optional<double> FormulaSurface::first_change(const Ray& ray, double start, double end) const {
+std::optional<FormulaSurface::Change> FormulaSurface::first_change(const Ray& ray, double start,
+                                                                   double end) const {
   Search search(*this, ray, use_.lipschitz * glm::length(extent_ * ray.d), 1 / glm::length(ray.d));
   const Search::Sample first = search.sample(start);
   return search.between(first, search.sample(end), first.f < 0);

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "formula/formula.hpp"
 #include "records/packer.hpp"
 
 namespace eyeray::shader {
@@ -41,6 +42,10 @@ class Binding {
 [[maybe_unused]] float load_formula_value(uint number, const vec3& p) {
   return bound_scene->formulas[number]->value(std::array{p.x, p.y, p.z});
 }
+[[maybe_unused]] vec3 load_formula_gradient(uint number, const vec3& p) {
+  const std::array<float, 3> gradient = bound_scene->formulas[number]->gradient(std::array{p.x, p.y, p.z});
+  return {gradient[0], gradient[1], gradient[2]};
+}
 [[maybe_unused]] const Material& load_material(uint i) {
   return bound_scene->materials[i];
 }
@@ -71,6 +76,7 @@ class Binding {
 #define HAS_INSTANCES 1
 #define INSTANCE_COUNT uint(bound_scene->instances.size())
 #define STORED_HITS 0
+#define STEPS_MAY_RUN_OUT 1
 #define HAS_SECONDARY 1
 #define SHIFT_STACK 0
 #define STACK_SIZE 128
@@ -88,6 +94,8 @@ class Binding {
 #define FORMULAS(X) X(it.formula, formula)
 #define FORMULA_NAME(part) formula_##part
 #define FORMULA_VALUE(it, p) load_formula_value(it.formula, p)
+#define FORMULA_HAS_GRADIENT(it) bound_scene->formulas[it.formula]->has_gradient()
+#define FORMULA_GRADIENT(it, p) load_formula_gradient(it.formula, p)
 
 #undef SHADER_BEGIN
 #undef SHADER_END
