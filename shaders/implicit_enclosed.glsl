@@ -1,8 +1,8 @@
 // How a ray finds one formula's surface f = 0 in the cube (shapes/implicit.glsl) where no Lipschitz constant is declared: by enclosures of f (enclosure_march.glsl),
 // and its slope by forward differentiation. Included once a formula, with FORMULA_NAME(part), what its functions are called,
-// FORMULA_ENCLOSURE(it, x, y, z) and FORMULA_GRADIENT(it, p).
+// FORMULA_ENCLOSURE(it, x, y, z) and FORMULA_DUAL(it, p).
 #ifndef FORMULA_NAME
-#error FORMULA_NAME, FORMULA_ENCLOSURE and FORMULA_GRADIENT say whose march this is
+#error FORMULA_NAME, FORMULA_ENCLOSURE and FORMULA_DUAL say whose march this is
 #endif
 
 SHADER_BEGIN
@@ -30,13 +30,13 @@ vec2 FORMULA_NAME(march)(Implicit it, ObjectRay r, float start, float end, bool 
                : !march.over ? IMPLICIT_RAN_OUT
                : march.found ? IMPLICIT_ITSELF
                : march.sign < 0.0f && !it.open ? IMPLICIT_EXIT : IMPLICIT_NOTHING;
-  return vec2(caps ? start : march.found ? march.root : end, part);
+  return vec2(caps ? start : march.found ? march.root : march.over ? end : march.unknown, part);
 }
 
 // The gradient of f at q, in the cube's coordinates, and f.
 vec4 FORMULA_NAME(slope)(Implicit it, vec3 q, bool wanted) {
   vec4 at = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-  if (wanted) at = FORMULA_GRADIENT(it, it.center + it.extent * q);
+  if (wanted) at = FORMULA_DUAL(it, it.center + it.extent * q);
   return vec4(at.x * it.extent.x, at.y * it.extent.y, at.z * it.extent.z, at.w);
 }
 

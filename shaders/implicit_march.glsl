@@ -1,7 +1,8 @@
 // How a ray finds one formula's surface f = 0 in the cube (shapes/implicit.glsl), by sphere tracing: f is nowhere steeper than a declared constant, so no
-// root is nearer than |f| over it. Included once a formula, with FORMULA_NAME(part), what its functions are called, and FORMULA_VALUE(it, p).
+// root is nearer than |f| over it. Included once a formula, with FORMULA_NAME(part), what its functions are called, FORMULA_VALUE(it, p) and,
+// where FORMULA_HAS_GRADIENT(it), FORMULA_GRADIENT(it, p).
 #ifndef FORMULA_NAME
-#error FORMULA_NAME and FORMULA_VALUE say whose march this is
+#error FORMULA_NAME, FORMULA_VALUE and FORMULA_GRADIENT say whose march this is
 #endif
 
 SHADER_BEGIN
@@ -63,11 +64,13 @@ vec2 FORMULA_NAME(march)(Implicit it, ObjectRay r, float start, float end, bool 
   return vec2(crosses ? root : s, part);
 }
 
-// The gradient of f at q, in the cube's coordinates, and f: differences of the fourth order, steps of 1/256 of the box.
+// The gradient of f at q, in the cube's coordinates, and f. By the formula's own gradient if it has one; else by differences of the fourth order, steps
+// of 1/256 of the box.
 vec4 FORMULA_NAME(slope)(Implicit it, vec3 q, bool wanted) {
   vec3 gradient = vec3(0.0f, 0.0f, 0.0f);
   float f = 0.0f;
-  for (uint i = 0u; i < 13u && wanted; i++) {
+  uint turns = FORMULA_HAS_GRADIENT(it) ? 1u : 13u;
+  for (uint i = 13u - turns; i < 13u && wanted; i++) {
     uint axis = i >> 2u;
     uint which = i & 3u;
     float step = axis == 3u ? 0.0f : which == 0u ? 1.0f : which == 1u ? -1.0f : which == 2u ? 2.0f : -2.0f;
@@ -80,6 +83,8 @@ vec4 FORMULA_NAME(slope)(Implicit it, vec3 q, bool wanted) {
     gradient.y = gradient.y + (axis == 1u ? part : 0.0f);
     gradient.z = gradient.z + (axis == 2u ? part : 0.0f);
   }
+  for (uint i = 0u; i < 1u && wanted && FORMULA_HAS_GRADIENT(it); i++)
+    gradient = it.extent * FORMULA_GRADIENT(it, it.center + it.extent * q);
   return vec4(gradient.x, gradient.y, gradient.z, f);
 }
 

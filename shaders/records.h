@@ -30,7 +30,7 @@ SHADER_BEGIN
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
-#define T_RAN_OUT -2.0f  // a shape's answer: its steps ran out before it knew
+#define T_RAN_OUT -2.0f // "no hit found in the steps allowed"; uv.x says up to which t there is none for sure
 
 // ---- Primitive: 64 bytes --------------------------------------------------------------------------------------------
 //   0 id: the scene's primitive index, or within an instance's mesh the triangle    4 material | kind << 24
@@ -230,6 +230,7 @@ struct PathState {
 #define FLAG_MEDIA_OVERFLOW 1u
 #define FLAG_STACK_OVERFLOW 2u
 #define FLAG_LOOP_BUDGET 4u
+#define FLAG_RAN_OUT 8u
 #define FLAG_ENDLESS 16u  // a formula made more than FORMULA_TURNS turns of its loops in one call
 
 SHADER_END

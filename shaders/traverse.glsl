@@ -14,11 +14,32 @@ SHADER_BEGIN
 struct Found {
   Hit hit;
   uint occluded;
+#if STEPS_MAY_RUN_OUT
+  float sure_until;  // the least t at which the steps of a shape's search ran out; T_MISS if none's did
+#endif
 };
+
+// Takes note of a shape that gave up.
+void note_steps(INOUT(Found) found, float t, vec2 uv) {
+#if STEPS_MAY_RUN_OUT
+  found.sure_until = t == T_RAN_OUT && !(uv.x >= found.sure_until) ? uv.x : found.sure_until;
+#endif
+}
+
+// FLAG_RAN_OUT if what was found may be wrong: if a shape gave up before the nearest hit, or before the light that still arrives. Of
+// what lies behind it does not matter which shapes were asked, and so this does not depend on the order either.
+uint ran_out(Found found) {
+#if STEPS_MAY_RUN_OUT
+  return !(found.sure_until >= found.hit.t) && found.occluded < SHADOW_OPAQUE ? FLAG_RAN_OUT : 0u;
+#else
+  return 0u;
+#endif
+}
 
 // Takes an intersection into account. `any`: the sum of what is met before hit.t, else the nearest with t > 0. Of exactly equal ones
 // the lowest id stays, so that neither the order of traversal nor that of the slots matters.
 void meet(INOUT(Found) found, float t, vec2 uv, uint slot, uint id, uint instance, uint density, bool any) {
+  note_steps(found, t, uv);
   if (any) {
     uint sum = t > 0.0f && t < found.hit.t ? found.occluded + density : found.occluded;
     found.occluded = sum < SHADOW_OPAQUE ? sum : SHADOW_OPAQUE;
@@ -38,6 +59,7 @@ void meet_in_order(INOUT(Found) found, float t, vec2 uv, uint slot, uint id, uin
   if (any) {
     meet(found, t, uv, slot, id, NONE, density, true);
   } else {
+    note_steps(found, t, uv);
     bool nearer = t > 0.0f && t < found.hit.t;
     found.hit.t = nearer ? t : found.hit.t;
     found.hit.slot = nearer ? slot : found.hit.slot;
@@ -125,6 +147,9 @@ Found nothing_found(float t_max) {
   found.hit.instance = NONE;
   found.hit.uv = vec2(0.0f, 0.0f);
   found.occluded = 0u;
+#if STEPS_MAY_RUN_OUT
+  found.sure_until = T_MISS;
+#endif
   return found;
 }
 
@@ -169,12 +194,20 @@ Found search(Ray ray, float t_max, bool any) {
   return found;
 }
 
-// The nearest hit with t > 0.
-Hit trace(Ray ray) { return search(ray, T_MISS, false).hit; }
+// The nearest hit with t > 0. Adds to `flags` what may be wrong with it.
+Hit trace(Ray ray, INOUT(uint) flags) {
+  Found found = search(ray, T_MISS, false);
+  flags = flags | ran_out(found);
+  return found.hit;
+}
 
 // How much of a shadow ray's light is lost on 0 < t < t_max: the sum of what every primitive on the way weakens it by, in
-// −log2 · SHADOW_SCALE, at most SHADOW_OPAQUE. An integer sum does not depend on the order of traversal.
-uint occlusion(Ray ray, float t_max) { return search(ray, t_max, true).occluded; }
+// −log2 · SHADOW_SCALE, at most SHADOW_OPAQUE. An integer sum does not depend on the order of traversal. `flags` as for trace.
+uint occlusion(Ray ray, float t_max, INOUT(uint) flags) {
+  Found found = search(ray, t_max, true);
+  flags = flags | ran_out(found);
+  return found.occluded;
+}
 
 // The share of light that passes, from what `occlusion` counted.
 float visibility(uint occluded) {

@@ -46,7 +46,7 @@ void main() {
   stored_place = place;
   Hit hit = hit_of_packet(load_packet_hit(), counts);
 #else
-  Hit hit = trace(ray);
+  Hit hit = trace(ray, counts.z);
 #endif
   Children children = follow(frame, path, ray, hit, color, counts);
   counts.z = counts.z | loops_cut_off(LOOP_PROBE);

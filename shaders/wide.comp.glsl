@@ -278,6 +278,9 @@ void main() {
     found.hit.id = of_source(own_found.hit.id);
     uint loose = of_source(own_found.occluded);
     found.occluded = lane == 0u ? loose : 0u;
+#if STEPS_MAY_RUN_OUT
+    found.sure_until = of_source(own_found.sure_until);
+#endif
     limit = floatBitsToInt(found.hit.t);
     at = of_source(start);
     EACH_ROW stack[i] = TREE_DONE;
@@ -306,6 +309,10 @@ void main() {
     own_found.hit.id = mine ? id_back : own_found.hit.id;
     own_found.hit.slot = mine ? slot_back : own_found.hit.slot;
     own_found.occluded = mine ? occluded_back : own_found.occluded;
+#if STEPS_MAY_RUN_OUT
+    uint sure_back = from_member(uint(least(floatBitsToInt(found.sure_until))), tracer);
+    own_found.sure_until = mine ? uintBitsToFloat(sure_back) : own_found.sure_until;
+#endif
     turn += 1u;
   } while (turn * AT_ONCE < with_work);
   if (there) results[i] = answer(own_found, ANY, loops_cut_off(LOOP_PROBE));

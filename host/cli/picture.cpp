@@ -1,5 +1,6 @@
 #include "cli/picture.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -27,6 +28,8 @@ constexpr FlagText flag_texts[] = {
      "more rays were pending than the shader keeps: lower render.max_depth or raise render.min_weight"},
     {loop_budget, "loop_budget",
      "the driver's limit on loop iterations was near: try fewer shapes, --backend twin or a newer driver"},
+    {ran_out, "ran_out",
+     "a shape that is searched for step by step was not found in the steps allowed; --aov flags shows where"},
 };
 
 double rays_per_second(const Picture& picture) {
@@ -55,10 +58,10 @@ void PictureRequest::add_to(CLI::App& command) {
       ->take_all();
   const auto parse = [this](const std::string& list) { aovs = parse_aovs(list); };
   command
-      .add_option_function<std::string>(
-          "--aov", parse,
-          "Also write depth, position, normal, uv, primitive, material, hits, or all of them: each as data "
-          "(FILE.NAME.pfm) and in false colour (FILE.NAME.png).")
+      .add_option_function<std::string>("--aov", parse,
+                                        "Also write depth, position, normal, uv, primitive, material, hits, "
+                                        "flags, or all of them: each as data "
+                                        "(FILE.NAME.pfm) and in false colour (FILE.NAME.png).")
       ->option_text("LIST");
   add_crop_option(command, crop);
   add_backend_option(command, backend);
@@ -114,6 +117,10 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
   if (totals.samples_done > 0) encoding.measure("encode", [&] { files->finish_picture(picture.files); });
   if (!picture.interrupted && need_first_hits(request.aovs)) {
     picture.interrupted = !trace_first_hits(*executor, crop, [&](int, std::span<const FirstHit> hits) {
+      for (const FirstHit& hit : hits) {
+        picture.flags |= hit.flags;
+        picture.flagged_hits += hit.flags != 0;
+      }
       encoding.measure("encode", [&] { files->write(hits); });
     });
   }
@@ -130,7 +137,7 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
   picture.rays = totals.rays;
   picture.sampling_seconds = totals.seconds;
   picture.flagged_pixels = totals.flagged_pixels;
-  picture.flags = totals.flags;
+  picture.flags |= totals.flags;
   picture.bands = totals.bands;
   picture.share = double(totals.samples_taken) / (double(crop.pixels()) * scene.image.samples);
   picture.samples_resumed = totals.samples_resumed;
@@ -148,8 +155,8 @@ std::string flag_warning(const Picture& picture) {
   for (const FlagText& each : flag_texts) {
     if (picture.flags & each.flag) reasons.push_back(each.text);
   }
-  return fmt::format("{} pixel{} may be wrong: {}", picture.flagged_pixels,
-                     picture.flagged_pixels == 1 ? "" : "s", fmt::join(reasons, "; "));
+  const uint64_t pixels = std::max(picture.flagged_pixels, picture.flagged_hits);
+  return fmt::format("{} pixel{} may be wrong: {}", pixels, pixels == 1 ? "" : "s", fmt::join(reasons, "; "));
 }
 
 std::string summary(const Picture& picture) {
@@ -184,6 +191,7 @@ Json to_json(const Picture& picture) {
             {"stages", to_json(picture.times)},
             {"peak_memory", peak_memory()},
             {"flagged_pixels", picture.flagged_pixels},
+            {"flagged_hits", picture.flagged_hits},
             {"flags", Json::array()},
             {"interrupted", picture.interrupted},
             {"bands", picture.bands}};

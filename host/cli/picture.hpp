@@ -46,7 +46,8 @@ struct Picture {
   double sampling_seconds = 0;
   double seconds = 0;  // all in all
   uint64_t flagged_pixels = 0;
-  uint32_t flags = 0;
+  uint64_t flagged_hits = 0;  // of the AOVs; 0 if none is made of first hits
+  uint32_t flags = 0;         // of either
   bool interrupted = false;
   int bands = 1;                     // of rows, in which it was rendered
   double share = 0;                  // of all samples that were taken

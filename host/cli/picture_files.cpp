@@ -59,12 +59,13 @@ void PictureFiles::write(const FinishedRows& rows) {
   for (ImageWriter& writer : writers_) writer.write(rows.color);
   for (AovFiles& files : aovs_) {
     if (files.aov() == Aov::hits) files.write(rows.hits);
+    if (files.aov() == Aov::flags) files.write(rows.flagged);
   }
 }
 
 void PictureFiles::write(std::span<const FirstHit> hits) {
   for (AovFiles& files : aovs_) {
-    if (files.aov() != Aov::hits) files.write(aov_image(files.aov(), hits, width_));
+    if (is_of_first_hits(files.aov())) files.write(aov_image(files.aov(), hits, width_));
   }
 }
 

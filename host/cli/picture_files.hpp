@@ -41,7 +41,7 @@ class PictureFiles {
  public:
   PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width, int height);
 
-  // The next rows, from the top down, of the picture and of the AOV `hits`.
+  // The next rows, from the top down, of the picture and of the AOVs `hits` and `flags`.
   void write(const FinishedRows& rows);
   // The same of the other AOVs.
   void write(std::span<const FirstHit> hits);

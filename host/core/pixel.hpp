@@ -22,6 +22,7 @@ enum SampleFlag : uint32_t {
   media_overflow = 1u << 0,  // more than four media nested
   stack_overflow = 1u << 1,  // more rays pending than the shader's stack holds
   loop_budget = 1u << 2,     // the driver's cap on loop iterations was near (docs/lavapipe.md)
+  ran_out = 1u << 3,         // a shape that is searched for step by step was not found in the steps allowed
   endless = 1u << 4,  // a formula's loops did not end: whoever reads samples fails (render/samples.hpp)
 };
 
@@ -33,6 +34,7 @@ struct FirstHit {
   Vec2 uv{0.0};
   int32_t primitive = -1;  // index, see Scene::primitive_count; −1 where nothing is hit
   int32_t material = -1;   // index in Scene::materials
+  uint32_t flags = 0;      // SampleFlag bits; 0 when nothing went wrong
   // The largest coordinate, relative to the eye, that t was computed from, over the cosine of incidence: what
   // the rounding of coordinates moves t by is in proportion to it. Known to the reference; 0 elsewhere.
   double t_scale = 0;

@@ -109,9 +109,12 @@ std::string compile(std::vector<std::string> command, const std::string& unit, c
   return read_file(object);
 }
 
+}  // namespace
+
 // Loaded from memory: neither the cache nor the folder for temporary files needs to be one that programs may
-// run from.
-void* open_library(const std::string& bytes) {
+// run from. dlopen knows libraries by their names, and this one is the file's number: while the library is
+// there, no other may get it.
+CppLibrary::Opened CppLibrary::open(const std::string& bytes) {
   const int file = ::memfd_create("formula", MFD_CLOEXEC);
   if (file < 0) throw Error(ExitCode::file_io, "cannot make a file in memory: {}", strerror(errno));
   for (size_t done = 0; done < bytes.size();) {
@@ -123,16 +126,17 @@ void* open_library(const std::string& bytes) {
     done += size_t(count);
   }
   void* handle = ::dlopen(fmt::format("/proc/self/fd/{}", file).c_str(), RTLD_NOW | RTLD_LOCAL);
-  const std::string why = handle ? "" : ::dlerror();
-  ::close(file);
-  if (!handle) throw Error(ExitCode::no_compiler, "what the C++ compiler made cannot be loaded: {}", why);
-  return handle;
+  if (!handle) {
+    const std::string why = ::dlerror();
+    ::close(file);
+    throw Error(ExitCode::no_compiler, "what the C++ compiler made cannot be loaded: {}", why);
+  }
+  return {file, handle};
 }
 
-}  // namespace
-
 CppLibrary::~CppLibrary() {
-  ::dlclose(handle_);
+  ::dlclose(opened_.handle);
+  ::close(opened_.file);
 }
 
 std::shared_ptr<const CppLibrary> CppLibrary::load(const std::string& unit, const std::string& what,
@@ -152,11 +156,11 @@ std::shared_ptr<const CppLibrary> CppLibrary::load(const std::string& unit, cons
     bytes = compile(compiler, unit, what);
     cache.store(name, *bytes);
   }
-  return std::shared_ptr<const CppLibrary>(new CppLibrary(open_library(*bytes)));
+  return std::shared_ptr<const CppLibrary>(new CppLibrary(open(*bytes)));
 }
 
 void* CppLibrary::symbol(const char* name) const {
-  void* address = ::dlsym(handle_, name);
+  void* address = ::dlsym(opened_.handle, name);
   CHECK(address != nullptr);
   return address;
 }

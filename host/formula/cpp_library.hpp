@@ -25,8 +25,14 @@ class CppLibrary {
   void* symbol(const char* name) const;
 
  private:
-  explicit CppLibrary(void* handle) : handle_(handle) {}
-  void* handle_;
+  // A file in memory, open as long as the library is.
+  struct Opened {
+    int file;
+    void* handle;
+  };
+  static Opened open(const std::string& bytes);
+  explicit CppLibrary(const Opened& opened) : opened_(opened) {}
+  Opened opened_;
 };
 
 // Whether there is any compiler.

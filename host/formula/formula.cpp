@@ -132,15 +132,23 @@ bool Formula::loops() const {
   return !program_->conditions.empty();
 }
 
+bool Formula::has_gradient() const {
+  return std::ranges::any_of(program_->functions, [](const Program::Function& function) {
+    return function.name == "gradient" && function.type == "vec3" && function.body.begin < function.body.end;
+  });
+}
+
 void Formula::compile() const {
   std::call_once(compiled_, [&] {
     const auto single = [](double value) { return fmt::format("real({})", decimal(double(float(value)))); };
     const auto full = [](double value) { return fmt::format("real({})", decimal(value)); };
     const std::string unit = formula::cpp_unit(constants(parameters_, cpp_prefix, "const ", "real", single),
                                                constants(parameters_, cpp_prefix, "const ", "real", full),
-                                               formula::cpp(*program_, cpp_prefix).text);
+                                               formula::cpp(*program_, cpp_prefix).text, has_gradient());
     library_ = formula::CppLibrary::load(unit, title_, DiskCache::of_user());
     value32_ = reinterpret_cast<decltype(value32_)>(library_->symbol("eyeray_f32"));
+    if (has_gradient())
+      gradient32_ = reinterpret_cast<decltype(gradient32_)>(library_->symbol("eyeray_gradient_f32"));
     value64_ = reinterpret_cast<decltype(value64_)>(library_->symbol("eyeray_f64"));
   });
 }
@@ -157,6 +165,13 @@ double Formula::value(const std::array<double, 3>& p) const {
   double value = 0;
   if (value64_(p[0], p[1], p[2], &value) != 0) endless();
   return value;
+}
+
+std::array<float, 3> Formula::gradient(const std::array<float, 3>& p) const {
+  compile();
+  std::array<float, 3> gradient{};
+  if (gradient32_(p[0], p[1], p[2], gradient.data()) != 0) endless();
+  return gradient;
 }
 
 void Formula::endless() const {

@@ -56,6 +56,8 @@ class Formula {
   Checkable checkable() const;
   // What a compiler said of Checkable::text as said of the user's text.
   Diagnostic in_user_text(Diagnostic diagnostic) const;
+  // Whether the text has a `vec3 gradient(vec3 p)` too.
+  bool has_gradient() const;
   // `float NAMEf(vec3 p)` and what it needs, with NAME before every name. Loops ask `bool formula_turn()`, if
   // there are any that must (loops()).
   std::string kernel(const std::string& name) const;
@@ -68,6 +70,8 @@ class Formula {
   // Error as compile()'s; and (timed_out) where the loops make more turns than FORMULA_TURNS of formula.glsl.
   float value(const std::array<float, 3>& p) const;
   double value(const std::array<double, 3>& p) const;
+  // The text's own, if it has one.
+  std::array<float, 3> gradient(const std::array<float, 3>& p) const;
 
  private:
   [[noreturn]] void endless() const;
@@ -79,6 +83,7 @@ class Formula {
   mutable std::once_flag compiled_;
   mutable std::shared_ptr<const formula::CppLibrary> library_;
   mutable int (*value32_)(float, float, float, float*) = nullptr;
+  mutable int (*gradient32_)(float, float, float, float*) = nullptr;
   mutable int (*value64_)(double, double, double, double*) = nullptr;
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/srgb.hpp"
+#include "formula/formula.hpp"
 
 namespace eyeray {
 

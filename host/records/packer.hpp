@@ -10,19 +10,20 @@
 #include <vector>
 
 #include "calculus/tape.hpp"
-#include "formula/formula.hpp"
 #include "records/records.hpp"
 #include "scene/texture.hpp"
 
 namespace eyeray {
 
-// A scene as the shaders see it; every position is relative to the camera's eye.
+class Formula;  // formula/formula.hpp
+
 struct PackedFormula {
   std::shared_ptr<const Formula> formula;
   bool enclosed;                // instead of stepped along by a Lipschitz constant
   calculus::StraightLine line;  // what is enclosed; filled in when all is packed
 };
 
+// A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
   // By slot: of the world's own those in no tree, by kind in registry order, then the others as leaves hold
   // them; then those of each mesh with a tree of its own.
@@ -45,6 +46,7 @@ struct PackedScene {
   float map_growth = 1;
   std::vector<PackedFormula> formulas;  // of implicit shapes, by number
   uint64_t shape_iterations = 0;        // that shapes' own loops take, all shapes together
+  bool steps_may_run_out = false;       // whether any shape may return T_RAN_OUT
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
   std::vector<uint32_t> texels;                                   // records.h says how; empty without images
@@ -73,6 +75,8 @@ class Packer {
   // Every shape that loops says how often it may.
   void add_map_growth(double growth) { scene.map_growth = std::max(scene.map_growth, float(growth)); }
   void add_iterations(size_t count) { scene.shape_iterations += count; }
+  // Every shape whose `intersect` may return T_RAN_OUT says so.
+  void add_steps() { scene.steps_may_run_out = true; }
   // The index of a texture; equal textures share one.
   uint32_t add_texture(const Texture& texture);
   // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there

@@ -75,16 +75,27 @@ void Tracer::for_each_entered(const Ray& ray, double limit, const Visit& visit) 
 }
 
 std::optional<Hit> Tracer::trace(const Ray& ray) const {
+  uint32_t flags = 0;
+  return trace(ray, flags);
+}
+
+std::optional<Hit> Tracer::trace(const Ray& ray, uint32_t& flags) const {
   std::optional<Hit> nearest;
+  double sure_until = infinity;
   for_each_entered(ray, infinity, [&](size_t body, double entry, double limit) {
     auto hit = intersect(body, ray, limit);
     if (!hit) return limit;
+    if (hit->ran_out) {
+      sure_until = std::min(sure_until, hit->t);
+      return limit;
+    }
     hit->t = std::max(hit->t, entry);
     if (nearest && !(hit->t < nearest->at.t || (hit->t == nearest->at.t && body < nearest->body)))
       return limit;
     nearest = {*hit, body, body, material(body)};
     return hit->t;
   });
+  if (sure_until < (nearest ? nearest->at.t : infinity)) flags |= ran_out;
   if (nearest && nearest->body >= scene_.shapes.size())
     nearest->primitive = first_primitives_[nearest->body - scene_.shapes.size()] + nearest->at.triangle;
   return nearest;
@@ -104,10 +115,15 @@ double Tracer::reach(const Hit& hit, const Vec3& eye) const {
 }
 
 // The share of light that comes through one body which the ray enters at t = entry.
-double Tracer::share_let_through(size_t body, const Ray& ray, double entry, double t_end) const {
+double Tracer::share_let_through(size_t body, const Ray& ray, double entry, double t_end,
+                                 bool& gave_up) const {
   const double share = scene_.materials[size_t(material(body))]->shadow_transmittance();
   if (body < scene_.shapes.size()) {
     const auto hit = scene_.shapes[body]->intersect(ray);
+    if (hit && hit->ran_out) {
+      gave_up = gave_up || hit->t < t_end;
+      return 1;
+    }
     return hit && std::max(hit->t, entry) < t_end ? share : 1;
   }
   const InstanceGeometry& instance = instances_[body - scene_.shapes.size()];
@@ -115,18 +131,20 @@ double Tracer::share_let_through(size_t body, const Ray& ray, double entry, doub
   return crossed == 0 ? 1 : std::pow(share, crossed / 2.0);
 }
 
-double Tracer::transmittance(const Ray& ray, double t_end) const {
+double Tracer::transmittance(const Ray& ray, double t_end, uint32_t& flags) const {
   // Collect the shares first: a product depends on the order of its factors.
   std::vector<std::pair<size_t, double>> shares;
+  bool any_gave_up = false;
   for_each_entered(ray, t_end, [&](size_t body, double entry, double limit) {
     if (!(entry < t_end)) return limit;
-    const double share = share_let_through(body, ray, entry, t_end);
+    const double share = share_let_through(body, ray, entry, t_end, any_gave_up);
     if (share != 1) shares.emplace_back(body, share);
     return share == 0 ? -1.0 : limit;
   });
   std::sort(shares.begin(), shares.end());
   double product = 1;
   for (const auto& [body, share] : shares) product *= share;
+  if (any_gave_up && product > 0) flags |= ran_out;
   return product;
 }
 

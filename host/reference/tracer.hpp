@@ -3,6 +3,7 @@
 
 #include <deque>
 
+#include "core/pixel.hpp"
 #include "reference/instance_geometry.hpp"
 #include "scene/scene.hpp"
 
@@ -22,7 +23,9 @@ class Tracer {
   // `scene` must outlive it. Under Acceleration::tree, a second for a million triangles or less.
   explicit Tracer(const Scene& scene, Acceleration acceleration = Acceleration::tree);
 
-  // The nearest hit with t > 0; of exactly equal ones that of the lowest primitive.
+  // The nearest hit with t > 0; of exactly equal ones that of the lowest primitive. Adds to `flags`, of
+  // SampleFlags, what may be wrong with it.
+  std::optional<Hit> trace(const Ray& ray, uint32_t& flags) const;
   std::optional<Hit> trace(const Ray& ray) const;
   // The surface where `ray` has that hit.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
@@ -33,8 +36,8 @@ class Tracer {
 
   // The share of light that comes through all that the ray meets at 0 < t < t_end. A shape counts once; of an
   // instance each triangle lets the square root of its material's share through, so that a closed mesh, which
-  // is crossed twice, counts once as well.
-  double transmittance(const Ray& ray, double t_end) const;
+  // is crossed twice, counts once as well. `flags` as for trace.
+  double transmittance(const Ray& ray, double t_end, uint32_t& flags) const;
 
   const Scene& scene() const { return scene_; }
   // As Scene::instances.
@@ -43,7 +46,7 @@ class Tracer {
  private:
   int material(size_t body) const;
   std::optional<TriangleHit> intersect(size_t body, const Ray& ray, double limit) const;
-  double share_let_through(size_t body, const Ray& ray, double entry, double t_end) const;
+  double share_let_through(size_t body, const Ray& ray, double entry, double t_end, bool& gave_up) const;
   template <typename Visit>
   void for_each_entered(const Ray& ray, double limit, const Visit& visit) const;
 
@@ -78,7 +81,7 @@ void for_each_crossing(const Body& body, const Ray& ray, const Visit& visit) {
   double passed = 0;
   for (int crossings = 0; crossings < most_crossings; ++crossings) {
     const auto hit = body.intersect(rest);
-    if (!hit) return;
+    if (!hit || hit->ran_out) return;
     const SurfacePoint surface = body.surface(rest, *hit);
     if (!visit(passed + hit->t, surface)) return;
     rest.o = departure(surface, ray.d);

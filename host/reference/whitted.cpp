@@ -68,7 +68,7 @@ Vec3 refract(const View& view, double n1, double n2) {
 
 Vec3 Tree::radiance(const Path& path) {
   ++rays;
-  const auto hit = tracer_.trace(path.ray);
+  const auto hit = tracer_.trace(path.ray, flags);
   if (!hit) return scene_.render.background;
   ++hits;
 
@@ -127,7 +127,7 @@ Vec3 Tree::direct(const View& view, const Scattering& scattering) {
     const double cosine = glm::dot(n, l);
     if (!(cosine > 0 && glm::dot(view.surface.normal_geometric, l) > 0)) continue;
     ++rays;
-    const double seen = tracer_.transmittance(leave(view.surface, l), distance);
+    const double seen = tracer_.transmittance(leave(view.surface, l), distance, flags);
     if (seen == 0) continue;
 
     const double lobe =

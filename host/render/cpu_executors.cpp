@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel_for.hpp"
+#include "formula/formula.hpp"
 #include "reference/renderer.hpp"
 #include "render/executors.hpp"
 #include "render/pack.hpp"
@@ -98,11 +99,14 @@ class ReferenceExecutor final : public Executor {
   double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
     return timed_queries(batch.rays, hits, [&](const Query& ray) -> QueryHit {
       constexpr double none = std::numeric_limits<double>::infinity();
-      if (batch.kind == QueryKind::any)
-        return {renderer_->tracer().transmittance({ray.o, ray.d}, ray.t_max) == 0 ? 0 : none, -1};
-      const auto hit = renderer_->tracer().trace({ray.o, ray.d});
-      if (!hit || hit->at.t >= ray.t_max) return {none, -1};
-      return {hit->at.t, int64_t(hit->primitive)};
+      uint32_t flags = 0;
+      if (batch.kind == QueryKind::any) {
+        const double share = renderer_->tracer().transmittance({ray.o, ray.d}, ray.t_max, flags);
+        return {share == 0 ? 0 : none, -1, flags};
+      }
+      const auto hit = renderer_->tracer().trace({ray.o, ray.d}, flags);
+      if (!hit || hit->at.t >= ray.t_max) return {none, -1, flags};
+      return {hit->at.t, int64_t(hit->primitive), flags};
     });
   }
 

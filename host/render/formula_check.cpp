@@ -8,6 +8,7 @@
 #include <random>
 
 #include "derive/function.hpp"
+#include "formula/formula.hpp"
 #include "gpu/spirv_cache.hpp"
 #include "render/shader_files.hpp"
 
@@ -76,8 +77,11 @@ Steepest steepest(const FormulaUse& use) {
       aside[axis] = step;
       gradient[axis] = (value(p + aside) - value(p - aside)) / (2 * step);
     }
-    const double length = glm::length(gradient);
-    return std::isfinite(length) ? length : 0;
+    const Vec3 along = glm::normalize(gradient) * step;
+    // Only a difference between two points disproves anything: at a crease the gradient is steeper than
+    // either side.
+    const double found = std::fabs(value(p + along) - value(p - along)) / (2 * step);
+    return std::isfinite(found) ? found : 0;
   };
   std::mt19937_64 random(1);
   const auto uniform = [&] { return double(random() >> 11) * 0x1p-52 - 1; };

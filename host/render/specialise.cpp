@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "calculus/emit.hpp"
+#include "formula/formula.hpp"
 
 namespace eyeray {
 namespace {
@@ -147,22 +148,26 @@ std::string formulas(const PackedScene& scene) {
     if (scene.formulas[i].enclosed) {
       const calculus::StraightLine& line = scene.formulas[i].line;
       text += calculus::enclosure_text(line, fmt::format("formula{}_enclosure", i)) +
-              calculus::gradient_text(line, fmt::format("formula{}_gradient", i));
+              calculus::gradient_text(line, fmt::format("formula{}_dual", i));
       text += fmt::format(
           "#define FORMULA_NAME(part) formula{0}_##part\n"
           "#define FORMULA_ENCLOSURE(it, x, y, z) formula{0}_enclosure(x, y, z)\n"
-          "#define FORMULA_GRADIENT(it, p) formula{0}_gradient(p)\n#include \"implicit_enclosed.glsl\"\n"
-          "#undef FORMULA_NAME\n#undef FORMULA_ENCLOSURE\n#undef FORMULA_GRADIENT\n",
+          "#define FORMULA_DUAL(it, p) formula{0}_dual(p)\n#include \"implicit_enclosed.glsl\"\n"
+          "#undef FORMULA_NAME\n#undef FORMULA_ENCLOSURE\n#undef FORMULA_DUAL\n",
           i);
       continue;
     }
     text += formula.kernel(name);
-    text += fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i,
-                        formula.loops() ? "formula_turns = 0u; " : "", name);
+    const std::string restart = formula.loops() ? "formula_turns = 0u; " : "";
+    text += fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i, restart, name);
+    text += fmt::format("vec3 formula{}_gradient(vec3 p) {{ {}return {}; }}\n", i, restart,
+                        formula.has_gradient() ? name + "gradient(p)" : "vec3(0.0f, 0.0f, 0.0f)");
     text += fmt::format(
         "#define FORMULA_NAME(part) formula{0}_##part\n#define FORMULA_VALUE(it, p) formula{0}_value(p)\n"
-        "#include \"implicit_march.glsl\"\n#undef FORMULA_NAME\n#undef FORMULA_VALUE\n",
-        i);
+        "#define FORMULA_HAS_GRADIENT(it) {1}\n#define FORMULA_GRADIENT(it, p) formula{0}_gradient(p)\n"
+        "#include \"implicit_march.glsl\"\n"
+        "#undef FORMULA_NAME\n#undef FORMULA_VALUE\n#undef FORMULA_HAS_GRADIENT\n#undef FORMULA_GRADIENT\n",
+        i, formula.has_gradient());
   }
   return text + "#define FORMULAS(X)" + rows + "\n";
 }
@@ -235,6 +240,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("SUBGROUP_SIZE", options.subgroup_size);
   define("PACKET_ROOT", fmt::format("{}u", options.packet_tree.first_node));
   define("PACKET_STACK", options.packet_tree.stack_size);
+  define("STEPS_MAY_RUN_OUT", int(scene.steps_may_run_out));
   define("SHIFT_STACK", int(options.profile.shift_stack));
   define("STACK_SIZE", scene.stack_size);
   define("HAS_INSTANCES", int(!scene.instances.empty()));

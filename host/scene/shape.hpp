@@ -12,13 +12,13 @@
 
 #include "core/diagnostic.hpp"
 #include "core/vec.hpp"
-#include "formula/formula.hpp"
 #include "scene/bounds.hpp"
 #include "scene/table_reader.hpp"
 
 namespace eyeray {
 
-class Packer;  // records/packer.hpp
+class Formula;  // formula/formula.hpp
+class Packer;   // records/packer.hpp
 
 // Where a ray meets a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
 // …).
@@ -26,6 +26,7 @@ struct Intersection {
   double t = 0;
   double u = 0;
   double v = 0;
+  bool ran_out = false;  // it meets nothing up to t; beyond, the steps allowed did not suffice to tell
 };
 
 // The surface at an intersection, world space.
@@ -85,7 +86,7 @@ class Shape {
  public:
   virtual ~Shape() = default;
 
-  // The nearest intersection with t > 0, if there is one.
+  // The nearest intersection with t > 0, if there is one; with `ran_out` there need be none.
   virtual std::optional<Intersection> intersect(const Ray& ray) const = 0;
   virtual SurfacePoint surface(const Ray& ray, const Intersection& hit) const = 0;
   virtual Bounds bounds() const = 0;

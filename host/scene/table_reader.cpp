@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "formula/formula.hpp"
 #include "scene/table.hpp"
 
 namespace eyeray {

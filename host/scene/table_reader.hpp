@@ -13,10 +13,12 @@
 
 #include "core/diagnostic.hpp"
 #include "core/vec.hpp"
-#include "formula/formula.hpp"
 #include "scene/texture.hpp"
 
 namespace eyeray {
+
+struct FormulaText;  // formula/formula.hpp
+struct FormulaParameter;
 
 enum class KeyType {
   boolean,

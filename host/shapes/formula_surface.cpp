@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "formula/formula.hpp"
 #include "shapes/chebyshev.hpp"
 
 namespace eyeray {
@@ -14,7 +15,7 @@ constexpr double difference = 1e-4;
 // Lengths in the cube: pairs of roots closer than this are not seen, and a root is known to that.
 constexpr double least_gap = 1e-9;
 constexpr double least_width = 1e-14;
-// Beyond so many values a ray is taken to meet nothing: along a surface that is flat on it, no search ends.
+// The search gives up after so many values: along a surface that is flat on the ray, none ends.
 constexpr int most_values = 20000;
 
 // Looks through a segment, from its start on.
@@ -33,13 +34,14 @@ class Search {
     return {s, surface_.value(ray_.o + ray_.d * s)};
   }
 
-  std::optional<double> between(const Sample& a, const Sample& b, bool inside) {
+  using Change = FormulaSurface::Change;
+  std::optional<Change> between(const Sample& a, const Sample& b, bool inside) {
     const bool changes = (b.f < 0) != inside;
     if (!changes && (std::fabs(a.f) + std::fabs(b.f) > rate_ * (b.s - a.s) || std::isnan(a.f + b.f)))
       return std::nullopt;
     const double width = (b.s - a.s) / unit_;
-    if (width < least_gap) return changes ? std::optional(narrow(a, b, inside)) : std::nullopt;
-    if (values_ > most_values) return std::nullopt;
+    if (width < least_gap) return changes ? std::optional(Change{narrow(a, b, inside)}) : std::nullopt;
+    if (values_ > most_values) return Change{a.s, true};
     const Sample middle = sample(0.5 * (a.s + b.s));
     if (const auto left = between(a, middle, inside)) return left;
     return (middle.f < 0) == inside ? between(middle, b, inside) : std::nullopt;
@@ -66,7 +68,7 @@ class SeriesSearch {
   SeriesSearch(const FormulaSurface& surface, const Ray& ray, double unit)
       : surface_(surface), ray_(ray), unit_(unit) {}
 
-  std::optional<double> between(double from, double to, bool inside) {
+  std::optional<FormulaSurface::Change> between(double from, double to, bool inside) {
     std::array<double, ChebyshevSeries::points> values;
     for (size_t i = 0; i < values.size(); ++i)
       values[i] = value(0.5 * (from + to) + 0.5 * (to - from) * ChebyshevSeries::places()[i]);
@@ -79,8 +81,11 @@ class SeriesSearch {
     const bool ends = series.ends(1e-10 * size + 1e-14 * largest_);
     const bool narrow = (to - from) / unit_ < least_gap;
     if (series.clearance() > (ends ? 1e-9 : 0.8) * size && (values[0] < 0) == inside) return std::nullopt;
-    if (narrow || (ends && series.monotone()) || values_ > most_values)
-      return (values[0] < 0) != inside ? std::optional(narrowed(from, to, inside)) : std::nullopt;
+    if (narrow || (ends && series.monotone())) {
+      if ((values[0] < 0) == inside) return std::nullopt;
+      return FormulaSurface::Change{narrowed(from, to, inside)};
+    }
+    if (values_ > most_values) return FormulaSurface::Change{from, true};
 
     const double middle = 0.5 * (from + to);
     if (const auto left = between(from, middle, inside)) return left;
@@ -129,7 +134,8 @@ Vec3 FormulaSurface::gradient(const Vec3& q) const {
   return gradient;
 }
 
-std::optional<double> FormulaSurface::first_change(const Ray& ray, double start, double end) const {
+std::optional<FormulaSurface::Change> FormulaSurface::first_change(const Ray& ray, double start,
+                                                                   double end) const {
   const double unit = 1 / glm::length(ray.d);
   if (use_.lipschitz == 0)
     return SeriesSearch(*this, ray, unit).between(start, end, value(ray.o + ray.d * start) < 0);

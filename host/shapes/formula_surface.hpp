@@ -18,8 +18,13 @@ class FormulaSurface {
   // The first place from `start` to `end` at which the sign is another than at `start`. Between two places no
   // more than what the values there clear of roots, by the Lipschitz constant, is left out; so none is passed
   // by, but pairs of roots closer than 1e-9. Where there is no such constant, Chebyshev series take its
-  // place.
-  std::optional<double> first_change(const Ray& ray, double start, double end) const;
+  // place. So that the search ends for any function, so do its steps: then `ran_out`, and there is no change
+  // up to s.
+  struct Change {
+    double s;
+    bool ran_out = false;
+  };
+  std::optional<Change> first_change(const Ray& ray, double start, double end) const;
 
  private:
   const FormulaUse& use_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formula/formula.hpp"
 #include "records/packer.hpp"
 #include "shapes/cube.hpp"
 #include "shapes/formula_surface.hpp"
@@ -65,16 +66,17 @@ the surface, its box and the coordinates that f sees.
 | `gyroid` | a wall of `thickness` = 0.25 about the gyroid sin x cos y + sin y cos z + sin z cos x = `level` = 0 of `period` = 1 |
 | `rounded-box` | `center` = [0, 0, 0], `half_size` = [0.8, 0.6, 0.7] with edges of `radius` = 0.2 |
 | `smooth-union` | `sphere` = [0, 0.35, 0, 0.5] (centre and radius) and a box about `box_center` = [0, -0.4, 0] of `box_half_size` = [0.8, 0.25, 0.6], blended over `blend` = 0.4 |
-| `mandelbulb` | `power` = 8, `rounds` = 4 (at most 12); it lies within 1.25 of the origin |
+| `mandelbulb` | of power 8, after `rounds` = 3 (at most 8); it lies within 1.25 of the origin |
 | `height-field` | hills below y = `base` = 0 ± `height` = 0.5, the largest of them `period` = 1 apart; `seed` = 1 |
 
 **uv.** Those of a [box](#box)'s face: of the face itself on a cap, and elsewhere of the face to which the normal points, onto which the texture is
 projected straight.
 
 **Numeric trap.** All is computed in the coordinates of the box: rounding is 10⁻⁷ of its size, so choose it no larger than need be, and near f's own origin. With `lipschitz` the least step of a ray is 4·10⁻⁶ of half the
-box: walls thinner than that are passed through. Normals are differences over 1/256 of half the box, to the fourth order: waves that are much shorter look smoother than they are.
-A ray that takes 512 steps and has not come to an end has run out: its pixel is told. Without `lipschitz` none of this is so: no change of sign is overlooked but where f is zero up to
-rounding ([numerics](numerics.md#implicit-surfaces-by-enclosures)). A touch without a change of sign is no surface.
+box: walls thinner than that are passed through. Normals are those of `vec3 gradient(vec3 p)`, if the text has that too; else differences over 1/256 of half the box, to the
+fourth order: waves that are much shorter, and edges, look smoother than they are.
+A ray that takes 512 steps and has not come to an end has run out: its pixel is told. Without `lipschitz` none of this is so but the last: no change of sign is overlooked but where f is zero up to
+rounding ([numerics](numerics.md#implicit-surfaces-by-enclosures)), and a touch without a change of sign is no surface.
 
 **Source.** Hart: Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit Surfaces, The Visual Computer 12, 1996. Comba, Stolfi: Affine Arithmetic and its Applications to Computer Graphics, SIBGRAPI 1993.
 )";
@@ -120,13 +122,12 @@ constexpr Key keys[] = {
 class Implicit final : public ObjectShape {
  public:
   Implicit(const Mat4& to_world, FormulaUse use, bool open)
-      : ObjectShape(shader::KIND_implicit, to_world), use_(std::move(use)), open_(open) {}
+      : ObjectShape(shader::KIND_implicit, to_world, {}, typical_steps), use_(std::move(use)), open_(open) {}
 
   const FormulaUse* formula_use() const override { return &use_; }
 
   void pack(Packer& packer) const override {
     const Vec3 center = (use_.box.max + use_.box.min) * 0.5, extent = (use_.box.max - use_.box.min) * 0.5;
-    packer.add_iterations(typical_steps);
     pack_with(packer, {float(center.x), float(center.y), float(center.z),
                        float(packer.add_formula(use_.formula, use_.lipschitz == 0)), float(extent.x),
                        float(extent.y), float(extent.z), float(use_.lipschitz), open_ ? 1.0f : 0.0f});
@@ -141,6 +142,7 @@ class Implicit final : public ObjectShape {
     Crossings all;
     double from = -HUGE_VAL;
     while (const auto next = first(ray, from)) {
+      if (next->ran_out) break;
       all.add(*next);
       from = next->t;
     }
@@ -156,7 +158,7 @@ class Implicit final : public ObjectShape {
     const bool inside = surface.value(ray.o + ray.d * start) < 0;
     if (enters && inside && !open_) return Intersection{span->in.t, double(span->in.face), 0};
     if (const auto root = surface.first_change(ray, start, span->out.t))
-      return Intersection{*root, itself, 0};
+      return Intersection{root->s, itself, 0, root->ran_out};
     const bool ends_inside = surface.value(ray.o + ray.d * span->out.t) < 0;
     if (ends_inside && inside && !open_) return Intersection{span->out.t, double(span->out.face), 0};
     return std::nullopt;

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "formula/formula.hpp"
 #include "records/packer.hpp"
 #include "twin/straight_line.hpp"
 
@@ -45,12 +46,17 @@ class Binding {
 [[maybe_unused]] vec3 load_formula_enclosure(uint number, const vec3& x, const vec3& y, const vec3& z) {
   return enclose(bound_scene->formulas[number].line, x, y, z);
 }
-[[maybe_unused]] vec4 load_formula_gradient(uint number, const vec3& p) {
+[[maybe_unused]] vec4 load_formula_dual(uint number, const vec3& p) {
   return differentiate(bound_scene->formulas[number].line, p);
 }
 // The formula's number if it is found that way, else none.
 [[maybe_unused]] uint if_enclosed(uint number, bool enclosed) {
   return bound_scene->formulas[number].enclosed == enclosed ? number : NONE;
+}
+[[maybe_unused]] vec3 load_formula_gradient(uint number, const vec3& p) {
+  const std::array<float, 3> gradient =
+      bound_scene->formulas[number].formula->gradient(std::array{p.x, p.y, p.z});
+  return {gradient[0], gradient[1], gradient[2]};
 }
 [[maybe_unused]] const Material& load_material(uint i) {
   return bound_scene->materials[i];
@@ -82,6 +88,7 @@ class Binding {
 #define HAS_INSTANCES 1
 #define INSTANCE_COUNT uint(bound_scene->instances.size())
 #define STORED_HITS 0
+#define STEPS_MAY_RUN_OUT 1
 #define HAS_SECONDARY 1
 #define SHIFT_STACK 0
 #define STACK_SIZE 128
@@ -98,8 +105,10 @@ class Binding {
 // One march of each kind for all formulas.
 #define FORMULAS(X) X(if_enclosed(it.formula, false), stepped) X(if_enclosed(it.formula, true), enclosed)
 #define FORMULA_VALUE(it, p) load_formula_value(it.formula, p)
-#define FORMULA_ENCLOSURE(it, x, y, z) load_formula_enclosure(it.formula, x, y, z)
+#define FORMULA_HAS_GRADIENT(it) bound_scene->formulas[it.formula].formula->has_gradient()
 #define FORMULA_GRADIENT(it, p) load_formula_gradient(it.formula, p)
+#define FORMULA_ENCLOSURE(it, x, y, z) load_formula_enclosure(it.formula, x, y, z)
+#define FORMULA_DUAL(it, p) load_formula_dual(it.formula, p)
 
 #undef SHADER_BEGIN
 #undef SHADER_END

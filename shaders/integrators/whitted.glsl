@@ -35,7 +35,7 @@ vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface
 #if STORED_HITS
       uint occluded = load_occlusion(i);
 #else
-      uint occluded = occlusion(leave(seen, light.direction), light.distance);
+      uint occluded = occlusion(leave(seen, light.direction), light.distance, counts.z);
 #endif
       float visible = visibility(occluded);
       float lobe = highlight(material, seen.normal, light.direction, to_viewer);
@@ -154,7 +154,7 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
   bool going = true;
   for (; going;) {
     Ray ray = make_ray(path.o, path.d);
-    Hit hit = trace(ray);
+    Hit hit = trace(ray, counts.z);
     Children children = follow(frame, path, ray, hit, color, counts);
 
     // Go on with one child, and let the other wait.

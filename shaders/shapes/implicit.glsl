@@ -39,8 +39,10 @@ float implicit_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   }
   FORMULAS(MARCH_ALONG)
 
-  uv = found.y == IMPLICIT_ITSELF ? vec2(IMPLICIT_ITSELF, 0.0f) : cube_face(span, r, found.y == IMPLICIT_ENTRY);
-  return found.y == IMPLICIT_RAN_OUT ? T_RAN_OUT : found.y == IMPLICIT_NOTHING ? -1.0f : r.t + found.x;
+  // Where the steps ran out there is nothing up to there.
+  bool ran_out = found.y == IMPLICIT_RAN_OUT;
+  uv = ran_out ? vec2(r.t + found.x, 0.0f) : found.y == IMPLICIT_ITSELF ? vec2(IMPLICIT_ITSELF, 0.0f) : cube_face(span, r, found.y == IMPLICIT_ENTRY);
+  return ran_out ? T_RAN_OUT : found.y == IMPLICIT_NOTHING ? -1.0f : r.t + found.x;
 }
 
 bool implicit_may_hit(Primitive s, Ray ray) { return true; }
