@@ -14,6 +14,10 @@ struct PixelSample {
   uint32_t rays = 0;   // rays traced for it: eye, reflected, refracted and shadow rays
   uint32_t hits = 0;   // surfaces struck by its eye, reflected and refracted rays
   uint32_t flags = 0;  // SampleFlag bits; 0 when nothing went wrong
+  // Of its rays; 0 from an executor that was not asked for kinds (ExecutorOptions::ray_kinds).
+  uint32_t reflected = 0;
+  uint32_t refracted = 0;
+  uint32_t total_reflections = 0;  // where a refracted ray would have been followed, had there been one
 };
 
 // Why a sample's colour may be incomplete. A flag is shown to the user and fails `verify`; it is never

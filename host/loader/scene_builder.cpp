@@ -23,6 +23,20 @@ struct Batch {
   size_t count = 1;                    // 0 after an error
 };
 
+// Where a thing stands, and what it is called.
+struct Placing {
+  Mat4 to_world{1.0};
+  NameRef name;
+};
+
+// The name that a table, or an element of its batch, gives itself, where it is one; "" where there is none.
+std::string_view written_name(const toml::table& table, const Batch& batch, size_t element) {
+  const toml::node* node = table.get("name");
+  if (const toml::node* list = batch.lists ? batch.lists->get("name") : nullptr)
+    node = list->as_array()->get(element);
+  return node && node->is_string() ? std::string_view(node->as_string()->get()) : std::string_view();
+}
+
 // How many shapes, meshes and groups a table shows, groups in it included.
 double count_placed(const toml::table& table) {
   double members = 1;
@@ -62,7 +76,7 @@ class Builder {
     for_each(root_, "material",
              [&](const Section& section, const toml::table& table) { add_material(section, table); });
     if (count_placed(root_) <= most_placed)
-      add_placed(root_, Mat4(1.0));
+      add_placed(root_, Placing{});
     else
       log_.error({}, fmt::format("batches and groups show {:.0f} things; at most {:.0f} are possible",
                                  count_placed(root_), most_placed));
@@ -101,12 +115,12 @@ class Builder {
   }
 
   void add_material(const Section& section, const toml::table& table);
-  void add_placed(const toml::table& holder, const Mat4& to_world);
+  void add_placed(const toml::table& holder, const Placing& group);
   template <typename Add>
-  void for_each_placed(const Section& section, const toml::table& table, const Mat4& to_world,
+  void for_each_placed(const Section& section, const toml::table& table, const Placing& group,
                        const Add& add);
-  void add_shape(const Section& section, TableReader& reader, const Mat4& to_world);
-  void add_mesh(TableReader& reader, const Mat4& to_world);
+  void add_shape(const Section& section, TableReader& reader, const Placing& placing);
+  void add_mesh(TableReader& reader, const Placing& placing);
   Batch read_batch(const Section& section, const toml::table& table);
   int find_material(TableReader& shape);
   void check_whole();
@@ -153,6 +167,13 @@ void Builder::add_material(const Section& section, const toml::table& table) {
   if (material->medium() && ++media_ > most_media) {
     reader.error("type",
                  fmt::format("a scene can have at most {} materials that light passes through", most_media));
+  }
+  if (reader.has("alpha")) {
+    if (material->medium())
+      reader.error("alpha", "what light passes through fills its shape, which can have no holes");
+    material->mask = AlphaMask{reader.texture("alpha"), reader.number("alpha_cutoff")};
+  } else if (reader.has("alpha_cutoff")) {
+    reader.error("alpha_cutoff", "without `alpha` there is nothing to cut off");
   }
   material->name = name;
   entry->second.index = static_cast<int>(scene_.materials.size());
@@ -202,10 +223,10 @@ Batch Builder::read_batch(const Section& section, const toml::table& table) {
 }
 
 // The shapes, meshes and groups of a group, or of the scene.
-void Builder::add_placed(const toml::table& holder, const Mat4& to_world) {
+void Builder::add_placed(const toml::table& holder, const Placing& group) {
   for (const std::string_view name : placed_names()) {
     for_each(holder, name, [&](const Section& section, const toml::table& table) {
-      for_each_placed(section, table, to_world, [&](TableReader& reader, const Mat4& placed) {
+      for_each_placed(section, table, group, [&](TableReader& reader, const Placing& placed) {
         switch (section.kind) {
           case Section::Kind::group:
             return add_placed(table, placed);
@@ -221,8 +242,12 @@ void Builder::add_placed(const toml::table& holder, const Mat4& to_world) {
 
 // Calls add(reader, to_world) for the table, or for each element of its batch.
 template <typename Add>
-void Builder::for_each_placed(const Section& section, const toml::table& table, const Mat4& to_world,
+void Builder::for_each_placed(const Section& section, const toml::table& table, const Placing& group,
                               const Add& add) {
+  Placing placed{group.to_world, {group.name.index, false}};
+  const DiagnosticLog::About about(log_, [&] {
+    return placed.name.index == Names::none ? "" : describe(section.name, placed.name, scene_.names);
+  });
   const Batch batch = read_batch(section, table);
   std::vector<std::string_view> elsewhere{batch_key};
   if (section.kind == Section::Kind::group)
@@ -230,6 +255,12 @@ void Builder::for_each_placed(const Section& section, const toml::table& table, 
   else
     tried_shapes_ = true;
   for (size_t i = 0; i < batch.count; ++i) {
+    placed.name = {group.name.index, false};
+    if (const std::string_view name = written_name(table, batch, i); !name.empty()) {
+      // Of one name there are as many as the batch has elements.
+      const bool shared = batch.lists && !batch.lists->contains("name");
+      placed.name = {scene_.names.add(name, shared ? uint32_t(i + 1) : 0, group.name.index), true};
+    }
     TableReader reader = read_table({.title = section.title,
                                      .table = &table,
                                      .keys = {section.shape ? section.shape->keys : section.keys,
@@ -239,8 +270,10 @@ void Builder::for_each_placed(const Section& section, const toml::table& table, 
                                      .extra_keys = elsewhere,
                                      .formulas = formulas_},
                                     log_);
-    const Mat4 placed = to_world * reader.transform("transform");
-    if (const std::string why = why_singular(placed); !why.empty())
+    if (reader.has("name") && reader.valid("name") && reader.string("name").empty())
+      reader.error("name", "a name must not be empty; leave `name` out instead");
+    placed.to_world = group.to_world * reader.transform("transform");
+    if (const std::string why = why_singular(placed.to_world); !why.empty())
       reader.error("transform",
                    fmt::format("with the transforms of its groups, the map cannot be undone: {}", why));
     else
@@ -248,16 +281,25 @@ void Builder::for_each_placed(const Section& section, const toml::table& table, 
   }
 }
 
-void Builder::add_shape(const Section& section, TableReader& reader, const Mat4& to_world) {
+void Builder::add_shape(const Section& section, TableReader& reader, const Placing& placing) {
   const int material = find_material(reader);
-  std::unique_ptr<Shape> shape = section.shape->parse(reader, to_world);
+  std::unique_ptr<Shape> shape = section.shape->parse(reader, placing.to_world);
   if (!shape) return;
+  if (!section.shape->flat && !scene_.materials.empty() && scene_.materials[size_t(material)]->mask)
+    reader.error(
+        "material",
+        fmt::format(
+            "a material with `alpha` has holes, and a ray may meet a {} again behind one; only planes, "
+            "triangles, polygons, parallelograms, disks and meshes can be of it",
+            section.shape->name));
   shape->material = material;
+  shape->type = section.shape;
+  shape->name = placing.name;
   shape->position = reader.position();
   scene_.shapes.push_back(std::move(shape));
 }
 
-void Builder::add_mesh(TableReader& reader, const Mat4& to_world) {
+void Builder::add_mesh(TableReader& reader, const Placing& placing) {
   const bool own_materials = !reader.has("material");
   const int material = own_materials ? 0 : find_material(reader);
   if (reader.failed()) return;
@@ -269,8 +311,9 @@ void Builder::add_mesh(TableReader& reader, const Mat4& to_world) {
     if (fresh) {
       for (const std::string& warning : import->warnings) log_.warning(reader.position(), warning);
     }
-    const std::string wrong = placer_.place(
-        *import, to_world, own_materials ? std::nullopt : std::optional(material), reader.position());
+    const std::string wrong =
+        placer_.place(*import, placing.to_world, own_materials ? std::nullopt : std::optional(material),
+                      reader.position(), placing.name);
     if (!wrong.empty()) reader.error("transform", wrong);
   } catch (const Error& refused) {
     reader.error("file", refused.what());

@@ -45,6 +45,7 @@ class Tracer {
 
  private:
   int material(size_t body) const;
+  std::optional<Intersection> intersect_shape(size_t shape, const Ray& ray) const;
   std::optional<TriangleHit> intersect(size_t body, const Ray& ray, double limit) const;
   double share_let_through(size_t body, const Ray& ray, double entry, double t_end, bool& gave_up) const;
   template <typename Visit>

@@ -55,7 +55,7 @@ class TwinExecutor final : public Executor {
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
     return times_.measure("trace", [&] {
       return for_each_pixel(tile, out, [&](int x, int y) {
-        return to_sample(twin::sample(packed_, uint32_t(x), uint32_t(y), index));
+        return to_sample(twin::sample(packed_, uint32_t(x), uint32_t(y), index), true);
       });
     });
   }
