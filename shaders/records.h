@@ -237,6 +237,7 @@ struct PathState {
 #define FLAG_STACK_OVERFLOW 2u
 #define FLAG_LOOP_BUDGET 4u
 #define FLAG_RAN_OUT 8u
+#define FLAG_ENDLESS 16u  // a formula made more than FORMULA_TURNS turns of its loops in one call
 
 SHADER_END
 

@@ -54,8 +54,12 @@ double count_placed(const toml::table& table) {
 
 class Builder {
  public:
-  Builder(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log)
-      : root_(root), images_(images), meshes_(meshes), log_(log) {}
+  Builder(const toml::table& root, const SceneSources& sources, DiagnosticLog& log)
+      : root_(root),
+        images_(sources.images),
+        meshes_(sources.meshes),
+        formulas_(sources.formulas),
+        log_(log) {}
 
   Scene build() {
     TableReader image = read_single("image");
@@ -124,6 +128,7 @@ class Builder {
   const toml::table& root_;
   ImageSource* images_;
   MeshImports* meshes_;
+  FormulaSource* formulas_;
   DiagnosticLog& log_;
   Scene scene_;
   std::map<std::string, NamedMaterial, std::less<>> materials_;
@@ -262,7 +267,8 @@ void Builder::for_each_placed(const Section& section, const toml::table& table, 
                                               section.shape ? section.keys : std::span<const Key>()},
                                      .batch = batch.lists,
                                      .element = i,
-                                     .extra_keys = elsewhere},
+                                     .extra_keys = elsewhere,
+                                     .formulas = formulas_},
                                     log_);
     if (reader.has("name") && reader.valid("name") && reader.string("name").empty())
       reader.error("name", "a name must not be empty; leave `name` out instead");
@@ -352,8 +358,8 @@ void Builder::check_whole() {
 
 }  // namespace
 
-Scene build_scene(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log) {
-  return Builder(root, images, meshes, log).build();
+Scene build_scene(const toml::table& root, const SceneSources& sources, DiagnosticLog& log) {
+  return Builder(root, sources, log).build();
 }
 
 }  // namespace eyeray

@@ -365,7 +365,7 @@ class GpuExecutor final : public Executor {
   ExecutorOptions options_;
   Fault fault_;
   Vec3 eye_;
-  gpu::DiskCache cache_ = gpu::DiskCache::of_user();
+  DiskCache cache_ = DiskCache::of_user();
   gpu::Device device_;
   Profile profile_;
   gpu::DeviceFacts facts_;

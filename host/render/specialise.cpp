@@ -8,6 +8,9 @@
 #include <set>
 #include <string_view>
 
+#include "calculus/emit.hpp"
+#include "formula/formula.hpp"
+
 namespace eyeray {
 namespace {
 
@@ -127,6 +130,49 @@ std::string primitives_as_constants(const PackedScene& scene) {
   return text + "\n";
 }
 
+// What shapes/implicit.glsl marches along: each formula that the scene has, and its own march.
+std::string formulas(const PackedScene& scene) {
+  if (scene.formulas.empty()) return "#define FORMULAS(X)\n";
+  std::string text = "#include \"implicit.glsl\"\n";
+  const auto loops = [](const PackedFormula& f) { return !f.enclosed && f.formula->loops(); };
+  if (std::ranges::any_of(scene.formulas, loops))
+    text +=
+        "uint formula_turns = 0u;\nbool formula_overran = false;\n#define FORMULA_OVERRAN formula_overran\n"
+        "bool formula_turn() {\n  formula_turns = formula_turns + 1u;\n"
+        "  formula_overran = formula_overran || formula_turns > FORMULA_TURNS;\n  return "
+        "!formula_overran;\n}\n";
+  std::string rows;
+  for (size_t i = 0; i < scene.formulas.size(); ++i) {
+    const Formula& formula = *scene.formulas[i].formula;
+    const std::string name = fmt::format("f{}_", i);
+    rows += fmt::format(" X({0}u, formula{0})", i);
+    if (scene.formulas[i].enclosed) {
+      const calculus::StraightLine& line = scene.formulas[i].line;
+      text += calculus::enclosure_text(line, fmt::format("formula{}_enclosure", i)) +
+              calculus::gradient_text(line, fmt::format("formula{}_dual", i));
+      text += fmt::format(
+          "#define FORMULA_NAME(part) formula{0}_##part\n"
+          "#define FORMULA_ENCLOSURE(it, x, y, z) formula{0}_enclosure(x, y, z)\n"
+          "#define FORMULA_DUAL(it, p) formula{0}_dual(p)\n#include \"implicit_enclosed.glsl\"\n"
+          "#undef FORMULA_NAME\n#undef FORMULA_ENCLOSURE\n#undef FORMULA_DUAL\n",
+          i);
+      continue;
+    }
+    text += formula.kernel(name);
+    const std::string restart = formula.loops() ? "formula_turns = 0u; " : "";
+    text += fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i, restart, name);
+    text += fmt::format("vec3 formula{}_gradient(vec3 p) {{ {}return {}; }}\n", i, restart,
+                        formula.has_gradient() ? name + "gradient(p)" : "vec3(0.0f, 0.0f, 0.0f)");
+    text += fmt::format(
+        "#define FORMULA_NAME(part) formula{0}_##part\n#define FORMULA_VALUE(it, p) formula{0}_value(p)\n"
+        "#define FORMULA_HAS_GRADIENT(it) {1}\n#define FORMULA_GRADIENT(it, p) formula{0}_gradient(p)\n"
+        "#include \"implicit_march.glsl\"\n"
+        "#undef FORMULA_NAME\n#undef FORMULA_VALUE\n#undef FORMULA_HAS_GRADIENT\n#undef FORMULA_GRADIENT\n",
+        i, formula.has_gradient());
+  }
+  return text + "#define FORMULAS(X)" + rows + "\n";
+}
+
 // Whether any texture of the material varies over a surface.
 bool varies(const PackedScene& scene, const shader::Material& material) {
   const shader::uvec4& used = material.textures;
@@ -223,6 +269,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   // Where the eye moves, so do primitives: such a kernel is made anew for each camera as it is.
   if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
   text += "#include \"loaders.glsl\"\n";
+  text += formulas(scene);
   text += registry("SHAPES", "shapes", shapes, shapes_used);
   text += registry("SHAPES_WITH_HOLES", "shapes", shapes, kinds_with_holes);
   text += registry("MATERIALS", "materials", materials, material_kinds);

@@ -18,7 +18,8 @@
 
 namespace eyeray {
 
-class Packer;  // records/packer.hpp
+class Formula;  // formula/formula.hpp
+class Packer;   // records/packer.hpp
 struct ShapeType;
 
 // Where a ray meets a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
@@ -76,6 +77,13 @@ struct QuadricForm {
 using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm,
                                CapsuleForm, QuadricForm>;
 
+// A formula that bounds a shape: negative within, on one side of a box of its own space.
+struct FormulaUse {
+  std::shared_ptr<const Formula> formula;
+  Bounds box;
+  double lipschitz;  // as steep as it is declared to be; 0 where nothing is declared
+};
+
 class Shape {
  public:
   virtual ~Shape() = default;
@@ -86,6 +94,8 @@ class Shape {
   virtual Bounds bounds() const = 0;
   // For exporters and for comparing with other renderers; monostate for what they do not have.
   virtual ShapeForm form() const { return {}; }
+  // Of shapes that are made of one.
+  virtual const FormulaUse* formula_use() const { return nullptr; }
   // Appends the shape's one Primitive (and what it refers to).
   virtual void pack(Packer& packer) const = 0;
 

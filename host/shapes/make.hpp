@@ -66,4 +66,7 @@ std::unique_ptr<Shape> make_superellipsoid(const Vec3& center, const Vec3& radii
 // Around the patch.
 std::unique_ptr<Shape> make_bilinear(const std::array<Vec3, 4>& corners, const Mat4& transform = Mat4(1.0));
 
+// f ≤ 0 within a box of the shape's own space; without the box's faces where `open`.
+std::unique_ptr<Shape> make_implicit(FormulaUse use, bool open, const Mat4& transform = Mat4(1.0));
+
 }  // namespace eyeray
