@@ -85,6 +85,15 @@ Json value_schema(const Key& key) {
       return list_schema(vector_schema(key, 3));
     case KeyType::outlines:
       return list_schema(list_schema(vector_schema(key, 3)));
+    case KeyType::formula:
+    case KeyType::formula_file:
+      return {{"type", "string"}};
+    case KeyType::parameters: {
+      Json list = list_schema({{"type", "number"}});
+      list["minItems"] = 2;
+      list["maxItems"] = 4;
+      return {{"type", "object"}, {"additionalProperties", either({{"type", "number"}}, std::move(list))}};
+    }
     case KeyType::color:
       return either(number_schema(positive, "number"), vector_schema(positive, 3));
     case KeyType::scale2:

@@ -25,11 +25,31 @@ std::span<const Key> material_keys() {
        .type = KeyType::string,
        .doc = "The name by which shapes refer to it, unique in the scene."},
       {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = material_names()},
+      {.name = "alpha",
+       .type = KeyType::texture,
+       .doc = "Where it is below `alpha_cutoff`, there is no surface. Of a color the first component counts, "
+              "of an "
+              "image its alpha. Only on shapes that a ray meets once.",
+       .max = 1,
+       .optional = true},
+      {.name = "alpha_cutoff",
+       .type = KeyType::number,
+       .doc = "The least `alpha` that is not a hole.",
+       .fallback = "0.5",
+       .min = 0,
+       .max = 1,
+       .above_min = true},
   };
   return keys;
 }
 
+constexpr Key name_key = {.name = "name",
+                          .type = KeyType::string,
+                          .doc = "What messages and legends call it; several may share a name.",
+                          .optional = true};
+
 constexpr Key shape_keys[] = {
+    name_key,
     {.name = "material", .type = KeyType::string, .doc = "The `name` of a [[material]]."},
     {.name = "transform",
      .type = KeyType::transform,
@@ -38,11 +58,12 @@ constexpr Key shape_keys[] = {
 };
 
 constexpr Key keys_of_parts[] = {
+    name_key,
     {.name = "material",
      .type = KeyType::string,
      .doc = "The `name` of a [[material]]; in a solid, that of the solid when absent.",
      .optional = true},
-    shape_keys[1],
+    shape_keys[2],
 };
 
 constexpr std::string_view mesh_manual =
@@ -62,6 +83,7 @@ What a file has and eyeray leaves out is a warning. Cameras and lights of a glTF
 itself, `eyeray render model.glb`. [scene-file.md](scene-file.md#meshes) tells more.)";
 
 constexpr Key mesh_keys[] = {
+    name_key,
     {.name = "file", .type = KeyType::string, .doc = "The name of the file, relative to this one."},
     {.name = "material",
      .type = KeyType::string,
@@ -83,7 +105,7 @@ constexpr Key mesh_keys[] = {
 
 constexpr std::string_view group_manual =
     R"(Holds shapes, meshes and other groups, written `[[group.sphere]]`, `[[group.mesh]]`, `[[group.group]]` below it, and moves them as one. Each transform
-of a `batch` shows the whole group once more. Materials are the scene's.
+of a `batch` shows the whole group once more. Materials are the scene's. A `name` of a group goes before those in it: `cart 2/wheel`.
 
 ```toml
 [[group]]
@@ -104,6 +126,7 @@ material = "glass"
 What a shape cannot be, it cannot be in a group either: a sphere in one that is stretched is an error; an ellipsoid is not.)";
 
 constexpr Key group_keys[] = {
+    name_key,
     {.name = "transform",
      .type = KeyType::transform,
      .doc = "Steps that move all of it, applied in the order written, after those of what it holds.",

@@ -9,10 +9,19 @@
 #include <utility>
 #include <vector>
 
+#include "calculus/tape.hpp"
 #include "records/records.hpp"
 #include "scene/texture.hpp"
 
 namespace eyeray {
+
+class Formula;  // formula/formula.hpp
+
+struct PackedFormula {
+  std::shared_ptr<const Formula> formula;
+  bool enclosed;                // instead of stepped along by a Lipschitz constant
+  calculus::StraightLine line;  // what is enclosed; filled in when all is packed
+};
 
 // A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
@@ -38,8 +47,9 @@ struct PackedScene {
   // How much larger, seen from the world, rounding is in a shape's own space: |linear| · |inverse|, the
   // largest of all shapes.
   float map_growth = 1;
-  uint64_t shape_iterations = 0;   // that shapes' own loops take, all shapes together
-  bool steps_may_run_out = false;  // whether any shape may return T_RAN_OUT
+  std::vector<PackedFormula> formulas;  // of implicit shapes, by number
+  uint64_t shape_iterations = 0;        // that shapes' own loops take, all shapes together
+  bool steps_may_run_out = false;       // whether any shape may return T_RAN_OUT
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
   std::vector<uint32_t> texels;                                   // records.h says how; empty without images
@@ -75,6 +85,8 @@ class Packer {
   // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there
   // are more than an index can tell apart.
   uint32_t add_image(const std::shared_ptr<const ImageTexture>& image);
+  // The number of a formula; equal formulas share one. `enclosed`: rays find its surface by enclosures.
+  uint32_t add_formula(const std::shared_ptr<const Formula>& formula, bool enclosed);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
   uint32_t add_medium(double ior, const Vec3& absorption);
 

@@ -19,7 +19,8 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene) {
   for (const Mesh& mesh : scene.meshes) meshes_.emplace_back(mesh, acceleration);
   uint64_t primitives = scene.shapes.size();
   for (const Instance& instance : scene.instances) {
-    instances_.emplace_back(instance, meshes_[size_t(instance.mesh)]);
+    const auto& mask = scene.materials[size_t(instance.material)]->mask;
+    instances_.emplace_back(instance, meshes_[size_t(instance.mesh)], mask ? &*mask : nullptr);
     first_primitives_.push_back(primitives);
     primitives += instances_.back().triangles();
   }
@@ -52,10 +53,19 @@ int Tracer::material(size_t body, const Intersection& hit) const {
   return body < shapes ? scene_.shapes[body]->part(hit).material : instances_[body - shapes].material();
 }
 
+// A hole is not met, and behind it there is nothing more of a shape that may have one.
+std::optional<Intersection> Tracer::intersect_shape(size_t index, const Ray& ray) const {
+  const Shape& shape = *scene_.shapes[index];
+  const auto hit = shape.intersect(ray);
+  const auto& mask = scene_.materials[size_t(shape.material)]->mask;
+  if (hit && mask && !mask->covers(shape.surface(ray, *hit).uv)) return std::nullopt;
+  return hit;
+}
+
 std::optional<TriangleHit> Tracer::intersect(size_t body, const Ray& ray, double limit) const {
   const size_t shapes = scene_.shapes.size();
   if (body >= shapes) return instances_[body - shapes].intersect(ray, limit);
-  const auto hit = scene_.shapes[body]->intersect(ray);
+  const auto hit = intersect_shape(body, ray);
   if (!hit) return std::nullopt;
   return TriangleHit{*hit};
 }
@@ -122,7 +132,7 @@ double Tracer::share_let_through(size_t body, const Ray& ray, double entry, doub
     const auto share_at = [&](const Intersection& hit) {
       return scene_.materials[size_t(shape.part(hit).material)]->shadow_transmittance();
     };
-    const auto hit = shape.intersect(ray);
+    const auto hit = intersect_shape(body, ray);
     if (hit && hit->ran_out) {
       gave_up = gave_up || hit->t < t_end;
       return 1;

@@ -46,6 +46,7 @@ class Tracer {
  private:
   // Of a shape, or of its part that has the surface there.
   int material(size_t body, const Intersection& hit) const;
+  std::optional<Intersection> intersect_shape(size_t shape, const Ray& ray) const;
   std::optional<TriangleHit> intersect(size_t body, const Ray& ray, double limit) const;
   double share_let_through(size_t body, const Ray& ray, double entry, double t_end, bool& gave_up) const;
   template <typename Visit>

@@ -14,11 +14,14 @@
 #include "core/diagnostic.hpp"
 #include "core/vec.hpp"
 #include "scene/bounds.hpp"
+#include "scene/names.hpp"
 #include "scene/table_reader.hpp"
 
 namespace eyeray {
 
-class Packer;  // records/packer.hpp
+class Formula;  // formula/formula.hpp
+class Packer;   // records/packer.hpp
+struct ShapeType;
 
 // Where a ray meets a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
 // …).
@@ -88,6 +91,13 @@ struct SolidForm {
 using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm,
                                CapsuleForm, QuadricForm, SolidForm>;
 
+// A formula that bounds a shape: negative within, on one side of a box of its own space.
+struct FormulaUse {
+  std::shared_ptr<const Formula> formula;
+  Bounds box;
+  double lipschitz;  // as steep as it is declared to be; 0 where nothing is declared
+};
+
 class Shape {
  public:
   virtual ~Shape() = default;
@@ -105,24 +115,30 @@ class Shape {
   virtual std::vector<Span> spans(const Ray&) const { return {}; }
   // For exporters and for comparing with other renderers; monostate for what they do not have.
   virtual ShapeForm form() const { return {}; }
+  // Of shapes that are made of one.
+  virtual const FormulaUse* formula_use() const { return nullptr; }
   // Appends the shape's one Primitive (and what it refers to).
   virtual void pack(Packer& packer) const = 0;
 
-  int material = 0;         // index in Scene::materials
-  SourcePosition position;  // of its table in the scene file
+  int material = 0;                 // index in Scene::materials
+  const ShapeType* type = nullptr;  // its kind; null where no file made it
+  NameRef name;                     // in Scene::names
+  SourcePosition position;          // of its table in the scene file
 };
 
 // A row of the registry: what the loader and the manual know of a kind of shape.
 struct ShapeType {
   std::string_view name;      // its table in a scene, its .glsl, its scene file
   std::string_view manual;    // equation, parameters' meaning, the numeric trap, the source; Markdown
-  std::span<const Key> keys;  // beside `material` and `transform`, which every shape has
+  std::span<const Key> keys;  // beside `name`, `material` and `transform`, which every shape has
   // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
   std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform) = nullptr;
   // Where shapes of this kind are made of others, instead: from those that stand in its table, already
   // where they belong, and from those to be removed from them.
   using Shapes = std::vector<std::unique_ptr<Shape>>;
   std::unique_ptr<Shape> (*combine)(TableReader& table, Shapes operands, Shapes removed) = nullptr;
+  // Whether a ray meets it once at most, so that it may be of a material with holes.
+  bool flat = false;
 };
 
 // Every kind of shape, in registry order: the order of Scene::shapes, hence of primitive indices.

@@ -35,12 +35,16 @@ ObjectShape::ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<
 
 std::optional<Intersection> ObjectShape::intersect(const Ray& ray) const {
   const auto& [local, start] = to_nearest(ray);
+  std::optional<Intersection> nearest = first(local, -start);
+  if (nearest) nearest->t += start;
+  return nearest && (nearest->t > 0 || nearest->ran_out) ? nearest : std::nullopt;
+}
+
+std::optional<Intersection> ObjectShape::first(const Ray& ray, double from) const {
   std::optional<Intersection> nearest;
-  for (Intersection crossing : crossings(local)) {
-    crossing.t += start;
-    if (crossing.t > 0 && std::isfinite(crossing.t) && (!nearest || crossing.t < nearest->t))
+  for (const Intersection& crossing : crossings(ray))
+    if (crossing.t > from && std::isfinite(crossing.t) && (!nearest || crossing.t < nearest->t))
       nearest = crossing;
-  }
   return nearest;
 }
 
@@ -103,6 +107,10 @@ Bounds ObjectShape::bounds() const {
 }
 
 void ObjectShape::pack(Packer& packer) const {
+  pack_with(packer, parameters_);
+}
+
+void ObjectShape::pack_with(Packer& packer, const std::vector<float>& parameters) const {
   const auto row = [](const Affine& map, int i, const Vec3& offset) {
     return to_vec4({map.linear[0][i], map.linear[1][i], map.linear[2][i]}, offset[i]);
   };
@@ -110,9 +118,9 @@ void ObjectShape::pack(Packer& packer) const {
   const uint32_t extra =
       packer.add_vertices({to_bits(row(to_world_, 0, center)), to_bits(row(to_world_, 1, center)),
                            to_bits(row(to_world_, 2, center))});
-  for (size_t i = 0; i < parameters_.size(); i += 4) {
+  for (size_t i = 0; i < parameters.size(); i += 4) {
     shader::vec4 some(0);
-    for (size_t k = 0; k < 4 && i + k < parameters_.size(); ++k) some[int(k)] = parameters_[i + k];
+    for (size_t k = 0; k < 4 && i + k < parameters.size(); ++k) some[int(k)] = parameters[i + k];
     packer.add_vertices({to_bits(some)});
   }
   packer.add_iterations(steps_);

@@ -20,7 +20,8 @@
   X(torus, 15u) \
   X(superellipsoid, 16u) \
   X(bilinear, 17u) \
-  X(solid, 18u)
+  X(implicit, 18u) \
+  X(solid, 19u)
 #endif
 
 // Those that enclose a volume, where they have no `open`: what solids are made of. Their rows stand before that of solid, which asks them.

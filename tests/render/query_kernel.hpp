@@ -91,7 +91,7 @@ class QueryKernel {
   Specialisation specialisation_;
   const char* entry_ = "query.comp.glsl";
   std::string defines_;
-  gpu::DiskCache cache_ = gpu::DiskCache::of_user();
+  DiskCache cache_ = DiskCache::of_user();
   std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
   std::unique_ptr<gpu::Kernel> kernels_[2];  // by whether any hit will do
 };
