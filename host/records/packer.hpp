@@ -31,8 +31,11 @@ struct PackedScene {
   std::vector<uint32_t> loose_ends;  // by kind, the end of those in no tree
   // Of those of `kind` in no tree.
   uint32_t first_loose(uint32_t kind) const { return kind == 0 ? 0 : loose_ends[kind - 1]; }
-  std::set<uint32_t> tree_kinds;                 // of the shapes in trees
-  std::set<std::pair<uint32_t, uint32_t>> uses;  // kinds of shape, and materials that they are made of
+  std::set<uint32_t> tree_kinds;                      // of the shapes in trees
+  std::set<std::pair<uint32_t, uint32_t>> uses;       // kinds of shape, and materials that they are made of
+  std::set<std::pair<uint32_t, uint32_t>> leaf_uses;  // the same of the shapes that solids are made of
+  uint32_t solid_leaves = 0;                          // how many of these there are
+  bool mixed_solids = false;  // whether a solid's surfaces differ in what they take from a shadow ray
   std::vector<shader::uvec4> nodes;
   std::vector<shader::Tree> trees;  // the world's, then one a mesh of `instances`
   std::vector<shader::Instance> instances;

@@ -9,6 +9,7 @@
 #include "core/parallel_for.hpp"
 #include "render/mesh_records.hpp"
 #include "render/node_coding.hpp"
+#include "render/solid_records.hpp"
 
 namespace eyeray {
 namespace {
@@ -80,7 +81,7 @@ class GeometryPacker {
     add_meshes();
     use_tree_ = options_.acceleration == Acceleration::tree ||
                 (options_.acceleration == Acceleration::automatic &&
-                 (world_size() > few_primitives || !scene_.instances.empty()));
+                 (world_size() + packed_.solid_leaves > few_primitives || !scene_.instances.empty()));
     if (world_size() > few_primitives && packed_.instances.empty()) unbind_largest();
     packed_.has_tree = use_tree_ && has_bounded(2);
     if (packed_.has_tree) build_trees();
@@ -122,6 +123,7 @@ class GeometryPacker {
       shape->pack(packer_);
       shader::Primitive& record = packed_.primitives.back();
       record.head.x = uint32_t(boxes_.size());
+      if (kind_of(record) == shader::KIND_solid) finish_solid(record, packed_);
       record.head.z = use_material(kind_of(record), material_of(record), false);
       boxes_.push_back(kind_of(record) == shader::KIND_triangle ? triangle_box(record)
                                                                 : to_box(shape->bounds(), scene_.camera.eye));
