@@ -107,6 +107,7 @@ std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene) {
   std::vector<Diagnostic> warnings;
   for (const Shape* shape : users(scene)) {
     const FormulaUse& use = *shape->formula_use();
+    if (use.formula->text().start.line == 0) continue;  // one of eyeray's own; its manual says what it is good for
     Steepest found;
     try {
       found = steepest(use);
