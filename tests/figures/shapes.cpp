@@ -11,8 +11,10 @@
 #include <set>
 
 #include "core/parallel_for.hpp"
+#include "formula/formula.hpp"
 #include "reference/tracer.hpp"
 #include "shapes/make.hpp"
+#include "shapes/ready_formulas.hpp"
 #include "support/random.hpp"
 #include "twin/shader_functions.hpp"
 
@@ -69,6 +71,21 @@ bool is_definite(const QuadricValues& quadric) {
   const Mat3 form{{quadric.square.x, p.x, p.y}, {p.x, quadric.square.y, p.z}, {p.y, p.z, quadric.square.z}};
   const double sign = quadric.square.x < 0 ? -1 : 1;
   return quadric.square.x * quadric.square.y > p.x * p.x && sign * glm::determinant(form) > 0;
+}
+
+// One of eyeray's own formulas, but for the bulb, whose Lipschitz constant is an estimate.
+FormulaUse some_formula(Random& random) {
+  static const std::vector<FormulaUse> all = [] {
+    std::vector<FormulaUse> uses;
+    for (const ReadyFormula& ready : ready_formulas())
+      if (ready.name != "mandelbulb")
+        uses.push_back({std::make_shared<const Formula>(FormulaText{std::string(ready.text), {}},
+                                                        ready.parameters, std::string(ready.name)),
+                        {Vec3(-1), Vec3(1)},
+                        ready.lipschitz(ready.parameters)});
+    return uses;
+  }();
+  return all[size_t(random.below(int(all.size())))];
 }
 
 // A shape about as large as `size`.
@@ -151,6 +168,10 @@ const std::map<std::string, MakeShape> makers = {
      [](Random& random, double size) {
        return make_superellipsoid(Vec3(0), Vec3(1), random.log_uniform(0.1, 2), random.log_uniform(0.1, 2),
                                   some_map(random, size));
+     }},
+    {"implicit",
+     [](Random& random, double size) {
+       return make_implicit(some_formula(random), random.below(2) == 0, some_map(random, size));
      }},
     {"bilinear",
      [](Random& random, double size) {
