@@ -118,6 +118,14 @@ double Tracer::reach(const Hit& hit, const Vec3& eye) const {
 double Tracer::share_let_through(size_t body, const Ray& ray, double entry, double t_end,
                                  bool& gave_up) const {
   const double share = scene_.materials[size_t(material(body))]->shadow_transmittance();
+  if (body < scene_.shapes.size() && scene_.shapes[body]->counts_crossings() && share > 0) {
+    int crossed = 0;
+    for_each_crossing(*scene_.shapes[body], ray, [&](double t, const SurfacePoint&) {
+      crossed += t < t_end;
+      return t < t_end;
+    });
+    return std::pow(share, crossed / 2.0);
+  }
   if (body < scene_.shapes.size()) {
     const auto hit = scene_.shapes[body]->intersect(ray);
     if (hit && hit->ran_out) {

@@ -71,8 +71,11 @@ struct QuadricForm {
   Bounds clip;
   bool open;
 };
+struct BezierForm {  // rows of four control points
+  std::array<Vec3, 16> net;
+};
 using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm,
-                               CapsuleForm, QuadricForm>;
+                               CapsuleForm, QuadricForm, BezierForm>;
 
 class Shape {
  public:
@@ -84,7 +87,10 @@ class Shape {
   virtual Bounds bounds() const = 0;
   // For exporters and for comparing with other renderers; monostate for what they do not have.
   virtual ShapeForm form() const { return {}; }
-  // Appends the shape's one Primitive (and what it refers to).
+  // Whether shadow rays are weakened by each of its crossings, √(the material's share), as by a mesh's
+  // triangles, and not once in all: of an open shape that may be part of a closed surface.
+  virtual bool counts_crossings() const { return false; }
+  // Appends the shape's one Primitive (and what it refers to), or several, each with its bounds.
   virtual void pack(Packer& packer) const = 0;
 
   int material = 0;         // index in Scene::materials

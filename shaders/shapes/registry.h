@@ -19,5 +19,6 @@
   X(quadric, 14u) \
   X(torus, 15u) \
   X(superellipsoid, 16u) \
-  X(bilinear, 17u)
+  X(bilinear, 17u) \
+  X(bezier, 18u)
 #endif
