@@ -118,7 +118,7 @@ class Bezier final : public Shape {
       // A hit may lie as far beyond a border as rounding moves it.
       const double room = 0x1p-18 * (magnitude(packer.relative(middle)) + radius);
       const auto& [from, to] = piece.range;
-      packer.add_iterations(2 * 24);
+      packer.add_iterations(2 + 3 * 40);
       packer.add_steps();
       packer.add_piece({.head = Packer::head(shader::KIND_bezier, material, extra),
                         .a = shader::vec4(float(from.x), float(to.x), float(from.y), float(to.y)),

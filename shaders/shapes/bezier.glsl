@@ -11,7 +11,7 @@
 
 SHADER_BEGIN
 
-#define BEZIER_STEPS 24u
+#define BEZIER_STEPS 40u
 #define BEZIER_SPECK 2.0f
 
 struct BezierRow {
@@ -137,18 +137,23 @@ BezierRoot bezier_root(BezierNet net, vec2 tilt, BezierSection middle, float ori
   float margin = 0.02f * (high - low);
   float w = low + (high - low) * (z_ends.x / (z_ends.x - z_ends.y));
   vec2 uv = bezier_guess(middle, w);
+  float before = high - low;
   bool going = search;
   for (uint i = 0u; i < BEZIER_STEPS && going; i++) {
     BezierSection at = bezier_section(net, tilt, origin + w, uv);
     bool past = (at.z < 0.0f) != (z_ends.x < 0.0f);
-    low = past ? low : w;
-    high = past ? w : high;
+    // Taken from far off along the section, z may have the wrong sign.
+    bool sure = at.off <= 4.0f * grain * size;
+    low = past || !sure ? low : w;
+    high = past && sure ? w : high;
     float step = -at.z / at.slope;
-    bool newton = w + step >= low - margin && w + step <= high + margin;
+    bool newton = w + step >= low - margin && w + step <= high + margin && (i < 10u || abs(step) < 0.6f * before);
     // Near enough already, and where the slope is small a last step may be long, and lead elsewhere.
     bool near = abs(at.z) <= grain && at.off <= grain * size;
     step = newton ? (near && abs(step) > margin ? 0.0f : step) : near ? 0.0f : 0.5f * (low + high) - w;
-    going = !(near || (newton && abs(step) <= grain && at.off <= grain * size));
+    before = maximum(abs(step), 2.0f * grain);
+    // Where the bracket closes on nothing, the sign at its end was that of a rounding: there is no root.
+    going = !(near || (newton && abs(step) <= grain && at.off <= grain * size) || high - low <= 4.0f * grain);
     uv = vec2(at.u, at.v) + at.uv_slope * step;
     w = w + step;
   }
