@@ -132,7 +132,7 @@ double Tracer::share_let_through(size_t body, const Ray& ray, double entry, doub
     if (const double each = scene_.materials[size_t(shape.material)]->shadow_transmittance();
         shape.counts_crossings() && each > 0) {
       int crossed = 0;
-      for_each_crossing(shape, ray, [&](double t, const SurfacePoint&) {
+      for_each_crossing(shape, ray, [&](double t, const Intersection&, const SurfacePoint&) {
         crossed += t < t_end;
         return t < t_end;
       });
