@@ -88,8 +88,7 @@ class Builder {
   }
 
  private:
-  template <typename Host>
-  friend class SolidReader;
+  friend class eyeray::SolidReader<Builder>;
 
   struct NamedMaterial {
     int index;  // in Scene::materials; -1 after an error
