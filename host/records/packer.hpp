@@ -11,6 +11,7 @@
 
 #include "calculus/tape.hpp"
 #include "records/records.hpp"
+#include "scene/bounds.hpp"
 #include "scene/texture.hpp"
 
 namespace eyeray {
@@ -67,6 +68,11 @@ class Packer {
   Vec3 relative(const Vec3& world) const { return world - eye_; }
 
   void add(const shader::Primitive& primitive) { scene.primitives.push_back(primitive); }
+  // One of several primitives that a shape consists of, which share its id.
+  void add_piece(const shader::Primitive& primitive, const Bounds& bounds) {
+    add(primitive);
+    pieces.push_back(bounds);
+  }
   // The head of a primitive; its id and shadow density are filled in later. `extra`: an index into vertices.
   static shader::uvec4 head(uint32_t kind, int material, uint32_t extra = NONE) {
     return {0u, uint32_t(material) | kind << 24, 0u, extra};
@@ -91,6 +97,8 @@ class Packer {
   uint32_t add_medium(double ior, const Vec3& absorption);
 
   PackedScene scene;
+  std::vector<Bounds>
+      pieces;  // of the shape that is being packed, in the world; empty where it is one primitive
 
  private:
   Vec3 eye_;

@@ -112,6 +112,12 @@ void add_solid(std::string& text, const Scene& scene, const SolidForm& solid) {
   text += "}\n";
 }
 
+std::string control_points(const BezierForm& form) {
+  std::string text;
+  for (const Vec3& p : form.net) append(text, "{}{}", text.empty() ? "" : ",", vector(p));
+  return text;
+}
+
 void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
   const std::string material = look(scene, shape.material);
   const ShapeForm form = shape.form();
@@ -134,6 +140,10 @@ void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
     append(text, "{} {} {}}}\n", quadric(*shape_quadric), matrix(shape_quadric->to_world), material);
   } else if (const auto* solid = std::get_if<SolidForm>(&form)) {
     add_solid(text, scene, *solid);
+  } else if (const auto* bezier = std::get_if<BezierForm>(&form)) {
+    // POV-Ray cuts it into triangles: 2·4⁵ where it does not find it flat.
+    append(text, "bicubic_patch {{type 1 flatness 1e-4 u_steps 5 v_steps 5 {} {}}}\n",
+           control_points(*bezier), material);
   } else {
     throw Error(ExitCode::bad_input, "{}:{}: POV-Ray has no such shape", shape.position.file,
                 shape.position.line);

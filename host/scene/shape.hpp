@@ -81,6 +81,9 @@ struct QuadricForm {
   Bounds clip;
   bool open;
 };
+struct BezierForm {  // rows of four control points
+  std::array<Vec3, 16> net;
+};
 class Shape;
 // What is within any of `operands`, or where `all` within all of them, and within none of `removed`.
 struct SolidForm {
@@ -89,7 +92,7 @@ struct SolidForm {
   std::vector<const Shape*> removed;
 };
 using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm,
-                               CapsuleForm, QuadricForm, SolidForm>;
+                               CapsuleForm, QuadricForm, BezierForm, SolidForm>;
 
 // A formula that bounds a shape: negative within, on one side of a box of its own space.
 struct FormulaUse {
@@ -117,7 +120,10 @@ class Shape {
   virtual ShapeForm form() const { return {}; }
   // Of shapes that are made of one.
   virtual const FormulaUse* formula_use() const { return nullptr; }
-  // Appends the shape's one Primitive (and what it refers to).
+  // Whether shadow rays are weakened by each of its crossings, √(the material's share), as by a mesh's
+  // triangles, and not once in all: of an open shape that may be part of a closed surface.
+  virtual bool counts_crossings() const { return false; }
+  // Appends the shape's one Primitive (and what it refers to), or several, each with its bounds.
   virtual void pack(Packer& packer) const = 0;
 
   int material = 0;                 // index in Scene::materials

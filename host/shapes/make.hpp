@@ -63,6 +63,8 @@ std::unique_ptr<Shape> make_torus(const Vec3& center, const Vec3& axis, double m
 // e and n: 0.1 to 2.
 std::unique_ptr<Shape> make_superellipsoid(const Vec3& center, const Vec3& radii, double e, double n,
                                            const Mat4& transform = Mat4(1.0));
+// Rows of four control points.
+std::unique_ptr<Shape> make_bezier(const std::array<Vec3, 16>& net, const Mat4& transform = Mat4(1.0));
 // Around the patch.
 std::unique_ptr<Shape> make_bilinear(const std::array<Vec3, 4>& corners, const Mat4& transform = Mat4(1.0));
 

@@ -21,7 +21,8 @@
   X(superellipsoid, 16u) \
   X(bilinear, 17u) \
   X(implicit, 18u) \
-  X(solid, 19u)
+  X(solid, 19u) \
+  X(bezier, 20u)
 #endif
 
 // Those that enclose a volume, where they have no `open`: what solids are made of. Their rows stand before that of solid, which asks them.
