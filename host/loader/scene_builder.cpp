@@ -6,7 +6,7 @@
 #include "loader/mesh_placement.hpp"
 #include "loader/sections.hpp"
 #include "loader/settings.hpp"
-#include "loader/solid_parts.hpp"
+#include "loader/solid_reader.hpp"
 #include "scene/affine.hpp"
 #include "scene/table.hpp"
 
@@ -88,6 +88,8 @@ class Builder {
   }
 
  private:
+  friend class eyeray::SolidReader<Builder>;
+
   struct NamedMaterial {
     int index;  // in Scene::materials; -1 after an error
     SourcePosition position;
@@ -132,12 +134,6 @@ class Builder {
                          const Add& add);
   std::unique_ptr<Shape> read_shape(const Section& section, const toml::table& table, TableReader& reader,
                                     const Placing& placing);
-  std::unique_ptr<Shape> read_solid(const Section& section, const toml::table& table, TableReader& reader,
-                                    const Placing& placing, std::optional<int> material);
-  std::unique_ptr<Shape> read_part(const Section& section, TableReader& reader, const Placing& placing,
-                                   std::optional<int> material);
-  bool read_parts(const toml::table& holder, const Placing& solid, std::optional<int> material,
-                  ShapeType::Shapes& parts);
   std::unique_ptr<Shape> parse_shape(const Section& section, TableReader& reader, const Placing& placing,
                                      int material);
   void add_mesh(TableReader& reader, const Placing& placing);
@@ -305,7 +301,8 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
 
 std::unique_ptr<Shape> Builder::read_shape(const Section& section, const toml::table& table,
                                            TableReader& reader, const Placing& placing) {
-  if (section.is_combined()) return read_solid(section, table, reader, placing, std::nullopt);
+  if (section.is_combined())
+    return SolidReader(*this, log_).read(section, table, reader, placing, std::nullopt);
   return parse_shape(section, reader, placing, find_material(reader));
 }
 
@@ -326,87 +323,6 @@ std::unique_ptr<Shape> Builder::parse_shape(const Section& section, TableReader&
   shape->name = placing.name;
   shape->position = reader.position();
   return shape;
-}
-
-// `material`: of the solid around it.
-std::unique_ptr<Shape> Builder::read_solid(const Section& section, const toml::table& table,
-                                           TableReader& reader, const Placing& placing,
-                                           std::optional<int> material) {
-  if (reader.has("material")) material = find_material(reader);
-  ShapeType::Shapes operands, removed;
-  bool ok = read_parts(table, placing, material, operands);
-  if (const toml::node* minus = table.get(minus_key)) {
-    if (const toml::table* held = minus->as_table()) {
-      for (const auto& [key, node] : *held) {
-        if (std::ranges::find(placed_names(), key.str()) != placed_names().end()) continue;
-        log_.error(position_of(key.source()),
-                   fmt::format("unknown key `{}` in `minus`, which holds shapes alone", key.str()));
-        ok = false;
-      }
-      ok = read_parts(*held, placing, material, removed) && ok;
-    } else {
-      log_.error(position_of(minus->source()), "`minus` must be a table, written [[solid.minus.sphere]]");
-      ok = false;
-    }
-  }
-  if (!ok) return nullptr;
-  auto solid = section.shape->combine(reader, std::move(operands), std::move(removed));
-  if (!solid) return nullptr;
-  if (const std::string why = why_two_media(*solid, scene_.materials); !why.empty())
-    reader.error("material", why);
-  solid->material = material.value_or(0);
-  solid->type = section.shape;
-  solid->name = placing.name;
-  solid->position = reader.position();
-  return solid;
-}
-
-// Adds the shapes that stand in a solid's table to `parts`. Returns whether all of them are right.
-bool Builder::read_parts(const toml::table& holder, const Placing& solid, std::optional<int> material,
-                         ShapeType::Shapes& parts) {
-  bool ok = true;
-  for (const std::string_view name : placed_names()) {
-    const auto add_part = [&](const Section& written, const toml::table& table) {
-      if (const std::string why = why_no_part(written); !why.empty()) {
-        log_.error(position_of(table.source()), why);
-        ok = false;
-        return;
-      }
-      Section section = written;
-      section.keys = part_keys();
-      size_t added = 0;
-      const size_t wanted =
-          for_each_placed(section, table, solid, [&](TableReader& reader, const Placing& placed) {
-            auto part = section.is_combined() ? read_solid(section, table, reader, placed, material)
-                                              : read_part(section, reader, placed, material);
-            if (!part) return;
-            parts.push_back(std::move(part));
-            ++added;
-          });
-      ok = ok && wanted > 0 && added == wanted;
-    };
-    ok = for_each(holder, name, add_part, "solid") && ok;
-  }
-  return ok;
-}
-
-// `material`: of the solid that it is in.
-std::unique_ptr<Shape> Builder::read_part(const Section& section, TableReader& reader, const Placing& placing,
-                                          std::optional<int> material) {
-  if (reader.has("material")) {
-    material = find_material(reader);
-  } else if (!material) {
-    reader.error("material",
-                 fmt::format("no material: neither this {} nor a solid around it has one", section.title));
-  }
-  std::unique_ptr<Shape> part = parse_shape(section, reader, placing, material.value_or(0));
-  if (!part || !material) return nullptr;
-  if (!part->is_closed()) {
-    const auto& [key, why] = why_not_closed(*section.shape);
-    reader.error(key, why);
-    return nullptr;
-  }
-  return part;
 }
 
 void Builder::add_mesh(TableReader& reader, const Placing& placing) {
