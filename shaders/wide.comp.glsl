@@ -140,6 +140,7 @@ void visit_leaf() {
 #define INTERSECT_WIDE(name, number) \
   if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, ray, uv);
   SHAPES(INTERSECT_WIDE)
+  t = unless_in_hole(primitive, NONE, ray, t, uv);
   meet(found, mine ? t : -1.0f, uv, slot, primitive.head.x, NONE, primitive.head.z, ANY);
   uint next = from_lane(stack[0], 0u);
 #ifdef QUERY_ANY

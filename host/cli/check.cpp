@@ -6,6 +6,7 @@
 #include "loader/scene_file.hpp"
 #include "render/pack.hpp"
 #include "scene/camera_frame.hpp"
+#include "scene/things.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -26,8 +27,10 @@ struct Inventory {
   Counts shapes;
   Counts materials;
   Counts lights;
-  size_t mesh_triangles = 0;  // each mesh's, however often it is shown
-  size_t bytes = 0;           // on the device, pixels not counted
+  size_t mesh_triangles = 0;       // each mesh's, however often it is shown
+  size_t bytes = 0;                // on the device, pixels not counted
+  size_t named = 0;                // shapes and meshes that have a name of their own
+  std::vector<std::string> names;  // of the first few of them: `sphere "left eye"`
 };
 
 template <typename Types>
@@ -44,6 +47,16 @@ Counts count_kinds(const Types& types, const std::vector<uint32_t>& kinds) {
 template <typename Record>
 size_t bytes(const std::vector<Record>& records) {
   return records.size() * sizeof(Record);
+}
+
+void list_names(const Scene& scene, Inventory& inventory) {
+  constexpr size_t most = 10;
+  const Things things(scene);
+  for (size_t i = 0; i < things.size(); ++i) {
+    const Thing thing = things[i];
+    if (!thing.name.own || ++inventory.named > most) continue;
+    inventory.names.push_back(describe(thing.kind, thing.name, scene.names));
+  }
 }
 
 Inventory take_inventory(const Scene& scene) {
@@ -65,6 +78,7 @@ Inventory take_inventory(const Scene& scene) {
   if (points > 0) inventory.lights.emplace_back("point", points);
   if (points < scene.lights.size())
     inventory.lights.emplace_back("directional", scene.lights.size() - points);
+  list_names(scene, inventory);
   for (const Mesh& mesh : scene.meshes) inventory.mesh_triangles += mesh.triangles.size();
   inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.nodes) +
                     bytes(packed.trees) + bytes(packed.instances) + bytes(packed.materials) +
@@ -118,6 +132,12 @@ void print_text(const Scene& scene, const Inventory& inventory) {
     line("meshes", fmt::format("{} of {} triangles, shown {} times", scene.meshes.size(),
                                inventory.mesh_triangles, scene.instances.size()));
   }
+  if (inventory.named > 0) {
+    line("names", fmt::format("{}{}", fmt::join(inventory.names, ", "),
+                              inventory.named > inventory.names.size()
+                                  ? fmt::format(" and {} more", inventory.named - inventory.names.size())
+                                  : ""));
+  }
   line("materials", format_counts(inventory.materials));
   line("lights", format_counts(inventory.lights));
   line("memory", fmt::format("{} bytes of scene, {} bytes of picture", inventory.bytes,
@@ -160,6 +180,7 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
        {{"count", scene.meshes.size()},
         {"triangles", inventory.mesh_triangles},
         {"instances", scene.instances.size()}}},
+      {"names", {{"count", inventory.named}, {"first", inventory.names}}},
       {"materials", to_json(inventory.materials)},
       {"lights", to_json(inventory.lights)},
       {"scene_bytes", inventory.bytes},

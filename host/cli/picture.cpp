@@ -9,6 +9,7 @@
 #include "core/atomic_file.hpp"
 #include "core/image_file.hpp"
 #include "core/peak_memory.hpp"
+#include "render/corners.hpp"
 #include "render/render.hpp"
 
 namespace fs = std::filesystem;
@@ -36,6 +37,13 @@ double rays_per_second(const Picture& picture) {
   return double(picture.rays - picture.rays_resumed) / picture.sampling_seconds;
 }
 
+// Corners, a depth of five with the eye rays, and nothing left out because it counts for little.
+void make_classic(Scene& scene) {
+  sample_corners(scene);
+  scene.render.max_depth = 4;
+  scene.render.min_weight = 0;
+}
+
 std::optional<Checkpoint> checkpoint_of(const PictureRequest& request, const Scene& scene,
                                         const Executor& executor) {
   const LongRender& wanted = request.long_render;
@@ -58,10 +66,12 @@ void PictureRequest::add_to(CLI::App& command) {
       ->take_all();
   const auto parse = [this](const std::string& list) { aovs = parse_aovs(list); };
   command
-      .add_option_function<std::string>("--aov", parse,
-                                        "Also write depth, position, normal, uv, primitive, material, hits, "
-                                        "flags, or all of them: each as data "
-                                        "(FILE.NAME.pfm) and in false colour (FILE.NAME.png).")
+      .add_option_function<std::string>(
+          "--aov", parse,
+          "Also write depth, position, normal, uv, primitive, material, hits, flags, or all of them: each as "
+          "data "
+          "(FILE.NAME.pfm) and in false colour (FILE.NAME.png), ids with what they stand for "
+          "(FILE.NAME.json).")
       ->option_text("LIST");
   add_crop_option(command, crop);
   add_backend_option(command, backend);
@@ -69,6 +79,10 @@ void PictureRequest::add_to(CLI::App& command) {
 }
 
 void PictureRequest::check_outputs() {
+  if (classic && need_first_hits(aovs))
+    throw Error(
+        ExitCode::bad_input,
+        "--classic sends no rays through the centres of pixels, of which AOVs other than hits are made");
   if (outputs.empty())
     outputs.push_back(fs::path(scene.file()).filename().replace_extension(".png").string());
   for (const std::string& output : outputs) {
@@ -85,15 +99,19 @@ void PictureRequest::check_outputs() {
 Picture make_picture(const PictureRequest& request, const std::function<void(const Progress&)>& progress) {
   const Stopwatch watch;
   Picture picture;
-  const Scene scene = picture.times.measure("load", [&] { return request.scene.load(); });
+  Scene scene = picture.times.measure("load", [&] { return request.scene.load(); });
   check_crop(request.crop, scene.image);
-  const std::unique_ptr<Executor> executor = make_executor(request.backend, scene, request.executor);
   const Rect crop = request.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : request.crop;
+  if (request.classic) make_classic(scene);
+  ExecutorOptions executor_options = request.executor;
+  executor_options.ray_kinds = request.ray_kinds;
+  const std::unique_ptr<Executor> executor = make_executor(request.backend, scene, executor_options);
   std::optional<Checkpoint> checkpoint = checkpoint_of(request, scene, *executor);
 
   // Render the picture. Files are begun with the first rows: of a picture of one band, when it is done.
   RenderOptions options;
-  options.crop = crop;
+  options.crop = request.classic ? corners_of(crop) : crop;
+  options.ray_kinds = request.ray_kinds;
   options.band_bytes = size_t(request.long_render.band_mebibytes) << 20;
   options.checkpoint = checkpoint ? &*checkpoint : nullptr;
   options.progress = [&, warned = false](const Progress& now) mutable {
@@ -104,11 +122,12 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
     }
   };
   std::optional<PictureFiles> files;
+  CornerMean corners;
   StageTimes encoding;
   const RenderTotals totals = render_rows(scene, *executor, options, [&](const FinishedRows& rows) {
     encoding.measure("encode", [&] {
-      if (!files) files.emplace(request.outputs, request.aovs, crop.width, crop.height);
-      files->write(rows);
+      if (!files) files.emplace(request.outputs, request.aovs, crop.width, crop.height, scene);
+      files->write(request.classic ? corners.add(rows) : rows);
     });
   });
   picture.interrupted = totals.interrupted;
@@ -139,9 +158,10 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
   picture.flagged_pixels = totals.flagged_pixels;
   picture.flags |= totals.flags;
   picture.bands = totals.bands;
-  picture.share = double(totals.samples_taken) / (double(crop.pixels()) * scene.image.samples);
+  picture.share = double(totals.samples_taken) / (double(options.crop.pixels()) * scene.image.samples);
   picture.samples_resumed = totals.samples_resumed;
   picture.rays_resumed = totals.rays_resumed;
+  if (request.ray_kinds) picture.ray_kinds = totals.ray_kinds;
   for (const StageTimes& times : {executor->times(), encoding}) {
     for (const auto& [stage, seconds] : times.stages()) picture.times.add(stage, seconds);
   }
@@ -195,6 +215,13 @@ Json to_json(const Picture& picture) {
             {"flags", Json::array()},
             {"interrupted", picture.interrupted},
             {"bands", picture.bands}};
+  if (const auto& kinds = picture.ray_kinds)
+    json["ray_kinds"] = {{"eye", kinds->eye},
+                         {"eye_hits", kinds->eye_hits},
+                         {"reflected", kinds->reflected},
+                         {"refracted", kinds->refracted},
+                         {"total_reflections", kinds->total_reflections},
+                         {"shadow", kinds->shadow}};
   if (picture.samples_resumed > 0)
     json["resumed"] = {{"samples", picture.samples_resumed}, {"rays", picture.rays_resumed}};
   if (!picture.checkpoint.empty()) json["checkpoint"] = picture.checkpoint.string();

@@ -14,6 +14,10 @@ struct PixelSample {
   uint32_t rays = 0;   // rays traced for it: eye, reflected, refracted and shadow rays
   uint32_t hits = 0;   // surfaces struck by its eye, reflected and refracted rays
   uint32_t flags = 0;  // SampleFlag bits; 0 when nothing went wrong
+  // Of its rays; 0 from an executor that was not asked for kinds (ExecutorOptions::ray_kinds).
+  uint32_t reflected = 0;
+  uint32_t refracted = 0;
+  uint32_t total_reflections = 0;  // where a refracted ray would have been followed, had there been one
 };
 
 // Why a sample's colour may be incomplete. A flag is shown to the user and fails `verify`; it is never
@@ -23,6 +27,7 @@ enum SampleFlag : uint32_t {
   stack_overflow = 1u << 1,  // more rays pending than the shader's stack holds
   loop_budget = 1u << 2,     // the driver's cap on loop iterations was near (docs/lavapipe.md)
   ran_out = 1u << 3,         // a shape that is searched for step by step was not found in the steps allowed
+  endless = 1u << 4,  // a formula's loops did not end: whoever reads samples fails (render/samples.hpp)
 };
 
 // What the eye ray through the centre of a pixel meets first.

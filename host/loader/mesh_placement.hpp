@@ -19,7 +19,7 @@ class MeshPlacer {
   // file's own. The first time, the file's meshes, and its materials once they are needed, move into the
   // scene. Why it cannot stand there, or "".
   std::string place(ImportedScene& import, const Mat4& transform, std::optional<int> material,
-                    const SourcePosition& position);
+                    const SourcePosition& position, const NameRef& name);
 
  private:
   // Where in the scene the meshes and materials of a file are; −1 before they are.

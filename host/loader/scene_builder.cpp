@@ -6,6 +6,7 @@
 #include "loader/mesh_placement.hpp"
 #include "loader/sections.hpp"
 #include "loader/settings.hpp"
+#include "loader/solid_parts.hpp"
 #include "scene/affine.hpp"
 #include "scene/table.hpp"
 
@@ -23,6 +24,20 @@ struct Batch {
   size_t count = 1;                    // 0 after an error
 };
 
+// Where a thing stands, and what it is called.
+struct Placing {
+  Mat4 to_world{1.0};
+  NameRef name;
+};
+
+// The name that a table, or an element of its batch, gives itself, where it is one; "" where there is none.
+std::string_view written_name(const toml::table& table, const Batch& batch, size_t element) {
+  const toml::node* node = table.get("name");
+  if (const toml::node* list = batch.lists ? batch.lists->get("name") : nullptr)
+    node = list->as_array()->get(element);
+  return node && node->is_string() ? std::string_view(node->as_string()->get()) : std::string_view();
+}
+
 // How many shapes, meshes and groups a table shows, groups in it included.
 double count_placed(const toml::table& table) {
   double members = 1;
@@ -32,6 +47,8 @@ double count_placed(const toml::table& table) {
     for (const toml::node& member : *list->as_array())
       if (member.is_table()) members += count_placed(*member.as_table());
   }
+  if (const toml::node* minus = table.get(minus_key); minus && minus->is_table())
+    members += count_placed(*minus->as_table()) - 1;
   const toml::node* batch = table.get(batch_key);
   if (!batch || !batch->is_table() || batch->as_table()->empty()) return members;
   const toml::array* values = batch->as_table()->begin()->second.as_array();
@@ -40,8 +57,12 @@ double count_placed(const toml::table& table) {
 
 class Builder {
  public:
-  Builder(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log)
-      : root_(root), images_(images), meshes_(meshes), log_(log) {}
+  Builder(const toml::table& root, const SceneSources& sources, DiagnosticLog& log)
+      : root_(root),
+        images_(sources.images),
+        meshes_(sources.meshes),
+        formulas_(sources.formulas),
+        log_(log) {}
 
   Scene build() {
     TableReader image = read_single("image");
@@ -58,7 +79,7 @@ class Builder {
     for_each(root_, "material",
              [&](const Section& section, const toml::table& table) { add_material(section, table); });
     if (count_placed(root_) <= most_placed)
-      add_placed(root_, Mat4(1.0));
+      add_placed(root_, Placing{});
     else
       log_.error({}, fmt::format("batches and groups show {:.0f} things; at most {:.0f} are possible",
                                  count_placed(root_), most_placed));
@@ -79,30 +100,47 @@ class Builder {
     return read_table({section.title, node ? node->as_table() : nullptr, {section.keys}}, log_);
   }
 
-  // Visits the tables of a list; one that should be a list or a table and is not is an error.
+  // Visits the tables of a list; one that should be a list or a table and is not is an error. Returns whether
+  // there was none.
   template <typename Visit>
-  void for_each(const toml::table& holder, std::string_view name, const Visit& visit) {
+  bool for_each(const toml::table& holder, std::string_view name, const Visit& visit,
+                std::string_view holder_name = "group") {
     const toml::node* list = holder.get(name);
-    if (!list) return;
+    if (!list) return true;
     const Section& section = *find_section(name);
-    if (!list->is_array())
-      return log_.error(position_of(list->source()),
-                        fmt::format("`{0}` must be a list of tables, written [[group.{0}]]", name));
-    for (const toml::node& node : *list->as_array()) {
-      if (node.is_table())
-        visit(section, *node.as_table());
-      else
-        log_.error(position_of(node.source()), fmt::format("every {} must be a table", section.title));
+    if (!list->is_array()) {
+      log_.error(position_of(list->source()),
+                 fmt::format("`{0}` must be a list of tables, written [[{1}.{0}]]", name, holder_name));
+      return false;
     }
+    bool ok = true;
+    for (const toml::node& node : *list->as_array()) {
+      if (node.is_table()) {
+        visit(section, *node.as_table());
+      } else {
+        log_.error(position_of(node.source()), fmt::format("every {} must be a table", section.title));
+        ok = false;
+      }
+    }
+    return ok;
   }
 
   void add_material(const Section& section, const toml::table& table);
-  void add_placed(const toml::table& holder, const Mat4& to_world);
+  void add_placed(const toml::table& holder, const Placing& group);
   template <typename Add>
-  void for_each_placed(const Section& section, const toml::table& table, const Mat4& to_world,
-                       const Add& add);
-  void add_shape(const Section& section, TableReader& reader, const Mat4& to_world);
-  void add_mesh(TableReader& reader, const Mat4& to_world);
+  size_t for_each_placed(const Section& section, const toml::table& table, const Placing& group,
+                         const Add& add);
+  std::unique_ptr<Shape> read_shape(const Section& section, const toml::table& table, TableReader& reader,
+                                    const Placing& placing);
+  std::unique_ptr<Shape> read_solid(const Section& section, const toml::table& table, TableReader& reader,
+                                    const Placing& placing, std::optional<int> material);
+  std::unique_ptr<Shape> read_part(const Section& section, TableReader& reader, const Placing& placing,
+                                   std::optional<int> material);
+  bool read_parts(const toml::table& holder, const Placing& solid, std::optional<int> material,
+                  ShapeType::Shapes& parts);
+  std::unique_ptr<Shape> parse_shape(const Section& section, TableReader& reader, const Placing& placing,
+                                     int material);
+  void add_mesh(TableReader& reader, const Placing& placing);
   Batch read_batch(const Section& section, const toml::table& table);
   int find_material(TableReader& shape);
   void check_whole();
@@ -110,6 +148,7 @@ class Builder {
   const toml::table& root_;
   ImageSource* images_;
   MeshImports* meshes_;
+  FormulaSource* formulas_;
   DiagnosticLog& log_;
   Scene scene_;
   std::map<std::string, NamedMaterial, std::less<>> materials_;
@@ -148,6 +187,13 @@ void Builder::add_material(const Section& section, const toml::table& table) {
   if (material->medium() && ++media_ > most_media) {
     reader.error("type",
                  fmt::format("a scene can have at most {} materials that light passes through", most_media));
+  }
+  if (reader.has("alpha")) {
+    if (material->medium())
+      reader.error("alpha", "what light passes through fills its shape, which can have no holes");
+    material->mask = AlphaMask{reader.texture("alpha"), reader.number("alpha_cutoff")};
+  } else if (reader.has("alpha_cutoff")) {
+    reader.error("alpha_cutoff", "without `alpha` there is nothing to cut off");
   }
   material->name = name;
   entry->second.index = static_cast<int>(scene_.materials.size());
@@ -197,61 +243,173 @@ Batch Builder::read_batch(const Section& section, const toml::table& table) {
 }
 
 // The shapes, meshes and groups of a group, or of the scene.
-void Builder::add_placed(const toml::table& holder, const Mat4& to_world) {
+void Builder::add_placed(const toml::table& holder, const Placing& group) {
   for (const std::string_view name : placed_names()) {
     for_each(holder, name, [&](const Section& section, const toml::table& table) {
-      for_each_placed(section, table, to_world, [&](TableReader& reader, const Mat4& placed) {
+      for_each_placed(section, table, group, [&](TableReader& reader, const Placing& placed) {
         switch (section.kind) {
           case Section::Kind::group:
             return add_placed(table, placed);
           case Section::Kind::mesh:
             return add_mesh(reader, placed);
           default:
-            return add_shape(section, reader, placed);
+            if (auto shape = read_shape(section, table, reader, placed))
+              scene_.shapes.push_back(std::move(shape));
         }
       });
     });
   }
 }
 
-// Calls add(reader, to_world) for the table, or for each element of its batch.
+// Calls add(reader, to_world) for the table, or for each element of its batch. Returns how many these are.
 template <typename Add>
-void Builder::for_each_placed(const Section& section, const toml::table& table, const Mat4& to_world,
-                              const Add& add) {
+size_t Builder::for_each_placed(const Section& section, const toml::table& table, const Placing& group,
+                                const Add& add) {
+  Placing placed{group.to_world, {group.name.index, false}};
+  const DiagnosticLog::About about(log_, [&] {
+    return placed.name.index == Names::none ? "" : describe(section.name, placed.name, scene_.names);
+  });
   const Batch batch = read_batch(section, table);
   std::vector<std::string_view> elsewhere{batch_key};
-  if (section.kind == Section::Kind::group)
+  if (section.kind == Section::Kind::group || section.is_combined())
     elsewhere.insert(elsewhere.end(), placed_names().begin(), placed_names().end());
-  else
-    tried_shapes_ = true;
+  if (section.is_combined()) elsewhere.push_back(minus_key);
+  if (section.kind != Section::Kind::group) tried_shapes_ = true;
   for (size_t i = 0; i < batch.count; ++i) {
+    placed.name = {group.name.index, false};
+    if (const std::string_view name = written_name(table, batch, i); !name.empty()) {
+      // Of one name there are as many as the batch has elements.
+      const bool shared = batch.lists && !batch.lists->contains("name");
+      placed.name = {scene_.names.add(name, shared ? uint32_t(i + 1) : 0, group.name.index), true};
+    }
     TableReader reader = read_table({.title = section.title,
                                      .table = &table,
                                      .keys = {section.shape ? section.shape->keys : section.keys,
                                               section.shape ? section.keys : std::span<const Key>()},
                                      .batch = batch.lists,
                                      .element = i,
-                                     .extra_keys = elsewhere},
+                                     .extra_keys = elsewhere,
+                                     .formulas = formulas_},
                                     log_);
-    const Mat4 placed = to_world * reader.transform("transform");
-    if (const std::string why = why_singular(placed); !why.empty())
+    if (reader.has("name") && reader.valid("name") && reader.string("name").empty())
+      reader.error("name", "a name must not be empty; leave `name` out instead");
+    placed.to_world = group.to_world * reader.transform("transform");
+    if (const std::string why = why_singular(placed.to_world); !why.empty())
       reader.error("transform",
                    fmt::format("with the transforms of its groups, the map cannot be undone: {}", why));
     else
       add(reader, placed);
   }
+  return batch.count;
 }
 
-void Builder::add_shape(const Section& section, TableReader& reader, const Mat4& to_world) {
-  const int material = find_material(reader);
-  std::unique_ptr<Shape> shape = section.shape->parse(reader, to_world);
-  if (!shape) return;
+std::unique_ptr<Shape> Builder::read_shape(const Section& section, const toml::table& table,
+                                           TableReader& reader, const Placing& placing) {
+  if (section.is_combined()) return read_solid(section, table, reader, placing, std::nullopt);
+  return parse_shape(section, reader, placing, find_material(reader));
+}
+
+// A shape of its own, or a part.
+std::unique_ptr<Shape> Builder::parse_shape(const Section& section, TableReader& reader,
+                                            const Placing& placing, int material) {
+  std::unique_ptr<Shape> shape = section.shape->parse(reader, placing.to_world);
+  if (!shape) return nullptr;
+  if (!section.shape->flat && !scene_.materials.empty() && scene_.materials[size_t(material)]->mask)
+    reader.error(
+        "material",
+        fmt::format(
+            "a material with `alpha` has holes, and a ray may meet a {} again behind one; only planes, "
+            "triangles, polygons, parallelograms, disks and meshes can be of it",
+            section.shape->name));
   shape->material = material;
+  shape->type = section.shape;
+  shape->name = placing.name;
   shape->position = reader.position();
-  scene_.shapes.push_back(std::move(shape));
+  return shape;
 }
 
-void Builder::add_mesh(TableReader& reader, const Mat4& to_world) {
+// `material`: of the solid around it.
+std::unique_ptr<Shape> Builder::read_solid(const Section& section, const toml::table& table,
+                                           TableReader& reader, const Placing& placing,
+                                           std::optional<int> material) {
+  if (reader.has("material")) material = find_material(reader);
+  ShapeType::Shapes operands, removed;
+  bool ok = read_parts(table, placing, material, operands);
+  if (const toml::node* minus = table.get(minus_key)) {
+    if (const toml::table* held = minus->as_table()) {
+      for (const auto& [key, node] : *held) {
+        if (std::ranges::find(placed_names(), key.str()) != placed_names().end()) continue;
+        log_.error(position_of(key.source()),
+                   fmt::format("unknown key `{}` in `minus`, which holds shapes alone", key.str()));
+        ok = false;
+      }
+      ok = read_parts(*held, placing, material, removed) && ok;
+    } else {
+      log_.error(position_of(minus->source()), "`minus` must be a table, written [[solid.minus.sphere]]");
+      ok = false;
+    }
+  }
+  if (!ok) return nullptr;
+  auto solid = section.shape->combine(reader, std::move(operands), std::move(removed));
+  if (!solid) return nullptr;
+  if (const std::string why = why_two_media(*solid, scene_.materials); !why.empty())
+    reader.error("material", why);
+  solid->material = material.value_or(0);
+  solid->type = section.shape;
+  solid->name = placing.name;
+  solid->position = reader.position();
+  return solid;
+}
+
+// Adds the shapes that stand in a solid's table to `parts`. Returns whether all of them are right.
+bool Builder::read_parts(const toml::table& holder, const Placing& solid, std::optional<int> material,
+                         ShapeType::Shapes& parts) {
+  bool ok = true;
+  for (const std::string_view name : placed_names()) {
+    const auto add_part = [&](const Section& written, const toml::table& table) {
+      if (const std::string why = why_no_part(written); !why.empty()) {
+        log_.error(position_of(table.source()), why);
+        ok = false;
+        return;
+      }
+      Section section = written;
+      section.keys = part_keys();
+      size_t added = 0;
+      const size_t wanted =
+          for_each_placed(section, table, solid, [&](TableReader& reader, const Placing& placed) {
+            auto part = section.is_combined() ? read_solid(section, table, reader, placed, material)
+                                              : read_part(section, reader, placed, material);
+            if (!part) return;
+            parts.push_back(std::move(part));
+            ++added;
+          });
+      ok = ok && wanted > 0 && added == wanted;
+    };
+    ok = for_each(holder, name, add_part, "solid") && ok;
+  }
+  return ok;
+}
+
+// `material`: of the solid that it is in.
+std::unique_ptr<Shape> Builder::read_part(const Section& section, TableReader& reader, const Placing& placing,
+                                          std::optional<int> material) {
+  if (reader.has("material")) {
+    material = find_material(reader);
+  } else if (!material) {
+    reader.error("material",
+                 fmt::format("no material: neither this {} nor a solid around it has one", section.title));
+  }
+  std::unique_ptr<Shape> part = parse_shape(section, reader, placing, material.value_or(0));
+  if (!part || !material) return nullptr;
+  if (!part->is_closed()) {
+    const auto& [key, why] = why_not_closed(*section.shape);
+    reader.error(key, why);
+    return nullptr;
+  }
+  return part;
+}
+
+void Builder::add_mesh(TableReader& reader, const Placing& placing) {
   const bool own_materials = !reader.has("material");
   const int material = own_materials ? 0 : find_material(reader);
   if (reader.failed()) return;
@@ -263,8 +421,9 @@ void Builder::add_mesh(TableReader& reader, const Mat4& to_world) {
     if (fresh) {
       for (const std::string& warning : import->warnings) log_.warning(reader.position(), warning);
     }
-    const std::string wrong = placer_.place(
-        *import, to_world, own_materials ? std::nullopt : std::optional(material), reader.position());
+    const std::string wrong =
+        placer_.place(*import, placing.to_world, own_materials ? std::nullopt : std::optional(material),
+                      reader.position(), placing.name);
     if (!wrong.empty()) reader.error("transform", wrong);
   } catch (const Error& refused) {
     reader.error("file", refused.what());
@@ -309,8 +468,8 @@ void Builder::check_whole() {
 
 }  // namespace
 
-Scene build_scene(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log) {
-  return Builder(root, images, meshes, log).build();
+Scene build_scene(const toml::table& root, const SceneSources& sources, DiagnosticLog& log) {
+  return Builder(root, sources, log).build();
 }
 
 }  // namespace eyeray

@@ -25,16 +25,45 @@ std::span<const Key> material_keys() {
        .type = KeyType::string,
        .doc = "The name by which shapes refer to it, unique in the scene."},
       {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = material_names()},
+      {.name = "alpha",
+       .type = KeyType::texture,
+       .doc = "Where it is below `alpha_cutoff`, there is no surface. Of a color the first component counts, "
+              "of an "
+              "image its alpha. Only on shapes that a ray meets once.",
+       .max = 1,
+       .optional = true},
+      {.name = "alpha_cutoff",
+       .type = KeyType::number,
+       .doc = "The least `alpha` that is not a hole.",
+       .fallback = "0.5",
+       .min = 0,
+       .max = 1,
+       .above_min = true},
   };
   return keys;
 }
 
+constexpr Key name_key = {.name = "name",
+                          .type = KeyType::string,
+                          .doc = "What messages and legends call it; several may share a name.",
+                          .optional = true};
+
 constexpr Key shape_keys[] = {
+    name_key,
     {.name = "material", .type = KeyType::string, .doc = "The `name` of a [[material]]."},
     {.name = "transform",
      .type = KeyType::transform,
      .doc = "Steps that move the shape, applied in the order written.",
      .fallback = "[]"},
+};
+
+constexpr Key keys_of_parts[] = {
+    name_key,
+    {.name = "material",
+     .type = KeyType::string,
+     .doc = "The `name` of a [[material]]; in a solid, that of the solid when absent.",
+     .optional = true},
+    shape_keys[2],
 };
 
 constexpr std::string_view mesh_manual =
@@ -54,6 +83,7 @@ What a file has and eyeray leaves out is a warning. Cameras and lights of a glTF
 itself, `eyeray render model.glb`. [scene-file.md](scene-file.md#meshes) tells more.)";
 
 constexpr Key mesh_keys[] = {
+    name_key,
     {.name = "file", .type = KeyType::string, .doc = "The name of the file, relative to this one."},
     {.name = "material",
      .type = KeyType::string,
@@ -75,7 +105,7 @@ constexpr Key mesh_keys[] = {
 
 constexpr std::string_view group_manual =
     R"(Holds shapes, meshes and other groups, written `[[group.sphere]]`, `[[group.mesh]]`, `[[group.group]]` below it, and moves them as one. Each transform
-of a `batch` shows the whole group once more. Materials are the scene's.
+of a `batch` shows the whole group once more. Materials are the scene's. A `name` of a group goes before those in it: `cart 2/wheel`.
 
 ```toml
 [[group]]
@@ -96,6 +126,7 @@ material = "glass"
 What a shape cannot be, it cannot be in a group either: a sphere in one that is stretched is an error; an ellipsoid is not.)";
 
 constexpr Key group_keys[] = {
+    name_key,
     {.name = "transform",
      .type = KeyType::transform,
      .doc = "Steps that move all of it, applied in the order written, after those of what it holds.",
@@ -113,7 +144,8 @@ std::vector<Section> make_sections() {
       {mesh, "mesh", "[[mesh]]", "The triangles of a file.", mesh_keys, nullptr, mesh_manual},
   };
   for (const ShapeType* type : shape_types()) {
-    all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", shape_keys, type});
+    const std::span<const Key> keys = type->combine ? part_keys() : shape_keys;
+    all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", keys, type});
   }
   all.push_back({group, "group", "[[group]]", "Shapes, meshes and groups that are moved as one.", group_keys,
                  nullptr, group_manual});
@@ -121,6 +153,10 @@ std::vector<Section> make_sections() {
 }
 
 }  // namespace
+
+std::span<const Key> part_keys() {
+  return keys_of_parts;
+}
 
 std::span<const Section> sections() {
   static const std::vector<Section> all = make_sections();

@@ -22,8 +22,9 @@ T interpolate(const std::vector<T>& values, const std::array<uint32_t, 3>& corne
 
 }  // namespace
 
-InstanceGeometry::InstanceGeometry(const Instance& instance, const MeshGeometry& mesh)
+InstanceGeometry::InstanceGeometry(const Instance& instance, const MeshGeometry& mesh, const AlphaMask* mask)
     : mesh_(&mesh),
+      mask_(mask),
       to_world_(instance.transform),
       material_(instance.material),
       size_(by_component(to_world_.linear)),
@@ -55,7 +56,7 @@ SurfacePoint InstanceGeometry::surface(const Ray&, const TriangleHit& hit) const
     if (glm::dot(shading, point.normal_geometric) > 0) point.normal = unit(shading);
   }
   if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, triangle, hit);
-  point.uv = mesh.uv.empty() ? Vec2(hit.u, hit.v) : interpolate(mesh.uv, triangle, hit);
+  point.uv = mesh_->uv(hit);
 
   // The next ray starts here and goes back into the mesh's space: there it may be off by the rounding of both
   // maps, which counts across the triangle. A distance e across it is e / |across| in the world.

@@ -9,16 +9,16 @@ namespace eyeray::reference {
 
 class InstanceGeometry {
  public:
-  // `mesh` must outlive it.
-  InstanceGeometry(const Instance& instance, const MeshGeometry& mesh);
+  // `mesh`, and the `mask` of the instance's material, null without one, must outlive it.
+  InstanceGeometry(const Instance& instance, const MeshGeometry& mesh, const AlphaMask* mask = nullptr);
 
   // As MeshGeometry's, for a ray of the world; t is the same in both spaces.
   std::optional<TriangleHit> intersect(const Ray& ray,
                                        double limit = std::numeric_limits<double>::infinity()) const {
-    return mesh_->intersect(to_mesh(ray), limit);
+    return mesh_->intersect(to_mesh(ray), limit, mask_);
   }
   uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most) const {
-    return mesh_->count_crossed(to_mesh(ray), t_end, most);
+    return mesh_->count_crossed(to_mesh(ray), t_end, most, mask_);
   }
 
   // The surface at a hit, in the world. The ray is not needed, and there so that shapes and instances are
@@ -40,6 +40,7 @@ class InstanceGeometry {
   Ray to_mesh(const Ray& ray) const;
 
   const MeshGeometry* mesh_;
+  const AlphaMask* mask_;
   Affine to_world_;
   int material_;
   Mat3 size_, inverse_size_;  // |linear| and |linear⁻¹|, by component: they carry bounds of errors along

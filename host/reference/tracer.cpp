@@ -19,7 +19,8 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene) {
   for (const Mesh& mesh : scene.meshes) meshes_.emplace_back(mesh, acceleration);
   uint64_t primitives = scene.shapes.size();
   for (const Instance& instance : scene.instances) {
-    instances_.emplace_back(instance, meshes_[size_t(instance.mesh)]);
+    const auto& mask = scene.materials[size_t(instance.material)]->mask;
+    instances_.emplace_back(instance, meshes_[size_t(instance.mesh)], mask ? &*mask : nullptr);
     first_primitives_.push_back(primitives);
     primitives += instances_.back().triangles();
   }
@@ -47,15 +48,24 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene) {
       uint32_t(boxes_.size()), [this](uint32_t i) { return boxes_[i]; }, acceleration);
 }
 
-int Tracer::material(size_t body) const {
+int Tracer::material(size_t body, const Intersection& hit) const {
   const size_t shapes = scene_.shapes.size();
-  return body < shapes ? scene_.shapes[body]->material : instances_[body - shapes].material();
+  return body < shapes ? scene_.shapes[body]->part(hit).material : instances_[body - shapes].material();
+}
+
+// A hole is not met, and behind it there is nothing more of a shape that may have one.
+std::optional<Intersection> Tracer::intersect_shape(size_t index, const Ray& ray) const {
+  const Shape& shape = *scene_.shapes[index];
+  const auto hit = shape.intersect(ray);
+  const auto& mask = scene_.materials[size_t(shape.material)]->mask;
+  if (hit && mask && !mask->covers(shape.surface(ray, *hit).uv)) return std::nullopt;
+  return hit;
 }
 
 std::optional<TriangleHit> Tracer::intersect(size_t body, const Ray& ray, double limit) const {
   const size_t shapes = scene_.shapes.size();
   if (body >= shapes) return instances_[body - shapes].intersect(ray, limit);
-  const auto hit = scene_.shapes[body]->intersect(ray);
+  const auto hit = intersect_shape(body, ray);
   if (!hit) return std::nullopt;
   return TriangleHit{*hit};
 }
@@ -92,7 +102,7 @@ std::optional<Hit> Tracer::trace(const Ray& ray, uint32_t& flags) const {
     hit->t = std::max(hit->t, entry);
     if (nearest && !(hit->t < nearest->at.t || (hit->t == nearest->at.t && body < nearest->body)))
       return limit;
-    nearest = {*hit, body, body, material(body)};
+    nearest = {*hit, body, body, material(body, *hit)};
     return hit->t;
   });
   if (sure_until < (nearest ? nearest->at.t : infinity)) flags |= ran_out;
@@ -110,31 +120,42 @@ SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
 double Tracer::reach(const Hit& hit, const Vec3& eye) const {
   const size_t shapes = scene_.shapes.size();
   if (hit.body >= shapes) return instances_[hit.body - shapes].reach(hit.at.triangle, eye);
-  const Bounds box = scene_.shapes[hit.body]->bounds();
+  const Bounds box = scene_.shapes[hit.body]->part(hit.at).bounds();
   return finite(box) ? std::max(magnitude(box.min - eye), magnitude(box.max - eye)) : 0;
 }
 
 // The share of light that comes through one body which the ray enters at t = entry.
 double Tracer::share_let_through(size_t body, const Ray& ray, double entry, double t_end,
                                  bool& gave_up) const {
-  const double share = scene_.materials[size_t(material(body))]->shadow_transmittance();
-  if (body < scene_.shapes.size() && scene_.shapes[body]->counts_crossings() && share > 0) {
-    int crossed = 0;
-    for_each_crossing(*scene_.shapes[body], ray, [&](double t, const SurfacePoint&) {
-      crossed += t < t_end;
-      return t < t_end;
-    });
-    return std::pow(share, crossed / 2.0);
-  }
   if (body < scene_.shapes.size()) {
-    const auto hit = scene_.shapes[body]->intersect(ray);
+    const Shape& shape = *scene_.shapes[body];
+    const auto share_at = [&](const Intersection& hit) {
+      return scene_.materials[size_t(shape.part(hit).material)]->shadow_transmittance();
+    };
+    const auto hit = intersect_shape(body, ray);
     if (hit && hit->ran_out) {
       gave_up = gave_up || hit->t < t_end;
       return 1;
     }
-    return hit && std::max(hit->t, entry) < t_end ? share : 1;
+    if (!hit || std::max(hit->t, entry) >= t_end) return 1;
+    double share = share_at(*hit);
+    if (shape.counts_crossings() && share > 0) {
+      int crossed = 0;
+      for_each_crossing(shape, ray, [&](double t, const SurfacePoint&) {
+        crossed += t < t_end;
+        return t < t_end;
+      });
+      return std::pow(share, crossed / 2.0);
+    }
+    if (&shape.part(*hit) == &shape) return share;
+    // A solid counts once, by what its densest surface on the way lets through.
+    for (const auto& [in, out] : shape.spans(ray))
+      for (const Intersection& crossing : {in, out})
+        if (crossing.t > 0 && crossing.t < t_end) share = std::min(share, share_at(crossing));
+    return share;
   }
   const InstanceGeometry& instance = instances_[body - scene_.shapes.size()];
+  const double share = scene_.materials[size_t(instance.material())]->shadow_transmittance();
   const uint32_t crossed = instance.count_crossed(ray, t_end, share == 0 ? 1 : instance.triangles());
   return crossed == 0 ? 1 : std::pow(share, crossed / 2.0);
 }

@@ -9,6 +9,7 @@
 #include "core/parallel_for.hpp"
 #include "render/mesh_records.hpp"
 #include "render/node_coding.hpp"
+#include "render/solid_records.hpp"
 
 namespace eyeray {
 namespace {
@@ -80,7 +81,7 @@ class GeometryPacker {
     add_meshes();
     use_tree_ = options_.acceleration == Acceleration::tree ||
                 (options_.acceleration == Acceleration::automatic &&
-                 (world_size() > few_primitives || !scene_.instances.empty()));
+                 (world_size() + packed_.solid_leaves > few_primitives || !scene_.instances.empty()));
     if (world_size() > few_primitives && packed_.instances.empty()) unbind_largest();
     packed_.has_tree = use_tree_ && has_bounded(2);
     if (packed_.has_tree) build_trees();
@@ -123,13 +124,12 @@ class GeometryPacker {
       packer_.pieces.clear();
       const size_t first = packed_.primitives.size();
       shape.pack(packer_);
-      const size_t pieces = std::max(packer_.pieces.size(), size_t{1});
-      CHECK_EQ(packed_.primitives.size() - first, pieces);
       for (size_t i = first; i < packed_.primitives.size(); ++i) {
         shader::Primitive& record = packed_.primitives[i];
         record.head.x = uint32_t(id);
+        if (kind_of(record) == shader::KIND_solid) finish_solid(record, packed_);
         record.head.z = use_material(kind_of(record), material_of(record), shape.counts_crossings());
-        const Bounds bounds = packer_.pieces.empty() ? shape.bounds() : packer_.pieces[i - first];
+        const Bounds bounds = packer_.pieces.empty() ? shape.bounds() : packer_.pieces.at(i - first);
         boxes_.push_back(kind_of(record) == shader::KIND_triangle ? triangle_box(record)
                                                                   : to_box(bounds, scene_.camera.eye));
       }

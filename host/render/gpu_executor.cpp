@@ -83,7 +83,7 @@ class GpuExecutor final : public Executor {
       constexpr size_t piece = 4096;
       parallel_for(0, int((results.size() + piece - 1) / piece), [&](int p) {
         const size_t begin = size_t(p) * piece, end = std::min(results.size(), begin + piece);
-        for (size_t i = begin; i < end; ++i) out[first + i] = to_sample(results[i]);
+        for (size_t i = begin; i < end; ++i) out[first + i] = to_sample(results[i], options_.ray_kinds);
       });
       fault_.damage(out.subspan(first, results.size()));
     });
@@ -154,10 +154,12 @@ class GpuExecutor final : public Executor {
     Specialisation specialisation;
     specialisation.constants = options_.constants;
     specialisation.profile = profile_;
+    specialisation.ray_kinds = options_.ray_kinds;
     const uint32_t lanes = device_.info().limits.subgroup_size;
     const bool worth_it = packed.primitives.size() <= most_in_packets || options_.profile.rays == "packets";
     packets_ = profile_.packets && worth_it && packed.has_tree && packed.quantised_nodes &&
-               packed.instances.empty() && (lanes == 4 || lanes == 8 || lanes == 16);
+               packed.instances.empty() && packed.leaf_uses.empty() &&
+               (lanes == 4 || lanes == 8 || lanes == 16);
     specialisation.subgroup_size = lanes;
     scattered_ = scattered_rays(profile_, packed, packets_, lanes);
     if (scattered_ == Rays::wide) {
@@ -364,7 +366,7 @@ class GpuExecutor final : public Executor {
   ExecutorOptions options_;
   Fault fault_;
   Vec3 eye_;
-  gpu::DiskCache cache_ = gpu::DiskCache::of_user();
+  DiskCache cache_ = DiskCache::of_user();
   gpu::Device device_;
   Profile profile_;
   gpu::DeviceFacts facts_;

@@ -8,6 +8,9 @@
 #include <set>
 #include <string_view>
 
+#include "calculus/emit.hpp"
+#include "formula/formula.hpp"
+
 namespace eyeray {
 namespace {
 
@@ -55,7 +58,8 @@ std::string literal(const shader::Primitive& p) {
   return fmt::format("Primitive({}, {}, {}, {})", literal(p.head), literal(p.a), literal(p.b), literal(p.c));
 }
 std::string literal(const shader::Material& m) {
-  return fmt::format("Material({}, {}, {})", literal(m.head), literal(m.textures), literal(m.parameters));
+  return fmt::format("Material({}, {}, {}, {})", literal(m.head), literal(m.textures), literal(m.parameters),
+                     literal(m.mask));
 }
 std::string literal(const shader::Texture& t) {
   return fmt::format("Texture({}, {}, {}, {})", literal(t.even), literal(t.odd), literal(t.frequency),
@@ -86,8 +90,8 @@ bool few_looks(const PackedScene& scene) {
 }
 
 bool few_primitives(const PackedScene& scene) {
-  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_records &&
-         scene.vertices.size() <= most_vertices;
+  return !scene.has_tree && scene.instances.empty() && scene.leaf_uses.empty() &&
+         scene.primitives.size() <= most_records && scene.vertices.size() <= most_vertices;
 }
 
 // Everything but geometry and texels as constants, and the list of materials that material.glsl unrolls. Not
@@ -126,11 +130,54 @@ std::string primitives_as_constants(const PackedScene& scene) {
   return text + "\n";
 }
 
+// What shapes/implicit.glsl marches along: each formula that the scene has, and its own march.
+std::string formulas(const PackedScene& scene) {
+  if (scene.formulas.empty()) return "#define FORMULAS(X)\n";
+  std::string text = "#include \"implicit.glsl\"\n";
+  const auto loops = [](const PackedFormula& f) { return !f.enclosed && f.formula->loops(); };
+  if (std::ranges::any_of(scene.formulas, loops))
+    text +=
+        "uint formula_turns = 0u;\nbool formula_overran = false;\n#define FORMULA_OVERRAN formula_overran\n"
+        "bool formula_turn() {\n  formula_turns = formula_turns + 1u;\n"
+        "  formula_overran = formula_overran || formula_turns > FORMULA_TURNS;\n  return "
+        "!formula_overran;\n}\n";
+  std::string rows;
+  for (size_t i = 0; i < scene.formulas.size(); ++i) {
+    const Formula& formula = *scene.formulas[i].formula;
+    const std::string name = fmt::format("f{}_", i);
+    rows += fmt::format(" X({0}u, formula{0})", i);
+    if (scene.formulas[i].enclosed) {
+      const calculus::StraightLine& line = scene.formulas[i].line;
+      text += calculus::enclosure_text(line, fmt::format("formula{}_enclosure", i)) +
+              calculus::gradient_text(line, fmt::format("formula{}_dual", i));
+      text += fmt::format(
+          "#define FORMULA_NAME(part) formula{0}_##part\n"
+          "#define FORMULA_ENCLOSURE(it, x, y, z) formula{0}_enclosure(x, y, z)\n"
+          "#define FORMULA_DUAL(it, p) formula{0}_dual(p)\n#include \"implicit_enclosed.glsl\"\n"
+          "#undef FORMULA_NAME\n#undef FORMULA_ENCLOSURE\n#undef FORMULA_DUAL\n",
+          i);
+      continue;
+    }
+    text += formula.kernel(name);
+    const std::string restart = formula.loops() ? "formula_turns = 0u; " : "";
+    text += fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i, restart, name);
+    text += fmt::format("vec3 formula{}_gradient(vec3 p) {{ {}return {}; }}\n", i, restart,
+                        formula.has_gradient() ? name + "gradient(p)" : "vec3(0.0f, 0.0f, 0.0f)");
+    text += fmt::format(
+        "#define FORMULA_NAME(part) formula{0}_##part\n#define FORMULA_VALUE(it, p) formula{0}_value(p)\n"
+        "#define FORMULA_HAS_GRADIENT(it) {1}\n#define FORMULA_GRADIENT(it, p) formula{0}_gradient(p)\n"
+        "#include \"implicit_march.glsl\"\n"
+        "#undef FORMULA_NAME\n#undef FORMULA_VALUE\n#undef FORMULA_HAS_GRADIENT\n#undef FORMULA_GRADIENT\n",
+        i, formula.has_gradient());
+  }
+  return text + "#define FORMULAS(X)" + rows + "\n";
+}
+
 // Whether any texture of the material varies over a surface.
 bool varies(const PackedScene& scene, const shader::Material& material) {
   const shader::uvec4& used = material.textures;
   return std::ranges::any_of(
-      std::array{used.x, used.y, used.z, used.w, material.head.y >> MATERIAL_EMISSION_SHIFT},
+      std::array{used.x, used.y, used.z, used.w, material.head.y >> MATERIAL_EMISSION_SHIFT, material.mask.x},
       [&](uint32_t texture) { return scene.textures[texture].even.w != TEXTURE_CONSTANT; });
 }
 
@@ -156,13 +203,19 @@ uint64_t trace_iterations(const PackedScene& scene, bool unrolled) {
 }
 
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
-  std::set<uint32_t> shapes_used, materials_used, material_kinds, kinds_with_uv;
-  for (const auto& [kind, material] : scene.uses) {
-    shapes_used.insert(kind);
-    materials_used.insert(material);
-    material_kinds.insert(scene.materials[material].head.x);
-    if (varies(scene, scene.materials[material])) kinds_with_uv.insert(kind);
-  }
+  std::set<uint32_t> shapes_used, leaves_used, materials_used, material_kinds, kinds_with_uv,
+      kinds_with_holes;
+  const auto take_note = [&](const auto& uses, std::set<uint32_t>& kinds) {
+    for (const auto& [kind, material] : uses) {
+      kinds.insert(kind);
+      materials_used.insert(material);
+      material_kinds.insert(scene.materials[material].head.x);
+      if (varies(scene, scene.materials[material])) kinds_with_uv.insert(kind);
+      if (scene.materials[material].mask.y != 0) kinds_with_holes.insert(kind);
+    }
+  };
+  take_note(scene.uses, shapes_used);
+  take_note(scene.leaf_uses, leaves_used);
   const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
                                    [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
   const bool images = !scene.texels.empty();
@@ -182,6 +235,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_IMAGES", int(images));
   define("HAS_COLORS", int(scene.vertex_colors));
   define("HAS_EMISSION", int(any_emits(scene)));
+  define("HAS_HOLES", int(!kinds_with_holes.empty()));
   define("HAS_MEDIA", int(media));
   define("HAS_ABSORPTION", int(absorption));
   // Only where a ray splits in two does a child wait, and one a level at most.
@@ -191,12 +245,15 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_TREE", scene.has_tree ? "true" : "false");
   define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");
   define("HAS_SECONDARY", int(scene.frame.camera.w > 0 && any_reflects(scene)));
+  define("RAY_KINDS", int(options.ray_kinds));
   define("SUBGROUP_SIZE", options.subgroup_size);
   define("PACKET_ROOT", fmt::format("{}u", options.packet_tree.first_node));
   define("PACKET_STACK", options.packet_tree.stack_size);
   define("STEPS_MAY_RUN_OUT", int(scene.steps_may_run_out));
   define("SHIFT_STACK", int(options.profile.shift_stack));
   define("STACK_SIZE", scene.stack_size);
+  define("HAS_SOLIDS", int(!scene.leaf_uses.empty()));
+  define("HAS_MIXED_SOLIDS", int(scene.mixed_solids));
   define("HAS_INSTANCES", int(!scene.instances.empty()));
   define("INSTANCE_COUNT", fmt::format("{}u", scene.instances.size()));
   // In a tree of one kind of shape nothing need ask for the kind.
@@ -219,7 +276,10 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   // Where the eye moves, so do primitives: such a kernel is made anew for each camera as it is.
   if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
   text += "#include \"loaders.glsl\"\n";
+  text += formulas(scene);
+  text += registry("CLOSED_SHAPES", "shapes", shapes, leaves_used);
   text += registry("SHAPES", "shapes", shapes, shapes_used);
+  text += registry("SHAPES_WITH_HOLES", "shapes", shapes, kinds_with_holes);
   text += registry("MATERIALS", "materials", materials, material_kinds);
   text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.counts.z});
   return text;

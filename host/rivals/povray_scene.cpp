@@ -50,6 +50,9 @@ std::string light(const Light& light) {
 }
 
 std::string texture(const Material& material, const Vec3& ambient_light) {
+  if (material.mask)
+    throw Error(ExitCode::bad_input, "material \"{}\" has holes, which are not written for POV-Ray",
+                material.name);
   const Scattering s = material.scattering({.uv = Vec2(0.0), .cos_view = 1, .ior_from = 1, .ior_to = 1});
   const std::string highlight =
       fmt::format("phong {} phong_size {}", mean(s.specular), std::max(1.0, s.shininess));
@@ -95,6 +98,26 @@ std::string control_points(const BezierForm& form) {
   return text;
 }
 
+void add_shape(std::string& text, const Scene& scene, const Shape& shape);
+
+// What is within any of the shapes, or within all of them. A union would keep the surfaces within it, which
+// are seen through glass.
+void add_combination(std::string& text, const Scene& scene, const std::vector<const Shape*>& shapes,
+                     bool all) {
+  if (shapes.size() > 1) text += all ? "intersection {\n" : "merge {\n";
+  for (const Shape* shape : shapes) add_shape(text, scene, *shape);
+  if (shapes.size() > 1) text += "}\n";
+}
+
+// Each part has its own texture; what fills the solid, its first part's says.
+void add_solid(std::string& text, const Scene& scene, const SolidForm& solid) {
+  if (!solid.removed.empty()) text += "difference {\n";
+  add_combination(text, scene, solid.operands, solid.all);
+  if (solid.removed.empty()) return;
+  for (const Shape* shape : solid.removed) add_shape(text, scene, *shape);
+  text += "}\n";
+}
+
 void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
   const std::string material = look(scene, shape.material);
   const ShapeForm form = shape.form();
@@ -119,6 +142,8 @@ void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
     // POV-Ray cuts it into triangles: 2·4⁵ where it does not find it flat.
     append(text, "bicubic_patch {{type 1 flatness 1e-4 u_steps 5 v_steps 5 {} {}}}\n",
            control_points(*bezier), material);
+  } else if (const auto* solid = std::get_if<SolidForm>(&form)) {
+    add_solid(text, scene, *solid);
   } else {
     throw Error(ExitCode::bad_input, "{}:{}: POV-Ray has no such shape", shape.position.file,
                 shape.position.line);

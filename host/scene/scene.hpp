@@ -72,6 +72,7 @@ struct Scene {
   std::vector<std::unique_ptr<Shape>> shapes;
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
+  Names names;  // of shapes and instances
 
   // The primitive index of every executor, which decides exact ties, counts the shapes, then the triangles of
   // each instance in turn.

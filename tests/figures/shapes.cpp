@@ -8,10 +8,13 @@
 #include <cstdlib>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "core/parallel_for.hpp"
+#include "formula/formula.hpp"
 #include "reference/tracer.hpp"
 #include "shapes/make.hpp"
+#include "shapes/ready_formulas.hpp"
 #include "support/random.hpp"
 #include "twin/shader_functions.hpp"
 
@@ -26,6 +29,12 @@ constexpr int parts = 64;
 
 int rays_a_part() {
   return (std::getenv("EYERAY_FULL_TESTS") ? 1'000'000 : 100'000) / parts;
+}
+
+// Other shapes and rays, with EYERAY_SEED set.
+uint64_t seed() {
+  const char* set = std::getenv("EYERAY_SEED");
+  return set ? std::strtoull(set, nullptr, 10) : 0;
 }
 
 // Any affine map that float32 can bear: not nearly flat. Places it around one at most 3 `size` away.
@@ -56,9 +65,35 @@ PlanarRegion some_region(Random& random) {
   return region;
 }
 
+// Whether a quadric's terms of degree two have one sign everywhere (Sylvester's criterion).
+bool is_definite(const QuadricValues& quadric) {
+  const Vec3 p = quadric.product * 0.5;
+  const Mat3 form{{quadric.square.x, p.x, p.y}, {p.x, quadric.square.y, p.z}, {p.y, p.z, quadric.square.z}};
+  const double sign = quadric.square.x < 0 ? -1 : 1;
+  return quadric.square.x * quadric.square.y > p.x * p.x && sign * glm::determinant(form) > 0;
+}
+
+// One of eyeray's own formulas, but for the bulb, whose Lipschitz constant is an estimate.
+FormulaUse some_formula(Random& random) {
+  static const std::vector<FormulaUse> all = [] {
+    std::vector<FormulaUse> uses;
+    for (const ReadyFormula& ready : ready_formulas())
+      if (ready.name != "mandelbulb")
+        uses.push_back({std::make_shared<const Formula>(FormulaText{std::string(ready.text), {}},
+                                                        ready.parameters, std::string(ready.name)),
+                        {Vec3(-1), Vec3(1)},
+                        ready.lipschitz(ready.parameters)});
+    return uses;
+  }();
+  return all[size_t(random.below(int(all.size())))];
+}
+
 // A shape about as large as `size`.
 using MakeShape = std::unique_ptr<Shape> (*)(Random& random, double size);
+std::unique_ptr<Shape> some_solid(Random& random, double size);
+
 const std::map<std::string, MakeShape> makers = {
+    {"solid", some_solid},
     {"sphere",
      [](Random& random, double size) {
        return make_sphere(random.point(3 * size), size * random.uniform(0.3, 1));
@@ -114,12 +149,14 @@ const std::map<std::string, MakeShape> makers = {
      }},
     {"quadric",
      [](Random& random, double size) {
-       // One in four is a cone, its apex in the box.
+       // One in four is a cone, its apex in the box. Where all squares have one sign, a cone may be its apex
+       // alone: which rays meet that point is a matter of rounding, and nothing to be asked.
        const bool cone = random.below(4) == 0;
-       const QuadricValues values{.square = random.point(1),
-                                  .product = random.point(1),
-                                  .linear = cone ? Vec3(0) : random.point(1),
-                                  .constant = cone ? 0 : random.uniform(-0.5, 0.5)};
+       QuadricValues values{.square = random.point(1),
+                            .product = random.point(1),
+                            .linear = cone ? Vec3(0) : random.point(1),
+                            .constant = cone ? 0 : random.uniform(-0.5, 0.5)};
+       if (cone && is_definite(values)) values.square.x = -values.square.x;
        return make_quadric(values, Vec3(-1), Vec3(1), random.below(2) == 0, some_map(random, size));
      }},
     {"torus",
@@ -131,6 +168,10 @@ const std::map<std::string, MakeShape> makers = {
      [](Random& random, double size) {
        return make_superellipsoid(Vec3(0), Vec3(1), random.log_uniform(0.1, 2), random.log_uniform(0.1, 2),
                                   some_map(random, size));
+     }},
+    {"implicit",
+     [](Random& random, double size) {
+       return make_implicit(some_formula(random), random.below(2) == 0, some_map(random, size));
      }},
     {"bilinear",
      [](Random& random, double size) {
@@ -150,6 +191,44 @@ const std::map<std::string, MakeShape> makers = {
        return make_bezier(net, some_map(random, size));
      }},
 };
+
+std::unique_ptr<Shape> some_closed_shape(Random& random, double size) {
+  for (;;) {
+    const auto [name, make] = *std::next(makers.begin(), random.below(int(makers.size())));
+    if (name == "solid") continue;
+    auto shape = make(random, size);
+    if (shape->is_closed()) return shape;
+  }
+}
+
+// Of all closed shapes, at most 5, nested now and then.
+std::unique_ptr<Shape> some_solid(Random& random, double size) {
+  for (;;) {
+    ShapeType::Shapes operands, removed;
+    for (int i = 2 + random.below(2); i > 0; --i) {
+      operands.push_back(some_closed_shape(random, size));
+      if (random.below(4) == 0) {
+        ShapeType::Shapes inner;
+        for (int k = 0; k < 2; ++k) inner.push_back(some_closed_shape(random, size));
+        operands.back() = make_solid(random.below(2) == 0, std::move(inner));
+      }
+    }
+    if (random.below(2) == 0) removed.push_back(some_closed_shape(random, size));
+    auto solid = make_solid(random.below(2) == 0, std::move(operands), std::move(removed));
+    // What is within all of its parts may be next to nothing.
+    const Bounds bounds = solid->bounds();
+    const Vec3 extent = bounds.max - bounds.min;
+    if (std::min({extent.x, extent.y, extent.z}) < 0.3 * size) continue;
+    int hits = 0;
+    const Vec3 center = (bounds.min + bounds.max) * 0.5;
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 target = center + random.direction() * glm::length(extent) * 0.25;
+      const Vec3 from = target + random.direction() * glm::length(extent);
+      hits += solid->intersect({from, target - from}).has_value();
+    }
+    if (hits > 4) return solid;
+  }
+}
 
 // One shape as a scene, in both forms.
 struct Sample {
@@ -202,14 +281,14 @@ struct Sample {
 };
 
 // What `body(sample, random)` says of as many rays, several a shape, of all sizes.
-template <typename Body>
-void for_shapes(const std::string& name, const Body& body) {
+template <typename Make, typename Body>
+void for_shapes(const Make& make, const Body& body) {
   parallel_for(0, parts, [&](int part) {
-    Random random{uint64_t(part)};
+    Random random{uint64_t(part) + 1000 * seed()};
     constexpr int rays_a_shape = 32;
     for (int i = 0; i < rays_a_part(); i += rays_a_shape) {
       const double size = random.log_uniform(1e-4, 1e4);
-      const Sample sample(makers.at(name)(random, size), size);
+      const Sample sample(make(random, size), size);
       const shader::Binding binding(sample.scene);
       for (int k = 0; k < rays_a_shape; ++k) body(sample, random);
     }
@@ -239,45 +318,82 @@ bool is_grazing(const Sample& sample, const shader::Ray& ray, double t, double r
   return t >= least - spread && t <= greatest + spread;
 }
 
+// Shoots at shapes from a distance, in their own sizes; half of the rays aimed at the shape, half past it.
+template <typename Make>
+void check_first_hits(const std::string& name, const Make& make, double distance) {
+  std::atomic<int> rays = 0, hits = 0, misses = 0, grazing = 0, wrong = 0;
+  for_shapes(make, [&](const Sample& sample, Random& random) {
+    const Vec3 target = sample.center + random.direction() * sample.radius * random.uniform(0, 1.1);
+    const Vec3 from = target + random.direction() * sample.radius * distance;
+    const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(glm::normalize(target - from)));
+    const shader::Hit hit = sample.shoot(ray);
+    const double exact = sample.exact(Vec3(ray.o), Vec3(ray.d));
+    ++rays;
+    hits += exact < HUGE_VAL;
+    misses += exact < HUGE_VAL && hit.t == T_MISS;
+    const double t = double(hit.t);
+    if (exact == HUGE_VAL ? hit.t == T_MISS : std::fabs(t - exact) <= 1e-6 * exact) return;
+    const double room = 32 * 0x1p-24 * (glm::length(from) + glm::length(sample.center) + sample.radius);
+    // What is seen all but edge-on is so thin that few of the probes meet it.
+    if (is_grazing(sample, ray, t, room, 500) || is_grazing(sample, ray, t, room, 100'000))
+      ++grazing;
+    else
+      ++wrong;
+  });
+  MESSAGE(fmt::format("{} at {:g}: {} rays, {} hits, {} misses of them ({:.1f} ppm), {} grazing, {} wrong",
+                      name, distance, rays.load(), hits.load(), misses.load(), 1e6 * misses / hits,
+                      grazing.load(), wrong.load()));
+  CHECK(hits > rays / 20);
+  CHECK(wrong == 0);
+}
+
 }  // namespace
 
 TEST_CASE("first hits at distances 1 … 1e4: no wrong answer but where a ray grazes") {
   for (const auto& [name, make] : makers) {
-    for (const double distance : {1.5, 1e1, 1e2, 1e3, 1e4}) {
-      std::atomic<int> rays = 0, hits = 0, misses = 0, grazing = 0, wrong = 0;
-      for_shapes(name, [&](const Sample& sample, Random& random) {
-        // Half of them aimed at the shape, half past it; from a distance, or at a distance from the eye.
-        const Vec3 target = sample.center + random.direction() * sample.radius * random.uniform(0, 1.1);
-        const Vec3 from = target + random.direction() * sample.radius * distance;
-        const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(glm::normalize(target - from)));
-        const shader::Hit hit = sample.shoot(ray);
-        const double exact = sample.exact(Vec3(ray.o), Vec3(ray.d));
-        ++rays;
-        hits += exact < HUGE_VAL;
-        misses += exact < HUGE_VAL && hit.t == T_MISS;
-        const double t = double(hit.t);
-        if (exact == HUGE_VAL ? hit.t == T_MISS : std::fabs(t - exact) <= 1e-6 * exact) return;
-        const double room = 32 * 0x1p-24 * (glm::length(from) + glm::length(sample.center) + sample.radius);
-        // What is seen all but edge-on is so thin that few of the probes meet it.
-        if (is_grazing(sample, ray, t, room, 500) || is_grazing(sample, ray, t, room, 100'000))
-          ++grazing;
-        else
-          ++wrong;
-      });
-      MESSAGE(
-          fmt::format("{} at {:g}: {} rays, {} hits, {} misses of them ({:.1f} ppm), {} grazing, {} wrong",
-                      name, distance, rays.load(), hits.load(), misses.load(), 1e6 * misses / hits,
-                      grazing.load(), wrong.load()));
-      CHECK(hits > rays / 20);
-      CHECK(wrong == 0);
-    }
+    for (const double distance : {1.5, 1e1, 1e2, 1e3, 1e4}) check_first_hits(name, make, distance);
   }
+}
+
+TEST_CASE("every closed shape as a part of solids: first hits, no wrong answer but where a ray grazes") {
+  std::set<std::string> closed;
+  for (const auto& [name, make] : makers) {
+    Random random{1};
+    for (int i = 0; i < 10 && name != "solid"; ++i)
+      if (make(random, 1)->is_closed()) closed.insert(name);
+    if (!closed.contains(name)) continue;
+    // It joined with a ball, cut to it, without it, and taken from it.
+    const MakeShape& make_part = make;
+    const auto make_pair = [&make_part](Random& some, double size) {
+      ShapeType::Shapes both;
+      do {
+        both.clear();
+        both.push_back(make_part(some, size));
+      } while (!both[0]->is_closed());
+      const Bounds bounds = both[0]->bounds();
+      const Vec3 half = (bounds.max - bounds.min) * 0.5;
+      both.push_back(make_sphere(bounds.min + half + some.point(1) * half, 0.6 * glm::length(half)));
+      const int kind = some.below(4);
+      if (kind < 2) return make_solid(kind == 0, std::move(both));
+      ShapeType::Shapes removed;
+      removed.push_back(std::move(both[kind == 2 ? 0 : 1]));
+      both.erase(both.begin() + (kind == 2 ? 0 : 1));
+      return make_solid(false, std::move(both), std::move(removed));
+    };
+    for (const double distance : {1.5, 1e2, 1e4}) check_first_hits(name + " and ball", make_pair, distance);
+  }
+
+  // These are what the shaders ask.
+  std::set<std::string> asked;
+#define NAME(name, number) asked.insert(#name);
+  CLOSED_SHAPES(NAME)
+  CHECK(closed == asked);
 }
 
 TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none meets its surface again, every hit is on it") {
   for (const auto& [name, make] : makers) {
     std::atomic<int> left = 0, rehits = 0, bent_back = 0, off = 0;
-    for_shapes(name, [&](const Sample& sample, Random& random) {
+    for_shapes(make, [&](const Sample& sample, Random& random) {
       const Vec3 target = sample.center + random.direction() * sample.radius * random.uniform(0, 1);
       const Vec3 from = target + random.direction() * sample.radius * random.log_uniform(0.1, 10);
       const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(random.direction()));
