@@ -141,7 +141,7 @@ double Tracer::share_let_through(size_t body, const Ray& ray, double entry, doub
     double share = share_at(*hit);
     if (shape.counts_crossings() && share > 0) {
       int crossed = 0;
-      for_each_crossing(shape, ray, [&](double t, const SurfacePoint&) {
+      for_each_crossing(shape, ray, [&](double t, const Intersection&, const SurfacePoint&) {
         crossed += t < t_end;
         return t < t_end;
       });
