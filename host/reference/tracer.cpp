@@ -129,6 +129,15 @@ double Tracer::share_let_through(size_t body, const Ray& ray, double entry, doub
                                  bool& gave_up) const {
   if (body < scene_.shapes.size()) {
     const Shape& shape = *scene_.shapes[body];
+    if (const double each = scene_.materials[size_t(shape.material)]->shadow_transmittance();
+        shape.counts_crossings() && each > 0) {
+      int crossed = 0;
+      for_each_crossing(shape, ray, [&](double t, const Intersection&, const SurfacePoint&) {
+        crossed += t < t_end;
+        return t < t_end;
+      });
+      return std::pow(each, crossed / 2.0);
+    }
     const auto share_at = [&](const Intersection& hit) {
       return scene_.materials[size_t(shape.part(hit).material)]->shadow_transmittance();
     };
@@ -139,14 +148,6 @@ double Tracer::share_let_through(size_t body, const Ray& ray, double entry, doub
     }
     if (!hit || std::max(hit->t, entry) >= t_end) return 1;
     double share = share_at(*hit);
-    if (shape.counts_crossings() && share > 0) {
-      int crossed = 0;
-      for_each_crossing(shape, ray, [&](double t, const Intersection&, const SurfacePoint&) {
-        crossed += t < t_end;
-        return t < t_end;
-      });
-      return std::pow(share, crossed / 2.0);
-    }
     if (&shape.part(*hit) == &shape) return share;
     // A solid counts once, by what its densest surface on the way lets through.
     for (const auto& [in, out] : shape.spans(ray))

@@ -92,12 +92,6 @@ std::string quadric(const QuadricForm& form) {
                    : fmt::format("intersection {{{}}} {}", surface, clip);
 }
 
-std::string control_points(const BezierForm& form) {
-  std::string text;
-  for (const Vec3& p : form.net) append(text, "{}{}", text.empty() ? "" : ",", vector(p));
-  return text;
-}
-
 void add_shape(std::string& text, const Scene& scene, const Shape& shape);
 
 // What is within any of the shapes, or within all of them. A union would keep the surfaces within it, which
@@ -116,6 +110,12 @@ void add_solid(std::string& text, const Scene& scene, const SolidForm& solid) {
   if (solid.removed.empty()) return;
   for (const Shape* shape : solid.removed) add_shape(text, scene, *shape);
   text += "}\n";
+}
+
+std::string control_points(const BezierForm& form) {
+  std::string text;
+  for (const Vec3& p : form.net) append(text, "{}{}", text.empty() ? "" : ",", vector(p));
+  return text;
 }
 
 void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
@@ -138,12 +138,12 @@ void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
            capsule->half, matrix(capsule->to_world), material);
   } else if (const auto* shape_quadric = std::get_if<QuadricForm>(&form)) {
     append(text, "{} {} {}}}\n", quadric(*shape_quadric), matrix(shape_quadric->to_world), material);
+  } else if (const auto* solid = std::get_if<SolidForm>(&form)) {
+    add_solid(text, scene, *solid);
   } else if (const auto* bezier = std::get_if<BezierForm>(&form)) {
     // POV-Ray cuts it into triangles: 2·4⁵ where it does not find it flat.
     append(text, "bicubic_patch {{type 1 flatness 1e-4 u_steps 5 v_steps 5 {} {}}}\n",
            control_points(*bezier), material);
-  } else if (const auto* solid = std::get_if<SolidForm>(&form)) {
-    add_solid(text, scene, *solid);
   } else {
     throw Error(ExitCode::bad_input, "{}:{}: POV-Ray has no such shape", shape.position.file,
                 shape.position.line);
