@@ -124,14 +124,12 @@ class GeometryPacker {
       packer_.pieces.clear();
       const size_t first = packed_.primitives.size();
       shape.pack(packer_);
-      const size_t pieces = std::max(packer_.pieces.size(), size_t{1});
-      CHECK_EQ(packed_.primitives.size() - first, pieces);
       for (size_t i = first; i < packed_.primitives.size(); ++i) {
         shader::Primitive& record = packed_.primitives[i];
         record.head.x = uint32_t(id);
         if (kind_of(record) == shader::KIND_solid) finish_solid(record, packed_);
         record.head.z = use_material(kind_of(record), material_of(record), shape.counts_crossings());
-        const Bounds bounds = packer_.pieces.empty() ? shape.bounds() : packer_.pieces[i - first];
+        const Bounds bounds = packer_.pieces.empty() ? shape.bounds() : packer_.pieces.at(i - first);
         boxes_.push_back(kind_of(record) == shader::KIND_triangle ? triangle_box(record)
                                                                   : to_box(bounds, scene_.camera.eye));
       }
