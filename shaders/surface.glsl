@@ -13,16 +13,15 @@ Primitive primitive_at(Hit hit) {
 #if HAS_INSTANCES
   if (hit.instance != NONE) primitive.head.y = load_instance(hit.instance).head.z | (primitive.head.y & 0xff000000u);
 #endif
+#if HAS_SOLIDS
+  if (kind_of(primitive) == KIND_solid)
+    primitive.head.y = material_of(solid_leaf(primitive, hit)) | (primitive.head.y & 0xff000000u);
+#endif
   return primitive;
 }
 
 Surface surface_at(Primitive primitive, Ray ray, Hit hit) {
-  Surface surface;
-  surface.p = vec3(0.0f, 0.0f, 0.0f);
-  surface.normal_geometric = vec3(0.0f, 0.0f, 0.0f);
-  surface.normal = vec3(0.0f, 0.0f, 0.0f);
-  surface.uv = vec2(0.0f, 0.0f);
-  surface.offset = 0.0f;
+  Surface surface = no_surface();
 #define SURFACE_OF(name, number) \
   if (kind_of(primitive) == number) surface = name##_surface(primitive, ray, hit);
   SHAPES(SURFACE_OF)

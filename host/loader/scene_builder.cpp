@@ -6,6 +6,7 @@
 #include "loader/mesh_placement.hpp"
 #include "loader/sections.hpp"
 #include "loader/settings.hpp"
+#include "loader/solid_parts.hpp"
 #include "scene/affine.hpp"
 #include "scene/table.hpp"
 
@@ -46,6 +47,8 @@ double count_placed(const toml::table& table) {
     for (const toml::node& member : *list->as_array())
       if (member.is_table()) members += count_placed(*member.as_table());
   }
+  if (const toml::node* minus = table.get(minus_key); minus && minus->is_table())
+    members += count_placed(*minus->as_table()) - 1;
   const toml::node* batch = table.get(batch_key);
   if (!batch || !batch->is_table() || batch->as_table()->empty()) return members;
   const toml::array* values = batch->as_table()->begin()->second.as_array();
@@ -97,29 +100,46 @@ class Builder {
     return read_table({section.title, node ? node->as_table() : nullptr, {section.keys}}, log_);
   }
 
-  // Visits the tables of a list; one that should be a list or a table and is not is an error.
+  // Visits the tables of a list; one that should be a list or a table and is not is an error. Returns whether
+  // there was none.
   template <typename Visit>
-  void for_each(const toml::table& holder, std::string_view name, const Visit& visit) {
+  bool for_each(const toml::table& holder, std::string_view name, const Visit& visit,
+                std::string_view holder_name = "group") {
     const toml::node* list = holder.get(name);
-    if (!list) return;
+    if (!list) return true;
     const Section& section = *find_section(name);
-    if (!list->is_array())
-      return log_.error(position_of(list->source()),
-                        fmt::format("`{0}` must be a list of tables, written [[group.{0}]]", name));
-    for (const toml::node& node : *list->as_array()) {
-      if (node.is_table())
-        visit(section, *node.as_table());
-      else
-        log_.error(position_of(node.source()), fmt::format("every {} must be a table", section.title));
+    if (!list->is_array()) {
+      log_.error(position_of(list->source()),
+                 fmt::format("`{0}` must be a list of tables, written [[{1}.{0}]]", name, holder_name));
+      return false;
     }
+    bool ok = true;
+    for (const toml::node& node : *list->as_array()) {
+      if (node.is_table()) {
+        visit(section, *node.as_table());
+      } else {
+        log_.error(position_of(node.source()), fmt::format("every {} must be a table", section.title));
+        ok = false;
+      }
+    }
+    return ok;
   }
 
   void add_material(const Section& section, const toml::table& table);
   void add_placed(const toml::table& holder, const Placing& group);
   template <typename Add>
-  void for_each_placed(const Section& section, const toml::table& table, const Placing& group,
-                       const Add& add);
-  void add_shape(const Section& section, TableReader& reader, const Placing& placing);
+  size_t for_each_placed(const Section& section, const toml::table& table, const Placing& group,
+                         const Add& add);
+  std::unique_ptr<Shape> read_shape(const Section& section, const toml::table& table, TableReader& reader,
+                                    const Placing& placing);
+  std::unique_ptr<Shape> read_solid(const Section& section, const toml::table& table, TableReader& reader,
+                                    const Placing& placing, std::optional<int> material);
+  std::unique_ptr<Shape> read_part(const Section& section, TableReader& reader, const Placing& placing,
+                                   std::optional<int> material);
+  bool read_parts(const toml::table& holder, const Placing& solid, std::optional<int> material,
+                  ShapeType::Shapes& parts);
+  std::unique_ptr<Shape> parse_shape(const Section& section, TableReader& reader, const Placing& placing,
+                                     int material);
   void add_mesh(TableReader& reader, const Placing& placing);
   Batch read_batch(const Section& section, const toml::table& table);
   int find_material(TableReader& shape);
@@ -233,27 +253,28 @@ void Builder::add_placed(const toml::table& holder, const Placing& group) {
           case Section::Kind::mesh:
             return add_mesh(reader, placed);
           default:
-            return add_shape(section, reader, placed);
+            if (auto shape = read_shape(section, table, reader, placed))
+              scene_.shapes.push_back(std::move(shape));
         }
       });
     });
   }
 }
 
-// Calls add(reader, to_world) for the table, or for each element of its batch.
+// Calls add(reader, to_world) for the table, or for each element of its batch. Returns how many these are.
 template <typename Add>
-void Builder::for_each_placed(const Section& section, const toml::table& table, const Placing& group,
-                              const Add& add) {
+size_t Builder::for_each_placed(const Section& section, const toml::table& table, const Placing& group,
+                                const Add& add) {
   Placing placed{group.to_world, {group.name.index, false}};
   const DiagnosticLog::About about(log_, [&] {
     return placed.name.index == Names::none ? "" : describe(section.name, placed.name, scene_.names);
   });
   const Batch batch = read_batch(section, table);
   std::vector<std::string_view> elsewhere{batch_key};
-  if (section.kind == Section::Kind::group)
+  if (section.kind == Section::Kind::group || section.is_combined())
     elsewhere.insert(elsewhere.end(), placed_names().begin(), placed_names().end());
-  else
-    tried_shapes_ = true;
+  if (section.is_combined()) elsewhere.push_back(minus_key);
+  if (section.kind != Section::Kind::group) tried_shapes_ = true;
   for (size_t i = 0; i < batch.count; ++i) {
     placed.name = {group.name.index, false};
     if (const std::string_view name = written_name(table, batch, i); !name.empty()) {
@@ -279,12 +300,20 @@ void Builder::for_each_placed(const Section& section, const toml::table& table, 
     else
       add(reader, placed);
   }
+  return batch.count;
 }
 
-void Builder::add_shape(const Section& section, TableReader& reader, const Placing& placing) {
-  const int material = find_material(reader);
+std::unique_ptr<Shape> Builder::read_shape(const Section& section, const toml::table& table,
+                                           TableReader& reader, const Placing& placing) {
+  if (section.is_combined()) return read_solid(section, table, reader, placing, std::nullopt);
+  return parse_shape(section, reader, placing, find_material(reader));
+}
+
+// A shape of its own, or a part.
+std::unique_ptr<Shape> Builder::parse_shape(const Section& section, TableReader& reader,
+                                            const Placing& placing, int material) {
   std::unique_ptr<Shape> shape = section.shape->parse(reader, placing.to_world);
-  if (!shape) return;
+  if (!shape) return nullptr;
   if (!section.shape->flat && !scene_.materials.empty() && scene_.materials[size_t(material)]->mask)
     reader.error(
         "material",
@@ -296,7 +325,88 @@ void Builder::add_shape(const Section& section, TableReader& reader, const Placi
   shape->type = section.shape;
   shape->name = placing.name;
   shape->position = reader.position();
-  scene_.shapes.push_back(std::move(shape));
+  return shape;
+}
+
+// `material`: of the solid around it.
+std::unique_ptr<Shape> Builder::read_solid(const Section& section, const toml::table& table,
+                                           TableReader& reader, const Placing& placing,
+                                           std::optional<int> material) {
+  if (reader.has("material")) material = find_material(reader);
+  ShapeType::Shapes operands, removed;
+  bool ok = read_parts(table, placing, material, operands);
+  if (const toml::node* minus = table.get(minus_key)) {
+    if (const toml::table* held = minus->as_table()) {
+      for (const auto& [key, node] : *held) {
+        if (std::ranges::find(placed_names(), key.str()) != placed_names().end()) continue;
+        log_.error(position_of(key.source()),
+                   fmt::format("unknown key `{}` in `minus`, which holds shapes alone", key.str()));
+        ok = false;
+      }
+      ok = read_parts(*held, placing, material, removed) && ok;
+    } else {
+      log_.error(position_of(minus->source()), "`minus` must be a table, written [[solid.minus.sphere]]");
+      ok = false;
+    }
+  }
+  if (!ok) return nullptr;
+  auto solid = section.shape->combine(reader, std::move(operands), std::move(removed));
+  if (!solid) return nullptr;
+  if (const std::string why = why_two_media(*solid, scene_.materials); !why.empty())
+    reader.error("material", why);
+  solid->material = material.value_or(0);
+  solid->type = section.shape;
+  solid->name = placing.name;
+  solid->position = reader.position();
+  return solid;
+}
+
+// Adds the shapes that stand in a solid's table to `parts`. Returns whether all of them are right.
+bool Builder::read_parts(const toml::table& holder, const Placing& solid, std::optional<int> material,
+                         ShapeType::Shapes& parts) {
+  bool ok = true;
+  for (const std::string_view name : placed_names()) {
+    const auto add_part = [&](const Section& written, const toml::table& table) {
+      if (const std::string why = why_no_part(written); !why.empty()) {
+        log_.error(position_of(table.source()), why);
+        ok = false;
+        return;
+      }
+      Section section = written;
+      section.keys = part_keys();
+      size_t added = 0;
+      const size_t wanted =
+          for_each_placed(section, table, solid, [&](TableReader& reader, const Placing& placed) {
+            auto part = section.is_combined() ? read_solid(section, table, reader, placed, material)
+                                              : read_part(section, reader, placed, material);
+            if (!part) return;
+            parts.push_back(std::move(part));
+            ++added;
+          });
+      ok = ok && wanted > 0 && added == wanted;
+    };
+    ok = for_each(holder, name, add_part, "solid") && ok;
+  }
+  return ok;
+}
+
+// `material`: of the solid that it is in.
+std::unique_ptr<Shape> Builder::read_part(const Section& section, TableReader& reader, const Placing& placing,
+                                          std::optional<int> material) {
+  if (reader.has("material")) {
+    material = find_material(reader);
+  } else if (!material) {
+    reader.error("material",
+                 fmt::format("no material: neither this {} nor a solid around it has one", section.title));
+  }
+  std::unique_ptr<Shape> part = parse_shape(section, reader, placing, material.value_or(0));
+  if (!part || !material) return nullptr;
+  if (!part->is_closed()) {
+    const auto& [key, why] = why_not_closed(*section.shape);
+    reader.error(key, why);
+    return nullptr;
+  }
+  return part;
 }
 
 void Builder::add_mesh(TableReader& reader, const Placing& placing) {

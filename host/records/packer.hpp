@@ -11,6 +11,7 @@
 
 #include "calculus/tape.hpp"
 #include "records/records.hpp"
+#include "scene/bounds.hpp"
 #include "scene/texture.hpp"
 
 namespace eyeray {
@@ -31,8 +32,11 @@ struct PackedScene {
   std::vector<uint32_t> loose_ends;  // by kind, the end of those in no tree
   // Of those of `kind` in no tree.
   uint32_t first_loose(uint32_t kind) const { return kind == 0 ? 0 : loose_ends[kind - 1]; }
-  std::set<uint32_t> tree_kinds;                 // of the shapes in trees
-  std::set<std::pair<uint32_t, uint32_t>> uses;  // kinds of shape, and materials that they are made of
+  std::set<uint32_t> tree_kinds;                      // of the shapes in trees
+  std::set<std::pair<uint32_t, uint32_t>> uses;       // kinds of shape, and materials that they are made of
+  std::set<std::pair<uint32_t, uint32_t>> leaf_uses;  // the same of the shapes that solids are made of
+  uint32_t solid_leaves = 0;                          // how many of these there are
+  bool mixed_solids = false;  // whether a solid's surfaces differ in what they take from a shadow ray
   std::vector<shader::uvec4> nodes;
   std::vector<shader::Tree> trees;  // the world's, then one a mesh of `instances`
   std::vector<shader::Instance> instances;
@@ -64,6 +68,11 @@ class Packer {
   Vec3 relative(const Vec3& world) const { return world - eye_; }
 
   void add(const shader::Primitive& primitive) { scene.primitives.push_back(primitive); }
+  // One of several primitives that a shape consists of, which share its id.
+  void add_piece(const shader::Primitive& primitive, const Bounds& bounds) {
+    add(primitive);
+    pieces.push_back(bounds);
+  }
   // The head of a primitive; its id and shadow density are filled in later. `extra`: an index into vertices.
   static shader::uvec4 head(uint32_t kind, int material, uint32_t extra = NONE) {
     return {0u, uint32_t(material) | kind << 24, 0u, extra};
@@ -88,6 +97,8 @@ class Packer {
   uint32_t add_medium(double ior, const Vec3& absorption);
 
   PackedScene scene;
+  std::vector<Bounds>
+      pieces;  // of the shape that is being packed, in the world; empty where it is one primitive
 
  private:
   Vec3 eye_;

@@ -15,15 +15,22 @@ struct Crossing {
 // The media that the ray leaves without having entered them, innermost first.
 std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
   std::vector<Crossing> crossings;
-  const auto collect = [&](const auto& body, int material) {
-    if (!tracer.scene().materials[size_t(material)]->medium()) return;
-    for_each_crossing(body, ray, [&](double t, const SurfacePoint& surface) {
-      crossings.push_back({t, material, glm::dot(ray.d, surface.normal_geometric) > 0});
+  const auto has_medium = [&](int material) {
+    return tracer.scene().materials[size_t(material)]->medium().has_value();
+  };
+  const auto collect = [&](const auto& body, const auto& material_at) {
+    for_each_crossing(body, ray, [&](double t, const auto& hit, const SurfacePoint& surface) {
+      const int material = material_at(hit);
+      if (has_medium(material))
+        crossings.push_back({t, material, glm::dot(ray.d, surface.normal_geometric) > 0});
       return true;
     });
   };
-  for (const auto& shape : tracer.scene().shapes) collect(*shape, shape->material);
-  for (const InstanceGeometry& instance : tracer.instances()) collect(instance, instance.material());
+  for (const auto& shape : tracer.scene().shapes)
+    collect(*shape, [&](const Intersection& hit) { return shape->part(hit).material; });
+  for (const InstanceGeometry& instance : tracer.instances())
+    if (has_medium(instance.material()))
+      collect(instance, [&](const TriangleHit&) { return instance.material(); });
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
 

@@ -48,9 +48,9 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene) {
       uint32_t(boxes_.size()), [this](uint32_t i) { return boxes_[i]; }, acceleration);
 }
 
-int Tracer::material(size_t body) const {
+int Tracer::material(size_t body, const Intersection& hit) const {
   const size_t shapes = scene_.shapes.size();
-  return body < shapes ? scene_.shapes[body]->material : instances_[body - shapes].material();
+  return body < shapes ? scene_.shapes[body]->part(hit).material : instances_[body - shapes].material();
 }
 
 // A hole is not met, and behind it there is nothing more of a shape that may have one.
@@ -102,7 +102,7 @@ std::optional<Hit> Tracer::trace(const Ray& ray, uint32_t& flags) const {
     hit->t = std::max(hit->t, entry);
     if (nearest && !(hit->t < nearest->at.t || (hit->t == nearest->at.t && body < nearest->body)))
       return limit;
-    nearest = {*hit, body, body, material(body)};
+    nearest = {*hit, body, body, material(body, *hit)};
     return hit->t;
   });
   if (sure_until < (nearest ? nearest->at.t : infinity)) flags |= ran_out;
@@ -120,23 +120,43 @@ SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
 double Tracer::reach(const Hit& hit, const Vec3& eye) const {
   const size_t shapes = scene_.shapes.size();
   if (hit.body >= shapes) return instances_[hit.body - shapes].reach(hit.at.triangle, eye);
-  const Bounds box = scene_.shapes[hit.body]->bounds();
+  const Bounds box = scene_.shapes[hit.body]->part(hit.at).bounds();
   return finite(box) ? std::max(magnitude(box.min - eye), magnitude(box.max - eye)) : 0;
 }
 
 // The share of light that comes through one body which the ray enters at t = entry.
 double Tracer::share_let_through(size_t body, const Ray& ray, double entry, double t_end,
                                  bool& gave_up) const {
-  const double share = scene_.materials[size_t(material(body))]->shadow_transmittance();
   if (body < scene_.shapes.size()) {
+    const Shape& shape = *scene_.shapes[body];
+    if (const double each = scene_.materials[size_t(shape.material)]->shadow_transmittance();
+        shape.counts_crossings() && each > 0) {
+      int crossed = 0;
+      for_each_crossing(shape, ray, [&](double t, const SurfacePoint&) {
+        crossed += t < t_end;
+        return t < t_end;
+      });
+      return std::pow(each, crossed / 2.0);
+    }
+    const auto share_at = [&](const Intersection& hit) {
+      return scene_.materials[size_t(shape.part(hit).material)]->shadow_transmittance();
+    };
     const auto hit = intersect_shape(body, ray);
     if (hit && hit->ran_out) {
       gave_up = gave_up || hit->t < t_end;
       return 1;
     }
-    return hit && std::max(hit->t, entry) < t_end ? share : 1;
+    if (!hit || std::max(hit->t, entry) >= t_end) return 1;
+    double share = share_at(*hit);
+    if (&shape.part(*hit) == &shape) return share;
+    // A solid counts once, by what its densest surface on the way lets through.
+    for (const auto& [in, out] : shape.spans(ray))
+      for (const Intersection& crossing : {in, out})
+        if (crossing.t > 0 && crossing.t < t_end) share = std::min(share, share_at(crossing));
+    return share;
   }
   const InstanceGeometry& instance = instances_[body - scene_.shapes.size()];
+  const double share = scene_.materials[size_t(instance.material())]->shadow_transmittance();
   const uint32_t crossed = instance.count_crossed(ray, t_end, share == 0 ? 1 : instance.triangles());
   return crossed == 0 ? 1 : std::pow(share, crossed / 2.0);
 }

@@ -44,7 +44,8 @@ class Tracer {
   const std::vector<InstanceGeometry>& instances() const { return instances_; }
 
  private:
-  int material(size_t body) const;
+  // Of a shape, or of its part that has the surface there.
+  int material(size_t body, const Intersection& hit) const;
   std::optional<Intersection> intersect_shape(size_t shape, const Ray& ray) const;
   std::optional<TriangleHit> intersect(size_t body, const Ray& ray, double limit) const;
   double share_let_through(size_t body, const Ray& ray, double entry, double t_end, bool& gave_up) const;
@@ -73,8 +74,8 @@ Vec3 departure(const SurfacePoint& point, const Vec3& d, double least = 0, bool 
 // Many more than the surfaces of a mesh that a ray can sensibly cross.
 inline constexpr int most_crossings = 1 << 20;
 
-// Calls visit(t, surface) for each crossing of the body, a Shape or an InstanceGeometry, in order of t, until
-// `visit` returns false. It ends after most_crossings, and where rounding lets a ray come no further.
+// Calls visit(t, hit, surface) for each crossing of the body, a Shape or an InstanceGeometry, in order of t,
+// until `visit` returns false. It ends after most_crossings, and where rounding lets a ray come no further.
 template <typename Body, typename Visit>
 void for_each_crossing(const Body& body, const Ray& ray, const Visit& visit) {
   // Start anew behind each crossing; t stays that of the ray as given.
@@ -84,7 +85,7 @@ void for_each_crossing(const Body& body, const Ray& ray, const Visit& visit) {
     const auto hit = body.intersect(rest);
     if (!hit || hit->ran_out) return;
     const SurfacePoint surface = body.surface(rest, *hit);
-    if (!visit(passed + hit->t, surface)) return;
+    if (!visit(passed + hit->t, *hit, surface)) return;
     rest.o = departure(surface, ray.d);
     const double before = passed;
     passed = glm::dot(rest.o - ray.o, ray.d) / glm::dot(ray.d, ray.d);

@@ -9,6 +9,7 @@
 #include "core/parallel_for.hpp"
 #include "render/mesh_records.hpp"
 #include "render/node_coding.hpp"
+#include "render/solid_records.hpp"
 
 namespace eyeray {
 namespace {
@@ -80,7 +81,7 @@ class GeometryPacker {
     add_meshes();
     use_tree_ = options_.acceleration == Acceleration::tree ||
                 (options_.acceleration == Acceleration::automatic &&
-                 (world_size() > few_primitives || !scene_.instances.empty()));
+                 (world_size() + packed_.solid_leaves > few_primitives || !scene_.instances.empty()));
     if (world_size() > few_primitives && packed_.instances.empty()) unbind_largest();
     packed_.has_tree = use_tree_ && has_bounded(2);
     if (packed_.has_tree) build_trees();
@@ -118,17 +119,25 @@ class GeometryPacker {
   }
 
   void add_shapes() {
-    for (const auto& shape : scene_.shapes) {
-      shape->pack(packer_);
-      shader::Primitive& record = packed_.primitives.back();
-      record.head.x = uint32_t(boxes_.size());
-      record.head.z = use_material(kind_of(record), material_of(record), false);
-      boxes_.push_back(kind_of(record) == shader::KIND_triangle ? triangle_box(record)
-                                                                : to_box(shape->bounds(), scene_.camera.eye));
+    for (size_t id = 0; id < scene_.shapes.size(); ++id) {
+      const Shape& shape = *scene_.shapes[id];
+      packer_.pieces.clear();
+      const size_t first = packed_.primitives.size();
+      shape.pack(packer_);
+      const size_t pieces = std::max(packer_.pieces.size(), size_t{1});
+      CHECK_EQ(packed_.primitives.size() - first, pieces);
+      for (size_t i = first; i < packed_.primitives.size(); ++i) {
+        shader::Primitive& record = packed_.primitives[i];
+        record.head.x = uint32_t(id);
+        if (kind_of(record) == shader::KIND_solid) finish_solid(record, packed_);
+        record.head.z = use_material(kind_of(record), material_of(record), shape.counts_crossings());
+        const Bounds bounds = packer_.pieces.empty() ? shape.bounds() : packer_.pieces[i - first];
+        boxes_.push_back(kind_of(record) == shader::KIND_triangle ? triangle_box(record)
+                                                                  : to_box(bounds, scene_.camera.eye));
+      }
     }
     shapes_ = std::move(packed_.primitives);
     packed_.primitives.clear();
-    CHECK_EQ(shapes_.size(), scene_.shapes.size());
   }
 
   void add_meshes() {
@@ -187,12 +196,12 @@ class GeometryPacker {
   }
 
   // Takes note that shapes of a kind are made of a material. Returns what a shadow ray loses to each: a shape
-  // weakens it once, a mesh half at each of its triangles, for a closed body is left as it was entered.
-  uint32_t use_material(uint32_t kind, uint32_t material, bool of_mesh) {
+  // weakens it once, a mesh or patch half at each crossing, for a closed body is left as it was entered.
+  uint32_t use_material(uint32_t kind, uint32_t material, bool at_each_crossing) {
     const shader::uvec4& head = packed_.materials[material].head;
     packed_.uses.emplace(kind, material);
     translucent_ = translucent_ || head.w < SHADOW_OPAQUE;
-    return of_mesh && head.w < SHADOW_OPAQUE ? head.w / 2 : head.w;
+    return at_each_crossing && head.w < SHADOW_OPAQUE ? head.w / 2 : head.w;
   }
 
   // The world's own items: shapes, then the triangles of baked meshes.
@@ -373,8 +382,8 @@ class GeometryPacker {
   const PackOptions& options_;
   Packer& packer_;
   PackedScene& packed_;
-  std::vector<uint32_t> uses_;  // by mesh
-  std::vector<shader::Primitive> shapes_;
+  std::vector<uint32_t> uses_;             // by mesh
+  std::vector<shader::Primitive> shapes_;  // by id; several of one id where a shape consists of pieces
   std::vector<Baked> baked_;
   std::vector<accel::Box>
       boxes_;  // of the world's items, then of the instances; one without bounds is in no tree

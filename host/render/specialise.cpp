@@ -90,8 +90,8 @@ bool few_looks(const PackedScene& scene) {
 }
 
 bool few_primitives(const PackedScene& scene) {
-  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_records &&
-         scene.vertices.size() <= most_vertices;
+  return !scene.has_tree && scene.instances.empty() && scene.leaf_uses.empty() &&
+         scene.primitives.size() <= most_records && scene.vertices.size() <= most_vertices;
 }
 
 // Everything but geometry and texels as constants, and the list of materials that material.glsl unrolls. Not
@@ -123,7 +123,7 @@ std::string primitives_as_constants(const PackedScene& scene) {
   std::string text = constant_loader("uvec4", "vertex", scene.vertices) +
                      constant_loader("Primitive", "primitive", scene.primitives) +
                      "#define SCENE_PRIMITIVES(X)";
-  std::map<uint32_t, size_t> by_id;  // slots
+  std::multimap<uint32_t, size_t> by_id;  // slots
   for (size_t i = 0; i < scene.primitives.size(); ++i) by_id.emplace(scene.primitives[i].head.x, i);
   for (const auto& [id, i] : by_id)
     text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[kind_of(scene.primitives[i])].name, i, i);
@@ -203,14 +203,19 @@ uint64_t trace_iterations(const PackedScene& scene, bool unrolled) {
 }
 
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
-  std::set<uint32_t> shapes_used, materials_used, material_kinds, kinds_with_uv, kinds_with_holes;
-  for (const auto& [kind, material] : scene.uses) {
-    shapes_used.insert(kind);
-    materials_used.insert(material);
-    material_kinds.insert(scene.materials[material].head.x);
-    if (varies(scene, scene.materials[material])) kinds_with_uv.insert(kind);
-    if (scene.materials[material].mask.y != 0) kinds_with_holes.insert(kind);
-  }
+  std::set<uint32_t> shapes_used, leaves_used, materials_used, material_kinds, kinds_with_uv,
+      kinds_with_holes;
+  const auto take_note = [&](const auto& uses, std::set<uint32_t>& kinds) {
+    for (const auto& [kind, material] : uses) {
+      kinds.insert(kind);
+      materials_used.insert(material);
+      material_kinds.insert(scene.materials[material].head.x);
+      if (varies(scene, scene.materials[material])) kinds_with_uv.insert(kind);
+      if (scene.materials[material].mask.y != 0) kinds_with_holes.insert(kind);
+    }
+  };
+  take_note(scene.uses, shapes_used);
+  take_note(scene.leaf_uses, leaves_used);
   const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
                                    [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
   const bool images = !scene.texels.empty();
@@ -247,6 +252,8 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("STEPS_MAY_RUN_OUT", int(scene.steps_may_run_out));
   define("SHIFT_STACK", int(options.profile.shift_stack));
   define("STACK_SIZE", scene.stack_size);
+  define("HAS_SOLIDS", int(!scene.leaf_uses.empty()));
+  define("HAS_MIXED_SOLIDS", int(scene.mixed_solids));
   define("HAS_INSTANCES", int(!scene.instances.empty()));
   define("INSTANCE_COUNT", fmt::format("{}u", scene.instances.size()));
   // In a tree of one kind of shape nothing need ask for the kind.
@@ -270,6 +277,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
   text += "#include \"loaders.glsl\"\n";
   text += formulas(scene);
+  text += registry("CLOSED_SHAPES", "shapes", shapes, leaves_used);
   text += registry("SHAPES", "shapes", shapes, shapes_used);
   text += registry("SHAPES_WITH_HOLES", "shapes", shapes, kinds_with_holes);
   text += registry("MATERIALS", "materials", materials, material_kinds);

@@ -46,6 +46,7 @@ class Box final : public ObjectShape {
  public:
   explicit Box(const Mat4& to_world) : ObjectShape(shader::KIND_box, to_world) {}
 
+  bool is_closed() const override { return true; }
   ShapeForm form() const override { return BoxForm{to_world().matrix()}; }
 
  private:

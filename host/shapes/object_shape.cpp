@@ -34,12 +34,8 @@ ObjectShape::ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<
       steps_(steps) {}
 
 std::optional<Intersection> ObjectShape::intersect(const Ray& ray) const {
-  // Start at the point nearest to the centre, so that nothing cancels however far away the ray's own start
-  // is.
-  const Vec3 o = to_object_.point(ray.o);
-  const Vec3 d = to_object_.linear * ray.d;
-  const double start = -glm::dot(o, d) / glm::dot(d, d);
-  std::optional<Intersection> nearest = first({o + d * start, d}, -start);
+  const auto& [local, start] = to_nearest(ray);
+  std::optional<Intersection> nearest = first(local, -start);
   if (nearest) nearest->t += start;
   return nearest && (nearest->t > 0 || nearest->ran_out) ? nearest : std::nullopt;
 }
@@ -50,6 +46,41 @@ std::optional<Intersection> ObjectShape::first(const Ray& ray, double from) cons
     if (crossing.t > from && std::isfinite(crossing.t) && (!nearest || crossing.t < nearest->t))
       nearest = crossing;
   return nearest;
+}
+
+std::pair<Ray, double> ObjectShape::to_nearest(const Ray& ray) const {
+  const Vec3 o = to_object_.point(ray.o);
+  const Vec3 d = to_object_.linear * ray.d;
+  const double start = -glm::dot(o, d) / glm::dot(d, d);
+  return {{o + d * start, d}, start};
+}
+
+std::vector<Span> ObjectShape::spans(const Ray& ray) const {
+  const auto& [local, start] = to_nearest(ray);
+  struct Passage {
+    Intersection at;
+    bool enters;
+  };
+  std::vector<Passage> passages;
+  for (Intersection crossing : crossings(local)) {
+    const Vec3 gradient = point(local.o + local.d * crossing.t, crossing).gradient;
+    crossing.t += start;
+    if (std::isfinite(crossing.t)) passages.push_back({crossing, glm::dot(gradient, local.d) < 0});
+  }
+  std::ranges::stable_sort(passages, {}, [](const Passage& passage) { return passage.at.t; });
+
+  // At an edge rounding may let a ray enter by two faces, or leave by two: the side that it comes to tells.
+  std::vector<Span> spans;
+  std::optional<Intersection> entered;
+  for (const Passage& passage : passages) {
+    if (passage.enters) {
+      if (!entered) entered = passage.at;
+    } else if (entered) {
+      if (entered->t < passage.at.t) spans.push_back({*entered, passage.at});
+      entered.reset();
+    }
+  }
+  return spans;
 }
 
 SurfacePoint ObjectShape::surface(const Ray& ray, const Intersection& hit) const {

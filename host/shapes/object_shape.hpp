@@ -13,6 +13,7 @@ class ObjectShape : public Shape {
  public:
   std::optional<Intersection> intersect(const Ray& ray) const final;
   SurfacePoint surface(const Ray& ray, const Intersection& hit) const final;
+  std::vector<Span> spans(const Ray& ray) const final;
   Bounds bounds() const override;
   void pack(Packer& packer) const override;
 
@@ -49,6 +50,10 @@ class ObjectShape : public Shape {
   virtual std::optional<Intersection> first(const Ray& ray, double from) const;
   virtual Point point(const Vec3& near, const Intersection& hit) const = 0;
   virtual Bounds extent() const = 0;
+
+  // The ray in object space, from its point nearest to the centre, so that nothing cancels however far away
+  // its own start is; and the t of that point.
+  std::pair<Ray, double> to_nearest(const Ray& ray) const;
 
   uint32_t kind_;
   Affine to_world_;

@@ -134,6 +134,7 @@ class Quadric final : public ObjectShape {
         form_(form),
         open_(open) {}
 
+  bool is_closed() const override { return !open_; }
   ShapeForm form() const override {
     const auto& [square, product, linear, constant] = form_.values;
     return QuadricForm{to_world().matrix(), square, product, linear, constant, extent(), open_};

@@ -128,7 +128,8 @@ float f(vec3 p) {
     z = r4 * r4 * vec3(tilt.y * around.x, tilt.x, tilt.y * around.y) + p;
     r = length(z);
   }
-  return 0.5 * log(max(r, 0.000001)) * r / dr;
+  // Within, what grows no faster than outside.
+  return 0.5 * (r < 1.0 ? r - 1.0 : log(r) * r) / dr;
 }
 
 vec4 product(vec4 a, vec4 b) { return vec4(a.xyz * b.w + b.xyz * a.w, a.w * b.w); }

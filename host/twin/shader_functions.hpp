@@ -100,6 +100,8 @@ class Binding {
 #define HAS_IMAGES 1
 #define HAS_COLORS 1
 #define HAS_EMISSION 1
+#define HAS_SOLIDS 1
+#define HAS_MIXED_SOLIDS 1
 #define HAS_HOLES 1
 #define SHAPES_WITH_HOLES SHAPES
 #define HAS_MEDIA 1

@@ -8,10 +8,13 @@
 #include <cstdlib>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "core/parallel_for.hpp"
+#include "formula/formula.hpp"
 #include "reference/tracer.hpp"
 #include "shapes/make.hpp"
+#include "shapes/ready_formulas.hpp"
 #include "support/random.hpp"
 #include "twin/shader_functions.hpp"
 
@@ -70,9 +73,27 @@ bool is_definite(const QuadricValues& quadric) {
   return quadric.square.x * quadric.square.y > p.x * p.x && sign * glm::determinant(form) > 0;
 }
 
+// One of eyeray's own formulas, but for the bulb, whose Lipschitz constant is an estimate.
+FormulaUse some_formula(Random& random) {
+  static const std::vector<FormulaUse> all = [] {
+    std::vector<FormulaUse> uses;
+    for (const ReadyFormula& ready : ready_formulas())
+      if (ready.name != "mandelbulb")
+        uses.push_back({std::make_shared<const Formula>(FormulaText{std::string(ready.text), {}},
+                                                        ready.parameters, std::string(ready.name)),
+                        {Vec3(-1), Vec3(1)},
+                        ready.lipschitz(ready.parameters)});
+    return uses;
+  }();
+  return all[size_t(random.below(int(all.size())))];
+}
+
 // A shape about as large as `size`.
 using MakeShape = std::unique_ptr<Shape> (*)(Random& random, double size);
+std::unique_ptr<Shape> some_solid(Random& random, double size);
+
 const std::map<std::string, MakeShape> makers = {
+    {"solid", some_solid},
     {"sphere",
      [](Random& random, double size) {
        return make_sphere(random.point(3 * size), size * random.uniform(0.3, 1));
@@ -148,6 +169,10 @@ const std::map<std::string, MakeShape> makers = {
        return make_superellipsoid(Vec3(0), Vec3(1), random.log_uniform(0.1, 2), random.log_uniform(0.1, 2),
                                   some_map(random, size));
      }},
+    {"implicit",
+     [](Random& random, double size) {
+       return make_implicit(some_formula(random), random.below(2) == 0, some_map(random, size));
+     }},
     {"bilinear",
      [](Random& random, double size) {
        const double bend = random.log_uniform(0.03, 1);
@@ -155,7 +180,55 @@ const std::map<std::string, MakeShape> makers = {
                              Vec3(-1, 0.5 * bend, 1)},
                             some_map(random, size));
      }},
+    {"bezier",
+     [](Random& random, double size) {
+       // A sheet that is more or less bent; of one in four an edge is a point.
+       std::array<Vec3, 16> net;
+       const double bend = random.log_uniform(0.03, 0.4);
+       for (int i = 0; i < 16; ++i)
+         net[size_t(i)] = Vec3(i % 4 - 1.5, 0, i / 4 - 1.5) / 1.5 + random.point(bend);
+       if (random.below(4) == 0) net[1] = net[2] = net[3] = net[0];
+       return make_bezier(net, some_map(random, size));
+     }},
 };
+
+std::unique_ptr<Shape> some_closed_shape(Random& random, double size) {
+  for (;;) {
+    const auto [name, make] = *std::next(makers.begin(), random.below(int(makers.size())));
+    if (name == "solid") continue;
+    auto shape = make(random, size);
+    if (shape->is_closed()) return shape;
+  }
+}
+
+// Of all closed shapes, at most 5, nested now and then.
+std::unique_ptr<Shape> some_solid(Random& random, double size) {
+  for (;;) {
+    ShapeType::Shapes operands, removed;
+    for (int i = 2 + random.below(2); i > 0; --i) {
+      operands.push_back(some_closed_shape(random, size));
+      if (random.below(4) == 0) {
+        ShapeType::Shapes inner;
+        for (int k = 0; k < 2; ++k) inner.push_back(some_closed_shape(random, size));
+        operands.back() = make_solid(random.below(2) == 0, std::move(inner));
+      }
+    }
+    if (random.below(2) == 0) removed.push_back(some_closed_shape(random, size));
+    auto solid = make_solid(random.below(2) == 0, std::move(operands), std::move(removed));
+    // What is within all of its parts may be next to nothing.
+    const Bounds bounds = solid->bounds();
+    const Vec3 extent = bounds.max - bounds.min;
+    if (std::min({extent.x, extent.y, extent.z}) < 0.3 * size) continue;
+    int hits = 0;
+    const Vec3 center = (bounds.min + bounds.max) * 0.5;
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 target = center + random.direction() * glm::length(extent) * 0.25;
+      const Vec3 from = target + random.direction() * glm::length(extent);
+      hits += solid->intersect({from, target - from}).has_value();
+    }
+    if (hits > 4) return solid;
+  }
+}
 
 // One shape as a scene, in both forms.
 struct Sample {
@@ -170,23 +243,33 @@ struct Sample {
 
   shader::Hit shoot(const shader::Ray& ray) const {
     shader::Hit hit{};
-    hit.t = -1;
-#define INTERSECT(name, number)               \
-  if (kind_of(scene.primitives[0]) == number) \
-    hit.t = shader::name##_intersect(scene.primitives[0], ray, hit.uv);
-    SHAPES(INTERSECT)
-    if (!(hit.t > 0) || !(hit.t < T_MISS)) hit.t = T_MISS;
+    hit.t = T_MISS;
+    for (uint32_t slot = 0; slot < scene.primitives.size(); ++slot) {
+      const shader::Primitive& primitive = scene.primitives[slot];
+      shader::vec2 uv{};
+      float t = -1;
+#define INTERSECT(name, number)                                               \
+  if (kind_of(primitive) == number && shader::name##_may_hit(primitive, ray)) \
+    t = shader::name##_intersect(primitive, ray, uv);
+      SHAPES(INTERSECT)
+      gave_up += t == T_RAN_OUT;
+      if (!(t > 0) || !(t < hit.t)) continue;
+      hit.t = t;
+      hit.slot = slot;
+      hit.uv = uv;
+    }
     return hit;
   }
   shader::Surface surface(const shader::Ray& ray, const shader::Hit& hit) const {
-#define SURFACE(name, number) \
-  if (kind_of(scene.primitives[0]) == number) return shader::name##_surface(scene.primitives[0], ray, hit);
+#define SURFACE(name, number)                 \
+  if (kind_of(scene.primitives[0]) == number) \
+    return shader::name##_surface(scene.primitives[hit.slot], ray, hit);
     SHAPES(SURFACE)
     return {};
   }
   double exact(const Vec3& o, const Vec3& d) const {
     const auto hit = shape->intersect({o, d});
-    return hit ? hit->t : HUGE_VAL;
+    return hit && !hit->ran_out ? hit->t : HUGE_VAL;
   }
 
   std::unique_ptr<Shape> shape;
@@ -194,17 +277,18 @@ struct Sample {
   PackedScene scene;
   Vec3 center;
   double radius;
+  mutable int gave_up = 0;  // how often a search ran out of steps
 };
 
 // What `body(sample, random)` says of as many rays, several a shape, of all sizes.
-template <typename Body>
-void for_shapes(const std::string& name, const Body& body) {
+template <typename Make, typename Body>
+void for_shapes(const Make& make, const Body& body) {
   parallel_for(0, parts, [&](int part) {
     Random random{uint64_t(part) + 1000 * seed()};
     constexpr int rays_a_shape = 32;
     for (int i = 0; i < rays_a_part(); i += rays_a_shape) {
       const double size = random.log_uniform(1e-4, 1e4);
-      const Sample sample(makers.at(name)(random, size), size);
+      const Sample sample(make(random, size), size);
       const shader::Binding binding(sample.scene);
       for (int k = 0; k < rays_a_shape; ++k) body(sample, random);
     }
@@ -234,45 +318,82 @@ bool is_grazing(const Sample& sample, const shader::Ray& ray, double t, double r
   return t >= least - spread && t <= greatest + spread;
 }
 
+// Shoots at shapes from a distance, in their own sizes; half of the rays aimed at the shape, half past it.
+template <typename Make>
+void check_first_hits(const std::string& name, const Make& make, double distance) {
+  std::atomic<int> rays = 0, hits = 0, misses = 0, grazing = 0, wrong = 0;
+  for_shapes(make, [&](const Sample& sample, Random& random) {
+    const Vec3 target = sample.center + random.direction() * sample.radius * random.uniform(0, 1.1);
+    const Vec3 from = target + random.direction() * sample.radius * distance;
+    const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(glm::normalize(target - from)));
+    const shader::Hit hit = sample.shoot(ray);
+    const double exact = sample.exact(Vec3(ray.o), Vec3(ray.d));
+    ++rays;
+    hits += exact < HUGE_VAL;
+    misses += exact < HUGE_VAL && hit.t == T_MISS;
+    const double t = double(hit.t);
+    if (exact == HUGE_VAL ? hit.t == T_MISS : std::fabs(t - exact) <= 1e-6 * exact) return;
+    const double room = 32 * 0x1p-24 * (glm::length(from) + glm::length(sample.center) + sample.radius);
+    // What is seen all but edge-on is so thin that few of the probes meet it.
+    if (is_grazing(sample, ray, t, room, 500) || is_grazing(sample, ray, t, room, 100'000))
+      ++grazing;
+    else
+      ++wrong;
+  });
+  MESSAGE(fmt::format("{} at {:g}: {} rays, {} hits, {} misses of them ({:.1f} ppm), {} grazing, {} wrong",
+                      name, distance, rays.load(), hits.load(), misses.load(), 1e6 * misses / hits,
+                      grazing.load(), wrong.load()));
+  CHECK(hits > rays / 20);
+  CHECK(wrong == 0);
+}
+
 }  // namespace
 
 TEST_CASE("first hits at distances 1 … 1e4: no wrong answer but where a ray grazes") {
   for (const auto& [name, make] : makers) {
-    for (const double distance : {1.5, 1e1, 1e2, 1e3, 1e4}) {
-      std::atomic<int> rays = 0, hits = 0, misses = 0, grazing = 0, wrong = 0;
-      for_shapes(name, [&](const Sample& sample, Random& random) {
-        // Half of them aimed at the shape, half past it; from a distance, or at a distance from the eye.
-        const Vec3 target = sample.center + random.direction() * sample.radius * random.uniform(0, 1.1);
-        const Vec3 from = target + random.direction() * sample.radius * distance;
-        const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(glm::normalize(target - from)));
-        const shader::Hit hit = sample.shoot(ray);
-        const double exact = sample.exact(Vec3(ray.o), Vec3(ray.d));
-        ++rays;
-        hits += exact < HUGE_VAL;
-        misses += exact < HUGE_VAL && hit.t == T_MISS;
-        const double t = double(hit.t);
-        if (exact == HUGE_VAL ? hit.t == T_MISS : std::fabs(t - exact) <= 1e-6 * exact) return;
-        const double room = 32 * 0x1p-24 * (glm::length(from) + glm::length(sample.center) + sample.radius);
-        // What is seen all but edge-on is so thin that few of the probes meet it.
-        if (is_grazing(sample, ray, t, room, 500) || is_grazing(sample, ray, t, room, 100'000))
-          ++grazing;
-        else
-          ++wrong;
-      });
-      MESSAGE(
-          fmt::format("{} at {:g}: {} rays, {} hits, {} misses of them ({:.1f} ppm), {} grazing, {} wrong",
-                      name, distance, rays.load(), hits.load(), misses.load(), 1e6 * misses / hits,
-                      grazing.load(), wrong.load()));
-      CHECK(hits > rays / 20);
-      CHECK(wrong == 0);
-    }
+    for (const double distance : {1.5, 1e1, 1e2, 1e3, 1e4}) check_first_hits(name, make, distance);
   }
+}
+
+TEST_CASE("every closed shape as a part of solids: first hits, no wrong answer but where a ray grazes") {
+  std::set<std::string> closed;
+  for (const auto& [name, make] : makers) {
+    Random random{1};
+    for (int i = 0; i < 10 && name != "solid"; ++i)
+      if (make(random, 1)->is_closed()) closed.insert(name);
+    if (!closed.contains(name)) continue;
+    // It joined with a ball, cut to it, without it, and taken from it.
+    const MakeShape& make_part = make;
+    const auto make_pair = [&make_part](Random& some, double size) {
+      ShapeType::Shapes both;
+      do {
+        both.clear();
+        both.push_back(make_part(some, size));
+      } while (!both[0]->is_closed());
+      const Bounds bounds = both[0]->bounds();
+      const Vec3 half = (bounds.max - bounds.min) * 0.5;
+      both.push_back(make_sphere(bounds.min + half + some.point(1) * half, 0.6 * glm::length(half)));
+      const int kind = some.below(4);
+      if (kind < 2) return make_solid(kind == 0, std::move(both));
+      ShapeType::Shapes removed;
+      removed.push_back(std::move(both[kind == 2 ? 0 : 1]));
+      both.erase(both.begin() + (kind == 2 ? 0 : 1));
+      return make_solid(false, std::move(both), std::move(removed));
+    };
+    for (const double distance : {1.5, 1e2, 1e4}) check_first_hits(name + " and ball", make_pair, distance);
+  }
+
+  // These are what the shaders ask.
+  std::set<std::string> asked;
+#define NAME(name, number) asked.insert(#name);
+  CLOSED_SHAPES(NAME)
+  CHECK(closed == asked);
 }
 
 TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none meets its surface again, every hit is on it") {
   for (const auto& [name, make] : makers) {
-    std::atomic<int> left = 0, rehits = 0, off = 0;
-    for_shapes(name, [&](const Sample& sample, Random& random) {
+    std::atomic<int> left = 0, rehits = 0, bent_back = 0, off = 0;
+    for_shapes(make, [&](const Sample& sample, Random& random) {
       const Vec3 target = sample.center + random.direction() * sample.radius * random.uniform(0, 1);
       const Vec3 from = target + random.direction() * sample.radius * random.log_uniform(0.1, 10);
       const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(random.direction()));
@@ -293,12 +414,20 @@ TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none meets its surface again, ev
         const glm::vec3 away(random.direction());
         const double again = double(sample.shoot(shader::leave(surface, away)).t);
         const double truly = sample.exact(reference::departure(at, Vec3(away)), Vec3(away));
-        rehits +=
+        // A sheet that is bent to both sides may be met again where it bends back, by a ray that starts a
+        // little off it and not by one that starts on it.
+        const shader::Ray next = shader::leave(surface, away);
+        const bool meets_again =
             again < 0.01 * sample.radius && again < 0.5 * truly && !(truly < 1e3 * double(surface.offset));
+        const bool may_bend_back = meets_again && sample.shape->counts_crossings() &&
+                                   std::fabs(glm::dot(away, surface.normal_geometric)) < 0.1f &&
+                                   is_grazing(sample, next, again, 2 * double(surface.offset), 500);
+        bent_back += may_bend_back;
+        rehits += meets_again && !may_bend_back;
       }
     });
-    MESSAGE(fmt::format("{}: {} left, {} hits off the surface, {} re-hits", name, left.load(), off.load(),
-                        rehits.load()));
+    MESSAGE(fmt::format("{}: {} left, {} hits off the surface, {} re-hits, {} where it bends back", name,
+                        left.load(), off.load(), rehits.load(), bent_back.load()));
     CHECK(left > parts * rays_a_part() / 4);
     CHECK(off == 0);
     CHECK(rehits == 0);

@@ -46,6 +46,7 @@ class HardScene {
       add_spheres(random_.below(8));
       if (chance(0.3)) add(scene_, make_plane(point(center_, size_), random_.direction()), material());
       if (chance(0.4)) add_object_shapes(1 + random_.below(4));
+      if (chance(0.25)) add_solids(1 + random_.below(4));
       if (chance(0.7)) add_shapes(hard_triangles(1 + random_.below(20)));
       if (chance(0.3)) add_polygons(1 + random_.below(5));
       if (chance(0.6)) add_instances(1);
@@ -55,6 +56,7 @@ class HardScene {
     sort_shapes();
     // More media around the eye than a ray can carry: all opaque.
     if (reference::media_at(scene_, scene_.camera.eye).size() > 4) {
+      std::erase_if(scene_.shapes, [](const auto& shape) { return is_solid(*shape); });
       for (const auto& shape : scene_.shapes) shape->material = 0;
       for (Instance& instance : scene_.instances) instance.material = 0;
     }
@@ -69,6 +71,8 @@ class HardScene {
       return kind_of(packer.scene.primitives[0]);
     });
   }
+
+  static bool is_solid(const Shape& shape) { return std::holds_alternative<SolidForm>(shape.form()); }
 
   int material() { return chance(glass_) ? 1 : 0; }
 
@@ -186,6 +190,34 @@ class HardScene {
     }
   }
 
+  // Of parts that touch, that are the same, or lie beside each other; some of them within others.
+  void add_solids(int count) {
+    for (int i = 0; i < count; ++i) {
+      Scene parts;
+      std::swap(parts.shapes, scene_.shapes);
+      add_spheres(1 + random_.below(3));
+      add_object_shapes(1 + random_.below(4));
+      std::swap(parts.shapes, scene_.shapes);
+      ShapeType::Shapes operands, removed;
+      for (auto& part : parts.shapes) {
+        if (!part->is_closed()) continue;
+        if (!operands.empty() && chance(0.2))
+          removed.push_back(std::move(part));
+        else
+          operands.push_back(std::move(part));
+        if (operands.size() == 2 && chance(0.3)) {
+          auto inner = make_solid(chance(0.5), std::move(operands));
+          operands.clear();
+          operands.push_back(std::move(inner));
+        }
+      }
+      // Most of what is within all of them would be nothing.
+      const bool all = operands.size() < 3 && chance(0.4);
+      auto solid = make_solid(all, std::move(operands), std::move(removed));
+      if (glm::all(glm::lessThan(solid->bounds().min, solid->bounds().max))) add(scene_, std::move(solid), 0);
+    }
+  }
+
   // Each around the next, and all but alike: the deepest of trees.
   void add_nest() {
     const int count = 30 + random_.below(100);
@@ -235,6 +267,9 @@ class HardScene {
         pole[random_.below(3)] = chance(0.5) ? p.a.w : -p.a.w;
         target.b = target.a + pole;
         target.c = target.a + glm::vec3(random_.direction()) * p.a.w;
+      } else if (kind_of(p) == shader::KIND_solid) {
+        target.b = target.a + glm::vec3(p.b);
+        target.c = target.a + glm::vec3(p.b.x, -p.b.y, 0);
       } else if (kind_of(p) > shader::KIND_triangle) {
         // The centre of object space, and where two of its axes leave the unit cube.
         glm::vec4 rows[3];

@@ -50,7 +50,7 @@ class QueryKernel {
   // Whether rays are traced together, as the gpu executor would.
   bool traces_packets() const {
     return specialisation_.profile.packets && scene_.has_tree && scene_.quantised_nodes &&
-           scene_.instances.empty();
+           scene_.instances.empty() && scene_.leaf_uses.empty();
   }
 
   std::vector<shader::QueryHit> ask(std::span<const shader::QueryRay> rays, bool any) {

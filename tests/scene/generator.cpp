@@ -228,6 +228,13 @@ std::string Writer::write() {
     // An uneven scale is no sphere's.
     if (chance(0.5)) mostly.insert("transform");
     table(fmt::format("[[{}]]", type.name), {type.keys, find_section(type.name)->keys}, mostly, "");
+    if (!type.combine) continue;
+    for (int part = 1 + random_.below(3); part > 0; --part) {
+      const ShapeType& inner = *shape_types()[size_t(random_.below(int(shape_types().size())))];
+      const char* holder = part > 1 && chance(0.3) ? "solid.minus" : "solid";
+      table(fmt::format("[[{}.{}]]", holder, inner.name), {inner.keys, find_section("sphere")->keys}, mostly,
+            "");
+    }
   }
   return text_;
 }
