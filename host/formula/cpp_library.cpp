@@ -111,7 +111,7 @@ std::string compile(std::vector<std::string> command, const std::string& unit, c
 
 // Loaded from memory: neither the cache nor the folder for temporary files needs to be one that programs may
 // run from.
-void* open_library(const std::string& bytes) {
+std::pair<int, void*> open_library(const std::string& bytes) {
   const int file = ::memfd_create("formula", MFD_CLOEXEC);
   if (file < 0) throw Error(ExitCode::file_io, "cannot make a file in memory: {}", strerror(errno));
   for (size_t done = 0; done < bytes.size();) {
@@ -123,16 +123,19 @@ void* open_library(const std::string& bytes) {
     done += size_t(count);
   }
   void* handle = ::dlopen(fmt::format("/proc/self/fd/{}", file).c_str(), RTLD_NOW | RTLD_LOCAL);
-  const std::string why = handle ? "" : ::dlerror();
-  ::close(file);
-  if (!handle) throw Error(ExitCode::no_compiler, "what the C++ compiler made cannot be loaded: {}", why);
-  return handle;
+  if (!handle) {
+    const std::string why = ::dlerror();
+    ::close(file);
+    throw Error(ExitCode::no_compiler, "what the C++ compiler made cannot be loaded: {}", why);
+  }
+  return {file, handle};
 }
 
 }  // namespace
 
 CppLibrary::~CppLibrary() {
   ::dlclose(handle_);
+  ::close(file_);
 }
 
 std::shared_ptr<const CppLibrary> CppLibrary::load(const std::string& unit, const std::string& what,
@@ -152,7 +155,8 @@ std::shared_ptr<const CppLibrary> CppLibrary::load(const std::string& unit, cons
     bytes = compile(compiler, unit, what);
     cache.store(name, *bytes);
   }
-  return std::shared_ptr<const CppLibrary>(new CppLibrary(open_library(*bytes)));
+  const auto [file, handle] = open_library(*bytes);
+  return std::shared_ptr<const CppLibrary>(new CppLibrary(file, handle));
 }
 
 void* CppLibrary::symbol(const char* name) const {

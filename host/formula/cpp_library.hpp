@@ -25,7 +25,8 @@ class CppLibrary {
   void* symbol(const char* name) const;
 
  private:
-  explicit CppLibrary(void* handle) : handle_(handle) {}
+  CppLibrary(int file, void* handle) : file_(file), handle_(handle) {}
+  int file_;  // open as long as it is loaded: dlopen takes equal paths for the same library
   void* handle_;
 };
 
