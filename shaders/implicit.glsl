@@ -23,7 +23,7 @@ struct Implicit {
 #define IMPLICIT_RAN_OUT 4.0f
 
 // Lengths in the cube.
-#define IMPLICIT_STEPS 2048u
+#define IMPLICIT_STEPS 4096u
 #define IMPLICIT_REFINEMENTS 40u
 #define IMPLICIT_LEAST_STEP 1.0e-5f
 #define IMPLICIT_WIDTH 1.2e-7f

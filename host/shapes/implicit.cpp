@@ -56,7 +56,7 @@ projected straight.
 **Numeric trap.** All is computed in the coordinates of the box: rounding is 10⁻⁷ of its size, so choose it no larger than need be, and near f's own origin. The least step of a ray is 10⁻⁵ of half the
 box: walls thinner than that are passed through. Normals are those of `vec3 gradient(vec3 p)`, if the text has that too; else differences over 1/256 of half the box, to the
 fourth order: waves that are much shorter, and edges, look smoother than they are.
-A ray that takes 2048 steps and has not come to an end has run out: its pixel is told.
+A ray that takes 4096 steps and has not come to an end has run out: its pixel is told.
 
 **Source.** Hart: Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit Surfaces, The Visual Computer 12, 1996.
 )";
