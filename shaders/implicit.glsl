@@ -25,9 +25,9 @@ struct Implicit {
 #define IMPLICIT_RAN_OUT 4.0f
 
 // Lengths in the cube.
-#define IMPLICIT_STEPS 512u
+#define IMPLICIT_STEPS 4096u
 #define IMPLICIT_REFINEMENTS 40u
-#define IMPLICIT_LEAST_STEP 4.0e-6f
+#define IMPLICIT_LEAST_STEP 1.0e-5f
 #define IMPLICIT_WIDTH 1.2e-7f
 #define IMPLICIT_DIFFERENCE 0.00390625f
 #define IMPLICIT_PIECES 512u
