@@ -90,11 +90,10 @@ class Tokenizer {
       if (length < rest_.size() && (rest_[length] == 'f' || rest_[length] == 'F') && decimal) ++length;
       if (length < rest_.size() && (rest_[length] == 'u' || rest_[length] == 'U') && !decimal) ++length;
     }
-    if (length < rest_.size() && is_word(rest_[length])) {
-      const size_t end = size_t(std::ranges::find_if_not(rest_, is_word) - rest_.begin());
+    if (const size_t known = length; known < rest_.size() && is_word(rest_[known])) {
+      while (length < rest_.size() && is_word(rest_[length])) ++length;
       faults_.push_back(
-          {line_, column_,
-           fmt::format("'{}' is no number that is known here", rest_.substr(0, std::max(end, length + 1)))});
+          {line_, column_, fmt::format("'{}' is no number that is known here", rest_.substr(0, length))});
     }
     add(decimal ? Token::Kind::decimal : Token::Kind::integer, length);
   }

@@ -30,14 +30,10 @@ std::vector<const Shape*> users(const Scene& scene) {
   return all;
 }
 
-constexpr std::string_view entry = R"glsl(#version 450
-#include "formula.glsl"
-#include "constants"
-#include "text"
-layout(local_size_x = 1) in;
-layout(std430, set = 0, binding = 0) buffer Values { vec4 values[]; };
-void main() { values[0].w = user_f(vec3(values[0])); }
-)glsl";
+constexpr std::string_view entry =
+    "#version 450\n#include \"formula.glsl\"\n#include \"constants\"\n#include \"text\"\n"
+    "layout(local_size_x = 1) in;\nlayout(std430, set = 0, binding = 0) buffer Values { vec4 values[]; };\n"
+    "void main() { values[0].w = user_f(vec3(values[0])); }\n";
 
 void compile(const Formula& formula, const DiskCache& cache) {
   const Formula::Checkable parts = formula.checkable();
@@ -125,7 +121,8 @@ std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene) {
   for (const Shape* shape : users(scene)) {
     const FormulaUse& use = *shape->formula_use();
     if (use.lipschitz == 0) continue;
-    if (use.formula->text().start.line == 0) continue;  // one of eyeray's own; its manual says what it is good for
+    if (use.formula->text().start.line == 0)
+      continue;  // one of eyeray's own; its manual says what it is good for
     Steepest found;
     try {
       found = steepest(use);

@@ -62,19 +62,6 @@ std::string describe_node(const toml::node& node) {
   return node.is_table() ? "a table" : "a date or time";
 }
 
-// Where the text begins that a string stands for, as far as that can be told: escapes are not looked at.
-SourcePosition start_of_text(const toml::node& node) {
-  SourcePosition start = position_of(node.source());
-  const std::string text = node.value_or(std::string());
-  const auto& [begin, end, path] = node.source();
-  const auto breaks = size_t(std::ranges::count(text, '\n'));
-  if (end.line - begin.line == breaks + 1)  // the first line break in """ … is left out
-    return {start.file, start.line + 1, 1};
-  if (end.line - begin.line != breaks) return {start.file, 0, 0};
-  const bool triple = breaks > 0 || end.column - begin.column == text.size() + 6;
-  return {start.file, start.line, start.column + (triple ? 3 : 1)};
-}
-
 // Reads one value; keeps whether all of it was right.
 class Reader {
  public:
@@ -404,11 +391,6 @@ Value stand_in(const Key& key) {
       return Mat4(1.0);
   }
   return false;
-}
-
-SourcePosition position_of(const toml::source_region& source) {
-  return {source.path ? *source.path : std::string(), static_cast<int>(source.begin.line),
-          static_cast<int>(source.begin.column)};
 }
 
 }  // namespace eyeray

@@ -33,5 +33,7 @@ std::optional<Value> read_value(const Key& key, const toml::node& node, Diagnost
 Value stand_in(const Key& key);
 
 SourcePosition position_of(const toml::source_region& source);
+// Where the text begins that a string stands for, as far as that can be told: escapes are not looked at.
+SourcePosition start_of_text(const toml::node& node);
 
 }  // namespace eyeray

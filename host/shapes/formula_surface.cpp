@@ -13,10 +13,10 @@ namespace {
 
 constexpr double difference = 1e-4;
 // Lengths in the cube: pairs of roots closer than this are not seen, and a root is known to that.
-constexpr double least_gap = 1e-9;
+constexpr double least_gap = 1e-8;
 constexpr double least_width = 1e-14;
 // The search gives up after so many values: along a surface that is flat on the ray, none ends.
-constexpr int most_values = 20000;
+constexpr int most_values = 400000;
 
 // Looks through a segment, from its start on.
 class Search {

@@ -17,7 +17,7 @@ class FormulaSurface {
   Vec3 gradient(const Vec3& q) const;
   // The first place from `start` to `end` at which the sign is another than at `start`. Between two places no
   // more than what the values there clear of roots, by the Lipschitz constant, is left out; so none is passed
-  // by, but pairs of roots closer than 1e-9. Where there is no such constant, Chebyshev series take its
+  // by, but pairs of roots closer than 1e-8. Where there is no such constant, Chebyshev series take its
   // place. So that the search ends for any function, so do its steps: then `ran_out`, and there is no change
   // up to s.
   struct Change {

@@ -60,7 +60,7 @@ TEST_CASE("a kernel's names are its own, and nothing of it is folded before it i
   CHECK(
       formula.kernel("k_") ==
       "float k_r = float(uintBitsToFloat(0x3e800000u));\n"
-      " float k_PI = uintBitsToFloat(0x40600000u) ;\n"
+      "float k_PI = uintBitsToFloat(0x40600000u) ;\n"
       "float k_f ( vec3 k_p ) { return fn_sin ( k_PI * k_p . x ) * uintBitsToFloat(0x3f000000u) - k_r ; }\n");
   CHECK_FALSE(formula.loops());
 }

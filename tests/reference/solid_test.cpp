@@ -140,10 +140,13 @@ TEST_CASE("shadows: a solid counts once, by the densest of its surfaces on the w
                  shapes(made_of(make_sphere({0, 1, 0}, 0.5), 0))),
       1);
   const reference::Tracer tracer(scene);
-  CHECK(tracer.transmittance(along_x, 100) == doctest::Approx(0.8));
-  CHECK(tracer.transmittance(along_x, 8.9) == 1);
-  CHECK(tracer.transmittance({{-10, 0.9, 0}, {1, 0, 0}}, 100) == 0);
-  CHECK(tracer.transmittance({{-10, 0.9, 0}, {1, 0, 0}}, 9.2) == doctest::Approx(0.8));
+  const Ray above{{-10, 0.9, 0}, {1, 0, 0}};
+  uint32_t flags = 0;
+  CHECK(tracer.transmittance(along_x, 100, flags) == doctest::Approx(0.8));
+  CHECK(tracer.transmittance(along_x, 8.9, flags) == 1);
+  CHECK(tracer.transmittance(above, 100, flags) == 0);
+  CHECK(tracer.transmittance(above, 9.2, flags) == doctest::Approx(0.8));
+  CHECK(flags == 0);
 }
 
 TEST_CASE("the eye within a lens of glass is in its medium, and in what was taken from it, in none") {

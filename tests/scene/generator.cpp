@@ -147,6 +147,12 @@ std::string Writer::value(const Key& key) {
       return fmt::format("{}", number(key));
     case KeyType::string:
       return key.name == "material" ? fmt::format("\"m{}\"", random_.below(materials)) : "\"text\"";
+    case KeyType::formula:
+      return "\"float f(vec3 p) { return dot(p, p) - 0.25; }\"";
+    case KeyType::formula_file:
+      return "\"none.glsl\"";
+    case KeyType::parameters:
+      return "{}";
     case KeyType::choice:
       return choice(key);
     case KeyType::choice2:
