@@ -63,10 +63,13 @@ Inventory take_inventory(const Scene& scene) {
   const PackedScene packed = pack(scene);
   Inventory inventory;
   std::vector<uint32_t> kinds;
+  std::vector<bool> counted(scene.shapes.size());  // pieces of a shape share its id
   for (uint32_t slot = 0; slot < packed.trees[0].head.z; ++slot) {
     // Of the world's own, the first are the shapes, and the others the triangles of meshes.
-    if (packed.primitives[slot].head.x < scene.shapes.size())
-      kinds.push_back(kind_of(packed.primitives[slot]));
+    const shader::Primitive& primitive = packed.primitives[slot];
+    if (primitive.head.x >= counted.size() || counted[primitive.head.x]) continue;
+    counted[primitive.head.x] = true;
+    kinds.push_back(kind_of(primitive));
   }
   inventory.shapes = count_kinds(shape_types(), kinds);
   kinds.clear();

@@ -61,9 +61,9 @@ float superellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     excess = inside && !towards ? 0.0f : excess;
     meets = meets && (inside || x <= far);
   }
-  if (!(meets && x > start)) return T_NONE;
   uv.x = inside ? 0.0f : r.t + x;
-  return excess > 4.0f * EPSILON ? T_RAN_OUT : r.t + x;
+  // Not as !(…) in front: Mesa 22.3.6 takes the opposite comparison then, which NaN passes.
+  return meets && x > start ? (excess > 4.0f * EPSILON ? T_RAN_OUT : r.t + x) : T_NONE;
 }
 
 bool superellipsoid_may_hit(Primitive s, Ray ray) { return true; }

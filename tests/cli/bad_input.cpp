@@ -51,7 +51,7 @@ material = "matte"
   CAPTURE(result.err);
   CHECK(result.err.find(
             "error: this loop goes round more than 1000 times, or as often as p says; so no interval "
-            "can be computed for it: declare a `lipschitz`\n  while (x > 1.0) x *= 0.5;") !=
+            "can be computed for it: declare a `lipschitz`\n    while (x > 1.0) x *= 0.5;") !=
         std::string::npos);
   // With a constant nothing need be derived.
   replace_in_file(folder.scene(), "max = [1, 1, 1]", "max = [1, 1, 1]\nlipschitz = 1");

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "loader/sections.hpp"
+#include "shapes/registry.h"
 
 namespace eyeray::test {
 
@@ -45,6 +46,13 @@ class Writer {
   std::string choice(const Key& key) {
     if (mishap()) return "\"nothing\"";
     return fmt::format("\"{}\"", key.choices[size_t(random_.below(int(key.choices.size())))]);
+  }
+  // What a solid may be made of, if it is not open.
+  const ShapeType& closed_shape() {
+#define NAME(name, number) number,
+    constexpr uint32_t kinds[] = {CLOSED_SHAPES(NAME)};
+#undef NAME
+    return *shape_types()[kinds[random_.below(int(std::size(kinds)))]];
   }
   void table(const std::string& title, std::initializer_list<std::span<const Key>> keys,
              std::set<std::string_view> left_out, const std::string& given);
@@ -233,10 +241,17 @@ std::string Writer::write() {
     if (chance(0.8)) mostly = {"normals"};
     // An uneven scale is no sphere's.
     if (chance(0.5)) mostly.insert("transform");
-    table(fmt::format("[[{}]]", type.name), {type.keys, find_section(type.name)->keys}, mostly, "");
+    // A formula stands in one place; that of a file, in none.
+    std::string given;
+    if (type.name == "implicit") {
+      given = chance(0.5) ? "ready = \"rounded-box\"\n"
+                          : "code = \"float f(vec3 p) { return dot(p, p) - 0.25; }\"\nlipschitz = 4\n";
+      mostly.insert({"code", "file", "ready", "lipschitz"});
+    }
+    table(fmt::format("[[{}]]", type.name), {type.keys, find_section(type.name)->keys}, mostly, given);
     if (!type.combine) continue;
     for (int part = 1 + random_.below(3); part > 0; --part) {
-      const ShapeType& inner = *shape_types()[size_t(random_.below(int(shape_types().size())))];
+      const ShapeType& inner = closed_shape();
       const char* holder = part > 1 && chance(0.3) ? "solid.minus" : "solid";
       table(fmt::format("[[{}.{}]]", holder, inner.name), {inner.keys, find_section("sphere")->keys}, mostly,
             "");
