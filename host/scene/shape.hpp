@@ -29,7 +29,7 @@ struct Intersection {
   double t = 0;
   double u = 0;
   double v = 0;
-  uint32_t part = 0;  // of a solid, whose surface it is
+  uint32_t part = 0;     // of a solid, whose surface it is
   bool ran_out = false;  // it meets nothing up to t; beyond, the steps allowed did not suffice to tell
 };
 
