@@ -40,7 +40,10 @@ eyeray_verify(mode.packets.edges mode ${EDGES} --acceleration tree --no-constant
 eyeray_verify(mode.raycast mode ${small} --integrator raycast)
 eyeray_verify(mode.raycast.edges mode ${EDGES} --integrator raycast)
 eyeray_verify(mode.eye-rays mode ${small} --max-depth 0)
-eyeray_verify(mode.deep mode ${small} --max-depth 64 -D render.min_weight=0.01)
+# A march takes up to 4096 steps a ray: 64 rays of glass in a row are more than Mesa 22.3.6 grants, and say so (docs/lavapipe.md).
+set(deep ${small})
+list(FILTER deep EXCLUDE REGEX "/implicit")
+eyeray_verify(mode.deep mode ${deep} --max-depth 64 -D render.min_weight=0.01)
 eyeray_verify(mode.moller-trumbore mode scenes/cornell.toml scenes/whitted.toml scenes/shapes/triangle.toml -s 96x72
   --triangle moller-trumbore)
 # A pixel of n samples is n times as likely to have one at a jump.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <vector>
 
 #include "loader/sections.hpp"
 #include "shapes/registry.h"
@@ -172,8 +173,11 @@ std::string Writer::value(const Key& key) {
     case KeyType::vec2_list:
       return fmt::format("[{}, {}, {}]", numbers(key, 2), numbers(key, 2), numbers(key, 2));
     case KeyType::vec3_list: {
-      std::string points[] = {numbers(key, 3), numbers(key, 3), numbers(key, 3)};
-      if (chance(0.3 * wildness_.share)) points[2] = points[random_.below(2)];
+      // As many as a Bézier patch has, a bilinear one, or a triangle.
+      const int count = key.name == "points" ? 16 : key.name == "corners" ? 4 : 3;
+      std::vector<std::string> points;
+      for (int i = 0; i < count; ++i) points.push_back(numbers(key, 3));
+      if (chance(0.3 * wildness_.share)) points[2] = points[size_t(random_.below(2))];
       if (mishap()) points[1] = "[]";
       return fmt::format("[{}]", fmt::join(points, ", "));
     }
@@ -232,7 +236,10 @@ std::string Writer::write() {
   }
   for (int i = 0; i < materials; ++i) {
     const MaterialType& type = *material_types()[size_t(random_.below(int(material_types().size())))];
-    table("[[material]]", {type.keys}, {}, fmt::format("name = \"m{}\"\ntype = \"{}\"\n", i, type.name));
+    // Few shapes may have holes.
+    table("[[material]]", {type.keys},
+          chance(0.9) ? std::set<std::string_view>{"alpha", "alpha_cutoff"} : std::set<std::string_view>{},
+          fmt::format("name = \"m{}\"\ntype = \"{}\"\n", i, type.name));
   }
   for (int i = random_.below(6); i > 0; --i) {
     const ShapeType& type = *shape_types()[size_t(random_.below(int(shape_types().size())))];
