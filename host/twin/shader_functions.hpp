@@ -115,14 +115,7 @@ class Binding {
 #define FORMULA_ENCLOSURE(it, x, y, z) load_formula_enclosure(it.formula, x, y, z)
 #define FORMULA_DUAL(it, p) load_formula_dual(it.formula, p)
 
-#undef SHADER_BEGIN
-#undef SHADER_END
-#define SHADER_BEGIN         \
-  namespace eyeray::shader { \
-  namespace {
-#define SHADER_END \
-  }                \
-  }
+#include "twin/local_shaders.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"

@@ -2,14 +2,7 @@
 
 #include "twin/straight_line.hpp"
 
-#undef SHADER_BEGIN
-#undef SHADER_END
-#define SHADER_BEGIN         \
-  namespace eyeray::shader { \
-  namespace {
-#define SHADER_END \
-  }                \
-  }
+#include "twin/local_shaders.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
