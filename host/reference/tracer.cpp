@@ -132,10 +132,12 @@ double Tracer::share_let_through(size_t body, const Ray& ray, double entry, doub
     if (const double each = scene_.materials[size_t(shape.material)]->shadow_transmittance();
         shape.counts_crossings() && each > 0) {
       int crossed = 0;
-      for_each_crossing(shape, ray, [&](double t, const Intersection&, const SurfacePoint&) {
-        crossed += t < t_end;
-        return t < t_end;
-      });
+      const double told =
+          for_each_crossing(shape, ray, [&](double t, const Intersection&, const SurfacePoint&) {
+            crossed += t < t_end;
+            return t < t_end;
+          });
+      gave_up = gave_up || told < t_end;
       return std::pow(each, crossed / 2.0);
     }
     const auto share_at = [&](const Intersection& hit) {

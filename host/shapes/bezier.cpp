@@ -96,6 +96,8 @@ class Bezier final : public Shape {
 
   ShapeForm form() const override { return BezierForm{net_}; }
   bool counts_crossings() const override { return true; }
+  // The degree of its equation in x, y and z.
+  int most_crossings() const override { return 2 * 3 * 3; }
 
   void pack(Packer& packer) const override {
     // What all pieces share.
