@@ -7,8 +7,7 @@ namespace eyeray {
 
 namespace {
 
-constexpr int radii = 4;
-constexpr int angles = 16;
+constexpr int rings = 4;
 constexpr double radius_step = 0.001;  // pixels
 // A rounding error grows from surface to surface: the neighbourhood of a path grows with the surfaces it
 // strikes, to this at most.
@@ -39,13 +38,13 @@ const char* name(Cause cause) {
   return "unknown";
 }
 
-Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel) {
+Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles) {
   probes_.push_back(reference(pixel.x, pixel.y, Vec2(0.0)));
   const double reach = std::min(most_reach, 1 + probes_.front().hits_per_sample / 8);
-  for (int ring = 1; ring <= radii; ++ring) {
+  for (int ring = 1; ring <= rings; ++ring) {
     for (int step = 0; step < angles; ++step) {
-      // Each ring is turned a little, so that 64 directions are looked at, none of them along an axis only.
-      const double angle = 2 * M_PI * (step + (ring - 1.0) / radii) / angles;
+      // Each ring is turned a little, so that no direction is looked at twice.
+      const double angle = 2 * M_PI * (step + (ring - 1.0) / rings) / angles;
       probes_.push_back(
           reference(pixel.x, pixel.y, ring * radius_step * reach * Vec2(std::cos(angle), std::sin(angle))));
     }

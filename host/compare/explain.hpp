@@ -1,5 +1,5 @@
-// Why a pixel may differ from the reference: the reference itself jumps there. It is rendered again at 64
-// offsets of 0.001–0.004 pixels, and a value within what those say is explained.
+// Why a pixel may differ from the reference: the reference itself jumps there. It is rendered again at places
+// 0.001–0.004 pixels away, and a value within what those say is explained.
 #pragma once
 
 #include <functional>
@@ -41,7 +41,8 @@ const char* name(Cause cause);
 // The reference in the neighbourhood of one pixel.
 class Neighbourhood {
  public:
-  Neighbourhood(const Reference& reference, Pixel pixel);
+  // `angles`: how many places on each of four rings.
+  Neighbourhood(const Reference& reference, Pixel pixel, int angles);
 
   // Whether `value` lies within [min, max] of the neighbourhood, each bound widened by the tolerance.
   bool explains(const Vec3& value, const Tolerances& tolerances) const;
