@@ -21,8 +21,8 @@ struct Judgement {
 
 constexpr int64_t always_allowed = 4;   // so that a small crop around an edge can pass
 constexpr size_t most_examined = 4096;  // of a gate that has failed already
-// Where a colour runs to and fro, the usual places may all miss its extreme: pixels that they leave unexplained,
-// if these are few, are looked at again at more places.
+// Where a colour runs to and fro, the usual places may all miss its extreme: pixels that they leave
+// unexplained, if these are few, are looked at again at more places.
 constexpr int usual_angles = 16;
 constexpr int many_angles = 256;
 constexpr size_t few = 32;
@@ -127,7 +127,7 @@ class Judge {
       if (neighbourhood.explains(p.value, tolerances_))
         settle(colors_[i], true, neighbourhood.cause_of_color());
       else
-        settle(colors_[i], neighbourhood.explains_as_contact(p.value, tolerances_), Cause::contact);
+        settle(colors_[i], neighbourhood.explains_as_rounding(p.value, tolerances_), Cause::rounding);
       settle(first_hits_[i], neighbourhood.explains(p.value_hit, tolerances_),
              neighbourhood.cause_of_first_hit());
     });

@@ -38,23 +38,23 @@ TEST_CASE("a cause is the first thing along the ray that changes") {
   CHECK(cause_of([](Probe& p) { p.direct = false; }) == Cause::refraction_branch);
 }
 
-TEST_CASE("what float32's distance from surfaces changes is explained as contact, and not otherwise") {
+TEST_CASE("what float32's rounding of where rays start changes is explained as that, and not otherwise") {
   const auto neighbourhood = [](double near, double far) {
     return Neighbourhood(
         [=](int, int, const Vec2&) {
           Probe probe;
           probe.color = Vec3(near);
           probe.sample_colors = {Vec3(near)};
-          if (far > 0) probe.contact_colors = {Vec3(far)};
+          if (far > 0) probe.rounded_colors = {Vec3(far)};
           return probe;
         },
         {0, 0}, 16);
   };
   CHECK_FALSE(neighbourhood(0.2, 0.7).explains(Vec3(0.7), {}));
-  CHECK(neighbourhood(0.2, 0.7).explains_as_contact(Vec3(0.7), {}));
-  CHECK(neighbourhood(0.7, 0.2).explains_as_contact(Vec3(0.4), {}));
-  CHECK_FALSE(neighbourhood(0.2, 0.7).explains_as_contact(Vec3(0.8), {}));
-  CHECK_FALSE(neighbourhood(0.2, 0.0).explains_as_contact(Vec3(0.7), {}));
+  CHECK(neighbourhood(0.2, 0.7).explains_as_rounding(Vec3(0.7), {}));
+  CHECK(neighbourhood(0.7, 0.2).explains_as_rounding(Vec3(0.4), {}));
+  CHECK_FALSE(neighbourhood(0.2, 0.7).explains_as_rounding(Vec3(0.8), {}));
+  CHECK_FALSE(neighbourhood(0.2, 0.0).explains_as_rounding(Vec3(0.7), {}));
 }
 
 TEST_CASE("a first hit that differs does so at a silhouette, or on a surface met at a grazing angle") {
