@@ -122,7 +122,8 @@ class Bezier final : public Shape {
       // A hit may lie as far beyond a border as rounding moves it.
       const double room = 0x1p-18 * (magnitude(packer.relative(middle)) + radius);
       const auto& [from, to] = piece.range;
-      packer.add_iterations(2 + 3 * 40);
+      // Both ends; of 24 arcs, each with its middle and its next end; of 4 roots.
+      packer.add_iterations(2 * 4 + 24 * (1 + 4 + 4) + 4 * 40);
       packer.add_steps();
       packer.add_piece({.head = Packer::head(shader::KIND_bezier, material, extra),
                         .a = shader::vec4(float(from.x), float(to.x), float(from.y), float(to.y)),

@@ -12,8 +12,9 @@
 
 SHADER_BEGIN
 
-// Arcs at most, and how short one may be, of the whole section.
-#define BEZIER_ARCS 48u
+// Arcs and roots at most (host/shapes/bezier.cpp counts with them), and how short an arc may be, of the whole section.
+#define BEZIER_ARCS 24u
+#define BEZIER_ROOTS 4u
 #define BEZIER_LEAST_ARC 0.00390625f
 #define BEZIER_SPECK 2.0f
 
@@ -117,7 +118,8 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float least = BEZIER_LEAST_ARC * (to - from);
   float t = -1.0f;
   bool gave_up = false;
-  for (uint i = 0u; i < BEZIER_ARCS && search; i++) {
+  uint roots = 0u;
+  for (uint i = 0u; i < BEZIER_ARCS && search && roots < BEZIER_ROOTS; i++) {
     float length = far.w - near.w;
     BezierSection half_way = bezier_settle(net, s.a, tilt, 0.5f * (near.w + far.w), bezier_between(near, far, 0.5f), fine, true);
     BezierArc arc = bezier_arc(near, far, half_way, grain);
@@ -133,6 +135,7 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     vec2 z_ends = change_0 ? vec2(near.z, z_0) : change_1 ? vec2(z_0, z_1) : vec2(z_1, far.z);
     float begin = ends.x + (ends.y - ends.x) * (z_ends.x / (z_ends.x - z_ends.y));
     bool look = !halve && !outside && (change_0 || change_1 || change_2);
+    roots += look ? 1u : 0u;
     vec2 bracket = vec2(near.w + length * ends.x, near.w + length * ends.y);
     BezierRoot root = bezier_root(net, s.a, tilt, bezier_between(near, far, begin), near.w + length * begin, bracket, z_ends, look, grain, s.b.w);
     vec2 there = vec2(0.0f, 0.0f);
