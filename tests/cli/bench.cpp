@@ -88,9 +88,9 @@ TEST_CASE("any scene is written out for POV-Ray, or it is said why not") {
                                           "--backends", "twin", "--json"});
     err = run.err;
     REQUIRE(run.code == 0);
+    const auto answer = nlohmann::json::parse(run.out);
     std::vector<std::string> names;
-    for (const auto& series : nlohmann::json::parse(run.out).at("bench").at(0).at("series"))
-      names.push_back(series.at("name"));
+    for (const auto& series : answer.at("bench").at(0).at("series")) names.push_back(series.at("name"));
     return names;
   };
   const bool povray = std::system("povray --version > /dev/null 2>&1") == 0;
