@@ -54,8 +54,7 @@ void meet_slot(INOUT(Found) found, uint slot, Place place, bool any) {
 #define INTERSECT_KIND(name, number) \
   if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, place.ray, uv);
   SHAPES(INTERSECT_KIND)
-  uint density = place.instance == NONE ? primitive.head.z : place.density;
-  meet(found, t, uv, slot, place.first_id + primitive.head.x, place.instance, density, any);
+  meet(found, t, uv, slot, id_at(place, primitive), place.instance, density_at(place, primitive), any);
 }
 
 // Walks the tree of the world, and of every instance on the way.

@@ -46,14 +46,28 @@ size_t bytes(const std::vector<Record>& records) {
   return records.size() * sizeof(Record);
 }
 
+// As often as they are shown.
+uint64_t shapes_in_groups(const Scene& scene) {
+  uint64_t count = 0;
+  for (const GroupInstance& instance : scene.group_instances)
+    count += scene.groups[size_t(instance.group)].shapes.size();
+  return count;
+}
+
+uint64_t shapes_kept_in_groups(const Scene& scene) {
+  uint64_t count = 0;
+  for (const Group& group : scene.groups) count += group.shapes.size();
+  return count;
+}
+
 Inventory take_inventory(const Scene& scene) {
   const PackedScene packed = pack(scene);
   Inventory inventory;
   std::vector<uint32_t> kinds;
+  const uint64_t shapes = scene.shapes.size() + shapes_in_groups(scene);
   for (uint32_t slot = 0; slot < packed.trees[0].head.z; ++slot) {
     // Of the world's own, the first are the shapes, and the others the triangles of meshes.
-    if (packed.primitives[slot].head.x < scene.shapes.size())
-      kinds.push_back(kind_of(packed.primitives[slot]));
+    if (packed.primitives[slot].head.x < shapes) kinds.push_back(kind_of(packed.primitives[slot]));
   }
   inventory.shapes = count_kinds(shape_types(), kinds);
   kinds.clear();
@@ -118,6 +132,11 @@ void print_text(const Scene& scene, const Inventory& inventory) {
     line("meshes", fmt::format("{} of {} triangles, shown {} times", scene.meshes.size(),
                                inventory.mesh_triangles, scene.instances.size()));
   }
+  if (!scene.groups.empty()) {
+    line("groups", fmt::format("{} of {} shapes kept once, shown {} times as {} shapes", scene.groups.size(),
+                               shapes_kept_in_groups(scene), scene.group_instances.size(),
+                               shapes_in_groups(scene)));
+  }
   line("materials", format_counts(inventory.materials));
   line("lights", format_counts(inventory.lights));
   line("memory", fmt::format("{} bytes of scene, {} bytes of picture", inventory.bytes,
@@ -160,6 +179,11 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
        {{"count", scene.meshes.size()},
         {"triangles", inventory.mesh_triangles},
         {"instances", scene.instances.size()}}},
+      {"groups",
+       {{"count", scene.groups.size()},
+        {"shapes", shapes_kept_in_groups(scene)},
+        {"instances", scene.group_instances.size()},
+        {"shapes_shown", shapes_in_groups(scene)}}},
       {"materials", to_json(inventory.materials)},
       {"lights", to_json(inventory.lights)},
       {"scene_bytes", inventory.bytes},

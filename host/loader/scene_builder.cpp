@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "loader/group_placement.hpp"
+#include "loader/group_plan.hpp"
 #include "loader/mesh_placement.hpp"
 #include "loader/sections.hpp"
 #include "loader/settings.hpp"
@@ -13,8 +15,6 @@ namespace eyeray {
 
 namespace {
 
-// Batches of groups in groups multiply: a few lines could show more than any memory holds.
-constexpr double most_placed = 0x4000000;
 constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
 
 // A batch of a shape's values, as it was checked.
@@ -22,21 +22,6 @@ struct Batch {
   const toml::table* lists = nullptr;  // null: the table is one shape
   size_t count = 1;                    // 0 after an error
 };
-
-// How many shapes, meshes and groups a table shows, groups in it included.
-double count_placed(const toml::table& table) {
-  double members = 1;
-  for (const std::string_view name : placed_names()) {
-    const toml::node* list = table.get(name);
-    if (!list || !list->is_array()) continue;
-    for (const toml::node& member : *list->as_array())
-      if (member.is_table()) members += count_placed(*member.as_table());
-  }
-  const toml::node* batch = table.get(batch_key);
-  if (!batch || !batch->is_table() || batch->as_table()->empty()) return members;
-  const toml::array* values = batch->as_table()->begin()->second.as_array();
-  return values ? members * double(values->size()) : members;
-}
 
 class Builder {
  public:
@@ -57,11 +42,11 @@ class Builder {
     });
     for_each(root_, "material",
              [&](const Section& section, const toml::table& table) { add_material(section, table); });
-    if (count_placed(root_) <= most_placed)
+    plan_.emplace(root_, scene_.render.groups, log_);
+    if (plan_->sound()) {
       add_placed(root_, Mat4(1.0));
-    else
-      log_.error({}, fmt::format("batches and groups show {:.0f} things; at most {:.0f} are possible",
-                                 count_placed(root_), most_placed));
+      check_idle_groups();
+    }
     check_whole();
     return std::move(scene_);
   }
@@ -98,11 +83,16 @@ class Builder {
 
   void add_material(const Section& section, const toml::table& table);
   void add_placed(const toml::table& holder, const Mat4& to_world);
+  void add_table(const Section& section, const toml::table& table, const Mat4& to_world);
   template <typename Add>
   void for_each_placed(const Section& section, const toml::table& table, const Mat4& to_world,
                        const Add& add);
   void add_shape(const Section& section, TableReader& reader, const Mat4& to_world);
   void add_mesh(TableReader& reader, const Mat4& to_world);
+  void add_group(TableReader& reader, const toml::table& table, const Mat4& to_world);
+  void add_named_group(TableReader& reader, const Mat4& to_world);
+  Group build_group(const toml::table& table, const Mat4& to_world);
+  void check_idle_groups();
   Batch read_batch(const Section& section, const toml::table& table);
   int find_material(TableReader& shape);
   void check_whole();
@@ -114,6 +104,10 @@ class Builder {
   Scene scene_;
   std::map<std::string, NamedMaterial, std::less<>> materials_;
   MeshPlacer placer_{scene_};
+  std::optional<GroupPlan> plan_;
+  GroupPlacer group_placer_{scene_, placer_};
+  std::map<const toml::table*, int> kept_groups_;  // in Scene::groups
+  Group* building_ = nullptr;                      // where shapes and meshes go; null: into the scene
   size_t media_ = 0;
   bool tried_shapes_ = false;
 };
@@ -200,17 +194,67 @@ Batch Builder::read_batch(const Section& section, const toml::table& table) {
 void Builder::add_placed(const toml::table& holder, const Mat4& to_world) {
   for (const std::string_view name : placed_names()) {
     for_each(holder, name, [&](const Section& section, const toml::table& table) {
-      for_each_placed(section, table, to_world, [&](TableReader& reader, const Mat4& placed) {
-        switch (section.kind) {
-          case Section::Kind::group:
-            return add_placed(table, placed);
-          case Section::Kind::mesh:
-            return add_mesh(reader, placed);
-          default:
-            return add_shape(section, reader, placed);
-        }
-      });
+      // What has a name is shown by it.
+      if (section.kind == Section::Kind::group && table.contains("name")) return;
+      add_table(section, table, to_world);
     });
+  }
+}
+
+void Builder::add_table(const Section& section, const toml::table& table, const Mat4& to_world) {
+  for_each_placed(section, table, to_world, [&](TableReader& reader, const Mat4& placed) {
+    switch (section.kind) {
+      case Section::Kind::group:
+        return add_group(reader, table, placed);
+      case Section::Kind::instance:
+        return add_named_group(reader, placed);
+      case Section::Kind::mesh:
+        return add_mesh(reader, placed);
+      default:
+        return add_shape(section, reader, placed);
+    }
+  });
+}
+
+// All of a group, apart from the scene.
+Group Builder::build_group(const toml::table& table, const Mat4& to_world) {
+  Group group;
+  Group* const outer = std::exchange(building_, &group);
+  add_placed(table, to_world);
+  building_ = outer;
+  return group;
+}
+
+void Builder::add_group(TableReader& reader, const toml::table& table, const Mat4& to_world) {
+  if (building_ || !plan_->is_instanced(table)) return add_placed(table, to_world);
+  const auto [entry, fresh] = kept_groups_.try_emplace(&table);
+  if (fresh) entry->second = group_placer_.keep(build_group(table, Mat4(1.0)));
+  if (group_placer_.is_to_be_tried(entry->second, to_world)) build_group(table, to_world);
+  const std::string wrong = group_placer_.place(entry->second, to_world, reader.position());
+  if (!wrong.empty()) reader.error("transform", wrong);
+}
+
+void Builder::add_named_group(TableReader& reader, const Mat4& to_world) {
+  if (!reader.valid("group")) return;
+  const std::string name = reader.string("group");
+  if (const toml::table* group = plan_->find(name))
+    return add_table(*find_section("group"), *group, to_world);
+  if (log_.damaged()) return;
+  const std::string nearest = nearest_name(name, plan_->names());
+  reader.error("group", fmt::format("no [[group]] is named \"{}\"{}", name,
+                                    nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+}
+
+// What is wrong in a group that nothing shows is wrong all the same.
+void Builder::check_idle_groups() {
+  for (const toml::table* group : plan_->idle()) {
+    Group unused;
+    building_ = &unused;
+    add_table(*find_section("group"), *group, Mat4(1.0));
+    building_ = nullptr;
+    log_.warning(position_of(group->source()),
+                 fmt::format("group \"{}\" is not shown: no [[instance]] names it",
+                             (*group)["name"].value_or(std::string())));
   }
 }
 
@@ -248,7 +292,7 @@ void Builder::add_shape(const Section& section, TableReader& reader, const Mat4&
   if (!shape) return;
   shape->material = material;
   shape->position = reader.position();
-  scene_.shapes.push_back(std::move(shape));
+  (building_ ? building_->shapes : scene_.shapes).push_back(std::move(shape));
 }
 
 void Builder::add_mesh(TableReader& reader, const Mat4& to_world) {
@@ -264,7 +308,8 @@ void Builder::add_mesh(TableReader& reader, const Mat4& to_world) {
       for (const std::string& warning : import->warnings) log_.warning(reader.position(), warning);
     }
     const std::string wrong = placer_.place(
-        *import, to_world, own_materials ? std::nullopt : std::optional(material), reader.position());
+        *import, to_world, own_materials ? std::nullopt : std::optional(material), reader.position(),
+        building_ ? building_->instances : scene_.instances);
     if (!wrong.empty()) reader.error("transform", wrong);
   } catch (const Error& refused) {
     reader.error("file", refused.what());
@@ -290,7 +335,8 @@ int Builder::find_material(TableReader& shape) {
 
 // Warns of what is legal but hardly meant.
 void Builder::check_whole() {
-  const bool empty = scene_.shapes.empty() && scene_.instances.empty();
+  const bool empty =
+      scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
   if (empty && !tried_shapes_) log_.warning({}, "the scene has no shapes: only background will be seen");
   if (scene_.lights.empty() && scene_.render.integrator == IntegratorType::whitted && !empty) {
     log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");

@@ -17,7 +17,7 @@ namespace eyeray {
 // A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
   // By slot: of the world's own those in no tree, by kind in registry order, then the others as leaves hold
-  // them; then those of each mesh with a tree of its own.
+  // them; then those of each mesh or group with a tree of its own.
   std::vector<shader::Primitive> primitives;
   std::vector<uint32_t> loose_ends;  // by kind, the end of those in no tree
   // Of those of `kind` in no tree.
@@ -25,7 +25,7 @@ struct PackedScene {
   std::set<uint32_t> tree_kinds;                 // of the shapes in trees
   std::set<std::pair<uint32_t, uint32_t>> uses;  // kinds of shape, and materials that they are made of
   std::vector<shader::uvec4> nodes;
-  std::vector<shader::Tree> trees;  // the world's, then one a mesh of `instances`
+  std::vector<shader::Tree> trees;  // the world's, then one a mesh or group of `instances`
   std::vector<shader::Instance> instances;
   bool has_tree = false;         // whether `nodes` are to be used; else all is tested one by one
   bool quantised_nodes = false;  // how `nodes` are coded
@@ -47,10 +47,12 @@ struct PackedScene {
 class Packer {
  public:
   // `eye`: the world position that becomes the origin.
-  explicit Packer(const Vec3& eye) : eye_(eye) {}
+  explicit Packer(const Vec3& eye) : origin_(eye) {}
 
   // World to eye-relative, still in float64: only the difference is rounded to float32.
-  Vec3 relative(const Vec3& world) const { return world - eye_; }
+  Vec3 relative(const Vec3& world) const { return world - origin_; }
+  // What stands in a space of its own is relative to another point, of that space.
+  void set_origin(const Vec3& origin) { origin_ = origin; }
 
   void add(const shader::Primitive& primitive) { scene.primitives.push_back(primitive); }
   // The head of a primitive; its id and shadow density are filled in later. `extra`: an index into vertices.
@@ -75,7 +77,7 @@ class Packer {
   PackedScene scene;
 
  private:
-  Vec3 eye_;
+  Vec3 origin_;
   std::vector<std::pair<std::shared_ptr<const ImageTexture>, uint32_t>>
       images_;  // and the first texel of each
 };

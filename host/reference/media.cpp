@@ -12,6 +12,21 @@ struct Crossing {
   bool leaving;
 };
 
+// One body, of the world's or of a group's.
+template <typename Holder>
+struct Body {
+  const Holder& holder;
+  size_t index;
+
+  std::optional<TriangleHit> intersect(const Ray& ray) const {
+    const auto hit = holder.intersect(index, ray);
+    return hit ? std::optional(hit->at) : std::nullopt;
+  }
+  SurfacePoint surface(const Ray& ray, const TriangleHit& hit) const {
+    return holder.surface(ray, {hit, index});
+  }
+};
+
 // The media that the ray leaves without having entered them, innermost first.
 std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
   std::vector<Crossing> crossings;
@@ -22,8 +37,14 @@ std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
       return true;
     });
   };
-  for (const auto& shape : tracer.scene().shapes) collect(*shape, shape->material);
-  for (const InstanceGeometry& instance : tracer.instances()) collect(instance, instance.material());
+  for (size_t i = 0; i < tracer.world().size(); ++i)
+    collect(Body<Bodies>{tracer.world(), i}, tracer.world().material(i));
+  const BoxRay box_ray = tracer.group_box_ray(ray);
+  for (const GroupGeometry& group : tracer.groups()) {
+    if (box_ray.entry(group.bounds()) == std::numeric_limits<double>::infinity()) continue;
+    for (size_t i = 0; i < group.bodies().size(); ++i)
+      collect(Body<GroupGeometry>{group, i}, group.bodies().material(i));
+  }
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
 

@@ -9,124 +9,89 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-bool finite(const Bounds& bounds) {
-  return magnitude(bounds.min) < infinity && magnitude(bounds.max) < infinity;
-}
-
 }  // namespace
 
-Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene) {
+Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene), ids_(scene) {
   for (const Mesh& mesh : scene.meshes) meshes_.emplace_back(mesh, acceleration);
-  uint64_t primitives = scene.shapes.size();
-  for (const Instance& instance : scene.instances) {
-    instances_.emplace_back(instance, meshes_[size_t(instance.mesh)]);
-    first_primitives_.push_back(primitives);
-    primitives += instances_.back().triangles();
+  world_.emplace(scene.shapes, scene.instances, meshes_, acceleration);
+  for (const Group& group : scene.groups)
+    group_bodies_.emplace_back(group.shapes, group.instances, meshes_, acceleration);
+  for (const GroupInstance& instance : scene.group_instances) {
+    groups_.emplace_back(instance, group_bodies_[size_t(instance.group)]);
+    groups_reach_ = std::max(groups_reach_, groups_.back().reach());
+    groups_growth_ = std::max(groups_growth_, groups_.back().growth());
   }
-
-  const auto add = [&](size_t body, const Bounds& box) {
-    bounded_.push_back(uint32_t(body));
-    boxes_.push_back(box);
-    reach_ = std::max({reach_, magnitude(box.min), magnitude(box.max)});
-  };
-  for (size_t i = 0; i < scene.shapes.size(); ++i) {
-    const Bounds box = scene.shapes[i]->bounds();
-    if (finite(box)) {
-      add(i, box);
-    } else {
-      unbounded_.push_back(uint32_t(i));
-    }
-  }
-  for (size_t i = 0; i < instances_.size(); ++i) {
-    if (instances_[i].triangles() == 0) continue;
-    add(scene.shapes.size() + i, instances_[i].bounds());
-    reach_ = std::max(reach_, instances_[i].reach());
-    growth_ = std::max(growth_, instances_[i].growth());
-  }
-  tree_ = BoxTree(
-      uint32_t(boxes_.size()), [this](uint32_t i) { return boxes_[i]; }, acceleration);
+  group_tree_ = BoxTree(
+      uint32_t(groups_.size()), [this](uint32_t i) { return groups_[i].bounds(); }, acceleration);
 }
 
-int Tracer::material(size_t body) const {
-  const size_t shapes = scene_.shapes.size();
-  return body < shapes ? scene_.shapes[body]->material : instances_[body - shapes].material();
+BoxRay Tracer::group_box_ray(const Ray& ray) const {
+  return {ray, rounding * groups_growth_ * (magnitude(ray.o) + groups_reach_)};
 }
 
-std::optional<TriangleHit> Tracer::intersect(size_t body, const Ray& ray, double limit) const {
-  const size_t shapes = scene_.shapes.size();
-  if (body >= shapes) return instances_[body - shapes].intersect(ray, limit);
-  const auto hit = scene_.shapes[body]->intersect(ray);
-  if (!hit) return std::nullopt;
-  return TriangleHit{*hit};
+uint64_t Tracer::primitive(const Bodies& bodies, const Bodies::Hit& hit, int group) const {
+  if (bodies.is_shape(hit.body))
+    return group < 0 ? ids_.of_shape(hit.body) : ids_.of_group(size_t(group)).shape + hit.body;
+  const uint64_t triangle = bodies.triangles_before(hit.body) + hit.at.triangle;
+  if (group >= 0) return ids_.of_group(size_t(group)).triangle + triangle;
+  return ids_.of_instance(hit.body - scene_.shapes.size()) + hit.at.triangle;
 }
 
-// Calls visit(body, entry, limit) for the bodies that the ray enters at t = entry ≤ limit; it returns the
-// limit from there on, a negative one to end the search.
-template <typename Visit>
-void Tracer::for_each_entered(const Ray& ray, double limit, const Visit& visit) const {
-  for (size_t i = 0; i < unbounded_.size() && limit >= 0; ++i) limit = visit(unbounded_[i], 0.0, limit);
-  if (boxes_.empty() || limit < 0) return;
-
-  const BoxRay box_ray(ray, rounding * growth_ * (magnitude(ray.o) + reach_));
-  tree_.search(box_ray, limit, [&](uint32_t i, double so_far) {
-    const double entry = box_ray.entry(boxes_[i]);
-    return entry < infinity ? visit(bounded_[i], entry, so_far) : so_far;
-  });
+Hit Tracer::complete(const Bodies& bodies, const Bodies::Hit& hit, int group) const {
+  return {hit.at, hit.body, primitive(bodies, hit, group), bodies.material(hit.body), group};
 }
 
 std::optional<Hit> Tracer::trace(const Ray& ray) const {
   std::optional<Hit> nearest;
-  for_each_entered(ray, infinity, [&](size_t body, double entry, double limit) {
-    auto hit = intersect(body, ray, limit);
+  if (const auto hit = world_->trace(ray)) nearest = complete(*world_, *hit, -1);
+  if (groups_.empty()) return nearest;
+
+  const BoxRay box_ray = group_box_ray(ray);
+  group_tree_.search(box_ray, nearest ? nearest->at.t : infinity, [&](uint32_t i, double limit) {
+    const double entry = box_ray.entry(groups_[i].bounds());
+    if (entry == infinity) return limit;
+    auto hit = groups_[i].trace(ray, limit);
     if (!hit) return limit;
-    hit->t = std::max(hit->t, entry);
-    if (nearest && !(hit->t < nearest->at.t || (hit->t == nearest->at.t && body < nearest->body)))
+    hit->at.t = std::max(hit->at.t, entry);
+    const Hit found = complete(groups_[i].bodies(), *hit, int(i));
+    if (nearest && !(found.at.t < nearest->at.t ||
+                     (found.at.t == nearest->at.t && found.primitive < nearest->primitive)))
       return limit;
-    nearest = {*hit, body, body, material(body)};
-    return hit->t;
+    nearest = found;
+    return std::min(limit, found.at.t);
   });
-  if (nearest && nearest->body >= scene_.shapes.size())
-    nearest->primitive = first_primitives_[nearest->body - scene_.shapes.size()] + nearest->at.triangle;
   return nearest;
 }
 
 SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
-  const size_t shapes = scene_.shapes.size();
-  return hit.body < shapes ? scene_.shapes[hit.body]->surface(ray, hit.at)
-                           : instances_[hit.body - shapes].surface(ray, hit.at);
+  const Bodies::Hit body{hit.at, hit.body};
+  return hit.group < 0 ? world_->surface(ray, body) : groups_[size_t(hit.group)].surface(ray, body);
 }
 
 double Tracer::reach(const Hit& hit, const Vec3& eye) const {
-  const size_t shapes = scene_.shapes.size();
-  if (hit.body >= shapes) return instances_[hit.body - shapes].reach(hit.at.triangle, eye);
-  const Bounds box = scene_.shapes[hit.body]->bounds();
-  return finite(box) ? std::max(magnitude(box.min - eye), magnitude(box.max - eye)) : 0;
-}
-
-// The share of light that comes through one body which the ray enters at t = entry.
-double Tracer::share_let_through(size_t body, const Ray& ray, double entry, double t_end) const {
-  const double share = scene_.materials[size_t(material(body))]->shadow_transmittance();
-  if (body < scene_.shapes.size()) {
-    const auto hit = scene_.shapes[body]->intersect(ray);
-    return hit && std::max(hit->t, entry) < t_end ? share : 1;
-  }
-  const InstanceGeometry& instance = instances_[body - scene_.shapes.size()];
-  const uint32_t crossed = instance.count_crossed(ray, t_end, share == 0 ? 1 : instance.triangles());
-  return crossed == 0 ? 1 : std::pow(share, crossed / 2.0);
+  const Bodies::Hit body{hit.at, hit.body};
+  return hit.group < 0 ? world_->reach(body, eye) : groups_[size_t(hit.group)].reach(body, eye);
 }
 
 double Tracer::transmittance(const Ray& ray, double t_end) const {
   // Collect the shares first: a product depends on the order of its factors.
-  std::vector<std::pair<size_t, double>> shares;
-  for_each_entered(ray, t_end, [&](size_t body, double entry, double limit) {
-    if (!(entry < t_end)) return limit;
-    const double share = share_let_through(body, ray, entry, t_end);
-    if (share != 1) shares.emplace_back(body, share);
-    return share == 0 ? -1.0 : limit;
+  std::vector<Bodies::Share> shares;
+  if (world_->add_shares(ray, t_end, scene_.materials, 0, shares)) return 0;
+  bool lost = false;
+  if (!groups_.empty()) {
+    const BoxRay box_ray = group_box_ray(ray);
+    group_tree_.search(box_ray, t_end, [&](uint32_t i, double limit) {
+      if (!(box_ray.entry(groups_[i].bounds()) < t_end)) return limit;
+      lost = groups_[i].add_shares(ray, t_end, scene_.materials, i + 1, shares);
+      return lost ? -1.0 : limit;
+    });
+  }
+  if (lost) return 0;
+  std::sort(shares.begin(), shares.end(), [](const Bodies::Share& a, const Bodies::Share& b) {
+    return std::pair(a.space, a.body) < std::pair(b.space, b.body);
   });
-  std::sort(shares.begin(), shares.end());
   double product = 1;
-  for (const auto& [body, share] : shares) product *= share;
+  for (const Bodies::Share& each : shares) product *= each.share;
   return product;
 }
 

@@ -68,6 +68,10 @@ EmbreeWorld::EmbreeWorld(const Scene& scene) : device_(rtcNewDevice(nullptr)) {
   for (const auto& material : scene.materials) {
     if (material->shadow_transmittance() > 0 && !opaque_) opaque_.reset(rtcNewScene(device_.get()));
   }
+  if (!scene.group_instances.empty())
+    throw Error(ExitCode::bad_input,
+                "Embree is asked about single primitives, which groups that are kept once hide: say -D "
+                "render.groups=\\\"flat\\\"");
   add_shapes(scene);
   add_meshes(scene);
 

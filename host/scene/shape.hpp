@@ -97,6 +97,7 @@ struct ShapeType {
   std::span<const Key> keys;  // beside `material` and `transform`, which every shape has
   // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
   std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform);
+  bool bounded = true;  // whether every such shape has an end in all directions
 };
 
 // Every kind of shape, in registry order: the order of Scene::shapes, hence of primitive indices.

@@ -52,11 +52,16 @@ class HardScene {
       if (chance(0.6)) add_instances(2 + random_.below(4));
       if (scene_.shapes.empty() && scene_.instances.empty()) add_single();
     }
+    if (chance(0.4)) add_groups(1 + random_.below(4));
     sort_shapes();
     // More media around the eye than a ray can carry: all opaque.
     if (reference::media_at(scene_, scene_.camera.eye).size() > 4) {
       for (const auto& shape : scene_.shapes) shape->material = 0;
       for (Instance& instance : scene_.instances) instance.material = 0;
+      for (Group& group : scene_.groups) {
+        for (const auto& shape : group.shapes) shape->material = 0;
+        for (Instance& instance : group.instances) instance.material = 0;
+      }
     }
     collect_targets();
   }
@@ -204,6 +209,29 @@ class HardScene {
       if (i == 0 || !chance(0.2)) map = some_map();
       add_instance(scene_, mesh, material(), map);
     }
+  }
+
+  // A group of shapes of many kinds, or of one, perhaps with a mesh.
+  void add_groups(int count) {
+    std::vector<std::unique_ptr<Shape>> own;
+    std::swap(own, scene_.shapes);
+    add_spheres(random_.below(5));
+    if (chance(0.7)) add_object_shapes(1 + random_.below(4));
+    if (chance(0.5)) add_shapes(hard_triangles(1 + random_.below(6)));
+    if (chance(0.3)) add_polygons(1 + random_.below(3));
+    Group group;
+    std::swap(group.shapes, scene_.shapes);
+    std::swap(scene_.shapes, own);
+    if (chance(0.4) || group.shapes.empty())
+      group.instances.push_back({add(scene_, hard_triangles(1 + random_.below(10))), some_map(), material(), {}});
+    scene_.groups.push_back(std::move(group));
+    Mat4 map(1.0);
+    for (int i = 0; i < count; ++i) {
+      if (i == 0 || !chance(0.2)) map = some_map();
+      scene_.group_instances.push_back(
+          {int(scene_.groups.size()) - 1, map, scene_.shapes.size(), index(scene_.instances.size() + 1), {}});
+    }
+    std::ranges::stable_sort(scene_.group_instances, {}, &GroupInstance::instances_before);
   }
 
   // Turned, stretched, mirrored, sheared, made tiny or huge, and moved.

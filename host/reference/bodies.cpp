@@ -1,0 +1,133 @@
+#include "reference/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eyeray::reference {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool finite(const Bounds& bounds) {
+  return magnitude(bounds.min) < infinity && magnitude(bounds.max) < infinity;
+}
+
+}  // namespace
+
+Bodies::Bodies(std::span<const std::unique_ptr<Shape>> shapes, std::span<const Instance> instances,
+               const std::deque<MeshGeometry>& meshes, Acceleration acceleration)
+    : shapes_(shapes) {
+  uint64_t triangles = 0;
+  for (const Instance& instance : instances) {
+    instances_.emplace_back(instance, meshes[size_t(instance.mesh)]);
+    triangles_before_.push_back(triangles);
+    triangles += instances_.back().triangles();
+  }
+
+  const auto add = [&](size_t body, const Bounds& box) {
+    bounded_.push_back(uint32_t(body));
+    boxes_.push_back(box);
+    bounds_.include(box.min);
+    bounds_.include(box.max);
+    reach_ = std::max({reach_, magnitude(box.min), magnitude(box.max)});
+  };
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    const Bounds box = shapes[i]->bounds();
+    if (finite(box)) {
+      add(i, box);
+    } else {
+      unbounded_.push_back(uint32_t(i));
+    }
+  }
+  for (size_t i = 0; i < instances_.size(); ++i) {
+    if (instances_[i].triangles() == 0) continue;
+    add(shapes.size() + i, instances_[i].bounds());
+    reach_ = std::max(reach_, instances_[i].reach());
+    growth_ = std::max(growth_, instances_[i].growth());
+  }
+  tree_ = BoxTree(
+      uint32_t(boxes_.size()), [this](uint32_t i) { return boxes_[i]; }, acceleration);
+}
+
+int Bodies::material(size_t body) const {
+  return is_shape(body) ? shapes_[body]->material : instances_[body - shapes_.size()].material();
+}
+
+std::optional<Bodies::Hit> Bodies::intersect(size_t body, const Ray& ray, double limit) const {
+  if (is_shape(body)) {
+    const auto hit = shapes_[body]->intersect(ray);
+    if (!hit) return std::nullopt;
+    return Hit{TriangleHit{*hit}, body};
+  }
+  const auto hit = instances_[body - shapes_.size()].intersect(ray, limit);
+  if (!hit) return std::nullopt;
+  return Hit{*hit, body};
+}
+
+// Calls visit(body, entry, limit) for the bodies that the ray enters at t = entry ≤ limit; it returns the
+// limit from there on, a negative one to end the search.
+template <typename Visit>
+void Bodies::for_each_entered(const Ray& ray, double limit, const Visit& visit) const {
+  for (size_t i = 0; i < unbounded_.size() && limit >= 0; ++i) limit = visit(unbounded_[i], 0.0, limit);
+  if (boxes_.empty() || limit < 0) return;
+
+  const BoxRay box_ray(ray, rounding * growth_ * (magnitude(ray.o) + reach_));
+  tree_.search(box_ray, limit, [&](uint32_t i, double so_far) {
+    const double entry = box_ray.entry(boxes_[i]);
+    return entry < infinity ? visit(bounded_[i], entry, so_far) : so_far;
+  });
+}
+
+std::optional<Bodies::Hit> Bodies::trace(const Ray& ray, double limit) const {
+  std::optional<Hit> nearest;
+  for_each_entered(ray, limit, [&](size_t body, double entry, double so_far) {
+    auto hit = intersect(body, ray, so_far);
+    if (!hit) return so_far;
+    hit->at.t = std::max(hit->at.t, entry);
+    if (nearest && !(hit->at.t < nearest->at.t || (hit->at.t == nearest->at.t && body < nearest->body)))
+      return so_far;
+    nearest = *hit;
+    return std::min(so_far, hit->at.t);
+  });
+  return nearest;
+}
+
+SurfacePoint Bodies::surface(const Ray& ray, const Hit& hit) const {
+  return is_shape(hit.body) ? shapes_[hit.body]->surface(ray, hit.at)
+                            : instances_[hit.body - shapes_.size()].surface(ray, hit.at);
+}
+
+double Bodies::reach(const Hit& hit, const Vec3& eye) const {
+  if (!is_shape(hit.body)) return instances_[hit.body - shapes_.size()].reach(hit.at.triangle, eye);
+  const Bounds box = shapes_[hit.body]->bounds();
+  return finite(box) ? std::max(magnitude(box.min - eye), magnitude(box.max - eye)) : 0;
+}
+
+// The share of light that comes through one body which the ray enters at t = entry.
+double Bodies::share_let_through(size_t body, const Ray& ray, double entry, double t_end,
+                                 double share) const {
+  if (is_shape(body)) {
+    const auto hit = shapes_[body]->intersect(ray);
+    return hit && std::max(hit->t, entry) < t_end ? share : 1;
+  }
+  const InstanceGeometry& instance = instances_[body - shapes_.size()];
+  const uint32_t crossed = instance.count_crossed(ray, t_end, share == 0 ? 1 : instance.triangles());
+  return crossed == 0 ? 1 : std::pow(share, crossed / 2.0);
+}
+
+bool Bodies::add_shares(const Ray& ray, double t_end, std::span<const std::unique_ptr<Material>> materials,
+                        size_t space, std::vector<Share>& shares) const {
+  bool lost = false;
+  for_each_entered(ray, t_end, [&](size_t body, double entry, double limit) {
+    if (!(entry < t_end)) return limit;
+    const double share = share_let_through(body, ray, entry, t_end,
+                                           materials[size_t(material(body))]->shadow_transmittance());
+    if (share != 1) shares.push_back({space, body, share});
+    lost = share == 0;
+    return lost ? -1.0 : limit;
+  });
+  return lost;
+}
+
+}  // namespace eyeray::reference
