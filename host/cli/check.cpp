@@ -133,9 +133,9 @@ void print_text(const Scene& scene, const Inventory& inventory) {
                                inventory.mesh_triangles, scene.instances.size()));
   }
   if (!scene.groups.empty()) {
-    line("groups", fmt::format("{} of {} shapes kept once, shown {} times as {} shapes", scene.groups.size(),
-                               shapes_kept_in_groups(scene), scene.group_instances.size(),
-                               shapes_in_groups(scene)));
+    line("groups",
+         fmt::format("{} of {} shapes kept once, shown {} times as {} shapes", scene.groups.size(),
+                     shapes_kept_in_groups(scene), scene.group_instances.size(), shapes_in_groups(scene)));
   }
   line("materials", format_counts(inventory.materials));
   line("lights", format_counts(inventory.lights));

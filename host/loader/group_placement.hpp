@@ -17,8 +17,8 @@ class GroupPlacer {
   // Takes a group into the scene; its index there.
   int keep(Group group);
 
-  // Whether shapes in it may forbid the map, as a sphere forbids one that stretches. Asked once a group, of the
-  // first such map: they allow all or none.
+  // Whether shapes in it may forbid the map, as a sphere forbids one that stretches. Asked once a group, of
+  // the first such map: they allow all or none.
   bool is_to_be_tried(int group, const Mat4& transform);
 
   // Shows the group once more. Why it cannot stand there, or "".

@@ -104,7 +104,8 @@ void GroupPlan::link(Node& node) {
           if (!table.contains("name")) {
             node.members.push_back({&node_of(table), batch_size(table)});
           } else if (!by_table_.contains(&table)) {
-            fail(*table.get("name"), "only a [[group]] of the scene itself can have a name, not one in another");
+            fail(*table.get("name"),
+                 "only a [[group]] of the scene itself can have a name, not one in another");
           }
           break;
         default:
@@ -167,8 +168,8 @@ void GroupPlan::choose(Node& node, GroupStorage storage) {
   }
   const bool possible = node.bounded && node.shown >= 2 && node.items > 0;
   const bool worthwhile = once <= apart && node.shown * node.items - once >= worth_keeping_once;
-  node.instanced = possible && (storage == GroupStorage::instanced ||
-                                (storage == GroupStorage::automatic && worthwhile));
+  node.instanced =
+      possible && (storage == GroupStorage::instanced || (storage == GroupStorage::automatic && worthwhile));
   if (node.instanced) return;
   for (const auto& [group, count] : node.members) group->shown += count * node.shown;
 }

@@ -43,13 +43,13 @@ class GroupPlan {
       double count;  // how often it stands in one of these
     };
     std::vector<Member> members;
-    double own = 0;          // shapes and meshes of its own, …
-    double items = 0;        // … with those of its groups, …
-    double things = 0;       // … and with the groups themselves
-    bool bounded = true;     // all of it
-    int height = 0;          // of groups in groups
+    double own = 0;       // shapes and meshes of its own, …
+    double items = 0;     // … with those of its groups, …
+    double things = 0;    // … and with the groups themselves
+    bool bounded = true;  // all of it
+    int height = 0;       // of groups in groups
     enum class Visit { none, begun, done } visit = Visit::none;
-    double shown = 0;        // in the world, not counting where it is a part of what is kept once
+    double shown = 0;  // in the world, not counting where it is a part of what is kept once
     bool instanced = false;
     bool idle = false;
   };

@@ -15,9 +15,9 @@ class MeshPlacer {
  public:
   explicit MeshPlacer(Scene& scene) : scene_(scene) {}
 
-  // Adds everything that the file shows to `into`, moved by `transform`, with one material for all or, absent,
-  // with the file's own. The first time, the file's meshes, and its materials once they are needed, move into the
-  // scene. Why it cannot stand there, or "".
+  // Adds everything that the file shows to `into`, moved by `transform`, with one material for all or,
+  // absent, with the file's own. The first time, the file's meshes, and its materials once they are needed,
+  // move into the scene. Why it cannot stand there, or "".
   std::string place(ImportedScene& import, const Mat4& transform, std::optional<int> material,
                     const SourcePosition& position, std::vector<Instance>& into);
 

@@ -307,9 +307,9 @@ void Builder::add_mesh(TableReader& reader, const Mat4& to_world) {
     if (fresh) {
       for (const std::string& warning : import->warnings) log_.warning(reader.position(), warning);
     }
-    const std::string wrong = placer_.place(
-        *import, to_world, own_materials ? std::nullopt : std::optional(material), reader.position(),
-        building_ ? building_->instances : scene_.instances);
+    const std::string wrong =
+        placer_.place(*import, to_world, own_materials ? std::nullopt : std::optional(material),
+                      reader.position(), building_ ? building_->instances : scene_.instances);
     if (!wrong.empty()) reader.error("transform", wrong);
   } catch (const Error& refused) {
     reader.error("file", refused.what());
@@ -335,8 +335,7 @@ int Builder::find_material(TableReader& shape) {
 
 // Warns of what is legal but hardly meant.
 void Builder::check_whole() {
-  const bool empty =
-      scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
+  const bool empty = scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
   if (empty && !tried_shapes_) log_.warning({}, "the scene has no shapes: only background will be seen");
   if (scene_.lights.empty() && scene_.render.integrator == IntegratorType::whitted && !empty) {
     log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");

@@ -111,7 +111,7 @@ name = "tree"
 from = [0, 1, 0]
 to = [0, 4, 0]
 radius = 1
-material = "leaves"
+material = "wall"
 
 [[instance]]
 group = "tree"

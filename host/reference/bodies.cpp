@@ -121,8 +121,8 @@ bool Bodies::add_shares(const Ray& ray, double t_end, std::span<const std::uniqu
   bool lost = false;
   for_each_entered(ray, t_end, [&](size_t body, double entry, double limit) {
     if (!(entry < t_end)) return limit;
-    const double share = share_let_through(body, ray, entry, t_end,
-                                           materials[size_t(material(body))]->shadow_transmittance());
+    const double share =
+        share_let_through(body, ray, entry, t_end, materials[size_t(material(body))]->shadow_transmittance());
     if (share != 1) shares.push_back({space, body, share});
     lost = share == 0;
     return lost ? -1.0 : limit;

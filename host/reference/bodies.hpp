@@ -35,8 +35,8 @@ class Bodies {
   uint64_t triangles_before(size_t body) const { return triangles_before_[body - shapes_.size()]; }
 
   // Adds the shares of light that come through those bodies at 0 < t < t_end that keep any away, in any
-  // order; returns whether all is lost. A shape counts once; of an instance each triangle lets the square root
-  // of its material's share through, so that a closed mesh, which is crossed twice, counts once as well.
+  // order; returns whether all is lost. A shape counts once; of an instance each triangle lets the square
+  // root of its material's share through, so that a closed mesh, which is crossed twice, counts once as well.
   struct Share {
     size_t space;  // as given
     size_t body;

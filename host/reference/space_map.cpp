@@ -26,12 +26,11 @@ SurfacePoint SpaceMap::out(const SurfacePoint& local) const {
 
   // The next ray starts here and goes back into the space: there it may be off by the rounding of both maps,
   // which counts across the surface. A distance e across it is e / |across| in the world.
-  const double in_space = magnitude(size(glm::transpose(to_world_.cotangent)) *
-                                    glm::abs(point.position - to_world_.offset));
+  const double in_space =
+      magnitude(size(glm::transpose(to_world_.cotangent)) * glm::abs(point.position - to_world_.offset));
   const double in_world =
       magnitude(size(to_world_.linear) * glm::abs(local.position)) + magnitude(to_world_.offset);
-  point.position_error =
-      (local.position_error + 1e-13 * in_space) / glm::length(across) + 1e-13 * in_world;
+  point.position_error = (local.position_error + 1e-13 * in_space) / glm::length(across) + 1e-13 * in_world;
   return point;
 }
 

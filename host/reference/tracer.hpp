@@ -69,7 +69,8 @@ Vec3 departure(const SurfacePoint& point, const Vec3& d, double least = 0, bool 
 inline constexpr int most_crossings = 1 << 20;
 
 // Calls visit(t, surface) for each crossing of the body, which has a Shape's `intersect` and `surface`, in
-// order of t, until `visit` returns false. It ends after most_crossings, and where rounding lets a ray come no further.
+// order of t, until `visit` returns false. It ends after most_crossings, and where rounding lets a ray come
+// no further.
 template <typename Body, typename Visit>
 void for_each_crossing(const Body& body, const Ray& ray, const Visit& visit) {
   // Start anew behind each crossing; t stays that of the ray as given.

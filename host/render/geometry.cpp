@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/parallel_for.hpp"
 #include "render/node_coding.hpp"
+#include "render/record_boxes.hpp"
 #include "render/space_records.hpp"
 #include "scene/primitive_ids.hpp"
 
@@ -21,56 +22,8 @@ constexpr size_t few_primitives = 24;
 constexpr double most_of_scene = 0.5;
 constexpr size_t most_beside_tree = 4;
 
-float below(double x) {
-  const float rounded = float(x);
-  return double(rounded) <= x ? rounded : std::nextafter(rounded, -HUGE_VALF);
-}
-float above(double x) {
-  return -below(-x);
-}
-
-// Around what a shape's record says, whose coordinates are rounded.
-accel::Box to_box(const Bounds& bounds, const Vec3& eye) {
-  accel::Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double lower = bounds.min[axis] - eye[axis];
-    const double upper = bounds.max[axis] - eye[axis];
-    const double room = 0x1p-22 * std::max(std::fabs(lower), std::fabs(upper));
-    box.lower[axis] = below(lower - room);
-    box.upper[axis] = above(upper + room);
-  }
-  return box;
-}
-
 Vec3 middle(const Bounds& bounds) {
   return (bounds.min + bounds.max) * 0.5;
-}
-
-// The boxes of what is below and above a plane, of a triangle.
-std::pair<accel::Box, accel::Box> cut_triangle(const shader::Primitive& triangle, int axis, float position) {
-  const glm::vec3 corners[] = {glm::vec3(triangle.a), glm::vec3(triangle.b), glm::vec3(triangle.c)};
-  accel::Box low, high;
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 from(corners[i]);
-    const glm::dvec3 to(corners[(i + 1) % 3]);
-    const double plane = double(position);
-    if (from[axis] <= plane) low.include(corners[i]);
-    if (from[axis] >= plane) high.include(corners[i]);
-    if ((from[axis] < plane && to[axis] > plane) || (from[axis] > plane && to[axis] < plane)) {
-      // Both boxes take the crossing, rounded to either side.
-      const glm::dvec3 crossing = from + (to - from) * ((plane - from[axis]) / (to[axis] - from[axis]));
-      glm::vec3 lower, upper;
-      for (int k = 0; k < 3; ++k) {
-        lower[k] = k == axis ? position : std::nextafter(below(crossing[k]), -HUGE_VALF);
-        upper[k] = k == axis ? position : std::nextafter(above(crossing[k]), HUGE_VALF);
-      }
-      for (accel::Box* box : {&low, &high}) {
-        box->include(lower);
-        box->include(upper);
-      }
-    }
-  }
-  return {low, high};
 }
 
 class GeometryPacker {
@@ -132,8 +85,9 @@ class GeometryPacker {
       packed_.primitives.clear();
       record.head.x = uint32_t(id(i));
       record.head.z = use_material(kind_of(record), material_of(record), false);
-      records.add_shape(record, kind_of(record) == shader::KIND_triangle ? triangle_box(record)
-                                                                         : to_box(shapes[i]->bounds(), origin));
+      records.add_shape(record, kind_of(record) == shader::KIND_triangle
+                                    ? triangle_box(record)
+                                    : shape_box(shapes[i]->bounds(), origin));
     }
     packer_.set_origin(scene_.camera.eye);
     return records;
@@ -219,7 +173,8 @@ class GeometryPacker {
     shader::Instance record{};
     record.head = {space + 1, first_id, material, last};
     for (int row = 0; row < 3; ++row) {
-      record.to_local[row] = to_vec4({inverse[0][row], inverse[1][row], inverse[2][row]}, to_local_offset[row]);
+      record.to_local[row] =
+          to_vec4({inverse[0][row], inverse[1][row], inverse[2][row]}, to_local_offset[row]);
       record.to_world[row] =
           to_vec4({map.linear[0][row], map.linear[1][row], map.linear[2][row]}, to_world_offset[row]);
     }
@@ -243,11 +198,12 @@ class GeometryPacker {
       if (box.is_finite()) all.include(box);
     std::vector<size_t> large;
     for (size_t i = 0; i < world_.boxes.size() && large.size() <= most_beside_tree; ++i)
-      if (world_.boxes[i].is_finite() && world_.boxes[i].area() >= most_of_scene * all.area()) large.push_back(i);
+      if (world_.boxes[i].is_finite() && world_.boxes[i].area() >= most_of_scene * all.area())
+        large.push_back(i);
     if (large.size() > most_beside_tree) return;
     for (const size_t i : large)
       world_.boxes[i] = {glm::vec3(-std::numeric_limits<float>::infinity()),
-                   glm::vec3(std::numeric_limits<float>::infinity())};
+                         glm::vec3(std::numeric_limits<float>::infinity())};
   }
 
   bool has_bounded(size_t least) const {
@@ -282,27 +238,9 @@ class GeometryPacker {
       packed_.quantised_nodes = packed_.quantised_nodes && quantising_is_harmless(space.tree);
     }
     for (const shader::Instance& instance : packed_.instances)
-      world_.boxes.push_back(instance_box(instance));
+      world_.boxes.push_back(instance_box(instance, spaces_[instance.head.x - 1].box));
     world_tree_ = build_tree(world_.boxes, tree_options(world_));
     packed_.quantised_nodes = packed_.quantised_nodes && quantising_is_harmless(world_tree_);
-  }
-
-  // Around all corners of the space's box, with room for their rounding.
-  accel::Box instance_box(const shader::Instance& instance) const {
-    const accel::Box& local = spaces_[instance.head.x - 1].box;
-    accel::Box box;
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec3 p(corner & 1 ? local.upper.x : local.lower.x, corner & 2 ? local.upper.y : local.lower.y,
-                         corner & 4 ? local.upper.z : local.lower.z);
-      for (int row = 0; row < 3; ++row) {
-        const glm::dvec4 map(instance.to_world[row]);
-        const double x = glm::dot(glm::dvec3(map), p) + map.w;
-        const double room = 1e-6 * (glm::dot(glm::abs(glm::dvec3(map)), glm::abs(p)) + std::fabs(map.w));
-        box.lower[row] = std::min(box.lower[row], below(x - room));
-        box.upper[row] = std::max(box.upper[row], above(x + room));
-      }
-    }
-    return box;
   }
 
   // A ray is mapped into an instance with errors that grow with its coordinates, wherever the tree's own
@@ -372,7 +310,8 @@ class GeometryPacker {
     } else {
       // A single one is a leaf at the root.
       packed_.trees.emplace_back();
-      packed_.trees.back().head = {LEAF | first_slot << 3, first_slot, uint32_t(packed_.primitives.size()), 0u};
+      packed_.trees.back().head = {LEAF | first_slot << 3, first_slot, uint32_t(packed_.primitives.size()),
+                                   0u};
     }
     tree.nodes = {};
     tree.order = {};

@@ -47,8 +47,8 @@ struct RenderSettings {
   uint32_t seed = 0;
   TriangleMethod triangle_method = TriangleMethod::woop;
   GroupStorage groups = GroupStorage::automatic;  // whether groups that stand often are kept once
-  Vec3 background{0.0};  // what a ray that meets nothing sees
-  Vec3 ambient{0.0};     // light that reaches every point from everywhere
+  Vec3 background{0.0};                           // what a ray that meets nothing sees
+  Vec3 ambient{0.0};                              // light that reaches every point from everywhere
 };
 
 enum class LightType { point, directional };

@@ -52,12 +52,12 @@ double middle_x(const Shape& shape) {
 }  // namespace
 
 TEST_CASE("a named group stands where instances name it, after its own transform, and nowhere else") {
-  const Scene scene = parse("[[group]]\nname = \"ball\"\ntransform = [{ scale = 2 }]\n" +
-                            sphere("group.sphere", 1) +
-                            "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n"
-                            "[[group]]\ntransform = [{ translate = [100, 0, 0] }]\n"
-                            "[[group.instance]]\nbatch = { group = [\"ball\", \"ball\"], " +
-                            steps(2) + " }\n");
+  const Scene scene =
+      parse("[[group]]\nname = \"ball\"\ntransform = [{ scale = 2 }]\n" + sphere("group.sphere", 1) +
+            "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n"
+            "[[group]]\ntransform = [{ translate = [100, 0, 0] }]\n"
+            "[[group.instance]]\nbatch = { group = [\"ball\", \"ball\"], " +
+            steps(2) + " }\n");
   REQUIRE(scene.shapes.size() == 3);
   CHECK(std::abs(middle_x(*scene.shapes[0]) - 102) < 1e-9);
   CHECK(std::abs(middle_x(*scene.shapes[1]) - 103) < 1e-9);
@@ -103,8 +103,7 @@ TEST_CASE("`groups` decides whether groups are kept once, and changes no id") {
 
   const PrimitiveIds ids(once);
   const auto same = [&](uint64_t id, double x) { return std::abs(middle_x(*flat.shapes[id]) - x) < 1e-9; };
-  for (size_t i = 0; i < once.shapes.size(); ++i)
-    CHECK(same(ids.of_shape(i), middle_x(*once.shapes[i])));
+  for (size_t i = 0; i < once.shapes.size(); ++i) CHECK(same(ids.of_shape(i), middle_x(*once.shapes[i])));
   for (size_t i = 0; i < once.group_instances.size(); ++i) {
     const GroupInstance& instance = once.group_instances[i];
     const auto& shapes = once.groups[size_t(instance.group)].shapes;
@@ -114,8 +113,9 @@ TEST_CASE("`groups` decides whether groups are kept once, and changes no id") {
 }
 
 TEST_CASE("a group that holds something without an end is copied") {
-  const Scene scene = parse("[render]\ngroups = \"instanced\"\n[[group]]\n" + batch(3) + "[[group.group]]\n" +
-                            "[[group.group.plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"wall\"\n");
+  const Scene scene =
+      parse("[render]\ngroups = \"instanced\"\n[[group]]\n" + batch(3) + "[[group.group]]\n" +
+            "[[group.group.plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"wall\"\n");
   CHECK(scene.groups.empty());
   CHECK(scene.shapes.size() == 3);
 }
@@ -137,12 +137,14 @@ TEST_CASE("what is wrong with names of groups is said where it stands") {
   CHECK(says(refused(ball + ball + "[[instance]]\ngroup = \"ball\"\n"),
              "scene.toml:11:8: error: group \"ball\" is defined twice; the first is at scene.toml:5"));
   CHECK(says(refused("[[group]]\nname = \"\"\n"), "scene.toml:5:8: error: a group's name must not be empty"));
-  CHECK(says(refused("[[group]]\n[[group.group]]\nname = \"ball\"\n" + sphere("group.group.sphere", 1)),
-             "scene.toml:6:8: error: only a [[group]] of the scene itself can have a name, not one in another"));
+  CHECK(says(
+      refused("[[group]]\n[[group.group]]\nname = \"ball\"\n" + sphere("group.group.sphere", 1)),
+      "scene.toml:6:8: error: only a [[group]] of the scene itself can have a name, not one in another"));
   CHECK(says(refused("[[instance]]\n"), "[[instance]] needs `group`"));
-  CHECK(says(refused("[[group]]\nname = \"a\"\n[[group.instance]]\ngroup = \"b\"\n"
-                     "[[group]]\nname = \"b\"\n[[group.instance]]\ngroup = \"a\"\n[[instance]]\ngroup = \"a\"\n"),
-             "scene.toml:5:8: error: group \"a\" holds itself: a → b → a"));
+  CHECK(says(
+      refused("[[group]]\nname = \"a\"\n[[group.instance]]\ngroup = \"b\"\n"
+              "[[group]]\nname = \"b\"\n[[group.instance]]\ngroup = \"a\"\n[[instance]]\ngroup = \"a\"\n"),
+      "scene.toml:5:8: error: group \"a\" holds itself: a → b → a"));
 }
 
 TEST_CASE("a group that nothing shows is a warning, and read all the same") {
@@ -152,7 +154,8 @@ TEST_CASE("a group that nothing shows is a warning, and read all the same") {
   for (const Diagnostic& warning : scene.warnings)
     warned = warned || warning.message == "group \"ball\" is not shown: no [[instance]] names it";
   CHECK(warned);
-  CHECK(says(refused("[[group]]\nname = \"ball\"\n[[group.sphere]]\nradius = 0\n"), "scene.toml:7:10: error: "));
+  CHECK(says(refused("[[group]]\nname = \"ball\"\n[[group.sphere]]\nradius = 0\n"),
+             "scene.toml:7:10: error: "));
 }
 
 TEST_CASE("groups in each other without end are an error, not a stack that overflows") {
@@ -166,7 +169,8 @@ TEST_CASE("named groups that double each time are refused, or kept once where th
   const auto doubled = [](int levels) {
     std::string text = "[[group]]\nname = \"0\"\n" + sphere("group.sphere", 1);
     for (int i = 1; i <= levels; ++i)
-      text += fmt::format("[[group]]\nname = \"{}\"\n[[group.instance]]\ngroup = \"{}\"\n{}", i, i - 1, batch(2));
+      text +=
+          fmt::format("[[group]]\nname = \"{}\"\n[[group.instance]]\ngroup = \"{}\"\n{}", i, i - 1, batch(2));
     return text + fmt::format("[[instance]]\ngroup = \"{}\"\n", levels);
   };
   const Scene scene = parse(doubled(18));

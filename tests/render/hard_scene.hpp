@@ -223,7 +223,8 @@ class HardScene {
     std::swap(group.shapes, scene_.shapes);
     std::swap(scene_.shapes, own);
     if (chance(0.4) || group.shapes.empty())
-      group.instances.push_back({add(scene_, hard_triangles(1 + random_.below(10))), some_map(), material(), {}});
+      group.instances.push_back(
+          {add(scene_, hard_triangles(1 + random_.below(10))), some_map(), material(), {}});
     scene_.groups.push_back(std::move(group));
     Mat4 map(1.0);
     for (int i = 0; i < count; ++i) {
