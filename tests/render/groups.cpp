@@ -167,12 +167,6 @@ radii = [1, 2, 1]
 e = 0.5
 n = 0.7
 material = "wall"
-[[group.torus]]
-center = [0, 0, 9]
-axis = [0, 0, 1]
-major_radius = 0.01
-minor_radius = 0.009
-material = "wall"
 )";
   for (const char* place : {"{ translate = [0, 0, 0] }", "{ scale = 1e-4 }, { translate = [3e-4, 0, 1e-4] }",
                             "{ scale = 1e4 }, { translate = [3e4, 1e4, -2e4] }",
@@ -196,7 +190,7 @@ material = "wall"
       const glm::vec3 start(origin);
       const shader::Ray ray = shader::make_ray(start, glm::normalize(glm::vec3(target) - start));
       const shader::Hit hit = shader::trace(ray);
-      if (hit.slot == NONE || hit.id >= 5) continue;  // a torus is not convex
+      if (hit.slot == NONE || hit.id >= 5) continue;
       const shader::Surface surface = shader::surface_at(shader::primitive_at(hit), ray, hit);
       glm::vec3 away(random.direction());
       if (shader::dot3(away, surface.normal_geometric) < 0) away = -away;
