@@ -53,10 +53,11 @@ vec3 transposed(vec4 rows[3], vec3 n) { return vec3(rows[0]) * n.x + vec3(rows[1
 
 bool of_group(Instance instance) { return instance.head.z == NONE; }
 
-// The direction keeps its length in the instance's space, so that t stays the same.
+// The direction keeps its length in the instance's space, so that t stays the same. The difference comes first: near the instance it is exact
+// or nearly so.
 Place into_instance(Ray ray, Instance instance, uint index) {
   Place place;
-  place.ray = make_ray(map_direction(instance.to_local, ray.o) + map_offset(instance.to_local),
+  place.ray = make_ray(map_direction(instance.to_local, ray.o - map_offset(instance.to_world)),
                        map_direction(instance.to_local, ray.d));
   place.instance = index;
   place.first_id = instance.head.y;
@@ -75,8 +76,8 @@ Surface out_of_instance(Surface surface, Instance instance) {
   world.normal_geometric = across / shrinks;
   vec3 shading = transposed(instance.to_local, surface.normal);
   world.normal = dot3(shading, world.normal_geometric) > 0.0f ? normalize3(shading) : world.normal_geometric;
-  vec3 local = abs3(surface.p) + map_size(instance.to_local, abs3(world.p)) + abs3(map_offset(instance.to_local));
-  vec3 reach = map_size(instance.to_world, local) + abs3(map_offset(instance.to_world));
+  vec3 local = abs3(surface.p) + map_size(instance.to_local, abs3(world.p - map_offset(instance.to_world)));
+  vec3 reach = map_size(instance.to_world, local) + (abs3(world.p) + abs3(map_offset(instance.to_world)));
   world.offset = surface.offset / shrinks + 8.0f * EPSILON * dot3(abs3(world.normal_geometric), reach);
   return world;
 }

@@ -79,8 +79,8 @@ struct Tree {
 //   0 tree   4 id of its first shape, of a mesh its first triangle
 //   8 material   12 shadow density        of a mesh's triangles; or of a group, whose primitives have their own:
 //   8 NONE       12 id of its first triangle of a mesh
-//  16 to_local, three rows: the affine map from the world into its space
-//  64 to_world, three rows
+//  16 to_local.xyz, -, three rows: the linear map into its space, of what is relative to that space's origin
+//  64 to_world, three rows: the affine map back, its w's that origin
 // In its space ids count from 0, those of a group's meshes with ID_OF_TRIANGLE set.
 struct Instance {
   uvec4 head;

@@ -169,12 +169,10 @@ class GeometryPacker {
     const Affine map(transform);
     const Mat3 inverse = glm::inverse(map.linear);
     const Vec3 to_world_offset = map.point(spaces_[space].origin) - scene_.camera.eye;
-    const Vec3 to_local_offset = inverse * -to_world_offset;
     shader::Instance record{};
     record.head = {space + 1, first_id, material, last};
     for (int row = 0; row < 3; ++row) {
-      record.to_local[row] =
-          to_vec4({inverse[0][row], inverse[1][row], inverse[2][row]}, to_local_offset[row]);
+      record.to_local[row] = to_vec4({inverse[0][row], inverse[1][row], inverse[2][row]});
       record.to_world[row] =
           to_vec4({map.linear[0][row], map.linear[1][row], map.linear[2][row]}, to_world_offset[row]);
     }
