@@ -23,7 +23,7 @@ constexpr int deepest = 64;
 // An instance takes as much memory as about this many shapes.
 constexpr double instance_cost = 2;
 // Rays in a group of its own go each alone: memory has to be worth it.
-constexpr double worth_keeping_once = 0x10000;
+constexpr double worth_keeping_once = 0x40000;
 
 // How many of the table its batch shows; what is no sound batch counts as one.
 double batch_size(const toml::table& table) {

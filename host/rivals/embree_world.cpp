@@ -70,8 +70,7 @@ EmbreeWorld::EmbreeWorld(const Scene& scene) : device_(rtcNewDevice(nullptr)) {
   }
   if (!scene.group_instances.empty())
     throw Error(ExitCode::bad_input,
-                "Embree is asked about single primitives, which groups that are kept once hide: say -D "
-                "render.groups=\\\"flat\\\"");
+                "Embree is raced without groups that are kept once: copy them, -D render.groups=flat");
   add_shapes(scene);
   add_meshes(scene);
 
