@@ -9,12 +9,22 @@ SHADER_BEGIN
 #define PART_ENTRY 1.0f
 #define PART_EXIT 2.0f
 
+// (−b − root) / a and (−b + root) / a, without cancellation. `root`: √(b² − ac).
+vec2 quadratic_roots(float a, float b, float c, float root) {
+  float q = b < 0.0f ? root - b : -root - b;
+  float one = q / a;
+  float other = q == 0.0f ? 0.0f : c / q;
+  return b < 0.0f ? vec2(other, one) : vec2(one, other);
+}
+
 // The first s with t + s > 0 at which the ray meets the boundary of a·s² + 2b·s + c ≤ 0 between s = enter and s = leave, and what is met there:
 // the quadric, or the piece's own boundary where the ray enters or leaves it. `open`: only the quadric. T_MISS if there is none. Where the
 // quadric and the piece's boundary meet, both come from the same four numbers, so that no ray passes between them.
-// `equation`: a, b, c. `nearest_equation`: the same from the ray's point nearest to the centre. The discriminant is that of either; there
-// the products whose difference it is are smallest, so that a ray that grazes is met where it should be.
-float clipped_quadric(float t, vec3 equation, vec3 nearest_equation, float enter, float leave, bool open, OUT(float) part) {
+// `equation`: a, b, c. `nearest_equation`: the same from s = `nearest_at`, the ray's point nearest to the centre. The discriminant is that
+// of either; there the products whose difference it is are smallest, so that a ray that grazes is met where it should be. A root is taken from
+// whichever of the two places it is closer to: where a ray runs along a cone and past its apex, one seen from afar has no digits left; and
+// the sign of one near s = 0 is what keeps a ray that leaves from coming back.
+float clipped_quadric(float t, vec3 equation, float nearest_at, vec3 nearest_equation, float enter, float leave, bool open, OUT(float) part) {
   float a = equation.x;
   float b = equation.y;
   float c = equation.z;
@@ -23,9 +33,10 @@ float clipped_quadric(float t, vec3 equation, vec3 nearest_equation, float enter
   float discriminant = nearest_equation.y * nearest_equation.y - a * nearest_equation.z;
   bool real = discriminant >= 0.0f && (a != 0.0f || b != 0.0f);
   float root = sqrt(maximum(discriminant, 0.0f));
-  float q = b < 0.0f ? root - b : -root - b;
-  float s0 = q / a;
-  float s1 = q == 0.0f ? 0.0f : c / q;
+  vec2 here = quadratic_roots(a, b, c, root);
+  vec2 there = quadratic_roots(a, nearest_equation.y, nearest_equation.z, root);
+  float s0 = abs(here.x) <= abs(there.x) ? here.x : nearest_at + there.x;
+  float s1 = abs(here.y) <= abs(there.y) ? here.y : nearest_at + there.y;
   float low = real ? minimum(s0, s1) : c <= 0.0f ? -T_MISS : T_MISS;
   float high = real ? maximum(s0, s1) : -low;
 

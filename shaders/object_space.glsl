@@ -19,10 +19,11 @@ struct ObjectRay {
 
 vec3 into_object(Primitive s, vec3 v) { return vec3(dot3(vec3(s.a), v), dot3(vec3(s.b), v), dot3(vec3(s.c), v)); }
 
-// The same ray from its point nearest to the centre.
+// Where along itself a ray comes nearest to the centre; and the same ray from there.
+float nearest_at(ObjectRay ray) { return -dot3(ray.o, ray.d) / dot3(ray.d, ray.d); }
 ObjectRay from_nearest(ObjectRay ray) {
   ObjectRay r = ray;
-  float s = -dot3(r.o, r.d) / dot3(r.d, r.d);
+  float s = nearest_at(ray);
   r.o = r.o + r.d * s;
   r.t = r.t + s;
   return r;

@@ -74,6 +74,8 @@ void main() {
 #ifdef PACKET_SHADOW
   Surface seen[RAYS_A_LANE];
   bool struck[RAYS_A_LANE];
+  uint flags[RAYS_A_LANE];
+  EACH flags[k] = 0u;
   EACH seen[k] = seen_at(place[k], struck[k]);
   uint light = 0u;
   do {
@@ -88,13 +90,14 @@ void main() {
     }
     walk_together(lane);
     EACH {
+      flags[k] = flags[k] | ran_out(found[k]);
       if (place[k] != NONE) occlusions[light * dispatch.sample_index.z + place[k]] = found[k].occluded;
     }
     light += 1u;
   } while (light < LIGHT_COUNT);
-  uint flags = loops_cut_off(LOOP_PROBE);
+  uint cut_off = loops_cut_off(LOOP_PROBE);
   EACH {
-    if (place[k] != NONE) hits[place[k]].hit.w = hits[place[k]].hit.w | flags;
+    if (place[k] != NONE) hits[place[k]].hit.w = hits[place[k]].hit.w | flags[k] | cut_off;
   }
 #else
   EACH {
@@ -113,7 +116,7 @@ void main() {
   EACH {
     if (place[k] != NONE) {
 #ifdef PACKET_PRIMARY
-      hits[place[k]] = packet_of_hit(found[k].hit, flags);
+      hits[place[k]] = packet_of_hit(found[k].hit, flags | ran_out(found[k]));
 #else
       results[place[k]] = answer(found[k], ANY, flags);
 #endif

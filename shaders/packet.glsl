@@ -275,6 +275,7 @@ void intersect_primitive(uint from) {
 #define INTERSECT_TOGETHER(name, number) \
     if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, r, uv);
     SHAPES(INTERSECT_TOGETHER)
+    t = unless_in_hole(primitive, NONE, r, t, uv);
     meet(found[k], passes[k] ? t : -1.0f, uv, first_slot + from, primitive.head.x, NONE, primitive.head.z, ANY);
   }
 }

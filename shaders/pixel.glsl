@@ -25,8 +25,9 @@ SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
 
 HitResult first_hit(Frame frame, uint x, uint y) {
   Ray ray = camera_ray(frame, vec2(float(x) + 0.5f, float(y) + 0.5f));
-  Hit hit = trace(ray);
-  uint flags = loops_cut_off(LOOP_PROBE);
+  uint flags = 0u;
+  Hit hit = trace(ray, flags);
+  flags = flags | loops_cut_off(LOOP_PROBE);
   HitResult result;
   result.position_t = vec4(0.0f, 0.0f, 0.0f, T_MISS);
   result.normal = vec4(0.0f, 0.0f, 0.0f, 0.0f);
@@ -47,7 +48,7 @@ QueryHit answer(Found found, bool any, uint flags) {
   bool struck = any ? found.occluded >= SHADOW_OPAQUE : found.hit.slot != NONE;
   float t = struck ? (any ? 0.0f : found.hit.t) : T_MISS;
   QueryHit result;
-  result.hit = uvec4(floatBitsToUint(t), struck && !any ? found.hit.id : NONE, flags, found.occluded);
+  result.hit = uvec4(floatBitsToUint(t), struck && !any ? found.hit.id : NONE, flags | ran_out(found), found.occluded);
   return result;
 }
 

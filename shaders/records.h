@@ -30,6 +30,7 @@ SHADER_BEGIN
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
+#define T_RAN_OUT -2.0f // "no hit found in the steps allowed"; uv.x says up to which t there is none for sure
 
 // ---- Primitive: 64 bytes --------------------------------------------------------------------------------------------
 //   0 id: the scene's primitive index, or that within an instance (below)    4 material | kind << 24
@@ -47,7 +48,7 @@ struct Primitive {
 #define TRIANGLE_MOLLER_TRUMBORE 1u
 
 // ---- Corners of a triangle with normals, texture coordinates or colours: 16 or 32 bytes in vertices ------------------
-//   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u; with CORNERS_COLORS then color.rgb, -
+//   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u; with CORNERS_COLORS then color.rgb, alpha
 //  12 CORNERS_ bits
 //  16 v 0  20 v 1  24 v 2  28 -             only with CORNERS_UV
 #define CORNERS_NORMALS 1u
@@ -89,14 +90,16 @@ struct Instance {
 };
 #define ID_OF_TRIANGLE 0x80000000u
 
-// ---- Material: 48 bytes ---------------------------------------------------------------------------------------------
+// ---- Material: 64 bytes ---------------------------------------------------------------------------------------------
 //   0 kind       4 flags | emission, an index into textures, << 8      8 medium that fills the shape: 1…255, 0 for none    12 shadow density
 //  16 base      20 specular  24 reflected  28 ambient    indices into textures; base, with emission, is what raycast shades
 //  32 shininess 36 -         40 -          44 -
+//  48 alpha, an index into textures        52 below which alpha there are holes, the bits of a float; 0 without      56 -   60 -
 struct Material {
   uvec4 head;
   uvec4 textures;
   vec4 parameters;
+  uvec4 mask;
 };
 #define MATERIAL_BLINN 1u
 #define MATERIAL_EMISSION_SHIFT 8u
@@ -135,7 +138,7 @@ struct Texture {
 
 // ---- Texels: 4 bytes each -------------------------------------------------------------------------------------------
 // What the 256 codes stand for, as the bits of floats: by the sRGB curve, then linearly. Then the images' texels, each
-// image by rows from its top left: red in the lowest byte, green, blue, and one that is not read. Empty without images.
+// image by rows from its top left: red in the lowest byte, green, blue, alpha. Empty without images.
 #define TEXELS_SRGB 0u
 #define TEXELS_LINEAR 256u
 #define TEXELS_FIRST 512u
@@ -187,7 +190,8 @@ struct Dispatch {
 };
 
 // ---- Results --------------------------------------------------------------------------------------------------------
-// One sample of one pixel, 32 bytes: colour.rgb and a 1 that says "written"; rays, hits, flags, loop iterations.
+// One sample of one pixel, 32 bytes: colour.rgb and a 1 that says "written"; rays, hits, flags, loop iterations. With RAY_KINDS the
+// last two are flags | refracted rays << REFRACTED_SHIFT, and reflected rays | total reflections << TOTAL_SHIFT.
 struct SampleResult {
   vec4 color;
   uvec4 counts;
@@ -227,10 +231,14 @@ struct PathState {
   vec4 weight;
 };
 
+#define REFRACTED_SHIFT 8u
+#define TOTAL_SHIFT 20u
+
 // Bits of SampleResult.counts.z; core/pixel.hpp names them for the host.
 #define FLAG_MEDIA_OVERFLOW 1u
 #define FLAG_STACK_OVERFLOW 2u
 #define FLAG_LOOP_BUDGET 4u
+#define FLAG_RAN_OUT 8u
 
 SHADER_END
 
@@ -238,7 +246,7 @@ SHADER_END
 static_assert(sizeof(eyeray::shader::Primitive) == 64);
 static_assert(sizeof(eyeray::shader::Tree) == 64);
 static_assert(sizeof(eyeray::shader::Instance) == 112);
-static_assert(sizeof(eyeray::shader::Material) == 48);
+static_assert(sizeof(eyeray::shader::Material) == 64);
 static_assert(sizeof(eyeray::shader::Medium) == 16);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);

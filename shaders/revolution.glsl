@@ -16,7 +16,8 @@ float revolution_intersect(ObjectRay r, vec3 equation, vec3 nearest_equation, fl
   float inverse = bounded_inverse(r.d.y, 1.0e-12f * max_component(abs3(r.d)));
   float to_bottom = (bottom - r.o.y) * inverse;
   float to_top = (top - r.o.y) * inverse;
-  float nearest = clipped_quadric(r.t, equation, nearest_equation, minimum(to_bottom, to_top), maximum(to_bottom, to_top), open, part);
+  float nearest = clipped_quadric(r.t, equation, nearest_at(r), nearest_equation, minimum(to_bottom, to_top), maximum(to_bottom, to_top),
+                                  open, part);
   part = part == PART_QUADRIC ? PART_SIDE : nearest == to_bottom ? PART_BOTTOM : PART_TOP;
   return nearest < T_MISS ? r.t + nearest : -1.0f;
 }

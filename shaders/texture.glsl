@@ -34,18 +34,32 @@ uint copied_texel(int i, uint size, uint wrap, bool mirrored) {
   return mirrored ? size - 1u - texel : texel;
 }
 
-// Linear RGB of the texel at `column` and `row`, counted from the lower left.
+// The codes of the texel at `column` and `row`, counted from the lower left.
+uint texel_codes(Texture texture, uint column, uint row) {
+  return load_texel(texture.image.z + (texture.image.y - 1u - row) * texture.image.x + column);
+}
+
+// Linear RGB of it.
 vec3 texel_color(Texture texture, uint column, uint row) {
   uint table = (texture.image.w & IMAGE_LINEAR) != 0u ? TEXELS_LINEAR : TEXELS_SRGB;
-  uint texel = load_texel(texture.image.z + (texture.image.y - 1u - row) * texture.image.x + column);
+  uint texel = texel_codes(texture, column, row);
   return vec3(uintBitsToFloat(load_texel(table + (texel & 255u))),
               uintBitsToFloat(load_texel(table + ((texel >> 8u) & 255u))),
               uintBitsToFloat(load_texel(table + ((texel >> 16u) & 255u))));
 }
 
-// The mean of four texels, by how near their centres are, which lie at half-integers; or nearest, all of the one that holds
-// (u, v). The place within a copy is found first, in the image's own unit, where that costs no precision.
-vec3 image_color(Texture texture, vec2 uv) {
+// The four texels whose mean is an image at (u, v), by how near their centres are, which lie at half-integers; or nearest, all of the one
+// that holds (u, v). The place within a copy is found first, in the image's own unit, where that costs no precision.
+struct ImagePlace {
+  uint left;
+  uint right;
+  uint bottom;
+  uint top;
+  float to_right;
+  float to_top;
+};
+
+ImagePlace image_place(Texture texture, vec2 uv) {
   float u = uv.x * texture.frequency.x;
   float v = uv.y * texture.frequency.y;
   uint wrap_u = (texture.image.w >> IMAGE_WRAP_U_SHIFT) & IMAGE_WRAP_MASK;
@@ -54,21 +68,42 @@ vec3 image_color(Texture texture, vec2 uv) {
   float centre = nearest ? 0.0f : 0.5f;
   float x = within_copy(u, wrap_u) * float(texture.image.x) - centre;
   float y = within_copy(v, wrap_v) * float(texture.image.y) - centre;
-  float to_right = nearest ? 0.0f : x - floor(x);
-  float to_top = nearest ? 0.0f : y - floor(y);
+  ImagePlace place;
+  place.to_right = nearest ? 0.0f : x - floor(x);
+  place.to_top = nearest ? 0.0f : y - floor(y);
 
   bool mirrored_u = mirrored_copy(u, wrap_u);
   bool mirrored_v = mirrored_copy(v, wrap_v);
-  uint left = copied_texel(int(floor(x)), texture.image.x, wrap_u, mirrored_u);
-  uint right = copied_texel(int(floor(x)) + 1, texture.image.x, wrap_u, mirrored_u);
-  uint bottom = copied_texel(int(floor(y)), texture.image.y, wrap_v, mirrored_v);
-  uint top = copied_texel(int(floor(y)) + 1, texture.image.y, wrap_v, mirrored_v);
-  vec3 bottom_left = texel_color(texture, left, bottom);
-  vec3 top_left = texel_color(texture, left, top);
-  vec3 lower = bottom_left + (texel_color(texture, right, bottom) - bottom_left) * to_right;
-  vec3 upper = top_left + (texel_color(texture, right, top) - top_left) * to_right;
-  return lower + (upper - lower) * to_top;
+  place.left = copied_texel(int(floor(x)), texture.image.x, wrap_u, mirrored_u);
+  place.right = copied_texel(int(floor(x)) + 1, texture.image.x, wrap_u, mirrored_u);
+  place.bottom = copied_texel(int(floor(y)), texture.image.y, wrap_v, mirrored_v);
+  place.top = copied_texel(int(floor(y)) + 1, texture.image.y, wrap_v, mirrored_v);
+  return place;
 }
+
+vec3 image_color(Texture texture, vec2 uv) {
+  ImagePlace at = image_place(texture, uv);
+  vec3 bottom_left = texel_color(texture, at.left, at.bottom);
+  vec3 top_left = texel_color(texture, at.left, at.top);
+  vec3 lower = bottom_left + (texel_color(texture, at.right, at.bottom) - bottom_left) * at.to_right;
+  vec3 upper = top_left + (texel_color(texture, at.right, at.top) - top_left) * at.to_right;
+  return lower + (upper - lower) * at.to_top;
+}
+
+#if HAS_HOLES
+float texel_alpha(Texture texture, uint column, uint row) {
+  return uintBitsToFloat(load_texel(TEXELS_LINEAR + (texel_codes(texture, column, row) >> 24u)));
+}
+
+float image_alpha(Texture texture, vec2 uv) {
+  ImagePlace at = image_place(texture, uv);
+  float bottom_left = texel_alpha(texture, at.left, at.bottom);
+  float top_left = texel_alpha(texture, at.left, at.top);
+  float lower = bottom_left + (texel_alpha(texture, at.right, at.bottom) - bottom_left) * at.to_right;
+  float upper = top_left + (texel_alpha(texture, at.right, at.top) - top_left) * at.to_right;
+  return lower + (upper - lower) * at.to_top;
+}
+#endif
 #endif
 
 vec3 texture_color(uint index, vec2 uv) {
@@ -82,6 +117,21 @@ vec3 texture_color(uint index, vec2 uv) {
 #endif
   return color;
 }
+
+#if HAS_HOLES
+// A texture as an alpha: the first component of a constant or a check; an image's alpha times that.
+float texture_alpha(uint index, vec2 uv) {
+  Texture texture = load_texture(index);
+  float alpha = texture.even.x;
+#if HAS_CHECKER
+  if (texture.even.w == TEXTURE_CHECKER && odd_check(texture, uv)) alpha = texture.odd.x;
+#endif
+#if HAS_IMAGES
+  if (texture.even.w == TEXTURE_IMAGE) alpha = alpha * image_alpha(texture, uv);
+#endif
+  return alpha;
+}
+#endif
 
 SHADER_END
 #endif

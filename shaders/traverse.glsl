@@ -3,6 +3,7 @@
 // constant.
 #ifndef TRAVERSE_GLSL
 #define TRAVERSE_GLSL
+#include "holes.glsl"
 #include "instance.glsl"
 #include "ray.glsl"
 #include "records.h"
@@ -14,11 +15,32 @@ SHADER_BEGIN
 struct Found {
   Hit hit;
   uint occluded;
+#if STEPS_MAY_RUN_OUT
+  float sure_until;  // the least t at which the steps of a shape's search ran out; T_MISS if none's did
+#endif
 };
+
+// Takes note of a shape that gave up.
+void note_steps(INOUT(Found) found, float t, vec2 uv) {
+#if STEPS_MAY_RUN_OUT
+  found.sure_until = t == T_RAN_OUT && !(uv.x >= found.sure_until) ? uv.x : found.sure_until;
+#endif
+}
+
+// FLAG_RAN_OUT if what was found may be wrong: if a shape gave up before the nearest hit, or before the light that still arrives. Of
+// what lies behind it does not matter which shapes were asked, and so this does not depend on the order either.
+uint ran_out(Found found) {
+#if STEPS_MAY_RUN_OUT
+  return !(found.sure_until >= found.hit.t) && found.occluded < SHADOW_OPAQUE ? FLAG_RAN_OUT : 0u;
+#else
+  return 0u;
+#endif
+}
 
 // Takes an intersection into account. `any`: the sum of what is met before hit.t, else the nearest with t > 0. Of exactly equal ones
 // the lowest id stays, so that neither the order of traversal nor that of the slots matters.
 void meet(INOUT(Found) found, float t, vec2 uv, uint slot, uint id, uint instance, uint density, bool any) {
+  note_steps(found, t, uv);
   if (any) {
     uint sum = t > 0.0f && t < found.hit.t ? found.occluded + density : found.occluded;
     found.occluded = sum < SHADOW_OPAQUE ? sum : SHADOW_OPAQUE;
@@ -38,6 +60,7 @@ void meet_in_order(INOUT(Found) found, float t, vec2 uv, uint slot, uint id, uin
   if (any) {
     meet(found, t, uv, slot, id, NONE, density, true);
   } else {
+    note_steps(found, t, uv);
     bool nearer = t > 0.0f && t < found.hit.t;
     found.hit.t = nearer ? t : found.hit.t;
     found.hit.slot = nearer ? slot : found.hit.slot;
@@ -54,6 +77,7 @@ void meet_slot(INOUT(Found) found, uint slot, Place place, bool any) {
 #define INTERSECT_KIND(name, number) \
   if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, place.ray, uv);
   SHAPES(INTERSECT_KIND)
+  t = unless_in_hole(primitive, place.instance, place.ray, t, uv);
   meet(found, t, uv, slot, id_at(place, primitive), place.instance, density_at(place, primitive), any);
 }
 
@@ -124,6 +148,9 @@ Found nothing_found(float t_max) {
   found.hit.instance = NONE;
   found.hit.uv = vec2(0.0f, 0.0f);
   found.occluded = 0u;
+#if STEPS_MAY_RUN_OUT
+  found.sure_until = T_MISS;
+#endif
   return found;
 }
 
@@ -134,6 +161,7 @@ void meet_loose(INOUT(Found) found, Ray ray, bool any) {
 #define MEET_ONE(name, index, constants)                                                    \
   {                                                                                         \
     float t = name##_intersect(constants, ray, uv);                                         \
+    t = unless_in_hole(constants, NONE, ray, t, uv);                                        \
     meet_in_order(found, t, uv, index, constants.head.x, constants.head.z, any);            \
   }
   SCENE_PRIMITIVES(MEET_ONE)
@@ -142,6 +170,7 @@ void meet_loose(INOUT(Found) found, Ray ray, bool any) {
   for (uint i = KIND_FIRST(name); i < KIND_END(name) && found.occluded < SHADOW_OPAQUE; i++) { \
     Primitive primitive = load_primitive(i);                                                  \
     float t = name##_intersect(primitive, ray, uv);                                           \
+    t = unless_in_hole(primitive, NONE, ray, t, uv);                                          \
     meet(found, t, uv, i, primitive.head.x, NONE, primitive.head.z, any);                     \
   }
   SHAPES(MEET_KIND)
@@ -168,12 +197,20 @@ Found search(Ray ray, float t_max, bool any) {
   return found;
 }
 
-// The nearest hit with t > 0.
-Hit trace(Ray ray) { return search(ray, T_MISS, false).hit; }
+// The nearest hit with t > 0. Adds to `flags` what may be wrong with it.
+Hit trace(Ray ray, INOUT(uint) flags) {
+  Found found = search(ray, T_MISS, false);
+  flags = flags | ran_out(found);
+  return found.hit;
+}
 
 // How much of a shadow ray's light is lost on 0 < t < t_max: the sum of what every primitive on the way weakens it by, in
-// −log2 · SHADOW_SCALE, at most SHADOW_OPAQUE. An integer sum does not depend on the order of traversal.
-uint occlusion(Ray ray, float t_max) { return search(ray, t_max, true).occluded; }
+// −log2 · SHADOW_SCALE, at most SHADOW_OPAQUE. An integer sum does not depend on the order of traversal. `flags` as for trace.
+uint occlusion(Ray ray, float t_max, INOUT(uint) flags) {
+  Found found = search(ray, t_max, true);
+  flags = flags | ran_out(found);
+  return found.occluded;
+}
 
 // The share of light that passes, from what `occlusion` counted.
 float visibility(uint occluded) {

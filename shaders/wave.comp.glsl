@@ -46,10 +46,14 @@ void main() {
   stored_place = place;
   Hit hit = hit_of_packet(load_packet_hit(), counts);
 #else
-  Hit hit = trace(ray);
+  Hit hit = trace(ray, counts.z);
 #endif
   Children children = follow(frame, path, ray, hit, color, counts);
   counts.z = counts.z | loops_cut_off(LOOP_PROBE);
+#if RAY_KINDS
+  // A wave is one reflection of a path that never splits, or all of one that ends at once.
+  counts = counts_by_kind(counts, path.depth, 0u, children.totally ? 1u : 0u);
+#endif
 
 #ifdef ENDS_ONLY
   if (children.reflects || children.transmits) {

@@ -140,6 +140,7 @@ void visit_leaf() {
 #define INTERSECT_WIDE(name, number) \
   if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, ray, uv);
   SHAPES(INTERSECT_WIDE)
+  t = unless_in_hole(primitive, NONE, ray, t, uv);
   meet(found, mine ? t : -1.0f, uv, slot, primitive.head.x, NONE, primitive.head.z, ANY);
   uint next = from_lane(stack[0], 0u);
 #ifdef QUERY_ANY
@@ -278,6 +279,9 @@ void main() {
     found.hit.id = of_source(own_found.hit.id);
     uint loose = of_source(own_found.occluded);
     found.occluded = lane == 0u ? loose : 0u;
+#if STEPS_MAY_RUN_OUT
+    found.sure_until = of_source(own_found.sure_until);
+#endif
     limit = floatBitsToInt(found.hit.t);
     at = of_source(start);
     EACH_ROW stack[i] = TREE_DONE;
@@ -306,6 +310,10 @@ void main() {
     own_found.hit.id = mine ? id_back : own_found.hit.id;
     own_found.hit.slot = mine ? slot_back : own_found.hit.slot;
     own_found.occluded = mine ? occluded_back : own_found.occluded;
+#if STEPS_MAY_RUN_OUT
+    uint sure_back = from_member(uint(least(floatBitsToInt(found.sure_until))), tracer);
+    own_found.sure_until = mine ? uintBitsToFloat(sure_back) : own_found.sure_until;
+#endif
     turn += 1u;
   } while (turn * AT_ONCE < with_work);
   if (there) results[i] = answer(own_found, ANY, loops_cut_off(LOOP_PROBE));

@@ -36,7 +36,7 @@ std::optional<Point> on_mesh(const Scene& scene, const Instance& instance, size_
 std::optional<Point> on_shape(const Shape& shape, const Query& query) {
   const Ray ray{query.o, query.d};
   const std::optional<Intersection> hit = shape.intersect(ray);
-  if (!hit) return std::nullopt;
+  if (!hit || hit->ran_out) return std::nullopt;
   const SurfacePoint surface = shape.surface(ray, *hit);
   return Point{surface.position, surface.normal_geometric};
 }

@@ -16,7 +16,7 @@ struct AovType {
 };
 
 // In the order of the enumeration.
-constexpr std::array<AovType, 7> types{{
+constexpr std::array<AovType, 8> types{{
     {"depth", 1, FalseColor::depth},
     {"position", 3, FalseColor::position},
     {"normal", 3, FalseColor::direction},
@@ -24,6 +24,7 @@ constexpr std::array<AovType, 7> types{{
     {"primitive", 1, FalseColor::ids},
     {"material", 1, FalseColor::ids},
     {"hits", 1, FalseColor::scalar},
+    {"flags", 1, FalseColor::scalar},
 }};
 
 const AovType& type_of(Aov aov) {
@@ -45,6 +46,7 @@ std::array<double, 3> values(Aov aov, const FirstHit& hit) {
     case Aov::material:
       return {double(hit.material)};
     case Aov::hits:
+    case Aov::flags:
       break;
   }
   return {};
@@ -81,8 +83,12 @@ std::vector<Aov> parse_aovs(const std::string& list) {
   return aovs;
 }
 
+bool is_of_first_hits(Aov aov) {
+  return aov != Aov::hits && aov != Aov::flags;
+}
+
 bool need_first_hits(const std::vector<Aov>& aovs) {
-  return std::any_of(aovs.begin(), aovs.end(), [](Aov aov) { return aov != Aov::hits; });
+  return std::any_of(aovs.begin(), aovs.end(), is_of_first_hits);
 }
 
 int aov_channels(Aov aov) {
@@ -94,7 +100,7 @@ FalseColor aov_shown_as(Aov aov) {
 }
 
 Image aov_image(Aov aov, std::span<const FirstHit> hits, int width) {
-  CHECK(aov != Aov::hits);
+  CHECK(is_of_first_hits(aov));
   const int channels = type_of(aov).channels;
   Image image(width, int(hits.size()) / width, channels);
   CHECK_EQ(hits.size() * size_t(channels), image.sample_count());

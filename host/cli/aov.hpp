@@ -20,6 +20,7 @@ enum class Aov {
   primitive,  // index, −1 where nothing is hit
   material,   // index, −1 where nothing is hit
   hits,       // surfaces struck, the mean of a pixel's samples
+  flags,      // what may be wrong with any of a pixel's samples, as a sum of SampleFlags; 0 where nothing is
 };
 
 std::string_view aov_name(Aov aov);
@@ -27,7 +28,8 @@ std::string_view aov_name(Aov aov);
 // "depth,normal" or "all"; Error (bad_input) for an unknown name.
 std::vector<Aov> parse_aovs(const std::string& list);
 
-// Whether any of them is made of first hits, as all but `hits` are.
+// Whether it is made of first hits, as all but `hits` and `flags` are.
+bool is_of_first_hits(Aov aov);
 bool need_first_hits(const std::vector<Aov>& aovs);
 
 // 1 or 3.

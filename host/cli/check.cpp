@@ -6,6 +6,7 @@
 #include "loader/scene_file.hpp"
 #include "render/pack.hpp"
 #include "scene/camera_frame.hpp"
+#include "scene/things.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -26,8 +27,10 @@ struct Inventory {
   Counts shapes;
   Counts materials;
   Counts lights;
-  size_t mesh_triangles = 0;  // each mesh's, however often it is shown
-  size_t bytes = 0;           // on the device, pixels not counted
+  size_t mesh_triangles = 0;       // each mesh's, however often it is shown
+  size_t bytes = 0;                // on the device, pixels not counted
+  size_t named = 0;                // shapes and meshes that have a name of their own
+  std::vector<std::string> names;  // of the first few of them: `sphere "left eye"`
 };
 
 template <typename Types>
@@ -60,6 +63,16 @@ uint64_t shapes_kept_in_groups(const Scene& scene) {
   return count;
 }
 
+void list_names(const Scene& scene, Inventory& inventory) {
+  constexpr size_t most = 10;
+  const Things things(scene);
+  for (size_t i = 0; i < things.size(); ++i) {
+    const Thing thing = things[i];
+    if (!thing.name.own || ++inventory.named > most) continue;
+    inventory.names.push_back(describe(thing, scene.names));
+  }
+}
+
 Inventory take_inventory(const Scene& scene) {
   const PackedScene packed = pack(scene);
   Inventory inventory;
@@ -79,6 +92,7 @@ Inventory take_inventory(const Scene& scene) {
   if (points > 0) inventory.lights.emplace_back("point", points);
   if (points < scene.lights.size())
     inventory.lights.emplace_back("directional", scene.lights.size() - points);
+  list_names(scene, inventory);
   for (const Mesh& mesh : scene.meshes) inventory.mesh_triangles += mesh.triangles.size();
   inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.nodes) +
                     bytes(packed.trees) + bytes(packed.instances) + bytes(packed.materials) +
@@ -137,6 +151,12 @@ void print_text(const Scene& scene, const Inventory& inventory) {
          fmt::format("{} of {} shapes kept once, shown {} times as {} shapes", scene.groups.size(),
                      shapes_kept_in_groups(scene), scene.group_instances.size(), shapes_in_groups(scene)));
   }
+  if (inventory.named > 0) {
+    line("names", fmt::format("{}{}", fmt::join(inventory.names, ", "),
+                              inventory.named > inventory.names.size()
+                                  ? fmt::format(" and {} more", inventory.named - inventory.names.size())
+                                  : ""));
+  }
   line("materials", format_counts(inventory.materials));
   line("lights", format_counts(inventory.lights));
   line("memory", fmt::format("{} bytes of scene, {} bytes of picture", inventory.bytes,
@@ -184,6 +204,7 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
         {"shapes", shapes_kept_in_groups(scene)},
         {"instances", scene.group_instances.size()},
         {"shapes_shown", shapes_in_groups(scene)}}},
+      {"names", {{"count", inventory.named}, {"first", inventory.names}}},
       {"materials", to_json(inventory.materials)},
       {"lights", to_json(inventory.lights)},
       {"scene_bytes", inventory.bytes},

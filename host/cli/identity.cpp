@@ -27,6 +27,7 @@ std::vector<IdentityPart> identity_of(const PictureRequest& request, const Scene
   return {
       {"size", fmt::format("{}x{}", scene.image.width, scene.image.height)},
       {"crop", crop == Rect{} ? "none" : fmt::format("{},{},{},{}", crop.x, crop.y, crop.width, crop.height)},
+      {"--classic", request.classic ? "on" : "off"},
       {"samples a pixel", std::to_string(scene.image.samples)},
       {"backend", std::string(backend_name(request.backend))},
       // The processors' executors compute the same wherever the same program runs.

@@ -1,5 +1,6 @@
 #include "cli/picture.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include "core/atomic_file.hpp"
 #include "core/image_file.hpp"
 #include "core/peak_memory.hpp"
+#include "render/corners.hpp"
 #include "render/render.hpp"
 
 namespace fs = std::filesystem;
@@ -27,10 +29,19 @@ constexpr FlagText flag_texts[] = {
      "more rays were pending than the shader keeps: lower render.max_depth or raise render.min_weight"},
     {loop_budget, "loop_budget",
      "the driver's limit on loop iterations was near: try fewer shapes, --backend twin or a newer driver"},
+    {ran_out, "ran_out",
+     "a shape that is searched for step by step was not found in the steps allowed; --aov flags shows where"},
 };
 
 double rays_per_second(const Picture& picture) {
   return double(picture.rays - picture.rays_resumed) / picture.sampling_seconds;
+}
+
+// Corners, a depth of five with the eye rays, and nothing left out because it counts for little.
+void make_classic(Scene& scene) {
+  sample_corners(scene);
+  scene.render.max_depth = 4;
+  scene.render.min_weight = 0;
 }
 
 std::optional<Checkpoint> checkpoint_of(const PictureRequest& request, const Scene& scene,
@@ -57,8 +68,10 @@ void PictureRequest::add_to(CLI::App& command) {
   command
       .add_option_function<std::string>(
           "--aov", parse,
-          "Also write depth, position, normal, uv, primitive, material, hits, or all of them: each as data "
-          "(FILE.NAME.pfm) and in false colour (FILE.NAME.png).")
+          "Also write depth, position, normal, uv, primitive, material, hits, flags, or all of them: each as "
+          "data "
+          "(FILE.NAME.pfm) and in false colour (FILE.NAME.png), ids with what they stand for "
+          "(FILE.NAME.json).")
       ->option_text("LIST");
   add_crop_option(command, crop);
   add_backend_option(command, backend);
@@ -66,6 +79,10 @@ void PictureRequest::add_to(CLI::App& command) {
 }
 
 void PictureRequest::check_outputs() {
+  if (classic && need_first_hits(aovs))
+    throw Error(
+        ExitCode::bad_input,
+        "--classic sends no rays through the centres of pixels, of which AOVs other than hits are made");
   if (outputs.empty())
     outputs.push_back(fs::path(scene.file()).filename().replace_extension(".png").string());
   for (const std::string& output : outputs) {
@@ -82,15 +99,19 @@ void PictureRequest::check_outputs() {
 Picture make_picture(const PictureRequest& request, const std::function<void(const Progress&)>& progress) {
   const Stopwatch watch;
   Picture picture;
-  const Scene scene = picture.times.measure("load", [&] { return request.scene.load(); });
+  Scene scene = picture.times.measure("load", [&] { return request.scene.load(); });
   check_crop(request.crop, scene.image);
-  const std::unique_ptr<Executor> executor = make_executor(request.backend, scene, request.executor);
   const Rect crop = request.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : request.crop;
+  if (request.classic) make_classic(scene);
+  ExecutorOptions executor_options = request.executor;
+  executor_options.ray_kinds = request.ray_kinds;
+  const std::unique_ptr<Executor> executor = make_executor(request.backend, scene, executor_options);
   std::optional<Checkpoint> checkpoint = checkpoint_of(request, scene, *executor);
 
   // Render the picture. Files are begun with the first rows: of a picture of one band, when it is done.
   RenderOptions options;
-  options.crop = crop;
+  options.crop = request.classic ? corners_of(crop) : crop;
+  options.ray_kinds = request.ray_kinds;
   options.band_bytes = size_t(request.long_render.band_mebibytes) << 20;
   options.checkpoint = checkpoint ? &*checkpoint : nullptr;
   options.progress = [&, warned = false](const Progress& now) mutable {
@@ -101,11 +122,12 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
     }
   };
   std::optional<PictureFiles> files;
+  CornerMean corners;
   StageTimes encoding;
   const RenderTotals totals = render_rows(scene, *executor, options, [&](const FinishedRows& rows) {
     encoding.measure("encode", [&] {
-      if (!files) files.emplace(request.outputs, request.aovs, crop.width, crop.height);
-      files->write(rows);
+      if (!files) files.emplace(request.outputs, request.aovs, crop.width, crop.height, scene);
+      files->write(request.classic ? corners.add(rows) : rows);
     });
   });
   picture.interrupted = totals.interrupted;
@@ -114,6 +136,10 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
   if (totals.samples_done > 0) encoding.measure("encode", [&] { files->finish_picture(picture.files); });
   if (!picture.interrupted && need_first_hits(request.aovs)) {
     picture.interrupted = !trace_first_hits(*executor, crop, [&](int, std::span<const FirstHit> hits) {
+      for (const FirstHit& hit : hits) {
+        picture.flags |= hit.flags;
+        picture.flagged_hits += hit.flags != 0;
+      }
       encoding.measure("encode", [&] { files->write(hits); });
     });
   }
@@ -130,11 +156,12 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
   picture.rays = totals.rays;
   picture.sampling_seconds = totals.seconds;
   picture.flagged_pixels = totals.flagged_pixels;
-  picture.flags = totals.flags;
+  picture.flags |= totals.flags;
   picture.bands = totals.bands;
-  picture.share = double(totals.samples_taken) / (double(crop.pixels()) * scene.image.samples);
+  picture.share = double(totals.samples_taken) / (double(options.crop.pixels()) * scene.image.samples);
   picture.samples_resumed = totals.samples_resumed;
   picture.rays_resumed = totals.rays_resumed;
+  if (request.ray_kinds) picture.ray_kinds = totals.ray_kinds;
   for (const StageTimes& times : {executor->times(), encoding}) {
     for (const auto& [stage, seconds] : times.stages()) picture.times.add(stage, seconds);
   }
@@ -148,8 +175,8 @@ std::string flag_warning(const Picture& picture) {
   for (const FlagText& each : flag_texts) {
     if (picture.flags & each.flag) reasons.push_back(each.text);
   }
-  return fmt::format("{} pixel{} may be wrong: {}", picture.flagged_pixels,
-                     picture.flagged_pixels == 1 ? "" : "s", fmt::join(reasons, "; "));
+  const uint64_t pixels = std::max(picture.flagged_pixels, picture.flagged_hits);
+  return fmt::format("{} pixel{} may be wrong: {}", pixels, pixels == 1 ? "" : "s", fmt::join(reasons, "; "));
 }
 
 std::string summary(const Picture& picture) {
@@ -184,9 +211,17 @@ Json to_json(const Picture& picture) {
             {"stages", to_json(picture.times)},
             {"peak_memory", peak_memory()},
             {"flagged_pixels", picture.flagged_pixels},
+            {"flagged_hits", picture.flagged_hits},
             {"flags", Json::array()},
             {"interrupted", picture.interrupted},
             {"bands", picture.bands}};
+  if (const auto& kinds = picture.ray_kinds)
+    json["ray_kinds"] = {{"eye", kinds->eye},
+                         {"eye_hits", kinds->eye_hits},
+                         {"reflected", kinds->reflected},
+                         {"refracted", kinds->refracted},
+                         {"total_reflections", kinds->total_reflections},
+                         {"shadow", kinds->shadow}};
   if (picture.samples_resumed > 0)
     json["resumed"] = {{"samples", picture.samples_resumed}, {"rays", picture.rays_resumed}};
   if (!picture.checkpoint.empty()) json["checkpoint"] = picture.checkpoint.string();

@@ -3,12 +3,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/aov.hpp"
 #include "cli/command.hpp"
 #include "cli/json.hpp"
+#include "core/ray_counts.hpp"
 
 namespace eyeray::cli {
 
@@ -28,6 +30,8 @@ struct PictureRequest {
   std::vector<std::string> outputs;  // none: the scene's name with .png, in the current folder
   std::vector<Aov> aovs;             // each as NAME.aov.pfm and NAME.aov.png, NAME from the first output
   LongRender long_render;
+  bool ray_kinds = false;  // count rays by kind
+  bool classic = false;    // sample as the published statistics of Haines' databases do
 
   // The options that say all this.
   void add_to(CLI::App& command);
@@ -46,13 +50,15 @@ struct Picture {
   double sampling_seconds = 0;
   double seconds = 0;  // all in all
   uint64_t flagged_pixels = 0;
-  uint32_t flags = 0;
+  uint64_t flagged_hits = 0;  // of the AOVs; 0 if none is made of first hits
+  uint32_t flags = 0;         // of either
   bool interrupted = false;
-  int bands = 1;                     // of rows, in which it was rendered
-  double share = 0;                  // of all samples that were taken
-  uint64_t samples_resumed = 0;      // of pixels, taken from a checkpoint
-  uint64_t rays_resumed = 0;         // of `rays`, those behind samples_resumed
-  std::filesystem::path checkpoint;  // left behind, to go on from; empty: none
+  int bands = 1;                       // of rows, in which it was rendered
+  double share = 0;                    // of all samples that were taken
+  uint64_t samples_resumed = 0;        // of pixels, taken from a checkpoint
+  uint64_t rays_resumed = 0;           // of `rays`, those behind samples_resumed
+  std::filesystem::path checkpoint;    // left behind, to go on from; empty: none
+  std::optional<RayCounts> ray_kinds;  // of this run, where they were asked for
   StageTimes times;
 };
 

@@ -19,18 +19,25 @@ fs::path aov_file(fs::path output, Aov aov, std::string_view ending) {
 
 }  // namespace
 
-AovFiles::AovFiles(Aov aov, fs::path output, int width, int height)
+AovFiles::AovFiles(Aov aov, fs::path output, int width, int height, const Scene& scene)
     : aov_(aov),
       width_(width),
       height_(height),
       data_name_(aov_file(output, aov, "pfm")),
       picture_name_(aov_file(output, aov, "png")),
       data_(data_name_, width, height, aov_channels(aov)),
-      painter_(aov_shown_as(aov), aov_channels(aov)) {}
+      painter_(aov_shown_as(aov), aov_channels(aov)) {
+  if (has_legend(aov)) legend_.emplace(aov, scene);
+}
 
 void AovFiles::write(const Image& rows) {
   painter_.see(rows);
   data_.write(rows);
+}
+
+void AovFiles::write(std::span<const FirstHit> hits) {
+  write(aov_image(aov_, hits, width_));
+  if (legend_) legend_->see(hits);
 }
 
 void AovFiles::finish(std::vector<fs::path>& files) {
@@ -46,25 +53,27 @@ void AovFiles::finish(std::vector<fs::path>& files) {
   }
   picture.finish();
   files.push_back(picture_name_);
+  if (legend_) files.push_back(legend_->write(picture_name_));
 }
 
 PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width,
-                           int height)
+                           int height, const Scene& scene)
     : outputs_(outputs), width_(width) {
   for (const std::string& output : outputs) writers_.emplace_back(output, width, height, 3);
-  for (const Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height);
+  for (const Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height, scene);
 }
 
 void PictureFiles::write(const FinishedRows& rows) {
   for (ImageWriter& writer : writers_) writer.write(rows.color);
   for (AovFiles& files : aovs_) {
     if (files.aov() == Aov::hits) files.write(rows.hits);
+    if (files.aov() == Aov::flags) files.write(rows.flagged);
   }
 }
 
 void PictureFiles::write(std::span<const FirstHit> hits) {
   for (AovFiles& files : aovs_) {
-    if (files.aov() != Aov::hits) files.write(aov_image(files.aov(), hits, width_));
+    if (is_of_first_hits(files.aov())) files.write(hits);
   }
 }
 

@@ -2,26 +2,29 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "cli/aov.hpp"
+#include "cli/legend.hpp"
 #include "core/false_color.hpp"
 #include "core/image_writer.hpp"
 #include "render/sums.hpp"
 
 namespace eyeray::cli {
 
-// One AOV on its way to NAME.AOV.pfm and NAME.AOV.png.
+// One AOV on its way to NAME.AOV.pfm and NAME.AOV.png, and one of ids to NAME.AOV.json.
 class AovFiles {
  public:
-  // NAME from `output`.
-  AovFiles(Aov aov, std::filesystem::path output, int width, int height);
+  // NAME from `output`; `scene` must outlive it.
+  AovFiles(Aov aov, std::filesystem::path output, int width, int height, const Scene& scene);
 
   Aov aov() const { return aov_; }
   // The next rows, from the top down.
   void write(const Image& rows);
+  void write(std::span<const FirstHit> hits);
   // The data takes its place, and is read again to be painted: its range is known only now. Adds the files'
   // names to `files`.
   void finish(std::vector<std::filesystem::path>& files);
@@ -34,14 +37,17 @@ class AovFiles {
   std::filesystem::path picture_name_;
   ImageWriter data_;
   FalseColorPainter painter_;
+  std::optional<Legend> legend_;
 };
 
 // Nothing of it is seen before its finish_…; Error (file_io) when a file cannot be written.
 class PictureFiles {
  public:
-  PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width, int height);
+  // `scene`, of which the AOVs are, must outlive it.
+  PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width, int height,
+               const Scene& scene);
 
-  // The next rows, from the top down, of the picture and of the AOV `hits`.
+  // The next rows, from the top down, of the picture and of the AOVs `hits` and `flags`.
   void write(const FinishedRows& rows);
   // The same of the other AOVs.
   void write(std::span<const FirstHit> hits);

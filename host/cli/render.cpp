@@ -21,6 +21,18 @@ void print_stages(const Picture& picture) {
   fmt::print(stderr, "  {:<16} {:>10}\n", "all in all", format_seconds(picture.seconds));
 }
 
+void print_rays(const RayCounts& kinds, double seconds) {
+  const auto line = [](std::string_view kind, uint64_t rays, const std::string& more = "") {
+    fmt::print(stderr, "  {:<16} {:>10}{}\n", kind, rays, more);
+  };
+  line("eye rays", kinds.eye, fmt::format(", {} of them hit", kinds.eye_hits));
+  line("reflected rays", kinds.reflected);
+  line("refracted rays", kinds.refracted,
+       kinds.total_reflections ? fmt::format(", and {} total reflections", kinds.total_reflections) : "");
+  line("shadow rays", kinds.shadow);
+  line("rays", kinds.total(), fmt::format(", {}", format_rate(double(kinds.total()) / seconds)));
+}
+
 // Of a picture that was interrupted.
 std::string what_was_kept(const Picture& picture, bool aovs) {
   const std::string file = picture.checkpoint.string();
@@ -63,6 +75,7 @@ void add_long_render_options(CLI::App& command, LongRender& options) {
 
 ExitCode Command::run() {
   request.check_outputs();
+  request.ray_kinds = stats;
   const Picture picture = make_picture(request, progress_reporter(quiet));
 
   if (const std::string warning = flag_warning(picture); !warning.empty())
@@ -71,6 +84,7 @@ ExitCode Command::run() {
     throw Error(ExitCode::interrupted, "{}", what_was_kept(picture, false));
   if (!quiet) fmt::print(stderr, "{}\n", summary(picture));
   if (stats) print_stages(picture);
+  if (picture.ray_kinds) print_rays(*picture.ray_kinds, picture.sampling_seconds);
   if (json) print_json(to_json(picture));
   if (!picture.interrupted) return ExitCode::ok;
   fmt::print(stderr, "eyeray: {}\n", what_was_kept(picture, !request.aovs.empty()));
@@ -84,7 +98,16 @@ void add_render(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Command>();
   options->request.add_to(*command);
   add_long_render_options(*command, options->request.long_render);
-  command->add_flag("--stats", options->stats, "Print how long each stage took.");
+  command->add_flag(
+      "--stats", options->stats,
+      "Print how long each stage took, and how many eye, reflected, refracted and shadow rays there were.");
+  command
+      ->add_flag(
+          "--classic", options->request.classic,
+          "Sample as Haines' published statistics do: a ray a pixel corner, at most 5 in a row with the eye "
+          "ray, none left out for counting little.")
+      ->excludes("--spp")
+      ->excludes("--max-depth");
   command->add_flag("-q,--quiet", options->quiet, "No progress and no summary; warnings and errors remain.");
   command->add_flag("--json", options->json, "Say what was done as JSON on standard output.");
   command->footer(

@@ -7,6 +7,7 @@
 #include "compare/report.hpp"
 #include "reference/renderer.hpp"
 #include "render/executors.hpp"
+#include "scene/things.hpp"
 
 namespace fs = std::filesystem;
 
@@ -83,6 +84,20 @@ Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int 
   return result;
 }
 
+// Says what the report's first hits meet, in the words of the scene.
+void name_hits(const Scene& scene, Report& report) {
+  const Things things(scene);
+  for (const FirstHit& hit : report.shown_hits()) {
+    // An executor that fails may say anything.
+    if (hit.primitive >= 0 && uint64_t(hit.primitive) < scene.primitive_count())
+      report.primitives[hit.primitive] = things.describe(uint64_t(hit.primitive));
+    if (hit.material >= 0 && size_t(hit.material) < scene.materials.size()) {
+      if (const std::string& name = scene.materials[size_t(hit.material)]->name; !name.empty())
+        report.materials[hit.material] = fmt::format("\"{}\"", name);
+    }
+  }
+}
+
 Frame Command::render_frame(Backend backend, Executor& maker, const Scene& scene, Report& report) const {
   Rendering rendering = render(scene, maker, {crop, true, progress_reporter(quiet)});
   if (rendering.interrupted) throw Error(ExitCode::interrupted, "interrupted; nothing was decided");
@@ -148,6 +163,7 @@ Report Command::verify(const SceneOptions& options) const {
     report.against_reference.push_back(std::move(result));
   }
 
+  name_hits(scene, report);
   if (!report.passes()) {
     const fs::path folder = folder_for(report.scene);
     keep_evidence(folder, frames, report);

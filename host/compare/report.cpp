@@ -86,6 +86,23 @@ std::optional<Pixel> Report::pixel_to_look_at() const {
   return std::nullopt;
 }
 
+std::vector<FirstHit> Report::shown_hits() const {
+  std::vector<FirstHit> hits;
+  const auto add = [&](const WorstPixel& worst) {
+    hits.push_back(worst.value_hit);
+    hits.push_back(worst.reference_hit);
+  };
+  for (const ExactResult& result : exact) {
+    if (result.comparison.worst.seam != Seam::none) add(result.comparison.worst);
+  }
+  for (const ReferenceResult& result : against_reference) {
+    for (const Tally* tally : {&result.comparison.first_hits, &result.comparison.colors}) {
+      if (tally->worst.excess > 0) add(tally->worst);
+    }
+  }
+  return hits;
+}
+
 std::string Report::command_to_look() const {
   const std::optional<Pixel> pixel = pixel_to_look_at();
   if (!pixel) return "";

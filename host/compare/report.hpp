@@ -1,6 +1,7 @@
 // What `eyeray verify` found out about a scene, for people and for programs.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,6 +48,8 @@ struct Report {
   std::vector<Participant> participants;
   std::vector<ExactResult> exact;
   std::vector<ReferenceResult> against_reference;
+  // What indices in first hits stand for, by `sphere "left eye", scene.toml:12`; those that a report names.
+  std::map<int32_t, std::string> primitives, materials;
   std::string kept;  // the folder where the evidence lies; empty when nothing was kept
 
   // Everything that fails, a sentence each, the deepest cause first; empty when the scene passes.
@@ -54,6 +57,8 @@ struct Report {
   bool passes() const { return failures().empty(); }
   // The pixel to look at: the worst of the first gate that fails; nothing when all pass.
   std::optional<Pixel> pixel_to_look_at() const;
+  // The first hits that the report shows.
+  std::vector<FirstHit> shown_hits() const;
   // "eyeray verify SCENE --crop X,Y,9,9", nine pixels around that one.
   std::string command_to_look() const;
 };

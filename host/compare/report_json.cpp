@@ -97,6 +97,12 @@ Json list(const std::vector<Item>& items) {
   return array;
 }
 
+Json json(const std::map<int32_t, std::string>& words) {
+  Json object = Json::object();
+  for (const auto& [index, text] : words) object[std::to_string(index)] = text;
+  return object;
+}
+
 Json json(const Report& report) {
   return {{"scene", report.scene},
           {"passed", report.passes()},
@@ -107,6 +113,8 @@ Json json(const Report& report) {
           {"executors", list(report.participants)},
           {"gate_a", list(report.exact)},
           {"gates_b_c", list(report.against_reference)},
+          {"primitives", json(report.primitives)},
+          {"materials", json(report.materials)},
           {"look_closer", report.command_to_look()},
           {"kept", report.kept}};
 }

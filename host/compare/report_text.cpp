@@ -20,10 +20,17 @@ std::string numbers(const Vec3& v) {
   return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z);
 }
 
-std::string describe(const FirstHit& hit) {
+// ` (sphere "left eye", scene.toml:12)`, where that is known.
+std::string in_words(const std::map<int32_t, std::string>& words, int32_t index) {
+  const auto found = words.find(index);
+  return found == words.end() ? "" : fmt::format(" ({})", found->second);
+}
+
+std::string describe(const FirstHit& hit, const Report& report) {
   if (hit.primitive < 0) return "meets nothing";
-  return fmt::format("primitive {}, material {}, t {:.9g}, normal {}", hit.primitive, hit.material, hit.t,
-                     numbers(hit.normal));
+  return fmt::format("primitive {}{}, material {}{}, t {:.9g}, normal {}", hit.primitive,
+                     in_words(report.primitives, hit.primitive), hit.material,
+                     in_words(report.materials, hit.material), hit.t, numbers(hit.normal));
 }
 
 // "2 explained (silhouette 1, shadow edge 1)".
@@ -38,17 +45,18 @@ std::string explained(const Tally& tally) {
 }
 
 // Both sides of a pixel, the seam named.
-void add_worst(std::string& text, const WorstPixel& worst, const std::string& value,
+void add_worst(std::string& text, const Report& report, const WorstPixel& worst, const std::string& value,
                const std::string& reference, const char* unit) {
   const std::string error = std::isinf(worst.excess) ? "beyond all" : fmt::format("{:.3g}", worst.excess);
   line(text, "    worst pixel {},{}: {} {}{}", worst.pixel.x, worst.pixel.y, error, unit,
        worst.seam == Seam::none ? "" : fmt::format(", parts at {}", name(worst.seam)));
-  line(text, "      {:9} color {}; {}", value, numbers(worst.value), describe(worst.value_hit));
-  line(text, "      {:9} color {}; {}", reference, numbers(worst.reference), describe(worst.reference_hit));
+  line(text, "      {:9} color {}; {}", value, numbers(worst.value), describe(worst.value_hit, report));
+  line(text, "      {:9} color {}; {}", reference, numbers(worst.reference),
+       describe(worst.reference_hit, report));
 }
 
-void add_tally(std::string& text, const char* gate, const char* what, const std::string& value,
-               const Tally& tally) {
+void add_tally(std::string& text, const Report& report, const char* gate, const char* what,
+               const std::string& value, const Tally& tally) {
   line(text, "  gate {} {} {} = reference, {}: {} equal, {} matching, {}, {} unexplained", gate,
        tally.passes() ? "passed" : "FAILED", value, what, tally.equal, tally.matching, explained(tally),
        tally.unexplained);
@@ -56,20 +64,20 @@ void add_tally(std::string& text, const char* gate, const char* what, const std:
     line(text, "    {} more differ and were not examined: at most {} may be explained", tally.unexamined,
          tally.may_be_explained);
   }
-  if (tally.worst.excess > 0) add_worst(text, tally.worst, value, "reference", "tolerances");
+  if (tally.worst.excess > 0) add_worst(text, report, tally.worst, value, "reference", "tolerances");
 }
 
-void add(std::string& text, const ExactResult& result) {
+void add(std::string& text, const Report& report, const ExactResult& result) {
   const ExactComparison& c = result.comparison;
   line(text, "  gate A {} {} = {}: {} of {} pixels differ in their bits{}",
        c.passes(result.ulp) ? "passed" : "FAILED", result.value, result.other, c.different_pixels, c.pixels,
        c.different_pixels > 0 ? fmt::format(", by at most {} ULP (allowed: {})", c.max_ulp, result.ulp) : "");
-  if (c.worst.seam != Seam::none) add_worst(text, c.worst, result.value, result.other, "ULP");
+  if (c.worst.seam != Seam::none) add_worst(text, report, c.worst, result.value, result.other, "ULP");
 }
 
-void add(std::string& text, const ReferenceResult& result) {
-  add_tally(text, "C", "first hits", result.value, result.comparison.first_hits);
-  add_tally(text, "B", "colours", result.value, result.comparison.colors);
+void add(std::string& text, const Report& report, const ReferenceResult& result) {
+  add_tally(text, report, "C", "first hits", result.value, result.comparison.first_hits);
+  add_tally(text, report, "B", "colours", result.value, result.comparison.colors);
   if (result.metrics) line(text, "    {}", to_text(*result.metrics));
 }
 
@@ -104,7 +112,7 @@ std::string to_text(const Report& report) {
     line(text, "  {} ({} rays in {:.3g} s)", p.description, p.rays, p.seconds);
   }
   for (const ExactResult& result : report.exact) {
-    if (result.comparison.incomparable.empty()) add(text, result);
+    if (result.comparison.incomparable.empty()) add(text, report, result);
   }
   for (const ReferenceResult& result : report.against_reference) {
     if (!result.comparison.incomparable.empty()) continue;
@@ -112,7 +120,7 @@ std::string to_text(const Report& report) {
       line(text, "  gates B and C {} {} = reference: the same as {}, bit by bit",
            result.comparison.passes() ? "passed" : "FAILED", result.value, report.against_reference[0].value);
     } else {
-      add(text, result);
+      add(text, report, result);
     }
   }
 

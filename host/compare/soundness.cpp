@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace eyeray {
@@ -75,6 +76,12 @@ Soundness inspect(const Frame& frame) {
   }
   soundness.flagged_pixels = frame.flagged_pixels;
   soundness.flags = frame.flags;
+  uint64_t flagged_hits = 0;
+  for (const FirstHit& hit : frame.first_hits) {
+    soundness.flags |= hit.flags;
+    flagged_hits += hit.flags != 0;
+  }
+  soundness.flagged_pixels = std::max(soundness.flagged_pixels, flagged_hits);
   return soundness;
 }
 
@@ -91,6 +98,7 @@ std::string describe(const Soundness& soundness) {
   if (soundness.flags & media_overflow) text += ": more than four media nested";
   if (soundness.flags & stack_overflow) text += ": more rays pending than the stack holds";
   if (soundness.flags & loop_budget) text += ": the driver's cap on loop iterations was near";
+  if (soundness.flags & ran_out) text += ": a shape was not found in the steps allowed";
   return text;
 }
 

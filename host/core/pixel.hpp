@@ -14,6 +14,10 @@ struct PixelSample {
   uint32_t rays = 0;   // rays traced for it: eye, reflected, refracted and shadow rays
   uint32_t hits = 0;   // surfaces struck by its eye, reflected and refracted rays
   uint32_t flags = 0;  // SampleFlag bits; 0 when nothing went wrong
+  // Of its rays; 0 from an executor that was not asked for kinds (ExecutorOptions::ray_kinds).
+  uint32_t reflected = 0;
+  uint32_t refracted = 0;
+  uint32_t total_reflections = 0;  // where a refracted ray would have been followed, had there been one
 };
 
 // Why a sample's colour may be incomplete. A flag is shown to the user and fails `verify`; it is never
@@ -22,6 +26,7 @@ enum SampleFlag : uint32_t {
   media_overflow = 1u << 0,  // more than four media nested
   stack_overflow = 1u << 1,  // more rays pending than the shader's stack holds
   loop_budget = 1u << 2,     // the driver's cap on loop iterations was near (docs/lavapipe.md)
+  ran_out = 1u << 3,         // a shape that is searched for step by step was not found in the steps allowed
 };
 
 // What the eye ray through the centre of a pixel meets first.
@@ -32,6 +37,7 @@ struct FirstHit {
   Vec2 uv{0.0};
   int32_t primitive = -1;  // index, see Scene::primitive_count; −1 where nothing is hit
   int32_t material = -1;   // index in Scene::materials
+  uint32_t flags = 0;      // SampleFlag bits; 0 when nothing went wrong
   // The largest coordinate, relative to the eye, that t was computed from, over the cosine of incidence: what
   // the rounding of coordinates moves t by is in proportion to it. Known to the reference; 0 elsewhere.
   double t_scale = 0;

@@ -202,10 +202,11 @@ std::vector<Vec4> GltfBuffers::vec4(size_t accessor) {
 std::vector<Mat4> GltfBuffers::mat4(size_t accessor) {
   return read<Mat4>(accessor, "MAT4", 16);
 }
-std::vector<Vec3> GltfBuffers::colors(size_t accessor) {
-  if (document_.element("accessors", accessor).text("type") != "VEC4") return vec3(accessor);
-  const std::vector<Vec4> all = vec4(accessor);
-  return {all.begin(), all.end()};
+std::vector<Vec4> GltfBuffers::colors(size_t accessor) {
+  if (document_.element("accessors", accessor).text("type") == "VEC4") return vec4(accessor);
+  std::vector<Vec4> all;
+  for (const Vec3& color : vec3(accessor)) all.emplace_back(color, 1.0);
+  return all;
 }
 std::vector<uint32_t> GltfBuffers::indices(size_t accessor) {
   const GltfObject source = document_.element("accessors", accessor);

@@ -33,7 +33,7 @@ class GltfBuffers {
   std::vector<Vec3> vec3(size_t accessor);
   std::vector<Vec4> vec4(size_t accessor);
   std::vector<Mat4> mat4(size_t accessor);
-  std::vector<Vec3> colors(size_t accessor);  // RGB, or RGBA without its alpha
+  std::vector<Vec4> colors(size_t accessor);  // RGBA; of RGB the alpha is 1
   std::vector<uint32_t> indices(size_t accessor);
 
  private:

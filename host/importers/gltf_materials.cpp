@@ -230,8 +230,28 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
           {.diffuse = diffuse, .reflectance = reflectance, .emission = s.emission, .highlight = highlight});
     }
   }
+  if (source.text("alphaMode") == "MASK") {
+    if (made->medium()) {
+      left_out_.add("holes in glass");
+    } else {
+      made->mask = mask(source);
+    }
+  }
   made->name = printable(source.text("name"));
   return made;
+}
+
+// Nothing where the cutoff leaves no holes.
+std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material) {
+  const double cutoff = material.number("alphaCutoff", 0.5);
+  if (!(cutoff > 0)) return std::nullopt;
+  const auto pbr = material.object("pbrMetallicRoughness");
+  const auto old = pbr ? std::nullopt : material.extension(specular_glossiness);
+  AlphaMask mask{.cutoff = cutoff};
+  if (pbr) mask.alpha.value = Vec3(share(pbr->numbers("baseColorFactor", {1, 1, 1, 1})[3]));
+  if (old) mask.alpha.value = Vec3(share(old->numbers("diffuseFactor", {1, 1, 1, 1})[3]));
+  if (const auto reference = base_texture(material)) mask.alpha.image = texture(*reference, true);
+  return mask;
 }
 
 // Of metallic-roughness, or where there is only that of specular-glossiness.
@@ -251,8 +271,7 @@ GltfUv GltfMaterials::uv(size_t index) const {
 void GltfMaterials::note_rest(const GltfObject& material) {
   if (material.has("normalTexture")) left_out_.add("normal maps");
   if (material.has("occlusionTexture")) left_out_.add("occlusion maps");
-  const std::string alpha = material.text("alphaMode");
-  if (alpha == "BLEND" || alpha == "MASK") left_out_.add("transparency by alpha");
+  if (material.text("alphaMode") == "BLEND") left_out_.add("transparency by alpha");
 }
 
 }  // namespace eyeray

@@ -48,6 +48,7 @@ class GltfMaterials {
 
   Surface surface(const GltfObject& material);
   Texture emission(const GltfObject& material);
+  std::optional<AlphaMask> mask(const GltfObject& material);
   std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, bool srgb);
   ImageTexture decode_image(size_t index);
   static std::optional<GltfObject> base_texture(const GltfObject& material);

@@ -95,8 +95,13 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   pool.positions = buffers_.vec3(*positions);
   if (normals) pool.normals = buffers_.vec3(*normals);
   if (uv) pool.uv = buffers_.vec2(*uv);
-  if (colors) pool.colors = buffers_.colors(*colors);
-  for (Vec3& color : pool.colors) color = sound_color(color);
+  if (colors) {
+    for (const Vec4& color : buffers_.colors(*colors)) {
+      pool.colors.push_back(sound_color(Vec3(color)));
+      pool.alphas.push_back(sound_color(Vec3(color.w)).x);
+    }
+    if (std::ranges::all_of(pool.alphas, [](double alpha) { return alpha == 1; })) pool.alphas.clear();
+  }
   for (Vec2& place : pool.uv) {
     place = uv_use.linear * place + uv_use.offset;
     place.y = 1 - place.y;  // theirs starts at the top of the picture

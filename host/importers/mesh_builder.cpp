@@ -125,6 +125,7 @@ void MeshBuilder::append(Mesh& mesh, const RawTriangles& raw, const Source& sour
   if (raw.has_normals) mesh.normals.push_back(normal);
   if (raw.has_uv) mesh.uv.push_back(source.uv == no_index ? Vec2(0) : pool_.uv[source.uv]);
   if (!pool_.colors.empty()) mesh.colors.push_back(pool_.colors[source.position]);
+  if (!pool_.alphas.empty()) mesh.alphas.push_back(pool_.alphas[source.position]);
 }
 
 Mesh MeshBuilder::build(const RawTriangles& raw, double smooth) {

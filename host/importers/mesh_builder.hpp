@@ -34,7 +34,8 @@ struct VertexPool {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  // of any length
   std::vector<Vec2> uv;
-  std::vector<Vec3> colors;  // linear RGB, one a position, or none
+  std::vector<Vec3> colors;    // linear RGB, one a position, or none
+  std::vector<double> alphas;  // likewise, and only with colours
 };
 
 // Within 0 to 1; 0 for what is not a number.

@@ -22,7 +22,8 @@ bool GroupPlacer::is_to_be_tried(int group, const Mat4& transform) {
   return true;
 }
 
-std::string GroupPlacer::place(int index, const Mat4& transform, const SourcePosition& position) {
+std::string GroupPlacer::place(int index, const Mat4& transform, const SourcePosition& position,
+                               const NameRef& name) {
   const Group& group = scene_.groups[size_t(index)];
   if (!group.shapes.empty()) {
     const Affine map(transform);
@@ -38,7 +39,7 @@ std::string GroupPlacer::place(int index, const Mat4& transform, const SourcePos
     if (!wrong.empty()) return wrong;
   }
   scene_.group_instances.push_back(
-      {index, transform, scene_.shapes.size(), scene_.instances.size(), position});
+      {index, transform, scene_.shapes.size(), scene_.instances.size(), position, name});
   return "";
 }
 

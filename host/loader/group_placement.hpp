@@ -22,7 +22,7 @@ class GroupPlacer {
   bool is_to_be_tried(int group, const Mat4& transform);
 
   // Shows the group once more. Why it cannot stand there, or "".
-  std::string place(int group, const Mat4& transform, const SourcePosition& position);
+  std::string place(int group, const Mat4& transform, const SourcePosition& position, const NameRef& name);
 
  private:
   struct Kept {

@@ -46,6 +46,7 @@ auto tables(const toml::table& holder, std::string_view name) {
 GroupPlan::GroupPlan(const toml::table& root, GroupStorage storage, DiagnosticLog& log) : log_(log) {
   enter_names(root);
   Node& scene = node_of(root);
+  scene.is_scene = true;
   std::vector<std::string_view> chain;
   visit(scene, chain);
   for (const auto& [name, node] : by_name_) {
@@ -74,19 +75,22 @@ GroupPlan::Node& GroupPlan::node_of(const toml::table& table) {
   return *entry->second;
 }
 
+bool GroupPlan::is_pattern(const toml::table& group) {
+  return group["pattern"].value_or(false);
+}
+
 void GroupPlan::enter_names(const toml::table& root) {
   for (const toml::table& group : tables(root, "group")) {
     const auto* name = group["name"].as_string();
-    if (!name) continue;
-    Node& node = node_of(group);
-    node.name = name->get();
-    const auto [entry, fresh] = by_name_.try_emplace(name->get(), &node);
-    if (name->get().empty()) {
-      fail(*name, "a group's name must not be empty");
-    } else if (!fresh) {
-      const SourcePosition first = position_of((*entry->second->table)["name"].node()->source());
-      fail(*name, fmt::format("group \"{}\" is defined twice; the first is at {}:{}", name->get(), first.file,
-                              first.line));
+    if (name && !name->get().empty()) {
+      Node& node = node_of(group);
+      node.name = name->get();
+      const auto [entry, fresh] = by_name_.try_emplace(name->get(), &node);
+      // Names may be shared where nobody asks for one.
+      if (!fresh) shared_names_.insert(name->get());
+    } else if (is_pattern(group)) {
+      log_.error(position_of(group.get("pattern")->source()),
+                 "a pattern needs a `name`, by which an [[instance]] shows it");
     }
   }
 }
@@ -101,12 +105,11 @@ void GroupPlan::link(Node& node) {
           link_instances(node, table);
           break;
         case Section::Kind::group:
-          if (!table.contains("name")) {
+          if (!is_pattern(table))
             node.members.push_back({&node_of(table), batch_size(table)});
-          } else if (!by_table_.contains(&table)) {
-            fail(*table.get("name"),
-                 "only a [[group]] of the scene itself can have a name, not one in another");
-          }
+          else if (!node.is_scene)
+            log_.error(position_of(table.get("pattern")->source()),
+                       "only a [[group]] that is in no other can be a pattern");
           break;
         default:
           node.own += batch_size(table);
@@ -120,6 +123,9 @@ void GroupPlan::link(Node& node) {
 void GroupPlan::link_instances(Node& node, const toml::table& table) {
   const auto add = [&](const toml::node& name, double count) {
     const auto found = name.is_string() ? by_name_.find(name.as_string()->get()) : by_name_.end();
+    if (name.is_string() && shared_names_.contains(name.as_string()->get()))
+      log_.error(position_of(name.source()),
+                 fmt::format("more than one [[group]] is named \"{}\"", name.as_string()->get()));
     if (found != by_name_.end())
       node.members.push_back({found->second, count * batch_size(*found->second->table)});
   };
@@ -133,9 +139,10 @@ void GroupPlan::visit(Node& node, std::vector<std::string_view>& chain) {
   if (node.visit == Node::Visit::done) return;
   chain.push_back(node.name);
   if (node.visit == Node::Visit::begun) {
-    const auto first = std::ranges::find(chain, node.name);
-    fail(*node.table->get("name"), fmt::format("group \"{}\" holds itself: {}", node.name,
-                                               fmt::join(std::vector(first, chain.end()), " → ")));
+    std::vector<std::string_view> circle(std::ranges::find(chain, node.name), chain.end());
+    std::erase(circle, "");
+    fail(*node.table->get("name"),
+         fmt::format("group \"{}\" holds itself: {}", node.name, fmt::join(circle, " → ")));
   } else if (chain.size() > deepest) {
     fail(*node.table, fmt::format("groups are nested more than {} deep", deepest));
   } else {

@@ -6,6 +6,7 @@
 
 #include <deque>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,17 +28,21 @@ class GroupPlan {
   // Where the group stands in the world, is it kept once, and shown by instances?
   bool is_instanced(const toml::table& group) const;
 
-  // The group of that name, or null.
+  // Whether a group stands nowhere but where instances show it.
+  static bool is_pattern(const toml::table& group);
+
+  // The group of that name that is in no other, or null.
   const toml::table* find(std::string_view name) const;
   std::vector<std::string_view> names() const;
-  // Named groups that nothing shows.
+  // Patterns that nothing shows.
   std::vector<const toml::table*> idle() const;
 
  private:
   // A group, or the scene. Counts are floating-point numbers: batches of groups in groups multiply.
   struct Node {
     const toml::table* table = nullptr;
-    std::string_view name;
+    std::string_view name;  // "" of those in groups, too
+    bool is_scene = false;
     struct Member {
       Node* group;
       double count;  // how often it stands in one of these
@@ -67,6 +72,7 @@ class GroupPlan {
   std::deque<Node> nodes_;
   std::map<const toml::table*, Node*> by_table_;
   std::map<std::string, Node*, std::less<>> by_name_;
+  std::set<std::string, std::less<>> shared_names_;
   std::vector<Node*> children_first_;
   bool sound_ = true;
 };

@@ -42,6 +42,7 @@ std::string scene_manual() {
   for (const Section& section : sections()) {
     text += fmt::format("## `{}`\n\n", section.title);
     if (section.shape) {
+      text += fmt::format("![{0}](images/shapes/{0}.png)\n\n", section.shape->name);
       text += trimmed(section.shape->manual) + key_table({section.shape->keys, section.keys});
       continue;
     }

@@ -73,12 +73,13 @@ std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
 }
 
 std::string MeshPlacer::place(ImportedScene& import, const Mat4& transform, std::optional<int> material,
-                              const SourcePosition& position, std::vector<Instance>& into) {
+                              const SourcePosition& position, const NameRef& name,
+                              std::vector<Instance>& into) {
   Place& place = places_[&import];
   if (place.first_mesh < 0) take_meshes(import, place);
   if (!material && place.first_material < 0) take_materials(import, place);
   for (const Instance& instance : import.instances) {
-    Instance placed{place.first_mesh + instance.mesh, transform * instance.transform, 0, position};
+    Instance placed{place.first_mesh + instance.mesh, transform * instance.transform, 0, position, name};
     if (std::string wrong = check(static_cast<size_t>(placed.mesh), placed.transform); !wrong.empty())
       return wrong;
     placed.material = material ? *material

@@ -19,7 +19,7 @@ class MeshPlacer {
   // absent, with the file's own. The first time, the file's meshes, and its materials once they are needed,
   // move into the scene. Why it cannot stand there, or "".
   std::string place(ImportedScene& import, const Mat4& transform, std::optional<int> material,
-                    const SourcePosition& position, std::vector<Instance>& into);
+                    const SourcePosition& position, const NameRef& name, std::vector<Instance>& into);
 
   // Why a mesh of the scene cannot stand under this map, or "".
   std::string check(size_t mesh, const Mat4& transform) const;

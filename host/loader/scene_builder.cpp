@@ -23,6 +23,20 @@ struct Batch {
   size_t count = 1;                    // 0 after an error
 };
 
+// Where a thing stands, and what it is called.
+struct Placing {
+  Mat4 to_world{1.0};
+  NameRef name;
+};
+
+// The name that a table, or an element of its batch, gives itself, where it is one; "" where there is none.
+std::string_view written_name(const toml::table& table, const Batch& batch, size_t element) {
+  const toml::node* node = table.get("name");
+  if (const toml::node* list = batch.lists ? batch.lists->get("name") : nullptr)
+    node = list->as_array()->get(element);
+  return node && node->is_string() ? std::string_view(node->as_string()->get()) : std::string_view();
+}
+
 class Builder {
  public:
   Builder(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log)
@@ -44,8 +58,8 @@ class Builder {
              [&](const Section& section, const toml::table& table) { add_material(section, table); });
     plan_.emplace(root_, scene_.render.groups, log_);
     if (plan_->sound()) {
-      add_placed(root_, Mat4(1.0));
-      check_idle_groups();
+      add_placed(root_, Placing{});
+      check_idle_patterns();
     }
     check_whole();
     return std::move(scene_);
@@ -82,17 +96,17 @@ class Builder {
   }
 
   void add_material(const Section& section, const toml::table& table);
-  void add_placed(const toml::table& holder, const Mat4& to_world);
-  void add_table(const Section& section, const toml::table& table, const Mat4& to_world);
+  void add_placed(const toml::table& holder, const Placing& group);
+  void add_table(const Section& section, const toml::table& table, const Placing& group);
   template <typename Add>
-  void for_each_placed(const Section& section, const toml::table& table, const Mat4& to_world,
+  void for_each_placed(const Section& section, const toml::table& table, const Placing& group,
                        const Add& add);
-  void add_shape(const Section& section, TableReader& reader, const Mat4& to_world);
-  void add_mesh(TableReader& reader, const Mat4& to_world);
-  void add_group(TableReader& reader, const toml::table& table, const Mat4& to_world);
-  void add_named_group(TableReader& reader, const Mat4& to_world);
+  void add_shape(const Section& section, TableReader& reader, const Placing& placing);
+  void add_mesh(TableReader& reader, const Placing& placing);
+  void add_group(TableReader& reader, const toml::table& table, const Placing& placing);
+  void add_instance(TableReader& reader, const Placing& placing);
   Group build_group(const toml::table& table, const Mat4& to_world);
-  void check_idle_groups();
+  void check_idle_patterns();
   Batch read_batch(const Section& section, const toml::table& table);
   int find_material(TableReader& shape);
   void check_whole();
@@ -143,6 +157,13 @@ void Builder::add_material(const Section& section, const toml::table& table) {
     reader.error("type",
                  fmt::format("a scene can have at most {} materials that light passes through", most_media));
   }
+  if (reader.has("alpha")) {
+    if (material->medium())
+      reader.error("alpha", "what light passes through fills its shape, which can have no holes");
+    material->mask = AlphaMask{reader.texture("alpha"), reader.number("alpha_cutoff")};
+  } else if (reader.has("alpha_cutoff")) {
+    reader.error("alpha_cutoff", "without `alpha` there is nothing to cut off");
+  }
   material->name = name;
   entry->second.index = static_cast<int>(scene_.materials.size());
   scene_.materials.push_back(std::move(material));
@@ -191,23 +212,23 @@ Batch Builder::read_batch(const Section& section, const toml::table& table) {
 }
 
 // The shapes, meshes and groups of a group, or of the scene.
-void Builder::add_placed(const toml::table& holder, const Mat4& to_world) {
+void Builder::add_placed(const toml::table& holder, const Placing& group) {
   for (const std::string_view name : placed_names()) {
     for_each(holder, name, [&](const Section& section, const toml::table& table) {
-      // What has a name is shown by it.
-      if (section.kind == Section::Kind::group && table.contains("name")) return;
-      add_table(section, table, to_world);
+      // A pattern stands where instances show it.
+      if (section.kind == Section::Kind::group && GroupPlan::is_pattern(table)) return;
+      add_table(section, table, group);
     });
   }
 }
 
-void Builder::add_table(const Section& section, const toml::table& table, const Mat4& to_world) {
-  for_each_placed(section, table, to_world, [&](TableReader& reader, const Mat4& placed) {
+void Builder::add_table(const Section& section, const toml::table& table, const Placing& group) {
+  for_each_placed(section, table, group, [&](TableReader& reader, const Placing& placed) {
     switch (section.kind) {
       case Section::Kind::group:
         return add_group(reader, table, placed);
       case Section::Kind::instance:
-        return add_named_group(reader, placed);
+        return add_instance(reader, placed);
       case Section::Kind::mesh:
         return add_mesh(reader, placed);
       default:
@@ -216,41 +237,41 @@ void Builder::add_table(const Section& section, const toml::table& table, const 
   });
 }
 
-// All of a group, apart from the scene.
+// All of a group, apart from the scene; what it is called there goes before the names in it.
 Group Builder::build_group(const toml::table& table, const Mat4& to_world) {
   Group group;
   Group* const outer = std::exchange(building_, &group);
-  add_placed(table, to_world);
+  add_placed(table, {to_world, {}});
   building_ = outer;
   return group;
 }
 
-void Builder::add_group(TableReader& reader, const toml::table& table, const Mat4& to_world) {
-  if (building_ || !plan_->is_instanced(table)) return add_placed(table, to_world);
+void Builder::add_group(TableReader& reader, const toml::table& table, const Placing& placing) {
+  if (building_ || !plan_->is_instanced(table)) return add_placed(table, placing);
   const auto [entry, fresh] = kept_groups_.try_emplace(&table);
   if (fresh) entry->second = group_placer_.keep(build_group(table, Mat4(1.0)));
-  if (group_placer_.is_to_be_tried(entry->second, to_world)) build_group(table, to_world);
-  const std::string wrong = group_placer_.place(entry->second, to_world, reader.position());
+  if (group_placer_.is_to_be_tried(entry->second, placing.to_world)) build_group(table, placing.to_world);
+  const std::string wrong =
+      group_placer_.place(entry->second, placing.to_world, reader.position(), placing.name);
   if (!wrong.empty()) reader.error("transform", wrong);
 }
 
-void Builder::add_named_group(TableReader& reader, const Mat4& to_world) {
+void Builder::add_instance(TableReader& reader, const Placing& placing) {
   if (!reader.valid("group")) return;
   const std::string name = reader.string("group");
-  if (const toml::table* group = plan_->find(name))
-    return add_table(*find_section("group"), *group, to_world);
+  if (const toml::table* group = plan_->find(name)) return add_table(*find_section("group"), *group, placing);
   if (log_.damaged()) return;
   const std::string nearest = nearest_name(name, plan_->names());
   reader.error("group", fmt::format("no [[group]] is named \"{}\"{}", name,
                                     nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
 }
 
-// What is wrong in a group that nothing shows is wrong all the same.
-void Builder::check_idle_groups() {
+// What is wrong in a pattern that nothing shows is wrong all the same.
+void Builder::check_idle_patterns() {
   for (const toml::table* group : plan_->idle()) {
     Group unused;
     building_ = &unused;
-    add_table(*find_section("group"), *group, Mat4(1.0));
+    add_table(*find_section("group"), *group, Placing{});
     building_ = nullptr;
     log_.warning(position_of(group->source()),
                  fmt::format("group \"{}\" is not shown: no [[instance]] names it",
@@ -260,8 +281,12 @@ void Builder::check_idle_groups() {
 
 // Calls add(reader, to_world) for the table, or for each element of its batch.
 template <typename Add>
-void Builder::for_each_placed(const Section& section, const toml::table& table, const Mat4& to_world,
+void Builder::for_each_placed(const Section& section, const toml::table& table, const Placing& group,
                               const Add& add) {
+  Placing placed{group.to_world, {group.name.index, false}};
+  const DiagnosticLog::About about(log_, [&] {
+    return placed.name.index == Names::none ? "" : describe(section.name, placed.name, scene_.names);
+  });
   const Batch batch = read_batch(section, table);
   std::vector<std::string_view> elsewhere{batch_key};
   if (section.kind == Section::Kind::group)
@@ -269,6 +294,12 @@ void Builder::for_each_placed(const Section& section, const toml::table& table, 
   else
     tried_shapes_ = true;
   for (size_t i = 0; i < batch.count; ++i) {
+    placed.name = {group.name.index, false};
+    if (const std::string_view name = written_name(table, batch, i); !name.empty()) {
+      // Of one name there are as many as the batch has elements.
+      const bool shared = batch.lists && !batch.lists->contains("name");
+      placed.name = {scene_.names.add(name, shared ? uint32_t(i + 1) : 0, group.name.index), true};
+    }
     TableReader reader = read_table({.title = section.title,
                                      .table = &table,
                                      .keys = {section.shape ? section.shape->keys : section.keys,
@@ -277,8 +308,10 @@ void Builder::for_each_placed(const Section& section, const toml::table& table, 
                                      .element = i,
                                      .extra_keys = elsewhere},
                                     log_);
-    const Mat4 placed = to_world * reader.transform("transform");
-    if (const std::string why = why_singular(placed); !why.empty())
+    if (reader.has("name") && reader.valid("name") && reader.string("name").empty())
+      reader.error("name", "a name must not be empty; leave `name` out instead");
+    placed.to_world = group.to_world * reader.transform("transform");
+    if (const std::string why = why_singular(placed.to_world); !why.empty())
       reader.error("transform",
                    fmt::format("with the transforms of its groups, the map cannot be undone: {}", why));
     else
@@ -286,16 +319,25 @@ void Builder::for_each_placed(const Section& section, const toml::table& table, 
   }
 }
 
-void Builder::add_shape(const Section& section, TableReader& reader, const Mat4& to_world) {
+void Builder::add_shape(const Section& section, TableReader& reader, const Placing& placing) {
   const int material = find_material(reader);
-  std::unique_ptr<Shape> shape = section.shape->parse(reader, to_world);
+  std::unique_ptr<Shape> shape = section.shape->parse(reader, placing.to_world);
   if (!shape) return;
+  if (!section.shape->flat && !scene_.materials.empty() && scene_.materials[size_t(material)]->mask)
+    reader.error(
+        "material",
+        fmt::format(
+            "a material with `alpha` has holes, and a ray may meet a {} again behind one; only planes, "
+            "triangles, polygons, parallelograms, disks and meshes can be of it",
+            section.shape->name));
   shape->material = material;
+  shape->type = section.shape;
+  shape->name = placing.name;
   shape->position = reader.position();
   (building_ ? building_->shapes : scene_.shapes).push_back(std::move(shape));
 }
 
-void Builder::add_mesh(TableReader& reader, const Mat4& to_world) {
+void Builder::add_mesh(TableReader& reader, const Placing& placing) {
   const bool own_materials = !reader.has("material");
   const int material = own_materials ? 0 : find_material(reader);
   if (reader.failed()) return;
@@ -308,8 +350,8 @@ void Builder::add_mesh(TableReader& reader, const Mat4& to_world) {
       for (const std::string& warning : import->warnings) log_.warning(reader.position(), warning);
     }
     const std::string wrong =
-        placer_.place(*import, to_world, own_materials ? std::nullopt : std::optional(material),
-                      reader.position(), building_ ? building_->instances : scene_.instances);
+        placer_.place(*import, placing.to_world, own_materials ? std::nullopt : std::optional(material),
+                      reader.position(), placing.name, building_ ? building_->instances : scene_.instances);
     if (!wrong.empty()) reader.error("transform", wrong);
   } catch (const Error& refused) {
     reader.error("file", refused.what());

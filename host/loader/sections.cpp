@@ -25,11 +25,31 @@ std::span<const Key> material_keys() {
        .type = KeyType::string,
        .doc = "The name by which shapes refer to it, unique in the scene."},
       {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = material_names()},
+      {.name = "alpha",
+       .type = KeyType::texture,
+       .doc = "Where it is below `alpha_cutoff`, there is no surface. Of a color the first component counts, "
+              "of an "
+              "image its alpha. Only on shapes that a ray meets once.",
+       .max = 1,
+       .optional = true},
+      {.name = "alpha_cutoff",
+       .type = KeyType::number,
+       .doc = "The least `alpha` that is not a hole.",
+       .fallback = "0.5",
+       .min = 0,
+       .max = 1,
+       .above_min = true},
   };
   return keys;
 }
 
+constexpr Key name_key = {.name = "name",
+                          .type = KeyType::string,
+                          .doc = "What messages and legends call it; several may share a name.",
+                          .optional = true};
+
 constexpr Key shape_keys[] = {
+    name_key,
     {.name = "material", .type = KeyType::string, .doc = "The `name` of a [[material]]."},
     {.name = "transform",
      .type = KeyType::transform,
@@ -54,6 +74,7 @@ What a file has and eyeray leaves out is a warning. Cameras and lights of a glTF
 itself, `eyeray render model.glb`. [scene-file.md](scene-file.md#meshes) tells more.)";
 
 constexpr Key mesh_keys[] = {
+    name_key,
     {.name = "file", .type = KeyType::string, .doc = "The name of the file, relative to this one."},
     {.name = "material",
      .type = KeyType::string,
@@ -75,7 +96,7 @@ constexpr Key mesh_keys[] = {
 
 constexpr std::string_view group_manual =
     R"(Holds shapes, meshes and other groups, written `[[group.sphere]]`, `[[group.mesh]]`, `[[group.group]]` below it, and moves them as one. Each transform
-of a `batch` shows the whole group once more. Materials are the scene's.
+of a `batch` shows the whole group once more. Materials are the scene's. A `name` of a group goes before those in it: `cart 2/wheel`.
 
 ```toml
 [[group]]
@@ -93,7 +114,7 @@ radius = 0.4
 material = "glass"
 ```
 
-A group with a `name` is a pattern: it stands nowhere itself, but wherever an [[instance]](#instance) names it.
+An [[instance]](#instance) shows a group once more, by its `name`. With `pattern = true` it is shown by instances alone, and not where it is written.
 
 A group that stands many times is kept once; see `groups` of [render](#render). That costs no more memory than one, and changes no
 id and no surface. One that holds a plane, which has no end, is copied.
@@ -101,11 +122,12 @@ id and no surface. One that holds a plane, which has no end, is copied.
 What a shape cannot be, it cannot be in a group either: a sphere in one that is stretched is an error; an ellipsoid is not.)";
 
 constexpr std::string_view instance_manual =
-    R"(Shows a [[group]] that has a `name`, as if it were written here: also in another group, also many times by a `batch`.
+    R"(Shows a [[group]] of the scene by its `name`, as if it were written here: also in another group, also many times by a `batch`.
 
 ```toml
 [[group]]
 name = "tree"
+pattern = true
 
 [[group.cone]]
 from = [0, 1, 0]
@@ -121,7 +143,8 @@ batch = { transform = [[{ translate = [-3, 0, 0] }], [{ scale = 1.5 }, { transla
 A group that holds itself, by whatever way round, is an error.)";
 
 constexpr Key instance_keys[] = {
-    {.name = "group", .type = KeyType::string, .doc = "The `name` of a [[group]]."},
+    name_key,
+    {.name = "group", .type = KeyType::string, .doc = "The `name` of a [[group]] that is in no other."},
     {.name = "transform",
      .type = KeyType::transform,
      .doc = "Steps that move it, applied in the order written, after those of the group.",
@@ -129,10 +152,11 @@ constexpr Key instance_keys[] = {
 };
 
 constexpr Key group_keys[] = {
-    {.name = "name",
-     .type = KeyType::string,
-     .doc = "The name by which an [[instance]] shows it; only of groups that are in no other.",
-     .optional = true},
+    name_key,
+    {.name = "pattern",
+     .type = KeyType::boolean,
+     .doc = "Whether it stands only where an [[instance]] names it; only of groups that are in no other.",
+     .fallback = "false"},
     {.name = "transform",
      .type = KeyType::transform,
      .doc = "Steps that move all of it, applied in the order written, after those of what it holds.",

@@ -27,7 +27,8 @@ shader::Material make_record(uint32_t kind, const Highlight& highlight, double s
   const uint32_t flags = (highlight.blinn ? MATERIAL_BLINN : 0u) | black << MATERIAL_EMISSION_SHIFT;
   return {.head = {kind, flags, 0u, shadow_density(shadow_transmittance)},
           .textures = {black, packer.add_texture(highlight.specular), black, black},
-          .parameters = shader::vec4(float(highlight.shininess), 0.0f, 0.0f, 0.0f)};
+          .parameters = shader::vec4(float(highlight.shininess), 0.0f, 0.0f, 0.0f),
+          .mask = {}};
 }
 
 }  // namespace eyeray

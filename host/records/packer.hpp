@@ -35,7 +35,8 @@ struct PackedScene {
   // How much larger, seen from the world, rounding is in a shape's own space: |linear| · |inverse|, the
   // largest of all shapes.
   float map_growth = 1;
-  uint64_t shape_iterations = 0;  // that shapes' own loops take, all shapes together
+  uint64_t shape_iterations = 0;   // that shapes' own loops take, all shapes together
+  bool steps_may_run_out = false;  // whether any shape may return T_RAN_OUT
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
   std::vector<uint32_t> texels;                                   // records.h says how; empty without images
@@ -66,6 +67,8 @@ class Packer {
   // Every shape that loops says how often it may.
   void add_map_growth(double growth) { scene.map_growth = std::max(scene.map_growth, float(growth)); }
   void add_iterations(size_t count) { scene.shape_iterations += count; }
+  // Every shape whose `intersect` may return T_RAN_OUT says so.
+  void add_steps() { scene.steps_may_run_out = true; }
   // The index of a texture; equal textures share one.
   uint32_t add_texture(const Texture& texture);
   // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there

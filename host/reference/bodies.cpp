@@ -16,11 +16,13 @@ bool finite(const Bounds& bounds) {
 }  // namespace
 
 Bodies::Bodies(std::span<const std::unique_ptr<Shape>> shapes, std::span<const Instance> instances,
-               const std::deque<MeshGeometry>& meshes, Acceleration acceleration)
-    : shapes_(shapes) {
+               const std::deque<MeshGeometry>& meshes, std::span<const std::unique_ptr<Material>> materials,
+               Acceleration acceleration)
+    : shapes_(shapes), materials_(materials) {
   uint64_t triangles = 0;
   for (const Instance& instance : instances) {
-    instances_.emplace_back(instance, meshes[size_t(instance.mesh)]);
+    const auto& mask = materials[size_t(instance.material)]->mask;
+    instances_.emplace_back(instance, meshes[size_t(instance.mesh)], mask ? &*mask : nullptr);
     triangles_before_.push_back(triangles);
     triangles += instances_.back().triangles();
   }
@@ -54,9 +56,18 @@ int Bodies::material(size_t body) const {
   return is_shape(body) ? shapes_[body]->material : instances_[body - shapes_.size()].material();
 }
 
+// A hole is not met, and behind it there is nothing more of a shape that may have one.
+std::optional<Intersection> Bodies::intersect_shape(size_t index, const Ray& ray) const {
+  const Shape& shape = *shapes_[index];
+  const auto hit = shape.intersect(ray);
+  const auto& mask = materials_[size_t(shape.material)]->mask;
+  if (hit && mask && !mask->covers(shape.surface(ray, *hit).uv)) return std::nullopt;
+  return hit;
+}
+
 std::optional<Bodies::Hit> Bodies::intersect(size_t body, const Ray& ray, double limit) const {
   if (is_shape(body)) {
-    const auto hit = shapes_[body]->intersect(ray);
+    const auto hit = intersect_shape(body, ray);
     if (!hit) return std::nullopt;
     return Hit{TriangleHit{*hit}, body};
   }
@@ -79,11 +90,15 @@ void Bodies::for_each_entered(const Ray& ray, double limit, const Visit& visit) 
   });
 }
 
-std::optional<Bodies::Hit> Bodies::trace(const Ray& ray, double limit) const {
+std::optional<Bodies::Hit> Bodies::trace(const Ray& ray, double limit, double& sure_until) const {
   std::optional<Hit> nearest;
   for_each_entered(ray, limit, [&](size_t body, double entry, double so_far) {
     auto hit = intersect(body, ray, so_far);
     if (!hit) return so_far;
+    if (hit->at.ran_out) {
+      sure_until = std::min(sure_until, hit->at.t);
+      return so_far;
+    }
     hit->at.t = std::max(hit->at.t, entry);
     if (nearest && !(hit->at.t < nearest->at.t || (hit->at.t == nearest->at.t && body < nearest->body)))
       return so_far;
@@ -106,9 +121,14 @@ double Bodies::reach(const Hit& hit, const Vec3& eye) const {
 
 // The share of light that comes through one body which the ray enters at t = entry.
 double Bodies::share_let_through(size_t body, const Ray& ray, double entry, double t_end,
-                                 double share) const {
+                                 bool& gave_up) const {
+  const double share = materials_[size_t(material(body))]->shadow_transmittance();
   if (is_shape(body)) {
-    const auto hit = shapes_[body]->intersect(ray);
+    const auto hit = intersect_shape(body, ray);
+    if (hit && hit->ran_out) {
+      gave_up = gave_up || hit->t < t_end;
+      return 1;
+    }
     return hit && std::max(hit->t, entry) < t_end ? share : 1;
   }
   const InstanceGeometry& instance = instances_[body - shapes_.size()];
@@ -116,13 +136,12 @@ double Bodies::share_let_through(size_t body, const Ray& ray, double entry, doub
   return crossed == 0 ? 1 : std::pow(share, crossed / 2.0);
 }
 
-bool Bodies::add_shares(const Ray& ray, double t_end, std::span<const std::unique_ptr<Material>> materials,
-                        size_t space, std::vector<Share>& shares) const {
+bool Bodies::add_shares(const Ray& ray, double t_end, size_t space, std::vector<Share>& shares,
+                        bool& gave_up) const {
   bool lost = false;
   for_each_entered(ray, t_end, [&](size_t body, double entry, double limit) {
     if (!(entry < t_end)) return limit;
-    const double share =
-        share_let_through(body, ray, entry, t_end, materials[size_t(material(body))]->shadow_transmittance());
+    const double share = share_let_through(body, ray, entry, t_end, gave_up);
     if (share != 1) shares.push_back({space, body, share});
     lost = share == 0;
     return lost ? -1.0 : limit;

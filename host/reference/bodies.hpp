@@ -12,17 +12,19 @@ namespace eyeray::reference {
 
 class Bodies {
  public:
-  // All of them must outlive it. `meshes`: as Scene::meshes.
+  // All of them must outlive it. `meshes` and `materials`: as the scene's.
   Bodies(std::span<const std::unique_ptr<Shape>> shapes, std::span<const Instance> instances,
-         const std::deque<MeshGeometry>& meshes, Acceleration acceleration);
+         const std::deque<MeshGeometry>& meshes, std::span<const std::unique_ptr<Material>> materials,
+         Acceleration acceleration);
 
   struct Hit {
     TriangleHit at;  // of a shape: its intersection
     size_t body;     // a shape by index; the instances follow
   };
   // The nearest hit with t > 0; of exactly equal ones that of the lowest body. Beyond `limit` it may be
-  // missing.
-  std::optional<Hit> trace(const Ray& ray, double limit = std::numeric_limits<double>::infinity()) const;
+  // missing. Where the steps allowed did not suffice for a shape, `sure_until` becomes no more than the t up
+  // to which there is nothing of it.
+  std::optional<Hit> trace(const Ray& ray, double limit, double& sure_until) const;
   // The surface where `ray` has that hit.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
 
@@ -37,13 +39,14 @@ class Bodies {
   // Adds the shares of light that come through those bodies at 0 < t < t_end that keep any away, in any
   // order; returns whether all is lost. A shape counts once; of an instance each triangle lets the square
   // root of its material's share through, so that a closed mesh, which is crossed twice, counts once as well.
+  // Sets `gave_up` where the steps allowed did not suffice for a shape.
   struct Share {
     size_t space;  // as given
     size_t body;
     double share;
   };
-  bool add_shares(const Ray& ray, double t_end, std::span<const std::unique_ptr<Material>> materials,
-                  size_t space, std::vector<Share>& shares) const;
+  bool add_shares(const Ray& ray, double t_end, size_t space, std::vector<Share>& shares,
+                  bool& gave_up) const;
 
   // Around all that has bounds.
   const Bounds& bounds() const { return bounds_; }
@@ -54,11 +57,13 @@ class Bodies {
   double growth() const { return growth_; }
 
  private:
-  double share_let_through(size_t body, const Ray& ray, double entry, double t_end, double share) const;
+  std::optional<Intersection> intersect_shape(size_t shape, const Ray& ray) const;
+  double share_let_through(size_t body, const Ray& ray, double entry, double t_end, bool& gave_up) const;
   template <typename Visit>
   void for_each_entered(const Ray& ray, double limit, const Visit& visit) const;
 
   std::span<const std::unique_ptr<Shape>> shapes_;
+  std::span<const std::unique_ptr<Material>> materials_;
   std::vector<InstanceGeometry> instances_;
   std::vector<uint64_t> triangles_before_;  // by instance
   std::vector<uint32_t> unbounded_;         // bodies

@@ -18,8 +18,8 @@ class GroupGeometry {
   double growth() const { return map_.growth() * bodies_->growth(); }
 
   // As its bodies', for rays of the world; t is the same in both spaces.
-  std::optional<Bodies::Hit> trace(const Ray& ray, double limit) const {
-    return bodies_->trace(map_.into(ray), limit);
+  std::optional<Bodies::Hit> trace(const Ray& ray, double limit, double& sure_until) const {
+    return bodies_->trace(map_.into(ray), limit, sure_until);
   }
   std::optional<Bodies::Hit> intersect(size_t body, const Ray& ray) const {
     return bodies_->intersect(body, map_.into(ray));
@@ -27,9 +27,9 @@ class GroupGeometry {
   SurfacePoint surface(const Ray& ray, const Bodies::Hit& hit) const {
     return map_.out(bodies_->surface(map_.into(ray), hit));
   }
-  bool add_shares(const Ray& ray, double t_end, std::span<const std::unique_ptr<Material>> materials,
-                  size_t space, std::vector<Bodies::Share>& shares) const {
-    return bodies_->add_shares(map_.into(ray), t_end, materials, space, shares);
+  bool add_shares(const Ray& ray, double t_end, size_t space, std::vector<Bodies::Share>& shares,
+                  bool& gave_up) const {
+    return bodies_->add_shares(map_.into(ray), t_end, space, shares, gave_up);
   }
   double reach(const Bodies::Hit& hit, const Vec3& eye) const {
     const double in_group = bodies_->reach(hit, Vec3(0));

@@ -27,7 +27,7 @@ SurfacePoint InstanceGeometry::surface(const Ray&, const TriangleHit& hit) const
   point.position_error = 1e-13 * std::max({magnitude(v[0]), magnitude(v[1]), magnitude(v[2])});
   point.normal = mesh.normals.empty() ? point.normal_geometric : interpolate(mesh.normals, triangle, hit);
   if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, triangle, hit);
-  point.uv = mesh.uv.empty() ? Vec2(hit.u, hit.v) : interpolate(mesh.uv, triangle, hit);
+  point.uv = mesh_->uv(hit);
   return map_.out(point);
 }
 

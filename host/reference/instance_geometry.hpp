@@ -8,17 +8,17 @@ namespace eyeray::reference {
 
 class InstanceGeometry {
  public:
-  // `mesh` must outlive it.
-  InstanceGeometry(const Instance& instance, const MeshGeometry& mesh)
-      : mesh_(&mesh), map_(instance.transform), material_(instance.material) {}
+  // `mesh`, and the `mask` of the instance's material, null without one, must outlive it.
+  InstanceGeometry(const Instance& instance, const MeshGeometry& mesh, const AlphaMask* mask = nullptr)
+      : mesh_(&mesh), mask_(mask), map_(instance.transform), material_(instance.material) {}
 
   // As MeshGeometry's, for a ray of the world; t is the same in both spaces.
   std::optional<TriangleHit> intersect(const Ray& ray,
                                        double limit = std::numeric_limits<double>::infinity()) const {
-    return mesh_->intersect(map_.into(ray), limit);
+    return mesh_->intersect(map_.into(ray), limit, mask_);
   }
   uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most) const {
-    return mesh_->count_crossed(map_.into(ray), t_end, most);
+    return mesh_->count_crossed(map_.into(ray), t_end, most, mask_);
   }
 
   // The surface at a hit, in the world. The ray is not needed, and there so that shapes and instances are
@@ -36,6 +36,7 @@ class InstanceGeometry {
 
  private:
   const MeshGeometry* mesh_;
+  const AlphaMask* mask_;
   SpaceMap map_;
   int material_;
 };

@@ -34,7 +34,7 @@ BoxRay MeshGeometry::box_ray(const Ray& ray) const {
 }
 
 std::optional<TriangleHit> MeshGeometry::intersect_one(uint32_t triangle, const Ray& ray,
-                                                       const BoxRay& box_ray) const {
+                                                       const BoxRay& box_ray, const AlphaMask* mask) const {
   const Corners v = corners(triangle);
   const double entry = box_ray.entry(bounds_of(v));
   if (entry == std::numeric_limits<double>::infinity()) return std::nullopt;
@@ -43,14 +43,31 @@ std::optional<TriangleHit> MeshGeometry::intersect_one(uint32_t triangle, const 
 
   // A ray that grazes the plane may get a t before the box, by rounding.
   hit->t = std::max(hit->t, entry);
-  return TriangleHit{*hit, triangle};
+  const TriangleHit at{*hit, triangle};
+  if (mask && !mask->covers(uv(at), alpha(at))) return std::nullopt;
+  return at;
 }
 
-std::optional<TriangleHit> MeshGeometry::intersect(const Ray& ray, double limit) const {
+Vec2 MeshGeometry::uv(const TriangleHit& hit) const {
+  if (mesh_.uv.empty()) return {hit.u, hit.v};
+  const auto& [a, b, c] = mesh_.triangles[hit.triangle];
+  return mesh_.uv[a] * (1 - hit.u - hit.v) + mesh_.uv[b] * hit.u + mesh_.uv[c] * hit.v;
+}
+
+// Of its vertices. Where all three are equal, that very value.
+double MeshGeometry::alpha(const TriangleHit& hit) const {
+  if (mesh_.alphas.empty()) return 1;
+  const auto& [a, b, c] = mesh_.triangles[hit.triangle];
+  const auto& of = mesh_.alphas;
+  return of[a] + (of[b] - of[a]) * hit.u + (of[c] - of[a]) * hit.v;
+}
+
+std::optional<TriangleHit> MeshGeometry::intersect(const Ray& ray, double limit,
+                                                   const AlphaMask* mask) const {
   std::optional<TriangleHit> nearest;
   const BoxRay boxes = box_ray(ray);
   tree_.search(boxes, limit, [&](uint32_t i, double so_far) {
-    const auto hit = intersect_one(i, ray, boxes);
+    const auto hit = intersect_one(i, ray, boxes, mask);
     if (!hit || (nearest && !(hit->t < nearest->t || (hit->t == nearest->t && i < nearest->triangle))))
       return so_far;
     nearest = hit;
@@ -59,11 +76,12 @@ std::optional<TriangleHit> MeshGeometry::intersect(const Ray& ray, double limit)
   return nearest;
 }
 
-uint32_t MeshGeometry::count_crossed(const Ray& ray, double t_end, uint32_t most) const {
+uint32_t MeshGeometry::count_crossed(const Ray& ray, double t_end, uint32_t most,
+                                     const AlphaMask* mask) const {
   uint32_t count = 0;
   const BoxRay boxes = box_ray(ray);
   tree_.search(boxes, t_end, [&](uint32_t i, double limit) {
-    const auto hit = intersect_one(i, ray, boxes);
+    const auto hit = intersect_one(i, ray, boxes, mask);
     if (!hit || !(hit->t < t_end)) return limit;
     return ++count < most ? limit : -1.0;
   });

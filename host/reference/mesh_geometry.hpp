@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "reference/box_tree.hpp"
+#include "scene/material.hpp"
 #include "scene/mesh.hpp"
 #include "scene/triangle.hpp"
 
@@ -20,9 +21,13 @@ class MeshGeometry {
 
   // The nearest hit with t > 0; of exactly equal ones that of the lowest triangle. Beyond `limit` it may be
   // missing.
-  std::optional<TriangleHit> intersect(const Ray& ray, double limit) const;
+  // With a mask, holes are not met.
+  std::optional<TriangleHit> intersect(const Ray& ray, double limit, const AlphaMask* mask = nullptr) const;
   // How many triangles the ray meets at 0 < t < t_end; counting ends at `most`.
-  uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most) const;
+  uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most, const AlphaMask* mask = nullptr) const;
+
+  // Texture coordinates at a hit.
+  Vec2 uv(const TriangleHit& hit) const;
 
   const Mesh& mesh() const { return mesh_; }
   const Bounds& bounds() const { return bounds_; }
@@ -30,7 +35,9 @@ class MeshGeometry {
 
  private:
   BoxRay box_ray(const Ray& ray) const;
-  std::optional<TriangleHit> intersect_one(uint32_t triangle, const Ray& ray, const BoxRay& box_ray) const;
+  std::optional<TriangleHit> intersect_one(uint32_t triangle, const Ray& ray, const BoxRay& box_ray,
+                                           const AlphaMask* mask) const;
+  double alpha(const TriangleHit& hit) const;
 
   const Mesh& mesh_;
   Bounds bounds_;

@@ -6,8 +6,9 @@ namespace eyeray::reference {
 
 PixelSample raycast(const Tracer& tracer, const Ray& ray) {
   const Scene& scene = tracer.scene();
-  const auto hit = tracer.trace(ray);
-  if (!hit) return {.color = scene.render.background, .rays = 1};
+  uint32_t flags = 0;
+  const auto hit = tracer.trace(ray, flags);
+  if (!hit) return {.color = scene.render.background, .rays = 1, .flags = flags};
 
   const SurfacePoint surface = tracer.surface(ray, *hit);
   const bool front = glm::dot(ray.d, surface.normal_geometric) < 0;
@@ -25,7 +26,7 @@ PixelSample raycast(const Tracer& tracer, const Ray& ray) {
     }
   }
   const Vec3 base = scene.materials[size_t(hit->material)]->base_color(surface.uv) * surface.color;
-  return {.color = base * light, .rays = 1, .hits = 1};
+  return {.color = base * light, .rays = 1, .hits = 1, .flags = flags};
 }
 
 }  // namespace eyeray::reference

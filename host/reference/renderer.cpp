@@ -25,14 +25,15 @@ PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const Cle
 
 FirstHit Renderer::first_hit(int x, int y, Vec2 shift) const {
   const Ray ray = camera_.ray(Vec2(x, y) + Vec2(0.5) + shift);
-  const auto hit = tracer_.trace(ray);
-  if (!hit) return {};
+  FirstHit result;
+  const auto hit = tracer_.trace(ray, result.flags);
+  if (!hit) return result;
   const SurfacePoint surface = tracer_.surface(ray, *hit);
   // Towards grazing incidence t runs away from any bound; the gates explain it there by its neighbourhood.
   const double cosine = std::max(0.01, std::abs(glm::dot(ray.d, surface.normal_geometric)));
   const double t_scale = tracer_.reach(*hit, scene_.camera.eye) / cosine;
   return {hit->at.t,     surface.position, surface.normal, surface.uv, int32_t(hit->primitive),
-          hit->material, t_scale};
+          hit->material, result.flags,     t_scale};
 }
 
 }  // namespace eyeray::reference

@@ -13,9 +13,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene), ids_(scene) {
   for (const Mesh& mesh : scene.meshes) meshes_.emplace_back(mesh, acceleration);
-  world_.emplace(scene.shapes, scene.instances, meshes_, acceleration);
+  world_.emplace(scene.shapes, scene.instances, meshes_, scene.materials, acceleration);
   for (const Group& group : scene.groups)
-    group_bodies_.emplace_back(group.shapes, group.instances, meshes_, acceleration);
+    group_bodies_.emplace_back(group.shapes, group.instances, meshes_, scene.materials, acceleration);
   for (const GroupInstance& instance : scene.group_instances) {
     groups_.emplace_back(instance, group_bodies_[size_t(instance.group)]);
     groups_reach_ = std::max(groups_reach_, groups_.back().reach());
@@ -42,15 +42,25 @@ Hit Tracer::complete(const Bodies& bodies, const Bodies::Hit& hit, int group) co
 }
 
 std::optional<Hit> Tracer::trace(const Ray& ray) const {
-  std::optional<Hit> nearest;
-  if (const auto hit = world_->trace(ray)) nearest = complete(*world_, *hit, -1);
-  if (groups_.empty()) return nearest;
+  uint32_t flags = 0;
+  return trace(ray, flags);
+}
 
+std::optional<Hit> Tracer::trace(const Ray& ray, uint32_t& flags) const {
+  std::optional<Hit> nearest;
+  double sure_until = infinity;
+  if (const auto hit = world_->trace(ray, infinity, sure_until)) nearest = complete(*world_, *hit, -1);
+  if (!groups_.empty()) search_groups(ray, nearest, sure_until);
+  if (sure_until < (nearest ? nearest->at.t : infinity)) flags |= ran_out;
+  return nearest;
+}
+
+void Tracer::search_groups(const Ray& ray, std::optional<Hit>& nearest, double& sure_until) const {
   const BoxRay box_ray = group_box_ray(ray);
   group_tree_.search(box_ray, nearest ? nearest->at.t : infinity, [&](uint32_t i, double limit) {
     const double entry = box_ray.entry(groups_[i].bounds());
     if (entry == infinity) return limit;
-    auto hit = groups_[i].trace(ray, limit);
+    auto hit = groups_[i].trace(ray, limit, sure_until);
     if (!hit) return limit;
     hit->at.t = std::max(hit->at.t, entry);
     const Hit found = complete(groups_[i].bodies(), *hit, int(i));
@@ -60,7 +70,6 @@ std::optional<Hit> Tracer::trace(const Ray& ray) const {
     nearest = found;
     return std::min(limit, found.at.t);
   });
-  return nearest;
 }
 
 SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
@@ -73,16 +82,17 @@ double Tracer::reach(const Hit& hit, const Vec3& eye) const {
   return hit.group < 0 ? world_->reach(body, eye) : groups_[size_t(hit.group)].reach(body, eye);
 }
 
-double Tracer::transmittance(const Ray& ray, double t_end) const {
+double Tracer::transmittance(const Ray& ray, double t_end, uint32_t& flags) const {
   // Collect the shares first: a product depends on the order of its factors.
   std::vector<Bodies::Share> shares;
-  if (world_->add_shares(ray, t_end, scene_.materials, 0, shares)) return 0;
+  bool gave_up = false;
+  if (world_->add_shares(ray, t_end, 0, shares, gave_up)) return 0;
   bool lost = false;
   if (!groups_.empty()) {
     const BoxRay box_ray = group_box_ray(ray);
     group_tree_.search(box_ray, t_end, [&](uint32_t i, double limit) {
       if (!(box_ray.entry(groups_[i].bounds()) < t_end)) return limit;
-      lost = groups_[i].add_shares(ray, t_end, scene_.materials, i + 1, shares);
+      lost = groups_[i].add_shares(ray, t_end, i + 1, shares, gave_up);
       return lost ? -1.0 : limit;
     });
   }
@@ -92,6 +102,7 @@ double Tracer::transmittance(const Ray& ray, double t_end) const {
   });
   double product = 1;
   for (const Bodies::Share& each : shares) product *= each.share;
+  if (gave_up && product > 0) flags |= ran_out;
   return product;
 }
 

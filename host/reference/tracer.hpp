@@ -3,6 +3,7 @@
 
 #include <deque>
 
+#include "core/pixel.hpp"
 #include "reference/group_geometry.hpp"
 #include "scene/primitive_ids.hpp"
 #include "scene/scene.hpp"
@@ -24,7 +25,9 @@ class Tracer {
   // `scene` must outlive it. Under Acceleration::tree, a second for a million triangles or less.
   explicit Tracer(const Scene& scene, Acceleration acceleration = Acceleration::tree);
 
-  // The nearest hit with t > 0; of exactly equal ones that of the lowest primitive.
+  // The nearest hit with t > 0; of exactly equal ones that of the lowest primitive. Adds to `flags`, of
+  // SampleFlags, what may be wrong with it.
+  std::optional<Hit> trace(const Ray& ray, uint32_t& flags) const;
   std::optional<Hit> trace(const Ray& ray) const;
   // The surface where `ray` has that hit.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
@@ -33,8 +36,8 @@ class Tracer {
   // shapes.
   double reach(const Hit& hit, const Vec3& eye) const;
 
-  // The share of light that comes through all that the ray meets at 0 < t < t_end.
-  double transmittance(const Ray& ray, double t_end) const;
+  // The share of light that comes through all that the ray meets at 0 < t < t_end. `flags` as for trace.
+  double transmittance(const Ray& ray, double t_end, uint32_t& flags) const;
 
   const Scene& scene() const { return scene_; }
   // The scene's own bodies, and as Scene::group_instances those of groups.
@@ -44,6 +47,7 @@ class Tracer {
   BoxRay group_box_ray(const Ray& ray) const;
 
  private:
+  void search_groups(const Ray& ray, std::optional<Hit>& nearest, double& sure_until) const;
   uint64_t primitive(const Bodies& bodies, const Bodies::Hit& hit, int group) const;
   Hit complete(const Bodies& bodies, const Bodies::Hit& hit, int group) const;
 
@@ -78,7 +82,7 @@ void for_each_crossing(const Body& body, const Ray& ray, const Visit& visit) {
   double passed = 0;
   for (int crossings = 0; crossings < most_crossings; ++crossings) {
     const auto hit = body.intersect(rest);
-    if (!hit) return;
+    if (!hit || hit->ran_out) return;
     const SurfacePoint surface = body.surface(rest, *hit);
     if (!visit(passed + hit->t, surface)) return;
     rest.o = departure(surface, ray.d);

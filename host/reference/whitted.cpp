@@ -34,10 +34,14 @@ class Tree {
   uint32_t rays = 0;
   uint32_t hits = 0;
   uint32_t flags = 0;
+  uint32_t reflected = 0;
+  uint32_t refracted = 0;
+  uint32_t total_reflections = 0;
 
  private:
   Vec3 direct(const View& view, const Scattering& scattering);
-  Vec3 child(const Path& path, const View& view, const Vec3& d, const MediaStack& media, const Vec3& share);
+  Vec3 child(const Path& path, const View& view, const Vec3& d, const MediaStack& media, const Vec3& share,
+             uint32_t& count);
   Medium medium(const MediaStack& media) const;
   Ray leave(const SurfacePoint& point, const Vec3& d) const;
 
@@ -68,7 +72,7 @@ Vec3 refract(const View& view, double n1, double n2) {
 
 Vec3 Tree::radiance(const Path& path) {
   ++rays;
-  const auto hit = tracer_.trace(path.ray);
+  const auto hit = tracer_.trace(path.ray, flags);
   if (!hit) return scene_.render.background;
   ++hits;
 
@@ -102,18 +106,23 @@ Vec3 Tree::radiance(const Path& path) {
   arrived.weight *= dimming;
   Vec3 color = direct(view, scattering);
   const Vec3 mirrored = view.d + 2 * view.cos_view * view.surface.normal;
-  color += child(arrived, view, glm::normalize(mirrored), path.media, scattering.reflected);
+  color += child(arrived, view, glm::normalize(mirrored), path.media, scattering.reflected, reflected);
   if (scattering.transmitted != Vec3(0))
-    color += child(arrived, view, refract(view, before.ior, ior_beyond), beyond, scattering.transmitted);
+    color += child(arrived, view, refract(view, before.ior, ior_beyond), beyond, scattering.transmitted,
+                   refracted);
+  else if (material.medium() && path.depth < scene_.render.max_depth)
+    ++total_reflections;
   return dimming * color;
 }
 
 // The part of a surface's colour that comes from the ray's child into direction d; black when it is cut off.
+// `count`: of the rays of its kind.
 Vec3 Tree::child(const Path& path, const View& view, const Vec3& d, const MediaStack& media,
-                 const Vec3& share) {
+                 const Vec3& share, uint32_t& count) {
   const Vec3 weight = path.weight * share;
   const double most = std::max({weight.x, weight.y, weight.z});
   if (path.depth >= scene_.render.max_depth || !(most > scene_.render.min_weight)) return Vec3(0);
+  ++count;
   return share * radiance({leave(view.surface, d), media, path.depth + 1, weight});
 }
 
@@ -127,7 +136,7 @@ Vec3 Tree::direct(const View& view, const Scattering& scattering) {
     const double cosine = glm::dot(n, l);
     if (!(cosine > 0 && glm::dot(view.surface.normal_geometric, l) > 0)) continue;
     ++rays;
-    const double seen = tracer_.transmittance(leave(view.surface, l), distance);
+    const double seen = tracer_.transmittance(leave(view.surface, l), distance, flags);
     if (seen == 0) continue;
 
     const double lobe =
@@ -144,7 +153,7 @@ PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& medi
                     const Clearance& clearance) {
   Tree tree(tracer, clearance);
   const Vec3 color = tree.radiance({ray, media, 0, Vec3(1)});
-  return {color, tree.rays, tree.hits, tree.flags};
+  return {color, tree.rays, tree.hits, tree.flags, tree.reflected, tree.refracted, tree.total_reflections};
 }
 
 }  // namespace eyeray::reference

@@ -4,7 +4,7 @@
 //
 //   offset   bytes
 //   0        8       "EYERAYCP"
-//   8        4       version of this layout: 1
+//   8        4       version of this layout: 2
 //   12       4       n, at most 65536
 //   16       n       the identity: a line "name: value\n" for each of its parts
 //   16 + n   8 each  RenderPosition, in the order of its members

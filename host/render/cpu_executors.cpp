@@ -52,7 +52,7 @@ class TwinExecutor final : public Executor {
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
     return times_.measure("trace", [&] {
       return for_each_pixel(tile, out, [&](int x, int y) {
-        return to_sample(twin::sample(packed_, uint32_t(x), uint32_t(y), index));
+        return to_sample(twin::sample(packed_, uint32_t(x), uint32_t(y), index), true);
       });
     });
   }
@@ -96,11 +96,14 @@ class ReferenceExecutor final : public Executor {
   double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
     return timed_queries(batch.rays, hits, [&](const Query& ray) -> QueryHit {
       constexpr double none = std::numeric_limits<double>::infinity();
-      if (batch.kind == QueryKind::any)
-        return {renderer_->tracer().transmittance({ray.o, ray.d}, ray.t_max) == 0 ? 0 : none, -1};
-      const auto hit = renderer_->tracer().trace({ray.o, ray.d});
-      if (!hit || hit->at.t >= ray.t_max) return {none, -1};
-      return {hit->at.t, int64_t(hit->primitive)};
+      uint32_t flags = 0;
+      if (batch.kind == QueryKind::any) {
+        const double share = renderer_->tracer().transmittance({ray.o, ray.d}, ray.t_max, flags);
+        return {share == 0 ? 0 : none, -1, flags};
+      }
+      const auto hit = renderer_->tracer().trace({ray.o, ray.d}, flags);
+      if (!hit || hit->at.t >= ray.t_max) return {none, -1, flags};
+      return {hit->at.t, int64_t(hit->primitive), flags};
     });
   }
 

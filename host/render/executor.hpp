@@ -55,6 +55,7 @@ struct ExecutorOptions {
   double timeout_seconds = 60;          // gpu: the longest wait for one dispatch
   PackOptions pack;                     // all: `acceleration`; gpu and twin: the rest
   ProfileOptions profile;               // gpu
+  bool ray_kinds = false;               // gpu: count reflected and refracted rays; the others always do
   bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
   std::string fault;                    // gpu, tests only: a fault to inject (docs/verification.md)
 };

@@ -10,8 +10,8 @@
 namespace eyeray {
 namespace {
 
-constexpr std::string_view names[] = {"",      "shift",     "nan",    "black", "ior",
-                                      "light", "near_root", "normal", "ids",   "contraction"};
+constexpr std::string_view names[] = {"",          "shift",  "nan", "black",       "ior",  "light",
+                                      "near_root", "normal", "ids", "contraction", "steps"};
 
 // `text` with `from` replaced; a fault that no longer finds its place must not pass unseen.
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
@@ -41,6 +41,8 @@ std::string Fault::damage(std::string_view file, std::string text) const {
                     "  surface.normal = -surface.normal;\n  return surface;");
   if (is("ids") && file == "pixel.glsl")
     return replaced(std::move(text), "uvec4(hit.id,", "uvec4(hit.id ^ 1u,");
+  if (is("steps") && file == "shapes/superellipsoid.glsl")
+    return replaced(std::move(text), "SUPERELLIPSOID_STEPS 64u", "SUPERELLIPSOID_STEPS 4u");
   return text;
 }
 

@@ -20,7 +20,7 @@ class Fault {
   // ior: every medium's index is off by 5 %; light: the first light is dark.
   void damage(PackedScene& scene) const;
   // near_root: a sphere's near root even behind the ray; normal: all normals flipped; ids: neighbours' ids
-  // swapped.
+  // swapped; steps: too few for many rays to find a superellipsoid.
   std::string damage(std::string_view file, std::string text) const;
   // nan: one pixel is no number; black: all pixels are black.
   void damage(std::span<PixelSample> samples) const;

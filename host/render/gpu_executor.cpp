@@ -83,7 +83,7 @@ class GpuExecutor final : public Executor {
       constexpr size_t piece = 4096;
       parallel_for(0, int((results.size() + piece - 1) / piece), [&](int p) {
         const size_t begin = size_t(p) * piece, end = std::min(results.size(), begin + piece);
-        for (size_t i = begin; i < end; ++i) out[first + i] = to_sample(results[i]);
+        for (size_t i = begin; i < end; ++i) out[first + i] = to_sample(results[i], options_.ray_kinds);
       });
       fault_.damage(out.subspan(first, results.size()));
     });
@@ -154,6 +154,7 @@ class GpuExecutor final : public Executor {
     Specialisation specialisation;
     specialisation.constants = options_.constants;
     specialisation.profile = profile_;
+    specialisation.ray_kinds = options_.ray_kinds;
     const uint32_t lanes = device_.info().limits.subgroup_size;
     const bool worth_it = packed.primitives.size() <= most_in_packets || options_.profile.rays == "packets";
     packets_ = profile_.packets && worth_it && packed.has_tree && packed.quantised_nodes &&

@@ -32,7 +32,8 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
     const Vec3 normal = normals ? map.normal(mesh.normals[size_t(i)]) : Vec3(0);
     shader::uvec4* vertex = &vertices[first_vertex + size_t(i) * vertex_records];
     vertex[0] = to_bits(to_vec4(normal, uv ? mesh.uv[size_t(i)].x : 0.0));
-    if (colors) vertex[1] = to_bits(to_vec4(mesh.colors[size_t(i)]));
+    if (colors)
+      vertex[1] = to_bits(to_vec4(mesh.colors[size_t(i)], mesh.alphas.empty() ? 1 : mesh.alphas[size_t(i)]));
   });
   parallel_for(0, int(mesh.triangles.size()), [&](int i) {
     const auto& [v0, v1, v2] = mesh.triangles[size_t(i)];

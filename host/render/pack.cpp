@@ -1,5 +1,6 @@
 #include "render/pack.hpp"
 
+#include <bit>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -18,6 +19,10 @@ shader::Light pack_light(const Light& light, const Packer& packer) {
   record.position = to_vec4(point ? packer.relative(light.position) : light.to_light);
   record.intensity = to_vec4(light.intensity);
   return record;
+}
+
+shader::uvec4 pack_mask(const AlphaMask& mask, Packer& packer) {
+  return {packer.add_texture(mask.alpha), std::bit_cast<uint32_t>(float(mask.cutoff)), 0u, 0u};
 }
 
 // The media around the eye as media.glsl stacks them: a byte each, the innermost lowest.
@@ -54,7 +59,10 @@ shader::Frame pack_frame(const Scene& scene, const PackedScene& packed) {
 
 PackedScene pack(const Scene& scene, const PackOptions& options) {
   Packer packer(scene.camera.eye);
-  for (const auto& material : scene.materials) material->pack(packer);
+  for (const auto& material : scene.materials) {
+    material->pack(packer);
+    if (material->mask) packer.scene.materials.back().mask = pack_mask(*material->mask, packer);
+  }
   pack_geometry(scene, options, packer);
   for (const Light& light : scene.lights) packer.scene.lights.push_back(pack_light(light, packer));
   packer.scene.frame = pack_frame(scene, packer.scene);

@@ -121,6 +121,9 @@ class Driver {
 
       sums_.add(row, tile_samples_);
       for (const PixelSample& each : tile_samples_) position_.rays += each.rays;
+      if (options_.ray_kinds) {
+        for (const PixelSample& each : tile_samples_) totals_.ray_kinds.add(each);
+      }
       position_.extra_rows += uint64_t(height);
       if (position_.extra_rows == uint64_t(sums_.height())) {
         position_.extra_rows = 0;

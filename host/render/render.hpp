@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "core/ray_counts.hpp"
 #include "render/executor.hpp"
 #include "render/sums.hpp"
 
@@ -30,6 +31,7 @@ struct RenderOptions {
   // of one, then of the next. Else it is one band, and so one sample of the whole picture comes after the
   // other.
   size_t band_bytes = size_t{256} << 20;
+  bool ray_kinds = false;            // count rays by kind; the executor must (ExecutorOptions::ray_kinds)
   Checkpoint* checkpoint = nullptr;  // kept and resumed from; see render_rows
 };
 
@@ -45,6 +47,7 @@ struct RenderTotals {
   uint64_t samples_taken = 0;  // of pixels, resumed ones included
   uint64_t samples_resumed = 0;
   uint64_t rays_resumed = 0;
+  RayCounts ray_kinds;  // of this run, where they were asked for
 };
 
 using RowSink = std::function<void(const FinishedRows&)>;

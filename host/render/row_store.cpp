@@ -14,7 +14,7 @@
 namespace eyeray {
 namespace {
 
-using StoredPixel = std::array<float, 4>;
+using StoredPixel = std::array<float, 5>;
 
 [[noreturn]] void fail(const char* what, const std::filesystem::path& file, int error) {
   throw Error(ExitCode::file_io, "cannot {} {}: {}", what, file.string(),
@@ -43,10 +43,11 @@ FinishedRows RowStore::read(int first, int count, int width) {
   end_ += bytes.size();
   checksum_ = crc32(bytes, checksum_);
 
-  FinishedRows rows{first, Image(width, count, 3), Image(width, count, 1)};
+  FinishedRows rows{first, Image(width, count, 3), Image(width, count, 1), Image(width, count, 1)};
   for (size_t i = 0; i < pixels.size(); ++i) {
     std::copy_n(pixels[i].begin(), 3, &rows.color.samples()[3 * i]);
     rows.hits.samples()[i] = pixels[i][3];
+    rows.flagged.samples()[i] = pixels[i][4];
   }
   return rows;
 }
@@ -61,6 +62,7 @@ void RowStore::append(const FinishedRows& rows) {
   for (size_t i = 0; i < pixels.size(); ++i) {
     std::copy_n(&rows.color.samples()[3 * i], 3, pixels[i].begin());
     pixels[i][3] = rows.hits.samples()[i];
+    pixels[i][4] = rows.flagged.samples()[i];
   }
   const auto bytes = std::as_bytes(std::span(pixels));
   for (size_t done = 0; done < bytes.size();) {

@@ -9,8 +9,8 @@
 
 namespace eyeray {
 
-// Rows from the top down; of each its pixels from left to right, 16 bytes each: the mean colour and the mean
-// of `hits`, four float32, little-endian. Every failure is an Error (file_io).
+// Rows from the top down; of each its pixels from left to right, 20 bytes each: the mean colour, the mean
+// of `hits` and the flags, five float32, little-endian. Every failure is an Error (file_io).
 class RowStore {
  public:
   // Touches nothing yet.

@@ -11,12 +11,13 @@ shader::QueryRay to_query_ray(const Query& ray, const Vec3& eye) {
 
 QueryHit to_query_hit(const shader::QueryHit& result) {
   const auto t = double(std::bit_cast<float>(result.hit.x));
-  if (t >= double(T_MISS)) return {std::numeric_limits<double>::infinity(), -1};
-  return {t, result.hit.y == NONE ? -1 : int64_t{result.hit.y}};
+  if (t >= double(T_MISS)) return {std::numeric_limits<double>::infinity(), -1, result.hit.z};
+  return {t, result.hit.y == NONE ? -1 : int64_t{result.hit.y}, result.hit.z};
 }
 
 FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye) {
   FirstHit hit;
+  hit.flags = result.ids.z;
   if (result.ids.x == NONE) return hit;
   hit.t = double(result.position_t.w);
   hit.position = eye + Vec3(result.position_t);

@@ -7,8 +7,15 @@
 
 namespace eyeray {
 
-inline PixelSample to_sample(const shader::SampleResult& result) {
-  return {Vec3(result.color), result.counts.x, result.counts.y, result.counts.z};
+// `ray_kinds`: whether the kernel counted them (records.h, SampleResult).
+inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds) {
+  PixelSample sample{Vec3(result.color), result.counts.x, result.counts.y, result.counts.z};
+  if (!ray_kinds) return sample;
+  sample.flags &= (1u << REFRACTED_SHIFT) - 1;
+  sample.refracted = result.counts.z >> REFRACTED_SHIFT;
+  sample.reflected = result.counts.w & ((1u << TOTAL_SHIFT) - 1);
+  sample.total_reflections = result.counts.w >> TOTAL_SHIFT;
+  return sample;
 }
 
 // A ray of the shaders' world, and what it hits.

@@ -55,7 +55,8 @@ std::string literal(const shader::Primitive& p) {
   return fmt::format("Primitive({}, {}, {}, {})", literal(p.head), literal(p.a), literal(p.b), literal(p.c));
 }
 std::string literal(const shader::Material& m) {
-  return fmt::format("Material({}, {}, {})", literal(m.head), literal(m.textures), literal(m.parameters));
+  return fmt::format("Material({}, {}, {}, {})", literal(m.head), literal(m.textures), literal(m.parameters),
+                     literal(m.mask));
 }
 std::string literal(const shader::Texture& t) {
   return fmt::format("Texture({}, {}, {}, {})", literal(t.even), literal(t.odd), literal(t.frequency),
@@ -130,7 +131,7 @@ std::string primitives_as_constants(const PackedScene& scene) {
 bool varies(const PackedScene& scene, const shader::Material& material) {
   const shader::uvec4& used = material.textures;
   return std::ranges::any_of(
-      std::array{used.x, used.y, used.z, used.w, material.head.y >> MATERIAL_EMISSION_SHIFT},
+      std::array{used.x, used.y, used.z, used.w, material.head.y >> MATERIAL_EMISSION_SHIFT, material.mask.x},
       [&](uint32_t texture) { return scene.textures[texture].even.w != TEXTURE_CONSTANT; });
 }
 
@@ -156,12 +157,13 @@ uint64_t trace_iterations(const PackedScene& scene, bool unrolled) {
 }
 
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
-  std::set<uint32_t> shapes_used, materials_used, material_kinds, kinds_with_uv;
+  std::set<uint32_t> shapes_used, materials_used, material_kinds, kinds_with_uv, kinds_with_holes;
   for (const auto& [kind, material] : scene.uses) {
     shapes_used.insert(kind);
     materials_used.insert(material);
     material_kinds.insert(scene.materials[material].head.x);
     if (varies(scene, scene.materials[material])) kinds_with_uv.insert(kind);
+    if (scene.materials[material].mask.y != 0) kinds_with_holes.insert(kind);
   }
   const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
                                    [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
@@ -182,6 +184,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_IMAGES", int(images));
   define("HAS_COLORS", int(scene.vertex_colors));
   define("HAS_EMISSION", int(any_emits(scene)));
+  define("HAS_HOLES", int(!kinds_with_holes.empty()));
   define("HAS_MEDIA", int(media));
   define("HAS_ABSORPTION", int(absorption));
   // Only where a ray splits in two does a child wait, and one a level at most.
@@ -191,9 +194,11 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_TREE", scene.has_tree ? "true" : "false");
   define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");
   define("HAS_SECONDARY", int(scene.frame.camera.w > 0 && any_reflects(scene)));
+  define("RAY_KINDS", int(options.ray_kinds));
   define("SUBGROUP_SIZE", options.subgroup_size);
   define("PACKET_ROOT", fmt::format("{}u", options.packet_tree.first_node));
   define("PACKET_STACK", options.packet_tree.stack_size);
+  define("STEPS_MAY_RUN_OUT", int(scene.steps_may_run_out));
   define("SHIFT_STACK", int(options.profile.shift_stack));
   define("STACK_SIZE", scene.stack_size);
   define("HAS_INSTANCES", int(!scene.instances.empty()));
@@ -219,6 +224,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
   text += "#include \"loaders.glsl\"\n";
   text += registry("SHAPES", "shapes", shapes, shapes_used);
+  text += registry("SHAPES_WITH_HOLES", "shapes", shapes, kinds_with_holes);
   text += registry("MATERIALS", "materials", materials, material_kinds);
   text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.counts.z});
   return text;

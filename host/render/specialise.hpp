@@ -17,6 +17,7 @@ struct Specialisation {
   uint32_t subgroup_size = 8;  // of packet.comp.glsl
   PacketTree packet_tree = {};
   uint32_t group_stride = 1;  // render.comp.glsl: runs of workgroups
+  bool ray_kinds = false;     // count reflected and refracted rays
 };
 
 // Whether any material may send rays on.

@@ -25,13 +25,14 @@ void PixelSums::add(int first, std::span<const PixelSample> samples) {
 }
 
 FinishedRows PixelSums::mean(int first, int count, int samples, int extra_rows) const {
-  FinishedRows rows{first, Image(width_, count, 3), Image(width_, count, 1)};
+  FinishedRows rows{first, Image(width_, count, 3), Image(width_, count, 1), Image(width_, count, 1)};
   for (int y = 0; y < count; ++y) {
     const double divisor = first + y < extra_rows ? samples + 1 : samples;
     for (int x = 0; x < width_; ++x) {
       const Pixel& pixel = pixels_[size_t(first + y) * size_t(width_) + size_t(x)];
       for (int c = 0; c < 3; ++c) rows.color.pixel(x, y)[c] = float(pixel.color[c] / divisor);
       *rows.hits.pixel(x, y) = float(double(pixel.hits) / divisor);
+      *rows.flagged.pixel(x, y) = float(pixel.flags);
       rows.flags |= pixel.flags;
       rows.flagged_pixels += pixel.flags != 0;
     }

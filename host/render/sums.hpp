@@ -14,6 +14,7 @@ struct FinishedRows {
   int first = 0;  // counted from the top of what is rendered
   Image color;    // linear RGB, the mean of the samples
   Image hits;     // 1 channel: surfaces struck a pixel, the mean of the samples
+  Image flagged;  // 1 channel: the SampleFlags of all samples of a pixel, as a number
   uint64_t flagged_pixels = 0;
   uint32_t flags = 0;
 };

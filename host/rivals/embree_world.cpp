@@ -66,6 +66,9 @@ EmbreeWorld::EmbreeWorld(const Scene& scene) : device_(rtcNewDevice(nullptr)) {
   rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, this);
   all_.reset(rtcNewScene(device_.get()));
   for (const auto& material : scene.materials) {
+    if (material->mask)
+      throw Error(ExitCode::bad_input, "material \"{}\" has holes, which Embree's triangles cannot have",
+                  material->name);
     if (material->shadow_transmittance() > 0 && !opaque_) opaque_.reset(rtcNewScene(device_.get()));
   }
   if (!scene.group_instances.empty())

@@ -78,6 +78,9 @@ void DiagnosticLog::add(Severity severity, SourcePosition position, std::string 
   if (severity == Severity::error) ++errors_;
   if (diagnostics_.size() >= most_diagnostics) return;
 
+  // In copies of a group the same thing is wrong once: the first of them stands for all.
+  if (const std::string subject = subject_ ? subject_() : ""; !subject.empty())
+    message = fmt::format("{}: {}", subject, message);
   Diagnostic diagnostic{severity, std::move(position), printable(message), "", 1};
   show_line(diagnostic);
   diagnostics_.push_back(std::move(diagnostic));

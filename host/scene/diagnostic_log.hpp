@@ -2,9 +2,11 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "core/diagnostic.hpp"
@@ -20,6 +22,22 @@ class DiagnosticLog {
   // (an override) loses its line and column; one without a file is in the first.
   void error(SourcePosition position, std::string message);
   void warning(SourcePosition position, std::string message);
+
+  // While it lives, the messages of the log begin with what they are about, as `subject` says it, unless that
+  // is
+  // "". The innermost counts.
+  class About {
+   public:
+    About(DiagnosticLog& log, std::function<std::string()> subject)
+        : log_(log), outer_(std::exchange(log.subject_, std::move(subject))) {}
+    ~About() { log_.subject_ = std::move(outer_); }
+    About(const About&) = delete;
+    About& operator=(const About&) = delete;
+
+   private:
+    DiagnosticLog& log_;
+    std::function<std::string()> outer_;
+  };
 
   // Some statement could not be parsed and was skipped: what seems to be missing may stand there, so nothing
   // is reported as missing.
@@ -45,6 +63,7 @@ class DiagnosticLog {
   std::deque<Source> sources_;  // a deque, so that texts never move
   std::vector<Diagnostic> diagnostics_;
   std::unordered_set<std::string> seen_;
+  std::function<std::string()> subject_;
   size_t errors_ = 0;
   bool damaged_ = false;
 };

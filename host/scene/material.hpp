@@ -10,6 +10,7 @@
 
 #include "core/vec.hpp"
 #include "scene/table_reader.hpp"
+#include "scene/texture.hpp"
 
 namespace eyeray {
 
@@ -42,6 +43,16 @@ struct ScatteringContext {
   Vec3 color{1.0};  // of a mesh's vertices: what the colours that scatter are multiplied by
 };
 
+// Holes: where the alpha, times that of a mesh's vertices, is below `cutoff`, there is no surface.
+struct AlphaMask {
+  Texture alpha{Vec3(1.0), {}};  // by Texture::alpha_at
+  double cutoff = 0.5;           // above 0
+
+  bool covers(const Vec2& uv, double vertex_alpha = 1) const {
+    return alpha.alpha_at(uv) * vertex_alpha >= cutoff;
+  }
+};
+
 class Material {
  public:
   virtual ~Material() = default;
@@ -57,6 +68,7 @@ class Material {
   virtual void pack(Packer& packer) const = 0;
 
   std::string name;
+  std::optional<AlphaMask> mask;  // never where there is a medium
 };
 
 struct MaterialType {

@@ -9,6 +9,7 @@
 #include "core/diagnostic.hpp"
 #include "core/vec.hpp"
 #include "scene/bounds.hpp"
+#include "scene/names.hpp"
 
 namespace eyeray {
 
@@ -20,8 +21,9 @@ struct Mesh {
   std::vector<Vec3> positions;
   std::vector<std::array<uint32_t, 3>> triangles;  // corners as indices of vertices
   std::vector<Vec3> normals;                       // unit shading normals, one a vertex; empty: flat
-  std::vector<Vec2> uv;           // one a vertex; empty: the weights of the second and third corner
-  std::vector<Vec3> colors = {};  // linear RGB from 0 to 1, one a vertex; empty: white
+  std::vector<Vec2> uv;             // one a vertex; empty: the weights of the second and third corner
+  std::vector<Vec3> colors = {};    // linear RGB from 0 to 1, one a vertex; empty: white
+  std::vector<double> alphas = {};  // from 0 to 1, one a vertex, only beside colours; empty: 1
 };
 
 // A mesh in the world. Under a transform that mirrors, the outside stays outside.
@@ -30,6 +32,7 @@ struct Instance {
   Mat4 transform{1.0};  // mesh to world: affine, and can be undone
   int material = 0;     // index in Scene::materials
   SourcePosition position;
+  NameRef name = {};  // in Scene::names
 };
 
 Bounds bounds(const Mesh& mesh);

@@ -30,6 +30,7 @@ struct QueryBatch {
 struct QueryHit {
   double t = 0;            // infinity where nothing is hit
   int64_t primitive = -1;  // as Scene counts them; −1 where nothing is hit
+  uint32_t flags = 0;      // SampleFlag bits (core/pixel.hpp); 0 when nothing went wrong
 };
 
 }  // namespace eyeray

@@ -78,6 +78,7 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<Group> groups;  // those that are kept once
   std::vector<GroupInstance> group_instances;
+  Names names;  // of shapes and instances
 
   // How many primitives there are for rays; scene/primitive_ids.hpp says which is which.
   uint64_t primitive_count() const;

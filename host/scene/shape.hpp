@@ -13,11 +13,13 @@
 #include "core/diagnostic.hpp"
 #include "core/vec.hpp"
 #include "scene/bounds.hpp"
+#include "scene/names.hpp"
 #include "scene/table_reader.hpp"
 
 namespace eyeray {
 
 class Packer;  // records/packer.hpp
+struct ShapeType;
 
 // Where a ray meets a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
 // …).
@@ -25,6 +27,7 @@ struct Intersection {
   double t = 0;
   double u = 0;
   double v = 0;
+  bool ran_out = false;  // it meets nothing up to t; beyond, the steps allowed did not suffice to tell
 };
 
 // The surface at an intersection, world space.
@@ -77,7 +80,7 @@ class Shape {
  public:
   virtual ~Shape() = default;
 
-  // The nearest intersection with t > 0, if there is one.
+  // The nearest intersection with t > 0, if there is one; with `ran_out` there need be none.
   virtual std::optional<Intersection> intersect(const Ray& ray) const = 0;
   virtual SurfacePoint surface(const Ray& ray, const Intersection& hit) const = 0;
   virtual Bounds bounds() const = 0;
@@ -86,18 +89,22 @@ class Shape {
   // Appends the shape's one Primitive (and what it refers to).
   virtual void pack(Packer& packer) const = 0;
 
-  int material = 0;         // index in Scene::materials
-  SourcePosition position;  // of its table in the scene file
+  int material = 0;                 // index in Scene::materials
+  const ShapeType* type = nullptr;  // its kind; null where no file made it
+  NameRef name;                     // in Scene::names
+  SourcePosition position;          // of its table in the scene file
 };
 
 // A row of the registry: what the loader and the manual know of a kind of shape.
 struct ShapeType {
   std::string_view name;      // its table in a scene, its .glsl, its scene file
   std::string_view manual;    // equation, parameters' meaning, the numeric trap, the source; Markdown
-  std::span<const Key> keys;  // beside `material` and `transform`, which every shape has
+  std::span<const Key> keys;  // beside `name`, `material` and `transform`, which every shape has
   // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
   std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform);
   bool bounded = true;  // whether every such shape has an end in all directions
+  // Whether a ray meets it once at most, so that it may be of a material with holes.
+  bool flat = false;
 };
 
 // Every kind of shape, in registry order: the order of Scene::shapes, hence of primitive indices.

@@ -31,39 +31,49 @@ double decoded(uint8_t code, bool srgb) {
   return srgb ? curve[code] : code / 255.0;
 }
 
-// Linear RGB of texel (i, j), counted from the lower left, of the plane that the image is continued to.
-Vec3 texel(const ImageTexture& image, double i, double j) {
+// Linear RGB and alpha of texel (i, j), counted from the lower left, of the plane that the image is continued
+// to.
+Vec4 texel(const ImageTexture& image, double i, double j) {
   const size_t row = static_cast<size_t>(image.height) - 1 - wrapped(j, image.height, image.wrap_v);
   const size_t column = wrapped(i, image.width, image.wrap_u);
   const auto& codes = image.texels[row * static_cast<size_t>(image.width) + column];
-  return {decoded(codes[0], image.srgb), decoded(codes[1], image.srgb), decoded(codes[2], image.srgb)};
+  return {decoded(codes[0], image.srgb), decoded(codes[1], image.srgb), decoded(codes[2], image.srgb),
+          codes[3] / 255.0};
 }
 
-// `place` in texels.
-Vec3 filtered(const ImageTexture& image, const Vec2& place) {
+// `uv` in the image's own unit.
+Vec4 filtered(const ImageTexture& image, const Vec2& uv) {
+  const Vec2 place = uv * Vec2(image.width, image.height);
   if (image.filter == Filter::nearest) return texel(image, std::floor(place.x), std::floor(place.y));
 
-  // Weigh each texel by the share of a texel's area around the place that it covers; its centre is at a
-  // half-integer.
+  // Weigh each texel by how much of a texel's area around the place it covers; its centre is at a
+  // half-integer. Equal ones give that very value, which an alpha may be compared with.
   const Vec2 corner = glm::floor(place - 0.5);
   const Vec2 share = place - 0.5 - corner;
-  Vec3 sum(0);
-  for (const double i : {0.0, 1.0}) {
-    for (const double j : {0.0, 1.0}) {
-      const double weight = (i > 0 ? share.x : 1 - share.x) * (j > 0 ? share.y : 1 - share.y);
-      sum += weight * texel(image, corner.x + i, corner.y + j);
-    }
-  }
-  return sum;
+  const auto row = [&](double j) {
+    const Vec4 left = texel(image, corner.x, j);
+    return left + (texel(image, corner.x + 1, j) - left) * share.x;
+  };
+  const Vec4 lower = row(corner.y);
+  return lower + (row(corner.y + 1) - lower) * share.y;
+}
+
+// Of two checks, whether it is the odd one.
+bool is_odd(const Checker& checker, const Vec2& uv) {
+  const double check = std::floor(uv.x / checker.size.x) + std::floor(uv.y / checker.size.y);
+  return std::fmod(std::fabs(check), 2.0) >= 0.5;
 }
 
 }  // namespace
 
 Vec3 Texture::at(const Vec2& uv) const {
-  if (image) return value * filtered(*image, uv / image_size * Vec2(image->width, image->height));
+  if (image) return value * Vec3(filtered(*image, uv / image_size));
   if (!checker) return value;
-  const double check = std::floor(uv.x / checker->size.x) + std::floor(uv.y / checker->size.y);
-  return std::fmod(std::fabs(check), 2.0) < 0.5 ? checker->even : checker->odd;
+  return is_odd(*checker, uv) ? checker->odd : checker->even;
+}
+
+double Texture::alpha_at(const Vec2& uv) const {
+  return image ? value.x * filtered(*image, uv / image_size).w : at(uv).x;
 }
 
 }  // namespace eyeray

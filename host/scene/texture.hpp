@@ -35,14 +35,16 @@ struct ImageTexture {
   Wrap wrap_v = Wrap::repeat;
 };
 
-// Linear RGB: constant, checkered, or an image times `value`; its alpha is not looked at.
+// Linear RGB: constant, checkered, or an image times `value`.
 struct Texture {
   Vec3 value{0.0};
   std::optional<Checker> checker;
   std::shared_ptr<const ImageTexture> image = {};
   Vec2 image_size{1.0};  // of the picture, in uv
 
-  Vec3 at(const Vec2& uv) const;
+  Vec3 at(const Vec2& uv) const;  // an image's alpha is not looked at
+  // As an alpha: the first component of a constant or a check; an image's alpha times that of `value`.
+  double alpha_at(const Vec2& uv) const;
 };
 
 }  // namespace eyeray

@@ -98,7 +98,8 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
 
 }  // namespace
 
-extern const ShapeType disk_type{.name = "disk", .manual = manual, .keys = keys, .parse = parse};
+extern const ShapeType disk_type{
+    .name = "disk", .manual = manual, .keys = keys, .parse = parse, .flat = true};
 
 std::unique_ptr<Shape> make_disk(const Vec3& center, const Vec3& normal, double radius, double inner_radius,
                                  const Mat4& transform) {

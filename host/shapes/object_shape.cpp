@@ -26,12 +26,12 @@ double growth(const Affine& map, const Affine& inverse) {
 }  // namespace
 
 ObjectShape::ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters,
-                         size_t iterations)
+                         size_t steps)
     : kind_(kind),
       to_world_(to_world),
       to_object_(glm::inverse(to_world)),
       parameters_(parameters),
-      iterations_(iterations) {}
+      steps_(steps) {}
 
 std::optional<Intersection> ObjectShape::intersect(const Ray& ray) const {
   // Start at the point nearest to the centre, so that nothing cancels however far away the ray's own start
@@ -84,7 +84,8 @@ void ObjectShape::pack(Packer& packer) const {
     for (size_t k = 0; k < 4 && i + k < parameters_.size(); ++k) some[int(k)] = parameters_[i + k];
     packer.add_vertices({to_bits(some)});
   }
-  packer.add_iterations(iterations_);
+  packer.add_iterations(steps_);
+  if (steps_ > 0) packer.add_steps();
   packer.add_map_growth(growth(to_world_, to_object_));
   packer.add({.head = Packer::head(kind_, material, extra),
               .a = row(to_object_, 0, center),

@@ -34,9 +34,9 @@ class ObjectShape : public Shape {
   };
 
   // `kind` is the shape's number in the registry; `parameters` are what the shaders find after the maps;
-  // `iterations` is how often its loops may go round there.
+  // `steps` is how often its loops may go round there, after which it gives up (T_RAN_OUT).
   ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters = {},
-              size_t iterations = 0);
+              size_t steps = 0);
 
   const Affine& to_world() const { return to_world_; }
 
@@ -50,7 +50,7 @@ class ObjectShape : public Shape {
   Affine to_world_;
   Affine to_object_;
   std::vector<float> parameters_;
-  size_t iterations_;
+  size_t steps_;
 };
 
 // The keys of shapes with an axis.

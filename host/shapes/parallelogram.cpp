@@ -126,7 +126,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
 }  // namespace
 
 extern const ShapeType parallelogram_type{
-    .name = "parallelogram", .manual = manual, .keys = keys, .parse = parse};
+    .name = "parallelogram", .manual = manual, .keys = keys, .parse = parse, .flat = true};
 
 std::unique_ptr<Shape> make_parallelogram(const Vec3& origin, const Vec3& edge_u, const Vec3& edge_v,
                                           const Mat4& transform) {

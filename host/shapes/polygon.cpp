@@ -154,7 +154,8 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
 
 }  // namespace
 
-extern const ShapeType polygon_type{.name = "polygon", .manual = manual, .keys = keys, .parse = parse};
+extern const ShapeType polygon_type{
+    .name = "polygon", .manual = manual, .keys = keys, .parse = parse, .flat = true};
 
 std::unique_ptr<Shape> make_polygon(const PlanarRegion& region, const Mat4& transform,
                                     const std::optional<Vec3>& u_axis) {

@@ -10,6 +10,9 @@ namespace eyeray {
 
 namespace {
 
+// SUPERELLIPSOID_STEPS of superellipsoid.glsl.
+constexpr size_t steps = 64;
+
 constexpr std::string_view manual =
     R"(A box whose edges are rounded, a ball, a cylinder, a pillow, two cones or an octahedron, and all between: (|x|^(2/e) + |z|^(2/e))^(e/n) + |y|^(2/n) = 1,
 measured from `center` in units of `radii`. `e` is how it is round about the y axis, `n` from pole to pole: 0.1 is nearly square, 1 is round, and 2 is a straight bevel.
@@ -63,7 +66,7 @@ class Superellipsoid final : public ObjectShape {
  public:
   // The powers of Barr's equation are p = 2/e and q = 2/n.
   Superellipsoid(const Mat4& to_world, double p, double q)
-      : ObjectShape(shader::KIND_superellipsoid, to_world, {float(p), float(q)}), p_(p), q_(q) {}
+      : ObjectShape(shader::KIND_superellipsoid, to_world, {float(p), float(q)}, steps), p_(p), q_(q) {}
 
  private:
   struct Sample {
@@ -94,7 +97,7 @@ class Superellipsoid final : public ObjectShape {
   // A place within the shape, by cutting planes: between two places on either side of the least value the
   // tangents say how low it can be.
   std::optional<double> inner(const Ray& ray, Sample low, Sample high) const {
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 400; ++i) {
       if (low.value < 0) return low.s;
       if (high.value < 0) return high.s;
       if (low.slope >= 0 || high.slope <= 0) return std::nullopt;
@@ -107,6 +110,7 @@ class Superellipsoid final : public ObjectShape {
       const Sample middle = sample(ray, next);
       (middle.slope < 0 ? low : high) = middle;
     }
+    // By now they are as near as can be: 0.9⁴⁰⁰ is 5e-19.
     return std::nullopt;
   }
 

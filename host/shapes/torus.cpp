@@ -12,6 +12,8 @@ namespace {
 
 // Thinner ones, float32 cannot tell from a circle.
 constexpr double least_ratio = 1e-4;
+// TORUS_CUBIC_STEPS and TORUS_STEPS of torus.glsl.
+constexpr size_t steps = 24 + 48;
 
 constexpr std::string_view manual =
     R"(All points at the distance `minor_radius` from the circle of `major_radius` about `center`, across `axis`: (√(x² + z²) − R)² + y² = r². Closed;
@@ -65,7 +67,7 @@ constexpr Key keys[] = {
 class Torus final : public ObjectShape {
  public:
   Torus(const Mat4& to_world, double minor)
-      : ObjectShape(shader::KIND_torus, to_world, {float(minor)}), minor_(minor) {}
+      : ObjectShape(shader::KIND_torus, to_world, {float(minor)}, steps), minor_(minor) {}
 
  private:
   // |p|² + 1 − minor² − 2ρ on a ray of unit speed, ρ = √(x² + z²): below 0 inside. Both |p|² and ρ are

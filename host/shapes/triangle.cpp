@@ -189,7 +189,8 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
 
 }  // namespace
 
-extern const ShapeType triangle_type{.name = "triangle", .manual = manual, .keys = keys, .parse = parse};
+extern const ShapeType triangle_type{
+    .name = "triangle", .manual = manual, .keys = keys, .parse = parse, .flat = true};
 
 std::unique_ptr<Shape> make_triangle(const TriangleValues& values, const Mat4& transform) {
   return std::make_unique<Triangle>(transformed(values, Affine(transform)));

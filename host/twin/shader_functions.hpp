@@ -66,7 +66,9 @@ class Binding {
 #define HAS_INSTANCES 1
 #define INSTANCE_COUNT uint(bound_scene->instances.size())
 #define STORED_HITS 0
+#define STEPS_MAY_RUN_OUT 1
 #define HAS_SECONDARY 1
+#define RAY_KINDS 1
 #define SHIFT_STACK 0
 #define STACK_SIZE 128
 #define TRACE_ITERATIONS 0u
@@ -76,6 +78,8 @@ class Binding {
 #define HAS_IMAGES 1
 #define HAS_COLORS 1
 #define HAS_EMISSION 1
+#define HAS_HOLES 1
+#define SHAPES_WITH_HOLES SHAPES
 #define HAS_MEDIA 1
 #define HAS_ABSORPTION 1
 #define UV_OF(name) true

@@ -13,7 +13,7 @@ vec3 raycast_radiance(Frame frame, Ray ray, INOUT(uvec4) counts) {
 #if STORED_HITS
   Hit hit = hit_of_packet(load_packet_hit(), counts);
 #else
-  Hit hit = trace(ray);
+  Hit hit = trace(ray, counts.z);
 #endif
   if (hit.slot == NONE) return vec3(frame.background);
   counts.y += 1u;

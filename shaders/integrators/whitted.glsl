@@ -35,7 +35,7 @@ vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface
 #if STORED_HITS
       uint occluded = load_occlusion(i);
 #else
-      uint occluded = occlusion(leave(seen, light.direction), light.distance);
+      uint occluded = occlusion(leave(seen, light.direction), light.distance, counts.z);
 #endif
       float visible = visibility(occluded);
       float lobe = highlight(material, seen.normal, light.direction, to_viewer);
@@ -58,6 +58,9 @@ struct Children {
   PathRay transmitted;
   bool reflects;
   bool transmits;
+#if RAY_KINDS
+  bool totally;  // whether all is reflected where light may pass
+#endif
 };
 
 // Adds what `path`, traced to `hit`, sees there, and finds its children.
@@ -67,6 +70,9 @@ Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, 
   children.transmitted = path;
   children.reflects = false;
   children.transmits = false;
+#if RAY_KINDS
+  children.totally = false;
+#endif
   bool struck = hit.slot != NONE;
   counts.x += 1u;
   counts.y += struck ? 1u : 0u;
@@ -128,11 +134,24 @@ Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, 
     children.transmitted.depth = path.depth + 1u;
     children.transmitted.media = media_behind;
     children.transmits = deeper && max_component(children.transmitted.weight) > frame.right.w;
+#if RAY_KINDS
+    children.totally = deeper && material.head.z != 0u && max_component(scattering.transmitted) == 0.0f;
+#endif
 #endif
 #endif
   }
   return children;
 }
+
+#if RAY_KINDS
+// What a sample counted, as a result holds it where rays are counted by their kinds. What does not fit stays at the most that does.
+uint at_most(uint x, uint most) { return x < most ? x : most; }
+uvec4 counts_by_kind(uvec4 counts, uint reflected, uint refracted, uint total) {
+  return uvec4(counts.x, counts.y, counts.z | at_most(refracted, 0xffffffffu >> REFRACTED_SHIFT) << REFRACTED_SHIFT,
+               at_most(reflected, (1u << TOTAL_SHIFT) - 1u) |
+                   at_most(total, 0xffffffffu >> TOTAL_SHIFT) << TOTAL_SHIFT);
+}
+#endif
 
 PathRay eye_path(Frame frame, Ray eye_ray) {
   PathRay path;
@@ -149,12 +168,17 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
   PathRay stack[WHITTED_STACK];
   uint pending = 0u;
 #endif
+#if RAY_KINDS
+  uint rays_reflected = 0u;
+  uint rays_refracted = 0u;
+  uint total_reflections = 0u;
+#endif
   vec3 color = vec3(0.0f, 0.0f, 0.0f);
   PathRay path = eye_path(frame, eye_ray);
   bool going = true;
   for (; going;) {
     Ray ray = make_ray(path.o, path.d);
-    Hit hit = trace(ray);
+    Hit hit = trace(ray, counts.z);
     Children children = follow(frame, path, ray, hit, color, counts);
 
     // Go on with one child, and let the other wait.
@@ -185,10 +209,19 @@ vec3 whitted_radiance(Frame frame, Ray eye_ray, INOUT(uvec4) counts) {
       going = false;
     }
 #endif
+#if RAY_KINDS
+    // What waited is a reflected ray.
+    rays_reflected += going && !children.transmits ? 1u : 0u;
+    rays_refracted += going && children.transmits ? 1u : 0u;
+    total_reflections += children.totally ? 1u : 0u;
+#endif
     // Tested at the bottom, which saves a round with all lanes idle; but not where no loop over lights is inside this one: there Mesa
     // 22.3.6 may take what it computed last from the rounds of other rays (docs/lavapipe.md).
     if (LIGHT_COUNT > 0u && !going) break;
   }
+#if RAY_KINDS
+  counts = counts_by_kind(counts, rays_reflected, rays_refracted, total_reflections);
+#endif
   return color;
 }
 

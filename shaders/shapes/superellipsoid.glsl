@@ -29,7 +29,8 @@ vec4 superellipsoid_norm(vec3 p, vec4 parameters) {
 }
 
 // A norm is convex along a ray. From where the ray meets the cube around the shape, on the way in or if it starts inside on the way out, Newton's
-// steps come towards the surface and never past it; where there is none they pass the least value, and the slope turns.
+// steps come towards the surface and never past it; where there is none they pass the least value, and the slope turns. Where they run out
+// the ray has met nothing yet.
 float superellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uv = vec2(0.0f, 0.0f);
   vec4 parameters = object_parameters(s);
@@ -56,7 +57,9 @@ float superellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     excess = inside && !towards ? 0.0f : excess;
     meets = meets && (inside || x <= far);
   }
-  return meets && x > start ? r.t + x : -1.0f;
+  if (!(meets && x > start)) return -1.0f;
+  uv.x = inside ? 0.0f : r.t + x;
+  return excess > 4.0f * EPSILON ? T_RAN_OUT : r.t + x;
 }
 
 bool superellipsoid_may_hit(Primitive s, Ray ray) { return true; }

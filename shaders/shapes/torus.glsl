@@ -28,7 +28,7 @@ float torus_cubic_root(float p, float q) {
   return x;
 }
 
-// uv.x: t in object space, where it has more digits.
+// uv.x: t in object space, where it has more digits; where the steps run out as records.h says.
 float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uv = vec2(0.0f, 0.0f);
   float minor = object_parameters(s).x;
@@ -92,8 +92,10 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     step = next - x;
     x = next;
   }
-  uv.x = (x - start) * slowness;
-  return meets ? r.t + uv.x : -1.0f;
+  bool found = abs(step) <= 4.0f * EPSILON;
+  float t = ((found ? x : low) - start) * slowness;
+  uv.x = found ? t : r.t + t;
+  return !meets ? -1.0f : found ? r.t + t : T_RAN_OUT;
 }
 
 bool torus_may_hit(Primitive s, Ray ray) { return true; }

@@ -7,33 +7,12 @@
 
 SHADER_BEGIN
 
-// Along the ray, the triangle is its plane: near the plane, and for slivers, this is far more exact than the weighted mean of the
-// vertices' distances, and a ray that starts off the plane on the far side has t ≤ 0 for certain.
-// But along a ray that grazes the plane, t may come out anywhere, and where products round to the same, a needle's edges reach far past
-// its ends. A tree would miss what brute force finds there. So a hit must be within the triangle's own bounds, and t is brought into
-// them. Whatever rounding lets a ray hit is within them up to `room`, along each axis: 16 roundings of the largest coordinate along
-// the ray, a quarter of what tree.glsl widens its boxes by. a, b, c: the vertices from the ray's start, permuted.
-float triangle_t(Primitive s, Ray ray, vec3 a, vec3 b, vec3 c) {
-  vec3 n = vec3(s.a.w, s.b.w, s.c.w);
-  float t = dot3(n, vec3(s.a) - ray.o) / dot3(n, ray.d);
-  vec3 inverse = permute(ray.inverse, ray.major);
-  vec3 ta = a * inverse;
-  vec3 tb = b * inverse;
-  vec3 tc = c * inverse;
-  vec3 room = abs3(inverse) * (16.0f * EPSILON * maximum(abs(a.z), maximum(abs(b.z), abs(c.z))));
-  vec3 nearest = vec3(minimum(ta.x, minimum(tb.x, tc.x)), minimum(ta.y, minimum(tb.y, tc.y)), minimum(ta.z, minimum(tb.z, tc.z)));
-  vec3 farthest = vec3(maximum(ta.x, maximum(tb.x, tc.x)), maximum(ta.y, maximum(tb.y, tc.y)), maximum(ta.z, maximum(tb.z, tc.z)));
-  float entry = max_component(nearest - room);
-  float exit = -max_component(-farthest - room);
-  return t > 0.0f && entry <= exit ? minimum(maximum(t, entry), exit) : -1.0f;
-}
-
 // Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2013). The edge functions of a shared edge are
 // each other's exact negatives, so a ray cannot slip between neighbours; one that hits the edge itself belongs to both.
 struct TriangleEdges {
-  vec3 a;  // the vertices from the ray's start, permuted
-  vec3 b;
-  vec3 c;
+  vec3 x;  // of the three vertices, from the ray's start, permuted and sheared so that the ray runs along z
+  vec3 y;
+  vec3 z;
   float u;
   float v;
   float w;
@@ -42,19 +21,16 @@ struct TriangleEdges {
 TriangleEdges triangle_edges(Primitive s, Ray ray) {
   // Vertex and start are permuted apart, so that it is done once for rays that run together.
   vec3 o = permute(ray.o, ray.major);
+  vec3 a = permute(vec3(s.a), ray.major) - o;
+  vec3 b = permute(vec3(s.b), ray.major) - o;
+  vec3 c = permute(vec3(s.c), ray.major) - o;
   TriangleEdges edges;
-  edges.a = permute(vec3(s.a), ray.major) - o;
-  edges.b = permute(vec3(s.b), ray.major) - o;
-  edges.c = permute(vec3(s.c), ray.major) - o;
-  float ax = edges.a.x - ray.shear.x * edges.a.z;
-  float ay = edges.a.y - ray.shear.y * edges.a.z;
-  float bx = edges.b.x - ray.shear.x * edges.b.z;
-  float by = edges.b.y - ray.shear.y * edges.b.z;
-  float cx = edges.c.x - ray.shear.x * edges.c.z;
-  float cy = edges.c.y - ray.shear.y * edges.c.z;
-  edges.u = cx * by - cy * bx;
-  edges.v = ax * cy - ay * cx;
-  edges.w = bx * ay - by * ax;
+  edges.x = vec3(a.x - ray.shear.x * a.z, b.x - ray.shear.x * b.z, c.x - ray.shear.x * c.z);
+  edges.y = vec3(a.y - ray.shear.y * a.z, b.y - ray.shear.y * b.z, c.y - ray.shear.y * c.z);
+  edges.z = vec3(a.z, b.z, c.z);
+  edges.u = edges.x.z * edges.y.y - edges.y.z * edges.x.y;
+  edges.v = edges.x.x * edges.y.z - edges.y.x * edges.x.z;
+  edges.w = edges.x.y * edges.y.x - edges.y.y * edges.x.x;
   return edges;
 }
 
@@ -62,12 +38,44 @@ bool triangle_inside(TriangleEdges edges) {
   return minimum(edges.u, minimum(edges.v, edges.w)) >= 0.0f || maximum(edges.u, maximum(edges.v, edges.w)) <= 0.0f;
 }
 
+// How far along the ray, of which only the edge functions are known to say "inside".
+// There, the triangle is its plane: near the plane, and for slivers, this is far more exact than the weighted mean of the vertices'
+// distances, and a ray that starts off the plane on the far side has t ≤ 0 for certain. But along a ray that grazes the plane, t may
+// come out anywhere, and where products round to the same, edges reach far past their ends. A tree would miss what brute force finds
+// there. So the triangle is cut by a plane through the ray and the x or y axis: a ray that has all vertices on one side of it misses,
+// for a product never rounds past another, and else t is brought to between the two points where edges cross it. Every hit then lies
+// on the triangle, up to a few roundings of what is farthest along the ray: within the box of any part that the triangle may be cut
+// into. Of the two planes it is the one less along the triangle's own.
+float triangle_t(Primitive s, Ray ray, TriangleEdges edges) {
+  vec3 n = vec3(s.a.w, s.b.w, s.c.w);
+  float t = dot3(n, vec3(s.a) - ray.o) / dot3(n, ray.d);
+  vec3 steep = permute(abs3(n), ray.major);
+  vec3 side = steep.x < steep.y ? edges.x : edges.y;
+
+  // One vertex is alone on its side. Vertices that lie in the plane count to the side that has no others.
+  float least = minimum(side.x, minimum(side.y, side.z));
+  bool passes = least <= 0.0f && maximum(side.x, maximum(side.y, side.z)) >= 0.0f;
+  bool low_a = side.x < 0.0f || side.x <= least;
+  bool low_b = side.y < 0.0f || side.y <= least;
+  bool low_c = side.z < 0.0f || side.z <= least;
+  bool a_is_alone = low_b == low_c;
+  bool c_is_alone = low_a == low_b;
+  vec2 alone = c_is_alone ? vec2(side.z, edges.z.z) : a_is_alone ? vec2(side.x, edges.z.x) : vec2(side.y, edges.z.y);
+  vec2 p = a_is_alone && !c_is_alone ? vec2(side.y, edges.z.y) : vec2(side.x, edges.z.x);
+  vec2 q = c_is_alone ? vec2(side.y, edges.z.y) : vec2(side.z, edges.z.z);
+
+  float inverse = permute(ray.inverse, ray.major).z;
+  float along_p = (alone.y + (p.y - alone.y) * (alone.x / (alone.x - p.x))) * inverse;
+  float along_q = (alone.y + (q.y - alone.y) * (alone.x / (alone.x - q.x))) * inverse;
+  return passes && t > 0.0f ? minimum(maximum(t, minimum(along_p, along_q)), maximum(along_p, along_q)) : -1.0f;
+}
+
 float triangle_intersect_woop(Primitive s, Ray ray, OUT(vec2) uv) {
   TriangleEdges edges = triangle_edges(s, ray);
   float det = (edges.u + edges.v) + edges.w;
   float inverse = 1.0f / det;
   uv = vec2(edges.v * inverse, edges.w * inverse);
-  return triangle_inside(edges) && det != 0.0f ? triangle_t(s, ray, edges.a, edges.b, edges.c) : -1.0f;
+  return triangle_inside(edges) && det != 0.0f ? triangle_t(s, ray, edges) : -1.0f;
 }
 
 // Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), without its epsilon. Not watertight: kept for
@@ -80,9 +88,7 @@ float triangle_intersect_moller_trumbore(Primitive s, Ray ray, OUT(vec2) uv) {
   vec3 f = ray.o - vec3(s.a);
   uv = vec2(dot3(f, p) / det, dot3(ray.d, cross3(f, e1)) / det);
   bool inside = uv.x >= 0.0f && uv.y >= 0.0f && uv.x + uv.y <= 1.0f;
-  return inside ? triangle_t(s, ray, permute(vec3(s.a) - ray.o, ray.major), permute(vec3(s.b) - ray.o, ray.major),
-                             permute(vec3(s.c) - ray.o, ray.major))
-                : -1.0f;
+  return inside ? triangle_t(s, ray, triangle_edges(s, ray)) : -1.0f;
 }
 
 float triangle_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
@@ -140,6 +146,17 @@ vec3 vertex_color(Primitive s, Hit hit) {
   vec3 b = vec3(bits_to_floats(load_vertex(corners.y + 1u)));
   vec3 c = vec3(bits_to_floats(load_vertex(corners.z + 1u)));
   return (a * ((1.0f - hit.uv.x) - hit.uv.y) + b * hit.uv.x) + c * hit.uv.y;
+}
+
+// Their alpha, likewise. Where all three are equal, that very value.
+float vertex_alpha(Primitive s, vec2 uv) {
+  if (kind_of(s) != KIND_triangle || s.head.w == NONE) return 1.0f;
+  uvec4 corners = load_vertex(s.head.w);
+  if ((corners.w & CORNERS_COLORS) == 0u) return 1.0f;
+  float a = bits_to_floats(load_vertex(corners.x + 1u)).w;
+  float b = bits_to_floats(load_vertex(corners.y + 1u)).w;
+  float c = bits_to_floats(load_vertex(corners.z + 1u)).w;
+  return (a + (b - a) * uv.x) + (c - a) * uv.y;
 }
 #endif
 

@@ -131,7 +131,7 @@ material = "m"
   };
   const std::vector<Departure> a = leaving(once), b = leaving(flat);
   REQUIRE(a.size() == b.size());
-  CHECK(met.size() > 200);
+  CHECK(met.size() > 150);
   double apart = 0;
   for (size_t i = 0; i < a.size(); ++i)
     apart = std::max(

@@ -76,7 +76,8 @@ TEST_CASE("AOVs hold what the eye rays met") {
   CAPTURE(result.err);
   REQUIRE(result.code == 0);
   std::set<std::string> expected{"scene.toml", "a.png"};
-  for (const std::string name : {"depth", "position", "normal", "uv", "primitive", "material", "hits"})
+  for (const std::string name :
+       {"depth", "position", "normal", "uv", "primitive", "material", "hits", "flags"})
     expected.insert({"a." + name + ".pfm", "a." + name + ".png"});
   CHECK(folder.names() == expected);
 
@@ -88,6 +89,50 @@ TEST_CASE("AOVs hold what the eye rays met") {
   CHECK(*read_image(folder / "a.primitive.pfm").pixel(0, 0) == -1);
   CHECK(*read_image(folder / "a.hits.pfm").pixel(32, 24) == 1);
   CHECK(*read_image(folder / "a.hits.pfm").pixel(0, 0) == 0);
+}
+
+TEST_CASE(
+    "where steps run out a warning counts the pixels, and an AOV shows them: all that are wrong, also in "
+    "shadow") {
+  const SceneFolder folder;
+  const auto render = [&](const std::string& name, std::vector<std::string> options) {
+    options.insert(options.begin(), {"render", "scenes/shapes/superellipsoid.toml", "-s", "120x80", "--json",
+                                     "--aov", "flags", "-o", folder / (name + ".pfm")});
+    return run_eyeray(options);
+  };
+  REQUIRE(render("right", {"--backend", "twin"}).code == 0);
+  const Image right = read_image(folder / "right.pfm");
+  const Image no_flags = read_image(folder / "right.flags.pfm");
+  // One ray after the other, and in packets, which trace shadow rays in a kernel of their own.
+  for (const std::string rays : {"lanes", "packets"}) {
+    CAPTURE(rays);
+    const ProcessResult result =
+        render(rays, {"--inject-fault", "steps", "--acceleration", "tree", "--rays", rays});
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    const Image picture = read_image(folder / (rays + ".pfm"));
+    const Image flags = read_image(folder / (rays + ".flags.pfm"));
+    int flagged = 0, wrong = 0, silent = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const bool same = std::equal(picture.pixel(x, y), picture.pixel(x, y) + 3, right.pixel(x, y));
+        const float flag = *flags.pixel(x, y);
+        CHECK((flag == 0 || flag == 8));
+        CHECK(*no_flags.pixel(x, y) == 0);
+        flagged += flag != 0;
+        wrong += !same;
+        silent += !same && flag == 0;
+      }
+    }
+    CHECK(wrong > 100);
+    CHECK(silent == 0);
+    CHECK(flagged < 2 * wrong);
+    const std::string warning = std::to_string(flagged) + " pixels may be wrong: a shape that is searched";
+    CHECK(result.err.find(warning) != std::string::npos);
+    const auto report = nlohmann::json::parse(result.out);
+    CHECK(report.at("flagged_pixels") == flagged);
+    CHECK(report.at("flags") == nlohmann::json({"ran_out"}));
+  }
 }
 
 TEST_CASE("--stats names the stages") {

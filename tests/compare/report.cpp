@@ -47,6 +47,29 @@ TEST_CASE("a passing report says so first, and counts") {
   CHECK_FALSE(contains(text, "look closer"));
 }
 
+TEST_CASE("what was hit is named in the words of the scene, where they are known") {
+  Frame value = picture_frame();
+  FirstHit& hit = value.first_hits[size_t(30 * picture_width + 94)];
+  hit.t *= 1.5;
+  Report report = report_on(value);
+  const std::vector<FirstHit> shown = report.shown_hits();
+  const auto is_it = [&](const FirstHit& other) {
+    return other.primitive == hit.primitive && other.t == hit.t;
+  };
+  CHECK(std::any_of(shown.begin(), shown.end(), is_it));
+  CHECK_FALSE(contains(to_text(report), "eye"));
+
+  report.primitives[hit.primitive] = "sphere \"left eye\", face.toml:24";
+  report.materials[hit.material] = "\"glass\"";
+  CHECK(contains(to_text(report), fmt::format("primitive {} (sphere \"left eye\", face.toml:24), material {} "
+                                              "(\"glass\"), t ",
+                                              hit.primitive, hit.material)));
+  const auto json = nlohmann::json::parse(to_json(std::span(&report, 1)));
+  CHECK(json.at("scenes")[0].at("primitives").at(std::to_string(hit.primitive)) ==
+        "sphere \"left eye\", face.toml:24");
+  CHECK(json.at("scenes")[0].at("materials").at(std::to_string(hit.material)) == "\"glass\"");
+}
+
 TEST_CASE("a failing report names the gate, the pixel, the seam, and the command that shows it") {
   Frame value = picture_frame();
   value.first_hits[size_t(30 * picture_width + 94)].t *= 1.5;

@@ -126,6 +126,29 @@ TEST_CASE("the first camera and all lights") {
   CHECK(second.camera->size == 3);
 }
 
+TEST_CASE("alphaMode MASK leaves holes by factor, picture and vertices; else alpha is not looked at") {
+  Json material = {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.6}}}}};
+  const auto mask_of = [&] {
+    return import_sound(with_material(material).gltf(), "a.gltf").materials[0]->mask;
+  };
+  CHECK_FALSE(mask_of());
+  material["alphaMode"] = "MASK";
+  REQUIRE(mask_of());
+  CHECK(mask_of()->cutoff == 0.5);
+  CHECK(mask_of()->covers({0, 0}));
+  CHECK_FALSE(mask_of()->covers({0, 0}, 0.8));
+  material["alphaCutoff"] = 0.7;
+  CHECK_FALSE(mask_of()->covers({0, 0}));
+  material["alphaCutoff"] = 0;
+  CHECK_FALSE(mask_of());
+  material["alphaCutoff"] = 0.6;
+  material["extensions"] = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}};
+  const ImportedScene glass = import_sound(with_material(material).gltf(), "a.gltf");
+  CHECK_FALSE(glass.materials[0]->mask);
+  REQUIRE(glass.warnings.size() == 1);
+  CHECK(contains(glass.warnings[0], "holes in glass (1)"));
+}
+
 TEST_CASE("what is left out is named once, and counted") {
   GltfFile file = with_material(
       {{"alphaMode", "BLEND"}, {"normalTexture", {{"index", 0}}}, {"occlusionTexture", {{"index", 0}}}});

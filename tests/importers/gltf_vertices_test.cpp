@@ -15,7 +15,7 @@ TEST_CASE("colours of vertices are linear, with and without alpha, and kept with
       std::vector<double> colors;
       for (int i = 0; i < 4; ++i) {
         colors.insert(colors.end(), {one * (i % 2), one / 5, component == 5126 ? 7.0 : one});
-        if (alpha) colors.push_back(0);
+        if (alpha) colors.push_back(i < 2 ? 0 : one);
       }
       GltfFile file = square_file();
       file.primitive()["attributes"]["COLOR_0"] =
@@ -26,6 +26,7 @@ TEST_CASE("colours of vertices are linear, with and without alpha, and kept with
       CHECK(scene.meshes[0].colors[1].x == 1);
       CHECK(scene.meshes[0].colors[2].y == doctest::Approx(0.2));
       CHECK(scene.meshes[0].colors[3].z == 1);
+      CHECK(scene.meshes[0].alphas == (alpha ? std::vector<double>{0, 0, 1, 1} : std::vector<double>{}));
       CHECK(scene.warnings.empty());
     }
   }

@@ -4,6 +4,7 @@
 #include "loader/scene_file.hpp"
 #include "scene/affine.hpp"
 #include "scene/primitive_ids.hpp"
+#include "scene/things.hpp"
 //
 #include "support/doctest.hpp"
 
@@ -52,12 +53,12 @@ double middle_x(const Shape& shape) {
 }  // namespace
 
 TEST_CASE("a named group stands where instances name it, after its own transform, and nowhere else") {
-  const Scene scene =
-      parse("[[group]]\nname = \"ball\"\ntransform = [{ scale = 2 }]\n" + sphere("group.sphere", 1) +
-            "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n"
-            "[[group]]\ntransform = [{ translate = [100, 0, 0] }]\n"
-            "[[group.instance]]\nbatch = { group = [\"ball\", \"ball\"], " +
-            steps(2) + " }\n");
+  const Scene scene = parse("[[group]]\nname = \"ball\"\npattern = true\ntransform = [{ scale = 2 }]\n" +
+                            sphere("group.sphere", 1) +
+                            "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n"
+                            "[[group]]\ntransform = [{ translate = [100, 0, 0] }]\n"
+                            "[[group.instance]]\nbatch = { group = [\"ball\", \"ball\"], " +
+                            steps(2) + " }\n");
   REQUIRE(scene.shapes.size() == 3);
   CHECK(std::abs(middle_x(*scene.shapes[0]) - 102) < 1e-9);
   CHECK(std::abs(middle_x(*scene.shapes[1]) - 103) < 1e-9);
@@ -130,47 +131,72 @@ TEST_CASE("a sphere in a stretched group is refused, kept once or not, and at th
   }
 }
 
-TEST_CASE("what is wrong with names of groups is said where it stands") {
-  const std::string ball = "[[group]]\nname = \"ball\"\n" + sphere("group.sphere", 1);
+TEST_CASE("what is wrong with patterns and instances is said where it stands") {
+  const std::string ball = "[[group]]\nname = \"ball\"\npattern = true\n" + sphere("group.sphere", 1);
   CHECK(says(refused(ball + "[[instance]]\ngroup = \"bal\"\n"),
-             "scene.toml:11:9: error: no [[group]] is named \"bal\"; did you mean \"ball\"?"));
+             "scene.toml:12:9: error: no [[group]] is named \"bal\"; did you mean \"ball\"?"));
   CHECK(says(refused(ball + ball + "[[instance]]\ngroup = \"ball\"\n"),
-             "scene.toml:11:8: error: group \"ball\" is defined twice; the first is at scene.toml:5"));
-  CHECK(says(refused("[[group]]\nname = \"\"\n"), "scene.toml:5:8: error: a group's name must not be empty"));
-  CHECK(says(
-      refused("[[group]]\n[[group.group]]\nname = \"ball\"\n" + sphere("group.group.sphere", 1)),
-      "scene.toml:6:8: error: only a [[group]] of the scene itself can have a name, not one in another"));
+             "scene.toml:19:9: error: more than one [[group]] is named \"ball\""));
+  CHECK(says(refused("[[group]]\npattern = true\n"),
+             "scene.toml:5:11: error: a pattern needs a `name`, by which an [[instance]] shows it"));
+  CHECK(says(refused("[[group]]\n[[group.group]]\nname = \"ball\"\npattern = true\n" +
+                     sphere("group.group.sphere", 1)),
+             "scene.toml:7:11: error: only a [[group]] that is in no other can be a pattern"));
   CHECK(says(refused("[[instance]]\n"), "[[instance]] needs `group`"));
-  CHECK(says(
-      refused("[[group]]\nname = \"a\"\n[[group.instance]]\ngroup = \"b\"\n"
-              "[[group]]\nname = \"b\"\n[[group.instance]]\ngroup = \"a\"\n[[instance]]\ngroup = \"a\"\n"),
-      "scene.toml:5:8: error: group \"a\" holds itself: a → b → a"));
+  CHECK(says(refused("[[group]]\nname = \"a\"\n[[group.instance]]\ngroup = \"b\"\n"
+                     "[[group]]\nname = \"b\"\n[[group.instance]]\ngroup = \"a\"\n"),
+             "scene.toml:5:8: error: group \"a\" holds itself: a → b → a"));
+}
+
+TEST_CASE("a group with a name that is no pattern stands where it is written, too") {
+  const Scene scene = parse("[[group]]\nname = \"ball\"\n" + sphere("group.sphere", 1) +
+                            "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n");
+  REQUIRE(scene.shapes.size() == 2);
+  CHECK(std::abs(middle_x(*scene.shapes[0]) - 1) < 1e-9);
+  CHECK(std::abs(middle_x(*scene.shapes[1]) - 11) < 1e-9);
+}
+
+TEST_CASE("what is kept once is called as its copies are") {
+  const std::string text = sphere("sphere", 0) + "[[group]]\nname = \"cart\"\n" + batch(2) +
+                           sphere("group.sphere", 1) + "name = \"wheel\"\n" + sphere("group.sphere", 2) +
+                           "[[group]]\n" + batch(2) + sphere("group.sphere", 3);
+  const Scene flat = parse("[render]\ngroups = \"flat\"\n" + text);
+  const Scene once = parse("[render]\ngroups = \"instanced\"\n" + text);
+  REQUIRE(once.group_instances.size() == 4);
+  const Things flat_things(flat), once_things(once);
+  REQUIRE(once_things.size() == flat_things.size());
+  for (uint64_t id = 0; id < flat.primitive_count(); ++id)
+    CHECK(once_things.describe(id) == flat_things.describe(id));
+  CHECK(once_things.describe(3) == "sphere \"cart 2/wheel\", scene.toml:13");
+  for (size_t i = 0; i < once_things.size(); ++i) CHECK(once_things.of(once_things[i].first) == i);
 }
 
 TEST_CASE("a group that nothing shows is a warning, and read all the same") {
-  const Scene scene = parse("[[group]]\nname = \"ball\"\n" + sphere("group.sphere", 1) + sphere("sphere", 0));
+  const Scene scene =
+      parse("[[group]]\nname = \"ball\"\npattern = true\n" + sphere("group.sphere", 1) + sphere("sphere", 0));
   CHECK(scene.shapes.size() == 1);
   bool warned = false;
   for (const Diagnostic& warning : scene.warnings)
     warned = warned || warning.message == "group \"ball\" is not shown: no [[instance]] names it";
   CHECK(warned);
-  CHECK(says(refused("[[group]]\nname = \"ball\"\n[[group.sphere]]\nradius = 0\n"),
-             "scene.toml:7:10: error: "));
+  CHECK(says(refused("[[group]]\nname = \"ball\"\npattern = true\n[[group.sphere]]\nradius = 0\n"),
+             "scene.toml:8:10: error: "));
 }
 
 TEST_CASE("groups in each other without end are an error, not a stack that overflows") {
   std::string text = sphere("sphere", 0);
   for (int i = 0; i < 20'000; ++i)
-    text += fmt::format("[[group]]\nname = \"{}\"\n[[group.instance]]\ngroup = \"{}\"\n", i, i + 1);
+    text += fmt::format("[[group]]\nname = \"{}\"\npattern = true\n[[group.instance]]\ngroup = \"{}\"\n", i,
+                        i + 1);
   CHECK(says(refused(text + "[[instance]]\ngroup = \"0\"\n"), "groups are nested more than 64 deep"));
 }
 
 TEST_CASE("named groups that double each time are refused, or kept once where that is enough") {
   const auto doubled = [](int levels) {
-    std::string text = "[[group]]\nname = \"0\"\n" + sphere("group.sphere", 1);
+    std::string text = "[[group]]\nname = \"0\"\npattern = true\n" + sphere("group.sphere", 1);
     for (int i = 1; i <= levels; ++i)
-      text +=
-          fmt::format("[[group]]\nname = \"{}\"\n[[group.instance]]\ngroup = \"{}\"\n{}", i, i - 1, batch(2));
+      text += fmt::format("[[group]]\nname = \"{}\"\npattern = true\n[[group.instance]]\ngroup = \"{}\"\n{}",
+                          i, i - 1, batch(2));
     return text + fmt::format("[[instance]]\ngroup = \"{}\"\n", levels);
   };
   const Scene scene = parse(doubled(20));

@@ -67,6 +67,16 @@ TEST_CASE("every fault on the GPU's side is noticed, with its reason") {
   }
 }
 
+TEST_CASE("a picture with rays whose steps ran out does not pass, and says why") {
+  const TemporaryFolder folder;
+  const ProcessResult result = run_eyeray({"verify", "scenes/shapes/superellipsoid.toml", "-s", "96x72",
+                                           "--quiet", "--inject-fault", "steps", "--keep", folder / "kept"});
+  CAPTURE(result.out);
+  CHECK(result.code == 1);
+  CHECK(result.out.find(" incomplete pixels: a shape was not found in the steps allowed") !=
+        std::string::npos);
+}
+
 TEST_CASE("compare answers 1 to pictures of another size, too different, or not a number") {
   const TemporaryFolder folder;
   Image picture(8, 6, 3);

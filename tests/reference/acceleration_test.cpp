@@ -198,8 +198,9 @@ TEST_CASE("10 000 hard scenes: the tree finds what brute force finds, to the las
           plain.has_value() != hit.has_value() || (hit && plain && !same_bits(plain->t, hit->at.t));
 
       const double t_end = dice.between(0, 3) < 1 ? std::numeric_limits<double>::infinity() : 1.0;
-      const double light = tree.transmittance(ray, t_end);
-      different_light += !same_bits(light, brute.transmittance(ray, t_end));
+      uint32_t flags = 0;
+      const double light = tree.transmittance(ray, t_end, flags);
+      different_light += !same_bits(light, brute.transmittance(ray, t_end, flags));
       dimmed += light > 0 && light < 1;
     }
   }

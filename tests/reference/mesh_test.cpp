@@ -181,8 +181,9 @@ TEST_CASE("shadows: a closed mesh weakens light once, an open one by the square 
   const int box = add(scene, cube());
   add_instance(scene, box, glass);
   const auto light = [&](double t_end) {
-    const double share = reference::Tracer(scene).transmittance(ray, t_end);
-    CHECK(reference::Tracer(scene, Acceleration::brute_force).transmittance(ray, t_end) == share);
+    uint32_t flags = 0;
+    const double share = reference::Tracer(scene).transmittance(ray, t_end, flags);
+    CHECK(reference::Tracer(scene, Acceleration::brute_force).transmittance(ray, t_end, flags) == share);
     return share;
   };
   const double infinity = std::numeric_limits<double>::infinity();

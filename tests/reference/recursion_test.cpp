@@ -242,6 +242,58 @@ TEST_CASE("a fifth nested medium is not entered, and says so") {
   CHECK(look(scene).flags == media_overflow);
 }
 
+namespace {
+
+// Knows only that it is not met before `sure_until`.
+class GivesUp final : public Shape {
+ public:
+  explicit GivesUp(double sure_until) : sure_until_(sure_until) {}
+  std::optional<Intersection> intersect(const Ray&) const override {
+    return Intersection{.t = sure_until_, .ran_out = true};
+  }
+  SurfacePoint surface(const Ray&, const Intersection&) const override { return {}; }
+  Bounds bounds() const override { return {Vec3(-1e3), Vec3(1e3)}; }
+  void pack(Packer&) const override {}
+
+ private:
+  double sure_until_;
+};
+
+}  // namespace
+
+TEST_CASE("a shape that gives up is no hit, and flagged where it might have been the nearest") {
+  Scene scene = one_pixel({0, 0, 5}, {0, 0, 0});
+  scene.render.ambient = Vec3(1);
+  const int white = add(scene, glowing(Vec3(1)));
+  add(scene, make_sphere({0, 0, 0}, 1), white);
+  for (const double sure_until : {3.9, 4.1}) {
+    scene.shapes.resize(1);
+    add(scene, std::make_unique<GivesUp>(sure_until), white);
+    for (const Acceleration acceleration : {Acceleration::tree, Acceleration::brute_force}) {
+      const reference::Renderer renderer(scene, acceleration);
+      CHECK(renderer.sample(0, 0, 0).flags == (sure_until < 4 ? ran_out : 0u));
+      CHECK(renderer.first_hit(0, 0).flags == (sure_until < 4 ? ran_out : 0u));
+      CHECK(renderer.first_hit(0, 0).t == doctest::Approx(4));
+    }
+  }
+
+  // Light that is away by 2, from where the ray strikes.
+  scene.shapes.resize(1);
+  scene.shapes.push_back(nullptr);
+  add_point_light(scene, {0, 0, 3}, Vec3(1));
+  for (const double sure_until : {1.9, 2.1}) {
+    scene.shapes[1] = std::make_unique<GivesUp>(sure_until);
+    const reference::Tracer tracer(scene);
+    uint32_t flags = 0;
+    CHECK(tracer.transmittance({{0, 0, 1.001}, {0, 0, 1}}, 2, flags) == 1);
+    CHECK(flags == (sure_until < 2 ? ran_out : 0u));
+    // What is dark is dark, whatever else is on the way.
+    flags = 0;
+    CHECK(tracer.transmittance({{0, 0, 5}, {0, 0, -1}}, 10, flags) == 0);
+    CHECK(flags == 0);
+  }
+}
+
 TEST_CASE("media_at lists the media around a point, outermost first") {
   Scene scene;
   const int water = add(scene, make_dielectric({.ior = 1.33}));

@@ -61,7 +61,8 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
   check_struct(samples, "Instance", sizeof(shader::Instance),
                {MEMBER(Instance, head), MEMBER(Instance, to_local), MEMBER(Instance, to_world)});
   check_struct(samples, "Material", sizeof(shader::Material),
-               {MEMBER(Material, head), MEMBER(Material, textures), MEMBER(Material, parameters)});
+               {MEMBER(Material, head), MEMBER(Material, textures), MEMBER(Material, parameters),
+                MEMBER(Material, mask)});
   check_struct(samples, "Medium", sizeof(shader::Medium), {MEMBER(Medium, absorption_ior)});
   check_struct(
       samples, "Texture", sizeof(shader::Texture),

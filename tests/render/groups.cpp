@@ -21,7 +21,7 @@ namespace {
 std::string grouped(const ShapeType& type, bool sheared) {
   std::ifstream file(fmt::format("scenes/shapes/{}.toml", type.name));
   REQUIRE(file);
-  std::string text = "[[group]]\nname = \"all\"\n";
+  std::string text = "[[group]]\nname = \"all\"\npattern = true\n";
   bool kept = false;
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with('[') && line.ends_with(']') && std::isalpha(line[line.find_first_not_of('[')])) {
@@ -143,6 +143,7 @@ name = "wall"
 type = "phong"
 [[group]]
 name = "all"
+pattern = true
 [[group.ellipsoid]]
 center = [0, 0, 0]
 radii = [1, 0.3, 2]

@@ -168,7 +168,8 @@ TEST_CASE(
         const glm::vec3 origin(placed.to_world(random.direction() * random.log_uniform(1.1, 100)));
         const glm::vec3 target(placed.to_world(random.point(0.5)));
         const shader::Ray ray = shader::make_ray(origin, glm::normalize(target - origin));
-        const shader::Hit hit = shader::trace(ray);
+        uint32_t flags = 0;
+        const shader::Hit hit = shader::trace(ray, flags);
         if (hit.slot == NONE || hit.id >= placed.triangles) continue;
         const shader::Surface surface = shader::surface_at(shader::primitive_at(hit), ray, hit);
         glm::vec3 away(random.direction());

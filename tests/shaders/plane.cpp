@@ -63,7 +63,8 @@ TEST_CASE("a ray parallel to a plane, in it or beside it, is a miss in trace()")
     scene.loose_ends.push_back(kind < shader::KIND_plane ? 0 : 1);
   const shader::Binding binding(scene);
   for (const float height : {0.0f, -0.0f, 1.0f, -1.0f, 1e-30f}) {
-    const shader::Hit hit = shader::trace(shader::make_ray({0, height, 0}, {1, 0, 0}));
+    uint32_t flags = 0;
+    const shader::Hit hit = shader::trace(shader::make_ray({0, height, 0}, {1, 0, 0}), flags);
     CHECK(hit.slot == NONE);
     CHECK(hit.t == T_MISS);
   }

@@ -1,0 +1,34 @@
+// How many rays of each kind were traced, as the statistics of ray tracers are published.
+#pragma once
+
+#include <cstdint>
+
+#include "core/pixel.hpp"
+
+namespace eyeray {
+
+struct RayCounts {
+  uint64_t eye = 0;
+  uint64_t eye_hits = 0;  // of `eye`, those that hit something
+  uint64_t reflected = 0;
+  uint64_t refracted = 0;
+  uint64_t total_reflections = 0;  // where light may pass and none does
+  uint64_t shadow = 0;             // one a light that stands before a surface, by both of its normals
+
+  uint64_t total() const { return eye + reflected + refracted + shadow; }
+
+  // Of an executor that counts kinds.
+  void add(const PixelSample& sample) {
+    ++eye;
+    // Whatever an eye ray leads to begins with what it hits.
+    eye_hits += sample.hits > 0;
+    reflected += sample.reflected;
+    refracted += sample.refracted;
+    total_reflections += sample.total_reflections;
+    shadow += uint64_t{sample.rays} - 1 - sample.reflected - sample.refracted;
+  }
+
+  friend bool operator==(const RayCounts&, const RayCounts&) = default;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,79 @@
+#include "render/corners.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/camera_frame.hpp"
+
+namespace eyeray {
+namespace {
+
+float mean(float a, float b, float c, float d) {
+  return ((a + b) + (c + d)) / 4;
+}
+
+float any_flag(float a, float b, float c, float d) {
+  return float(uint32_t(a) | uint32_t(b) | uint32_t(c) | uint32_t(d));
+}
+
+using Combine = float (*)(float, float, float, float);
+
+// A row of pixels from the rows of corners above and below it.
+void combine_corners(const float* above, const float* below, Combine combine, Image& pixels, int row) {
+  const int channels = pixels.channels();
+  for (int x = 0; x < pixels.width(); ++x) {
+    float* pixel = pixels.pixel(x, row);
+    for (int c = 0; c < channels; ++c) {
+      const int left = x * channels + c, right = left + channels;
+      pixel[c] = combine(above[left], above[right], below[left], below[right]);
+    }
+  }
+}
+
+// All rows of pixels between the rows of corners, of which `last` is the one before; and the new last one.
+Image between(Image& last, const Image& corners, Combine combine) {
+  const int above = last.height();
+  Image pixels(corners.width() - 1, corners.height() - 1 + above, corners.channels());
+  for (int row = 0; row < pixels.height(); ++row) {
+    const int upper = row - above;
+    combine_corners(upper < 0 ? last.pixel(0, 0) : corners.pixel(0, upper), corners.pixel(0, upper + 1),
+                    combine, pixels, row);
+  }
+  last = Image(corners.width(), 1, corners.channels());
+  const float* row = corners.pixel(0, corners.height() - 1);
+  std::copy(row, row + last.sample_count(), last.pixel(0, 0));
+  return pixels;
+}
+
+}  // namespace
+
+void sample_corners(Scene& scene) {
+  const double wider = double(scene.image.width + 1) / scene.image.width;
+  Camera& camera = scene.camera;
+  const double distance = camera_frame(camera, scene.image.width, scene.image.height).distance;
+  camera.fov_degrees = std::atan2(wider, distance) * 360 / std::numbers::pi;
+  camera.fov_axis = FovAxis::horizontal;
+  camera.size *= wider;
+  scene.image.width += 1;
+  scene.image.height += 1;
+  scene.image.samples = 1;
+  scene.image.pattern = SamplePattern::regular;
+}
+
+Rect corners_of(const Rect& pixels) {
+  return {pixels.x, pixels.y, pixels.width + 1, pixels.height + 1};
+}
+
+FinishedRows CornerMean::add(const FinishedRows& corners) {
+  FinishedRows rows;
+  rows.first = std::max(0, corners.first - 1);
+  rows.color = between(last_color_, corners.color, mean);
+  rows.hits = between(last_hits_, corners.hits, mean);
+  rows.flagged = between(last_flagged_, corners.flagged, any_flag);
+  rows.flagged_pixels = corners.flagged_pixels;
+  rows.flags = corners.flags;
+  return rows;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,28 @@
+// Pictures sampled at the corners of their pixels, each the mean of its four: the sampling of Haines'
+// published statistics (A Proposal for Standard Graphics Environments, IEEE CG&A 7(11), 1987).
+#pragma once
+
+#include "core/rect.hpp"
+#include "render/sums.hpp"
+#include "scene/scene.hpp"
+
+namespace eyeray {
+
+// Makes the picture one of the corners, a row and a column larger: the centres of its pixels are where the
+// corners of the old ones were. One sample each.
+void sample_corners(Scene& scene);
+// The corners of some pixels, as a part of that picture.
+Rect corners_of(const Rect& pixels);
+
+// Rows of corners to rows of pixels, one fewer: means of colours and hits, and the flags of all four.
+class CornerMean {
+ public:
+  // The rows of pixels that are whole with the next rows of corners, from the top down; images without height
+  // where none is. What is flagged are corners.
+  FinishedRows add(const FinishedRows& corners);
+
+ private:
+  Image last_color_, last_hits_, last_flagged_;  // the last row of corners so far; empty at the start
+};
+
+}  // namespace eyeray

@@ -1,0 +1,49 @@
+// What a scene's file calls its shapes, meshes and groups.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace eyeray {
+
+// A tree of names: of things, and of the groups that hold them. Each text is kept once, and each thing of a
+// name takes 12 bytes, however many copies of its groups there are. Copying indices is all that things do.
+class Names {
+ public:
+  // Of what has no name and stands in no group that has one.
+  static constexpr int32_t none = -1;
+
+  // The next thing called `text` in `group`, which is none or what add returned. `number`: of a batch that
+  // shares the name, from 1; 0: it is alone.
+  int32_t add(std::string_view text, uint32_t number, int32_t group);
+
+  // "cart/wheel 3": the names of its groups, then its own; "" for none.
+  std::string path(int32_t index) const;
+
+  // How many add() took in.
+  size_t size() const { return entries_.size(); }
+
+ private:
+  struct Entry {
+    uint32_t text;
+    uint32_t number;
+    int32_t group;
+  };
+  std::vector<Entry> entries_;
+  std::vector<std::string> texts_;
+  std::unordered_map<std::string, uint32_t> places_;  // in texts_
+};
+
+// A thing's name, or that of the group it stands in.
+struct NameRef {
+  int32_t index = Names::none;
+  bool own = false;  // else the group's
+};
+
+// `sphere "cart/wheel 3"`, `sphere in "cart"`, or "sphere".
+std::string describe(std::string_view kind, const NameRef& name, const Names& names);
+
+}  // namespace eyeray

@@ -1,0 +1,93 @@
+// Pictures sampled at the corners of their pixels.
+#include "render/corners.hpp"
+
+#include "loader/scene_file.hpp"
+#include "render/render.hpp"
+#include "scene/camera_frame.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+// A pixel's place (x, y), in pixels from the upper left, as a direction or an offset from the eye.
+Vec3 seen_at(const Scene& scene, double x, double y) {
+  const CameraFrame frame = camera_frame(scene.camera, scene.image.width, scene.image.height);
+  const Vec3 aside =
+      (2 * x / scene.image.width - 1) * frame.right + (1 - 2 * y / scene.image.height) * frame.up;
+  return scene.camera.type == CameraType::orthographic ? aside : glm::normalize(aside + frame.forward);
+}
+
+}  // namespace
+
+TEST_CASE("the pixels' centres are where the corners were, by every camera") {
+  Scene scene;
+  scene.camera.eye = {1, 2, 3};
+  scene.image = {.width = 7, .height = 5, .samples = 16, .pattern = SamplePattern::jittered};
+  for (const CameraType type : {CameraType::perspective, CameraType::orthographic}) {
+    for (const FovAxis axis : {FovAxis::horizontal, FovAxis::vertical, FovAxis::shorter, FovAxis::diagonal}) {
+      scene.camera.type = type;
+      scene.camera.fov_axis = axis;
+      Scene corners;
+      corners.camera = scene.camera;
+      corners.image = scene.image;
+      sample_corners(corners);
+      REQUIRE(corners.image.width == 8);
+      REQUIRE(corners.image.height == 6);
+      CHECK(corners.image.samples == 1);
+      CHECK(corners.image.pattern == SamplePattern::regular);
+      for (const auto& [x, y] : {std::pair(0, 0), std::pair(7, 0), std::pair(3, 2), std::pair(7, 5)})
+        CHECK(glm::distance(seen_at(corners, x + 0.5, y + 0.5), seen_at(scene, x, y)) < 1e-15);
+    }
+  }
+}
+
+TEST_CASE("a pixel is the mean of its corners, however the rows come") {
+  const int width = 4, height = 6;
+  FinishedRows all{.first = 0,
+                   .color = Image(width, height, 3),
+                   .hits = Image(width, height, 1),
+                   .flagged = Image(width, height, 1)};
+  *all.flagged.pixel(2, 3) = float(stack_overflow);
+  *all.flagged.pixel(3, 3) = float(media_overflow);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) all.color.pixel(x, y)[c] = float(x * x + 10 * y * y + 100 * c);
+      *all.hits.pixel(x, y) = float(x * y);
+    }
+  }
+  for (const int rows : {1, 2, 4, 6}) {
+    CAPTURE(rows);
+    CornerMean mean;
+    int next = 0;
+    for (int first = 0; first < height; first += rows) {
+      const int count = std::min(rows, height - first);
+      FinishedRows some{.first = first,
+                        .color = Image(width, count, 3),
+                        .hits = Image(width, count, 1),
+                        .flagged = Image(width, count, 1)};
+      std::copy_n(all.flagged.pixel(0, first), some.flagged.sample_count(), some.flagged.pixel(0, 0));
+      std::copy_n(all.color.pixel(0, first), some.color.sample_count(), some.color.pixel(0, 0));
+      std::copy_n(all.hits.pixel(0, first), some.hits.sample_count(), some.hits.pixel(0, 0));
+      some.flags = first == 0 ? uint32_t(stack_overflow) : 0u;
+      const FinishedRows pixels = mean.add(some);
+      CHECK(pixels.flags == some.flags);
+      CHECK(pixels.first == next);
+      REQUIRE(pixels.color.width() == width - 1);
+      REQUIRE(pixels.color.height() == pixels.hits.height());
+      for (int row = 0; row < pixels.color.height(); ++row, ++next) {
+        for (int x = 0; x < width - 1; ++x) {
+          const int y = next;
+          const float squares =
+              float(x * x + (x + 1) * (x + 1)) / 2 + 10 * float(y * y + (y + 1) * (y + 1)) / 2;
+          for (int c = 0; c < 3; ++c) CHECK(pixels.color.pixel(x, row)[c] == squares + float(100 * c));
+          const bool below = y == 2 || y == 3;
+          CHECK(*pixels.flagged.pixel(x, row) == (!below || x == 0 ? 0.0f : x == 1 ? 2.0f : 3.0f));
+          CHECK(*pixels.hits.pixel(x, row) == float((2 * x + 1) * (2 * y + 1)) / 4);
+        }
+      }
+    }
+    CHECK(next == height - 1);
+  }
+}

@@ -1,0 +1,46 @@
+// A scene pays for the shapes it has: its kernels hold no code of any other.
+#include <cctype>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "loader/scene_file.hpp"
+#include "render/pack.hpp"
+#include "scene/shape.hpp"
+#include "support.hpp"
+
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+// Whether the SPIR-V has a function of this name, by the names that glslang leaves in it.
+bool has_function(const std::vector<uint32_t>& spirv, const std::string& name) {
+  const std::string_view bytes(reinterpret_cast<const char*>(spirv.data()), spirv.size() * sizeof(uint32_t));
+  for (size_t at = bytes.find(name + "("); at != bytes.npos; at = bytes.find(name + "(", at + 1))
+    if (at > 0 && std::isalnum(uint8_t(bytes[at - 1])) == 0 && bytes[at - 1] != '_') return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a kernel has the shapes of its scene, and no other's") {
+  for (const ShapeType* type : shape_types()) {
+    const std::string file = "scenes/shapes/" + std::string(type->name) + ".toml";
+    CAPTURE(file);
+    const PackedScene packed = pack(load_scene(file));
+    std::set<uint32_t> used;
+    for (const shader::Primitive& primitive : packed.primitives) used.insert(kind_of(primitive));
+    for (const bool constants : {true, false}) {
+      const std::vector<uint32_t> kernel =
+          test::compile_entry("render.comp.glsl", packed, {.constants = constants});
+      for (uint32_t kind = 0; kind < shape_types().size(); ++kind) {
+        CAPTURE(shape_types()[kind]->name);
+        const std::string function = std::string(shape_types()[kind]->name) + "_intersect";
+        CHECK(has_function(kernel, function) == used.contains(kind));
+      }
+    }
+  }
+}
