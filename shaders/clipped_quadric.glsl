@@ -1,7 +1,7 @@
 // Where a ray meets a quadric that is cut to a convex piece of space.
 #ifndef CLIPPED_QUADRIC_GLSL
 #define CLIPPED_QUADRIC_GLSL
-#include "math.glsl"
+#include "ray.glsl"
 
 SHADER_BEGIN
 
@@ -24,7 +24,7 @@ vec2 quadratic_roots(float a, float b, float c, float root) {
 // of either; there the products whose difference it is are smallest, so that a ray that grazes is met where it should be. A root is taken from
 // whichever of the two places it is closer to: where a ray runs along a cone and past its apex, one seen from afar has no digits left; and
 // the sign of one near s = 0 is what keeps a ray that leaves from coming back.
-float clipped_quadric(float t, vec3 equation, float nearest_at, vec3 nearest_equation, float enter, float leave, bool open, OUT(float) part) {
+float clipped_quadric(Ray ray, float t, vec3 equation, float nearest_at, vec3 nearest_equation, float enter, float leave, bool open, OUT(float) part) {
   float a = equation.x;
   float b = equation.y;
   float c = equation.z;
@@ -48,7 +48,22 @@ float clipped_quadric(float t, vec3 equation, float nearest_at, vec3 nearest_equ
   bool one = first <= second;
   bool two = third <= leave;
 
+#if HAS_SOLIDS
+  // Stretches that touch are one.
+  if (one && two && t + third <= t + second) {
+    second = leave;
+    two = false;
+  }
+  bool inside = ray.side == SIDE_INSIDE;
+#endif
+
   float nearest = T_MISS;
+#if HAS_SOLIDS
+  if (ray.side != SIDE_UNKNOWN) {
+    bool first_of_them = one && (inside ? t + second >= ray.after : t + first > ray.after);
+    nearest = first_of_them ? (inside ? second : first) : two ? (inside ? leave : third) : T_MISS;
+  } else
+#endif
   if (open) {
     if (low >= enter && low <= leave && t + low > 0.0f) nearest = low;
     if (high >= enter && high <= leave && t + high > 0.0f) nearest = minimum(nearest, high);

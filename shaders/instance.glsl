@@ -34,14 +34,6 @@ uint id_at(Place place, Primitive primitive) {
 #endif
 }
 
-uint density_at(Place place, Primitive primitive) {
-#if HAS_INSTANCES
-  return place.density == NONE ? primitive.head.z : place.density;
-#else
-  return primitive.head.z;
-#endif
-}
-
 #if HAS_INSTANCES
 vec3 map_direction(vec4 rows[3], vec3 d) { return vec3(dot3(vec3(rows[0]), d), dot3(vec3(rows[1]), d), dot3(vec3(rows[2]), d)); }
 vec3 map_offset(vec4 rows[3]) { return vec3(rows[0].w, rows[1].w, rows[2].w); }

@@ -13,7 +13,25 @@ struct Ray {
   vec3 inverse;  // 1 / d, finite: a component of d so small that it does not count is taken as a little larger
   uint major;    // the axis along which d is longest
   vec2 shear;    // Woop's, the same for every triangle (shapes/triangle.glsl)
+#if HAS_SOLIDS
+  // A ray that asks a leaf of a solid for its next crossing: that behind which t, and on which side of the leaf the ray is until then.
+  float after;
+  uint side;
+#endif
 };
+
+// What `intersect` of closed shapes asks, so that it is for solids too (shapes/solid.glsl): a crossing is the same number for whoever asks.
+// AFTER: beyond which t it counts. ENTERS: whether of the two crossings of a convex shape the first is asked for, which is at t.
+#if HAS_SOLIDS
+#define SIDE_UNKNOWN 0u
+#define SIDE_OUTSIDE 1u
+#define SIDE_INSIDE 2u
+#define AFTER(ray) ray.after
+#define ENTERS(ray, t) (ray.side == SIDE_UNKNOWN ? (t) > 0.0f : ray.side == SIDE_OUTSIDE)
+#else
+#define AFTER(ray) 0.0f
+#define ENTERS(ray, t) ((t) > 0.0f)
+#endif
 
 struct Hit {
   float t;        // T_MISS where nothing is hit
@@ -31,6 +49,16 @@ struct Surface {
   vec2 uv;
   float offset;  // a ray that starts this far off p along the geometric normal does not meet the surface again
 };
+
+Surface no_surface() {
+  Surface surface;
+  surface.p = vec3(0.0f, 0.0f, 0.0f);
+  surface.normal_geometric = surface.p;
+  surface.normal = surface.p;
+  surface.uv = vec2(0.0f, 0.0f);
+  surface.offset = 0.0f;
+  return surface;
+}
 
 PacketHit packet_of_hit(Hit hit, uint flags) {
   PacketHit packet;
@@ -72,6 +100,10 @@ Ray make_ray(vec3 o, vec3 d) {
   ray.major = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
   vec3 p = permute(d, ray.major);
   ray.shear = vec2(p.x / p.z, p.y / p.z);
+#if HAS_SOLIDS
+  ray.after = 0.0f;
+  ray.side = SIDE_UNKNOWN;
+#endif
   // Over the whole length of the ray, 1e-12 of it is far less than what tree.glsl widens its boxes by.
   float least = 1.0e-12f * abs(p.z);
   ray.inverse = vec3(bounded_inverse(d.x, least), bounded_inverse(d.y, least), bounded_inverse(d.z, least));

@@ -30,7 +30,8 @@ SHADER_BEGIN
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
-#define T_RAN_OUT -2.0f // "no hit found in the steps allowed"; uv.x says up to which t there is none for sure
+#define T_NONE -3.0e38f  // the same, where no t counts that is not above 0; before every t
+#define T_RAN_OUT -3.2e38f  // "no hit found in the steps allowed"; uv.x says up to which t there is none for sure
 
 // ---- Primitive: 64 bytes --------------------------------------------------------------------------------------------
 //   0 id: the scene's primitive index, or that within an instance (below)    4 material | kind << 24
@@ -239,6 +240,7 @@ struct PathState {
 #define FLAG_STACK_OVERFLOW 2u
 #define FLAG_LOOP_BUDGET 4u
 #define FLAG_RAN_OUT 8u
+#define FLAG_ENDLESS 16u  // a formula made more than FORMULA_TURNS turns of its loops in one call
 
 SHADER_END
 

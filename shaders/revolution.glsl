@@ -12,14 +12,14 @@ SHADER_BEGIN
 
 // Where the first boundary with t > 0 is of a quadric between the planes y = bottom and y = top; −1 if there is none. `part` says what it is. The equations are
 // clipped_quadric's.
-float revolution_intersect(ObjectRay r, vec3 equation, vec3 nearest_equation, float bottom, float top, bool open, OUT(float) part) {
+float revolution_intersect(Ray ray, ObjectRay r, vec3 equation, vec3 nearest_equation, float bottom, float top, bool open, OUT(float) part) {
   float inverse = bounded_inverse(r.d.y, 1.0e-12f * max_component(abs3(r.d)));
   float to_bottom = (bottom - r.o.y) * inverse;
   float to_top = (top - r.o.y) * inverse;
-  float nearest = clipped_quadric(r.t, equation, nearest_at(r), nearest_equation, minimum(to_bottom, to_top), maximum(to_bottom, to_top),
+  float nearest = clipped_quadric(ray, r.t, equation, nearest_at(r), nearest_equation, minimum(to_bottom, to_top), maximum(to_bottom, to_top),
                                   open, part);
   part = part == PART_QUADRIC ? PART_SIDE : nearest == to_bottom ? PART_BOTTOM : PART_TOP;
-  return nearest < T_MISS ? r.t + nearest : -1.0f;
+  return nearest < T_MISS ? r.t + nearest : T_NONE;
 }
 
 // The surface at a point of a part. `radius` and `slope`: of the side at the height of p, and by how much it grows with y; `end_radius`: of a

@@ -16,16 +16,15 @@ Primitive primitive_at(Hit hit) {
     if (!of_group(instance)) primitive.head.y = instance.head.z | (primitive.head.y & 0xff000000u);
   }
 #endif
+#if HAS_SOLIDS
+  if (kind_of(primitive) == KIND_solid)
+    primitive.head.y = material_of(solid_leaf(primitive, hit)) | (primitive.head.y & 0xff000000u);
+#endif
   return primitive;
 }
 
 Surface surface_at(Primitive primitive, Ray ray, Hit hit) {
-  Surface surface;
-  surface.p = vec3(0.0f, 0.0f, 0.0f);
-  surface.normal_geometric = vec3(0.0f, 0.0f, 0.0f);
-  surface.normal = vec3(0.0f, 0.0f, 0.0f);
-  surface.uv = vec2(0.0f, 0.0f);
-  surface.offset = 0.0f;
+  Surface surface = no_surface();
   Ray local = ray;
 #if HAS_INSTANCES
   if (hit.instance != NONE) local = into_instance(ray, load_instance(hit.instance), hit.instance).ray;

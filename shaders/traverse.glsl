@@ -54,6 +54,14 @@ void meet(INOUT(Found) found, float t, vec2 uv, uint slot, uint id, uint instanc
   }
 }
 
+// What a primitive, a solid or not, weakens a shadow ray by before t_max. A solid may have surfaces of several materials.
+uint shadow_density(Primitive primitive, bool is_solid, Ray ray, float t_max, bool any) {
+#if HAS_MIXED_SOLIDS
+  if (any && is_solid) return solid_density(primitive, ray, t_max);
+#endif
+  return primitive.head.z;
+}
+
 #ifdef SCENE_PRIMITIVES
 // The same where ids come in ascending order: of equal ones the first stays.
 void meet_in_order(INOUT(Found) found, float t, vec2 uv, uint slot, uint id, uint density, bool any) {
@@ -78,7 +86,9 @@ void meet_slot(INOUT(Found) found, uint slot, Place place, bool any) {
   if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, place.ray, uv);
   SHAPES(INTERSECT_KIND)
   t = unless_in_hole(primitive, place.instance, place.ray, t, uv);
-  meet(found, t, uv, slot, id_at(place, primitive), place.instance, density_at(place, primitive), any);
+  uint density = place.density;
+  if (HAS_INSTANCES == 0 || density == NONE) density = shadow_density(primitive, kind_of(primitive) == KIND_solid, place.ray, found.hit.t, any);
+  meet(found, t, uv, slot, id_at(place, primitive), place.instance, density, any);
 }
 
 // Walks the tree of the world, and of every instance on the way.
@@ -171,7 +181,8 @@ void meet_loose(INOUT(Found) found, Ray ray, bool any) {
     Primitive primitive = load_primitive(i);                                                  \
     float t = name##_intersect(primitive, ray, uv);                                           \
     t = unless_in_hole(primitive, NONE, ray, t, uv);                                          \
-    meet(found, t, uv, i, primitive.head.x, NONE, primitive.head.z, any);                     \
+    uint density = shadow_density(primitive, number == KIND_solid, ray, found.hit.t, any);    \
+    meet(found, t, uv, i, primitive.head.x, NONE, density, any);                              \
   }
   SHAPES(MEET_KIND)
 #endif

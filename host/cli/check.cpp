@@ -77,11 +77,8 @@ Inventory take_inventory(const Scene& scene) {
   const PackedScene packed = pack(scene);
   Inventory inventory;
   std::vector<uint32_t> kinds;
-  const uint64_t shapes = scene.shapes.size() + shapes_in_groups(scene);
-  for (uint32_t slot = 0; slot < packed.trees[0].head.z; ++slot) {
-    // Of the world's own, the first are the shapes, and the others the triangles of meshes.
-    if (packed.primitives[slot].head.x < shapes) kinds.push_back(kind_of(packed.primitives[slot]));
-  }
+  for (const auto& shape : scene.shapes)
+    kinds.push_back(uint32_t(std::ranges::find(shape_types(), shape->type) - shape_types().begin()));
   inventory.shapes = count_kinds(shape_types(), kinds);
   kinds.clear();
   for (const shader::Material& material : packed.materials) kinds.push_back(material.head.x);

@@ -74,6 +74,7 @@ ExitCode TerrainCommand::run() {
 struct ClassicCommand {
   const Classic& classic;
   int size_factor = classic.size_factor;
+  bool patches = false;
   GenerateOutput output = {};
 
   ExitCode run() const;
@@ -83,12 +84,15 @@ ExitCode ClassicCommand::run() const {
   if (size_factor > classic.largest)
     throw Error(ExitCode::bad_input, "the largest size factor of {} is {}: {}", classic.name, classic.largest,
                 classic.limit);
-  write_generated(output, classic.mesh != nullptr, [&] {
-    Generated made{.recipe = fmt::format("{} --size-factor {}", classic.name, size_factor),
+  const bool mesh = classic.mesh && !patches;
+  write_generated(output, mesh, [&] {
+    Generated made{.recipe = fmt::format("{} --size-factor {}{}", classic.name, size_factor,
+                                         patches ? " --patches" : ""),
                    .counts = classic.counts(size_factor),
                    .scene = classic.scene(size_factor),
                    .mesh_keys = std::string(classic.mesh_keys)};
-    if (classic.mesh) made.mesh = [&](MeshSink& sink) { classic.mesh(size_factor, sink); };
+    if (patches) made.scene += classic.patches();
+    if (mesh) made.mesh = [&](MeshSink& sink) { classic.mesh(size_factor, sink); };
     return made;
   });
   return ExitCode::ok;
@@ -153,6 +157,8 @@ void add_classic(CLI::App& generate, const Classic& classic, Run& run) {
   command->add_option("--size-factor", options->size_factor, std::string(classic.sizes))
       ->option_text(fmt::format("N={}", classic.size_factor))
       ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+  if (classic.patches)
+    command->add_flag("--patches", options->patches, "Its Bezier patches themselves instead of a mesh.");
   command->footer(fmt::format("Example: eyeray generate {0} -o {0}.toml --size-factor {1}", classic.name,
                               classic.size_factor + 1));
   command->callback([options, &run] { run = [options] { return options->run(); }; });

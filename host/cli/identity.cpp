@@ -1,7 +1,7 @@
 #include "cli/identity.hpp"
 
 #include "core/atomic_file.hpp"
-#include "gpu/content_hash.hpp"
+#include "core/content_hash.hpp"
 
 namespace fs = std::filesystem;
 
@@ -10,7 +10,7 @@ namespace {
 
 // Of the contents; where the files lie does not matter.
 std::string hash_of(const std::vector<fs::path>& files) {
-  gpu::ContentHash hash;
+  ContentHash hash;
   for (const fs::path& file : files) {
     std::error_code ignored;
     if (fs::is_regular_file(file, ignored)) hash.add(read_file(file));
@@ -33,7 +33,7 @@ std::vector<IdentityPart> identity_of(const PictureRequest& request, const Scene
       // The processors' executors compute the same wherever the same program runs.
       {"device", gpu ? executor.description() : "none"},
       {"scene", hash_of(scene.files), false},
-      {"options laid over the scene", gpu::ContentHash().add(request.scene.as_written()).hex(), false},
+      {"options laid over the scene", ContentHash().add(request.scene.as_written()).hex(), false},
       {"shaders of --shaders", hash_of(executor.source_files()), false},
       {"--fast-math", request.executor.fast_math ? "on" : "off"},
       {"--inject-fault", request.executor.fault},

@@ -71,9 +71,8 @@ void Legend::see(std::span<const FirstHit> hits) {
 std::filesystem::path Legend::write(const std::filesystem::path& picture) const {
   std::filesystem::path name = picture;
   AtomicFile file(name.replace_extension(".json"));
-  std::string text =
-      fmt::format("{{\"picture\": {},\n \"nothing\": {},\n \"ids\": [", text_of(picture.filename().string()),
-                  text_of({{"id", -1}, {"color", color_of(-1)}, {"pixels", nothing_}}));
+  std::string text = fmt::format("{{\"nothing\": {},\n \"ids\": [",
+                                 text_of({{"id", -1}, {"color", color_of(-1)}, {"pixels", nothing_}}));
   bool first = true;
   for (size_t i = 0; i < pixels_.size(); ++i) {
     if (pixels_[i] == 0) continue;

@@ -4,6 +4,7 @@
 
 #include "cli/command.hpp"
 #include "loader/scene_file.hpp"
+#include "render/formula_check.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -89,6 +90,8 @@ Scene SceneOptions::load() const {
   add("render.triangle", triangle_);
 
   Scene scene = load_scene(file_, overrides, allowed_folders_);
+  compile_formulas(scene);
+  for (Diagnostic& doubt : doubt_lipschitz_constants(scene)) scene.warnings.push_back(std::move(doubt));
   for (const Diagnostic& warning : scene.warnings) fmt::print(stderr, "{}\n", format_diagnostic(warning));
   return scene;
 }

@@ -58,7 +58,7 @@ void AovFiles::finish(std::vector<fs::path>& files) {
 
 PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width,
                            int height, const Scene& scene)
-    : outputs_(outputs), width_(width) {
+    : outputs_(outputs) {
   for (const std::string& output : outputs) writers_.emplace_back(output, width, height, 3);
   for (const Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height, scene);
 }

@@ -57,7 +57,6 @@ class PictureFiles {
 
  private:
   std::vector<std::string> outputs_;
-  int width_;
   std::vector<ImageWriter> writers_;  // one an output
   std::vector<AovFiles> aovs_;
 };

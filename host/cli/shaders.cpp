@@ -7,7 +7,7 @@
 #include "cli/json.hpp"
 #include "core/atomic_file.hpp"
 #include "core/diagnostic.hpp"
-#include "render/embedded_shaders.hpp"
+#include "core/embedded_shaders.hpp"
 
 namespace fs = std::filesystem;
 

@@ -9,7 +9,8 @@
 
 namespace eyeray {
 
-// Calls body(i) for every i in [begin, end), on all cores, in no order. body must not throw.
+// Calls body(i) for every i in [begin, end), on all cores, in no order. The first exception out of a body
+// ends the others soon and goes to the caller.
 template <typename Body>
 void parallel_for(int begin, int end, const Body& body) {
   tbb::parallel_for(tbb::blocked_range<int>(begin, end), [&](const tbb::blocked_range<int>& range) {

@@ -27,6 +27,7 @@ enum SampleFlag : uint32_t {
   stack_overflow = 1u << 1,  // more rays pending than the shader's stack holds
   loop_budget = 1u << 2,     // the driver's cap on loop iterations was near (docs/lavapipe.md)
   ran_out = 1u << 3,         // a shape that is searched for step by step was not found in the steps allowed
+  endless = 1u << 4,  // a formula's loops did not end: whoever reads samples fails (render/samples.hpp)
 };
 
 // What the eye ray through the centre of a pixel meets first.

@@ -61,6 +61,8 @@ struct Classic {
   std::string (*scene)(int);          // TOML of all but the mesh
   void (*mesh)(int, MeshSink&) = nullptr;
   std::string_view mesh_keys = "";  // of its [[mesh]], beside `file`
+  // TOML of what stands in the mesh's place where it is a smooth surface that the mesh only comes near to.
+  std::string (*patches)() = nullptr;
 };
 
 std::span<const Classic> classics();

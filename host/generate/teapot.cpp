@@ -105,6 +105,16 @@ void teapot_mesh(int size_factor, MeshSink& sink) {
   }
 }
 
+std::string teapot_bezier() {
+  BatchText text("bezier", "material = \"teapot\"\n", {"points"});
+  for (const BezierPatch& patch : teapot_patches()) {
+    std::array<Vec3, 16> points;
+    for (size_t i = 0; i < 16; ++i) points[i] = patch[i / 4][i % 4];
+    text.add(points);
+  }
+  return text.text();
+}
+
 const Classic teapot_classic = {
     .name = "teapot",
     .doc = "Newell's teapot on a chessboard.",
@@ -119,6 +129,7 @@ const Classic teapot_classic = {
     .scene = scene,
     .mesh = teapot_mesh,
     .mesh_keys = "material = \"teapot\"\n",
+    .patches = teapot_bezier,
 };
 
 }  // namespace eyeray

@@ -15,6 +15,9 @@ std::vector<BezierPatch> teapot_patches();
 // side.
 void teapot_mesh(int size_factor, MeshSink& sink);
 
+// The same surface itself: 32 [[bezier]] in one table.
+std::string teapot_bezier();
+
 extern const Classic teapot_classic;
 
 }  // namespace eyeray

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/content_hash.hpp"
 #include "core/error.hpp"
-#include "gpu/content_hash.hpp"
 #include "gpu/kernel_objects.hpp"
 #include "gpu/raw_buffer.hpp"
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
+#include "core/disk_cache.hpp"
 #include "gpu/buffer.hpp"
-#include "gpu/disk_cache.hpp"
 #include "gpu/reflect.hpp"
 
 namespace eyeray::gpu {

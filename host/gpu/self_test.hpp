@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "core/disk_cache.hpp"
 #include "gpu/device.hpp"
-#include "gpu/disk_cache.hpp"
 #include "gpu/shader_source.hpp"
 
 namespace eyeray::gpu {

@@ -69,7 +69,7 @@ class Includer : public glslang::TShader::Includer {
 
 }  // namespace
 
-CompiledShader compile_shader(const ShaderSource& source, std::string_view preamble) {
+CompiledShader compile_shader(const ShaderSource& source, std::string_view preamble, Lines lines) {
   initialize_glslang();
   const std::string& text = source.files.at(source.entry);
   const char* strings[] = {text.c_str()};
@@ -96,6 +96,7 @@ CompiledShader compile_shader(const ShaderSource& source, std::string_view pream
   result.warnings = parse_compiler_messages(shader.getInfoLog(), source);
   glslang::SpvOptions options;
   options.disableOptimizer = true;
+  options.generateDebugInfo = lines == Lines::kept;
   glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), result.spirv, &options);
   return result;
 }

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "gpu/content_hash.hpp"
+#include "core/content_hash.hpp"
 
 namespace eyeray::gpu {
 

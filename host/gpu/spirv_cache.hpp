@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "gpu/disk_cache.hpp"
+#include "core/disk_cache.hpp"
 #include "gpu/shader_compiler.hpp"
 
 namespace eyeray::gpu {

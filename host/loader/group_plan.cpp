@@ -41,6 +41,17 @@ auto tables(const toml::table& holder, std::string_view name) {
          std::views::transform([](const toml::node& node) -> const toml::table& { return *node.as_table(); });
 }
 
+// How many shapes and solids there are in a shape's table, itself, those of a solid and its batch included.
+double count_shapes(const toml::table& table) {
+  double count = 1;
+  for (const toml::table* held : {&table, table[minus_key].as_table()}) {
+    if (!held) continue;
+    for (const std::string_view name : placed_names())
+      for (const toml::table& part : tables(*held, name)) count += count_shapes(part);
+  }
+  return count * batch_size(table);
+}
+
 }  // namespace
 
 GroupPlan::GroupPlan(const toml::table& root, GroupStorage storage, DiagnosticLog& log) : log_(log) {
@@ -112,7 +123,7 @@ void GroupPlan::link(Node& node) {
                        "only a [[group]] that is in no other can be a pattern");
           break;
         default:
-          node.own += batch_size(table);
+          node.own += section.is_combined() ? count_shapes(table) : batch_size(table);
           node.bounded = node.bounded && (!section.shape || section.shape->bounded);
       }
     }

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <map>
 
+#include "loader/batch.hpp"
 #include "loader/group_placement.hpp"
 #include "loader/group_plan.hpp"
 #include "loader/mesh_placement.hpp"
 #include "loader/sections.hpp"
 #include "loader/settings.hpp"
+#include "loader/solid_reader.hpp"
 #include "scene/affine.hpp"
 #include "scene/table.hpp"
 
@@ -17,30 +19,20 @@ namespace {
 
 constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
 
-// A batch of a shape's values, as it was checked.
-struct Batch {
-  const toml::table* lists = nullptr;  // null: the table is one shape
-  size_t count = 1;                    // 0 after an error
-};
-
 // Where a thing stands, and what it is called.
 struct Placing {
   Mat4 to_world{1.0};
   NameRef name;
 };
 
-// The name that a table, or an element of its batch, gives itself, where it is one; "" where there is none.
-std::string_view written_name(const toml::table& table, const Batch& batch, size_t element) {
-  const toml::node* node = table.get("name");
-  if (const toml::node* list = batch.lists ? batch.lists->get("name") : nullptr)
-    node = list->as_array()->get(element);
-  return node && node->is_string() ? std::string_view(node->as_string()->get()) : std::string_view();
-}
-
 class Builder {
  public:
-  Builder(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log)
-      : root_(root), images_(images), meshes_(meshes), log_(log) {}
+  Builder(const toml::table& root, const SceneSources& sources, DiagnosticLog& log)
+      : root_(root),
+        images_(sources.images),
+        meshes_(sources.meshes),
+        formulas_(sources.formulas),
+        log_(log) {}
 
   Scene build() {
     TableReader image = read_single("image");
@@ -66,6 +58,8 @@ class Builder {
   }
 
  private:
+  friend class eyeray::SolidReader<Builder>;
+
   struct NamedMaterial {
     int index;  // in Scene::materials; -1 after an error
     SourcePosition position;
@@ -78,42 +72,53 @@ class Builder {
     return read_table({section.title, node ? node->as_table() : nullptr, {section.keys}}, log_);
   }
 
-  // Visits the tables of a list; one that should be a list or a table and is not is an error.
+  // Visits the tables of a list; one that should be a list or a table and is not is an error. Returns whether
+  // there was none.
   template <typename Visit>
-  void for_each(const toml::table& holder, std::string_view name, const Visit& visit) {
+  bool for_each(const toml::table& holder, std::string_view name, const Visit& visit,
+                std::string_view holder_name = "group") {
     const toml::node* list = holder.get(name);
-    if (!list) return;
+    if (!list) return true;
     const Section& section = *find_section(name);
-    if (!list->is_array())
-      return log_.error(position_of(list->source()),
-                        fmt::format("`{0}` must be a list of tables, written [[group.{0}]]", name));
-    for (const toml::node& node : *list->as_array()) {
-      if (node.is_table())
-        visit(section, *node.as_table());
-      else
-        log_.error(position_of(node.source()), fmt::format("every {} must be a table", section.title));
+    if (!list->is_array()) {
+      log_.error(position_of(list->source()),
+                 fmt::format("`{0}` must be a list of tables, written [[{1}.{0}]]", name, holder_name));
+      return false;
     }
+    bool ok = true;
+    for (const toml::node& node : *list->as_array()) {
+      if (node.is_table()) {
+        visit(section, *node.as_table());
+      } else {
+        log_.error(position_of(node.source()), fmt::format("every {} must be a table", section.title));
+        ok = false;
+      }
+    }
+    return ok;
   }
 
   void add_material(const Section& section, const toml::table& table);
   void add_placed(const toml::table& holder, const Placing& group);
   void add_table(const Section& section, const toml::table& table, const Placing& group);
   template <typename Add>
-  void for_each_placed(const Section& section, const toml::table& table, const Placing& group,
-                       const Add& add);
-  void add_shape(const Section& section, TableReader& reader, const Placing& placing);
+  size_t for_each_placed(const Section& section, const toml::table& table, const Placing& group,
+                         const Add& add);
+  std::unique_ptr<Shape> read_shape(const Section& section, const toml::table& table, TableReader& reader,
+                                    const Placing& placing);
+  std::unique_ptr<Shape> parse_shape(const Section& section, TableReader& reader, const Placing& placing,
+                                     int material);
   void add_mesh(TableReader& reader, const Placing& placing);
   void add_group(TableReader& reader, const toml::table& table, const Placing& placing);
   void add_instance(TableReader& reader, const Placing& placing);
   Group build_group(const toml::table& table, const Mat4& to_world);
   void check_idle_patterns();
-  Batch read_batch(const Section& section, const toml::table& table);
   int find_material(TableReader& shape);
   void check_whole();
 
   const toml::table& root_;
   ImageSource* images_;
   MeshImports* meshes_;
+  FormulaSource* formulas_;
   DiagnosticLog& log_;
   Scene scene_;
   std::map<std::string, NamedMaterial, std::less<>> materials_;
@@ -169,48 +174,6 @@ void Builder::add_material(const Section& section, const toml::table& table) {
   scene_.materials.push_back(std::move(material));
 }
 
-// Checks that all lists of a batch are lists of the shape's values, and equally long.
-Batch Builder::read_batch(const Section& section, const toml::table& table) {
-  const toml::node* node = table.get(batch_key);
-  if (!node) return {};
-  const toml::table* lists = node->as_table();
-  if (!lists || lists->empty()) {
-    log_.error(position_of(node->source()), "`batch` must be a table of lists, such as { KEY = [value, …] }");
-    return {nullptr, 0};
-  }
-  std::vector<std::string_view> names;
-  for (const std::span<const Key> keys :
-       {section.keys, section.shape ? section.shape->keys : std::span<const Key>()}) {
-    for (const Key& key : keys) names.push_back(key.name);
-  }
-  Batch batch{lists, 0};
-  bool ok = true;
-  const auto fail = [&](const toml::source_region& at, std::string message) {
-    log_.error(position_of(at), std::move(message));
-    ok = false;
-  };
-  const toml::key* first = nullptr;
-  for (const auto& [key, list] : *lists) {
-    if (std::ranges::find(names, key.str()) == names.end()) {
-      const std::string nearest = nearest_name(key.str(), names);
-      fail(key.source(), fmt::format("unknown key `{}` in the batch of {}{}", key.str(), section.title,
-                                     nearest.empty() ? "" : fmt::format("; did you mean `{}`?", nearest)));
-    } else if (table.contains(key.str())) {
-      fail(key.source(), fmt::format("`{}` stands in the table and in its batch", key.str()));
-    } else if (!list.is_array()) {
-      fail(list.source(), fmt::format("`{}` in a batch must be a list, one value each", key.str()));
-    } else if (!first) {
-      first = &key;
-      batch.count = list.as_array()->size();
-    } else if (list.as_array()->size() != batch.count) {
-      fail(list.source(),
-           fmt::format("`{}` has {} values, `{}` has {}: the lists of a batch are equally long", key.str(),
-                       list.as_array()->size(), first->str(), batch.count));
-    }
-  }
-  return ok ? batch : Batch{nullptr, 0};
-}
-
 // The shapes, meshes and groups of a group, or of the scene.
 void Builder::add_placed(const toml::table& holder, const Placing& group) {
   for (const std::string_view name : placed_names()) {
@@ -232,7 +195,8 @@ void Builder::add_table(const Section& section, const toml::table& table, const 
       case Section::Kind::mesh:
         return add_mesh(reader, placed);
       default:
-        return add_shape(section, reader, placed);
+        if (auto shape = read_shape(section, table, reader, placed))
+          (building_ ? building_->shapes : scene_.shapes).push_back(std::move(shape));
     }
   });
 }
@@ -279,20 +243,20 @@ void Builder::check_idle_patterns() {
   }
 }
 
-// Calls add(reader, to_world) for the table, or for each element of its batch.
+// Calls add(reader, to_world) for the table, or for each element of its batch. Returns how many these are.
 template <typename Add>
-void Builder::for_each_placed(const Section& section, const toml::table& table, const Placing& group,
-                              const Add& add) {
+size_t Builder::for_each_placed(const Section& section, const toml::table& table, const Placing& group,
+                                const Add& add) {
   Placing placed{group.to_world, {group.name.index, false}};
   const DiagnosticLog::About about(log_, [&] {
     return placed.name.index == Names::none ? "" : describe(section.name, placed.name, scene_.names);
   });
-  const Batch batch = read_batch(section, table);
+  const Batch batch = read_batch(section, table, log_);
   std::vector<std::string_view> elsewhere{batch_key};
-  if (section.kind == Section::Kind::group)
+  if (section.kind == Section::Kind::group || section.is_combined())
     elsewhere.insert(elsewhere.end(), placed_names().begin(), placed_names().end());
-  else
-    tried_shapes_ = true;
+  if (section.is_combined()) elsewhere.push_back(minus_key);
+  if (section.kind != Section::Kind::group) tried_shapes_ = true;
   for (size_t i = 0; i < batch.count; ++i) {
     placed.name = {group.name.index, false};
     if (const std::string_view name = written_name(table, batch, i); !name.empty()) {
@@ -306,7 +270,8 @@ void Builder::for_each_placed(const Section& section, const toml::table& table, 
                                               section.shape ? section.keys : std::span<const Key>()},
                                      .batch = batch.lists,
                                      .element = i,
-                                     .extra_keys = elsewhere},
+                                     .extra_keys = elsewhere,
+                                     .formulas = formulas_},
                                     log_);
     if (reader.has("name") && reader.valid("name") && reader.string("name").empty())
       reader.error("name", "a name must not be empty; leave `name` out instead");
@@ -317,12 +282,21 @@ void Builder::for_each_placed(const Section& section, const toml::table& table, 
     else
       add(reader, placed);
   }
+  return batch.count;
 }
 
-void Builder::add_shape(const Section& section, TableReader& reader, const Placing& placing) {
-  const int material = find_material(reader);
+std::unique_ptr<Shape> Builder::read_shape(const Section& section, const toml::table& table,
+                                           TableReader& reader, const Placing& placing) {
+  if (section.is_combined())
+    return SolidReader(*this, log_).read(section, table, reader, placing, std::nullopt);
+  return parse_shape(section, reader, placing, find_material(reader));
+}
+
+// A shape of its own, or a part.
+std::unique_ptr<Shape> Builder::parse_shape(const Section& section, TableReader& reader,
+                                            const Placing& placing, int material) {
   std::unique_ptr<Shape> shape = section.shape->parse(reader, placing.to_world);
-  if (!shape) return;
+  if (!shape) return nullptr;
   if (!section.shape->flat && !scene_.materials.empty() && scene_.materials[size_t(material)]->mask)
     reader.error(
         "material",
@@ -334,7 +308,7 @@ void Builder::add_shape(const Section& section, TableReader& reader, const Placi
   shape->type = section.shape;
   shape->name = placing.name;
   shape->position = reader.position();
-  (building_ ? building_->shapes : scene_.shapes).push_back(std::move(shape));
+  return shape;
 }
 
 void Builder::add_mesh(TableReader& reader, const Placing& placing) {
@@ -396,8 +370,8 @@ void Builder::check_whole() {
 
 }  // namespace
 
-Scene build_scene(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log) {
-  return Builder(root, images, meshes, log).build();
+Scene build_scene(const toml::table& root, const SceneSources& sources, DiagnosticLog& log) {
+  return Builder(root, sources, log).build();
 }
 
 }  // namespace eyeray

@@ -5,13 +5,20 @@
 
 #include "loader/mesh_imports.hpp"
 #include "scene/diagnostic_log.hpp"
+#include "scene/formula_source.hpp"
 #include "scene/image_source.hpp"
 #include "scene/scene.hpp"
 
 namespace eyeray {
 
-// Everything but Scene::file, files and warnings; only whole when the log has no errors. `images` and
-// `meshes`: null where the scene may name no files.
-Scene build_scene(const toml::table& root, ImageSource* images, MeshImports* meshes, DiagnosticLog& log);
+// Where what a scene names comes from; null where it may name no such files.
+struct SceneSources {
+  ImageSource* images = nullptr;
+  MeshImports* meshes = nullptr;
+  FormulaSource* formulas = nullptr;
+};
+
+// Everything but Scene::file, files and warnings; only whole when the log has no errors.
+Scene build_scene(const toml::table& root, const SceneSources& sources, DiagnosticLog& log);
 
 }  // namespace eyeray

@@ -1,6 +1,7 @@
 #include "loader/scene_file.hpp"
 
 #include "loader/document.hpp"
+#include "loader/formula_files.hpp"
 #include "loader/image_files.hpp"
 #include "loader/mesh_imports.hpp"
 #include "loader/mesh_scene.hpp"
@@ -13,16 +14,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `images` and `meshes`: null for a scene that is in no file.
+// `images`, `meshes` and `formulas`: null for a scene that is in no file.
 Scene finish(Document document, const fs::path& file, std::span<const Override> overrides, ImageFiles* images,
-             MeshImports* meshes, DiagnosticLog& log) {
+             MeshImports* meshes, FormulaFiles* formulas, DiagnosticLog& log) {
   apply_overrides(document.root, overrides, log);
-  Scene scene = build_scene(document.root, images, meshes, log);
+  Scene scene = build_scene(document.root, {images, meshes, formulas}, log);
   if (log.has_errors()) throw InputError(log.sorted());
   scene.file = file;
   scene.files = std::move(document.files);
   if (images) scene.files.insert(scene.files.end(), images->files().begin(), images->files().end());
   if (meshes) scene.files.insert(scene.files.end(), meshes->files().begin(), meshes->files().end());
+  if (formulas) scene.files.insert(scene.files.end(), formulas->files().begin(), formulas->files().end());
   scene.warnings = log.sorted();
   return scene;
 }
@@ -47,17 +49,18 @@ Scene load_scene(const fs::path& file, std::span<const Override> overrides,
     MeshImports meshes(folders, std::move(trees), {file});
     Document document = read_mesh(file, meshes, log);
     ImageFiles images(folders, document.files, log);
-    return finish(std::move(document), file, overrides, &images, &meshes, log);
+    return finish(std::move(document), file, overrides, &images, &meshes, nullptr, log);
   }
   Document document = read_document(file, folders, log);
   ImageFiles images(folders, document.files, log);
   MeshImports meshes(folders, std::move(trees), document.files);
-  return finish(std::move(document), file, overrides, &images, &meshes, log);
+  FormulaFiles formulas(folders, document.files, log);
+  return finish(std::move(document), file, overrides, &images, &meshes, &formulas, log);
 }
 
 Scene parse_scene(std::string_view text, const std::string& name, std::span<const Override> overrides) {
   DiagnosticLog log;
-  return finish(parse_document(text, name, log), name, overrides, nullptr, nullptr, log);
+  return finish(parse_document(text, name, log), name, overrides, nullptr, nullptr, nullptr, log);
 }
 
 }  // namespace eyeray

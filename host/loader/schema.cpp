@@ -85,6 +85,15 @@ Json value_schema(const Key& key) {
       return list_schema(vector_schema(key, 3));
     case KeyType::outlines:
       return list_schema(list_schema(vector_schema(key, 3)));
+    case KeyType::formula:
+    case KeyType::formula_file:
+      return {{"type", "string"}};
+    case KeyType::parameters: {
+      Json list = list_schema({{"type", "number"}});
+      list["minItems"] = 2;
+      list["maxItems"] = 4;
+      return {{"type", "object"}, {"additionalProperties", either({{"type", "number"}}, std::move(list))}};
+    }
     case KeyType::color:
       return either(number_schema(positive, "number"), vector_schema(positive, 3));
     case KeyType::scale2:
@@ -150,9 +159,27 @@ std::string reference_to(const Section& section) {
   return fmt::format("#/$defs/{}", section.name);
 }
 
+// Of a shape or mesh in the world, or in a group: unlike a solid's part it needs what its table requires
+// beside the definition.
+Json in_world(const Section& section) {
+  Json schema = {{"$ref", reference_to(section)}};
+  if (section.shape && !section.is_combined())
+    schema["anyOf"] = {{{"required", {"material"}}}, {{"required", {batch_key}}}};
+  return schema;
+}
+
+Json shapes_of_solid() {
+  Json shapes = Json::object();
+  for (const std::string_view name : placed_names()) {
+    const Section& section = *find_section(name);
+    if (section.shape) shapes[std::string(name)] = list_schema({{"$ref", reference_to(section)}});
+  }
+  return shapes;
+}
+
 // Required keys may stand in the batch instead.
 Json placed_schema(const Section& section) {
-  Json schema = table_schema(section.keys);
+  Json schema = table_schema(section.shape ? part_keys() : section.keys);
   if (section.shape) add_keys(schema, section.shape->keys);
   Json lists = Json::object();
   for (const auto& [name, value] : schema["properties"].items()) {
@@ -174,13 +201,20 @@ Json placed_schema(const Section& section) {
   }
   if (section.kind == Section::Kind::group) {
     for (const std::string_view name : placed_names())
-      schema["properties"][std::string(name)] = list_schema({{"$ref", reference_to(*find_section(name))}});
+      schema["properties"][std::string(name)] = list_schema(in_world(*find_section(name)));
+  }
+  if (section.is_combined()) {
+    schema["properties"].update(shapes_of_solid());
+    schema["properties"][std::string(minus_key)] = {{"description", "The shapes that are taken away."},
+                                                    {"type", "object"},
+                                                    {"properties", shapes_of_solid()},
+                                                    {"additionalProperties", false}};
   }
   return schema;
 }
 
 Json section_schema(const Section& section) {
-  if (section.is_placed()) return list_schema({{"$ref", reference_to(section)}});
+  if (section.is_placed()) return list_schema(in_world(section));
   if (section.kind == Section::Kind::material) return list_schema(material_schema(section));
   return section.many() ? list_schema(table_schema(section.keys)) : table_schema(section.keys);
 }

@@ -57,6 +57,15 @@ constexpr Key shape_keys[] = {
      .fallback = "[]"},
 };
 
+constexpr Key keys_of_parts[] = {
+    name_key,
+    {.name = "material",
+     .type = KeyType::string,
+     .doc = "The `name` of a [[material]]; in a solid, that of the solid when absent.",
+     .optional = true},
+    shape_keys[2],
+};
+
 constexpr std::string_view mesh_manual =
     R"(The ending says what the file is: `.obj` (Wavefront), `.ply`, `.gltf` or `.glb` (glTF 2.0). The name is relative to the
 scene file, and the file, as all that it names, lies in the scene's folder tree, links followed, or where `--allow-path`
@@ -174,7 +183,8 @@ std::vector<Section> make_sections() {
       {mesh, "mesh", "[[mesh]]", "The triangles of a file.", mesh_keys, nullptr, mesh_manual},
   };
   for (const ShapeType* type : shape_types()) {
-    all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", shape_keys, type});
+    const std::span<const Key> keys = type->combine ? part_keys() : shape_keys;
+    all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", keys, type});
   }
   all.push_back({group, "group", "[[group]]", "Shapes, meshes and groups that are moved as one.", group_keys,
                  nullptr, group_manual});
@@ -184,6 +194,10 @@ std::vector<Section> make_sections() {
 }
 
 }  // namespace
+
+std::span<const Key> part_keys() {
+  return keys_of_parts;
+}
 
 std::span<const Section> sections() {
   static const std::vector<Section> all = make_sections();

@@ -27,6 +27,8 @@ struct Section {
   bool is_placed() const {
     return kind == Kind::shape || kind == Kind::mesh || kind == Kind::group || kind == Kind::instance;
   }
+  // Whether it is made of the shapes that stand in it.
+  bool is_combined() const { return shape && shape->combine; }
 };
 
 // In the order in which the manual shows them; shapes in registry order.
@@ -38,6 +40,12 @@ std::string suggest_section(std::string_view name);
 
 // The names of those that may stand in a group.
 std::span<const std::string_view> placed_names();
+
+// The keys that all shapes in a solid share, as solids do: what is of no material of its own is of that
+// around it.
+std::span<const Key> part_keys();
+// The table in a solid's of what is taken away.
+inline constexpr std::string_view minus_key = "minus";
 
 // The key that lists the files to include, and the one that holds the batch of what is placed.
 inline constexpr std::string_view include_key = "include";

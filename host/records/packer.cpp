@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/srgb.hpp"
+#include "formula/formula.hpp"
 
 namespace eyeray {
 
@@ -34,6 +35,14 @@ uint32_t Packer::add_vertices(std::span<const shader::uvec4> data) {
   const auto first = uint32_t(scene.vertices.size());
   scene.vertices.insert(scene.vertices.end(), data.begin(), data.end());
   return first;
+}
+
+uint32_t Packer::add_formula(const std::shared_ptr<const Formula>& formula, bool enclosed) {
+  auto& all = scene.formulas;
+  for (size_t i = 0; i < all.size(); ++i)
+    if (formula->same(*all[i].formula) && all[i].enclosed == enclosed) return uint32_t(i);
+  all.push_back({formula, enclosed, {}});
+  return uint32_t(all.size() - 1);
 }
 
 uint32_t Packer::add_medium(double ior, const Vec3& absorption) {

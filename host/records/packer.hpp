@@ -9,10 +9,20 @@
 #include <utility>
 #include <vector>
 
+#include "calculus/tape.hpp"
 #include "records/records.hpp"
+#include "scene/bounds.hpp"
 #include "scene/texture.hpp"
 
 namespace eyeray {
+
+class Formula;  // formula/formula.hpp
+
+struct PackedFormula {
+  std::shared_ptr<const Formula> formula;
+  bool enclosed;                // instead of stepped along by a Lipschitz constant
+  calculus::StraightLine line;  // what is enclosed; filled in when all is packed
+};
 
 // A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
@@ -22,8 +32,11 @@ struct PackedScene {
   std::vector<uint32_t> loose_ends;  // by kind, the end of those in no tree
   // Of those of `kind` in no tree.
   uint32_t first_loose(uint32_t kind) const { return kind == 0 ? 0 : loose_ends[kind - 1]; }
-  std::set<uint32_t> tree_kinds;                 // of the shapes in trees
-  std::set<std::pair<uint32_t, uint32_t>> uses;  // kinds of shape, and materials that they are made of
+  std::set<uint32_t> tree_kinds;                      // of the shapes in trees
+  std::set<std::pair<uint32_t, uint32_t>> uses;       // kinds of shape, and materials that they are made of
+  std::set<std::pair<uint32_t, uint32_t>> leaf_uses;  // the same of the shapes that solids are made of
+  uint32_t solid_leaves = 0;                          // how many of these there are
+  bool mixed_solids = false;  // whether a solid's surfaces differ in what they take from a shadow ray
   std::vector<shader::uvec4> nodes;
   std::vector<shader::Tree> trees;  // the world's, then one a mesh or group of `instances`
   std::vector<shader::Instance> instances;
@@ -35,8 +48,9 @@ struct PackedScene {
   // How much larger, seen from the world, rounding is in a shape's own space: |linear| · |inverse|, the
   // largest of all shapes.
   float map_growth = 1;
-  uint64_t shape_iterations = 0;   // that shapes' own loops take, all shapes together
-  bool steps_may_run_out = false;  // whether any shape may return T_RAN_OUT
+  std::vector<PackedFormula> formulas;  // of implicit shapes, by number
+  uint64_t shape_iterations = 0;        // that shapes' own loops take, all shapes together
+  bool steps_may_run_out = false;       // whether any shape may return T_RAN_OUT
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
   std::vector<uint32_t> texels;                                   // records.h says how; empty without images
@@ -56,6 +70,11 @@ class Packer {
   void set_origin(const Vec3& origin) { origin_ = origin; }
 
   void add(const shader::Primitive& primitive) { scene.primitives.push_back(primitive); }
+  // One of several primitives that a shape consists of, which share its id.
+  void add_piece(const shader::Primitive& primitive, const Bounds& bounds) {
+    add(primitive);
+    pieces.push_back(bounds);
+  }
   // The head of a primitive; its id and shadow density are filled in later. `extra`: an index into vertices.
   static shader::uvec4 head(uint32_t kind, int material, uint32_t extra = NONE) {
     return {0u, uint32_t(material) | kind << 24, 0u, extra};
@@ -74,10 +93,14 @@ class Packer {
   // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there
   // are more than an index can tell apart.
   uint32_t add_image(const std::shared_ptr<const ImageTexture>& image);
+  // The number of a formula; equal formulas share one. `enclosed`: rays find its surface by enclosures.
+  uint32_t add_formula(const std::shared_ptr<const Formula>& formula, bool enclosed);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
   uint32_t add_medium(double ior, const Vec3& absorption);
 
   PackedScene scene;
+  std::vector<Bounds>
+      pieces;  // of the shape that is being packed, in the world; empty where it is one primitive
 
  private:
   Vec3 origin_;

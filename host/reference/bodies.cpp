@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/crossings.hpp"
+
 namespace eyeray::reference {
 
 namespace {
@@ -52,8 +54,9 @@ Bodies::Bodies(std::span<const std::unique_ptr<Shape>> shapes, std::span<const I
       uint32_t(boxes_.size()), [this](uint32_t i) { return boxes_[i]; }, acceleration);
 }
 
-int Bodies::material(size_t body) const {
-  return is_shape(body) ? shapes_[body]->material : instances_[body - shapes_.size()].material();
+int Bodies::material(const Hit& hit) const {
+  return is_shape(hit.body) ? shapes_[hit.body]->part(hit.at).material
+                            : instances_[hit.body - shapes_.size()].material();
 }
 
 // A hole is not met, and behind it there is nothing more of a shape that may have one.
@@ -115,23 +118,41 @@ SurfacePoint Bodies::surface(const Ray& ray, const Hit& hit) const {
 
 double Bodies::reach(const Hit& hit, const Vec3& eye) const {
   if (!is_shape(hit.body)) return instances_[hit.body - shapes_.size()].reach(hit.at.triangle, eye);
-  const Bounds box = shapes_[hit.body]->bounds();
+  const Bounds box = shapes_[hit.body]->part(hit.at).bounds();
   return finite(box) ? std::max(magnitude(box.min - eye), magnitude(box.max - eye)) : 0;
 }
 
-// The share of light that comes through one body which the ray enters at t = entry.
-double Bodies::share_let_through(size_t body, const Ray& ray, double entry, double t_end,
-                                 bool& gave_up) const {
-  const double share = materials_[size_t(material(body))]->shadow_transmittance();
-  if (is_shape(body)) {
-    const auto hit = intersect_shape(body, ray);
-    if (hit && hit->ran_out) {
-      gave_up = gave_up || hit->t < t_end;
-      return 1;
-    }
-    return hit && std::max(hit->t, entry) < t_end ? share : 1;
+// The share of light that comes through one shape which the ray enters at t = entry.
+double Bodies::share_of_shape(size_t index, const Ray& ray, double entry, double t_end, bool& gave_up) const {
+  const Shape& shape = *shapes_[index];
+  const auto share_of = [&](int material) { return materials_[size_t(material)]->shadow_transmittance(); };
+  if (const double each = share_of(shape.material); shape.counts_crossings() && each > 0) {
+    int crossed = 0;
+    for_each_crossing(shape, ray, [&](double t, const Intersection&, const SurfacePoint&) {
+      crossed += t < t_end;
+      return t < t_end;
+    });
+    return std::pow(each, crossed / 2.0);
   }
-  const InstanceGeometry& instance = instances_[body - shapes_.size()];
+  const auto hit = intersect_shape(index, ray);
+  if (hit && hit->ran_out) {
+    gave_up = gave_up || hit->t < t_end;
+    return 1;
+  }
+  if (!hit || std::max(hit->t, entry) >= t_end) return 1;
+  double share = share_of(shape.part(*hit).material);
+  if (&shape.part(*hit) == &shape) return share;
+  // A solid counts once, by what its densest surface on the way lets through.
+  for (const auto& [in, out] : shape.spans(ray))
+    for (const Intersection& crossing : {in, out})
+      if (crossing.t > 0 && crossing.t < t_end)
+        share = std::min(share, share_of(shape.part(crossing).material));
+  return share;
+}
+
+// The same of an instance of a mesh.
+double Bodies::share_of_instance(const InstanceGeometry& instance, const Ray& ray, double t_end) const {
+  const double share = materials_[size_t(instance.material())]->shadow_transmittance();
   const uint32_t crossed = instance.count_crossed(ray, t_end, share == 0 ? 1 : instance.triangles());
   return crossed == 0 ? 1 : std::pow(share, crossed / 2.0);
 }
@@ -141,7 +162,8 @@ bool Bodies::add_shares(const Ray& ray, double t_end, size_t space, std::vector<
   bool lost = false;
   for_each_entered(ray, t_end, [&](size_t body, double entry, double limit) {
     if (!(entry < t_end)) return limit;
-    const double share = share_let_through(body, ray, entry, t_end, gave_up);
+    const double share = is_shape(body) ? share_of_shape(body, ray, entry, t_end, gave_up)
+                                        : share_of_instance(instances_[body - shapes_.size()], ray, t_end);
     if (share != 1) shares.push_back({space, body, share});
     lost = share == 0;
     return lost ? -1.0 : limit;

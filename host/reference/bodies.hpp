@@ -29,7 +29,8 @@ class Bodies {
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
 
   size_t size() const { return shapes_.size() + instances_.size(); }
-  int material(size_t body) const;
+  // Of an instance, or of a shape's part that has the surface there.
+  int material(const Hit& hit) const;
   std::optional<Hit> intersect(size_t body, const Ray& ray,
                                double limit = std::numeric_limits<double>::infinity()) const;
   // Whether it is a shape; else how many triangles of instances come before those of the body.
@@ -58,7 +59,8 @@ class Bodies {
 
  private:
   std::optional<Intersection> intersect_shape(size_t shape, const Ray& ray) const;
-  double share_let_through(size_t body, const Ray& ray, double entry, double t_end, bool& gave_up) const;
+  double share_of_shape(size_t shape, const Ray& ray, double entry, double t_end, bool& gave_up) const;
+  double share_of_instance(const InstanceGeometry& instance, const Ray& ray, double t_end) const;
   template <typename Visit>
   void for_each_entered(const Ray& ray, double limit, const Visit& visit) const;
 

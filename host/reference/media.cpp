@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reference/crossings.hpp"
+
 namespace eyeray::reference {
 
 namespace {
@@ -30,21 +32,29 @@ struct Body {
 // The media that the ray leaves without having entered them, innermost first.
 std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
   std::vector<Crossing> crossings;
-  const auto collect = [&](const auto& body, int material) {
-    if (!tracer.scene().materials[size_t(material)]->medium()) return;
-    for_each_crossing(body, ray, [&](double t, const SurfacePoint& surface) {
-      crossings.push_back({t, material, glm::dot(ray.d, surface.normal_geometric) > 0});
+  const auto has_medium = [&](int material) {
+    return tracer.scene().materials[size_t(material)]->medium().has_value();
+  };
+  const auto collect = [&](const auto& body, const auto& material_at) {
+    for_each_crossing(body, ray, [&](double t, const auto& hit, const SurfacePoint& surface) {
+      const int material = material_at(hit);
+      if (has_medium(material))
+        crossings.push_back({t, material, glm::dot(ray.d, surface.normal_geometric) > 0});
       return true;
     });
   };
-  for (size_t i = 0; i < tracer.world().size(); ++i)
-    collect(Body<Bodies>{tracer.world(), i}, tracer.world().material(i));
+  const auto collect_all = [&]<typename Holder>(const Holder& holder, const Bodies& bodies) {
+    for (size_t i = 0; i < bodies.size(); ++i) {
+      // Which of a solid's parts has a surface is known once it is met.
+      if (!bodies.is_shape(i) && !has_medium(bodies.material({{}, i}))) continue;
+      collect(Body<Holder>{holder, i}, [&](const TriangleHit& hit) { return bodies.material({hit, i}); });
+    }
+  };
+  collect_all(tracer.world(), tracer.world());
   const BoxRay box_ray = tracer.group_box_ray(ray);
-  for (const GroupGeometry& group : tracer.groups()) {
-    if (box_ray.entry(group.bounds()) == std::numeric_limits<double>::infinity()) continue;
-    for (size_t i = 0; i < group.bodies().size(); ++i)
-      collect(Body<GroupGeometry>{group, i}, group.bodies().material(i));
-  }
+  for (const GroupGeometry& group : tracer.groups())
+    if (box_ray.entry(group.bounds()) < std::numeric_limits<double>::infinity())
+      collect_all(group, group.bodies());
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
 

@@ -38,7 +38,7 @@ uint64_t Tracer::primitive(const Bodies& bodies, const Bodies::Hit& hit, int gro
 }
 
 Hit Tracer::complete(const Bodies& bodies, const Bodies::Hit& hit, int group) const {
-  return {hit.at, hit.body, primitive(bodies, hit, group), bodies.material(hit.body), group};
+  return {hit.at, hit.body, primitive(bodies, hit, group), bodies.material(hit), group};
 }
 
 std::optional<Hit> Tracer::trace(const Ray& ray) const {
@@ -104,13 +104,6 @@ double Tracer::transmittance(const Ray& ray, double t_end, uint32_t& flags) cons
   for (const Bodies::Share& each : shares) product *= each.share;
   if (gave_up && product > 0) flags |= ran_out;
   return product;
-}
-
-Vec3 departure(const SurfacePoint& point, const Vec3& d, double least, bool along_normal) {
-  const double offset = std::max(4 * point.position_error, least);
-  const double cosine = glm::dot(d, point.normal_geometric);
-  if (!along_normal && std::fabs(cosine) > 0.125) return point.position + d * (offset / std::fabs(cosine));
-  return point.position + point.normal_geometric * (cosine >= 0 ? offset : -offset);
 }
 
 }  // namespace eyeray::reference

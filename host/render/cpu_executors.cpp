@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel_for.hpp"
+#include "formula/formula.hpp"
 #include "reference/renderer.hpp"
 #include "render/executors.hpp"
 #include "render/pack.hpp"
@@ -47,6 +48,8 @@ class TwinExecutor final : public Executor {
  public:
   TwinExecutor(const Scene& scene, const PackOptions& options) : eye_(scene.camera.eye) {
     times_.measure("pack", [&] { packed_ = pack(scene, options); });
+    for (const auto& formula : packed_.formulas)
+      if (!formula.enclosed) times_.measure("C++ compile", [&] { formula.formula->compile(); });
   }
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
@@ -122,6 +125,8 @@ std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorO
 }
 
 std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options) {
+  for (const auto& shape : scene.shapes)
+    if (shape->formula_use()) shape->formula_use()->formula->compile();
   return make_reference_executor(
       std::make_shared<const reference::Renderer>(scene, options.pack.acceleration));
 }

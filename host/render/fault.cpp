@@ -35,7 +35,7 @@ void Fault::damage(PackedScene& scene) const {
 
 std::string Fault::damage(std::string_view file, std::string text) const {
   if (is("near_root") && file == "shapes/sphere.glsl")
-    return replaced(std::move(text), "low > 0.0f ? low : high", "low");
+    return replaced(std::move(text), "ENTERS(ray, low) ? low : high", "low");
   if (is("normal") && file == "surface.glsl")
     return replaced(std::move(text), "  return surface;",
                     "  surface.normal = -surface.normal;\n  return surface;");

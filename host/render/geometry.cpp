@@ -9,6 +9,7 @@
 #include "core/parallel_for.hpp"
 #include "render/node_coding.hpp"
 #include "render/record_boxes.hpp"
+#include "render/solid_records.hpp"
 #include "render/space_records.hpp"
 #include "scene/primitive_ids.hpp"
 
@@ -39,7 +40,8 @@ class GeometryPacker {
     add_groups();
     use_tree_ = options_.acceleration == Acceleration::tree ||
                 (options_.acceleration == Acceleration::automatic &&
-                 (world_.size() > few_primitives || !scene_.instances.empty() || !packed_.instances.empty()));
+                 (world_.size() + packed_.solid_leaves > few_primitives || !scene_.instances.empty() ||
+                  !packed_.instances.empty()));
     if (world_.size() > few_primitives && packed_.instances.empty()) unbind_largest();
     packed_.has_tree = use_tree_ && has_bounded(2);
     if (packed_.has_tree) build_trees();
@@ -79,15 +81,19 @@ class GeometryPacker {
     SpaceRecords records;
     packer_.set_origin(origin);
     for (size_t i = 0; i < shapes.size(); ++i) {
-      shapes[i]->pack(packer_);
-      CHECK_EQ(packed_.primitives.size(), size_t{1});
-      shader::Primitive record = packed_.primitives.back();
+      const Shape& shape = *shapes[i];
+      packer_.pieces.clear();
+      shape.pack(packer_);
+      for (size_t piece = 0; piece < packed_.primitives.size(); ++piece) {
+        shader::Primitive& record = packed_.primitives[piece];
+        record.head.x = uint32_t(id(i));
+        if (kind_of(record) == shader::KIND_solid) finish_solid(record, packed_);
+        record.head.z = use_material(kind_of(record), material_of(record), shape.counts_crossings());
+        const Bounds bounds = packer_.pieces.empty() ? shape.bounds() : packer_.pieces.at(piece);
+        records.add_shape(record, kind_of(record) == shader::KIND_triangle ? triangle_box(record)
+                                                                           : shape_box(bounds, origin));
+      }
       packed_.primitives.clear();
-      record.head.x = uint32_t(id(i));
-      record.head.z = use_material(kind_of(record), material_of(record), false);
-      records.add_shape(record, kind_of(record) == shader::KIND_triangle
-                                    ? triangle_box(record)
-                                    : shape_box(shapes[i]->bounds(), origin));
     }
     packer_.set_origin(scene_.camera.eye);
     return records;
@@ -180,12 +186,12 @@ class GeometryPacker {
   }
 
   // Takes note that shapes of a kind are made of a material. Returns what a shadow ray loses to each: a shape
-  // weakens it once, a mesh half at each of its triangles, for a closed body is left as it was entered.
-  uint32_t use_material(uint32_t kind, uint32_t material, bool of_mesh) {
+  // weakens it once, a mesh or patch half at each crossing, for a closed body is left as it was entered.
+  uint32_t use_material(uint32_t kind, uint32_t material, bool at_each_crossing) {
     const shader::uvec4& head = packed_.materials[material].head;
     packed_.uses.emplace(kind, material);
     translucent_ = translucent_ || head.w < SHADOW_OPAQUE;
-    return of_mesh && head.w < SHADOW_OPAQUE ? head.w / 2 : head.w;
+    return at_each_crossing && head.w < SHADOW_OPAQUE ? head.w / 2 : head.w;
   }
 
   // A floor under many small shapes, say: it stays beside the tree, whose boxes are then coded more finely,

@@ -158,7 +158,8 @@ class GpuExecutor final : public Executor {
     const uint32_t lanes = device_.info().limits.subgroup_size;
     const bool worth_it = packed.primitives.size() <= most_in_packets || options_.profile.rays == "packets";
     packets_ = profile_.packets && worth_it && packed.has_tree && packed.quantised_nodes &&
-               packed.instances.empty() && (lanes == 4 || lanes == 8 || lanes == 16);
+               packed.instances.empty() && packed.leaf_uses.empty() &&
+               (lanes == 4 || lanes == 8 || lanes == 16);
     specialisation.subgroup_size = lanes;
     scattered_ = scattered_rays(profile_, packed, packets_, lanes);
     if (scattered_ == Rays::wide) {
@@ -365,7 +366,7 @@ class GpuExecutor final : public Executor {
   ExecutorOptions options_;
   Fault fault_;
   Vec3 eye_;
-  gpu::DiskCache cache_ = gpu::DiskCache::of_user();
+  DiskCache cache_ = DiskCache::of_user();
   gpu::Device device_;
   Profile profile_;
   gpu::DeviceFacts facts_;

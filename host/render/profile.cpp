@@ -54,8 +54,8 @@ Rays scattered_rays(const Profile& profile, const PackedScene& scene, bool packe
   // Up to here trees are so shallow that a ray is best alone (docs/performance.md).
   const bool few = scene.primitives.size() <= (meshes ? 1 << 9 : 1 << 10);
   const Rays wanted = profile.scattered.value_or(few ? Rays::lanes : Rays::wide);
-  const bool can_widen =
-      scene.has_tree && scene.instances.empty() && scene.quantised_nodes && subgroup_size >= wide_children;
+  const bool can_widen = scene.has_tree && scene.instances.empty() && scene.leaf_uses.empty() &&
+                         scene.quantised_nodes && subgroup_size >= wide_children;
   const bool possible = wanted == Rays::packets ? packets : wanted == Rays::wide ? can_widen : true;
   return possible ? wanted : Rays::lanes;
 }

@@ -7,14 +7,19 @@
 
 namespace eyeray {
 
+// Error (timed_out) where the flags say that a formula's loops did not end; so do the three below.
+void check_ended(uint32_t flags);
+
 // `ray_kinds`: whether the kernel counted them (records.h, SampleResult).
 inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds) {
   PixelSample sample{Vec3(result.color), result.counts.x, result.counts.y, result.counts.z};
-  if (!ray_kinds) return sample;
-  sample.flags &= (1u << REFRACTED_SHIFT) - 1;
-  sample.refracted = result.counts.z >> REFRACTED_SHIFT;
-  sample.reflected = result.counts.w & ((1u << TOTAL_SHIFT) - 1);
-  sample.total_reflections = result.counts.w >> TOTAL_SHIFT;
+  if (ray_kinds) {
+    sample.flags &= (1u << REFRACTED_SHIFT) - 1;
+    sample.refracted = result.counts.z >> REFRACTED_SHIFT;
+    sample.reflected = result.counts.w & ((1u << TOTAL_SHIFT) - 1);
+    sample.total_reflections = result.counts.w >> TOTAL_SHIFT;
+  }
+  check_ended(sample.flags);
   return sample;
 }
 

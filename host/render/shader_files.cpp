@@ -1,8 +1,8 @@
 #include "render/shader_files.hpp"
 
 #include "core/atomic_file.hpp"
+#include "core/embedded_shaders.hpp"
 #include "core/error.hpp"
-#include "render/embedded_shaders.hpp"
 
 namespace eyeray {
 

@@ -8,6 +8,9 @@
 #include <set>
 #include <string_view>
 
+#include "calculus/emit.hpp"
+#include "formula/formula.hpp"
+
 namespace eyeray {
 namespace {
 
@@ -87,8 +90,8 @@ bool few_looks(const PackedScene& scene) {
 }
 
 bool few_primitives(const PackedScene& scene) {
-  return !scene.has_tree && scene.instances.empty() && scene.primitives.size() <= most_records &&
-         scene.vertices.size() <= most_vertices;
+  return !scene.has_tree && scene.instances.empty() && scene.leaf_uses.empty() &&
+         scene.primitives.size() <= most_records && scene.vertices.size() <= most_vertices;
 }
 
 // Everything but geometry and texels as constants, and the list of materials that material.glsl unrolls. Not
@@ -120,11 +123,54 @@ std::string primitives_as_constants(const PackedScene& scene) {
   std::string text = constant_loader("uvec4", "vertex", scene.vertices) +
                      constant_loader("Primitive", "primitive", scene.primitives) +
                      "#define SCENE_PRIMITIVES(X)";
-  std::map<uint32_t, size_t> by_id;  // slots
+  std::multimap<uint32_t, size_t> by_id;  // slots
   for (size_t i = 0; i < scene.primitives.size(); ++i) by_id.emplace(scene.primitives[i].head.x, i);
   for (const auto& [id, i] : by_id)
     text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[kind_of(scene.primitives[i])].name, i, i);
   return text + "\n";
+}
+
+// What shapes/implicit.glsl marches along: each formula that the scene has, and its own march.
+std::string formulas(const PackedScene& scene) {
+  if (scene.formulas.empty()) return "#define FORMULAS(X)\n";
+  std::string text = "#include \"implicit.glsl\"\n";
+  const auto loops = [](const PackedFormula& f) { return !f.enclosed && f.formula->loops(); };
+  if (std::ranges::any_of(scene.formulas, loops))
+    text +=
+        "uint formula_turns = 0u;\nbool formula_overran = false;\n#define FORMULA_OVERRAN formula_overran\n"
+        "bool formula_turn() {\n  formula_turns = formula_turns + 1u;\n"
+        "  formula_overran = formula_overran || formula_turns > FORMULA_TURNS;\n  return "
+        "!formula_overran;\n}\n";
+  std::string rows;
+  for (size_t i = 0; i < scene.formulas.size(); ++i) {
+    const Formula& formula = *scene.formulas[i].formula;
+    const std::string name = fmt::format("f{}_", i);
+    rows += fmt::format(" X({0}u, formula{0})", i);
+    if (scene.formulas[i].enclosed) {
+      const calculus::StraightLine& line = scene.formulas[i].line;
+      text += calculus::enclosure_text(line, fmt::format("formula{}_enclosure", i)) +
+              calculus::gradient_text(line, fmt::format("formula{}_dual", i));
+      text += fmt::format(
+          "#define FORMULA_NAME(part) formula{0}_##part\n"
+          "#define FORMULA_ENCLOSURE(it, x, y, z) formula{0}_enclosure(x, y, z)\n"
+          "#define FORMULA_DUAL(it, p) formula{0}_dual(p)\n#include \"implicit_enclosed.glsl\"\n"
+          "#undef FORMULA_NAME\n#undef FORMULA_ENCLOSURE\n#undef FORMULA_DUAL\n",
+          i);
+      continue;
+    }
+    text += formula.kernel(name);
+    const std::string restart = formula.loops() ? "formula_turns = 0u; " : "";
+    text += fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i, restart, name);
+    text += fmt::format("vec3 formula{}_gradient(vec3 p) {{ {}return {}; }}\n", i, restart,
+                        formula.has_gradient() ? name + "gradient(p)" : "vec3(0.0f, 0.0f, 0.0f)");
+    text += fmt::format(
+        "#define FORMULA_NAME(part) formula{0}_##part\n#define FORMULA_VALUE(it, p) formula{0}_value(p)\n"
+        "#define FORMULA_HAS_GRADIENT(it) {1}\n#define FORMULA_GRADIENT(it, p) formula{0}_gradient(p)\n"
+        "#include \"implicit_march.glsl\"\n"
+        "#undef FORMULA_NAME\n#undef FORMULA_VALUE\n#undef FORMULA_HAS_GRADIENT\n#undef FORMULA_GRADIENT\n",
+        i, formula.has_gradient());
+  }
+  return text + "#define FORMULAS(X)" + rows + "\n";
 }
 
 // Whether any texture of the material varies over a surface.
@@ -157,14 +203,19 @@ uint64_t trace_iterations(const PackedScene& scene, bool unrolled) {
 }
 
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
-  std::set<uint32_t> shapes_used, materials_used, material_kinds, kinds_with_uv, kinds_with_holes;
-  for (const auto& [kind, material] : scene.uses) {
-    shapes_used.insert(kind);
-    materials_used.insert(material);
-    material_kinds.insert(scene.materials[material].head.x);
-    if (varies(scene, scene.materials[material])) kinds_with_uv.insert(kind);
-    if (scene.materials[material].mask.y != 0) kinds_with_holes.insert(kind);
-  }
+  std::set<uint32_t> shapes_used, leaves_used, materials_used, material_kinds, kinds_with_uv,
+      kinds_with_holes;
+  const auto take_note = [&](const auto& uses, std::set<uint32_t>& kinds) {
+    for (const auto& [kind, material] : uses) {
+      kinds.insert(kind);
+      materials_used.insert(material);
+      material_kinds.insert(scene.materials[material].head.x);
+      if (varies(scene, scene.materials[material])) kinds_with_uv.insert(kind);
+      if (scene.materials[material].mask.y != 0) kinds_with_holes.insert(kind);
+    }
+  };
+  take_note(scene.uses, shapes_used);
+  take_note(scene.leaf_uses, leaves_used);
   const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
                                    [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
   const bool images = !scene.texels.empty();
@@ -201,6 +252,8 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("STEPS_MAY_RUN_OUT", int(scene.steps_may_run_out));
   define("SHIFT_STACK", int(options.profile.shift_stack));
   define("STACK_SIZE", scene.stack_size);
+  define("HAS_SOLIDS", int(!scene.leaf_uses.empty()));
+  define("HAS_MIXED_SOLIDS", int(scene.mixed_solids));
   define("HAS_INSTANCES", int(!scene.instances.empty()));
   define("INSTANCE_COUNT", fmt::format("{}u", scene.instances.size()));
   // In a tree of one kind of shape nothing need ask for the kind.
@@ -223,6 +276,8 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   // Where the eye moves, so do primitives: such a kernel is made anew for each camera as it is.
   if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
   text += "#include \"loaders.glsl\"\n";
+  text += formulas(scene);
+  text += registry("CLOSED_SHAPES", "shapes", shapes, leaves_used);
   text += registry("SHAPES", "shapes", shapes, shapes_used);
   text += registry("SHAPES_WITH_HOLES", "shapes", shapes, kinds_with_holes);
   text += registry("MATERIALS", "materials", materials, material_kinds);

@@ -92,6 +92,32 @@ std::string quadric(const QuadricForm& form) {
                    : fmt::format("intersection {{{}}} {}", surface, clip);
 }
 
+void add_shape(std::string& text, const Scene& scene, const Shape& shape);
+
+// What is within any of the shapes, or within all of them. A union would keep the surfaces within it, which
+// are seen through glass.
+void add_combination(std::string& text, const Scene& scene, const std::vector<const Shape*>& shapes,
+                     bool all) {
+  if (shapes.size() > 1) text += all ? "intersection {\n" : "merge {\n";
+  for (const Shape* shape : shapes) add_shape(text, scene, *shape);
+  if (shapes.size() > 1) text += "}\n";
+}
+
+// Each part has its own texture; what fills the solid, its first part's says.
+void add_solid(std::string& text, const Scene& scene, const SolidForm& solid) {
+  if (!solid.removed.empty()) text += "difference {\n";
+  add_combination(text, scene, solid.operands, solid.all);
+  if (solid.removed.empty()) return;
+  for (const Shape* shape : solid.removed) add_shape(text, scene, *shape);
+  text += "}\n";
+}
+
+std::string control_points(const BezierForm& form) {
+  std::string text;
+  for (const Vec3& p : form.net) append(text, "{}{}", text.empty() ? "" : ",", vector(p));
+  return text;
+}
+
 void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
   const std::string material = look(scene, shape.material);
   const ShapeForm form = shape.form();
@@ -112,6 +138,12 @@ void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
            capsule->half, matrix(capsule->to_world), material);
   } else if (const auto* shape_quadric = std::get_if<QuadricForm>(&form)) {
     append(text, "{} {} {}}}\n", quadric(*shape_quadric), matrix(shape_quadric->to_world), material);
+  } else if (const auto* solid = std::get_if<SolidForm>(&form)) {
+    add_solid(text, scene, *solid);
+  } else if (const auto* bezier = std::get_if<BezierForm>(&form)) {
+    // POV-Ray cuts it into triangles: 2·4⁵ where it does not find it flat.
+    append(text, "bicubic_patch {{type 1 flatness 1e-4 u_steps 5 v_steps 5 {} {}}}\n",
+           control_points(*bezier), material);
   } else {
     throw Error(ExitCode::bad_input, "{}:{}: POV-Ray has no such shape", shape.position.file,
                 shape.position.line);

@@ -70,6 +70,12 @@ std::string describe(const Key& declared) {
       return "a list of points [[x, y, z], …]" + each(key);
     case KeyType::outlines:
       return "a list of lists of points [[[x, y, z], …], …]" + each(key);
+    case KeyType::formula:
+      return "GLSL in a string";
+    case KeyType::formula_file:
+      return "the name of a file";
+    case KeyType::parameters:
+      return "a table { NAME = number or [2 to 4 numbers], … }";
     case KeyType::color:
       return "a color [r, g, b] or one number for all three" + each(key);
     case KeyType::texture:

@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "core/diagnostic.hpp"
 #include "core/vec.hpp"
@@ -18,7 +19,8 @@
 
 namespace eyeray {
 
-class Packer;  // records/packer.hpp
+class Formula;  // formula/formula.hpp
+class Packer;   // records/packer.hpp
 struct ShapeType;
 
 // Where a ray meets a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
@@ -27,7 +29,13 @@ struct Intersection {
   double t = 0;
   double u = 0;
   double v = 0;
+  uint32_t part = 0;     // of a solid, whose surface it is
   bool ran_out = false;  // it meets nothing up to t; beyond, the steps allowed did not suffice to tell
+};
+
+// A stretch of a ray's line, from where it enters a closed shape to where it leaves it.
+struct Span {
+  Intersection in, out;
 };
 
 // The surface at an intersection, world space.
@@ -73,8 +81,25 @@ struct QuadricForm {
   Bounds clip;
   bool open;
 };
+struct BezierForm {  // rows of four control points
+  std::array<Vec3, 16> net;
+};
+class Shape;
+// What is within any of `operands`, or where `all` within all of them, and within none of `removed`.
+struct SolidForm {
+  bool all;
+  std::vector<const Shape*> operands;
+  std::vector<const Shape*> removed;
+};
 using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm,
-                               CapsuleForm, QuadricForm>;
+                               CapsuleForm, QuadricForm, BezierForm, SolidForm>;
+
+// A formula that bounds a shape: negative within, on one side of a box of its own space.
+struct FormulaUse {
+  std::shared_ptr<const Formula> formula;
+  Bounds box;
+  double lipschitz;  // as steep as it is declared to be; 0 where nothing is declared
+};
 
 class Shape {
  public:
@@ -84,9 +109,21 @@ class Shape {
   virtual std::optional<Intersection> intersect(const Ray& ray) const = 0;
   virtual SurfacePoint surface(const Ray& ray, const Intersection& hit) const = 0;
   virtual Bounds bounds() const = 0;
+  // The shape that has the surface there, and whose material it is of: itself, or a solid's part.
+  virtual const Shape& part(const Intersection&) const { return *this; }
+  // Whether it encloses a volume, so that solids can be made of it.
+  virtual bool is_closed() const { return false; }
+  // Of a closed shape, where the ray's whole line is within it, t < 0 included: in order, none touches
+  // another.
+  virtual std::vector<Span> spans(const Ray&) const { return {}; }
   // For exporters and for comparing with other renderers; monostate for what they do not have.
   virtual ShapeForm form() const { return {}; }
-  // Appends the shape's one Primitive (and what it refers to).
+  // Of shapes that are made of one.
+  virtual const FormulaUse* formula_use() const { return nullptr; }
+  // Whether shadow rays are weakened by each of its crossings, √(the material's share), as by a mesh's
+  // triangles, and not once in all: of an open shape that may be part of a closed surface.
+  virtual bool counts_crossings() const { return false; }
+  // Appends the shape's one Primitive (and what it refers to), or several, each with its bounds.
   virtual void pack(Packer& packer) const = 0;
 
   int material = 0;                 // index in Scene::materials
@@ -101,7 +138,11 @@ struct ShapeType {
   std::string_view manual;    // equation, parameters' meaning, the numeric trap, the source; Markdown
   std::span<const Key> keys;  // beside `name`, `material` and `transform`, which every shape has
   // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
-  std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform);
+  std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform) = nullptr;
+  // Where shapes of this kind are made of others, instead: from those that stand in its table, already
+  // where they belong, and from those to be removed from them.
+  using Shapes = std::vector<std::unique_ptr<Shape>>;
+  std::unique_ptr<Shape> (*combine)(TableReader& table, Shapes operands, Shapes removed) = nullptr;
   bool bounded = true;  // whether every such shape has an end in all directions
   // Whether a ray meets it once at most, so that it may be of a material with holes.
   bool flat = false;

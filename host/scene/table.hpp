@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "scene/formula_source.hpp"
 #include "scene/image_source.hpp"
 #include "scene/value.hpp"
 
@@ -20,6 +21,7 @@ struct TableSource {
   size_t element = 0;                             // … and which element of them to take
   std::span<const std::string_view> extra_keys = {};  // that are allowed and read elsewhere
   bool open = false;                                  // whether any other key is
+  FormulaSource* formulas = nullptr;                  // loads the files of formulas; null: none may be named
   ImageSource* images = nullptr;                      // loads the images of textures; null: none may be named
 };
 

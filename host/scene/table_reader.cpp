@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "formula/formula.hpp"
 #include "scene/table.hpp"
 
 namespace eyeray {
@@ -66,7 +67,7 @@ Row TableReader::Table::read(const Key& key) {
     return {&key, nullptr, stand_in(key), !key.optional};
   }
   if (node) {
-    if (auto value = read_value(key, *node, log, source.images))
+    if (auto value = read_value(key, *node, log, source.images, source.formulas))
       return {&key, node, std::move(*value), false};
     failed = true;
   }
@@ -160,6 +161,12 @@ std::vector<Vec3> TableReader::vec3_list(std::string_view key) const {
 std::vector<std::vector<Vec3>> TableReader::outlines(std::string_view key) const {
   return table_->get<std::vector<std::vector<Vec3>>>(key);
 }
+FormulaText TableReader::formula(std::string_view key) const {
+  return table_->get<FormulaText>(key);
+}
+std::vector<FormulaParameter> TableReader::parameters(std::string_view key) const {
+  return table_->get<std::vector<FormulaParameter>>(key);
+}
 Vec3 TableReader::color(std::string_view key) const {
   return table_->get<Vec3>(key);
 }
@@ -187,6 +194,10 @@ void TableReader::error(std::string_view key, std::string message, std::initiali
   for (const size_t i : element)
     if (at) at = at->as_array()->get(i);
   table_->error(at ? position_of(at->source()) : position(key), std::move(message));
+}
+
+void TableReader::error(const InputError& faults) {
+  for (const Diagnostic& fault : faults.diagnostics()) table_->error(fault.position, fault.message);
 }
 
 bool TableReader::valid(std::string_view key) const {

@@ -17,21 +17,27 @@
 
 namespace eyeray {
 
+struct FormulaText;  // formula/formula.hpp
+struct FormulaParameter;
+
 enum class KeyType {
   boolean,
   integer,
   number,
   string,
-  choice,     // a string out of Key::choices
-  choice2,    // two of them [u, v], or one for both
-  vec2,       // [x, y]
-  vec3,       // [x, y, z]
-  vec2_list,  // [[x, y], …]
-  vec3_list,  // [[x, y, z], …]
-  outlines,   // [[[x, y, z], …], …]
-  color,      // [r, g, b], each ≥ 0, or one number for all three
-  texture,    // a color, { checker = { even = color, odd = color, size = number or [u, v] } },
-              // or { image = file, filter = …, wrap = …, color_space = …, scale = …, tint = color }
+  choice,        // a string out of Key::choices
+  choice2,       // two of them [u, v], or one for both
+  vec2,          // [x, y]
+  vec3,          // [x, y, z]
+  vec2_list,     // [[x, y], …]
+  vec3_list,     // [[x, y, z], …]
+  outlines,      // [[[x, y, z], …], …]
+  formula,       // GLSL, best in """…"""
+  formula_file,  // the name of a file of it
+  parameters,    // { NAME = number or [2 to 4 numbers], … }
+  color,         // [r, g, b], each ≥ 0, or one number for all three
+  texture,       // a color, { checker = { even = color, odd = color, size = number or [u, v] } },
+            // or { image = file, filter = …, wrap = …, color_space = …, scale = …, tint = color }
   scale2,     // [u, v], or one number for both
   scale3,     // [x, y, z], or one number for all three
   transform,  // [ { translate = [x,y,z] }, { rotate = { axis = [x,y,z], degrees = a } }, { scale = number or
@@ -76,6 +82,8 @@ class TableReader {
   std::vector<Vec2> vec2_list(std::string_view key) const;
   std::vector<Vec3> vec3_list(std::string_view key) const;
   std::vector<std::vector<Vec3>> outlines(std::string_view key) const;
+  FormulaText formula(std::string_view key) const;  // of formula and formula_file
+  std::vector<FormulaParameter> parameters(std::string_view key) const;
   Vec3 color(std::string_view key) const;
   Texture texture(std::string_view key) const;
   Vec2 scale2(std::string_view key) const;
@@ -85,6 +93,8 @@ class TableReader {
   // Adds an error at the key's value, or at the table where the key is absent; nothing when the value already
   // had one. `element`: of a list, [i], or of a list in it, [i, k], to which the error belongs.
   void error(std::string_view key, std::string message, std::initializer_list<size_t> element = {});
+  // Adds what is wrong within the text of a formula.
+  void error(const InputError& faults);
   // Whether the key's value, written or default, is right: false after an error in it, or where it is
   // missing.
   bool valid(std::string_view key) const;

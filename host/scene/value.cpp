@@ -65,7 +65,8 @@ std::string describe_node(const toml::node& node) {
 // Reads one value; keeps whether all of it was right.
 class Reader {
  public:
-  Reader(const Key& key, DiagnosticLog& log, ImageSource* images) : key_(key), log_(log), images_(images) {}
+  Reader(const Key& key, DiagnosticLog& log, ImageSource* images, FormulaSource* formulas)
+      : key_(key), log_(log), images_(images), formulas_(formulas) {}
 
   bool ok() const { return ok_; }
   Value value(const toml::node& node);
@@ -92,10 +93,13 @@ class Reader {
   template <int N>
   std::vector<glm::vec<N, double>> vector_list(const toml::node& node);
   std::vector<std::vector<Vec3>> vector_lists(const toml::node& node);
+  FormulaText formula_file(const toml::node& node);
+  std::vector<FormulaParameter> parameters(const toml::node& node);
 
   const Key& key_;
   DiagnosticLog& log_;
   ImageSource* images_;
+  FormulaSource* formulas_;
   bool ok_ = true;
 };
 
@@ -183,6 +187,38 @@ std::vector<std::vector<Vec3>> Reader::vector_lists(const toml::node& node) {
   return values;
 }
 
+FormulaText Reader::formula_file(const toml::node& node) {
+  if (!node.is_string()) return mismatch(node), FormulaText{};
+  if (!formulas_) return fail(node, "only a scene in a file can name files of formulas"), FormulaText{};
+  auto text = formulas_->load(node.value_or(std::string()), position_of(node.source()));
+  ok_ = text.has_value();
+  return text.value_or(FormulaText{});
+}
+
+std::vector<FormulaParameter> Reader::parameters(const toml::node& node) {
+  std::vector<FormulaParameter> all;
+  const toml::table* table = node.as_table();
+  if (!table) return mismatch(node), all;
+  for (const auto& [key, value] : *table) {
+    FormulaParameter parameter{std::string(key.str()), {}};
+    if (!is_formula_name(parameter.name)) {
+      ok_ = false;
+      log_.error(position_of(key.source()),
+                 fmt::format("\"{}\" cannot be the name of a constant in GLSL", parameter.name));
+    }
+    const toml::array* list = value.as_array();
+    if (value.is_number())
+      parameter.values = {number(value)};
+    else if (!list || list->size() < 2 || list->size() > 4)
+      fail(value,
+           fmt::format("`{}` must be a number or 2 to 4 of them, not {}", key.str(), describe_node(value)));
+    else
+      for (const toml::node& element : *list) parameter.values.push_back(number(element));
+    all.push_back(std::move(parameter));
+  }
+  return all;
+}
+
 Texture Reader::texture(const toml::node& node) {
   const toml::table* table = node.as_table();
   if (!table) return {vector<3>(node, true), {}};
@@ -262,6 +298,13 @@ Value Reader::value(const toml::node& node) {
       return vector_list<3>(node);
     case KeyType::outlines:
       return vector_lists(node);
+    case KeyType::formula:
+      if (!node.is_string()) return mismatch(node), FormulaText{};
+      return FormulaText{node.value_or(std::string()), start_of_text(node)};
+    case KeyType::formula_file:
+      return formula_file(node);
+    case KeyType::parameters:
+      return parameters(node);
     case KeyType::color:
       return vector<3>(node, true);
     case KeyType::texture:
@@ -295,10 +338,10 @@ std::span<const Key> image_table_keys() {
 }
 
 std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log,
-                                ImageSource* images) {
+                                ImageSource* images, FormulaSource* formulas) {
   Key ranged = key;
   if (key.type == KeyType::color || key.type == KeyType::texture) ranged.min = std::max(ranged.min, 0.0);
-  Reader reader(ranged, log, images);
+  Reader reader(ranged, log, images, formulas);
   Value value = reader.value(node);
   if (!reader.ok()) return std::nullopt;
   return value;
@@ -335,6 +378,11 @@ Value stand_in(const Key& key) {
       return std::vector<Vec3>();
     case KeyType::outlines:
       return std::vector<std::vector<Vec3>>();
+    case KeyType::formula:
+    case KeyType::formula_file:
+      return FormulaText();
+    case KeyType::parameters:
+      return std::vector<FormulaParameter>();
     case KeyType::texture:
       return Texture{Vec3(number), {}};
     case KeyType::transform:
@@ -343,11 +391,6 @@ Value stand_in(const Key& key) {
       return Mat4(1.0);
   }
   return false;
-}
-
-SourcePosition position_of(const toml::source_region& source) {
-  return {source.path ? *source.path : std::string(), static_cast<int>(source.begin.line),
-          static_cast<int>(source.begin.column)};
 }
 
 }  // namespace eyeray

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "scene/diagnostic_log.hpp"
+#include "scene/formula_source.hpp"
 #include "scene/image_source.hpp"
 #include "scene/table_reader.hpp"
 
@@ -15,22 +16,24 @@ namespace eyeray {
 
 // boolean bool; integer and choice int64_t; choice2 two of them; number double; string std::string; color
 // Vec3; scale2, scale3 Vec2, Vec3.
-using Value =
-    std::variant<bool, int64_t, std::array<int64_t, 2>, double, std::string, Vec2, Vec3, std::vector<Vec2>,
-                 std::vector<Vec3>, std::vector<std::vector<Vec3>>, Texture, Mat4>;
+using Value = std::variant<bool, int64_t, std::array<int64_t, 2>, double, std::string, Vec2, Vec3,
+                           std::vector<Vec2>, std::vector<Vec3>, std::vector<std::vector<Vec3>>, FormulaText,
+                           std::vector<FormulaParameter>, Texture, Mat4>;
 
 // Numbers beyond this have squares that float32 arithmetic cannot hold, and positive ones below its inverse
 // vanish.
 inline constexpr double largest_number = 1e15;
 
 // The value, or nothing, with an error in the log for each fault in it.
-// `images`: see TableSource.
+// `images`, `formulas`: see TableSource.
 std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log,
-                                ImageSource* images = nullptr);
+                                ImageSource* images = nullptr, FormulaSource* formulas = nullptr);
 
 // Some value of the key's type and range, for going on after an error.
 Value stand_in(const Key& key);
 
 SourcePosition position_of(const toml::source_region& source);
+// Where the text begins that a string stands for, as far as that can be told: escapes are not looked at.
+SourcePosition start_of_text(const toml::node& node);
 
 }  // namespace eyeray

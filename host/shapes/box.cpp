@@ -29,16 +29,8 @@ that are as good as 0 are taken as a little larger, so that no NaN arises.
 )";
 
 constexpr Key keys[] = {
-    {.name = "min",
-     .type = KeyType::vec3,
-     .doc = "The corner with the least coordinates.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
-    {.name = "max",
-     .type = KeyType::vec3,
-     .doc = "The corner with the greatest.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
+    box_min_key,
+    box_max_key,
 };
 
 // The cube from −1 to 1.
@@ -46,6 +38,7 @@ class Box final : public ObjectShape {
  public:
   explicit Box(const Mat4& to_world) : ObjectShape(shader::KIND_box, to_world) {}
 
+  bool is_closed() const override { return true; }
   ShapeForm form() const override { return BoxForm{to_world().matrix()}; }
 
  private:

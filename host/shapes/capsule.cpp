@@ -66,6 +66,7 @@ class Capsule final : public ObjectShape {
     return bounds;
   }
 
+  bool is_closed() const override { return true; }
   ShapeForm form() const override { return CapsuleForm{to_world().matrix(), half_}; }
 
  private:

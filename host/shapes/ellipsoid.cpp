@@ -54,6 +54,7 @@ class Ellipsoid final : public ObjectShape {
     return {to_world().offset - reach, to_world().offset + reach};
   }
 
+  bool is_closed() const override { return true; }
   ShapeForm form() const override {
     return QuadricForm{.to_world = to_world().matrix(),
                        .square = Vec3(1),

@@ -63,7 +63,17 @@ std::unique_ptr<Shape> make_torus(const Vec3& center, const Vec3& axis, double m
 // e and n: 0.1 to 2.
 std::unique_ptr<Shape> make_superellipsoid(const Vec3& center, const Vec3& radii, double e, double n,
                                            const Mat4& transform = Mat4(1.0));
+// Rows of four control points.
+std::unique_ptr<Shape> make_bezier(const std::array<Vec3, 16>& net, const Mat4& transform = Mat4(1.0));
 // Around the patch.
 std::unique_ptr<Shape> make_bilinear(const std::array<Vec3, 4>& corners, const Mat4& transform = Mat4(1.0));
+
+// f ≤ 0 within a box of the shape's own space; without the box's faces where `open`.
+std::unique_ptr<Shape> make_implicit(FormulaUse use, bool open, const Mat4& transform = Mat4(1.0));
+
+// What is within any of `operands`, or where `all` within all of them, and within none of `removed`. All are
+// closed, 32 together at most, and have their materials.
+std::unique_ptr<Shape> make_solid(bool all, std::vector<std::unique_ptr<Shape>> operands,
+                                  std::vector<std::unique_ptr<Shape>> removed = {});
 
 }  // namespace eyeray

@@ -34,18 +34,53 @@ ObjectShape::ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<
       steps_(steps) {}
 
 std::optional<Intersection> ObjectShape::intersect(const Ray& ray) const {
-  // Start at the point nearest to the centre, so that nothing cancels however far away the ray's own start
-  // is.
+  const auto& [local, start] = to_nearest(ray);
+  std::optional<Intersection> nearest = first(local, -start);
+  if (nearest) nearest->t += start;
+  return nearest && (nearest->t > 0 || nearest->ran_out) ? nearest : std::nullopt;
+}
+
+std::optional<Intersection> ObjectShape::first(const Ray& ray, double from) const {
+  std::optional<Intersection> nearest;
+  for (const Intersection& crossing : crossings(ray))
+    if (crossing.t > from && std::isfinite(crossing.t) && (!nearest || crossing.t < nearest->t))
+      nearest = crossing;
+  return nearest;
+}
+
+std::pair<Ray, double> ObjectShape::to_nearest(const Ray& ray) const {
   const Vec3 o = to_object_.point(ray.o);
   const Vec3 d = to_object_.linear * ray.d;
   const double start = -glm::dot(o, d) / glm::dot(d, d);
-  std::optional<Intersection> nearest;
-  for (Intersection crossing : crossings({o + d * start, d})) {
+  return {{o + d * start, d}, start};
+}
+
+std::vector<Span> ObjectShape::spans(const Ray& ray) const {
+  const auto& [local, start] = to_nearest(ray);
+  struct Passage {
+    Intersection at;
+    bool enters;
+  };
+  std::vector<Passage> passages;
+  for (Intersection crossing : crossings(local)) {
+    const Vec3 gradient = point(local.o + local.d * crossing.t, crossing).gradient;
     crossing.t += start;
-    if (crossing.t > 0 && std::isfinite(crossing.t) && (!nearest || crossing.t < nearest->t))
-      nearest = crossing;
+    if (std::isfinite(crossing.t)) passages.push_back({crossing, glm::dot(gradient, local.d) < 0});
   }
-  return nearest;
+  std::ranges::stable_sort(passages, {}, [](const Passage& passage) { return passage.at.t; });
+
+  // At an edge rounding may let a ray enter by two faces, or leave by two: the side that it comes to tells.
+  std::vector<Span> spans;
+  std::optional<Intersection> entered;
+  for (const Passage& passage : passages) {
+    if (passage.enters) {
+      if (!entered) entered = passage.at;
+    } else if (entered) {
+      if (entered->t < passage.at.t) spans.push_back({*entered, passage.at});
+      entered.reset();
+    }
+  }
+  return spans;
 }
 
 SurfacePoint ObjectShape::surface(const Ray& ray, const Intersection& hit) const {
@@ -72,6 +107,10 @@ Bounds ObjectShape::bounds() const {
 }
 
 void ObjectShape::pack(Packer& packer) const {
+  pack_with(packer, parameters_);
+}
+
+void ObjectShape::pack_with(Packer& packer, const std::vector<float>& parameters) const {
   const auto row = [](const Affine& map, int i, const Vec3& offset) {
     return to_vec4({map.linear[0][i], map.linear[1][i], map.linear[2][i]}, offset[i]);
   };
@@ -79,9 +118,9 @@ void ObjectShape::pack(Packer& packer) const {
   const uint32_t extra =
       packer.add_vertices({to_bits(row(to_world_, 0, center)), to_bits(row(to_world_, 1, center)),
                            to_bits(row(to_world_, 2, center))});
-  for (size_t i = 0; i < parameters_.size(); i += 4) {
+  for (size_t i = 0; i < parameters.size(); i += 4) {
     shader::vec4 some(0);
-    for (size_t k = 0; k < 4 && i + k < parameters_.size(); ++k) some[int(k)] = parameters_[i + k];
+    for (size_t k = 0; k < 4 && i + k < parameters.size(); ++k) some[int(k)] = parameters[i + k];
     packer.add_vertices({to_bits(some)});
   }
   packer.add_iterations(steps_);

@@ -13,8 +13,9 @@ class ObjectShape : public Shape {
  public:
   std::optional<Intersection> intersect(const Ray& ray) const final;
   SurfacePoint surface(const Ray& ray, const Intersection& hit) const final;
+  std::vector<Span> spans(const Ray& ray) const final;
   Bounds bounds() const override;
-  void pack(Packer& packer) const final;
+  void pack(Packer& packer) const override;
 
  protected:
   // Where a line meets the shape, in any order. u and v are the shape's own.
@@ -39,12 +40,20 @@ class ObjectShape : public Shape {
               size_t steps = 0);
 
   const Affine& to_world() const { return to_world_; }
+  // Packs it with parameters that only the packer knows.
+  void pack_with(Packer& packer, const std::vector<float>& parameters) const;
 
  private:
   // All in object space. The ray starts near the shape; its t may be negative.
   virtual Crossings crossings(const Ray& ray) const = 0;
+  // The nearest of them beyond t = `from`.
+  virtual std::optional<Intersection> first(const Ray& ray, double from) const;
   virtual Point point(const Vec3& near, const Intersection& hit) const = 0;
   virtual Bounds extent() const = 0;
+
+  // The ray in object space, from its point nearest to the centre, so that nothing cancels however far away
+  // its own start is; and the t of that point.
+  std::pair<Ray, double> to_nearest(const Ray& ray) const;
 
   uint32_t kind_;
   Affine to_world_;
@@ -64,6 +73,22 @@ inline constexpr Key axis_to_key = {.name = "to",
                                     .doc = "Where it ends.",
                                     .min = -max_coordinate,
                                     .max = max_coordinate};
+
+// The keys of shapes in a box.
+inline constexpr Key box_min_key = {.name = "min",
+                                    .type = KeyType::vec3,
+                                    .doc = "The corner of the box with the least coordinates.",
+                                    .min = -max_coordinate,
+                                    .max = max_coordinate};
+inline constexpr Key box_max_key = {.name = "max",
+                                    .type = KeyType::vec3,
+                                    .doc = "The corner with the greatest.",
+                                    .min = -max_coordinate,
+                                    .max = max_coordinate};
+inline constexpr Key box_open_key = {.name = "open",
+                                     .type = KeyType::boolean,
+                                     .doc = "Whether the box's faces are left out.",
+                                     .fallback = "false"};
 
 // The map under which y = low … high on the axis of object space comes to stand from `from` to `to`, and
 // whose other two axes are `radius` long and perpendicular to it. The first of them, where u = ½, is as near

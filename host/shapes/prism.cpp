@@ -129,6 +129,8 @@ class Prism final : public ObjectShape {
       : ObjectShape(shader::KIND_prism, transform * form.to_world, form.parameters(), form.walls.size()),
         form_(std::move(form)) {}
 
+  bool is_closed() const override { return true; }
+
  private:
   // Each face by itself: a wall where the line meets its plane between its ends, a cap where the outlines
   // wind round the point.

@@ -60,20 +60,9 @@ constexpr Key keys[] = {
      .min = -max_coordinate,
      .max = max_coordinate},
     {.name = "constant", .type = KeyType::number, .doc = "What is added to them.", .fallback = "0"},
-    {.name = "min",
-     .type = KeyType::vec3,
-     .doc = "The corner of the box with the least coordinates.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
-    {.name = "max",
-     .type = KeyType::vec3,
-     .doc = "The corner with the greatest.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
-    {.name = "open",
-     .type = KeyType::boolean,
-     .doc = "Whether the box's faces are left out.",
-     .fallback = "false"},
+    box_min_key,
+    box_max_key,
+    box_open_key,
 };
 
 // f and its derivatives.
@@ -134,6 +123,7 @@ class Quadric final : public ObjectShape {
         form_(form),
         open_(open) {}
 
+  bool is_closed() const override { return !open_; }
   ShapeForm form() const override {
     const auto& [square, product, linear, constant] = form_.values;
     return QuadricForm{to_world().matrix(), square, product, linear, constant, extent(), open_};

@@ -8,6 +8,7 @@ namespace eyeray {
 
 class Revolution : public ObjectShape {
  public:
+  bool is_closed() const override { return !open_; }
   ShapeForm form() const override;
 
  protected:

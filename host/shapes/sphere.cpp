@@ -53,23 +53,19 @@ class Sphere final : public Shape {
       : center_(center), radius_(radius), axes_(axes) {}
 
   std::optional<Intersection> intersect(const Ray& ray) const override {
-    // Take the discriminant from the point of the ray's line that is nearest to the centre.
-    const Vec3 f = ray.o - center_;
-    const double a = glm::dot(ray.d, ray.d);
-    const double b = -glm::dot(f, ray.d);
-    const Vec3 nearest = f + ray.d * (b / a);
-    const double discriminant = radius_ * radius_ - glm::dot(nearest, nearest);
-    if (!(discriminant >= 0)) return std::nullopt;
+    const auto span = inside(ray);
+    if (!span) return std::nullopt;
+    const Intersection& hit = span->in.t > 0 ? span->in : span->out;
+    if (!(hit.t > 0) || !std::isfinite(hit.t)) return std::nullopt;
+    return hit;
+  }
 
-    // Form both roots without cancellation: q has the sign of b.
-    const double q = b + std::copysign(std::sqrt(a * discriminant), b);
-    const double c = glm::dot(f, f) - radius_ * radius_;
-    double near = c / q;
-    double far = q / a;
-    if (!(near <= far)) std::swap(near, far);
-    const double t = near > 0 ? near : far;
-    if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
-    return Intersection{t, 0, 0};
+  bool is_closed() const override { return true; }
+
+  std::vector<Span> spans(const Ray& ray) const override {
+    const auto span = inside(ray);
+    if (!span || !(span->in.t < span->out.t)) return {};
+    return {*span};
   }
 
   SurfacePoint surface(const Ray& ray, const Intersection& hit) const override {
@@ -91,6 +87,25 @@ class Sphere final : public Shape {
   }
 
  private:
+  // Where the line is within it.
+  std::optional<Span> inside(const Ray& ray) const {
+    // Take the discriminant from the point of the ray's line that is nearest to the centre.
+    const Vec3 f = ray.o - center_;
+    const double a = glm::dot(ray.d, ray.d);
+    const double b = -glm::dot(f, ray.d);
+    const Vec3 nearest = f + ray.d * (b / a);
+    const double discriminant = radius_ * radius_ - glm::dot(nearest, nearest);
+    if (!(discriminant >= 0)) return std::nullopt;
+
+    // Form both roots without cancellation: q has the sign of b.
+    const double q = b + std::copysign(std::sqrt(a * discriminant), b);
+    const double c = glm::dot(f, f) - radius_ * radius_;
+    double near = c / q;
+    double far = q / a;
+    if (!(near <= far)) std::swap(near, far);
+    return Span{{near, 0, 0}, {far, 0, 0}};
+  }
+
   // The place on the map of a direction from the centre, in the sphere's own axes.
   static Vec2 uv(const Vec3& n) {
     const double u = 0.5 + std::atan2(-n.z, n.x) / (2 * std::numbers::pi);

@@ -68,6 +68,8 @@ class Superellipsoid final : public ObjectShape {
   Superellipsoid(const Mat4& to_world, double p, double q)
       : ObjectShape(shader::KIND_superellipsoid, to_world, {float(p), float(q)}, steps), p_(p), q_(q) {}
 
+  bool is_closed() const override { return true; }
+
  private:
   struct Sample {
     double s, value, slope;

@@ -69,6 +69,8 @@ class Torus final : public ObjectShape {
   Torus(const Mat4& to_world, double minor)
       : ObjectShape(shader::KIND_torus, to_world, {float(minor)}, steps), minor_(minor) {}
 
+  bool is_closed() const override { return true; }
+
  private:
   // |p|² + 1 − minor² − 2ρ on a ray of unit speed, ρ = √(x² + z²): below 0 inside. Both |p|² and ρ are
   // convex, so that what they rise by grows along the ray.

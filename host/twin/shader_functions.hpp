@@ -2,7 +2,11 @@
 // that a Binding of this thread names. For the twin and for tests of single functions.
 #pragma once
 
+#include <array>
+
+#include "formula/formula.hpp"
 #include "records/packer.hpp"
+#include "twin/straight_line.hpp"
 
 namespace eyeray::shader {
 namespace {
@@ -35,6 +39,24 @@ class Binding {
 }
 [[maybe_unused]] const Instance& load_instance(uint i) {
   return bound_scene->instances[i];
+}
+[[maybe_unused]] float load_formula_value(uint number, const vec3& p) {
+  return bound_scene->formulas[number].formula->value(std::array{p.x, p.y, p.z});
+}
+[[maybe_unused]] vec3 load_formula_enclosure(uint number, const vec3& x, const vec3& y, const vec3& z) {
+  return enclose(bound_scene->formulas[number].line, x, y, z);
+}
+[[maybe_unused]] vec4 load_formula_dual(uint number, const vec3& p) {
+  return differentiate(bound_scene->formulas[number].line, p);
+}
+// The formula's number if it is found that way, else none.
+[[maybe_unused]] uint if_enclosed(uint number, bool enclosed) {
+  return bound_scene->formulas[number].enclosed == enclosed ? number : NONE;
+}
+[[maybe_unused]] vec3 load_formula_gradient(uint number, const vec3& p) {
+  const std::array<float, 3> gradient =
+      bound_scene->formulas[number].formula->gradient(std::array{p.x, p.y, p.z});
+  return {gradient[0], gradient[1], gradient[2]};
 }
 [[maybe_unused]] const Material& load_material(uint i) {
   return bound_scene->materials[i];
@@ -78,26 +100,35 @@ class Binding {
 #define HAS_IMAGES 1
 #define HAS_COLORS 1
 #define HAS_EMISSION 1
+#define HAS_SOLIDS 1
+#define HAS_MIXED_SOLIDS 1
 #define HAS_HOLES 1
 #define SHAPES_WITH_HOLES SHAPES
 #define HAS_MEDIA 1
 #define HAS_ABSORPTION 1
 #define UV_OF(name) true
+// One march of each kind for all formulas.
+#define FORMULAS(X) X(if_enclosed(it.formula, false), stepped) X(if_enclosed(it.formula, true), enclosed)
+#define FORMULA_VALUE(it, p) load_formula_value(it.formula, p)
+#define FORMULA_HAS_GRADIENT(it) bound_scene->formulas[it.formula].formula->has_gradient()
+#define FORMULA_GRADIENT(it, p) load_formula_gradient(it.formula, p)
+#define FORMULA_ENCLOSURE(it, x, y, z) load_formula_enclosure(it.formula, x, y, z)
+#define FORMULA_DUAL(it, p) load_formula_dual(it.formula, p)
 
-#undef SHADER_BEGIN
-#undef SHADER_END
-#define SHADER_BEGIN         \
-  namespace eyeray::shader { \
-  namespace {
-#define SHADER_END \
-  }                \
-  }
+#include "twin/local_shaders.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 // What is dispatched to stands before the dispatch.
 // clang-format off
+#include "implicit.glsl"
+#define FORMULA_NAME(part) stepped_##part
+#include "implicit_march.glsl"
+#undef FORMULA_NAME
+#define FORMULA_NAME(part) enclosed_##part
+#include "implicit_enclosed.glsl"
+#undef FORMULA_NAME
 #include "shapes/all.glsl"
 #include "materials/all.glsl"
 #include "integrators/all.glsl"

@@ -11,9 +11,9 @@ SHADER_BEGIN
 float box_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   ObjectRay r = object_ray(s, ray, BOX_REACH);
   CubeSpan span = cube_span(r);
-  bool enters = r.t + span.enter > 0.0f;
+  bool enters = ENTERS(ray, r.t + span.enter);
   uv = cube_face(span, r, enters);
-  return span.enter <= span.leave ? r.t + (enters ? span.enter : span.leave) : -1.0f;
+  return span.enter <= span.leave ? r.t + (enters ? span.enter : span.leave) : T_NONE;
 }
 
 bool box_may_hit(Primitive s, Ray ray) { return true; }

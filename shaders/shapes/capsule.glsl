@@ -32,8 +32,8 @@ float capsule_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float leave_y = r.o.y + r.d.y * leave;
   if (abs(enter_y) > half_length) enter = capsule_end(r, enter_y < 0.0f ? -half_length : half_length, -1.0f);
   if (abs(leave_y) > half_length) leave = capsule_end(r, leave_y < 0.0f ? -half_length : half_length, 1.0f);
-  float t = r.t + enter > 0.0f ? enter : leave;
-  return discriminant >= 0.0f && t < T_MISS ? r.t + t : -1.0f;
+  float t = ENTERS(ray, r.t + enter) ? enter : leave;
+  return discriminant >= 0.0f && t < T_MISS ? r.t + t : T_NONE;
 }
 
 bool capsule_may_hit(Primitive s, Ray ray) { return true; }

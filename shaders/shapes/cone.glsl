@@ -16,7 +16,7 @@ float cone_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   vec4 parameters = object_parameters(s);
   ObjectRay r = object_ray(s, ray, 1.4142136f);
   uv = vec2(0.0f, 0.0f);
-  return revolution_intersect(r, cone_equation(r, parameters.y), cone_equation(from_nearest(r), parameters.y), 0.0f, 1.0f,
+  return revolution_intersect(ray, r, cone_equation(r, parameters.y), cone_equation(from_nearest(r), parameters.y), 0.0f, 1.0f,
                               parameters.x != 0.0f, uv.x);
 }
 

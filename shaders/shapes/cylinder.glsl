@@ -12,7 +12,7 @@ vec3 cylinder_equation(ObjectRay r) {
 float cylinder_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   ObjectRay r = object_ray(s, ray, 1.4142136f);
   uv = vec2(0.0f, 0.0f);
-  return revolution_intersect(r, cylinder_equation(r), cylinder_equation(from_nearest(r)), -1.0f, 1.0f,
+  return revolution_intersect(ray, r, cylinder_equation(r), cylinder_equation(from_nearest(r)), -1.0f, 1.0f,
                               object_parameters(s).x != 0.0f, uv.x);
 }
 

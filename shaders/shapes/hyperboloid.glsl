@@ -20,7 +20,7 @@ float hyperboloid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   vec3 equation = hyperboloid_equation(r, parameters.y, parameters.z);
   vec3 nearest = hyperboloid_equation(from_nearest(r), parameters.y, parameters.z);
   uv = vec2(0.0f, 0.0f);
-  return revolution_intersect(r, equation, nearest, parameters.w, parameters.w + 2.0f, parameters.x != 0.0f, uv.x);
+  return revolution_intersect(ray, r, equation, nearest, parameters.w, parameters.w + 2.0f, parameters.x != 0.0f, uv.x);
 }
 
 bool hyperboloid_may_hit(Primitive s, Ray ray) { return true; }

@@ -16,7 +16,7 @@ vec3 paraboloid_equation(ObjectRay r) {
 float paraboloid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   ObjectRay r = object_ray(s, ray, PARABOLOID_REACH);
   uv = vec2(0.0f, 0.0f);
-  return revolution_intersect(r, paraboloid_equation(r), paraboloid_equation(from_nearest(r)), -1.0f, 1.0f,
+  return revolution_intersect(ray, r, paraboloid_equation(r), paraboloid_equation(from_nearest(r)), -1.0f, 1.0f,
                               object_parameters(s).x != 0.0f, uv.x);
 }
 

@@ -37,10 +37,13 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float near = maximum(enter, maximum(minimum(a.x, b.x), minimum(a.y, b.y)));
   float far = minimum(leave, minimum(maximum(a.x, b.x), maximum(a.y, b.y)));
   uint at = s.head.w + OBJECT_PARAMETERS + 3u;
-  uint end = near <= far && r.t + far > 0.0f ? at + uint(object_parameters(s).x) : at;
+  uint end = near <= far && r.t + far > AFTER(ray) ? at + uint(object_parameters(s).x) : at;
 
   bool enters = false;
   bool leaves = false;
+#if HAS_SOLIDS
+  bool inside = false;  // having crossed what is not beyond AFTER(ray)
+#endif
   float nearest = T_MISS;
   float wall = PRISM_WALLS;
   uv = vec2(PRISM_BOTTOM, 0.0f);
@@ -56,20 +59,30 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     bool passed = (side_p > 0.0f) != (side_q > 0.0f);
     enters = enters != (passed && distance < enter);
     leaves = leaves != (passed && distance < leave);
-    bool nearer = passed && distance >= enter && distance < leave && r.t + distance > 0.0f && distance < nearest;
+    bool nearer = passed && distance >= enter && distance < leave && r.t + distance > AFTER(ray) && distance < nearest;
     nearest = nearer ? distance : nearest;
     uv.x = nearer ? wall : uv.x;
     wall += 1.0f;
+#if HAS_SOLIDS
+    inside = inside != (passed && distance >= enter && distance < leave && r.t + distance <= AFTER(ray));
+#endif
   }
 
   bool upwards = to_bottom < to_top;
-  bool first = enters && r.t + enter > 0.0f && enter < nearest;
+  bool first = enters && r.t + enter > AFTER(ray) && enter < nearest;
   nearest = first ? enter : nearest;
   uv.x = first ? (upwards ? PRISM_BOTTOM : PRISM_TOP) : uv.x;
-  bool last = leaves && r.t + leave > 0.0f && leave < nearest;
+  bool last = leaves && r.t + leave > AFTER(ray) && leave < nearest;
   nearest = last ? leave : nearest;
   uv.x = last ? (upwards ? PRISM_TOP : PRISM_BOTTOM) : uv.x;
-  return nearest < T_MISS ? r.t + nearest : -1.0f;
+#if HAS_SOLIDS
+  // Where it crosses two walls at the same t, at a vertex or where the prism is thin, the second is still to come: at the next t there is.
+  inside = inside != (enters && r.t + enter <= AFTER(ray));
+  inside = inside != (leaves && r.t + leave <= AFTER(ray));
+  bool late = ray.side != SIDE_UNKNOWN && inside != (ray.side == SIDE_INSIDE);
+  if (late) return ray.after + (2.0f * EPSILON * abs(ray.after) + 1.0e-37f);
+#endif
+  return nearest < T_MISS ? r.t + nearest : T_NONE;
 }
 
 bool prism_may_hit(Primitive s, Ray ray) { return true; }

@@ -45,10 +45,10 @@ float quadric_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   ObjectRay r = object_ray(s, ray, QUADRIC_REACH);
   CubeSpan span = cube_span(r);
   float part = PART_QUADRIC;
-  float nearest = clipped_quadric(r.t, quadric_equation(quadric, r), nearest_at(r), quadric_equation(quadric, from_nearest(r)),
+  float nearest = clipped_quadric(ray, r.t, quadric_equation(quadric, r), nearest_at(r), quadric_equation(quadric, from_nearest(r)),
                                   span.enter, span.leave, quadric.squares.w != 0.0f, part);
   uv = part == PART_QUADRIC ? vec2(QUADRIC_ITSELF, 0.0f) : cube_face(span, r, part == PART_ENTRY);
-  return nearest < T_MISS ? r.t + nearest : -1.0f;
+  return nearest < T_MISS ? r.t + nearest : T_NONE;
 }
 
 bool quadric_may_hit(Primitive s, Ray ray) { return true; }

@@ -19,5 +19,26 @@
   X(quadric, 14u) \
   X(torus, 15u) \
   X(superellipsoid, 16u) \
-  X(bilinear, 17u)
+  X(bilinear, 17u) \
+  X(implicit, 18u) \
+  X(solid, 19u) \
+  X(bezier, 20u)
+#endif
+
+// Those that enclose a volume, where they have no `open`: what solids are made of. Their rows stand before that of solid, which asks them.
+// A specialised kernel overrides this list too, with those that its scene's solids are made of.
+#ifndef CLOSED_SHAPES
+#define CLOSED_SHAPES(X) \
+  X(sphere, 0u) \
+  X(box, 3u) \
+  X(ellipsoid, 4u) \
+  X(cylinder, 5u) \
+  X(cone, 6u) \
+  X(prism, 9u) \
+  X(paraboloid, 11u) \
+  X(hyperboloid, 12u) \
+  X(capsule, 13u) \
+  X(quadric, 14u) \
+  X(torus, 15u) \
+  X(superellipsoid, 16u)
 #endif

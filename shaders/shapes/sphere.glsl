@@ -30,8 +30,8 @@ float sphere_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float t1 = q * (1.0f / a);
   float low = t0 < t1 ? t0 : t1;
   float high = t0 < t1 ? t1 : t0;
-  float t = low > 0.0f ? low : high;
-  return discriminant >= 0.0f ? t : -1.0f;
+  float t = ENTERS(ray, low) ? low : high;
+  return discriminant >= 0.0f ? t : T_NONE;
 }
 
 // Longitude and latitude of the unit normal n.

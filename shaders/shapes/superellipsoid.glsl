@@ -43,6 +43,10 @@ float superellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float far = minimum(minimum(maximum(a.x, b.x), maximum(a.y, b.y)), maximum(a.z, b.z));
   float start = -r.t;
   bool inside = near < start && start < far && superellipsoid_norm(r.o, parameters).w < 1.0f;
+#if HAS_SOLIDS
+  start = ray.side == SIDE_UNKNOWN ? start : T_NONE;
+  inside = ray.side == SIDE_UNKNOWN ? inside : ray.side == SIDE_INSIDE;
+#endif
 
   float x = inside ? far : maximum(near, start);
   bool meets = x <= far;
@@ -57,9 +61,9 @@ float superellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     excess = inside && !towards ? 0.0f : excess;
     meets = meets && (inside || x <= far);
   }
-  if (!(meets && x > start)) return -1.0f;
   uv.x = inside ? 0.0f : r.t + x;
-  return excess > 4.0f * EPSILON ? T_RAN_OUT : r.t + x;
+  // Not as !(…) in front: Mesa 22.3.6 takes the opposite comparison then, which NaN passes.
+  return meets && x > start ? (excess > 4.0f * EPSILON ? T_RAN_OUT : r.t + x) : T_NONE;
 }
 
 bool superellipsoid_may_hit(Primitive s, Ray ray) { return true; }

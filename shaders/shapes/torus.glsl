@@ -50,6 +50,13 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float from = start - r.t / slowness;
   float begin = maximum(from, -end);
   bool inside = from > -end && torus_depth(r.o, minor) < 0.0f;
+  float since = begin;  // what turns before it has been passed
+#if HAS_SOLIDS
+  // Whoever asks, the stretches are those of the whole line.
+  begin = ray.side == SIDE_UNKNOWN ? begin : -end;
+  inside = ray.side == SIDE_UNKNOWN ? inside : ray.side == SIDE_INSIDE;
+  since = ray.side == SIDE_UNKNOWN ? begin : start + (ray.after - r.t) / slowness;
+#endif
 
   // Where the quartic turns: the roots of its derivative, a cubic. Between them it has one root or none.
   float p = k - 2.0f * a;
@@ -64,9 +71,9 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float c2 = minimum(maximum(q < 0.0f ? -lower : largest, begin), end);
 
   // The first stretch on which the ray goes in or out. At a turn that is not beyond the start nothing has changed yet.
-  bool past0 = c0 > begin && (torus_depth(o + d * c0, minor) < 0.0f) != inside;
-  bool past1 = c1 > begin && (torus_depth(o + d * c1, minor) < 0.0f) != inside;
-  bool past2 = c2 > begin && (torus_depth(o + d * c2, minor) < 0.0f) != inside;
+  bool past0 = c0 > since && (torus_depth(o + d * c0, minor) < 0.0f) != inside;
+  bool past1 = c1 > since && (torus_depth(o + d * c1, minor) < 0.0f) != inside;
+  bool past2 = c2 > since && (torus_depth(o + d * c2, minor) < 0.0f) != inside;
   float low = past0 ? begin : past1 ? c0 : past2 ? c1 : c2;
   float high = past0 ? c0 : past1 ? c1 : past2 ? c2 : end;
   bool meets = half_chord >= 0.0f && begin < end && (past0 || past1 || past2 || inside);
@@ -95,7 +102,7 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   bool found = abs(step) <= 4.0f * EPSILON;
   float t = ((found ? x : low) - start) * slowness;
   uv.x = found ? t : r.t + t;
-  return !meets ? -1.0f : found ? r.t + t : T_RAN_OUT;
+  return !meets ? T_NONE : found ? r.t + t : T_RAN_OUT;
 }
 
 bool torus_may_hit(Primitive s, Ray ray) { return true; }

@@ -67,7 +67,21 @@ float triangle_t(Primitive s, Ray ray, TriangleEdges edges) {
   float inverse = permute(ray.inverse, ray.major).z;
   float along_p = (alone.y + (p.y - alone.y) * (alone.x / (alone.x - p.x))) * inverse;
   float along_q = (alone.y + (q.y - alone.y) * (alone.x / (alone.x - q.x))) * inverse;
-  return passes && t > 0.0f ? minimum(maximum(t, minimum(along_p, along_q)), maximum(along_p, along_q)) : -1.0f;
+  t = minimum(maximum(t, minimum(along_p, along_q)), maximum(along_p, along_q));
+
+  // Where not even that holds, the ray must meet the triangle's own bounds all the same, and t is brought into them: up to `room`, 16
+  // roundings of the largest coordinate along the ray, a quarter of what tree.glsl widens its boxes by.
+  vec3 o = permute(ray.o, ray.major);
+  vec3 inverses = permute(ray.inverse, ray.major);
+  vec3 ta = (permute(vec3(s.a), ray.major) - o) * inverses;
+  vec3 tb = (permute(vec3(s.b), ray.major) - o) * inverses;
+  vec3 tc = (permute(vec3(s.c), ray.major) - o) * inverses;
+  vec3 room = abs3(inverses) * (16.0f * EPSILON * maximum(abs(edges.z.x), maximum(abs(edges.z.y), abs(edges.z.z))));
+  vec3 nearest = vec3(minimum(ta.x, minimum(tb.x, tc.x)), minimum(ta.y, minimum(tb.y, tc.y)), minimum(ta.z, minimum(tb.z, tc.z)));
+  vec3 farthest = vec3(maximum(ta.x, maximum(tb.x, tc.x)), maximum(ta.y, maximum(tb.y, tc.y)), maximum(ta.z, maximum(tb.z, tc.z)));
+  float entry = max_component(nearest - room);
+  float exit = -max_component(-farthest - room);
+  return passes && t > 0.0f && entry <= exit ? minimum(maximum(t, entry), exit) : -1.0f;
 }
 
 float triangle_intersect_woop(Primitive s, Ray ray, OUT(vec2) uv) {

@@ -10,24 +10,29 @@ using namespace eyeray::test;
 namespace {
 
 const std::set<std::string> everything = {
-    "accel",  "bench",     "cli",     "compare",   "core",   "dev",    "generate", "gpu",    "importers",
-    "loader", "materials", "records", "reference", "render", "rivals", "scene",    "shapes", "twin"};
+    "accel",   "bench",     "calculus", "cli",    "compare",   "core",   "derive",
+    "dev",     "formula",   "generate", "gpu",    "importers", "loader", "materials",
+    "records", "reference", "render",   "rivals", "scene",     "shapes", "twin"};
 
 // What each layer sees beside itself. That the reference sees neither records nor shaders is the point of
 // having one: an error of packing could hide in it.
 const std::map<std::string, std::set<std::string>> visible = {
     {"core", {}},
-    {"scene", {"core"}},
-    {"records", {"core", "scene"}},
-    {"shapes", {"core", "scene", "records"}},
+    {"formula", {"core"}},
+    {"scene", {"core", "formula"}},
+    {"records", {"core", "formula", "scene", "calculus"}},
+    {"shapes", {"core", "formula", "scene", "records"}},
     {"materials", {"core", "scene", "records"}},
     {"importers", {"core", "scene", "materials"}},
-    {"loader", {"core", "scene", "importers"}},
+    {"loader", {"core", "formula", "scene", "importers"}},
     {"reference", {"core", "scene"}},
-    {"twin", {"core", "records"}},
+    {"twin", {"core", "formula", "records", "calculus"}},
     {"gpu", {"core"}},
+    {"calculus", {"core"}},
+    {"derive", {"core", "calculus", "gpu"}},
     {"accel", {"core"}},
-    {"render", {"core", "scene", "records", "reference", "twin", "gpu", "accel"}},
+    {"render",
+     {"core", "formula", "scene", "records", "reference", "twin", "gpu", "accel", "calculus", "derive"}},
     {"compare", {"core"}},
     {"generate", {"core", "scene"}},
     {"rivals", {"core", "scene"}},
@@ -53,7 +58,7 @@ struct Library {
       public_in;  // of them, those whose headers may include it: what sees these sees it too
 };
 const Library libraries[] = {
-    {std::regex(R"((volk|vulkan|glslang|spirv-tools|spirv)([/.].*))"), {"gpu"}, {"gpu"}},
+    {std::regex(R"((volk|vulkan|glslang|spirv-tools|spirv)([/.].*))"), {"gpu", "derive"}, {"gpu", "derive"}},
     {std::regex(R"(toml\+\+/.*)"), {"scene", "loader"}, {"scene", "loader"}},
     {std::regex(R"(nlohmann/json\.hpp)"), {"bench", "cli", "compare", "importers", "loader"}, {"importers"}},
     {std::regex(R"(tiny_.*)"), {"importers"}, {}},

@@ -156,3 +156,37 @@ material = "m"
           "intersection {quadric {<1,0,-0.25>,<0,0.5,0>,<0,-0.25,0>,-0.125} box {<-1,-1,-1>,<1,1,1>} matrix "
           "<1,0,0,0,1,0,0,0,1,0,0,0> texture {M0}}"));
 }
+
+TEST_CASE(
+    "a solid in POV-Ray's words: what it is made of, each part with its texture, less what is taken away") {
+  const std::string text = povray_scene(parse_scene(R"([camera]
+eye = [0, 0, 5]
+target = [0, 0, 0]
+[[material]]
+name = "m"
+type = "phong"
+[[material]]
+name = "n"
+type = "phong"
+[[solid]]
+operation = "intersection"
+material = "m"
+[[solid.sphere]]
+center = [0, 0, 0]
+radius = 1
+[[solid.box]]
+min = [-1, -1, -1]
+max = [1, 1, 1]
+[[solid.minus.solid]]
+[[solid.minus.solid.sphere]]
+material = "n"
+radius = 0.5
+batch = { center = [[1, 0, 0], [-1, 0, 0]] }
+)",
+                                                    "a"),
+                                        200, 100);
+  CHECK(has(text,
+            "difference {\nintersection {\nsphere {<0,0,0>,1 texture {M0}}\n"
+            "box {-1,1 matrix <1,0,0,0,1,0,0,0,1,0,0,0> texture {M0}}\n}\n"
+            "merge {\nsphere {<1,0,0>,0.5 texture {M1}}\nsphere {<-1,0,0>,0.5 texture {M1}}\n}\n}\n"));
+}

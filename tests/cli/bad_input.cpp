@@ -32,6 +32,32 @@ TEST_CASE("a scene that cannot be read") {
   CHECK(folder.names() == only_the_scene);
 }
 
+TEST_CASE("a function without a Lipschitz constant that cannot be enclosed") {
+  const SceneFolder folder;
+  replace_in_file(folder.scene(), "[[sphere]]", R"([[implicit]]
+code = """
+float f(vec3 p) {
+  float x = p.x;
+  while (x > 1.0) x *= 0.5;
+  return x;
+}
+"""
+min = [-1, -1, -1]
+max = [1, 1, 1]
+material = "matte"
+[[sphere]])");
+  const ProcessResult result = run_eyeray({"check", folder.scene()});
+  CHECK(result.code == 2);
+  CAPTURE(result.err);
+  CHECK(result.err.find(
+            "error: this loop goes round more than 1000 times, or as often as p says; so no interval "
+            "can be computed for it: declare a `lipschitz`\n    while (x > 1.0) x *= 0.5;") !=
+        std::string::npos);
+  // With a constant nothing need be derived.
+  replace_in_file(folder.scene(), "max = [1, 1, 1]", "max = [1, 1, 1]\nlipschitz = 1");
+  CHECK(run_eyeray({"check", folder.scene()}).code == 0);
+}
+
 TEST_CASE("what a scene may not hold") {
   const BadScene cases[] = {
       {"[camera]", "[camera", {":5:8: error: "}},

@@ -6,6 +6,7 @@
 //
 #include "support/doctest.hpp"
 
+using namespace eyeray;
 using namespace eyeray::test;
 
 namespace {

@@ -79,6 +79,7 @@ TEST_CASE("AOVs hold what the eye rays met") {
   for (const std::string name :
        {"depth", "position", "normal", "uv", "primitive", "material", "hits", "flags"})
     expected.insert({"a." + name + ".pfm", "a." + name + ".png"});
+  expected.insert({"a.primitive.json", "a.material.json"});
   CHECK(folder.names() == expected);
 
   // A unit sphere at distance 4, seen through the pixel just beside its middle.

@@ -57,7 +57,7 @@ TEST_CASE("what was hit is named in the words of the scene, where they are known
     return other.primitive == hit.primitive && other.t == hit.t;
   };
   CHECK(std::any_of(shown.begin(), shown.end(), is_it));
-  CHECK_FALSE(contains(to_text(report), "eye"));
+  CHECK_FALSE(contains(to_text(report), "left eye"));
 
   report.primitives[hit.primitive] = "sphere \"left eye\", face.toml:24";
   report.materials[hit.material] = "\"glass\"";

@@ -45,6 +45,22 @@ Vec3 face_normal(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
 
 }  // namespace
 
+TEST_CASE("teapot --patches: 32 shapes, whose corners and edges' middles are the mesh's") {
+  const Scene scene = parse_scene(teapot_classic.scene(1) + teapot_bezier(), "teapot");
+  CHECK(scene.shapes.size() == 2 + 32);
+  const Mesh mesh = mesh_of(teapot_classic, 2);
+  // From outside, along the mesh's normals, each of its points is met where it is.
+  int met = 0;
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Ray ray{mesh.positions[i] + mesh.normals[i] * 0.01, -mesh.normals[i]};
+    double nearest = HUGE_VAL;
+    for (const auto& shape : scene.shapes)
+      if (const auto hit = shape->intersect(ray)) nearest = std::min(nearest, hit->t);
+    met += std::abs(nearest - 0.01) < 1e-6;
+  }
+  CHECK(met == int(mesh.positions.size()));
+}
+
 TEST_CASE("every classic is a scene without warnings, at its smallest and at its published size") {
   for (const Classic& classic : classics()) {
     CAPTURE(classic.name);

@@ -117,7 +117,7 @@ TEST_CASE("a shader's source is everything it may include, read once") {
 
 TEST_CASE("SPIR-V is remembered by content, and a damaged entry is made anew") {
   const TemporaryFolder folder;
-  const gpu::DiskCache cache(folder.path() / "deep" / "cache");
+  const DiskCache cache(folder.path() / "deep" / "cache");
   const auto source = [](const std::string& body) {
     return gpu::read_shader(files({{"m", head + "#include \"a\"\nvoid main() {}\n"}, {"a", body}}), "m");
   };
@@ -153,7 +153,7 @@ TEST_CASE("SPIR-V is remembered by content, and a damaged entry is made anew") {
 
 TEST_CASE("a shader with warnings is compiled every time, so that they are seen every time") {
   const TemporaryFolder folder;
-  const gpu::DiskCache cache(folder.path());
+  const DiskCache cache(folder.path());
   const auto source = gpu::read_shader(files({{"m",
                                                "#version 450\n#extension GL_KHR_no_such_thing : "
                                                "enable\nlayout(local_size_x = 1) in;\nvoid main() {}\n"}}),
@@ -169,8 +169,8 @@ TEST_CASE("a shader with warnings is compiled every time, so that they are seen 
 TEST_CASE("a cache that cannot be written remembers nothing, and harms nothing") {
   const TemporaryFolder folder;
   write_text(folder / "file", "");
-  for (const gpu::DiskCache& cache :
-       {gpu::DiskCache({}), gpu::DiskCache(folder.path() / "file"), gpu::DiskCache("/proc/nowhere")}) {
+  for (const DiskCache& cache :
+       {DiskCache({}), DiskCache(folder.path() / "file"), DiskCache("/proc/nowhere")}) {
     cache.store("name", "bytes");
     CHECK(!cache.load("name"));
   }
@@ -178,7 +178,7 @@ TEST_CASE("a cache that cannot be written remembers nothing, and harms nothing")
 
 TEST_CASE("a cache drops its oldest entries, and only its own") {
   const TemporaryFolder folder;
-  const gpu::DiskCache cache(folder.path());
+  const DiskCache cache(folder.path());
   write_text(folder / "mine.txt", "keep");
   for (int i = 0; i <= 512; ++i) write_text(folder / fmt::format("{}.eyeray-cache", i), "old");
   const auto past = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);

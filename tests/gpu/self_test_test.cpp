@@ -19,7 +19,7 @@ gpu::SourceProvider with_fault(const std::string& right, const std::string& wron
 
 TEST_CASE("the self-test says what this device is like") {
   const TemporaryFolder folder;
-  const gpu::DiskCache cache(folder.path());
+  const DiskCache cache(folder.path());
   gpu::self_test(device(), project_shader, cache);
   const gpu::DeviceFacts facts = gpu::self_test(device(), project_shader, cache);
   MESSAGE(device().info().name, ", ", device().info().driver_version, ": ", facts.loop_iterations,

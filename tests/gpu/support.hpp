@@ -13,7 +13,7 @@
 
 namespace eyeray::test {
 
-inline const gpu::DiskCache no_cache{{}};
+inline const DiskCache no_cache{{}};
 
 // The device of most tests; making one costs 20 ms.
 inline gpu::Device& device() {

@@ -62,16 +62,16 @@ TEST_CASE("the elements of a batch share a name and are numbered, or bring their
 }
 
 TEST_CASE("messages begin with what they are about, and say it once for all copies") {
-  CHECK(
-      refusals(fmt::format(
-          "[[sphere]]\nname = \"left eye\"\ncenter = [0, 0, 0]\nradius = -1\nmaterial = \"wall\"\n"
-          "[[sphere]]\nname = \"nose\"\ncentre = [0, 0, 0]\nradius = 1\nmaterial = \"wal\"\n"
-          "[[sphere]]\ncenter = [0, 0, 0]\nradius = 0\nmaterial = \"wall\"\n")) ==
-      std::vector<std::string>{"sphere \"left eye\": `radius` must be a number above 0, not -1",
-                               "sphere \"nose\": [[sphere]] needs `center`, [x, y, z]",
-                               "sphere \"nose\": unknown key `centre` in [[sphere]]; did you mean `center`?",
-                               "sphere \"nose\": no [[material]] is named \"wal\"; did you mean \"wall\"?",
-                               "`radius` must be a number above 0, not 0"});
+  CHECK(refusals(fmt::format(
+            "[[sphere]]\nname = \"left eye\"\ncenter = [0, 0, 0]\nradius = -1\nmaterial = \"wall\"\n"
+            "[[sphere]]\nname = \"nose\"\ncentre = [0, 0, 0]\nradius = 1\nmaterial = \"wal\"\n"
+            "[[sphere]]\ncenter = [0, 0, 0]\nradius = 0\nmaterial = \"wall\"\n")) ==
+        std::vector<std::string>{
+            "sphere \"left eye\": `radius` must be a number from 1e-12 to 1e12, not -1",
+            "sphere \"nose\": [[sphere]] needs `center`, three numbers [x, y, z], each from -1e12 to 1e12",
+            "sphere \"nose\": unknown key `centre` in [[sphere]]; did you mean `center`?",
+            "sphere \"nose\": no [[material]] is named \"wal\"; did you mean \"wall\"?",
+            "`radius` must be a number from 1e-12 to 1e12, not 0"});
   CHECK(refusals("[[group]]\nname = \"cart\"\nbatch = { transform = [[], [], []] }\n[[group.sphere]]\n"
                  "name = \"wheel\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"wal\"\n") ==
         std::vector<std::string>{
@@ -89,7 +89,7 @@ TEST_CASE("a name is text, and not empty") {
   CHECK(refusals(
             fmt::format("[[sphere]]\nname = \"\"\n{0}[[group]]\nname = 7\n[[group.sphere]]\n{0}", sphere)) ==
         std::vector<std::string>{"a name must not be empty; leave `name` out instead",
-                                 "`name` must be a string, not an integer"});
+                                 "`name` must be a string, not 7"});
   CHECK(refusals(fmt::format("[[sphere]]\nradius = 1\nmaterial = \"wall\"\n"
                              "batch = {{ center = [[0, 0, 0], [1, 0, 0]], name = [\"a\", \"\"] }}\n"))
             .size() == 1);

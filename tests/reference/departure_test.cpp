@@ -1,4 +1,4 @@
-#include "reference/tracer.hpp"
+#include "reference/crossings.hpp"
 #include "scene/affine.hpp"
 #include "scene/triangle.hpp"
 #include "scenes.hpp"
@@ -100,7 +100,7 @@ TEST_CASE("all that a ray crosses is crossed once, in order") {
     const Vec3 eye = center + dice.direction() * 3.0 * radius;
     const Vec3 d = glm::normalize(center + 0.99 * radius * dice.direction() - eye);
     std::vector<double> crossings;
-    reference::for_each_crossing(*sphere, {eye, d}, [&](double t, const SurfacePoint&) {
+    reference::for_each_crossing(*sphere, {eye, d}, [&](double t, const auto&, const SurfacePoint&) {
       crossings.push_back(t);
       return true;
     });
@@ -139,10 +139,11 @@ TEST_CASE("crossings end, whatever a body says") {
   };
   const auto count = [](double step) {
     int crossings = 0;
-    reference::for_each_crossing(Body{step}, {{1, 0, 0}, {1, 0, 0}}, [&](double, const SurfacePoint&) {
-      ++crossings;
-      return true;
-    });
+    reference::for_each_crossing(Body{step}, {{1, 0, 0}, {1, 0, 0}},
+                                 [&](double, const auto&, const SurfacePoint&) {
+                                   ++crossings;
+                                   return true;
+                                 });
     return crossings;
   };
   CHECK(count(0.5) == reference::most_crossings);

@@ -24,14 +24,10 @@ std::string grouped(const ShapeType& type, bool sheared) {
   std::string text = "[[group]]\nname = \"all\"\npattern = true\n";
   bool kept = false;
   for (std::string line; std::getline(file, line);) {
-    if (line.starts_with('[') && line.ends_with(']') && std::isalpha(line[line.find_first_not_of('[')])) {
-      kept = line == "[[material]]";
-      for (const std::string_view part : {"[[{}]]", "[{}.batch]"}) {
-        if (line != fmt::format(fmt::runtime(part), type.name)) continue;
-        line.insert(line.find_first_not_of('['), "group.");
-        kept = true;
-        break;
-      }
+    if (const size_t at = line.find_first_not_of('['); at == 1 || at == 2) {
+      const std::string_view table(line.data() + at, line.find_first_of(".]", at) - at);
+      kept = table == "material" || table == type.name;
+      if (table == type.name) line.insert(at, "group.");
     }
     if (kept) text += line + '\n';
   }
@@ -56,30 +52,33 @@ Scene stored(const std::string& text, std::string_view groups) {
 struct Met {
   int64_t primitive = -1;
   double t = 0;
-  Vec3 position, normal, normal_geometric;
-  Vec2 uv;
+  Vec3 position{0.0}, normal{0.0}, normal_geometric{0.0};
+  Vec2 uv{0.0};
+  uint32_t flags = 0;
 };
 
 Met by_reference(const reference::Tracer& tracer, const Ray& ray) {
-  const auto hit = tracer.trace(ray);
-  if (!hit) return {};
+  uint32_t flags = 0;
+  const auto hit = tracer.trace(ray, flags);
+  if (!hit) return {.flags = flags};
   const SurfacePoint s = tracer.surface(ray, *hit);
-  return {int64_t(hit->primitive), hit->at.t, s.position, s.normal, s.normal_geometric, s.uv};
+  return {int64_t(hit->primitive), hit->at.t, s.position, s.normal, s.normal_geometric, s.uv, flags};
 }
 
 Met by_twin(const PackedScene& scene, const Ray& at, const Vec3& eye) {
   const shader::Binding binding(scene);
   const shader::Ray ray = shader::make_ray(glm::vec3(at.o - eye), glm::vec3(at.d));
-  const shader::Hit hit = shader::trace(ray);
-  if (hit.slot == NONE) return {};
+  uint32_t flags = 0;
+  const shader::Hit hit = shader::trace(ray, flags);
+  if (hit.slot == NONE) return {.flags = flags};
   const shader::Surface s = shader::surface_at(shader::primitive_at(hit), ray, hit);
-  return {int64_t(hit.id),          double(hit.t), Vec3(s.p) + eye, Vec3(s.normal),
-          Vec3(s.normal_geometric), Vec2(s.uv)};
+  return {int64_t(hit.id), double(hit.t), Vec3(s.p) + eye, Vec3(s.normal), Vec3(s.normal_geometric),
+          Vec2(s.uv),      flags};
 }
 
 // How far apart they are, 1 being all that rounding may make of it; infinite for different primitives.
 double difference(const Met& a, const Met& b, double rounding, double size) {
-  if (a.primitive != b.primitive) return HUGE_VAL;
+  if (a.primitive != b.primitive || a.flags != b.flags) return HUGE_VAL;
   if (a.primitive < 0) return 0;
   // The seam of a texture that goes round.
   const Vec2 uv = glm::abs(a.uv - b.uv);
@@ -94,9 +93,9 @@ double difference(const Met& a, const Met& b, double rounding, double size) {
 TEST_CASE("every kind of shape: kept once it is met where copies are, with their ids, normals and uv") {
   for (const ShapeType* type : shape_types()) {
     CAPTURE(type->name);
-    // Spheres have to stay what they are; and normals at a triangle's corners are interpolated before or
-    // after the map.
-    const bool sheared = type->name != "sphere" && type->name != "triangle";
+    // Spheres have to stay what they are, in solids too; and normals at a triangle's corners are interpolated
+    // before or after the map.
+    const bool sheared = type->name != "sphere" && type->name != "triangle" && type->name != "solid";
     const std::string text = grouped(*type, sheared);
     const Scene flat = stored(text, "flat");
     const Scene once = stored(text, "instanced");
@@ -190,12 +189,13 @@ material = "wall"
       const Vec3 origin = target + map.linear * (random.direction() * random.log_uniform(1, 100));
       const glm::vec3 start(origin);
       const shader::Ray ray = shader::make_ray(start, glm::normalize(glm::vec3(target) - start));
-      const shader::Hit hit = shader::trace(ray);
+      uint32_t flags = 0;
+      const shader::Hit hit = shader::trace(ray, flags);
       if (hit.slot == NONE || hit.id >= 5) continue;
       const shader::Surface surface = shader::surface_at(shader::primitive_at(hit), ray, hit);
       glm::vec3 away(random.direction());
       if (shader::dot3(away, surface.normal_geometric) < 0) away = -away;
-      const shader::Hit again = shader::trace(shader::leave(surface, away));
+      const shader::Hit again = shader::trace(shader::leave(surface, away), flags);
       ++left;
       met += again.slot != NONE && again.id == hit.id;
     }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "random_scene.hpp"
+#include "ray_targets.hpp"
 #include "reference/media.hpp"
 
 namespace eyeray::test {
@@ -46,6 +47,7 @@ class HardScene {
       add_spheres(random_.below(8));
       if (chance(0.3)) add(scene_, make_plane(point(center_, size_), random_.direction()), material());
       if (chance(0.4)) add_object_shapes(1 + random_.below(4));
+      if (chance(0.25)) add_solids(1 + random_.below(4));
       if (chance(0.7)) add_shapes(hard_triangles(1 + random_.below(20)));
       if (chance(0.3)) add_polygons(1 + random_.below(5));
       if (chance(0.6)) add_instances(1);
@@ -56,14 +58,19 @@ class HardScene {
     sort_shapes();
     // More media around the eye than a ray can carry: all opaque.
     if (reference::media_at(scene_, scene_.camera.eye).size() > 4) {
+      const auto erase_solids = [](auto& shapes) {
+        std::erase_if(shapes, [](const auto& shape) { return is_solid(*shape); });
+      };
+      erase_solids(scene_.shapes);
       for (const auto& shape : scene_.shapes) shape->material = 0;
       for (Instance& instance : scene_.instances) instance.material = 0;
       for (Group& group : scene_.groups) {
+        erase_solids(group.shapes);
         for (const auto& shape : group.shapes) shape->material = 0;
         for (Instance& instance : group.instances) instance.material = 0;
       }
     }
-    collect_targets();
+    targets_ = ray_targets(scene_, random_);
   }
 
   // Shapes stand in registry order.
@@ -74,6 +81,8 @@ class HardScene {
       return kind_of(packer.scene.primitives[0]);
     });
   }
+
+  static bool is_solid(const Shape& shape) { return std::holds_alternative<SolidForm>(shape.form()); }
 
   int material() { return chance(glass_) ? 1 : 0; }
 
@@ -191,6 +200,34 @@ class HardScene {
     }
   }
 
+  // Of parts that touch, that are the same, or lie beside each other; some of them within others.
+  void add_solids(int count) {
+    for (int i = 0; i < count; ++i) {
+      Scene parts;
+      std::swap(parts.shapes, scene_.shapes);
+      add_spheres(1 + random_.below(3));
+      add_object_shapes(1 + random_.below(4));
+      std::swap(parts.shapes, scene_.shapes);
+      ShapeType::Shapes operands, removed;
+      for (auto& part : parts.shapes) {
+        if (!part->is_closed()) continue;
+        if (!operands.empty() && chance(0.2))
+          removed.push_back(std::move(part));
+        else
+          operands.push_back(std::move(part));
+        if (operands.size() == 2 && chance(0.3)) {
+          auto inner = make_solid(chance(0.5), std::move(operands));
+          operands.clear();
+          operands.push_back(std::move(inner));
+        }
+      }
+      // Most of what is within all of them would be nothing.
+      const bool all = operands.size() < 3 && chance(0.4);
+      auto solid = make_solid(all, std::move(operands), std::move(removed));
+      if (glm::all(glm::lessThan(solid->bounds().min, solid->bounds().max))) add(scene_, std::move(solid), 0);
+    }
+  }
+
   // Each around the next, and all but alike: the deepest of trees.
   void add_nest() {
     const int count = 30 + random_.below(100);
@@ -217,6 +254,7 @@ class HardScene {
     std::swap(own, scene_.shapes);
     add_spheres(random_.below(5));
     if (chance(0.7)) add_object_shapes(1 + random_.below(4));
+    if (chance(0.3)) add_solids(1 + random_.below(2));
     if (chance(0.5)) add_shapes(hard_triangles(1 + random_.below(6)));
     if (chance(0.3)) add_polygons(1 + random_.below(3));
     Group group;
@@ -251,50 +289,8 @@ class HardScene {
     return map * translation(-center_);
   }
 
-  // Where rays go: corners, edges and insides as the records have them, in float32.
-  struct Target {
-    glm::vec3 a, b, c;  // the corners; of a sphere its centre, and points at its poles and on it
-  };
-  void collect_targets() {
-    const PackedScene packed = pack(scene_, {.acceleration = Acceleration::brute_force});
-    const auto take = [&](const shader::Primitive& p, const shader::Instance* instance) {
-      Target target{glm::vec3(p.a), glm::vec3(p.b), glm::vec3(p.c)};
-      if (kind_of(p) == shader::KIND_sphere) {
-        glm::vec3 pole(0);
-        pole[random_.below(3)] = chance(0.5) ? p.a.w : -p.a.w;
-        target.b = target.a + pole;
-        target.c = target.a + glm::vec3(random_.direction()) * p.a.w;
-      } else if (kind_of(p) > shader::KIND_triangle) {
-        // The centre of object space, and where two of its axes leave the unit cube.
-        glm::vec4 rows[3];
-        for (int i = 0; i < 3; ++i)
-          rows[i] = std::bit_cast<glm::vec4>(packed.vertices[p.head.w + uint32_t(i)]);
-        target.a = {rows[0].w, rows[1].w, rows[2].w};
-        target.b = target.a + glm::vec3(rows[0].x, rows[1].x, rows[2].x);
-        target.c = target.a + glm::vec3(rows[0].y, rows[1].y, rows[2].y);
-      } else if (kind_of(p) == shader::KIND_plane) {
-        target = {target.a * p.a.w, target.a * p.a.w + target.b, target.a * p.a.w + target.c};
-      }
-      if (instance) {
-        for (glm::vec3* corner : {&target.a, &target.b, &target.c}) {
-          Vec3 moved;
-          for (int row = 0; row < 3; ++row) {
-            const glm::dvec4 map(instance->to_world[row]);
-            moved[row] = glm::dot(Vec3(map), Vec3(*corner)) + map.w;
-          }
-          *corner = glm::vec3(moved);
-        }
-      }
-      targets_.push_back(target);
-    };
-    for (uint32_t i = 0; i < packed.trees[0].head.z; ++i) take(packed.primitives[i], nullptr);
-    for (const shader::Instance& instance : packed.instances)
-      for (uint32_t i = packed.trees[instance.head.x].head.y; i < packed.trees[instance.head.x].head.z; ++i)
-        take(packed.primitives[i], &instance);
-  }
-
   glm::vec3 some_point() {
-    const Target& t = targets_[index(targets_.size())];
+    const RayTarget& t = targets_[index(targets_.size())];
     const auto u = float(random_.uniform()), v = float(random_.uniform());
     switch (random_.below(5)) {
       case 0:
@@ -314,7 +310,7 @@ class HardScene {
     const glm::vec3 target = some_point();
     Vec3 origin = Vec3(target) + random_.direction() * size_ * random_.log_uniform(1e-2, 1e2);
     Vec3 direction = Vec3(target) - origin;
-    const Target& other = targets_[index(targets_.size())];
+    const RayTarget& other = targets_[index(targets_.size())];
     switch (random_.below(10)) {
       case 0:  // along an axis
       case 1: {
@@ -370,7 +366,7 @@ class HardScene {
   double glass_ = 0;
   Vec3 sphere_center_{0};
   double sphere_radius_ = 1;
-  std::vector<Target> targets_;
+  std::vector<RayTarget> targets_;
 };
 
 }  // namespace eyeray::test

@@ -18,7 +18,7 @@ AlphaMask picture_mask(Filter filter) {
   auto image = std::make_shared<ImageTexture>();
   image->width = 3;
   image->height = 2;
-  for (const uint8_t alpha : {255, 0, 140, 10, 200, 128}) image->texels.push_back({9, 9, 9, alpha});
+  for (const int alpha : {255, 0, 140, 10, 200, 128}) image->texels.push_back({9, 9, 9, uint8_t(alpha)});
   image->filter = filter;
   return {Texture{Vec3(1), {}, image}, 128.0 / 255};
 }
@@ -80,7 +80,8 @@ TEST_CASE("an alpha of the cutoff is there, below it there is a hole; behind a h
     CHECK(ask_twin(packed, {&endless, 1}, false)[0].hit.y == (there[texel] ? 0u : 1u));
     const Ray exact{to + Vec3(0, 0, 1), {0, 0, -1}};
     CHECK(tracer.trace(exact)->primitive == (there[texel] ? 0u : 1u));
-    CHECK(tracer.transmittance(exact, 1.5) == (there[texel] ? 0.0 : 1.0));
+    uint32_t flags = 0;
+    CHECK(tracer.transmittance(exact, 1.5, flags) == (there[texel] ? 0.0 : 1.0));
   }
 }
 

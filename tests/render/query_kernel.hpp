@@ -50,7 +50,7 @@ class QueryKernel {
   // Whether rays are traced together, as the gpu executor would.
   bool traces_packets() const {
     return specialisation_.profile.packets && scene_.has_tree && scene_.quantised_nodes &&
-           scene_.instances.empty();
+           scene_.instances.empty() && scene_.leaf_uses.empty();
   }
 
   std::vector<shader::QueryHit> ask(std::span<const shader::QueryRay> rays, bool any) {
@@ -91,7 +91,7 @@ class QueryKernel {
   Specialisation specialisation_;
   const char* entry_ = "query.comp.glsl";
   std::string defines_;
-  gpu::DiskCache cache_ = gpu::DiskCache::of_user();
+  DiskCache cache_ = DiskCache::of_user();
   std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
   std::unique_ptr<gpu::Kernel> kernels_[2];  // by whether any hit will do
 };

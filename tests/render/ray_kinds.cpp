@@ -41,14 +41,15 @@ normal = [0, 1, 0]
 material = "floor"
 )";
 
-// So many spheres that there is a tree, and packets.
-std::string spheres(const std::string& material) {
+// So many spheres that there is a tree, and packets; and a box, whose sides keep light in that came by its
+// front.
+std::string things(const std::string& material) {
   std::string centers;
   for (int i = 0; i < 40; ++i)
     centers +=
         "[" + std::to_string(0.4 * (i % 8) - 1.4) + ", " + std::to_string(0.3 + 0.4 * (i / 8)) + ", 0],";
   return "[[sphere]]\nradius = 0.2\nmaterial = \"" + material + "\"\nbatch = { center = [" + centers +
-         "] }\n";
+         "] }\n[[box]]\nmin = [-2.4, 0.2, 0.3]\nmax = [-1.6, 1.4, 0.9]\nmaterial = \"" + material + "\"\n";
 }
 
 std::vector<PixelSample> samples(const Scene& scene, Backend backend, const char* rays) {
@@ -71,9 +72,9 @@ RayCounts counted(std::span<const PixelSample> samples) {
 
 TEST_CASE(
     "GPU and twin count the same rays of each kind in every pixel, in waves too; the reference nearly") {
-  for (const char* material : {"glass", "floor"}) {
+  for (const std::string material : {"glass", "floor"}) {
     CAPTURE(material);
-    const Scene scene = parse_scene(stage + spheres(material), "scene.toml");
+    const Scene scene = parse_scene(stage + things(material), "scene.toml");
     const auto twin = samples(scene, Backend::twin, "");
     for (const char* rays : {"packets", "lanes"}) {
       CAPTURE(rays);
@@ -84,7 +85,7 @@ TEST_CASE(
       }));
     }
     const RayCounts counts = counted(twin), reference = counted(samples(scene, Backend::reference, ""));
-    const bool glass = material == std::string("glass");
+    const bool glass = material == "glass";
     CHECK(counts.eye == 1200);
     CHECK(counts.eye_hits == reference.eye_hits);
     CHECK(counts.reflected > 500);

@@ -33,6 +33,7 @@ TEST_CASE("a kernel has the shapes of its scene, and no other's") {
     const PackedScene packed = pack(load_scene(file));
     std::set<uint32_t> used;
     for (const shader::Primitive& primitive : packed.primitives) used.insert(kind_of(primitive));
+    for (const auto& [kind, material] : packed.leaf_uses) used.insert(kind);
     for (const bool constants : {true, false}) {
       const std::vector<uint32_t> kernel =
           test::compile_entry("render.comp.glsl", packed, {.constants = constants});

@@ -60,12 +60,13 @@ class LongTriangles {
   std::vector<shader::QueryRay> rays(size_t count) {
     std::vector<shader::QueryRay> rays(count);
     for (shader::QueryRay& ray : rays) {
-      const auto& [a, b, c] = corners_[size_t(random_.below(int(corners_.size())))];
+      const auto& corners = corners_[size_t(random_.below(int(corners_.size())))];
+      const Vec3 a(corners[0]), b(corners[1]), c(corners[2]);
       const auto in_plane = [&](double reach) {
-        return Vec3(a) + (Vec3(b) - Vec3(a)) * random_.uniform(-reach, 1 + reach) +
-               (Vec3(c) - Vec3(a)) * random_.uniform(-reach, 1 + reach);
+        return a + (b - a) * random_.uniform(-reach, 1 + reach) +
+               (c - a) * random_.uniform(-reach, 1 + reach);
       };
-      const Vec3 to = random_.below(3) == 0 ? glm::mix(Vec3(a), Vec3(b), random_.uniform()) : in_plane(0);
+      const Vec3 to = random_.below(3) == 0 ? glm::mix(a, b, random_.uniform()) : in_plane(0);
       Vec3 from = in_plane(2);
       if (chance(0.1)) from = to + random_.direction() * size_ * random_.log_uniform(1e-2, 1e3);
       if (chance(0.1)) from = to + (Vec3(b) - Vec3(c)) * random_.uniform(-3, 3);

@@ -4,12 +4,14 @@ file(GLOB_RECURSE SCENES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_
 list(FILTER SCENES EXCLUDE REGEX "/include/")
 set(SHAPE_SCENES ${SCENES})
 list(FILTER SHAPE_SCENES INCLUDE REGEX "^scenes/shapes/")
+# The gallery has what the others have, in one kernel that takes seconds to make: once is enough.
+list(FILTER SHAPE_SCENES EXCLUDE REGEX "/gallery")
 
 # eyeray_verify(NAME LABEL ARGUMENT …)
 function(eyeray_verify name label)
   add_test(NAME ${name} COMMAND eyeray verify ${ARGN} --quiet --keep ${CMAKE_CURRENT_BINARY_DIR}/kept/${name}
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 300)
+  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 600)
 endfunction()
 
 # Every scene as its file says.
@@ -23,7 +25,7 @@ endforeach()
 set(EDGES ${SCENES})
 list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
 set(small ${SCENES} -s 96x72)
-list(FILTER small EXCLUDE REGEX "^scenes/edges/")
+list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery")
 eyeray_verify(mode.no-constants mode ${small} --no-constants)
 eyeray_verify(mode.no-constants.edges mode ${EDGES} --no-constants)
 # However hits are found, they are the same. The GPU's profile runs on any device.
@@ -41,7 +43,10 @@ eyeray_verify(mode.packets.edges mode ${EDGES} --acceleration tree --no-constant
 eyeray_verify(mode.raycast mode ${small} --integrator raycast)
 eyeray_verify(mode.raycast.edges mode ${EDGES} --integrator raycast)
 eyeray_verify(mode.eye-rays mode ${small} --max-depth 0)
-eyeray_verify(mode.deep mode ${small} --max-depth 64 -D render.min_weight=0.01)
+# A march takes up to 4096 steps a ray: 64 rays of glass in a row are more than Mesa 22.3.6 grants, and say so (docs/lavapipe.md).
+set(deep ${small})
+list(FILTER deep EXCLUDE REGEX "/implicit")
+eyeray_verify(mode.deep mode ${deep} --max-depth 64 -D render.min_weight=0.01)
 eyeray_verify(mode.moller-trumbore mode scenes/cornell.toml scenes/whitted.toml scenes/shapes/triangle.toml -s 96x72
   --triangle moller-trumbore)
 # A pixel of n samples is n times as likely to have one at a jump.

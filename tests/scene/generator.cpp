@@ -8,8 +8,10 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <vector>
 
 #include "loader/sections.hpp"
+#include "shapes/registry.h"
 
 namespace eyeray::test {
 
@@ -45,6 +47,13 @@ class Writer {
   std::string choice(const Key& key) {
     if (mishap()) return "\"nothing\"";
     return fmt::format("\"{}\"", key.choices[size_t(random_.below(int(key.choices.size())))]);
+  }
+  // What a solid may be made of, if it is not open.
+  const ShapeType& closed_shape() {
+#define NAME(name, number) number,
+    constexpr uint32_t kinds[] = {CLOSED_SHAPES(NAME)};
+#undef NAME
+    return *shape_types()[kinds[random_.below(int(std::size(kinds)))]];
   }
   void table(const std::string& title, std::initializer_list<std::span<const Key>> keys,
              std::set<std::string_view> left_out, const std::string& given);
@@ -147,6 +156,12 @@ std::string Writer::value(const Key& key) {
       return fmt::format("{}", number(key));
     case KeyType::string:
       return key.name == "material" ? fmt::format("\"m{}\"", random_.below(materials)) : "\"text\"";
+    case KeyType::formula:
+      return "\"float f(vec3 p) { return dot(p, p) - 0.25; }\"";
+    case KeyType::formula_file:
+      return "\"none.glsl\"";
+    case KeyType::parameters:
+      return "{}";
     case KeyType::choice:
       return choice(key);
     case KeyType::choice2:
@@ -158,8 +173,11 @@ std::string Writer::value(const Key& key) {
     case KeyType::vec2_list:
       return fmt::format("[{}, {}, {}]", numbers(key, 2), numbers(key, 2), numbers(key, 2));
     case KeyType::vec3_list: {
-      std::string points[] = {numbers(key, 3), numbers(key, 3), numbers(key, 3)};
-      if (chance(0.3 * wildness_.share)) points[2] = points[random_.below(2)];
+      // As many as a bilinear patch has, or a triangle.
+      const int count = key.name == "corners" ? 4 : 3;
+      std::vector<std::string> points;
+      for (int i = 0; i < count; ++i) points.push_back(numbers(key, 3));
+      if (chance(0.3 * wildness_.share)) points[2] = points[size_t(random_.below(2))];
       if (mishap()) points[1] = "[]";
       return fmt::format("[{}]", fmt::join(points, ", "));
     }
@@ -218,7 +236,10 @@ std::string Writer::write() {
   }
   for (int i = 0; i < materials; ++i) {
     const MaterialType& type = *material_types()[size_t(random_.below(int(material_types().size())))];
-    table("[[material]]", {type.keys}, {}, fmt::format("name = \"m{}\"\ntype = \"{}\"\n", i, type.name));
+    // Few shapes may have holes.
+    table("[[material]]", {type.keys},
+          chance(0.9) ? std::set<std::string_view>{"alpha", "alpha_cutoff"} : std::set<std::string_view>{},
+          fmt::format("name = \"m{}\"\ntype = \"{}\"\n", i, type.name));
   }
   for (int i = random_.below(6); i > 0; --i) {
     const ShapeType& type = *shape_types()[size_t(random_.below(int(shape_types().size())))];
@@ -227,7 +248,21 @@ std::string Writer::write() {
     if (chance(0.8)) mostly = {"normals"};
     // An uneven scale is no sphere's.
     if (chance(0.5)) mostly.insert("transform");
-    table(fmt::format("[[{}]]", type.name), {type.keys, find_section(type.name)->keys}, mostly, "");
+    // A formula stands in one place; that of a file, in none.
+    std::string given;
+    if (type.name == "implicit") {
+      given = chance(0.5) ? "ready = \"rounded-box\"\n"
+                          : "code = \"float f(vec3 p) { return dot(p, p) - 0.25; }\"\nlipschitz = 4\n";
+      mostly.insert({"code", "file", "ready", "lipschitz"});
+    }
+    table(fmt::format("[[{}]]", type.name), {type.keys, find_section(type.name)->keys}, mostly, given);
+    if (!type.combine) continue;
+    for (int part = 1 + random_.below(3); part > 0; --part) {
+      const ShapeType& inner = closed_shape();
+      const char* holder = part > 1 && chance(0.3) ? "solid.minus" : "solid";
+      table(fmt::format("[[{}.{}]]", holder, inner.name), {inner.keys, find_section("sphere")->keys}, mostly,
+            "");
+    }
   }
   return text_;
 }

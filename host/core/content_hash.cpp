@@ -1,8 +1,8 @@
-#include "gpu/content_hash.hpp"
+#include "core/content_hash.hpp"
 
 #include <fmt/format.h>
 
-namespace eyeray::gpu {
+namespace eyeray {
 
 ContentHash& ContentHash::add(std::span<const std::byte> bytes) {
   for (uint64_t length = bytes.size(), i = 0; i < 8; ++i) add_byte(uint8_t(length >> 8 * i));
@@ -24,4 +24,4 @@ std::string ContentHash::hex() const {
   return fmt::format("{:016x}{:016x}", high_, low_);
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray

@@ -1,14 +1,14 @@
-#include "gpu/disk_cache.hpp"
+#include "core/disk_cache.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <vector>
 
 #include "core/atomic_file.hpp"
+#include "core/content_hash.hpp"
 #include "core/error.hpp"
-#include "gpu/content_hash.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray {
 namespace {
 
 constexpr std::string_view ending = ".eyeray-cache";
@@ -73,4 +73,4 @@ void DiskCache::drop_old_entries() const {
     std::filesystem::remove(entries[i].second, failed);
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray::gpu {
+namespace eyeray {
 
 // Named bytes in a folder. A cache may forget: damaged entries are as good as absent, old ones are dropped
 // when there are many, and a folder that cannot be written is a cache that remembers nothing.
@@ -31,4 +31,4 @@ class DiskCache {
   std::filesystem::path folder_;
 };
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray::gpu {
+namespace eyeray {
 
 // FNV-1a over 128 bits: names contents so that equal names mean equal contents, barring malice.
 // Source: Fowler, Noll, Vo, Eastlake, "The FNV Non-Cryptographic Hash Algorithm" (IETF draft-eastlake-fnv).
@@ -26,4 +26,4 @@ class ContentHash {
   uint64_t low_ = 0x62b821756295c58d;
 };
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray

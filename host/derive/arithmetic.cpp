@@ -1,0 +1,235 @@
+#include "derive/arithmetic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eyeray::derive {
+namespace {
+
+// Op by Op on each component; y may be missing.
+Value each(Tape& tape, Op op, const Value& x, const Value& y = {}) {
+  Value result(x.size());
+  for (size_t i = 0; i < x.size(); ++i) result[i] = tape.apply(op, x[i], y.empty() ? no_term : y[i]);
+  return result;
+}
+
+Value times(Tape& tape, const Value& x, Term factor) {
+  return each(tape, Op::multiply, x, Value(x.size(), factor));
+}
+
+Value opposite(Tape& tape, const Value& x) {
+  return each(tape, Op::opposite, x);
+}
+
+Value select(Tape& tape, const Value& condition, const Value& x, const Value& y) {
+  Value result(x.size());
+  for (size_t i = 0; i < x.size(); ++i)
+    result[i] = tape.apply(Op::choose, condition.size() == 1 ? condition[0] : condition[i], x[i], y[i]);
+  return result;
+}
+
+// x − y·⌊x / y⌋, as GLSL's mod.
+Value remainder(Tape& tape, const Value& x, const Value& y) {
+  Value result(x.size());
+  for (size_t i = 0; i < x.size(); ++i) {
+    const Term quotient = tape.apply(Op::multiply, x[i], tape.apply(Op::reciprocal, y[i]));
+    result[i] =
+        tape.apply(Op::subtract, x[i], tape.apply(Op::multiply, y[i], tape.apply(Op::floor, quotient)));
+  }
+  return result;
+}
+
+// a: rows × inner, b: inner × columns, both by columns.
+Value matrix_product(Tape& tape, const Value& a, const Value& b, size_t inner) {
+  const size_t rows = a.size() / inner, columns = b.size() / inner;
+  Value result;
+  for (size_t column = 0; column < columns; ++column) {
+    for (size_t row = 0; row < rows; ++row) {
+      Value left, right;
+      for (size_t i = 0; i < inner; ++i) {
+        left.push_back(a[i * rows + row]);
+        right.push_back(b[column * inner + i]);
+      }
+      result.push_back(dot(tape, left, right));
+    }
+  }
+  return result;
+}
+
+Value transpose(const Value& matrix, size_t rows) {
+  Value result;
+  for (size_t row = 0; row < rows; ++row)
+    for (size_t at = row; at < matrix.size(); at += rows) result.push_back(matrix[at]);
+  return result;
+}
+
+Value all_of(Tape& tape, Op op, const Value& x) {
+  Term result = x[0];
+  for (size_t i = 1; i < x.size(); ++i) result = tape.apply(op, result, x[i]);
+  return {result};
+}
+
+}  // namespace
+
+Term dot(Tape& tape, const Value& a, const Value& b) {
+  Term sum = tape.apply(Op::multiply, a[0], b[0]);
+  for (size_t i = 1; i < a.size(); ++i) sum = tape.apply(Op::add, sum, tape.apply(Op::multiply, a[i], b[i]));
+  return sum;
+}
+
+Term truncate(Tape& tape, Term x) {
+  const Term up = tape.apply(Op::negate, tape.apply(Op::floor, tape.apply(Op::negate, x)));
+  return tape.apply(Op::choose, tape.apply(Op::less, x, tape.constant(0)), up, tape.apply(Op::floor, x));
+}
+
+std::optional<Value> arithmetic(Tape& tape, spv::Op op, const std::vector<Value>& from, size_t size) {
+  const auto at = [&](size_t i) -> const Value& { return from.at(i); };
+  switch (op) {
+    case spv::OpFNegate:
+      return each(tape, Op::negate, at(0));
+    case spv::OpFAdd:
+      return each(tape, Op::add, at(0), at(1));
+    case spv::OpFSub:
+      return each(tape, Op::subtract, at(0), at(1));
+    case spv::OpFMul:
+      return each(tape, Op::multiply, at(0), at(1));
+    case spv::OpFDiv:
+      return each(tape, Op::multiply, at(0), each(tape, Op::reciprocal, at(1)));
+    case spv::OpFMod:
+      return remainder(tape, at(0), at(1));
+    case spv::OpDot:
+      return Value{dot(tape, at(0), at(1))};
+    case spv::OpVectorTimesScalar:
+    case spv::OpMatrixTimesScalar:
+      return times(tape, at(0), at(1)[0]);
+    case spv::OpMatrixTimesVector:
+      return matrix_product(tape, at(0), at(1), at(1).size());
+    case spv::OpVectorTimesMatrix:
+      return matrix_product(tape, at(0), at(1), at(0).size());
+    case spv::OpMatrixTimesMatrix:
+      return matrix_product(tape, at(0), at(1),
+                            size_t(std::lround(std::sqrt(double(at(0).size() * at(1).size() / size)))));
+    case spv::OpOuterProduct:
+      return matrix_product(tape, at(0), at(1), 1);
+    case spv::OpSelect:
+      return select(tape, at(0), at(1), at(2));
+    case spv::OpFOrdLessThan:
+    case spv::OpFUnordLessThan:
+      return each(tape, Op::less, at(0), at(1));
+    case spv::OpFOrdGreaterThan:
+    case spv::OpFUnordGreaterThan:
+      return each(tape, Op::less, at(1), at(0));
+    case spv::OpFOrdLessThanEqual:
+    case spv::OpFUnordLessThanEqual:
+      return each(tape, Op::less_equal, at(0), at(1));
+    case spv::OpFOrdGreaterThanEqual:
+    case spv::OpFUnordGreaterThanEqual:
+      return each(tape, Op::less_equal, at(1), at(0));
+    case spv::OpFOrdEqual:
+    case spv::OpFUnordEqual:
+      return each(tape, Op::equal, at(0), at(1));
+    case spv::OpFOrdNotEqual:
+    case spv::OpFUnordNotEqual:
+      return opposite(tape, each(tape, Op::equal, at(0), at(1)));
+    case spv::OpLogicalAnd:
+      return each(tape, Op::both, at(0), at(1));
+    case spv::OpLogicalOr:
+      return each(tape, Op::either, at(0), at(1));
+    case spv::OpLogicalNot:
+      return opposite(tape, at(0));
+    case spv::OpLogicalEqual:
+      return select(tape, at(0), at(1), opposite(tape, at(1)));
+    case spv::OpLogicalNotEqual:
+      return select(tape, at(0), opposite(tape, at(1)), at(1));
+    case spv::OpAll:
+      return all_of(tape, Op::both, at(0));
+    case spv::OpAny:
+      return all_of(tape, Op::either, at(0));
+    case spv::OpConvertSToF:
+    case spv::OpConvertUToF:
+      return at(0);
+    case spv::OpTranspose:
+      // A square one, or one whose shape the result does not tell: 2×3 and the like are refused.
+      if (const auto rows = size_t(std::lround(std::sqrt(double(size)))); rows * rows == size)
+        return transpose(at(0), rows);
+      return std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<Value> whole_arithmetic(Tape& tape, spv::Op op, const std::vector<Value>& from,
+                                      bool is_signed) {
+  switch (op) {
+    case spv::OpIEqual:
+      return each(tape, Op::equal, from.at(0), from.at(1));
+    case spv::OpINotEqual:
+      return opposite(tape, each(tape, Op::equal, from.at(0), from.at(1)));
+    case spv::OpSLessThan:
+    case spv::OpULessThan:
+      return each(tape, Op::less, from.at(0), from.at(1));
+    case spv::OpSGreaterThan:
+    case spv::OpUGreaterThan:
+      return each(tape, Op::less, from.at(1), from.at(0));
+    case spv::OpSLessThanEqual:
+    case spv::OpULessThanEqual:
+      return each(tape, Op::less_equal, from.at(0), from.at(1));
+    case spv::OpSGreaterThanEqual:
+    case spv::OpUGreaterThanEqual:
+      return each(tape, Op::less_equal, from.at(1), from.at(0));
+    default:
+      break;
+  }
+
+  const auto compute_one = [op](int64_t x, int64_t y) -> std::optional<int64_t> {
+    switch (op) {
+      case spv::OpIAdd:
+        return x + y;
+      case spv::OpISub:
+        return x - y;
+      case spv::OpIMul:
+        return x * y;
+      case spv::OpSNegate:
+        return -x;
+      case spv::OpSDiv:
+      case spv::OpUDiv:
+        return y == 0 ? std::nullopt : std::optional(x / y);
+      case spv::OpSRem:
+      case spv::OpUMod:
+        return y == 0 ? std::nullopt : std::optional(x % y);
+      case spv::OpSMod:
+        return y == 0 ? std::nullopt : std::optional((x % y + y) % y);
+      case spv::OpBitwiseAnd:
+        return x & y;
+      case spv::OpBitwiseOr:
+        return x | y;
+      case spv::OpBitwiseXor:
+        return x ^ y;
+      case spv::OpShiftLeftLogical:
+        return int64_t(uint64_t(x) << (y & 31));
+      case spv::OpShiftRightLogical:
+        return int64_t(uint32_t(x) >> (y & 31));
+      case spv::OpShiftRightArithmetic:
+        return x >> (y & 31);
+      case spv::OpNot:
+        return ~x;
+      case spv::OpBitcast:
+      case spv::OpConvertFToS:
+      case spv::OpConvertFToU:
+        return x;
+      default:
+        return std::nullopt;
+    }
+  };
+  Value result;
+  for (size_t i = 0; i < from.at(0).size(); ++i) {
+    const Term x = from[0][i], y = from.size() > 1 ? from[1][i] : x;
+    if (!tape.known(x) || !tape.known(y) || !(std::abs(tape.value(x)) < 0x1p62)) return std::nullopt;
+    const std::optional<int64_t> whole = compute_one(int64_t(tape.value(x)), int64_t(tape.value(y)));
+    if (!whole) return std::nullopt;
+    result.push_back(tape.constant(is_signed ? double(int32_t(uint32_t(*whole))) : double(uint32_t(*whole))));
+  }
+  return result;
+}
+
+}  // namespace eyeray::derive

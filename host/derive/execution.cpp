@@ -1,0 +1,211 @@
+#include "derive/execution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eyeray::derive {
+namespace {
+
+constexpr size_t most_instructions = 400'000;  // followed, those of loops each time
+constexpr size_t most_steps = 20'000;          // written down, dead ones too
+constexpr int most_turns = 1'000;              // of one loop
+
+// A literal such as 0.25 is what was meant; 0.1 as float32 is half a unit in the last place off it at most.
+double literal_error(float x) {
+  const bool short_enough = (__builtin_bit_cast(uint32_t, x) & 0xffu) == 0;
+  return short_enough ? 0 : std::ldexp(std::abs(double(x)), -24);
+}
+
+}  // namespace
+
+Execution::Execution(const Module& module, Tape& tape) : module_(module), tape_(tape) {
+  for (const Instruction& instruction : module.constants) define_constant(instruction);
+}
+
+void Execution::define_constant(const Instruction& instruction) {
+  const Type& type = module_.type(instruction.type);
+  Value& value = constants_[instruction.result];
+  switch (instruction.op) {
+    case spv::OpConstantTrue:
+    case spv::OpConstantFalse:
+      value = {tape_.truth(instruction.op == spv::OpConstantTrue)};
+      break;
+    case spv::OpConstant: {
+      const uint32_t bits = instruction.words[0];
+      if (type.op == spv::OpTypeFloat) {
+        const float x = __builtin_bit_cast(float, bits);
+        value = {tape_.constant(double(x), literal_error(x))};
+      } else {
+        value = {tape_.constant(type.is_signed ? double(int32_t(bits)) : double(bits))};
+      }
+      break;
+    }
+    case spv::OpConstantComposite:
+      for (const uint32_t part : instruction.words)
+        value.insert(value.end(), constants_.at(part).begin(), constants_.at(part).end());
+      break;
+    case spv::OpVariable: {
+      constants_.erase(instruction.result);
+      const uint32_t storage = instruction.words[0];
+      const uint32_t variable = new_variable(module_.type(type.members[0]));
+      if (instruction.words.size() > 1) memory_[variable] = constants_.at(instruction.words[1]);
+      globals_[instruction.result] = {variable, 0};
+      if (storage == spv::StorageClassStorageBuffer || storage == spv::StorageClassUniform)
+        buffer_ = variable;
+      break;
+    }
+    default:  // OpConstantNull, OpUndef
+      value.assign(type.size, type.op == spv::OpTypeBool ? tape_.truth(false) : tape_.constant(0));
+  }
+}
+
+Value Execution::run(const Value& input) {
+  std::copy(input.begin(), input.end(), memory_.at(buffer_).begin());
+  call(module_.functions.at(module_.entry), {}, nullptr);
+  return memory_.at(buffer_);
+}
+
+Value Execution::call(const Function& function, const std::vector<uint32_t>& arguments, const Call* caller) {
+  Call call{.function = function};
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    if (caller->pointers.contains(arguments[i]) || globals_.contains(arguments[i]))
+      call.pointers[function.parameters[i]] = pointer(*caller, arguments[i]);
+    else
+      call.values[function.parameters[i]] = value(*caller, arguments[i]);
+  }
+  call.condition = tape_.truth(true);
+  go(call, function.blocks[0].label, call.condition);
+  run_blocks(call, 0, function.blocks.size());
+  Value returned;
+  join(call.returns, returned);
+  return returned;
+}
+
+// Blocks stand in the order in which they are reached, those of a loop between its header and where it ends.
+void Execution::run_blocks(Call& call, size_t first, size_t end) {
+  for (size_t i = first; i < end; ++i) {
+    const Block& block = call.function.blocks[i];
+    if (!call.ways.contains(block.label)) continue;
+    if (block.merge == 0) {
+      run_block(call, block);
+    } else {
+      run_loop(call, i);
+      i = call.function.block_of.at(block.merge) - 1;
+    }
+  }
+}
+
+void Execution::run_loop(Call& call, size_t header) {
+  const Block& block = call.function.blocks[header];
+  const size_t end = call.function.block_of.at(block.merge);
+  for (int turns = 0; call.ways.contains(block.label); ++turns) {
+    if (turns == most_turns)
+      refuse(block.instructions.back(),
+             fmt::format("this loop goes round more than {} times, or as often as p says", most_turns));
+    run_block(call, block);
+    run_blocks(call, header + 1, end);
+  }
+}
+
+void Execution::run_block(Call& call, const Block& block) {
+  const std::vector<Way> ways = std::move(call.ways.at(block.label));
+  call.ways.erase(block.label);
+  Value unused;
+  call.condition = join(ways, unused);
+  call.from.clear();
+  call.conditions.clear();
+  for (const Way& way : ways) {
+    call.from.push_back(way.from);
+    call.conditions.push_back(way.condition);
+  }
+  call.block = block.label;
+  for (const Instruction& instruction : block.instructions) run_instruction(call, instruction);
+}
+
+Value Execution::choose(Term condition, const Value& x, const Value& y) {
+  Value result(x.size());
+  for (size_t i = 0; i < x.size(); ++i) result[i] = tape_.apply(Op::choose, condition, x[i], y[i]);
+  return result;
+}
+
+Term Execution::join(const std::vector<Way>& ways, Value& returned) {
+  if (ways.empty()) return tape_.truth(false);
+  memory_ = ways.back().memory;
+  returned = ways.back().returned;
+  Term condition = ways.back().condition;
+  for (size_t i = ways.size() - 1; i-- > 0;) {
+    const Way& way = ways[i];
+    for (auto& [variable, value] : memory_)
+      if (const auto other = way.memory.find(variable); other != way.memory.end())
+        value = choose(way.condition, other->second, value);
+    returned = choose(way.condition, way.returned, returned);
+    condition = tape_.apply(Op::either, way.condition, condition);
+  }
+  return condition;
+}
+
+void Execution::go(Call& call, uint32_t to, Term condition) {
+  if (tape_.is(condition, 0)) return;
+  call.ways[to].push_back({call.block, condition, memory_, {}});
+}
+
+void Execution::run_instruction(Call& call, const Instruction& instruction) {
+  if (++instructions_ > most_instructions || tape_.steps().size() > most_steps)
+    refuse(instruction, "with all turns of its loops the function is too long");
+  if (run_memory(call, instruction) || run_composite(call, instruction) || run_branch(call, instruction))
+    return;
+
+  // What is left computes.
+  const Type& type = module_.type(instruction.type);
+  std::optional<Value> result;
+  if (instruction.op == spv::OpExtInst) {
+    std::vector<Value> from;
+    for (size_t i = 2; i < instruction.words.size(); ++i) {
+      if (call.pointers.contains(instruction.words[i]))
+        refuse(instruction, "this function is not known here: modf and the like");
+      from.push_back(value(call, instruction.words[i]));
+    }
+    result = glsl_function(tape_, instruction.words[1], from);
+    if (!result) refuse(instruction, "this function is not known here");
+  } else {
+    std::vector<Value> from;
+    for (const uint32_t id : instruction.words) from.push_back(value(call, id));
+    const Type& component = type.members.empty() ? type : module_.type(type.members[0]);
+    result = arithmetic(tape_, instruction.op, from, type.size);
+    if (!result) result = whole_arithmetic(tape_, instruction.op, from, component.is_signed);
+    if (!result)
+      refuse(instruction,
+             component.op == spv::OpTypeInt
+                 ? "a whole number is computed from p"
+                 : fmt::format("instruction {} of SPIR-V is not known here", int(instruction.op)));
+  }
+  call.values[instruction.result] = *result;
+}
+
+const Value& Execution::value(const Call& call, uint32_t id) const {
+  const auto found = call.values.find(id);
+  return found != call.values.end() ? found->second : constants_.at(id);
+}
+const Execution::Pointer& Execution::pointer(const Call& call, uint32_t id) const {
+  const auto found = call.pointers.find(id);
+  return found != call.pointers.end() ? found->second : globals_.at(id);
+}
+
+uint32_t Execution::new_variable(const Type& type) {
+  Value value(type.size, tape_.constant(0));
+  if (type.op == spv::OpTypeBool) value[0] = tape_.truth(false);
+  memory_[++variables_] = value;
+  return variables_;
+}
+
+uint32_t Execution::index(const Call& call, uint32_t id, const Instruction& instruction) const {
+  const Term term = value(call, id)[0];
+  if (!tape_.known(term)) refuse(instruction, "an array's or vector's index is computed from p");
+  return uint32_t(int64_t(tape_.value(term)));
+}
+
+void Execution::refuse(const Instruction& instruction, const std::string& what) const {
+  throw InputError({{Severity::error, instruction.where, what, ""}});
+}
+
+}  // namespace eyeray::derive

@@ -1,0 +1,79 @@
+// Runs a module on terms instead of numbers. Loops are followed as often as they go round, both sides of an
+// if where its condition is no constant, and where paths meet again each variable is chosen by the condition.
+// Private to this layer.
+#pragma once
+
+#include <functional>
+#include <map>
+
+#include "derive/arithmetic.hpp"
+#include "derive/module.hpp"
+
+namespace eyeray::derive {
+
+class Execution {
+ public:
+  Execution(const Module& module, Tape& tape);
+
+  // Runs the entry point, with `input` in the first numbers of the module's buffer, and returns what stands
+  // in the buffer at the end. InputError with the line for what cannot be followed.
+  Value run(const Value& input);
+
+ private:
+  struct Pointer {
+    uint32_t variable = 0;  // in memory
+    uint32_t offset = 0;
+  };
+  using Memory = std::map<uint32_t, Value>;
+
+  // A way on which a block is reached, and whether it is taken.
+  struct Way {
+    uint32_t from;  // block
+    Term condition;
+    Memory memory;
+    Value returned;
+  };
+  struct Call {
+    const Function& function;
+    std::map<uint32_t, Value> values{};
+    std::map<uint32_t, Pointer> pointers{};
+    std::map<uint32_t, std::vector<Way>> ways{};  // that lead to a block not yet run, by its label
+    std::vector<Way> returns{};
+    std::vector<uint32_t> from{};  // blocks on whose ways the current one was reached, with their conditions
+    std::vector<Term> conditions{};
+    Term condition = no_term;
+    uint32_t block = 0;
+  };
+
+  Value call(const Function& function, const std::vector<uint32_t>& arguments, const Call* caller);
+  void run_blocks(Call& call, size_t first, size_t end);
+  void run_loop(Call& call, size_t header);
+  void run_block(Call& call, const Block& block);
+  void run_instruction(Call& call, const Instruction& instruction);
+  bool run_memory(Call& call, const Instruction& instruction);
+  bool run_composite(Call& call, const Instruction& instruction);
+  bool run_branch(Call& call, const Instruction& instruction);
+  void define_constant(const Instruction& instruction);
+
+  // Joins ways into `memory_`, and returns the condition under which any is taken.
+  Term join(const std::vector<Way>& ways, Value& returned);
+  Value choose(Term condition, const Value& x, const Value& y);
+  void go(Call& call, uint32_t to, Term condition);
+
+  const Value& value(const Call& call, uint32_t id) const;
+  const Pointer& pointer(const Call& call, uint32_t id) const;
+  uint32_t new_variable(const Type& type);
+  uint32_t index(const Call& call, uint32_t id, const Instruction& instruction) const;
+  [[noreturn]] void refuse(const Instruction& instruction, const std::string& what) const;
+
+  const Module& module_;
+  Tape& tape_;
+  Memory memory_;
+  std::map<uint32_t, Value> constants_;
+  std::map<uint32_t, Pointer> globals_;
+  uint32_t buffer_ = 0;  // variable
+  uint32_t variables_ = 0;
+  size_t instructions_ = 0;
+};
+
+}  // namespace eyeray::derive

@@ -1,0 +1,65 @@
+// A SPIR-V module as glslang writes it, in the pieces that execution.hpp walks through. Private to this
+// layer.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glslang/SPIRV/spirv.hpp>
+
+#include "core/diagnostic.hpp"
+
+namespace eyeray::derive {
+
+// Numbers lie flat: a vector, matrix, array or struct is the numbers of its members, one after the other.
+struct Type {
+  spv::Op op = spv::OpTypeVoid;
+  uint32_t size = 0;              // numbers; of a pointer 0
+  std::vector<uint32_t> members;  // types; of a pointer what it points to
+  bool is_signed = false;
+
+  uint32_t member_offset(const std::map<uint32_t, Type>& types, uint32_t index) const;
+};
+
+struct Instruction {
+  spv::Op op;
+  uint32_t type = 0, result = 0;  // 0 where there are none
+  std::vector<uint32_t> words{};  // what follows them
+  SourcePosition where;
+};
+
+struct Block {
+  uint32_t label = 0;
+  uint32_t merge = 0;  // of a loop's header, else 0
+  std::vector<Instruction> instructions{};
+};
+
+struct Function {
+  std::vector<uint32_t> parameters;
+  std::vector<Block> blocks;
+  std::map<uint32_t, size_t> block_of;  // by label
+};
+
+struct Module {
+  std::map<uint32_t, Type> types;
+  std::vector<Instruction> constants;  // and variables outside functions, in order
+  std::map<uint32_t, Function> functions;
+  uint32_t entry = 0;
+
+  // InputError for more than this program knows of SPIR-V.
+  explicit Module(std::span<const uint32_t> spirv);
+
+  const Type& type(uint32_t id) const { return types.at(id); }
+  // Of the value or variable that `id` names.
+  const Type& type_of(uint32_t id) const { return types.at(value_types_.at(id)); }
+
+ private:
+  void read_type(spv::Op op, std::span<const uint32_t> words);
+  std::map<uint32_t, uint32_t> value_types_;
+  std::map<uint32_t, uint32_t> lengths_;  // constants that arrays' lengths are
+};
+
+}  // namespace eyeray::derive

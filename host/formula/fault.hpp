@@ -1,0 +1,14 @@
+// What is wrong with a formula's text.
+#pragma once
+
+#include <string>
+
+namespace eyeray::formula {
+
+struct Fault {
+  int line;    // of the text, from 1
+  int column;  // from 1; 0 where unknown
+  std::string message;
+};
+
+}  // namespace eyeray::formula

@@ -1,0 +1,25 @@
+// The words, numbers and signs of a formula's text. Private to this layer.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formula/fault.hpp"
+
+namespace eyeray::formula {
+
+struct Token {
+  enum class Kind { word, integer, decimal, sign };
+  Kind kind;
+  std::string text;  // of a sign one or two characters: + or +=
+  int line;          // from 1
+  int column;        // from 1, in bytes
+
+  bool is(std::string_view what) const { return text == what; }
+};
+
+// Comments are left out. What no token begins with is a fault, and so is the preprocessor.
+std::vector<Token> tokenize(std::string_view text, std::vector<Fault>& faults);
+
+}  // namespace eyeray::formula

@@ -1,0 +1,32 @@
+// The files of formulas of one scene. Private to the loader.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "loader/allowed_folders.hpp"
+#include "scene/diagnostic_log.hpp"
+#include "scene/formula_source.hpp"
+
+namespace eyeray {
+
+class FormulaFiles final : public FormulaSource {
+ public:
+  // Names in `scene` or in one of the other `sources`, which it includes, are relative to the folder of the
+  // file that they stand in; names that stand in no file (an override) are relative to the scene's.
+  FormulaFiles(const AllowedFolders& folders, std::vector<std::filesystem::path> sources, DiagnosticLog& log)
+      : folders_(folders), sources_(std::move(sources)), log_(log) {}
+
+  std::optional<FormulaText> load(const std::string& name, const SourcePosition& position) override;
+
+  // Every file that was to be read, in the order in which they were first named.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+
+ private:
+  const AllowedFolders& folders_;
+  std::vector<std::filesystem::path> sources_;  // the scene first
+  DiagnosticLog& log_;
+  std::vector<std::filesystem::path> files_;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,60 @@
+#include "loader/solid_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace eyeray {
+
+namespace {
+
+// Calls visit(material) for each of the solid's leaves, in the order of its table, until it returns false.
+template <typename Visit>
+bool for_each_material(const Shape& shape, const Visit& visit) {
+  const ShapeForm form = shape.form();
+  const auto* solid = std::get_if<SolidForm>(&form);
+  if (!solid) return visit(shape.material);
+  for (const auto* list : {&solid->operands, &solid->removed})
+    for (const Shape* each : *list)
+      if (!for_each_material(*each, visit)) return false;
+  return true;
+}
+
+}  // namespace
+
+std::string why_no_part(const Section& section) {
+  switch (section.kind) {
+    case Section::Kind::mesh:
+      return "a mesh cannot be part of a solid: nothing says that it encloses a volume";
+    case Section::Kind::group:
+    case Section::Kind::instance:
+      return "a group cannot be part of a solid; what is to be moved as one is a [[solid.solid]]";
+    default:
+      return "";
+  }
+}
+
+Blame why_not_closed(const ShapeType& type) {
+  if (std::ranges::find(type.keys, "open", &Key::name) != type.keys.end())
+    return {"open",
+            fmt::format("a solid is made of closed shapes: a {} that is open encloses nothing", type.name)};
+  return {"material", fmt::format("a solid is made of closed shapes: a {} encloses nothing", type.name)};
+}
+
+std::string why_two_media(const Shape& solid, const std::vector<std::unique_ptr<Material>>& materials) {
+  int first = -1;
+  std::string why;
+  for_each_material(solid, [&](int index) {
+    if (size_t(index) >= materials.size()) return false;  // after an error
+    if (!materials[size_t(index)]->medium() || index == first) return true;
+    if (first >= 0)
+      why = fmt::format(
+          "a solid is filled with one medium, and light passes through its surfaces of \"{}\" and of \"{}\"",
+          materials[size_t(first)]->name, materials[size_t(index)]->name);
+    first = index;
+    return why.empty();
+  });
+  return why;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,146 @@
+#include "render/formula_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "derive/function.hpp"
+#include "formula/formula.hpp"
+#include "gpu/spirv_cache.hpp"
+#include "render/shader_files.hpp"
+
+namespace eyeray {
+namespace {
+
+// Each formula once, with the first shape that it is used by.
+std::vector<const Shape*> users(const Scene& scene) {
+  std::vector<const Shape*> all;
+  for (const auto& shape : scene.shapes) {
+    const FormulaUse* use = shape->formula_use();
+    if (use && std::ranges::none_of(all, [&](const Shape* other) {
+          const FormulaUse& known = *other->formula_use();
+          return known.formula->same(*use->formula) && known.lipschitz == use->lipschitz &&
+                 known.box.min == use->box.min && known.box.max == use->box.max;
+        }))
+      all.push_back(shape.get());
+  }
+  return all;
+}
+
+constexpr std::string_view entry =
+    "#version 450\n#include \"formula.glsl\"\n#include \"constants\"\n#include \"text\"\n"
+    "layout(local_size_x = 1) in;\nlayout(std430, set = 0, binding = 0) buffer Values { vec4 values[]; };\n"
+    "void main() { values[0].w = user_f(vec3(values[0])); }\n";
+
+void compile(const Formula& formula, const DiskCache& cache) {
+  const Formula::Checkable parts = formula.checkable();
+  ShaderFiles embedded({}, "");
+  const auto read = [&](std::string_view name) -> std::optional<std::string> {
+    if (name == "formula.comp") return std::string(entry);
+    if (name == "constants") return parts.constants;
+    if (name == "text") return parts.text;
+    return embedded.read(name);
+  };
+  try {
+    gpu::compile_shader(gpu::read_shader(read, "formula.comp"), "", cache);
+  } catch (const InputError& error) {
+    std::vector<Diagnostic> diagnostics;
+    for (const Diagnostic& diagnostic : error.diagnostics())
+      diagnostics.push_back(formula.in_user_text(diagnostic));
+    throw InputError(std::move(diagnostics));
+  }
+}
+
+struct Steepest {
+  double slope = 0;
+  Vec3 at{0.0};
+};
+
+// Differences over short steps at random points; those that are steeper than any before are looked at more
+// closely.
+Steepest steepest(const FormulaUse& use) {
+  constexpr int points = 20000;
+  const Vec3 extent = (use.box.max - use.box.min) * 0.5, center = (use.box.max + use.box.min) * 0.5;
+  const double step = 1e-4 * std::min({extent.x, extent.y, extent.z});
+  const auto value = [&](const Vec3& p) { return use.formula->value(std::array{p.x, p.y, p.z}); };
+  const auto slope = [&](const Vec3& p) {
+    Vec3 gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 aside(0);
+      aside[axis] = step;
+      gradient[axis] = (value(p + aside) - value(p - aside)) / (2 * step);
+    }
+    const Vec3 along = glm::normalize(gradient) * step;
+    // Only a difference between two points disproves anything: at a crease the gradient is steeper than
+    // either side.
+    const double found = std::fabs(value(p + along) - value(p - along)) / (2 * step);
+    return std::isfinite(found) ? found : 0;
+  };
+  std::mt19937_64 random(1);
+  const auto uniform = [&] { return double(random() >> 11) * 0x1p-52 - 1; };
+  Steepest worst;
+  for (int i = 0; i < points; ++i) {
+    // One half anywhere, the other near the worst so far.
+    const double reach = i % 2 == 0 ? 1 : std::ldexp(1.0, -(i / 2 % 10));
+    Vec3 q = Vec3(uniform(), uniform(), uniform()) * reach;
+    if (i % 2 == 1) q += (worst.at - center) / extent;
+    const Vec3 p = center + extent * glm::clamp(q, -1.0, 1.0);
+    if (const double here = slope(p); here > worst.slope) worst = {here, p};
+  }
+  return worst;
+}
+
+}  // namespace
+
+void compile_formulas(const Scene& scene) {
+  const DiskCache cache = DiskCache::of_user();
+  for (const Shape* shape : users(scene)) {
+    compile(*shape->formula_use()->formula, cache);
+    if (shape->formula_use()->lipschitz == 0) enclose_formula(*shape->formula_use()->formula);
+  }
+}
+
+calculus::StraightLine enclose_formula(const Formula& formula) {
+  try {
+    return derive::read_function(formula.text().text, {"formula", 1, 0}, formula.declarations());
+  } catch (const InputError& error) {
+    std::vector<Diagnostic> diagnostics;
+    for (Diagnostic diagnostic : error.diagnostics()) {
+      diagnostic.message += "; so no interval can be computed for it: declare a `lipschitz`";
+      diagnostics.push_back(formula.in_user_text(diagnostic));
+    }
+    throw InputError(std::move(diagnostics));
+  }
+}
+
+std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene) {
+  std::vector<Diagnostic> warnings;
+  for (const Shape* shape : users(scene)) {
+    const FormulaUse& use = *shape->formula_use();
+    if (use.lipschitz == 0) continue;
+    if (use.formula->text().start.line == 0)
+      continue;  // one of eyeray's own; its manual says what it is good for
+    Steepest found;
+    try {
+      found = steepest(use);
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::no_compiler) continue;
+      throw;
+    }
+    if (found.slope <= use.lipschitz * (1 + 1e-3)) continue;
+    Diagnostic& warning = warnings.emplace_back();
+    warning.severity = Severity::warning;
+    warning.position = shape->position;
+    warning.message = fmt::format(
+        "`lipschitz` is {:.4g}, but the function is as steep as {:.4g} at [{:.4g}, {:.4g}, {:.4g}] in its "
+        "own space: rays may "
+        "pass through the surface",
+        use.lipschitz, found.slope, found.at.x, found.at.y, found.at.z);
+  }
+  return warnings;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,22 @@
+// Where formulas come from that a scene names a file of. Which files may be read, and how, is the loader's
+// business.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/diagnostic.hpp"
+#include "formula/formula.hpp"
+
+namespace eyeray {
+
+class FormulaSource {
+ public:
+  virtual ~FormulaSource() = default;
+
+  // The text of the file that `name` stands for, as it was written at `position`. Nothing, with an error in
+  // the log, where that cannot be had.
+  virtual std::optional<FormulaText> load(const std::string& name, const SourcePosition& position) = 0;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "records/packer.hpp"
+#include "scene/affine.hpp"
+#include "shapes/bezier_clipping.hpp"
+#include "shapes/make.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(A bicubic Bézier patch, Σ Bᵢ(v)·Bⱼ(u)·pᵢⱼ with Bernstein's polynomials B of degree 3: the smooth surface that 16 control points draw towards them. The corners are on
+it, and the edges are the Bézier curves of the outer points. `points` are four rows of four; u runs along a row, v from row to row. Nothing is cut into
+triangles. Open; the normal is that of ∂u × ∂v.
+
+```toml
+[[bezier]]
+points = [
+  [-1, 0, 1], [-0.3, 0.8, 1], [0.3, -0.8, 1], [1, 0, 1],
+  [-1, 0.8, 0.3], [-0.3, 1.6, 0.3], [0.3, 0, 0.3], [1, 0.8, 0.3],
+  [-1, -0.8, -0.3], [-0.3, 0, -0.3], [0.3, -1.6, -0.3], [1, -0.8, -0.3],
+  [-1, 0, -1], [-0.3, 0.8, -1], [0.3, -0.8, -1], [1, 0, -1],
+]
+material = "wall"
+```
+
+Several patches of one table stand in a `batch = { points = [[…], […]] }`; `eyeray generate teapot --patches` writes Newell's 32 so. Edges may be points, as on top of
+the teapot's lid. A patch all of whose points lie on one line is refused. `transform` may be any affine map that can be undone. Each crossing takes √`shadow` from a
+shadow ray, as of a mesh, since closed surfaces are made of many patches.
+
+**uv.** Those of the equation, from 0 to 1: (0, 0) at the first point, (1, 0) at the fourth, (0, 1) at the thirteenth.
+
+**Numeric trap.** Newton's method for u and v fails where a ray grazes: there the two equations are singular, and there may be two roots or none. So a patch is laid out in
+pieces over which its derivatives vary little, each tested as one shape in the tree. A plane through the ray and across a piece cuts it in a curve with u and v that
+are never singular, whose distance from the ray has two roots at most.
+
+**Source.** Martin, Cohen, Fish and Shirley: Practical Ray Tracing of Trimmed NURBS Surfaces, Journal of Graphics Tools 5(1), 2000, for the pieces. The float64 half is
+Nishita, Sederberg and Kakimoto's Bézier clipping.
+)";
+
+constexpr Key keys[] = {
+    {.name = "points",
+     .type = KeyType::vec3_list,
+     .doc = "The 16 control points: four rows of four.",
+     .min = -max_coordinate,
+     .max = max_coordinate},
+};
+
+// Of the largest triangle of control points with the two that are farthest apart, its height over their
+// distance: 0 on a line.
+double thickness(const BezierNet& net) {
+  double longest = 0;
+  Vec3 a(0.0), b(0.0);
+  for (const Vec3& p : net)
+    for (const Vec3& q : net) {
+      if (glm::length(p - q) <= longest) continue;
+      longest = glm::length(p - q);
+      a = p;
+      b = q;
+    }
+  if (longest == 0) return 0;
+  double height = 0;
+  for (const Vec3& p : net) height = std::max(height, glm::length(glm::cross((b - a) / longest, p - a)));
+  return height / longest;
+}
+constexpr double least_thickness = 1e-5;
+
+class Bezier final : public Shape {
+ public:
+  Bezier(const BezierNet& net, bool mirrored) : net_(net), mirrored_(mirrored) {}
+
+  std::optional<Intersection> intersect(const Ray& ray) const override { return clip_bezier(net_, ray); }
+
+  SurfacePoint surface(const Ray&, const Intersection& hit) const override {
+    const BezierPoint at = bezier_point(net_, hit.u, hit.v);
+    SurfacePoint surface;
+    surface.position = at.position;
+    surface.position_error = 0;
+    for (const Vec3& p : net_)
+      surface.position_error = std::max(surface.position_error, 1e-13 * magnitude(p));
+    surface.normal_geometric = normal(at, {hit.u, hit.v}) * (mirrored_ ? -1.0 : 1.0);
+    surface.normal = surface.normal_geometric;
+    surface.uv = {hit.u, hit.v};
+    return surface;
+  }
+
+  Bounds bounds() const override {
+    Bounds bounds;
+    for (const Vec3& p : net_) bounds.include(p);
+    return bounds;
+  }
+
+  ShapeForm form() const override { return BezierForm{net_}; }
+  bool counts_crossings() const override { return true; }
+
+  void pack(Packer& packer) const override {
+    // What all pieces share.
+    Bounds all = bounds();
+    const Vec3 middle = (all.min + all.max) * 0.5;
+    double radius = 0;
+    for (const Vec3& p : net_) radius = std::max(radius, glm::length(p - middle));
+    std::array<float, 48> numbers;
+    for (size_t i = 0; i < 16; ++i) {
+      const Vec3 p = packer.relative(net_[i]);
+      for (int axis = 0; axis < 3; ++axis) numbers[3 * i + size_t(axis)] = float(p[axis]);
+    }
+    std::vector<shader::uvec4> words;
+    for (size_t i = 0; i < 48; i += 4)
+      words.push_back(to_bits({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]}));
+    words.push_back(to_bits(to_vec4(packer.relative(middle), radius)));
+    const uint32_t extra = packer.add_vertices(words);
+
+    for (const BezierPiece& piece : bezier_pieces(net_)) {
+      // A hit may lie as far beyond a border as rounding moves it.
+      const double room = 0x1p-18 * (magnitude(packer.relative(middle)) + radius);
+      const auto& [from, to] = piece.range;
+      packer.add_iterations(2 + 3 * 40);
+      packer.add_steps();
+      packer.add_piece({.head = Packer::head(shader::KIND_bezier, material, extra),
+                        .a = shader::vec4(float(from.x), float(to.x), float(from.y), float(to.y)),
+                        .b = to_vec4(packer.relative(piece.middle), piece.radius + room),
+                        .c = to_vec4(piece.normal, mirrored_ ? -piece.beyond : piece.beyond)},
+                       {piece.bounds.min - room, piece.bounds.max + room});
+    }
+  }
+
+ private:
+  // Where the derivatives are parallel, as where an edge is one point, the normal next to it towards the
+  // middle.
+  Vec3 normal(const BezierPoint& at, const Vec2& uv) const {
+    Vec3 n = glm::cross(at.along_u, at.along_v);
+    const double size = glm::dot(at.along_u, at.along_u) + glm::dot(at.along_v, at.along_v);
+    for (double step = 1e-6; !(glm::dot(n, n) > 1e-18 * size * size) && step < 1; step *= 10) {
+      const BezierPoint near = bezier_point(net_, uv.x + (0.5 - uv.x) * step, uv.y + (0.5 - uv.y) * step);
+      n = glm::cross(near.along_u, near.along_v);
+      if (glm::dot(n, n) > 0) return unit(n);
+    }
+    return glm::dot(n, n) > 0 ? unit(n) : Vec3(0, 0, 1);
+  }
+
+  BezierNet net_;
+  bool mirrored_;
+};
+
+BezierNet transformed(BezierNet net, const Affine& map) {
+  for (Vec3& p : net) p = map.point(p);
+  return net;
+}
+
+std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
+  const std::vector<Vec3> list = table.vec3_list("points");
+  if (table.failed()) return nullptr;
+  if (list.size() != 16) {
+    table.error("points",
+                fmt::format("a Bézier patch needs exactly 16 control points, four rows of four, not {}",
+                            list.size()));
+    return nullptr;
+  }
+  BezierNet net;
+  std::copy(list.begin(), list.end(), net.begin());
+  if (!(thickness(net) >= least_thickness)) {
+    table.error("points", "the patch has no area: its control points lie on one line or in one place");
+    return nullptr;
+  }
+  const BezierNet world = transformed(net, Affine(transform));
+  for (const Vec3& p : world) {
+    if (magnitude(p) <= max_coordinate) continue;
+    table.error("transform", "the transformed control points are out of range (coordinates up to 1e12)");
+    return nullptr;
+  }
+  if (!(thickness(world) >= least_thickness)) {
+    table.error("transform", "the map leaves the patch without area");
+    return nullptr;
+  }
+  return make_bezier(net, transform);
+}
+
+}  // namespace
+
+extern const ShapeType bezier_type{.name = "bezier", .manual = manual, .keys = keys, .parse = parse};
+
+std::unique_ptr<Shape> make_bezier(const std::array<Vec3, 16>& net, const Mat4& transform) {
+  const Affine map(transform);
+  return std::make_unique<Bezier>(transformed(net, map), map.mirrors());
+}
+
+}  // namespace eyeray

@@ -1,0 +1,16 @@
+// Where a ray meets a Bézier patch, in float64. Nishita, Sederberg and Kakimoto: Ray Tracing Trimmed Rational
+// Surface Patches, SIGGRAPH 1990.
+#pragma once
+
+#include <optional>
+
+#include "scene/shape.hpp"
+#include "shapes/bezier_net.hpp"
+
+namespace eyeray {
+
+// The nearest intersection with t > 0, with u and v of it. Borders belong to the patch, and are as wide as
+// float64 rounds.
+std::optional<Intersection> clip_bezier(const BezierNet& net, const Ray& ray);
+
+}  // namespace eyeray

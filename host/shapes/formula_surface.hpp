@@ -1,0 +1,34 @@
+// The surface where a formula is 0, in float64, in the space where its box is the cube from −1 to 1.
+#pragma once
+
+#include <optional>
+
+#include "scene/shape.hpp"
+
+namespace eyeray {
+
+class FormulaSurface {
+ public:
+  // `use` must outlive it.
+  explicit FormulaSurface(const FormulaUse& use);
+
+  double value(const Vec3& q) const;
+  // By differences of the fourth order, steps of 1e-4.
+  Vec3 gradient(const Vec3& q) const;
+  // The first place from `start` to `end` at which the sign is another than at `start`. Between two places no
+  // more than what the values there clear of roots, by the Lipschitz constant, is left out; so none is passed
+  // by, but pairs of roots closer than 1e-8. Where there is no such constant, Chebyshev series take its
+  // place. So that the search ends for any function, so do its steps: then `ran_out`, and there is no change
+  // up to s.
+  struct Change {
+    double s;
+    bool ran_out = false;
+  };
+  std::optional<Change> first_change(const Ray& ray, double start, double end) const;
+
+ private:
+  const FormulaUse& use_;
+  Vec3 center_, extent_;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <cmath>
+
+#include "formula/formula.hpp"
+#include "records/packer.hpp"
+#include "shapes/cube.hpp"
+#include "shapes/formula_surface.hpp"
+#include "shapes/make.hpp"
+#include "shapes/object_shape.hpp"
+#include "shapes/ready_formulas.hpp"
+
+namespace eyeray {
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(All points p between `min` and `max` where a function f(p) is negative, f being GLSL of yours. [implicit-surfaces.md](implicit-surfaces.md) says which GLSL.
+
+```toml
+[[implicit]]
+code = """
+float f(vec3 p) {
+  float bumps = sin(12.0 * p.x) * sin(12.0 * p.y) * sin(12.0 * p.z);
+  return length(p) - radius + 0.02 * bumps;
+}
+"""
+parameters = { radius = 0.9 }
+min = [-1, -1, -1]
+max = [1, 1, 1]
+lipschitz = 1.42
+material = "wall"
+```
+
+The text stands in `code`, in a file of its own, `file = "bumps.glsl"`, or it is a `ready` one. What `parameters` has are constants of the function, by name: a number is a
+`float`, a list of two to four numbers a `vec2` … `vec4`.
+
+`lipschitz` is a bound on how steep f is, anywhere in the box: |f(p) − f(q)| ≤ `lipschitz` · |p − q|. Rays step by |f| / `lipschitz`, so that none ever steps over the surface: too small,
+and there are holes; too large, and it takes long. A function that is a distance has 1. Where a C++ compiler is there, samples are taken when the scene is read, and a bound
+that they disprove is a warning with the point.
+
+**Without `lipschitz`** eyeray works out itself what f may be along each piece of a ray, by interval arithmetic that it derives from your text, and steps over a piece only if f is not
+zero there for certain; normals are f's exact derivatives. For polynomials, and whatever else is smooth, that takes fewer steps (Barth's sextic: 7) and no knowledge:
+
+```toml
+[[implicit]]
+code = """
+float f(vec3 p) {
+  vec3 q = p * p;
+  return dot(q, q - 5.0) + 11.8;
+}
+"""
+min = [-2.4, -2.4, -2.4]
+max = [2.4, 2.4, 2.4]
+material = "wall"
+```
+
+It cannot be derived, and is an error at the line, where a loop goes round as often as p says (or more than 1000 times), and where an index or a whole number is computed from p; loops with a fixed number of turns, also such as
+break off early, are fine. Declare `lipschitz` where f is a distance, where many steps are nested (a Mandelbulb), or where f is not defined or jumps: nothing bounds 1/x around 0 or an angle where it jumps, so pieces get small there.
+
+It is closed: where the inside reaches the box, the box's faces are its caps. With `open = true` they are left out. `transform` may be any affine map that can be undone; it moves
+the surface, its box and the coordinates that f sees.
+
+| `ready` | its parameters, and what they are if they are not given |
+| --- | --- |
+| `metaballs` | `ball1` … `ball4` = [x, y, z, reach]: four balls that flow into each other where their weights, 1 in the middle and 0 at their `reach`, add up to `level` = 0.3 |
+| `gyroid` | a wall of `thickness` = 0.25 about the gyroid sin x cos y + sin y cos z + sin z cos x = `level` = 0 of `period` = 1 |
+| `rounded-box` | `center` = [0, 0, 0], `half_size` = [0.8, 0.6, 0.7] with edges of `radius` = 0.2 |
+| `smooth-union` | `sphere` = [0, 0.35, 0, 0.5] (centre and radius) and a box about `box_center` = [0, -0.4, 0] of `box_half_size` = [0.8, 0.25, 0.6], blended over `blend` = 0.4 |
+| `mandelbulb` | of power 8, after `rounds` = 3 (at most 8); it lies within 1.25 of the origin. Its `lipschitz`, 1.5, is an estimate, which is too low near its poles on the y axis |
+| `height-field` | hills below y = `base` = 0 ± `height` = 0.5, the largest of them `period` = 1 apart; `seed` = 1 |
+
+**uv.** Those of a [box](#box)'s face: of the face itself on a cap, and elsewhere of the face to which the normal points, onto which the texture is
+projected straight.
+
+**Numeric trap.** All is computed in the coordinates of the box: rounding is 10⁻⁷ of its size, so choose it no larger than need be, and near f's own origin. With `lipschitz` the least step of a ray is 10⁻⁵ of half the
+box: walls thinner than that are passed through. Normals are those of `vec3 gradient(vec3 p)`, if the text has that too; else differences over 1/256 of half the box, to the
+fourth order: waves that are much shorter, and edges, look smoother than they are.
+A ray that takes 4096 steps and has not come to an end has run out: its pixel is told (without `lipschitz`, 512 pieces). Without `lipschitz` none of this is so but the last: no change of sign is overlooked but where f is zero up to
+rounding ([numerics](numerics.md#implicit-surfaces-by-enclosures)), and a touch without a change of sign is no surface.
+
+**Source.** Hart: Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit Surfaces, The Visual Computer 12, 1996. Comba, Stolfi: Affine Arithmetic and its Applications to Computer Graphics, SIBGRAPI 1993.
+)";
+
+constexpr Key keys[] = {
+    {.name = "code",
+     .type = KeyType::formula,
+     .doc = "The function, `float f(vec3 p)`, and what it calls.",
+     .optional = true},
+    {.name = "file",
+     .type = KeyType::formula_file,
+     .doc = "The name of a file with it, relative to the scene file that it stands in.",
+     .optional = true},
+    {.name = "ready",
+     .type = KeyType::choice,
+     .doc = "One that comes with eyeray.",
+     .choices = ready_names,
+     .optional = true},
+    {.name = "parameters", .type = KeyType::parameters, .doc = "Constants that it sees.", .optional = true},
+    box_min_key,
+    box_max_key,
+    {.name = "lipschitz",
+     .type = KeyType::number,
+     .doc = "How steep f is at most; a `ready` one knows, and without it f is bounded by intervals.",
+     .min = 0,
+     .above_min = true,
+     .optional = true},
+    box_open_key,
+};
+
+// In the space where the box is the cube.
+class Implicit final : public ObjectShape {
+ public:
+  Implicit(const Mat4& to_world, FormulaUse use, bool open)
+      : ObjectShape(shader::KIND_implicit, to_world, {}, typical_steps), use_(std::move(use)), open_(open) {}
+
+  const FormulaUse* formula_use() const override { return &use_; }
+
+  void pack(Packer& packer) const override {
+    const Vec3 center = (use_.box.max + use_.box.min) * 0.5, extent = (use_.box.max - use_.box.min) * 0.5;
+    pack_with(packer, {float(center.x), float(center.y), float(center.z),
+                       float(packer.add_formula(use_.formula, use_.lipschitz == 0)), float(extent.x),
+                       float(extent.y), float(extent.z), float(use_.lipschitz), open_ ? 1.0f : 0.0f});
+  }
+
+ private:
+  static constexpr double itself = 6;          // Intersection::u, beside the cube's faces
+  static constexpr size_t typical_steps = 96;  // of a ray in the shaders
+
+  // The surface's, and the cube's faces where they are within it.
+  Crossings crossings(const Ray& ray) const override {
+    Crossings all;
+    double from = -HUGE_VAL;
+    while (const auto next = first(ray, from)) {
+      if (next->ran_out) break;
+      all.add(*next);
+      from = next->t;
+    }
+    return all;
+  }
+
+  std::optional<Intersection> first(const Ray& ray, double from) const override {
+    const auto span = cube::span(ray);
+    if (!span || span->out.t <= from) return std::nullopt;
+    const FormulaSurface surface(use_);
+    const bool enters = span->in.t > from;
+    const double start = enters ? span->in.t : from;
+    const bool inside = surface.value(ray.o + ray.d * start) < 0;
+    if (enters && inside && !open_) return Intersection{span->in.t, double(span->in.face), 0};
+    if (const auto root = surface.first_change(ray, start, span->out.t))
+      return Intersection{root->s, itself, 0, root->ran_out};
+    const bool ends_inside = surface.value(ray.o + ray.d * span->out.t) < 0;
+    if (ends_inside && inside && !open_) return Intersection{span->out.t, double(span->out.face), 0};
+    return std::nullopt;
+  }
+
+  Point point(const Vec3& near, const Intersection& hit) const override {
+    if (hit.u != itself) {
+      const int face = int(hit.u);
+      const Vec3 p = cube::onto(face, near);
+      return {p, cube::normal(face), cube::uv(face, p)};
+    }
+    const FormulaSurface surface(use_);
+    Vec3 gradient = surface.gradient(near);
+    if (!(glm::dot(gradient, gradient) > 0 && std::isfinite(glm::dot(gradient, gradient))))
+      gradient = {0, 1, 0};
+    const Vec3 facing = glm::abs(gradient);
+    const int axis = facing.x >= facing.y && facing.x >= facing.z ? 0 : facing.y >= facing.z ? 1 : 2;
+    return {near, gradient, cube::uv(2 * axis + (gradient[axis] < 0 ? 0 : 1), near)};
+  }
+
+  Bounds extent() const override { return {Vec3(-1), Vec3(1)}; }
+
+  FormulaUse use_;
+  bool open_;
+};
+
+// The text and its parameters, from whichever key has them; null after an error.
+std::shared_ptr<const Formula> read_formula(TableReader& table, double& lipschitz) {
+  constexpr std::string_view sources[] = {"code", "file", "ready"};
+  if (const auto given = std::ranges::count_if(sources, [&](auto key) { return table.has(key); });
+      given != 1) {
+    for (const std::string_view key : sources)
+      if (given == 0 || table.has(key)) {
+        table.error(key, given == 0 ? "[[implicit]] needs its function: one of `code`, `file` and `ready`"
+                                    : "[[implicit]] has one function: either `code`, `file` or `ready`");
+        return nullptr;
+      }
+  }
+  std::vector<FormulaParameter> parameters =
+      table.has("parameters") ? table.parameters("parameters") : std::vector<FormulaParameter>();
+  const SourcePosition at = table.position();
+  const std::string title = fmt::format("the function of [[implicit]] at {}:{}", at.file, at.line);
+  if (!table.has("ready")) {
+    const FormulaText text = table.formula(table.has("code") ? "code" : "file");
+    lipschitz = table.has("lipschitz") ? table.number("lipschitz") : 0;
+    try {
+      return std::make_shared<const Formula>(text, std::move(parameters), title);
+    } catch (const InputError& faults) {
+      table.error(faults);
+      return nullptr;
+    }
+  }
+
+  // Lay what is given over the defaults.
+  const ReadyFormula& ready = ready_formulas()[size_t(table.choice("ready"))];
+  std::vector<FormulaParameter> all = ready.parameters;
+  for (FormulaParameter& given : parameters) {
+    const auto known = std::ranges::find(all, given.name, &FormulaParameter::name);
+    if (known == all.end()) {
+      std::vector<std::string_view> names;
+      for (const FormulaParameter& parameter : all) names.push_back(parameter.name);
+      const std::string nearest = nearest_name(given.name, names);
+      table.error("parameters",
+                  fmt::format("\"{}\" has no parameter `{}`{}", ready.name, given.name,
+                              nearest.empty() ? fmt::format("; its parameters are {}", fmt::join(names, ", "))
+                                              : fmt::format("; did you mean `{}`?", nearest)));
+      return nullptr;
+    }
+    if (known->values.size() != given.values.size()) {
+      table.error("parameters",
+                  fmt::format("`{}` must have {} number{}, not {}", given.name, known->values.size(),
+                              known->values.size() == 1 ? "" : "s", given.values.size()));
+      return nullptr;
+    }
+    known->values = given.values;
+  }
+  lipschitz = table.has("lipschitz") ? table.number("lipschitz") : ready.lipschitz(all);
+  if (!std::isfinite(lipschitz) || lipschitz <= 0) {
+    table.error("parameters", fmt::format("with these parameters \"{}\" has no surface", ready.name));
+    return nullptr;
+  }
+  return std::make_shared<const Formula>(
+      FormulaText{std::string(ready.text), {std::string(ready.name), 0, 0}}, std::move(all), title);
+}
+
+std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
+  const Vec3 min = table.vec3("min");
+  const Vec3 max = table.vec3("max");
+  double lipschitz = 1;
+  const auto formula = table.failed() ? nullptr : read_formula(table, lipschitz);
+  if (table.failed()) return nullptr;
+  if (!(min.x < max.x && min.y < max.y && min.z < max.z)) {
+    table.error("max", "the box has no volume: max must be above min in each coordinate");
+    return nullptr;
+  }
+  if (out_of_range(table, transform * cube::placed(min, max))) return nullptr;
+  return make_implicit({formula, {min, max}, lipschitz}, table.boolean("open"), transform);
+}
+
+}  // namespace
+
+extern const ShapeType implicit_type{.name = "implicit", .manual = manual, .keys = keys, .parse = parse};
+
+std::unique_ptr<Shape> make_implicit(FormulaUse use, bool open, const Mat4& transform) {
+  const Mat4 to_world = transform * cube::placed(use.box.min, use.box.max);
+  return std::make_unique<Implicit>(to_world, std::move(use), open);
+}
+
+}  // namespace eyeray

@@ -1,0 +1,26 @@
+// Formulas that come with eyeray; each goes the way of a user's own.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "formula/formula.hpp"
+
+namespace eyeray {
+
+struct ReadyFormula {
+  std::string_view name;
+  std::string_view text;
+  std::vector<FormulaParameter> parameters;  // and their defaults
+  // How steep the formula is at most, with these parameters in the order above; and why.
+  double (*lipschitz)(std::span<const FormulaParameter> parameters);
+};
+
+// In the order of ready_names.
+std::span<const ReadyFormula> ready_formulas();
+
+inline constexpr std::string_view ready_names[] = {"metaballs",    "gyroid",     "rounded-box",
+                                                   "smooth-union", "mandelbulb", "height-field"};
+
+}  // namespace eyeray

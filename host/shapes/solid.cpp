@@ -1,0 +1,307 @@
+#include "shapes/solid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "records/packer.hpp"
+#include "scene/affine.hpp"
+#include "shapes/make.hpp"
+#include "shapes/spans.hpp"
+
+namespace eyeray {
+
+namespace {
+
+uint32_t kind_of(const Shape& shape) {
+  Packer packer(Vec3(0));
+  shape.pack(packer);
+  return eyeray::kind_of(packer.scene.primitives[0]);
+}
+
+std::pair<Vec3, Vec3> center_and_half(const Bounds& bounds) {
+  const Vec3 half = (bounds.max - bounds.min) * 0.5;
+  return {bounds.min + half, half};
+}
+
+bool is_empty(const Bounds& bounds) {
+  return !(bounds.min.x < bounds.max.x && bounds.min.y < bounds.max.y && bounds.min.z < bounds.max.z);
+}
+
+}  // namespace
+
+Solid::Solid(bool all, Shapes operands, Shapes removed)
+    : all_(all), operands_(std::move(operands)), removed_(std::move(removed)) {
+  CHECK(!operands_.empty());
+  std::vector<std::pair<size_t, uint32_t>> origins;  // operand, and the number that the leaf has there
+  std::vector<Leaf> leaves;
+  for (size_t i = 0; i < operand_count(); ++i) {
+    const bool is_removed = i >= operands_.size();
+    CHECK(operand(i).is_closed());
+    const auto* solid = dynamic_cast<const Solid*>(&operand(i));
+    const auto own = solid ? solid->leaves_ : std::vector{Leaf{&operand(i), kind_of(operand(i)), false}};
+    for (Leaf leaf : own) {
+      leaf.removed = leaf.removed != is_removed;
+      leaves.push_back(leaf);
+    }
+    for (uint32_t number = 0; number < own.size(); ++number) origins.emplace_back(i, number);
+    parts_.emplace_back(own.size());
+    const auto [center, half] = center_and_half(operand(i).bounds());
+    balls_.push_back({center, 1.0001 * glm::length(half)});
+  }
+  CHECK_LE(leaves.size(), most_solid_leaves);
+
+  std::vector<size_t> order(leaves.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::stable_sort(order, {}, [&](size_t i) { return leaves[i].kind; });
+  for (uint32_t number = 0; number < order.size(); ++number) {
+    const auto& [from, part] = origins[order[number]];
+    parts_[from][part] = number;
+    leaves_.push_back(leaves[order[number]]);
+  }
+}
+
+std::vector<Span> Solid::spans_of(size_t operand_index, const Ray& ray) const {
+  const auto& [center, radius] = balls_[operand_index];
+  if (glm::length(glm::cross(center - ray.o, ray.d)) > radius * glm::length(ray.d)) return {};
+  std::vector<Span> spans = operand(operand_index).spans(ray);
+  for (Span& span : spans) {
+    span.in.part = parts_[operand_index][span.in.part];
+    span.out.part = parts_[operand_index][span.out.part];
+  }
+  return spans;
+}
+
+std::vector<Span> Solid::spans(const Ray& ray) const {
+  std::vector<Span> spans = spans_of(0, ray);
+  for (size_t i = 1; i < operand_count(); ++i) {
+    const std::vector<Span> other = spans_of(i, ray);
+    spans = i >= operands_.size() ? subtract(spans, other)
+            : all_                ? eyeray::intersect(spans, other)
+                                  : unite(spans, other);
+  }
+  return spans;
+}
+
+std::optional<Intersection> Solid::intersect(const Ray& ray) const {
+  for (const auto& [in, out] : spans(ray)) {
+    if (in.t > 0) return in;
+    if (out.t > 0) return out;
+  }
+  return std::nullopt;
+}
+
+// What is removed shows its surface from within.
+SurfacePoint Solid::surface(const Ray& ray, const Intersection& hit) const {
+  const Leaf& leaf = leaves_[hit.part];
+  SurfacePoint surface = leaf.shape->surface(ray, hit);
+  if (leaf.removed) {
+    surface.normal_geometric = -surface.normal_geometric;
+    surface.normal = -surface.normal;
+  }
+  return surface;
+}
+
+Bounds Solid::bounds() const {
+  Bounds bounds = operands_[0]->bounds();
+  for (const auto& operand : operands_) {
+    const Bounds other = operand->bounds();
+    bounds.min = all_ ? glm::max(bounds.min, other.min) : glm::min(bounds.min, other.min);
+    bounds.max = all_ ? glm::min(bounds.max, other.max) : glm::max(bounds.max, other.max);
+  }
+  return bounds;
+}
+
+ShapeForm Solid::form() const {
+  SolidForm form{all_, {}, {}};
+  for (const auto& shape : operands_) form.operands.push_back(shape.get());
+  for (const auto& shape : removed_) form.removed.push_back(shape.get());
+  return form;
+}
+
+// Takes up what is of the same operation, and is no more than an only operand.
+Solid::Node Solid::node_of(bool all, std::vector<Node> operands) {
+  Node node{false, 0, all, {}};
+  for (Node& operand : operands) {
+    if (!operand.is_leaf && operand.all == all)
+      std::ranges::move(operand.operands, std::back_inserter(node.operands));
+    else
+      node.operands.push_back(std::move(operand));
+  }
+  return node.operands.size() == 1 ? node.operands[0] : node;
+}
+
+Solid::Node Solid::node_of_operand(size_t i, bool complement) const {
+  if (const auto* solid = dynamic_cast<const Solid*>(&operand(i))) {
+    Node node = solid->node(complement);
+    const auto renumber = [&](Node& of, const auto& self) -> void {
+      if (of.is_leaf) of.leaf = parts_[i][of.leaf];
+      for (Node& inner : of.operands) self(inner, self);
+    };
+    renumber(node, renumber);
+    return node;
+  }
+  return {true, parts_[i][0], false, {}};
+}
+
+// By De Morgan: complements stand at leaves, whose own flag says so.
+Solid::Node Solid::node(bool complement) const {
+  std::vector<Node> operands;
+  for (size_t i = 0; i < operands_.size(); ++i) operands.push_back(node_of_operand(i, complement));
+  std::vector<Node> whole{node_of(all_ != complement, std::move(operands))};
+  for (size_t i = operands_.size(); i < operand_count(); ++i)
+    whole.push_back(node_of_operand(i, !complement));
+  return node_of(!complement, std::move(whole));
+}
+
+void Solid::pack(Packer& packer) const {
+  // The nodes, each after those that are its operands.
+  std::vector<shader::uvec4> nodes;
+  const auto add = [&](const Node& node, const auto& self) -> uint32_t {
+    shader::uvec4 record(0, 0, node.all || node.is_leaf ? 1 : 0, 0);
+    for (const Node& operand : node.operands) {
+      if (operand.is_leaf)
+        record.x |= 1u << operand.leaf;
+      else
+        record.y |= 1u << self(operand, self);
+    }
+    if (node.is_leaf) record.x = 1u << node.leaf;
+    nodes.push_back(record);
+    return uint32_t(nodes.size() - 1);
+  };
+  add(node(false), add);
+  CHECK_LT(nodes.size(), most_solid_leaves);
+
+  // The leaves, as records that stand with the vertices.
+  std::vector<shader::uvec4> leaves;
+  uint32_t removed = 0;
+  for (size_t i = 0; i < leaves_.size(); ++i) {
+    leaves_[i].shape->pack(packer);
+    const shader::Primitive leaf = packer.scene.primitives.back();
+    packer.scene.primitives.pop_back();
+    CHECK_EQ(eyeray::kind_of(leaf), leaves_[i].kind);
+    const auto [center, half] = center_and_half(leaves_[i].shape->bounds());
+    leaves.insert(leaves.end(), {leaf.head, to_bits(leaf.a), to_bits(leaf.b), to_bits(leaf.c),
+                                 to_bits(to_vec4(packer.relative(center))), to_bits(to_vec4(half))});
+    removed |= leaves_[i].removed ? 1u << i : 0;
+  }
+  leaves.push_back({0u, ~0u, 0u, 0u});
+  const uint32_t extra =
+      packer.add_vertices({{uint32_t(nodes.size()), removed, uint32_t(leaves_.size()), 0u}});
+  packer.add_vertices(nodes);
+  packer.add_vertices(leaves);
+
+  // Once round all leaves a crossing; most are crossed twice.
+  packer.add_iterations((2 * leaves_.size() + 1) * (leaves_.size() + nodes.size()));
+  const auto [center, half] = center_and_half(bounds());
+  packer.add({.head = Packer::head(shader::KIND_solid, material, extra),
+              .a = to_vec4(packer.relative(center)),
+              .b = to_vec4(half),
+              .c = {}});
+}
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(What closed shapes make together: their union, their intersection, or either without other shapes that are taken away. The shapes stand in the solid's
+table, `[[solid.sphere]]`, `[[solid.box]]` and so on; what is taken away, below `minus`: `[[solid.minus.cylinder]]`. Closed; the normals point out of the solid, also into what
+was taken away.
+
+```toml
+[[solid]]                        # a lens: what is within both balls
+operation = "intersection"
+material = "glass"
+
+[[solid.sphere]]
+center = [0, 1, -0.8]
+radius = 1
+
+[[solid.sphere]]
+center = [0, 1, 0.8]
+radius = 1
+
+[[solid]]                        # a ring: a cylinder without a thinner one
+material = "wall"
+
+[[solid.cylinder]]
+from = [2, 0, 0]
+to = [2, 0.5, 0]
+radius = 0.6
+
+[[solid.minus.cylinder]]
+from = [2, -0.1, 0]              # a little longer than what it is taken from
+to = [2, 0.6, 0]
+radius = 0.4
+material = "floor"               # of the ring's inner side
+```
+
+A solid may be part of another: `[[solid.solid]]`, `[[solid.minus.solid]]`. All may have a `batch` and a `transform`; a solid's moves all that stands in it, by whatever map its parts may have. In no table
+does the order of shapes matter. A part without a `material` has that of the solid around it.
+
+Parts are closed shapes: sphere, box, ellipsoid, capsule, prism, torus, superellipsoid, and cylinder, cone, paraboloid, hyperboloid and quadric unless they are `open`; 32 in one solid, those
+of solids in it included. What encloses nothing is refused, and so are meshes, of which nothing says that they do. A solid is filled with one medium at most: where light passes through
+several of its surfaces, they are of one material.
+
+**uv.** Those of the part whose surface it is.
+
+**Numeric trap.** To start again a little behind each crossing, as is often done, misses thin walls or meets the same surface twice. Here a ray is followed from t = −∞, where it is
+outside of everything, from crossing to crossing, each the same number whoever asks, and what is within what is known by counting alone. Faces of two parts at the same place are told apart by
+rounding: let what is taken away stick out, as above, and what is joined overlap. Where they do come out at exactly the same t, they are crossed at once, nothing thin is
+left, and of two surfaces the part that is first by kind in the order of this page, then by its place in the file, is seen.
+
+**Source.** Roth: Ray Casting for Modeling Solids, Computer Graphics and Image Processing 18, 1982.
+)";
+
+constexpr std::string_view operations[] = {"union", "intersection"};
+constexpr Key keys[] = {
+    {.name = "operation",
+     .type = KeyType::choice,
+     .doc = "What is within any of its parts, or within all of them; those below `minus` are taken from it.",
+     .fallback = "\"union\"",
+     .choices = operations},
+};
+
+size_t count_leaves(const Shape& shape) {
+  const ShapeForm form = shape.form();
+  const auto* solid = std::get_if<SolidForm>(&form);
+  if (!solid) return 1;
+  size_t count = 0;
+  for (const auto* list : {&solid->operands, &solid->removed})
+    for (const Shape* each : *list) count += count_leaves(*each);
+  return count;
+}
+
+std::unique_ptr<Shape> combine(TableReader& table, ShapeType::Shapes operands, ShapeType::Shapes removed) {
+  size_t leaves = 0;
+  for (const auto* list : {&operands, &removed})
+    for (const auto& shape : *list) leaves += count_leaves(*shape);
+  if (operands.empty()) {
+    table.error("operation", "an empty solid: no shape stands in it, such as [[solid.sphere]]");
+  } else if (leaves > most_solid_leaves) {
+    table.error("operation", fmt::format("the solid is made of {} shapes; at most {} are possible", leaves,
+                                         most_solid_leaves));
+  }
+  if (table.failed()) return nullptr;
+  const bool all = operations[size_t(table.choice("operation"))] == "intersection";
+  auto solid = make_solid(all, std::move(operands), std::move(removed));
+  if (is_empty(solid->bounds())) {
+    table.error("operation",
+                "an empty solid: its parts lie beside each other, so none is within all of them");
+    return nullptr;
+  }
+  return solid;
+}
+
+}  // namespace
+
+extern const ShapeType solid_type{.name = "solid", .manual = manual, .keys = keys, .combine = combine};
+
+std::unique_ptr<Shape> make_solid(bool all, std::vector<std::unique_ptr<Shape>> operands,
+                                  std::vector<std::unique_ptr<Shape>> removed) {
+  return std::make_unique<Solid>(all, std::move(operands), std::move(removed));
+}
+
+}  // namespace eyeray

@@ -1,0 +1,15 @@
+// Stretches of one ray's line, and what sets of points make of them: lists of Spans in order, none touching
+// another. Where two crossings are at the same t, what remains of them is that of the lower part.
+#pragma once
+
+#include <vector>
+
+#include "scene/shape.hpp"
+
+namespace eyeray {
+
+std::vector<Span> unite(const std::vector<Span>& a, const std::vector<Span>& b);
+std::vector<Span> intersect(const std::vector<Span>& a, const std::vector<Span>& b);
+std::vector<Span> subtract(const std::vector<Span>& a, const std::vector<Span>& b);
+
+}  // namespace eyeray

@@ -1,0 +1,10 @@
+// Before shader files that a .cpp compiles for itself alone: what they define stays in it. May be included
+// again.
+#undef SHADER_BEGIN
+#undef SHADER_END
+#define SHADER_BEGIN         \
+  namespace eyeray::shader { \
+  namespace {
+#define SHADER_END \
+  }                \
+  }

@@ -1,0 +1,38 @@
+// What the march along a formula (implicit_march.glsl) and the shape have in common.
+#ifndef IMPLICIT_GLSL
+#define IMPLICIT_GLSL
+#include "cube.glsl"
+#include "dual.glsl"
+#include "enclosure_march.glsl"
+#include "formula.glsl"
+
+SHADER_BEGIN
+
+// f ≤ 0 in a box of the user's space, which is the cube from −1 to 1 of object space.
+struct Implicit {
+  vec3 center;  // of the box
+  vec3 extent;  // half its sides
+  float lipschitz;
+  uint formula;
+  bool open;
+};
+
+// What a march comes to.
+#define IMPLICIT_NOTHING 0.0f
+#define IMPLICIT_ENTRY 1.0f  // the cube's face where the ray comes in, a cap
+#define IMPLICIT_EXIT 2.0f   // … and goes out
+#define IMPLICIT_ITSELF 3.0f
+#define IMPLICIT_RAN_OUT 4.0f
+
+// Lengths in the cube.
+#define IMPLICIT_STEPS 4096u
+#define IMPLICIT_REFINEMENTS 40u
+#define IMPLICIT_LEAST_STEP 1.0e-5f
+#define IMPLICIT_WIDTH 1.2e-7f
+#define IMPLICIT_DIFFERENCE 0.00390625f
+#define IMPLICIT_PIECES 512u
+#define IMPLICIT_FINEST 2.5e-7f
+#define IMPLICIT_MOST_CLEARANCE 64.0f
+
+SHADER_END
+#endif

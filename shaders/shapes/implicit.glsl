@@ -1,0 +1,98 @@
+// f ≤ 0 within the cube from −1 to 1 of object space (object_space.glsl), where f is a formula of the scene.
+//   parameters: centre of the box, number of the formula; half its sides, Lipschitz constant; 1 where the cube is no cap
+#ifndef SHAPES_IMPLICIT_GLSL
+#define SHAPES_IMPLICIT_GLSL
+#include "implicit.glsl"
+
+SHADER_BEGIN
+
+#define IMPLICIT_REACH 1.7320508f
+
+Implicit load_implicit(Primitive s) {
+  vec4 center = object_parameters(s);
+  vec4 extent = bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS + 1u));
+  Implicit it;
+  it.center = vec3(center);
+  it.extent = vec3(extent);
+  it.lipschitz = extent.w;
+  it.formula = uint(center.w);
+  it.open = bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS + 2u)).x != 0.0f;
+  return it;
+}
+
+// uv: the axis and the side of the cube's face, or IMPLICIT_ITSELF.
+float implicit_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
+  Implicit it = load_implicit(s);
+  ObjectRay r = object_ray(s, ray, IMPLICIT_REACH);
+  CubeSpan span = cube_span(r);
+  bool from_outside = span.enter > -r.t;
+  float start = maximum(span.enter, -r.t);
+  bool meets = start < span.leave;
+
+  // Each formula has its own march: those that are not meant end at once.
+  vec2 found = vec2(start, IMPLICIT_NOTHING);
+#define MARCH_ALONG(number, name)                                                                                \
+  {                                                                                                              \
+    bool wanted = meets && it.formula == number;                                                                 \
+    vec2 end = name##_march(it, r, start, span.leave, from_outside && !it.open, wanted);                         \
+    found = wanted ? end : found;                                                                                \
+  }
+  FORMULAS(MARCH_ALONG)
+
+  // Where the steps ran out there is nothing up to there.
+  bool ran_out = found.y == IMPLICIT_RAN_OUT;
+  uv = ran_out ? vec2(r.t + found.x, 0.0f) : found.y == IMPLICIT_ITSELF ? vec2(IMPLICIT_ITSELF, 0.0f) : cube_face(span, r, found.y == IMPLICIT_ENTRY);
+  return ran_out ? T_RAN_OUT : found.y == IMPLICIT_NOTHING ? -1.0f : r.t + found.x;
+}
+
+bool implicit_may_hit(Primitive s, Ray ray) { return true; }
+
+void implicit_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
+
+Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
+  Implicit it = load_implicit(s);
+  ObjectRay r = object_ray(s, ray, IMPLICIT_REACH);
+  vec3 p = into_cube(at_hit(r, hit));
+  bool itself = hit.uv.x == IMPLICIT_ITSELF;
+  p = itself ? p : onto_cube(p, hit.uv);
+
+  // Step onto it along the gradient. Where there is none, it is taken to face the ray.
+  vec4 slope = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+#define SLOPE_OF(number, name)                              \
+  {                                                         \
+    bool wanted = itself && it.formula == number;           \
+    vec4 found = name##_slope(it, p, wanted);               \
+    slope = wanted ? found : slope;                         \
+  }
+  FORMULAS(SLOPE_OF)
+  vec3 gradient = vec3(slope);
+  float squared = dot3(gradient, gradient);
+  bool steep = squared > 1.0e-30f && squared < 1.0e30f;
+  vec3 correction = gradient * (slope.w / squared);
+  bool near = steep && dot3(correction, correction) < 1.0e-8f;
+  p = itself && near ? into_cube(p - correction) : p;
+  gradient = !itself ? cube_normal(hit.uv) : steep ? gradient : -r.d;
+
+  // The uv are those of the face that the normal points to.
+  vec3 facing = abs3(gradient);
+  float axis = facing.x >= facing.y && facing.x >= facing.z ? 0.0f : facing.y >= facing.z ? 1.0f : 2.0f;
+  float toward = axis == 0.0f ? gradient.x : axis == 1.0f ? gradient.y : gradient.z;
+  vec2 face = itself ? vec2(axis, toward < 0.0f ? -1.0f : 1.0f) : hit.uv;
+  Surface surface = object_surface(s, p, gradient, cube_uv(p, face));
+
+  // How far f's own rounding reaches nobody knows: try where rays will start.
+  vec3 out_step = into_object(s, surface.normal_geometric) * surface.offset;
+  float factor = 1.0f;
+#define CLEARANCE_OF(number, name)                                       \
+  {                                                                      \
+    bool wanted = itself && it.formula == number;                        \
+    float found = name##_clearance(it, p, out_step, wanted);             \
+    factor = wanted ? found : factor;                                    \
+  }
+  FORMULAS(CLEARANCE_OF)
+  surface.offset = itself ? surface.offset * (factor + 1.0f) : surface.offset;
+  return surface;
+}
+
+SHADER_END
+#endif

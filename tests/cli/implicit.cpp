@@ -1,0 +1,94 @@
+// Formulas that users write, end to end: what is wrong with them, machines without a C++ compiler, functions
+// without an end.
+#include <nlohmann/json.hpp>
+
+#include "scene.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// The small scene with a ball of a formula instead of its sphere.
+class FormulaFolder : public SceneFolder {
+ public:
+  explicit FormulaFolder(const std::string& text, const std::string& more = "lipschitz = 1") {
+    write_text(*this / "f.glsl", text);
+    replace_in_file(scene(), "[[sphere]]\ncenter = [0, 1, 0]\nradius = 1",
+                    "[[implicit]]\nfile = \"f.glsl\"\nmin = [-1, 0, -1]\nmax = [1, 2, 1]\n" + more);
+  }
+};
+
+const std::string ball = "float f(vec3 p) { return distance(p, vec3(0.0, 1.0, 0.0)) - 0.9; }\n";
+const Environment no_compiler{{"PATH", "/nonexistent"}, {"CXX", ""}};
+
+}  // namespace
+
+TEST_CASE("GLSL that does not compile is told at its place in the user's file, by every backend") {
+  const FormulaFolder folder("float f(vec3 p) {\n  float r = missing * 2.0;\n  return length(p) - r;\n}\n");
+  for (const std::string backend : {"gpu", "twin", "reference"}) {
+    const ProcessResult result =
+        run_eyeray({"render", folder.scene(), "--backend", backend, "-o", folder / "a.png", "--quiet"});
+    CAPTURE(result.err);
+    CHECK(result.code == 2);
+    CHECK(result.err.find(folder / "f.glsl" + ":2:13: error: 'missing': undeclared identifier") !=
+          std::string::npos);
+  }
+  CHECK(folder.names() == std::set<std::string>{"f.glsl", "scene.toml"});
+}
+
+TEST_CASE("without a C++ compiler the GPU renders, the CPU says why it cannot, and nothing is verified") {
+  const FormulaFolder folder(ball);
+  CHECK(run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--quiet"}, no_compiler).code == 0);
+  for (const std::string backend : {"twin", "reference"}) {
+    const ProcessResult result = run_eyeray(
+        {"render", folder.scene(), "--backend", backend, "-o", folder / "b.png", "--quiet"}, no_compiler);
+    CAPTURE(result.err);
+    CHECK(result.code == 6);
+    CHECK(result.err.find("there is no C++ compiler: neither $CXX nor c++, g++ or clang++ in $PATH") !=
+          std::string::npos);
+  }
+  const ProcessResult verify = run_eyeray({"verify", folder.scene(), "--quiet"}, no_compiler);
+  CHECK(verify.code == 6);
+  CHECK(verify.out.starts_with("NOT VERIFIED " + folder.scene() + "\n"));
+  CHECK(verify.out.find("PASSED") == std::string::npos);
+  CHECK(folder.names() == std::set<std::string>{"a.png", "f.glsl", "scene.toml"});
+}
+
+TEST_CASE("a function that does not end is a time-out, whoever runs it") {
+  const FormulaFolder folder("float f(vec3 p) {\n  while (p.x < 1e9) p.y += 1.0;\n  return p.y;\n}\n");
+  for (const std::string backend : {"gpu", "twin", "reference"}) {
+    // Without a compiler nothing is sampled before the GPU gets to it.
+    const ProcessResult result =
+        run_eyeray({"render", folder.scene(), "--backend", backend, "-o", folder / "a.png", "--quiet"},
+                   backend == "gpu" ? no_compiler : Environment{});
+    CAPTURE(result.err);
+    CHECK(result.code == 5);
+    CHECK(result.err.find("did not come to an end") != std::string::npos);
+  }
+  CHECK(folder.names() == std::set<std::string>{"f.glsl", "scene.toml"});
+}
+
+TEST_CASE("a function that is not a number is no surface, and no NaN in the picture") {
+  const FormulaFolder folder("float f(vec3 p) { return sqrt(-1.0 - p.x * p.x); }\n");
+  for (const std::string backend : {"gpu", "twin", "reference"}) {
+    const ProcessResult result = run_eyeray(
+        {"render", folder.scene(), "--backend", backend, "-o", folder / (backend + ".pfm"), "--quiet"});
+    CAPTURE(result.err);
+    CHECK(result.code == 0);
+  }
+  CHECK(run_eyeray({"compare", folder / "gpu.pfm", folder / "twin.pfm", "--tolerance", "0"}).code == 0);
+  CHECK(run_eyeray({"compare", folder / "gpu.pfm", folder / "reference.pfm"}).code == 0);
+}
+
+TEST_CASE("samples that disprove a Lipschitz constant are a warning with the place") {
+  const FormulaFolder folder("float f(vec3 p) { return 3.0 * (distance(p, vec3(0.0, 1.0, 0.0)) - 0.9); }\n");
+  const ProcessResult result = run_eyeray({"check", folder.scene()});
+  CHECK(result.code == 0);
+  CHECK(result.err.find("warning: `lipschitz` is 1, but the function is as steep as 3 at [") !=
+        std::string::npos);
+  CHECK(run_eyeray({"check", folder.scene()}).err == result.err);
+  CHECK(run_eyeray({"check", folder.scene()}, no_compiler).err == "");
+}

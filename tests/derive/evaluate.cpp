@@ -1,0 +1,50 @@
+#include "derive/evaluate.hpp"
+
+#include "twin/straight_line.hpp"
+
+#include "twin/local_shaders.hpp"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include "enclosure_march.glsl"
+#pragma GCC diagnostic pop
+
+namespace eyeray::test {
+
+using calculus::Op;
+
+double evaluate(const calculus::StraightLine& line, const Vec3& p) {
+  std::vector<double> values;
+  const auto operand = [&](calculus::Term term) {
+    return term == calculus::no_term ? 0 : values[size_t(term)];
+  };
+  for (const calculus::Step& step : line) {
+    const bool given = step.op == Op::constant || step.op == Op::truth;
+    const bool factor = step.op == Op::scale || step.op == Op::power;
+    values.push_back(step.op == Op::input ? p[int(step.value)]
+                     : given              ? step.value
+                                          : calculus::compute(step.op, operand(step.from[0]),
+                                                 factor ? step.value : operand(step.from[1]),
+                                                              operand(step.from[2])));
+  }
+  return values.back();
+}
+
+shader::vec3 enclose_piece(const calculus::StraightLine& line, const shader::vec3& o, const shader::vec3& d,
+                           float m, float h) {
+  return enclose(line, shader::enclosure_of_coordinate(o.x, d.x, m, h),
+                 shader::enclosure_of_coordinate(o.y, d.y, m, h),
+                 shader::enclosure_of_coordinate(o.z, d.z, m, h));
+}
+
+FirstRoot march(const calculus::StraightLine& line, const shader::vec3& o, const shader::vec3& d, float end,
+                float finest, int most) {
+  shader::March march = shader::march_begin(0, end, finest);
+  int steps = 0;
+  for (; steps < most && !march.over; ++steps)
+    march = shader::march_on(
+        march, enclose_piece(line, o, d, shader::march_middle(march), shader::march_half(march)));
+  return {march.found ? march.root : -1, steps, march.over};
+}
+
+}  // namespace eyeray::test

@@ -1,0 +1,25 @@
+// Straight-line code, run.
+#pragma once
+
+#include "calculus/tape.hpp"
+#include "core/vec.hpp"
+#include "language.h"
+
+namespace eyeray::test {
+
+// In float64.
+double evaluate(const calculus::StraightLine& line, const Vec3& p);
+// Enclosed on the piece o + (m + h·s)·d of a ray.
+shader::vec3 enclose_piece(const calculus::StraightLine& line, const shader::vec3& o, const shader::vec3& d,
+                           float m, float h);
+
+struct FirstRoot {
+  float t;    // -1 where there is none
+  int steps;  // pieces looked at
+  bool over;  // whether that is certain
+};
+// By shaders/enclosure_march.glsl, with `most` pieces at most.
+FirstRoot march(const calculus::StraightLine& line, const shader::vec3& o, const shader::vec3& d, float end,
+                float finest, int most);
+
+}  // namespace eyeray::test

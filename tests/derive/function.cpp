@@ -1,0 +1,134 @@
+// What read_function makes of GLSL, what it refuses, and the text and the gradient made of it.
+#include <cmath>
+#include <fstream>
+
+#include "calculus/emit.hpp"
+#include "derive/evaluate.hpp"
+#include "derive/function.hpp"
+#include "derive/surfaces.hpp"
+#include "gpu/shader_compiler.hpp"
+#include "support/random.hpp"
+#include "twin/straight_line.hpp"
+
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using test::Random;
+
+namespace {
+
+std::string refusal(std::string_view glsl) {
+  try {
+    derive::read_function(glsl, {"f.glsl", 10, 0});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a tape computes what the text says") {
+  for (const test::TestSurface& surface : test::test_surfaces()) {
+    CAPTURE(surface.name);
+    const calculus::StraightLine function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
+    Random random(3);
+    double worst = 0, largest = 0;
+    for (int i = 0; i < 2'000; ++i) {
+      const Vec3 p = random.point(surface.reach);
+      const double value = surface.f(p);
+      if (std::isnan(value)) continue;
+      worst = std::max(worst, std::abs(test::evaluate(function, p) - value));
+      largest = std::max(largest, std::abs(value));
+    }
+    CHECK(worst <= 1e-6 * largest);  // what float32 leaves of constants
+  }
+}
+
+TEST_CASE("the gradient is the derivative") {
+  for (const test::TestSurface& surface : test::test_surfaces()) {
+    CAPTURE(surface.name);
+    const calculus::StraightLine function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
+    Random random(4);
+    int compared = 0;
+    double worst = 0;
+    for (int i = 0; i < 2'000; ++i) {
+      const Vec3 p = Vec3(glm::vec3(random.point(surface.reach)));
+      const double step = 1e-4;
+      Vec3 difference, coarse;
+      for (const int axis : {0, 1, 2}) {
+        Vec3 aside(0);
+        aside[axis] = step;
+        difference[axis] = (surface.f(p + aside) - surface.f(p - aside)) / (2 * step);
+        coarse[axis] = (surface.f(p + 2.0 * aside) - surface.f(p - 2.0 * aside)) / (4 * step);
+      }
+      // Not where the function has an edge nearby.
+      if (!(glm::length(difference - coarse) <= 1e-3 * (1 + glm::length(difference)))) continue;
+      const shader::vec4 dual = differentiate(function, shader::vec3(p));
+      worst = std::max(worst, glm::length(Vec3(dual) - difference) / (1 + glm::length(difference)));
+      ++compared;
+    }
+    CHECK(worst < 2e-3);
+    CHECK(compared > 1'000);
+  }
+}
+
+TEST_CASE("the texts are GLSL") {
+  const gpu::SourceProvider shaders = [](std::string_view path) -> std::optional<std::string> {
+    std::ifstream file("shaders/" + std::string(path));
+    if (!file) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  for (const test::TestSurface& surface : test::test_surfaces()) {
+    CAPTURE(surface.name);
+    const calculus::StraightLine function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
+    const std::string text =
+        "#include \"enclosure_march.glsl\"\n#include \"dual.glsl\"\n"
+        "layout(set = 0, binding = 0) buffer Values { vec4 values[2]; };\n" +
+        calculus::enclosure_text(function, "enclosed") + calculus::gradient_text(function, "gradient") +
+        "void main() { values[0] = gradient(vec3(values[1])); values[1].xyz = enclosed(values[0].xyz, "
+        "values[1].xyz, values[1].xyz); }";
+    const auto provider = [&](std::string_view path) { return path == "all.glsl" ? text : shaders(path); };
+    CHECK_NOTHROW(gpu::compile_shader(gpu::read_shader(provider, "all.glsl"), ""));
+  }
+}
+
+TEST_CASE("loops, calls and branches come down to what they compute") {
+  const auto text = [](std::string_view glsl) {
+    const calculus::StraightLine function = derive::read_function(glsl, {"f.glsl", 1, 0});
+    return calculus::enclosure_text(function, "f");
+  };
+  CHECK(text("float f(vec3 p) { float s = 0.0; for (int i = 0; i < 3; ++i) { if (i == 1) continue; s += "
+             "p[i]; } return s; }") ==
+        "vec3 f(vec3 x, vec3 y, vec3 z) {\n  vec3 v0 = x;\n  vec3 v1 = z;\n  vec3 v2 = enclosure_add(v0, "
+        "v1);\n  return v2;\n}\n");
+  // A branch that is known leaves nothing behind; one that is not chooses; what returns early is not computed
+  // on.
+  CHECK(text("float f(vec3 p) { if (1.0 < 2.0) return p.x; return p.y / 0.0; }") ==
+        "vec3 f(vec3 x, vec3 y, vec3 z) {\n  vec3 v0 = x;\n  return v0;\n}\n");
+  const std::string early = text("float f(vec3 p) { if (p.x < 0.0) return p.y; return p.z; }");
+  CAPTURE(early);
+  CHECK(early.find("uint v4 = enclosure_less(v1, v0);\n") != std::string::npos);
+  CHECK(early.find("enclosure_choose(v4, v2, v3)") != std::string::npos);
+  // A decimal fraction that no float is has its rounding with it.
+  CHECK(text("float f(vec3 p) { return 0.1; }").find("vec3(1.000000015e-01f, 0.0f, 5.96") !=
+        std::string::npos);
+}
+
+TEST_CASE("what cannot be straight-line code is refused, at its line") {
+  CHECK(refusal("float f(vec3 p) {\n  while (p.x > 1.0) p.x *= 0.5;\n  return p.x;\n}") ==
+        "f.glsl:11: error: this loop goes round more than 1000 times, or as often as p says");
+  CHECK(refusal("float f(vec3 p) {\n  int i = int(p.x);\n  return p[i];\n}") ==
+        "f.glsl:11: error: a whole number is computed from p");
+  CHECK(refusal("float f(vec3 p) {\n  int i = p.x < 0.0 ? 1 : 2;\n\n  return p[i];\n}") ==
+        "f.glsl:13: error: an array's or vector's index is computed from p");
+  CHECK(refusal("float f(vec3 p) {\n  float whole;\n  return modf(p.x, whole);\n}") ==
+        "f.glsl:12: error: this function is not known here: modf and the like");
+  CHECK(refusal("float f(vec3 p) {\n  float x = p.x;\n  for (int i = 0; i < 99; ++i)\n    for (int k = 0; k "
+                "< 999; ++k) "
+                "x = sin(x) + p.y;\n  return x;\n}") ==
+        "f.glsl:13: error: with all turns of its loops the function is too long");
+
+  CHECK(refusal("float f(vec3 p) {\n  return length(q);\n}")
+            .starts_with("f.glsl:11:17: error: 'q': undeclared identifier\n"));
+}

@@ -1,0 +1,18 @@
+// Shapes of every kind at random, about as large as asked for.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "scene/shape.hpp"
+#include "support/random.hpp"
+
+namespace eyeray::test {
+
+using MakeShape = std::unique_ptr<Shape> (*)(Random& random, double size);
+
+// By the shapes' names.
+const std::map<std::string, MakeShape>& shape_makers();
+
+}  // namespace eyeray::test

@@ -1,0 +1,73 @@
+#include "scenes.hpp"
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// Over the unit square, of the height that the control points have: x = u, z = v.
+std::array<Vec3, 16> sheet(const std::array<double, 16>& heights) {
+  std::array<Vec3, 16> net;
+  for (size_t i = 0; i < 16; ++i) net[i] = {double(i % 4) / 3, heights[i], double(i / 4) / 3};
+  return net;
+}
+
+// y = u(1 − u), the same at all v: the control points of a parabola, raised by a degree.
+const std::array<Vec3, 16> arch =
+    sheet({0, 1. / 3, 1. / 3, 0, 0, 1. / 3, 1. / 3, 0, 0, 1. / 3, 1. / 3, 0, 0, 1. / 3, 1. / 3, 0});
+
+}  // namespace
+
+TEST_CASE("bezier: a parabolic arch from above, across, twice, along its top, and past it") {
+  const auto patch = make_bezier(arch);
+  const Ray down{{0.25, 5, 0.4}, {0, -1, 0}};
+  const auto hit = patch->intersect(down);
+  REQUIRE(hit.has_value());
+  CHECK(near(hit->t, 5 - 0.1875, 1e-12));
+  const SurfacePoint point = patch->surface(down, *hit);
+  CHECK(near(point.position, Vec3(0.25, 0.1875, 0.4), 1e-12));
+  CHECK(near(Vec3(point.uv, 0), Vec3(0.25, 0.4, 0), 1e-12));
+  // ∂u = (1, 1 − 2u, 0), ∂v = (0, 0, 1).
+  CHECK(near(point.normal_geometric, glm::normalize(Vec3(0.5, -1, 0)), 1e-12));
+
+  // At the height 0.16 the arch is crossed at x = 0.2 and x = 0.8.
+  CHECK(near(distance(*patch, {{-1, 0.16, 0.5}, {1, 0, 0}}), 1.2, 1e-12));
+  CHECK(near(distance(*patch, {{0.5, 0.16, 0.5}, {2, 0, 0}}), 0.15, 1e-12));
+  CHECK(near(distance(*patch, {{-1, 0.2499, 0.5}, {1, 0, 0}}), 1.49, 1e-12));
+  CHECK(distance(*patch, {{-1, 0.2501, 0.5}, {1, 0, 0}}) == -1);
+  CHECK(distance(*patch, {{0.9, 0.16, 0.5}, {1, 0, 0}}) == -1);
+  CHECK(distance(*patch, {{0.25, 5, 1.0001}, {0, -1, 0}}) == -1);
+}
+
+TEST_CASE("bezier: the edge that is one point has the normal next to it") {
+  // A quarter of a cone's mantle would have none; this is flat: all of v = 0 is at the origin.
+  std::array<Vec3, 16> net;
+  for (size_t i = 0; i < 16; ++i) net[i] = Vec3(double(i % 4) / 3, 0, 1) * (double(i / 4) / 3);
+  const auto patch = make_bezier(net);
+  const Ray ray{{0, 2, 0}, {0, -1, 0}};
+  const auto hit = patch->intersect(ray);
+  REQUIRE(hit.has_value());
+  CHECK(near(hit->t, 2, 1e-12));
+  CHECK(near(patch->surface(ray, *hit).normal_geometric, Vec3(0, -1, 0), 1e-9));
+}
+
+TEST_CASE("bezier: what is in front stays in front under a mirror") {
+  const auto patch = make_bezier(arch, glm::scale(Mat4(1.0), Vec3(-2, 1, 1)));
+  const Ray down{{-0.5, 5, 0.4}, {0, -1, 0}};
+  const auto hit = patch->intersect(down);
+  REQUIRE(hit.has_value());
+  CHECK(near(patch->surface(down, *hit).normal_geometric, glm::normalize(Vec3(-0.25, -1, 0)), 1e-12));
+}
+
+TEST_CASE("bezier: light loses the root of a patch's share at each crossing") {
+  Scene scene;
+  add(scene, make_bezier(arch), add(scene, make_dielectric({.shadow = 0.64})));
+  const reference::Tracer tracer(scene);
+  uint32_t flags = 0;
+  CHECK(near(tracer.transmittance({{0.25, 5, 0.4}, {0, -1, 0}}, 9, flags), 0.8, 1e-12));
+  CHECK(near(tracer.transmittance({{-1, 0.16, 0.5}, {1, 0, 0}}, 9, flags), 0.64, 1e-12));
+  CHECK(near(tracer.transmittance({{-1, 0.16, 0.5}, {1, 0, 0}}, 1.5, flags), 0.8, 1e-12));
+  CHECK(tracer.transmittance({{-1, 0.3, 0.5}, {1, 0, 0}}, 9, flags) == 1);
+  CHECK(flags == 0);
+}
