@@ -17,13 +17,13 @@ SHADER_BEGIN
 #define ENCLOSURE_GROW 1.000002f   // what a sum of some eight positive terms may round
 #define ENCLOSURE_TINY 1.0e-36f    // what products lose below the smallest float
 
-// `size`: the sum of the absolute values of all that a and b were computed from; four roundings each are allowed for.
-vec3 enclosure_rounded(float a, float b, float e, float size) {
-  return vec3(a, b, (e + 4.0f * EPSILON * size) * ENCLOSURE_GROW + ENCLOSURE_TINY);
+// `rounded`: the sum of the absolute values of all results that were rounded on the way to a and b, each as often as it was.
+vec3 enclosure_rounded(float a, float b, float e, float rounded) {
+  return vec3(a, b, (e + EPSILON * rounded) * ENCLOSURE_GROW + ENCLOSURE_TINY);
 }
 vec3 enclosure_unbounded() { return vec3(0.0f, 0.0f, ENCLOSURE_UNBOUNDED); }
 vec3 enclosure_between(float lower, float upper) {
-  return enclosure_rounded(0.5f * (lower + upper), 0.0f, 0.5f * (upper - lower), abs(lower) + abs(upper));
+  return enclosure_rounded(0.5f * (lower + upper), 0.0f, 0.5f * (upper - lower), 2.0f * (abs(lower) + abs(upper)));
 }
 
 float enclosure_radius(vec3 x) { return (abs(x.y) + x.z) * ENCLOSURE_GROW + 4.0f * EPSILON * abs(x.x); }
@@ -33,15 +33,18 @@ float enclosure_high(vec3 x) { return x.x + enclosure_radius(x); }
 // The coordinate o + t·d of the piece's points.
 vec3 enclosure_of_coordinate(float o, float d, float m, float h) {
   float way = d * m;
-  return enclosure_rounded(o + way, d * h, 0.0f, abs(o) + abs(way) + abs(d * h));
+  float a = o + way;
+  float b = d * h;
+  return enclosure_rounded(a, b, 0.0f, abs(way) + abs(a) + abs(b));
 }
 
 // The same of center + extent · (o + t·d).
 vec3 enclosure_of_placed(float center, float extent, float o, float d, float m, float h) {
   float way = d * m;
-  float a = extent * (o + way);
+  float aside = extent * (o + way);
+  float a = center + aside;
   float b = extent * (d * h);
-  return enclosure_rounded(center + a, b, 0.0f, abs(center) + abs(extent) * (abs(o) + abs(way)) + abs(b));
+  return enclosure_rounded(a, b, 0.0f, abs(a) + 2.0f * (abs(aside) + abs(b)) + abs(extent * way));
 }
 
 vec3 enclosure_negate(vec3 x) { return vec3(-x.x, -x.y, x.z); }
@@ -54,13 +57,13 @@ vec3 enclosure_subtract(vec3 x, vec3 y) { return enclosure_add(x, enclosure_nega
 vec3 enclosure_scale(vec3 x, float factor) {
   float a = factor * x.x;
   float b = factor * x.y;
-  return enclosure_rounded(a, b, abs(factor) * x.z, abs(a) + abs(b));
+  return enclosure_rounded(a, b, abs(factor) * x.z, 2.0f * (abs(a) + abs(b)));
 }
 // x·factor + shift for |φ(x) − (x·factor + shift)| ≤ e.
 vec3 enclosure_line(vec3 x, float factor, float shift, float e) {
   float a = factor * x.x;
   float b = factor * x.y;
-  return enclosure_rounded(a + shift, b, abs(factor) * x.z + e, abs(a) + abs(b) + abs(shift) + e);
+  return enclosure_rounded(a + shift, b, abs(factor) * x.z + e, 4.0f * (abs(a) + abs(b) + abs(shift) + e));
 }
 
 // s² lies in [0, 1]: half of it goes into a.
@@ -69,12 +72,12 @@ vec3 enclosure_multiply(vec3 x, vec3 y) {
   float size_x = abs(x.x) + abs(x.y);
   float size_y = abs(y.x) + abs(y.y);
   return enclosure_rounded(x.x * y.x + bent, x.x * y.y + x.y * y.x, abs(bent) + x.z * size_y + y.z * (size_x + x.z),
-                           size_x * size_y);
+                           2.0f * (size_x * size_y));
 }
 vec3 enclosure_square(vec3 x) {
   float bent = 0.5f * (x.y * x.y);
   float size = abs(x.x) + abs(x.y);
-  return enclosure_rounded(x.x * x.x + bent, 2.0f * (x.x * x.y), bent + x.z * (2.0f * size + x.z), size * size);
+  return enclosure_rounded(x.x * x.x + bent, 2.0f * (x.x * x.y), bent + x.z * (2.0f * size + x.z), 2.0f * (size * size));
 }
 
 // Between its chord and the tangent parallel to it.
@@ -128,7 +131,7 @@ vec3 enclosure_exponential(vec3 x) {
   float top = enclosure_exp(x.x + radius);
   float middle = enclosure_exp(x.x);
   float bent = 0.25f * top * radius * radius;
-  vec3 y = enclosure_rounded(middle + bent, middle * x.y, middle * x.z + bent, 4.0f * (middle + middle * abs(x.y) + bent));
+  vec3 y = enclosure_rounded(middle + bent, middle * x.y, middle * x.z + bent, 16.0f * (middle + middle * abs(x.y) + bent));
   y = radius > 1.0f ? enclosure_between(0.0f, top * ENCLOSURE_GROW) : y;
   return top < 1.0e30f ? y : enclosure_unbounded();
 }
@@ -140,7 +143,7 @@ vec3 enclosure_logarithm(vec3 x) {
   float bent = 0.25f * ratio * ratio;
   float slope = 1.0f / middle;
   float value = log_positive(middle);
-  vec3 y = enclosure_rounded(value - bent, slope * x.y, slope * x.z + bent, 1.0f + abs(value) + abs(slope * x.y) + 4.0f * bent);
+  vec3 y = enclosure_rounded(value - bent, slope * x.y, slope * x.z + bent, 4.0f * (1.0f + abs(value) + abs(slope * x.y)) + 16.0f * bent);
   return bounded ? y : enclosure_unbounded();
 }
 // x^n for x ≥ 0 and n > 0.
@@ -159,7 +162,7 @@ vec3 enclosure_wave(vec3 x, float value, float slope) {
   float radius = enclosure_radius(x);
   float bent = 0.25f * value * radius * radius;
   float e = abs(slope) * x.z + abs(bent) + radius * radius * radius / 6.0f;
-  vec3 y = enclosure_rounded(value - bent, slope * x.y, e, 2.0f + abs(slope * x.y) + e);
+  vec3 y = enclosure_rounded(value - bent, slope * x.y, e, 8.0f + 4.0f * (abs(slope * x.y) + e));
   return radius < 1.5f && abs(x.x) < 30000.0f && e < 1.0f ? y : vec3(0.0f, 0.0f, 1.0f);
 }
 vec3 enclosure_sine(vec3 x) {
@@ -181,7 +184,7 @@ vec3 enclosure_angle(vec3 y, vec3 x) {
   vec3 tangent = enclosure_multiply(across, enclosure_reciprocal(along));
   float radius = abs(tangent.x) + enclosure_radius(tangent);
   vec3 turned = vec3(tangent.x + atan_yx(y.x, x.x), tangent.y, tangent.z + radius * radius * radius / 3.0f);
-  turned = enclosure_rounded(turned.x, turned.y, turned.z, 4.0f + abs(turned.x) + abs(turned.y));
+  turned = enclosure_rounded(turned.x, turned.y, turned.z, 16.0f + 4.0f * (abs(turned.x) + abs(turned.y)));
   // Where it may jump from π to −π, or nothing is known.
   bool jumps = enclosure_low(x) <= 0.0f && enclosure_low(y) <= 0.0f && enclosure_high(y) >= 0.0f;
   return !jumps && radius < 1.0f && enclosure_low(along) > 0.0f ? turned : vec3(0.0f, 0.0f, 3.1415930f);
@@ -215,7 +218,7 @@ uint enclosure_opposite(uint x) { return x == TRUTH_YES ? TRUTH_NO : x == TRUTH_
 vec3 enclosure_choose(uint condition, vec3 x, vec3 y) {
   float apart = 0.5f * (abs(x.x - y.x) + abs(x.y - y.y));
   vec3 around = enclosure_rounded(0.5f * (x.x + y.x), 0.5f * (x.y + y.y), apart + maximum(x.z, y.z),
-                                  abs(x.x) + abs(x.y) + abs(y.x) + abs(y.y));
+                                  4.0f * (abs(x.x) + abs(x.y) + abs(y.x) + abs(y.y)));
   return condition == TRUTH_YES ? x : condition == TRUTH_NO ? y : around;
 }
 

@@ -1,8 +1,9 @@
 // The first root along a ray, from enclosures of the function (enclosure.glsl): piece after piece, each as long as its enclosure can do
 // with. Whoever marches asks for the function's enclosure on march_middle(march) ± march_half(march) until march.over.
 // A root is where the sign changes. No change is overlooked but within a piece that is passed over, because it is as short as can be or its
-// enclosure no sharper than twice that of a point in it: there the function is zero up to what float32 rounds. If the sign is
-// another after that, the root is taken to be where the first line among them is zero, else in the middle.
+// enclosure hardly sharper than that of a point in it: there the function is zero up to what float32 may round at worst. The sign is then taken
+// from the line, where that is as far off zero as float32 rounds in fact; if it is another than before, the root is where the first line
+// among those pieces is zero, or the last; else in the middle.
 #ifndef ENCLOSURE_MARCH_GLSL
 #define ENCLOSURE_MARCH_GLSL
 #include "enclosure.glsl"
@@ -13,6 +14,8 @@ SHADER_BEGIN
 // where a jump of the function was met instead of rounding little is lost.
 #define MARCH_FIRST_PASS 64.0f
 #define MARCH_LONGEST_PASS 16384.0f
+#define MARCH_BLUNT 1.5f   // e over that of a point: where more is, shorter pieces tell more
+#define MARCH_LIKELY 0.25f // |a| over e: where more is, its sign is the function's
 
 struct March {
   float t;        // up to here the sign is known, but for what was passed over
@@ -72,19 +75,22 @@ March march_on(March march, vec3 f) {
   float left = middle + h * maximum(-1.0f, centre - width);
   float right = middle + h * minimum(1.0f, centre + width);
 
-  // The sign where the piece begins: if it is another than before, the root is behind.
-  bool known = none || centre - width > -1.0f;
-  float sign = f.x < f.y ? -1.0f : 1.0f;
-  bool changed = known && march.sign != 0.0f && sign != march.sign;
   // Shorter pieces tell no more. (A NaN is passed over too.)
-  bool blunt = march.h <= march.finest || (march.noise > 0.0f && !(f.z > 2.0f * march.noise));
+  bool blunt = march.h <= march.finest || (march.noise > 0.0f && !(f.z > MARCH_BLUNT * march.noise));
   bool narrow = crosses && (blunt || right - left <= 16.0f * march.finest);
   bool passes = !none && !narrow && blunt && march.h <= march.pass;
 
-  next.sign = known ? sign : march.sign;
+  // The sign where the piece begins: if it is another than before, the root is behind.
+  bool known = none || centre - width > -1.0f;
+  bool likely = passes && abs(f.x) > MARCH_LIKELY * f.z;
+  float sign = f.x < (known ? f.y : 0.0f) ? -1.0f : 1.0f;
+  bool changed = (known || likely) && march.sign != 0.0f && sign != march.sign;
+
+  next.sign = known || likely ? sign : march.sign;
   next.found = changed || narrow;
   bool guessed = march.root >= march.unknown && march.root <= march.t;
-  float behind = guessed ? march.root : 0.5f * (march.unknown + march.t);
+  float behind = guessed ? march.root
+                 : known ? 0.5f * (march.unknown + march.t) : maximum(march.unknown, minimum(middle + h * centre, middle));
   next.root = changed ? behind : narrow || (passes && !guessed && abs(centre) <= 1.0f) ? middle + h * centre : march.root;
   next.t = none || passes ? middle + march.h : maximum(march.t, left);
   bool sure = march.unknown == march.t;

@@ -28,6 +28,9 @@ struct Implicit {
 #define IMPLICIT_STEPS 4096u
 #define IMPLICIT_REFINEMENTS 40u
 #define IMPLICIT_LEAST_STEP 1.0e-5f
+#define IMPLICIT_MOST_LEAST 32.0f   // of those
+#define IMPLICIT_RELAXED 1.9f       // of 2, where the free ways would just touch
+#define IMPLICIT_MOST_STRETCH 3.0f  // of a free way
 #define IMPLICIT_WIDTH 1.2e-7f
 #define IMPLICIT_DIFFERENCE 0.00390625f
 #define IMPLICIT_PIECES 512u

@@ -13,27 +13,44 @@ vec2 FORMULA_NAME(march)(Implicit it, ObjectRay r, float start, float end, bool 
   vec3 toward = it.extent * r.d;
   float stride = 1.0f / (it.lipschitz * sqrt(dot3(toward, toward)));
   float unit = 1.0f / sqrt(dot3(r.d, r.d));
+  float shortest = IMPLICIT_LEAST_STEP * unit;
 
-  // Step until the sign changes. The least step gets past where f is almost 0; what is thinner than that is not seen.
+  // Step until the sign changes. Nothing is met within |f| over the constant of a place; where the free ways of two places touch, nothing is between them.
+  // So a step may be longer than the free way, as long as that at its far end is expected to touch, by how fast the last two shrank; if it does not, back to
+  // the free way (Bálint and Valasek 2018). The least step gets past where f is almost 0, and grows while it stays so; what is thinner is not seen.
   float s = start;
   float f = 0.0f;
   float before = start;
   float f_before = 0.0f;
+  float free_before = 0.0f;
   bool inside = false;
   bool crosses = false;
   bool caps = false;
   bool going = wanted;
+  bool stretched = false;
+  float least = shortest;
   for (uint i = 0u; i < IMPLICIT_STEPS && going; i++) {
     f = FORMULA_VALUE(it, it.center + it.extent * (r.o + r.d * s));
     bool below = f < 0.0f;
     inside = i == 0u ? below : inside;
-    crosses = below != inside;
     caps = i == 0u && below && at_entry;
-    going = !crosses && !caps && s < end;
-    before = going ? s : before;
-    f_before = going ? f : f_before;
+    float free = abs(f) * stride;
+    float step = s - before;
+    float sure = maximum(least, free_before);
+    bool back = stretched && step > free_before + free;
+    crosses = !back && below != inside;
+    going = !crosses && !caps && (back || s < end);
+
     // Written so that a NaN makes the least step.
-    s = going ? minimum(s + maximum(IMPLICIT_LEAST_STEP * unit, abs(f) * stride), end) : s;
+    least = free < shortest ? minimum(1.05f * least, IMPLICIT_MOST_LEAST * shortest) : shortest;
+    float shrinks = step > 0.0f ? (free_before - free) / step : 1.0f;
+    float stretch = minimum(IMPLICIT_RELAXED / maximum(1.0f + shrinks, 0.5f), IMPLICIT_MOST_STRETCH);
+    stretched = !back && stretch > 1.0f;
+    float next = back ? before + sure : s + maximum(least, free * maximum(1.0f, stretch));
+    before = going && !back ? s : before;
+    f_before = going && !back ? f : f_before;
+    free_before = going && !back ? free : free_before;
+    s = going ? minimum(next, end) : s;
   }
 
   // Narrow it down, by halves and secants in turn.

@@ -60,20 +60,21 @@ void add_first_hit(Probe& probe, const Scene& scene, const FirstHit& hit) {
   for (int c = 0; c < 3; ++c) probe.first_colors = mix(probe.first_colors, std::bit_cast<uint64_t>(color[c]));
 }
 
-// How far off surfaces float32 rays start: of a triangle, 8 ε for each of its three vertices
-// (docs/numerics.md).
+// How far off surfaces, and at most aside, float32 rays start: of a triangle, 8 ε for each of its three
+// vertices (docs/numerics.md).
 constexpr double float32_clearance = 24 * 0x1p-24;
 
 // All samples of pixel (x, y), every ray moved by `shift`.
 Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int y, const Vec2& shift) {
   Probe result;
+  const auto seed = uint32_t(mix(std::bit_cast<uint64_t>(shift.x), std::bit_cast<uint64_t>(shift.y)) >> 32);
   for (int i = 0; i < scene.image.samples; ++i) {
     const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift);
     result.color += sample.color / double(scene.image.samples);
     result.sample_colors.push_back(sample.color);
     for (const bool along_normal : {false, true})
-      result.contact_colors.push_back(
-          renderer.sample(x, y, uint32_t(i), shift, {float32_clearance, along_normal}).color);
+      result.rounded_colors.push_back(
+          renderer.sample(x, y, uint32_t(i), shift, {float32_clearance, along_normal, seed}).color);
     result.hits += sample.hits;
     result.direct = result.direct && sample.hits <= 1;
     const Vec2 place = reference::sample_place(scene.image, scene.render.seed, x, y, uint32_t(i));

@@ -21,6 +21,11 @@ struct Judgement {
 
 constexpr int64_t always_allowed = 4;   // so that a small crop around an edge can pass
 constexpr size_t most_examined = 4096;  // of a gate that has failed already
+// Where a colour runs to and fro, the usual places may all miss its extreme: pixels that they leave
+// unexplained, if these are few, are looked at again at more places.
+constexpr int usual_angles = 16;
+constexpr int many_angles = 256;
+constexpr size_t few = 32;
 
 bool equal(const Vec3& value, const Vec3& reference) {
   return glm::vec3(value) == glm::vec3(reference);
@@ -56,23 +61,9 @@ class Judge {
   // Looks into the pixels that differ, of each gate all of them, or an even choice when they are too many to
   // pass.
   void explain(const Reference& probe) {
-    std::vector<size_t> pixels = choose(colors_);
-    const std::vector<size_t> more = choose(first_hits_);
-    pixels.insert(pixels.end(), more.begin(), more.end());
-    std::sort(pixels.begin(), pixels.end());
-    pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
-
-    parallel_for(0, int(pixels.size()), [&](int n) {
-      const size_t i = pixels[size_t(n)];
-      const WorstPixel p = at(i);
-      const Neighbourhood neighbourhood(probe, p.pixel);
-      if (neighbourhood.explains(p.value, tolerances_))
-        settle(colors_[i], true, neighbourhood.cause_of_color());
-      else
-        settle(colors_[i], neighbourhood.explains_as_contact(p.value, tolerances_), Cause::contact);
-      settle(first_hits_[i], neighbourhood.explains(p.value_hit, tolerances_),
-             neighbourhood.cause_of_first_hit());
-    });
+    look_at(together(choose(colors_), choose(first_hits_)), probe, usual_angles);
+    const std::vector<size_t> left = together(unexplained(colors_), unexplained(first_hits_));
+    if (left.size() <= few) look_at(left, probe, many_angles);
   }
 
   Tally count_colors() const { return tally(colors_); }
@@ -114,8 +105,36 @@ class Judge {
     return chosen;
   }
 
+  static std::vector<size_t> unexplained(const std::vector<Judgement>& judgements) {
+    std::vector<size_t> pixels;
+    for (size_t i = 0; i < judgements.size(); ++i) {
+      if (judgements[i].outcome == Outcome::unexplained) pixels.push_back(i);
+    }
+    return pixels;
+  }
+  static std::vector<size_t> together(std::vector<size_t> pixels, const std::vector<size_t>& more) {
+    pixels.insert(pixels.end(), more.begin(), more.end());
+    std::sort(pixels.begin(), pixels.end());
+    pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+    return pixels;
+  }
+
+  void look_at(const std::vector<size_t>& pixels, const Reference& probe, int angles) {
+    parallel_for(0, int(pixels.size()), [&](int n) {
+      const size_t i = pixels[size_t(n)];
+      const WorstPixel p = at(i);
+      const Neighbourhood neighbourhood(probe, p.pixel, angles);
+      if (neighbourhood.explains(p.value, tolerances_))
+        settle(colors_[i], true, neighbourhood.cause_of_color());
+      else
+        settle(colors_[i], neighbourhood.explains_as_rounding(p.value, tolerances_), Cause::rounding);
+      settle(first_hits_[i], neighbourhood.explains(p.value_hit, tolerances_),
+             neighbourhood.cause_of_first_hit());
+    });
+  }
+
   static void settle(Judgement& judgement, bool explained, Cause cause) {
-    if (judgement.outcome != Outcome::unexamined) return;
+    if (judgement.outcome != Outcome::unexamined && judgement.outcome != Outcome::unexplained) return;
     judgement.outcome = explained ? Outcome::explained : Outcome::unexplained;
     judgement.cause = cause;
   }

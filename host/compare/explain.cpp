@@ -7,8 +7,7 @@ namespace eyeray {
 
 namespace {
 
-constexpr int radii = 4;
-constexpr int angles = 16;
+constexpr int rings = 4;
 constexpr double radius_step = 0.001;  // pixels
 // A rounding error grows from surface to surface: the neighbourhood of a path grows with the surfaces it
 // strikes, to this at most.
@@ -33,19 +32,19 @@ const char* name(Cause cause) {
       return "shadow edge";
     case Cause::grazing:
       return "grazing";
-    case Cause::contact:
-      return "contact";
+    case Cause::rounding:
+      return "rounding";
   }
   return "unknown";
 }
 
-Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel) {
+Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles) {
   probes_.push_back(reference(pixel.x, pixel.y, Vec2(0.0)));
   const double reach = std::min(most_reach, 1 + probes_.front().hits_per_sample / 8);
-  for (int ring = 1; ring <= radii; ++ring) {
+  for (int ring = 1; ring <= rings; ++ring) {
     for (int step = 0; step < angles; ++step) {
-      // Each ring is turned a little, so that 64 directions are looked at, none of them along an axis only.
-      const double angle = 2 * M_PI * (step + (ring - 1.0) / radii) / angles;
+      // Each ring is turned a little, so that no direction is looked at twice.
+      const double angle = 2 * M_PI * (step + (ring - 1.0) / rings) / angles;
       probes_.push_back(
           reference(pixel.x, pixel.y, ring * radius_step * reach * Vec2(std::cos(angle), std::sin(angle))));
     }
@@ -56,11 +55,11 @@ bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) co
   return bounds_hold(value, tolerances, false);
 }
 
-bool Neighbourhood::explains_as_contact(const Vec3& value, const Tolerances& tolerances) const {
-  return !probes_.front().contact_colors.empty() && bounds_hold(value, tolerances, true);
+bool Neighbourhood::explains_as_rounding(const Vec3& value, const Tolerances& tolerances) const {
+  return !probes_.front().rounded_colors.empty() && bounds_hold(value, tolerances, true);
 }
 
-bool Neighbourhood::bounds_hold(const Vec3& value, const Tolerances& tolerances, bool contact) const {
+bool Neighbourhood::bounds_hold(const Vec3& value, const Tolerances& tolerances, bool rounded) const {
   // Each sample may fall on either side of its own edges, whatever the others do: the bounds of the mean are
   // the means of the bounds.
   const size_t samples = std::max(probes_.front().sample_colors.size(), size_t{1});
@@ -73,11 +72,11 @@ bool Neighbourhood::bounds_hold(const Vec3& value, const Tolerances& tolerances,
     for (const Probe& probe : probes_) {
       least = glm::min(least, color(probe, i));
       greatest = glm::max(greatest, color(probe, i));
-      if (!contact) continue;
-      const size_t of_each = probe.contact_colors.size() / samples;
+      if (!rounded) continue;
+      const size_t of_each = probe.rounded_colors.size() / samples;
       for (size_t k = i * of_each; k < (i + 1) * of_each; ++k) {
-        least = glm::min(least, probe.contact_colors[k]);
-        greatest = glm::max(greatest, probe.contact_colors[k]);
+        least = glm::min(least, probe.rounded_colors[k]);
+        greatest = glm::max(greatest, probe.rounded_colors[k]);
       }
     }
     low += least / double(samples);

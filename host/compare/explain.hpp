@@ -1,5 +1,5 @@
-// Why a pixel may differ from the reference: the reference itself jumps there. It is rendered again at 64
-// offsets of 0.001–0.004 pixels, and a value within what those say is explained.
+// Why a pixel may differ from the reference: the reference itself jumps there. It is rendered again at places
+// 0.001–0.004 pixels away, and a value within what those say is explained.
 #pragma once
 
 #include <functional>
@@ -13,9 +13,9 @@ namespace eyeray {
 struct Probe {
   Vec3 color{0.0};                  // the mean of the samples
   std::vector<Vec3> sample_colors;  // of each sample, where there are several
-  // As many of each sample, one after the other, where rays leave surfaces as far off as float32 makes them;
-  // may be empty.
-  std::vector<Vec3> contact_colors;
+  // As many of each sample, one after the other, where rays leave surfaces as far off and aside as float32
+  // may put them; may be empty.
+  std::vector<Vec3> rounded_colors;
   uint64_t hits = 0;  // surfaces struck, all samples together
   double hits_per_sample = 0;
   uint64_t first_surfaces = 0;  // a fingerprint of which primitive each sample's eye ray meets
@@ -32,8 +32,8 @@ enum class Cause {
   texture_edge,       // the surface's own colour jumps
   refraction_branch,  // rays reflected or refracted on the way meet something else
   shadow_edge,        // none of these: it is the light that changes
-  contact,            // a ray that leaves a surface starts so close to another that rounding puts it behind
-  grazing,  // of a first hit alone: the same surface, met at so small an angle that t or the normal races
+  rounding,  // a ray that leaves a surface starts as close to another, or to an edge, as it is rounded
+  grazing,   // of a first hit alone: the same surface, met at so small an angle that t or the normal races
 };
 inline constexpr int cause_count = 6;
 const char* name(Cause cause);
@@ -41,21 +41,23 @@ const char* name(Cause cause);
 // The reference in the neighbourhood of one pixel.
 class Neighbourhood {
  public:
-  Neighbourhood(const Reference& reference, Pixel pixel);
+  // `angles`: how many places on each of four rings.
+  Neighbourhood(const Reference& reference, Pixel pixel, int angles);
 
   // Whether `value` lies within [min, max] of the neighbourhood, each bound widened by the tolerance.
   bool explains(const Vec3& value, const Tolerances& tolerances) const;
   // Whether `value` is a hit of a primitive that the neighbourhood meets, with t and normal within the bounds
   // found there.
   bool explains(const FirstHit& value, const Tolerances& tolerances) const;
-  // The same, of a neighbourhood in which rays also start as far off surfaces as float32 makes them.
-  bool explains_as_contact(const Vec3& value, const Tolerances& tolerances) const;
+  // The same, of a neighbourhood in which rays also start as far off surfaces and aside as float32 may put
+  // them.
+  bool explains_as_rounding(const Vec3& value, const Tolerances& tolerances) const;
   // What changes the colour across the neighbourhood, and what changes the first hit.
   Cause cause_of_color() const;
   Cause cause_of_first_hit() const;
 
  private:
-  bool bounds_hold(const Vec3& value, const Tolerances& tolerances, bool contact) const;
+  bool bounds_hold(const Vec3& value, const Tolerances& tolerances, bool rounded) const;
 
   std::vector<Probe> probes_;
 };

@@ -5,6 +5,7 @@
 
 #include "reference/crossings.hpp"
 #include "reference/light.hpp"
+#include "reference/rng.hpp"
 
 namespace eyeray::reference {
 
@@ -44,11 +45,12 @@ class Tree {
   Vec3 child(const Path& path, const View& view, const Vec3& d, const MediaStack& media, const Vec3& share,
              uint32_t& count);
   Medium medium(const MediaStack& media) const;
-  Ray leave(const SurfacePoint& point, const Vec3& d) const;
+  Ray leave(const SurfacePoint& point, const Vec3& d);
 
   const Tracer& tracer_;
   const Scene& scene_;
   Clearance clearance_;
+  uint32_t departures_ = 0;
 };
 
 // The vacuum where no medium is.
@@ -56,10 +58,18 @@ Medium Tree::medium(const MediaStack& media) const {
   return media.top() < 0 ? Medium{} : *scene_.materials[size_t(media.top())]->medium();
 }
 
-Ray Tree::leave(const SurfacePoint& point, const Vec3& d) const {
+Ray Tree::leave(const SurfacePoint& point, const Vec3& d) {
   const Vec3 from_eye = glm::abs(point.position - scene_.camera.eye);
   const double least = clearance_.share * glm::dot(glm::abs(point.normal_geometric), from_eye);
-  return {departure(point, d, least, clearance_.along_normal), d};
+  Ray ray{departure(point, d, least, clearance_.along_normal), d};
+  if (clearance_.share == 0) return ray;
+
+  Vec3 aside;
+  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(clearance_.seed, departures_, i, 0) - 1;
+  ++departures_;
+  aside -= glm::dot(aside, point.normal_geometric) * point.normal_geometric;
+  ray.o += clearance_.share * glm::length(from_eye) * aside;
+  return ray;
 }
 
 // d of a ray that is bent at the boundary from ior n1 to n2; there is no total reflection.

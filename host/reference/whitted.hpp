@@ -8,10 +8,11 @@
 
 namespace eyeray::reference {
 
-// How rays leave surfaces: at least this far off, and how (tracer.hpp, departure).
+// How rays leave surfaces: at least this far off, and how (tracer.hpp, departure); and up to this far aside.
 struct Clearance {
-  double share = 0;  // of |n|·|position − eye|
+  double share = 0;  // off, of |n|·|position − eye|; aside, of |position − eye|
   bool along_normal = false;
+  uint32_t seed = 0;  // of where aside
 };
 
 // What `ray` (with a unit direction) sees, starting in `media`.

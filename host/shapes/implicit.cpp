@@ -78,7 +78,7 @@ fourth order: waves that are much shorter, and edges, look smoother than they ar
 A ray that takes 4096 steps and has not come to an end has run out: its pixel is told (without `lipschitz`, 512 pieces). Without `lipschitz` none of this is so but the last: no change of sign is overlooked but where f is zero up to
 rounding ([numerics](numerics.md#implicit-surfaces-by-enclosures)), and a touch without a change of sign is no surface.
 
-**Source.** Hart: Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit Surfaces, The Visual Computer 12, 1996. Comba, Stolfi: Affine Arithmetic and its Applications to Computer Graphics, SIBGRAPI 1993.
+**Source.** Hart: Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit Surfaces, The Visual Computer 12, 1996. Comba, Stolfi: Affine Arithmetic and its Applications to Computer Graphics, SIBGRAPI 1993. Bálint, Valasek: Accelerating Sphere Tracing, Eurographics Short Papers 2018.
 )";
 
 constexpr Key keys[] = {

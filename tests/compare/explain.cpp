@@ -19,7 +19,7 @@ Cause cause_of(const Change& change) {
     if (shift.x > 0) change(probe);
     return probe;
   };
-  return Neighbourhood(reference, {48, 30}).cause_of_color();
+  return Neighbourhood(reference, {48, 30}, 16).cause_of_color();
 }
 
 }  // namespace
@@ -38,23 +38,23 @@ TEST_CASE("a cause is the first thing along the ray that changes") {
   CHECK(cause_of([](Probe& p) { p.direct = false; }) == Cause::refraction_branch);
 }
 
-TEST_CASE("what float32's distance from surfaces changes is explained as contact, and not otherwise") {
+TEST_CASE("what float32's rounding of where rays start changes is explained as that, and not otherwise") {
   const auto neighbourhood = [](double near, double far) {
     return Neighbourhood(
         [=](int, int, const Vec2&) {
           Probe probe;
           probe.color = Vec3(near);
           probe.sample_colors = {Vec3(near)};
-          if (far > 0) probe.contact_colors = {Vec3(far)};
+          if (far > 0) probe.rounded_colors = {Vec3(far)};
           return probe;
         },
-        {0, 0});
+        {0, 0}, 16);
   };
   CHECK_FALSE(neighbourhood(0.2, 0.7).explains(Vec3(0.7), {}));
-  CHECK(neighbourhood(0.2, 0.7).explains_as_contact(Vec3(0.7), {}));
-  CHECK(neighbourhood(0.7, 0.2).explains_as_contact(Vec3(0.4), {}));
-  CHECK_FALSE(neighbourhood(0.2, 0.7).explains_as_contact(Vec3(0.8), {}));
-  CHECK_FALSE(neighbourhood(0.2, 0.0).explains_as_contact(Vec3(0.7), {}));
+  CHECK(neighbourhood(0.2, 0.7).explains_as_rounding(Vec3(0.7), {}));
+  CHECK(neighbourhood(0.7, 0.2).explains_as_rounding(Vec3(0.4), {}));
+  CHECK_FALSE(neighbourhood(0.2, 0.7).explains_as_rounding(Vec3(0.8), {}));
+  CHECK_FALSE(neighbourhood(0.2, 0.0).explains_as_rounding(Vec3(0.7), {}));
 }
 
 TEST_CASE("a first hit that differs does so at a silhouette, or on a surface met at a grazing angle") {
@@ -65,7 +65,7 @@ TEST_CASE("a first hit that differs does so at a silhouette, or on a surface met
       if (shift.x > 0) probe.first_hit.primitive = primitive;
       return probe;
     };
-    return Neighbourhood(reference, {48, 30}).cause_of_first_hit();
+    return Neighbourhood(reference, {48, 30}, 16).cause_of_first_hit();
   };
   CHECK(cause(1) == Cause::grazing);
   CHECK(cause(0) == Cause::silhouette);
@@ -79,7 +79,7 @@ TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around,
     shifts.push_back(shift);
     return Probe{};
   };
-  const Neighbourhood neighbourhood(reference, {5, 7});
+  const Neighbourhood neighbourhood(reference, {5, 7}, 16);
   REQUIRE(shifts.size() == 65);
   CHECK(shifts[0] == Vec2(0.0));
   int quadrants[4] = {};
@@ -98,7 +98,7 @@ TEST_CASE("what is explained lies between the neighbours, a tolerance more at ea
     probe.first_hit = {shift.x > 0.002 ? 50.0 : 40.0, {}, {0, 0, 1}, {}, 3, 1};
     return probe;
   };
-  const Neighbourhood neighbourhood(reference, {0, 0});
+  const Neighbourhood neighbourhood(reference, {0, 0}, 16);
   const Tolerances tolerances;
   CHECK(neighbourhood.explains(Vec3(0.45, 10, 0), tolerances));
   CHECK(neighbourhood.explains(Vec3(0.7 + 0.9e-4, 10 + 0.9e-3, 0.9e-4), tolerances));
@@ -152,7 +152,7 @@ TEST_CASE("a neighbourhood is as wide as the rounding of its coordinates") {
     };
     FirstHit hit = picture_reference(48, 30, {0, 0}).first_hit;
     hit.t *= 1.001;
-    return Neighbourhood(reference, {48, 30}).explains(hit, {});
+    return Neighbourhood(reference, {48, 30}, 16).explains(hit, {});
   };
   CHECK(!explained(0));
   CHECK(explained(1e9));

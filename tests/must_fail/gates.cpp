@@ -317,6 +317,25 @@ TEST_CASE("too many explained pixels fail, all of them explained") {
   CHECK(compare_with_reference(value, reference, split, {.max_explained = 0.05}).colors.passes());
 }
 
+TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
+  // Left of a column the picture is twice as bright in a direction that lies between two of the 64.
+  const auto unexplained = [](int columns) {
+    const Reference wedge = [columns](int x, int y, const Vec2& shift) {
+      Probe probe = picture_reference(x, y, shift);
+      const bool meets = std::fabs(std::atan2(shift.y, shift.x) - M_PI / 64) < M_PI / 200;
+      if (x < columns && y == 0 && meets) probe.color *= 2.0;
+      return probe;
+    };
+    Frame gpu = picture_frame();
+    for_each_pixel(gpu, [&, i = 0](float* color, FirstHit&) mutable {
+      if (i++ < columns) color[0] *= 1.9f;
+    });
+    return compare_with_reference(gpu, picture_frame(), wedge).colors.unexplained;
+  };
+  CHECK(unexplained(3) == 0);
+  CHECK(unexplained(40) == 40);
+}
+
 TEST_CASE("what is not looked into fails, even where all that was looked into is explained") {
   // Seventy columns with an edge each: more than are looked into.
   const Reference stripes = [](int x, int y, const Vec2& shift) {
