@@ -90,7 +90,10 @@ double difference(const Met& a, const Met& b, double rounding, double size) {
 
 }  // namespace
 
-TEST_CASE("every kind of shape: kept once it is met where copies are, with their ids, normals and uv") {
+TEST_CASE(
+    "every kind of shape: kept once it is met where copies are, with their ids, normals and uv; by the tree "
+    "as by "
+    "brute force") {
   for (const ShapeType* type : shape_types()) {
     CAPTURE(type->name);
     // Spheres have to stay what they are, in solids too; and normals at a triangle's corners are interpolated
@@ -108,10 +111,13 @@ TEST_CASE("every kind of shape: kept once it is met where copies are, with their
     REQUIRE(once.group_instances.size() == (sheared ? 4 : 3));
 
     const reference::Tracer flat_tracer(flat), once_tracer(once);
-    const PackedScene flat_records = pack(flat), once_records = pack(once);
+    const PackedScene flat_records = pack(flat);
+    const PackedScene once_records = pack(once, {.acceleration = Acceleration::tree});
+    const PackedScene once_brute = pack(once, {.acceleration = Acceleration::brute_force});
+    REQUIRE(once_records.has_tree);
     const Vec3 eye = once.camera.eye;
     Random random(3);
-    int hits = 0, wrong = 0, wrong_shader = 0;
+    int hits = 0, wrong = 0, wrong_shader = 0, wrong_tree = 0;
     for (int i = 0; i < 4000; ++i) {
       const Bounds box = flat.shapes[size_t(random.below(int(flat.shapes.size())))]->bounds();
       const Vec3 target =
@@ -122,14 +128,16 @@ TEST_CASE("every kind of shape: kept once it is met where copies are, with their
       const Met expected = by_reference(flat_tracer, ray);
       hits += expected.primitive >= 0;
       const double off = difference(by_reference(once_tracer, ray), expected, 1e-6, size);
-      const double off_shader =
-          difference(by_twin(once_records, ray, eye), by_twin(flat_records, ray, eye), 1e-3, size);
+      const Met met = by_twin(once_records, ray, eye);
+      const double off_shader = difference(met, by_twin(flat_records, ray, eye), 1e-3, size);
+      wrong_tree += difference(met, by_twin(once_brute, ray, eye), 1, size) != 0;
       wrong += off > 1;
       wrong_shader += off_shader > 1;
     }
     MESSAGE(fmt::format("{}: {} hits; reference {} differ, shaders {}, all where rays graze", type->name,
                         hits, wrong, wrong_shader));
     CHECK(hits > 400);
+    CHECK(wrong_tree == 0);
     CHECK(wrong <= 2);
     CHECK(wrong_shader <= 40);
   }

@@ -25,14 +25,15 @@ endforeach()
 set(EDGES ${SCENES})
 list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
 set(small ${SCENES} -s 96x72)
-list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery")
+list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes")
 eyeray_verify(mode.no-constants mode ${small} --no-constants)
 eyeray_verify(mode.no-constants.edges mode ${EDGES} --no-constants)
 # However hits are found, they are the same. The GPU's profile runs on any device.
 set(searched scenes/meshes.toml scenes/sphereflake.toml scenes/cornell.toml scenes/inside_glass.toml
-  scenes/group_instances.toml -s 96x72)
+  scenes/group_instances.toml scenes/group_shapes.toml -s 96x72)
 eyeray_verify(mode.groups-once mode scenes/groups.toml scenes/group_instances.toml -s 96x72 -D render.groups=instanced)
-eyeray_verify(mode.groups-copied mode scenes/group_instances.toml scenes/forest.toml -s 96x72 -D render.groups=flat)
+eyeray_verify(mode.groups-copied mode scenes/group_instances.toml scenes/group_shapes.toml scenes/forest.toml -s 96x72
+  -D render.groups=flat)
 eyeray_verify(mode.tree mode ${small} --acceleration tree --no-constants)
 eyeray_verify(mode.tree.edges mode ${EDGES} --acceleration tree --no-constants)
 eyeray_verify(mode.brute-force mode ${searched} --acceleration brute-force)
