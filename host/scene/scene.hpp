@@ -86,4 +86,12 @@ struct Scene {
   std::vector<Diagnostic> warnings;
 };
 
+// Calls visit(shape) for each shape as it is kept: the scene's own, then those of its groups.
+template <typename Visit>
+void for_each_shape(const Scene& scene, const Visit& visit) {
+  for (const auto& shape : scene.shapes) visit(*shape);
+  for (const Group& group : scene.groups)
+    for (const auto& shape : group.shapes) visit(*shape);
+}
+
 }  // namespace eyeray
