@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 
 #include "loader/sections.hpp"
 #include "scene/value.hpp"
@@ -34,11 +33,13 @@ double batch_size(const toml::table& table) {
 }
 
 // The tables of a list in a table.
-auto tables(const toml::table& holder, std::string_view name) {
-  static const toml::array none;
+std::vector<const toml::table*> tables(const toml::table& holder, std::string_view name) {
+  std::vector<const toml::table*> found;
   const toml::array* list = holder[name].as_array();
-  return (list ? *list : none) | std::views::filter([](const toml::node& node) { return node.is_table(); }) |
-         std::views::transform([](const toml::node& node) -> const toml::table& { return *node.as_table(); });
+  if (!list) return found;
+  for (const toml::node& node : *list)
+    if (const toml::table* table = node.as_table()) found.push_back(table);
+  return found;
 }
 
 // How many shapes and solids there are in a shape's table, itself, those of a solid and its batch included.
@@ -47,7 +48,7 @@ double count_shapes(const toml::table& table) {
   for (const toml::table* held : {&table, table[minus_key].as_table()}) {
     if (!held) continue;
     for (const std::string_view name : placed_names())
-      for (const toml::table& part : tables(*held, name)) count += count_shapes(part);
+      for (const toml::table* part : tables(*held, name)) count += count_shapes(*part);
   }
   return count * batch_size(table);
 }
@@ -68,7 +69,7 @@ GroupPlan::GroupPlan(const toml::table& root, GroupStorage storage, DiagnosticLo
 
   // A group comes after all that hold it, so that it is known how often it stands.
   scene.shown = 1;
-  for (Node* node : children_first_ | std::views::reverse) choose(*node, storage);
+  for (auto node = children_first_.rbegin(); node != children_first_.rend(); ++node) choose(**node, storage);
   check_counts(scene);
 }
 
@@ -91,7 +92,8 @@ bool GroupPlan::is_pattern(const toml::table& group) {
 }
 
 void GroupPlan::enter_names(const toml::table& root) {
-  for (const toml::table& group : tables(root, "group")) {
+  for (const toml::table* table : tables(root, "group")) {
+    const toml::table& group = *table;
     const auto* name = group["name"].as_string();
     if (name && !name->get().empty()) {
       Node& node = node_of(group);
@@ -110,7 +112,8 @@ void GroupPlan::enter_names(const toml::table& root) {
 void GroupPlan::link(Node& node) {
   for (const std::string_view name : placed_names()) {
     const Section& section = *find_section(name);
-    for (const toml::table& table : tables(*node.table, name)) {
+    for (const toml::table* each : tables(*node.table, name)) {
+      const toml::table& table = *each;
       switch (section.kind) {
         case Section::Kind::instance:
           link_instances(node, table);

@@ -204,3 +204,14 @@ TEST_CASE("named groups that double each time are refused, or kept once where th
   CHECK(scene.shapes.size() + scene.group_instances.size() < 20'000);
   CHECK(says(refused(doubled(40)), "things; at most 2147483647 can be told apart"));
 }
+
+TEST_CASE("what stands in solids counts among what is kept") {
+  const std::string text =
+      "[[group]]\n" + batch(10'000) +
+      "[[group.solid]]\nmaterial = \"wall\"\n[[group.solid.minus.sphere]]\ncenter = [0, 0, 0]\n"
+      "radius = 1\n" +
+      batch(10'000);
+  const std::string said = refused("[render]\ngroups = \"flat\"\n" + text);
+  CHECK_MESSAGE(says(said, "batches and groups come to 100020001 things; at most 67108864 are possible"),
+                said);
+}
