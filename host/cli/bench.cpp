@@ -117,7 +117,7 @@ SceneReport Command::race_on(const std::string& name) const {
   return report;
 }
 
-// A standard scene is written out first, for us and for POV-Ray, and a mesh file for POV-Ray.
+// A standard scene is written out first, for us; any that POV-Ray can have, for POV-Ray.
 Json Command::render_all(const std::string& name) const {
   const StandardScene* const standard = as_standard(name);
   PictureOptions options = pictures;
@@ -130,10 +130,14 @@ Json Command::render_all(const std::string& name) const {
   {
     const Scene scene = load(name);  // gone before anything is measured
     options.primitives = scene.primitive_count();
-    if (options.povray && options.primitives <= most_for_povray && (standard || is_mesh_file(name))) {
-      options.povray_scene = scratch.path() / "scene.pov";
-      write_file_atomically(options.povray_scene, povray_scene(scene, options.width, options.height));
-    }
+    if (options.povray && options.primitives <= most_for_povray) try {
+        const std::string text = povray_scene(scene, options.width, options.height);
+        options.povray_scene = scratch.path() / "scene.pov";
+        write_file_atomically(options.povray_scene, text);
+      } catch (const Error& error) {
+        if (error.code() != ExitCode::bad_input) throw;
+        fmt::print(stderr, "eyeray: {}: without POV-Ray: {}\n", name, error.what());
+      }
   }
   return measure_pictures(name, file, options, !json);
 }

@@ -23,14 +23,15 @@ bool worth_repeating(const Series& series) {
   return series.runs.empty() || series.runs.front().seconds.front().second < longest_repeated_seconds;
 }
 
-// The same scene as POV-Ray reads it: whitted.pov beside whitted.toml or in a bench folder next to its own.
+// The same scene as POV-Ray reads it: whitted.pov beside whitted.toml or in a bench folder next to its own,
+// or what was written out.
 std::optional<fs::path> povray_scene(const fs::path& scene, const PictureOptions& options) {
   if (!options.povray || !have_povray()) return std::nullopt;
-  if (!options.povray_scene.empty()) return options.povray_scene;
   const fs::path name = scene.filename().replace_extension(".pov");
   for (const fs::path& folder : {scene.parent_path(), scene.parent_path() / ".." / "bench"}) {
     if (fs::exists(folder / name)) return folder / name;
   }
+  if (!options.povray_scene.empty()) return options.povray_scene;
   return std::nullopt;
 }
 

@@ -18,7 +18,7 @@ struct PictureOptions {
   int samples = 1;
   int runs = 5;
   bool povray = true;                  // where it is installed, and the scene is there as .pov too
-  std::filesystem::path povray_scene;  // empty: looked for beside the scene
+  std::filesystem::path povray_scene;  // where none is beside the scene; may be empty
   bool start = true;                   // also cold and warm starts
   uint64_t primitives = 0;             // of the scene, to say what memory each takes; 0: not said
 };

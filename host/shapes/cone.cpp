@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "records/records.hpp"
+#include "shapes/keys.hpp"
 #include "shapes/make.hpp"
 #include "shapes/revolution.hpp"
 

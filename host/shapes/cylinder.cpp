@@ -1,4 +1,5 @@
 #include "records/records.hpp"
+#include "shapes/keys.hpp"
 #include "shapes/make.hpp"
 #include "shapes/revolution.hpp"
 

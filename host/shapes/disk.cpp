@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "records/records.hpp"
+#include "shapes/keys.hpp"
 #include "shapes/make.hpp"
 #include "shapes/object_shape.hpp"
 
@@ -33,11 +34,7 @@ hit is put back onto the plane. A parallel ray is one that never reaches it; no 
 )";
 
 constexpr Key keys[] = {
-    {.name = "center",
-     .type = KeyType::vec3,
-     .doc = "Centre.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
+    center_key,
     {.name = "normal", .type = KeyType::vec3, .doc = "Direction across it, of any length but 0."},
     {.name = "radius",
      .type = KeyType::number,

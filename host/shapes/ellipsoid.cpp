@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "records/records.hpp"
+#include "shapes/keys.hpp"
 #include "shapes/make.hpp"
 #include "shapes/object_shape.hpp"
 
@@ -31,16 +32,8 @@ chapter 7, 2019.
 )";
 
 constexpr Key keys[] = {
-    {.name = "center",
-     .type = KeyType::vec3,
-     .doc = "Centre.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
-    {.name = "radii",
-     .type = KeyType::vec3,
-     .doc = "Half the extents along x, y and z.",
-     .min = min_radius,
-     .max = max_coordinate},
+    center_key,
+    radii_key,
 };
 
 // The unit sphere.

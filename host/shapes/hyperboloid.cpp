@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "records/records.hpp"
+#include "shapes/keys.hpp"
 #include "shapes/make.hpp"
 #include "shapes/revolution.hpp"
 

@@ -5,6 +5,7 @@
 #include "records/packer.hpp"
 #include "shapes/cube.hpp"
 #include "shapes/formula_surface.hpp"
+#include "shapes/keys.hpp"
 #include "shapes/make.hpp"
 #include "shapes/object_shape.hpp"
 #include "shapes/ready_formulas.hpp"
@@ -66,7 +67,7 @@ the surface, its box and the coordinates that f sees.
 | `gyroid` | a wall of `thickness` = 0.25 about the gyroid sin x cos y + sin y cos z + sin z cos x = `level` = 0 of `period` = 1 |
 | `rounded-box` | `center` = [0, 0, 0], `half_size` = [0.8, 0.6, 0.7] with edges of `radius` = 0.2 |
 | `smooth-union` | `sphere` = [0, 0.35, 0, 0.5] (centre and radius) and a box about `box_center` = [0, -0.4, 0] of `box_half_size` = [0.8, 0.25, 0.6], blended over `blend` = 0.4 |
-| `mandelbulb` | of power 8, after `rounds` = 3 (at most 8); it lies within 1.25 of the origin. Its `lipschitz`, 1.5, is an estimate, which is too low near its poles on the y axis |
+| `mandelbulb` | of power 8, after `rounds` = 3 (at most 8); it lies within 1.25 of the origin. Its `lipschitz`, 1.5, is the usual estimate and no bound: of four million points of the box f is steeper at 0.5 %, by up to 79 (0.04 % and 6 after 2 rounds). Pictures of it look right; `verify` finds pixels that differ |
 | `height-field` | hills below y = `base` = 0 ± `height` = 0.5, the largest of them `period` = 1 apart; `seed` = 1 |
 
 **uv.** Those of a [box](#box)'s face: of the face itself on a cap, and elsewhere of the face to which the normal points, onto which the texture is

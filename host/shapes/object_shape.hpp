@@ -62,34 +62,6 @@ class ObjectShape : public Shape {
   size_t steps_;
 };
 
-// The keys of shapes with an axis.
-inline constexpr Key axis_from_key = {.name = "from",
-                                      .type = KeyType::vec3,
-                                      .doc = "Where the axis begins.",
-                                      .min = -max_coordinate,
-                                      .max = max_coordinate};
-inline constexpr Key axis_to_key = {.name = "to",
-                                    .type = KeyType::vec3,
-                                    .doc = "Where it ends.",
-                                    .min = -max_coordinate,
-                                    .max = max_coordinate};
-
-// The keys of shapes in a box.
-inline constexpr Key box_min_key = {.name = "min",
-                                    .type = KeyType::vec3,
-                                    .doc = "The corner of the box with the least coordinates.",
-                                    .min = -max_coordinate,
-                                    .max = max_coordinate};
-inline constexpr Key box_max_key = {.name = "max",
-                                    .type = KeyType::vec3,
-                                    .doc = "The corner with the greatest.",
-                                    .min = -max_coordinate,
-                                    .max = max_coordinate};
-inline constexpr Key box_open_key = {.name = "open",
-                                     .type = KeyType::boolean,
-                                     .doc = "Whether the box's faces are left out.",
-                                     .fallback = "false"};
-
 // The map under which y = low … high on the axis of object space comes to stand from `from` to `to`, and
 // whose other two axes are `radius` long and perpendicular to it. The first of them, where u = ½, is as near
 // to the world's +x as can be; if the axis is parallel to that, to +z.

@@ -3,6 +3,7 @@
 
 #include "records/records.hpp"
 #include "shapes/cube.hpp"
+#include "shapes/keys.hpp"
 #include "shapes/make.hpp"
 #include "shapes/object_shape.hpp"
 

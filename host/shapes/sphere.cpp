@@ -3,6 +3,7 @@
 
 #include "records/packer.hpp"
 #include "scene/affine.hpp"
+#include "shapes/keys.hpp"
 #include "shapes/make.hpp"
 
 namespace eyeray {
@@ -35,11 +36,7 @@ chapter 7, 2019.
 )";
 
 constexpr Key keys[] = {
-    {.name = "center",
-     .type = KeyType::vec3,
-     .doc = "Centre.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
+    center_key,
     {.name = "radius",
      .type = KeyType::number,
      .doc = "Distance of the surface from the centre.",

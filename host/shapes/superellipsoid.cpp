@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "records/records.hpp"
+#include "shapes/keys.hpp"
 #include "shapes/make.hpp"
 #include "shapes/object_shape.hpp"
 
@@ -38,16 +39,8 @@ convex along a ray, so that Newton's method finds the way in from outside and th
 )";
 
 constexpr Key keys[] = {
-    {.name = "center",
-     .type = KeyType::vec3,
-     .doc = "The middle.",
-     .min = -max_coordinate,
-     .max = max_coordinate},
-    {.name = "radii",
-     .type = KeyType::vec3,
-     .doc = "How far it reaches from there along x, y and z.",
-     .min = min_radius,
-     .max = max_coordinate},
+    center_key,
+    radii_key,
     {.name = "e",
      .type = KeyType::number,
      .doc = "Exponent about the y axis.",

@@ -82,6 +82,25 @@ TEST_CASE("rays are raced beside Embree, plotted, and compared with an older run
   CHECK(run_eyeray({"bench", "-s", "70000x1"}).code == 2);
 }
 
+TEST_CASE("any scene is written out for POV-Ray, or it is said why not") {
+  const auto names_of = [](const char* scene, std::string& err) {
+    const ProcessResult run = run_eyeray({"bench", scene, "-n", "1", "-s", "32x24", "--no-rays", "--no-start",
+                                          "--backends", "twin", "--json"});
+    err = run.err;
+    REQUIRE(run.code == 0);
+    const auto answer = nlohmann::json::parse(run.out);
+    std::vector<std::string> names;
+    for (const auto& series : answer.at("bench").at(0).at("series")) names.push_back(series.at("name"));
+    return names;
+  };
+  const bool povray = std::system("povray --version > /dev/null 2>&1") == 0;
+  std::string err;
+  CHECK(names_of("scenes/shapes/bezier.toml", err).size() == (povray ? 2 : 1));
+  CHECK(err.find("POV-Ray") == std::string::npos);
+  CHECK(names_of("scenes/shapes/torus.toml", err) == std::vector<std::string>{"twin"});
+  CHECK(err.find("torus.toml: without POV-Ray: ") != std::string::npos);
+}
+
 TEST_CASE("a mesh from its file to a picture, beside POV-Ray and an older run") {
   const SceneFolder folder;
   const auto run = [&](std::vector<std::string> more) {

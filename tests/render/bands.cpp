@@ -1,6 +1,7 @@
 // Pictures that are rendered a band of rows at a time.
 #include "fake_executor.hpp"
 #include "loader/scene_file.hpp"
+#include "support/ball_over_floor.hpp"
 //
 #include "support/doctest.hpp"
 
@@ -9,39 +10,8 @@ using namespace eyeray::test;
 
 namespace {
 
-const char* glass_over_floor = R"(
-[image]
-width = 37
-height = 29
-samples = 4
-pattern = "jittered"
-[camera]
-eye = [0, 1, 6]
-target = [0, 0.6, 0]
-[render]
-ambient = 0.2
-background = [0.2, 0.4, 0.7]
-[[light]]
-type = "point"
-position = [3, 6, 4]
-intensity = 30
-[[material]]
-name = "floor"
-type = "phong"
-diffuse = { checker = { even = 0.9, odd = [0.3, 0.1, 0.1], size = 0.7 } }
-[[material]]
-name = "glass"
-type = "dielectric"
-ior = 1.5
-[[plane]]
-point = [0, 0, 0]
-normal = [0, 1, 0]
-material = "floor"
-[[sphere]]
-center = [0.3, 1, 0]
-radius = 1
-material = "glass"
-)";
+const std::string glass_over_floor = ball_over_floor(
+    "width = 37\nheight = 29\nsamples = 4\npattern = \"jittered\"", "type = \"dielectric\"\nior = 1.5");
 
 RenderOptions in_bands(const Scene& scene, int rows, Rect crop = {}) {
   RenderOptions options;

@@ -4,6 +4,7 @@
 
 #include "frames.hpp"
 #include "loader/scene_file.hpp"
+#include "support/ball_over_floor.hpp"
 //
 #include "support/doctest.hpp"
 
@@ -52,38 +53,9 @@ Scene wide_scene() {
   return scene;
 }
 
-const char* mirror_over_floor = R"(
-[image]
-width = 40
-height = 30
-[camera]
-eye = [0, 1, 6]
-target = [0, 0.6, 0]
-[render]
-ambient = 0.2
-background = [0.2, 0.4, 0.7]
-[[light]]
-type = "point"
-position = [3, 6, 4]
-intensity = 30
-[[material]]
-name = "floor"
-type = "phong"
-diffuse = { checker = { even = 0.9, odd = [0.3, 0.1, 0.1], size = 0.7 } }
-[[material]]
-name = "mirror"
-type = "mirror"
-[[plane]]
-point = [0, 0, 0]
-normal = [0, 1, 0]
-material = "floor"
-[[sphere]]
-center = [0.3, 1, 0]
-radius = 1
-material = "mirror"
-)";
+const std::string mirror_over_floor = ball_over_floor("width = 40\nheight = 30", "type = \"mirror\"");
 
-Scene parse(const char* text, std::initializer_list<const char*> changes) {
+Scene parse(const std::string& text, std::initializer_list<const char*> changes) {
   std::vector<Override> overrides;
   for (const char* change : changes) overrides.push_back({change});
   return parse_scene(text, "scene.toml", overrides);
