@@ -123,6 +123,8 @@ class Shape {
   // Whether shadow rays are weakened by each of its crossings, √(the material's share), as by a mesh's
   // triangles, and not once in all: of an open shape that may be part of a closed surface.
   virtual bool counts_crossings() const { return false; }
+  // How often a line crosses it at most, as far as that is known. Rounding may find more.
+  virtual int most_crossings() const { return 1 << 20; }
   // Appends the shape's one Primitive (and what it refers to), or several, each with its bounds.
   virtual void pack(Packer& packer) const = 0;
 

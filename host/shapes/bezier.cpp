@@ -32,11 +32,12 @@ Several patches of one table stand in a `batch = { points = [[…], […]] }`; `
 the teapot's lid. A patch all of whose points lie on one line is refused. `transform` may be any affine map that can be undone. Each crossing takes √`shadow` from a
 shadow ray, as of a mesh, since closed surfaces are made of many patches.
 
-**uv.** Those of the equation, from 0 to 1: (0, 0) at the first point, (1, 0) at the fourth, (0, 1) at the thirteenth.
+**uv.** Those of the equation, from 0 to 1: (0, 0) at the first point, (1, 0) at the fourth, (0, 1) at the thirteenth; what
+begins at 1, as the next check of a texture may, is not to be seen.
 
-**Numeric trap.** Newton's method for u and v fails where a ray grazes: there the two equations are singular, and there may be two roots or none. So a patch is laid out in
+**Numeric trap.** Newton's method for u and v fails where a ray grazes: there the two equations are singular, and there may be several roots or none. So a patch is laid out in
 pieces over which its derivatives vary little, each tested as one shape in the tree. A plane through the ray and across a piece cuts it in a curve with u and v that
-are never singular, whose distance from the ray has two roots at most.
+are never singular, whose distance from the ray is followed in arcs so short that a cubic is sure to tell how often it is zero.
 
 **Source.** Martin, Cohen, Fish and Shirley: Practical Ray Tracing of Trimmed NURBS Surfaces, Journal of Graphics Tools 5(1), 2000, for the pieces. The float64 half is
 Nishita, Sederberg and Kakimoto's Bézier clipping.
@@ -84,7 +85,8 @@ class Bezier final : public Shape {
       surface.position_error = std::max(surface.position_error, 1e-13 * magnitude(p));
     surface.normal_geometric = normal(at, {hit.u, hit.v}) * (mirrored_ ? -1.0 : 1.0);
     surface.normal = surface.normal_geometric;
-    surface.uv = {hit.u, hit.v};
+    // What begins at 1, the next check, is not of the patch.
+    surface.uv = glm::min(Vec2(hit.u, hit.v), Vec2(1 - 0x1p-53));
     return surface;
   }
 
@@ -96,6 +98,8 @@ class Bezier final : public Shape {
 
   ShapeForm form() const override { return BezierForm{net_}; }
   bool counts_crossings() const override { return true; }
+  // The degree of its equation in x, y and z.
+  int most_crossings() const override { return 2 * 3 * 3; }
 
   void pack(Packer& packer) const override {
     // What all pieces share.
@@ -118,7 +122,8 @@ class Bezier final : public Shape {
       // A hit may lie as far beyond a border as rounding moves it.
       const double room = 0x1p-18 * (magnitude(packer.relative(middle)) + radius);
       const auto& [from, to] = piece.range;
-      packer.add_iterations(2 + 3 * 40);
+      // Both ends; of 24 arcs, each with its middle and its next end; of 4 roots.
+      packer.add_iterations(2 * 4 + 24 * (1 + 4 + 4) + 4 * 40);
       packer.add_steps();
       packer.add_piece({.head = Packer::head(shader::KIND_bezier, material, extra),
                         .a = shader::vec4(float(from.x), float(to.x), float(from.y), float(to.y)),

@@ -8,8 +8,8 @@
 namespace eyeray {
 namespace {
 
-// Beyond so many a ray runs along the patch.
-constexpr int most_cuts = 100'000;
+// No more than these. Beyond the many a ray runs along the patch.
+constexpr int most_cuts = 5000, many_cuts = 1000;
 constexpr double small = 1e-13;  // of a patch, in u and v
 
 // The patch as the ray sees it: two distances from the ray and one along it.
@@ -77,7 +77,7 @@ class Search {
       if (!clip(part, 0) || !clip(part, 1)) continue;
       const Vec2 size = part.range.to - part.range.from;
       // What takes so long grazes, and is as sharp as that allows.
-      const double blur = cuts < 1000 ? 1 : cuts < 10'000 ? 1e4 : 1e6;
+      const double blur = cuts < many_cuts ? 1 : 1e4;
       if (std::max(size.x, size.y) > small * blur && extent(part) > room_ * blur) {
         // Where clipping gains little, the ray may meet it several times.
         if (std::max(size.x / before.x, size.y / before.y) > 0.7)

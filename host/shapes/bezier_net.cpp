@@ -119,15 +119,17 @@ BezierPoint bezier_point(const BezierNet& net, double u, double v) {
 }
 
 BezierNet bezier_part(const BezierNet& net, const BezierRange& range) {
-  BezierNet result;
-  for (size_t i = 0; i < 4; ++i) {
-    const Curve c = part(row(net, i), range.from.x, range.to.x);
-    std::copy(c.begin(), c.end(), result.begin() + 4 * i);
-  }
-  for (size_t j = 0; j < 4; ++j) {
-    const Curve c = part(column(result, j), range.from.y, range.to.y);
-    for (size_t i = 0; i < 4; ++i) result[4 * i + j] = c[i];
-  }
+  BezierNet result = net;
+  if (range.from.x != 0 || range.to.x != 1)
+    for (size_t i = 0; i < 4; ++i) {
+      const Curve c = part(row(net, i), range.from.x, range.to.x);
+      std::copy(c.begin(), c.end(), result.begin() + 4 * i);
+    }
+  if (range.from.y != 0 || range.to.y != 1)
+    for (size_t j = 0; j < 4; ++j) {
+      const Curve c = part(column(result, j), range.from.y, range.to.y);
+      for (size_t i = 0; i < 4; ++i) result[4 * i + j] = c[i];
+    }
   return result;
 }
 

@@ -6,27 +6,17 @@
 //   extra = the first of 13 vertices: p_00 … p_33, three floats each, u running faster; then the patch's middle, the radius of a ball around it
 #ifndef BEZIER_GLSL
 #define BEZIER_GLSL
+#include "bezier_section.glsl"
 #include "ray.glsl"
 #include "records.h"
 
 SHADER_BEGIN
 
-#define BEZIER_STEPS 40u
+// Arcs and roots at most (host/shapes/bezier.cpp counts with them), and how short an arc may be, of the whole section.
+#define BEZIER_ARCS 24u
+#define BEZIER_ROOTS 4u
+#define BEZIER_LEAST_ARC 0.00390625f
 #define BEZIER_SPECK 2.0f
-
-struct BezierRow {
-  vec3 p0;
-  vec3 p1;
-  vec3 p2;
-  vec3 p3;
-};
-
-struct BezierNet {
-  BezierRow r0;
-  BezierRow r1;
-  BezierRow r2;
-  BezierRow r3;
-};
 
 BezierRow bezier_row(uint first) {
   vec4 a = bits_to_floats(load_vertex(first));
@@ -56,114 +46,6 @@ BezierRow bezier_row_along(BezierRow r, vec3 o, vec3 x, vec3 y, vec3 z) {
   return row;
 }
 
-// A point of the surface and its derivatives.
-struct BezierPoint {
-  vec3 p;
-  vec3 du;
-  vec3 dv;
-};
-
-vec4 bezier_weights(float t) {
-  float s = 1.0f - t;
-  return vec4(s * s * s, 3.0f * (s * s) * t, 3.0f * s * (t * t), t * t * t);
-}
-vec3 bezier_sum(vec3 a, vec3 b, vec3 c, vec3 d, vec4 w) { return (a * w.x + b * w.y) + (c * w.z + d * w.w); }
-// From differences of the points: where they are one, the derivative is 0.
-vec3 bezier_slope(vec3 a, vec3 b, vec3 c, vec3 d, float t) {
-  float s = 1.0f - t;
-  return ((b - a) * (s * s) + (c - b) * (2.0f * s * t) + (d - c) * (t * t)) * 3.0f;
-}
-
-BezierPoint bezier_at(BezierNet n, float u, float v) {
-  vec4 wu = bezier_weights(u);
-  vec4 wv = bezier_weights(v);
-  vec3 r0 = bezier_sum(n.r0.p0, n.r0.p1, n.r0.p2, n.r0.p3, wu);
-  vec3 r1 = bezier_sum(n.r1.p0, n.r1.p1, n.r1.p2, n.r1.p3, wu);
-  vec3 r2 = bezier_sum(n.r2.p0, n.r2.p1, n.r2.p2, n.r2.p3, wu);
-  vec3 r3 = bezier_sum(n.r3.p0, n.r3.p1, n.r3.p2, n.r3.p3, wu);
-  BezierPoint at;
-  at.p = bezier_sum(r0, r1, r2, r3, wv);
-  at.dv = bezier_slope(r0, r1, r2, r3, v);
-  at.du = bezier_sum(bezier_slope(n.r0.p0, n.r0.p1, n.r0.p2, n.r0.p3, u), bezier_slope(n.r1.p0, n.r1.p1, n.r1.p2, n.r1.p3, u),
-                     bezier_slope(n.r2.p0, n.r2.p1, n.r2.p2, n.r2.p3, u), bezier_slope(n.r3.p0, n.r3.p1, n.r3.p2, n.r3.p3, u), wv);
-  return at;
-}
-
-// The section of the piece with the plane that holds the ray and the piece's normal. Axes: x along the ray, y across that plane, z in it across the
-// ray. Along the section grows w, the way over the piece that the ray takes; it is distance z from the ray whose roots are hits. Unlike u and v
-// from the ray, u and v from w are never singular.
-struct BezierSection {
-  float u;
-  float v;
-  float z;
-  float slope;  // of z, and of u and v, over w
-  vec2 uv_slope;
-  float off;  // how far from here it was taken, squared
-};
-
-// At w, near (u, v). `tilt`: of the ray along w and along the normal.
-BezierSection bezier_section(BezierNet net, vec2 tilt, float w, vec2 uv) {
-  BezierPoint at = bezier_at(net, uv.x, uv.y);
-  float w_u = tilt.x * at.du.x - tilt.y * at.du.z;
-  float w_v = tilt.x * at.dv.x - tilt.y * at.dv.z;
-  float determinant = w_u * at.dv.y - w_v * at.du.y;
-  float rest = w - (tilt.x * at.p.x - tilt.y * at.p.z);
-  float du = (rest * at.dv.y + at.p.y * w_v) / determinant;
-  float dv = -(at.p.y * w_u + rest * at.du.y) / determinant;
-  BezierSection section;
-  section.u = uv.x + du;
-  section.v = uv.y + dv;
-  section.z = at.p.z + (at.du.z * du + at.dv.z * dv);
-  section.uv_slope = vec2(at.dv.y / determinant, -at.du.y / determinant);
-  section.slope = at.du.z * section.uv_slope.x + at.dv.z * section.uv_slope.y;
-  section.off = rest * rest + at.p.y * at.p.y;
-  return section;
-}
-
-// (u, v) at w as seen from a section at w = 0.
-vec2 bezier_guess(BezierSection at, float w) { return vec2(at.u + at.uv_slope.x * w, at.v + at.uv_slope.y * w); }
-
-struct BezierRoot {
-  vec2 uv;
-  bool found;
-  bool gave_up;
-};
-
-// The root of z between `low` and `high`, measured from `middle`; at `low` its sign is that of z_low, and the other at `high`. Newton's method, or
-// bisection where that leaves the bracket. By a little it may: z is taken a step at a time along the section, so that a sign may be wrong next to the root.
-BezierRoot bezier_root(BezierNet net, vec2 tilt, BezierSection middle, float origin, vec2 ends, vec2 z_ends, bool search, float grain, float size) {
-  float low = ends.x;
-  float high = ends.y;
-  float margin = 0.02f * (high - low);
-  float w = low + (high - low) * (z_ends.x / (z_ends.x - z_ends.y));
-  vec2 uv = bezier_guess(middle, w);
-  float before = high - low;
-  bool going = search;
-  for (uint i = 0u; i < BEZIER_STEPS && going; i++) {
-    BezierSection at = bezier_section(net, tilt, origin + w, uv);
-    bool past = (at.z < 0.0f) != (z_ends.x < 0.0f);
-    // Taken from far off along the section, z may have the wrong sign.
-    bool sure = at.off <= 4.0f * grain * size;
-    low = past || !sure ? low : w;
-    high = past && sure ? w : high;
-    float step = -at.z / at.slope;
-    bool newton = w + step >= low - margin && w + step <= high + margin && (i < 10u || abs(step) < 0.6f * before);
-    // Near enough already, and where the slope is small a last step may be long, and lead elsewhere.
-    bool near = abs(at.z) <= grain && at.off <= grain * size;
-    step = newton ? (near && abs(step) > margin ? 0.0f : step) : near ? 0.0f : 0.5f * (low + high) - w;
-    before = maximum(abs(step), 2.0f * grain);
-    // Where the bracket closes on nothing, the sign at its end was that of a rounding: there is no root.
-    going = !(near || (newton && abs(step) <= grain && at.off <= grain * size) || high - low <= 4.0f * grain);
-    uv = vec2(at.u, at.v) + at.uv_slope * step;
-    w = w + step;
-  }
-  BezierRoot root;
-  root.uv = uv;
-  root.found = search;
-  root.gave_up = going;
-  return root;
-}
-
 // Whether the ray comes near the piece.
 bool bezier_may_hit(Primitive s, Ray ray) {
   vec3 to_middle = vec3(s.b) - ray.o;
@@ -180,7 +62,7 @@ void bezier_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
 
 // t where the piece is within `hair` of the ray near (u, v), else −1; then (u, v) is in the piece.
 float bezier_confirm(Primitive s, BezierNet net, BezierRoot root, float hair, OUT(vec2) uv) {
-  uv = vec2(minimum(maximum(root.uv.x, s.a.x), s.a.y), minimum(maximum(root.uv.y, s.a.z), s.a.w));
+  uv = bezier_within(s.a, root.uv);
   vec3 p = bezier_at(net, uv.x, uv.y).p;
   return root.found && abs(p.y) <= hair && abs(p.z) <= hair ? p.x : -T_MISS;
 }
@@ -200,9 +82,10 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   // Axes along the section.
   vec3 normal = vec3(s.c);
   vec3 y = cross3(normal, d);
-  vec2 tilt = vec2(sqrt(dot3(y, y)), dot3(normal, d));
+  float sine = sqrt(dot3(y, y));
+  float cosine = dot3(normal, d);
   vec3 other = abs(d.x) < 0.5f ? vec3(0.0f, -d.z, d.y) : vec3(-d.z, 0.0f, d.x);
-  y = normalize3(tilt.x > 1.0e-3f ? y : other);
+  y = normalize3(sine > 1.0e-3f ? y : other);
   vec3 z = cross3(d, y);
   BezierNet net;
   net.r0 = bezier_row_along(bezier_row(s.head.w), o, d, y, z);
@@ -215,78 +98,76 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   vec2 middle = vec2(0.5f * (s.a.x + s.a.y), 0.5f * (s.a.z + s.a.w));
   vec2 size = vec2(0.5f * (s.a.y - s.a.x) * beyond, 0.5f * (s.a.w - s.a.z) * beyond);
   vec3 p = bezier_along(vec3(s.b), o, d, y, z);
-  float origin = tilt.x * p.x - tilt.y * p.z;
-  BezierSection at = bezier_section(net, tilt, origin, middle);
-  float from_u = (at.u - middle.x) / at.uv_slope.x;
-  float from_v = (at.v - middle.y) / at.uv_slope.y;
+  vec3 tilt = vec3(sine, cosine, sine * p.x - cosine * p.z);
+  BezierSection at = bezier_section(net, s.a, tilt, 0.0f, middle);
+  float from_u = (at.uv.x - middle.x) / at.uv_slope.x;
+  float from_v = (at.uv.y - middle.y) / at.uv_slope.y;
   float half_u = abs(size.x / at.uv_slope.x);
   float half_v = abs(size.y / at.uv_slope.y);
   float from = maximum(-half_u - from_u, -half_v - from_v);
   float to = minimum(half_u - from_u, half_v - from_v);
   bool speck = abs(s.c.w) >= BEZIER_SPECK;
-  bool meets = from <= to && !speck && bezier_may_hit(s, ray);
-  BezierSection first = bezier_section(net, tilt, origin + from, bezier_guess(at, from));
-  BezierSection last = bezier_section(net, tilt, origin + to, bezier_guess(at, to));
 
-  // Where z turns, by the cubic of the same values and slopes at both ends, and Newton's method on that: between, it has a root or none. An error
-  // of a turning point counts by its square.
-  float length = to - from;
-  float rise = (last.z - first.z) / length;
-  float cubic = first.slope + last.slope - 2.0f * rise;
-  float square = 3.0f * rise - 2.0f * first.slope - last.slope;
-  float discriminant = square * square - 3.0f * cubic * first.slope;
-  float q = -square - (square < 0.0f ? -1.0f : 1.0f) * sqrt(maximum(discriminant, 0.0f));
-  vec2 turns = vec2(first.slope / q, q / (3.0f * cubic));
-  turns = turns.y < turns.x ? vec2(turns.y, turns.x) : turns;
-  bool turns_0 = discriminant >= 0.0f && turns.x > 0.0f && turns.x < 1.0f;
-  bool turns_1 = discriminant >= 0.0f && turns.y > 0.0f && turns.y < 1.0f;
-  float low = turns_0 ? from + length * turns.x : from;
-  float high = turns_1 ? from + length * turns.y : to;
-  float z_low = first.z;
-  float z_high = last.z;
-  for (uint i = 0u; i < 2u && meets && (turns_0 || turns_1); i++) {
-    BezierSection turn = bezier_section(net, tilt, origin + low, bezier_guess(at, low));
-    float bend = 2.0f * (square + 3.0f * cubic * ((low - from) / length)) / length;
-    float step = i == 0u && turns_0 ? -turn.slope / bend : 0.0f;
-    step = abs(step) < 0.25f * length ? step : 0.0f;
-    z_low = turns_0 ? turn.z : z_low;
-    low = minimum(maximum(low + step, from), to);
-    turn = bezier_section(net, tilt, origin + high, bezier_guess(at, high));
-    bend = 2.0f * (square + 3.0f * cubic * ((high - from) / length)) / length;
-    step = i == 0u && turns_1 ? -turn.slope / bend : 0.0f;
-    step = abs(step) < 0.25f * length ? step : 0.0f;
-    z_high = turns_1 ? turn.z : z_high;
-    high = minimum(maximum(high + step, low), to);
-  }
-
-  // The first root that is of this piece, and not behind the ray's start.
+  // Go along it in arcs as short as it takes for their cubics to tell where z has roots, up to the first root that is of this piece and not behind the
+  // ray's start.
+  bool search = from <= to && !speck && bezier_may_hit(s, ray);
+  float fine = grain * s.b.w;
+  BezierSection near = bezier_settle(net, s.a, tilt, from, at.uv + at.uv_slope * from, fine, search);
+  BezierSection end = bezier_settle(net, s.a, tilt, to, at.uv + at.uv_slope * to, fine, search);
+  BezierSection far = end;
+  float least = BEZIER_LEAST_ARC * (to - from);
   float t = -1.0f;
-  float z_from = first.z;
   bool gave_up = false;
-  bool search = meets;
-  for (uint i = 0u; i < 3u && search; i++) {
-    bool change_0 = (z_from < 0.0f) != (z_low < 0.0f);
-    bool change_1 = (z_low < 0.0f) != (z_high < 0.0f);
-    bool change_2 = (z_high < 0.0f) != (last.z < 0.0f);
-    search = change_0 || change_1 || change_2;
-    vec2 ends = change_0 ? vec2(from, low) : change_1 ? vec2(low, high) : vec2(high, to);
-    vec2 z_ends = change_0 ? vec2(z_from, z_low) : change_1 ? vec2(z_low, z_high) : vec2(z_high, last.z);
-    BezierRoot root = bezier_root(net, tilt, at, origin, ends, z_ends, search, grain, s.b.w);
-    t = start + bezier_confirm(s, net, root, hair, uv);
-    gave_up = gave_up || (root.gave_up && !(t > 0.0f));
-    search = search && !(t > 0.0f);
+  uint roots = 0u;
+  for (uint i = 0u; i < BEZIER_ARCS && search && roots < BEZIER_ROOTS; i++) {
+    float length = far.w - near.w;
+    BezierSection half_way = bezier_settle(net, s.a, tilt, 0.5f * (near.w + far.w), bezier_between(near, far, 0.5f), fine, true);
+    BezierArc arc = bezier_arc(near, far, half_way, grain);
+    bool outside = bezier_outside(s.a, near.uv, half_way.uv, far.uv);
+    bool halve = arc.doubted && length > least && !outside;
 
-    // Go on behind it.
-    z_high = change_0 || change_1 ? z_high : last.z;
-    z_low = change_0 ? z_low : z_high;
-    z_from = z_low;
-    from = change_0 ? low : high;
-    low = change_0 ? low : high;
+    float z_0 = bezier_arc_z(arc, arc.turns.x);
+    float z_1 = bezier_arc_z(arc, arc.turns.y);
+    bool change_0 = (near.z < 0.0f) != (z_0 < 0.0f);
+    bool change_1 = (z_0 < 0.0f) != (z_1 < 0.0f);
+    bool change_2 = (z_1 < 0.0f) != (far.z < 0.0f);
+    vec2 ends = change_0 ? vec2(0.0f, arc.turns.x) : change_1 ? vec2(arc.turns.x, arc.turns.y) : vec2(arc.turns.y, 1.0f);
+    vec2 z_ends = change_0 ? vec2(near.z, z_0) : change_1 ? vec2(z_0, z_1) : vec2(z_1, far.z);
+    float begin = ends.x + (ends.y - ends.x) * (z_ends.x / (z_ends.x - z_ends.y));
+    bool look = !halve && !outside && (change_0 || change_1 || change_2);
+    roots += look ? 1u : 0u;
+    vec2 bracket = vec2(near.w + length * ends.x, near.w + length * ends.y);
+    BezierRoot root = bezier_root(net, s.a, tilt, bezier_between(near, far, begin), near.w + length * begin, bracket, z_ends, look, grain, s.b.w);
+    vec2 there = vec2(0.0f, 0.0f);
+    t = start + bezier_confirm(s, net, root, hair, there);
+    search = !(t > 0.0f);
+    uv = there;
+    gave_up = gave_up || (root.gave_up && search);
+
+    // Go on with its first half, with what is behind the root, or ahead by twice its length.
+    bool within = look && ends.y < 1.0f;
+    search = search && (halve || within || far.w < end.w);
+    BezierSection behind = bezier_on_arc(near, far, arc, ends.y);
+    float share = minimum(2.0f * maximum(length, least) / (end.w - far.w), 1.0f);
+    bool ahead = search && !halve && !within;
+    bool part = share < 1.0f;
+    BezierSection next = bezier_settle(net, s.a, tilt, far.w + share * (end.w - far.w), bezier_between(far, end, share), fine, ahead && part);
+    if (within)
+      near = behind;
+    else if (!halve)
+      near = far;
+    if (halve)
+      far = half_way;
+    else if (ahead && part)
+      far = next;
+    else if (ahead)
+      far = end;
   }
+  gave_up = gave_up || search;
 
   // A speck of 2^-12 of the patch, where it comes to a point, is flat, and round.
   if (speck) {
-    float along = dot3(normal, vec3(s.b) - o) / tilt.y;
+    float along = dot3(normal, vec3(s.b) - o) / cosine;
     vec3 off = (o + d * along) - vec3(s.b);
     t = dot3(off, off) <= s.b.w * s.b.w ? start + along : -1.0f;
     uv = middle;
@@ -317,7 +198,8 @@ Surface bezier_surface(Primitive s, Ray ray, Hit hit) {
   surface.p = o + at.p;
   surface.normal_geometric = s.c.w < 0.0f ? -n : n;
   surface.normal = surface.normal_geometric;
-  surface.uv = hit.uv;
+  // What begins at 1, the next check, is not of the patch.
+  surface.uv = vec2(minimum(hit.uv.x, 1.0f - EPSILON), minimum(hit.uv.y, 1.0f - EPSILON));
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), abs3(surface.p) + abs3(o)) + 48.0f * EPSILON * patch_ball.w;
   return surface;
 }

@@ -71,3 +71,33 @@ TEST_CASE("bezier: light loses the root of a patch's share at each crossing") {
   CHECK(tracer.transmittance({{-1, 0.3, 0.5}, {1, 0, 0}}, 9, flags) == 1);
   CHECK(flags == 0);
 }
+
+TEST_CASE("bezier: a patch that is 1e12 wide and bent within 1: its crossings end at the degree, and soon") {
+  // One of the scenes at random. Rounding moves its points by 1e-4: a ray that starts behind a crossing finds
+  // itself before it again.
+  const std::array<Vec3, 16> net = {{{179.999999, 1, 0.2539326768112482},
+                                     {0.9623034388921758, 1e12, 1e-15},
+                                     {1e12, 1e12, 1e12},
+                                     {1.9225030142171686, 1e12, -0.7907667265413876},
+                                     {0.27421067733346716, -10000, -2.560252040233446},
+                                     {2.0501391842752152, -0.8045385765627555, 2.118808284283485},
+                                     {-1e12, 0.30059220687464183, 0},
+                                     {-0.7977555923829602, 0.5504038988654751, 1e-05},
+                                     {-2.0177938176073105, -1.7521170312322947, 2.1897936561558824},
+                                     {-1.462325553570043, -1.7616118046545934, 0.547297368703517},
+                                     {-1e12, 0.5341709501178302, 0.19721588912105137},
+                                     {0.799210562908971, 2.6032970871683005, 1.7459668156094006},
+                                     {1.27445425242102, -1e12, 1e6},
+                                     {-2.2231534084685002, -179.999999, 0.7433079666662552},
+                                     {-1.7880623871261339, 1.6397190894065377, -1e12},
+                                     {1e12, 2.759438103651216, 1e12}}};
+  const auto patch = make_bezier(net);
+  const Vec3 eye(0.17017863274767997, -1.3617395706097102, 0);
+  const Vec3 d = glm::normalize(Vec3(0.3141592653589793, 0.8979323846264338, 0.2718281828459045));
+  for (const Vec3& along : {d, -d}) {
+    int crossings = 0;
+    reference::for_each_crossing(*patch, {eye, along},
+                                 [&](double, const auto&, const auto&) { return ++crossings < 1000; });
+    CHECK(crossings <= 18);
+  }
+}

@@ -173,8 +173,8 @@ std::string Writer::value(const Key& key) {
     case KeyType::vec2_list:
       return fmt::format("[{}, {}, {}]", numbers(key, 2), numbers(key, 2), numbers(key, 2));
     case KeyType::vec3_list: {
-      // As many as a bilinear patch has, or a triangle.
-      const int count = key.name == "corners" ? 4 : 3;
+      // As many as a Bézier patch has, a bilinear one, or a triangle.
+      const int count = key.name == "points" ? 16 : key.name == "corners" ? 4 : 3;
       std::vector<std::string> points;
       for (int i = 0; i < count; ++i) points.push_back(numbers(key, 3));
       if (chance(0.3 * wildness_.share)) points[2] = points[size_t(random_.below(2))];
