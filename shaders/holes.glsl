@@ -13,7 +13,10 @@ float unless_in_hole(Primitive primitive, uint instance, Ray ray, float t, vec2 
 #if HAS_HOLES
   uint index = material_of(primitive);
 #if HAS_INSTANCES
-  if (instance != NONE) index = load_instance(instance).head.z;
+  if (instance != NONE) {
+    Instance shown = load_instance(instance);
+    if (!of_group(shown)) index = shown.head.z;
+  }
 #endif
   uvec4 mask = load_material(index).mask;
   if (mask.y != 0u && t > 0.0f) {

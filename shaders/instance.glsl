@@ -1,4 +1,4 @@
-// Instances of meshes: into a mesh's space and back.
+// Instances of meshes and groups: into their space and back.
 #ifndef INSTANCE_GLSL
 #define INSTANCE_GLSL
 #include "ray.glsl"
@@ -6,12 +6,13 @@
 
 SHADER_BEGIN
 
-// Where a ray is being traced: in the world, or in the mesh of an instance.
+// Where a ray is being traced: in the world, or in the space of an instance.
 struct Place {
   Ray ray;
-  uint instance;  // NONE in the world
-  uint first_id;  // to be added to the id of a primitive
-  uint density;   // what an instance's triangles weaken a shadow ray by
+  uint instance;        // NONE in the world
+  uint first_id;        // to be added to the id of a primitive, …
+  uint first_triangle;  // … or this, to that of a triangle of a group's meshes
+  uint density;         // what each primitive weakens a shadow ray by; NONE where they say it themselves
 };
 
 Place in_world(Ray ray) {
@@ -19,8 +20,18 @@ Place in_world(Ray ray) {
   place.ray = ray;
   place.instance = NONE;
   place.first_id = 0u;
-  place.density = 0u;
+  place.first_triangle = 0u;
+  place.density = NONE;
   return place;
+}
+
+uint id_at(Place place, Primitive primitive) {
+#if HAS_INSTANCES
+  uint id = primitive.head.x & ~ID_OF_TRIANGLE;
+  return (primitive.head.x & ID_OF_TRIANGLE) != 0u ? place.first_triangle + id : place.first_id + id;
+#else
+  return primitive.head.x;
+#endif
 }
 
 #if HAS_INSTANCES
@@ -29,32 +40,37 @@ vec3 map_offset(vec4 rows[3]) { return vec3(rows[0].w, rows[1].w, rows[2].w); }
 vec3 map_size(vec4 rows[3], vec3 size) {
   return vec3(dot3(abs3(vec3(rows[0])), size), dot3(abs3(vec3(rows[1])), size), dot3(abs3(vec3(rows[2])), size));
 }
-// Rows as columns: what maps normals, when `rows` is the inverse map.
-vec3 map_normal(vec4 rows[3], vec3 n) {
-  return normalize3(vec3(rows[0]) * n.x + vec3(rows[1]) * n.y + vec3(rows[2]) * n.z);
-}
+// By rows as columns: what maps normals, when `rows` is the inverse map.
+vec3 transposed(vec4 rows[3], vec3 n) { return vec3(rows[0]) * n.x + vec3(rows[1]) * n.y + vec3(rows[2]) * n.z; }
 
-// The direction keeps its length in the mesh's space, so that t stays the same.
+bool of_group(Instance instance) { return instance.head.z == NONE; }
+
+// The direction keeps its length in the instance's space, so that t stays the same. The difference comes first: near the instance it is exact
+// or nearly so.
 Place into_instance(Ray ray, Instance instance, uint index) {
   Place place;
-  place.ray = make_ray(map_direction(instance.to_mesh, ray.o) + map_offset(instance.to_mesh),
-                       map_direction(instance.to_mesh, ray.d));
+  place.ray = make_ray(map_direction(instance.to_local, ray.o - map_offset(instance.to_world)),
+                       map_direction(instance.to_local, ray.d));
   place.instance = index;
   place.first_id = instance.head.y;
-  place.density = instance.head.w;
+  place.first_triangle = instance.head.w;
+  place.density = of_group(instance) ? NONE : instance.head.w;
   return place;
 }
 
-// The surface in the world. Its offset covers the errors of the way out and of a next ray's way back in.
-Surface out_of_instance(Surface surface, Instance instance, Tree tree) {
+// The surface in the world. A step of its offset across it is as long as the map makes it; to that come the errors of the way out and of a
+// next ray's way back in.
+Surface out_of_instance(Surface surface, Instance instance) {
   Surface world = surface;
   world.p = map_direction(instance.to_world, surface.p) + map_offset(instance.to_world);
-  world.normal_geometric = map_normal(instance.to_mesh, surface.normal_geometric);
-  world.normal = map_normal(instance.to_mesh, surface.normal);
-  vec3 in_mesh = vec3(tree.reach) * 3.0f + map_size(instance.to_mesh, abs3(world.p)) +
-                 abs3(map_offset(instance.to_mesh));
-  vec3 reach = map_size(instance.to_world, in_mesh) + abs3(map_offset(instance.to_world));
-  world.offset = 8.0f * EPSILON * dot3(abs3(world.normal_geometric), reach);
+  vec3 across = transposed(instance.to_local, surface.normal_geometric);
+  float shrinks = sqrt(dot3(across, across));
+  world.normal_geometric = across / shrinks;
+  vec3 shading = transposed(instance.to_local, surface.normal);
+  world.normal = dot3(shading, world.normal_geometric) > 0.0f ? normalize3(shading) : world.normal_geometric;
+  vec3 local = abs3(surface.p) + map_size(instance.to_local, abs3(world.p - map_offset(instance.to_world)));
+  vec3 reach = map_size(instance.to_world, local) + (abs3(world.p) + abs3(map_offset(instance.to_world)));
+  world.offset = surface.offset / shrinks + 8.0f * EPSILON * dot3(abs3(world.normal_geometric), reach);
   return world;
 }
 #endif

@@ -34,7 +34,7 @@ SHADER_BEGIN
 #define T_RAN_OUT -3.2e38f  // "no hit found in the steps allowed"; uv.x says up to which t there is none for sure
 
 // ---- Primitive: 64 bytes --------------------------------------------------------------------------------------------
-//   0 id: the scene's primitive index, or within an instance's mesh the triangle    4 material | kind << 24
+//   0 id: the scene's primitive index, or that within an instance (below)    4 material | kind << 24
 //   8 shadow density    12 extra: an index into vertices, or NONE
 //  16 a (vec4)  32 b (vec4)   48 c (vec4)    what they hold is said in the shape's .glsl
 // Where a primitive stands in the buffer, its slot, follows from the tree and may change; its id does not.
@@ -56,12 +56,11 @@ struct Primitive {
 #define CORNERS_UV 2u
 #define CORNERS_COLORS 4u
 
-// ---- Tree: 80 bytes; a node of it ------------------------------------------------------------------------------------
+// ---- Tree: 64 bytes; a node of it ------------------------------------------------------------------------------------
 //   0 origin.xyz  12 -    16 step.xyz  28 -    a plane at q stands at origin + q · step
 //  32 extent.xyz          the most that |q · step| is
 //  44 slack               by which share of its reach a ray's boxes are widened
-//  48 reach.xyz   60 -    a mesh's: the largest magnitudes of its coordinates
-//  64 root   68 first slot of its primitives   72 end of its slots   76 -
+//  48 root, which may be a leaf   52 first slot of its primitives   56 end of its slots   60 -
 // A node is two children. Quantised, a child is 16 bytes, its planes integers: lower | upper << 16 for x, y and z, then what it refers
 // to; else it is 32: lower.xyz as floats, what it refers to, upper.xyz, -.
 // A node of wide.comp.glsl is four quantised children, one of packet.glsl as many as a subgroup has lanes; those that are not there
@@ -71,7 +70,6 @@ struct Tree {
   vec4 origin;
   vec4 step;
   vec4 extent;
-  vec4 reach;
   uvec4 head;
 };
 #define LEAF 0x80000000u
@@ -79,15 +77,19 @@ struct Tree {
 #define MOST_SLOTS 0x8000000u
 #define MOST_INSTANCES 0x3ffffff0u
 
-// ---- Instance of a mesh with a tree of its own: 112 bytes --------------------------------------------------------------
-//   0 tree   4 id of its first triangle   8 material   12 shadow density
-//  16 to_mesh, three rows: the affine map from the world to the mesh
-//  64 to_world, three rows
+// ---- Instance of a mesh or a group with a tree of its own: 112 bytes ---------------------------------------------------
+//   0 tree   4 id of its first shape, of a mesh its first triangle
+//   8 material   12 shadow density        of a mesh's triangles; or of a group, whose primitives have their own:
+//   8 NONE       12 id of its first triangle of a mesh
+//  16 to_local.xyz, -, three rows: the linear map into its space, of what is relative to that space's origin
+//  64 to_world, three rows: the affine map back, its w's that origin
+// In its space ids count from 0, those of a group's meshes with ID_OF_TRIANGLE set.
 struct Instance {
   uvec4 head;
-  vec4 to_mesh[3];
+  vec4 to_local[3];
   vec4 to_world[3];
 };
+#define ID_OF_TRIANGLE 0x80000000u
 
 // ---- Material: 64 bytes ---------------------------------------------------------------------------------------------
 //   0 kind       4 flags | emission, an index into textures, << 8      8 medium that fills the shape: 1…255, 0 for none    12 shadow density
@@ -244,7 +246,7 @@ SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(eyeray::shader::Primitive) == 64);
-static_assert(sizeof(eyeray::shader::Tree) == 80);
+static_assert(sizeof(eyeray::shader::Tree) == 64);
 static_assert(sizeof(eyeray::shader::Instance) == 112);
 static_assert(sizeof(eyeray::shader::Material) == 64);
 static_assert(sizeof(eyeray::shader::Medium) == 16);

@@ -23,13 +23,14 @@ float revolution_intersect(Ray ray, ObjectRay r, vec3 equation, vec3 nearest_equ
 }
 
 // The surface at a point of a part. `radius` and `slope`: of the side at the height of p, and by how much it grows with y; `end_radius`: of a
-// cap's rim. On the side u runs about the axis as on a globe and v from the bottom to the top; on caps, from the middle of the texture.
+// cap's rim. On the side u runs about the axis as on a globe and v from the bottom to the top; on caps, from the middle of the texture. What would be
+// a cap without a rim is the side's tip.
 Surface revolution_surface(Primitive s, vec3 p, float part, float bottom, float top, float radius, float slope,
                            float end_radius) {
   float distance = sqrt(p.x * p.x + p.z * p.z);
   vec3 gradient = vec3(0.0f, part == PART_BOTTOM ? -1.0f : 1.0f, 0.0f);
   vec2 uv = vec2(0.0f, 0.0f);
-  if (part == PART_SIDE) {
+  if (part == PART_SIDE || end_radius == 0.0f) {
     vec2 out_there = distance > 0.0f ? vec2(p.x / distance, p.z / distance) : vec2(1.0f, 0.0f);
     p = vec3(out_there.x * radius, minimum(maximum(p.y, bottom), top), out_there.y * radius);
     gradient = vec3(out_there.x, -slope, out_there.y);

@@ -11,7 +11,10 @@ SHADER_BEGIN
 Primitive primitive_at(Hit hit) {
   Primitive primitive = load_primitive(hit.slot);
 #if HAS_INSTANCES
-  if (hit.instance != NONE) primitive.head.y = load_instance(hit.instance).head.z | (primitive.head.y & 0xff000000u);
+  if (hit.instance != NONE) {
+    Instance instance = load_instance(hit.instance);
+    if (!of_group(instance)) primitive.head.y = instance.head.z | (primitive.head.y & 0xff000000u);
+  }
 #endif
 #if HAS_SOLIDS
   if (kind_of(primitive) == KIND_solid)
@@ -22,14 +25,15 @@ Primitive primitive_at(Hit hit) {
 
 Surface surface_at(Primitive primitive, Ray ray, Hit hit) {
   Surface surface = no_surface();
+  Ray local = ray;
+#if HAS_INSTANCES
+  if (hit.instance != NONE) local = into_instance(ray, load_instance(hit.instance), hit.instance).ray;
+#endif
 #define SURFACE_OF(name, number) \
-  if (kind_of(primitive) == number) surface = name##_surface(primitive, ray, hit);
+  if (kind_of(primitive) == number) surface = name##_surface(primitive, local, hit);
   SHAPES(SURFACE_OF)
 #if HAS_INSTANCES
-  if (hit.instance != NONE) {
-    Instance instance = load_instance(hit.instance);
-    surface = out_of_instance(surface, instance, load_tree(instance.head.x));
-  }
+  if (hit.instance != NONE) surface = out_of_instance(surface, load_instance(hit.instance));
 #endif
   return surface;
 }

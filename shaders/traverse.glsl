@@ -86,9 +86,9 @@ void meet_slot(INOUT(Found) found, uint slot, Place place, bool any) {
   if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, place.ray, uv);
   SHAPES(INTERSECT_KIND)
   t = unless_in_hole(primitive, place.instance, place.ray, t, uv);
-  uint own_density = shadow_density(primitive, kind_of(primitive) == KIND_solid, place.ray, found.hit.t, any);
-  uint density = place.instance == NONE ? own_density : place.density;
-  meet(found, t, uv, slot, place.first_id + primitive.head.x, place.instance, density, any);
+  uint density = place.density;
+  if (HAS_INSTANCES == 0 || density == NONE) density = shadow_density(primitive, kind_of(primitive) == KIND_solid, place.ray, found.hit.t, any);
+  meet(found, t, uv, slot, id_at(place, primitive), place.instance, density, any);
 }
 
 // Walks the tree of the world, and of every instance on the way.

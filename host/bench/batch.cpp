@@ -7,6 +7,8 @@
 #include "core/error.hpp"
 #include "reference/camera.hpp"
 #include "reference/rng.hpp"
+#include "scene/affine.hpp"
+#include "scene/primitive_ids.hpp"
 
 namespace eyeray {
 namespace {
@@ -39,6 +41,23 @@ std::optional<Point> on_shape(const Shape& shape, const Query& query) {
   return Point{surface.position, surface.normal_geometric};
 }
 
+// Where the ray meets the primitive there.
+std::optional<Point> point_on(const Scene& scene, const PrimitiveIds::Location& at, const Query& ray) {
+  if (at.group_instance < 0)
+    return at.is_shape ? on_shape(*scene.shapes[at.index], ray)
+                       : on_mesh(scene, scene.instances[at.index], at.triangle, ray);
+  const GroupInstance& instance = scene.group_instances[size_t(at.group_instance)];
+  const Group& group = scene.groups[size_t(instance.group)];
+  const Affine map(instance.transform);
+  const Affine back(glm::inverse(instance.transform));
+  const Query local{back.point(ray.o), back.linear * ray.d, ray.t_max};
+  const std::optional<Point> point = at.is_shape
+                                         ? on_shape(*group.shapes[at.index], local)
+                                         : on_mesh(scene, group.instances[at.index], at.triangle, local);
+  if (!point) return std::nullopt;
+  return Point{map.point(point->position), map.normal(point->normal)};
+}
+
 double largest(const Vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -68,22 +87,12 @@ Batch primary_batch(const Scene& scene, int width, int height) {
 std::vector<Departure> departures(const Scene& scene, std::span<const Query> rays,
                                   std::span<const QueryHit> hits) {
   CHECK_EQ(rays.size(), hits.size());
-  std::vector<int64_t> first{int64_t(scene.shapes.size())};  // by instance, its first primitive
-  for (const Instance& instance : scene.instances)
-    first.push_back(first.back() + int64_t(scene.meshes[size_t(instance.mesh)].triangles.size()));
-
+  const PrimitiveIds ids(scene);
   std::vector<Departure> found;
   for (size_t i = 0; i < rays.size(); ++i) {
     const int64_t primitive = hits[i].primitive;
     if (primitive < 0) continue;
-    std::optional<Point> point;
-    if (primitive < first[0]) {
-      point = on_shape(*scene.shapes[size_t(primitive)], rays[i]);
-    } else {
-      const auto after = std::upper_bound(first.begin(), first.end(), primitive);
-      const size_t instance = size_t(after - first.begin()) - 1;
-      point = on_mesh(scene, scene.instances[instance], size_t(primitive - first[instance]), rays[i]);
-    }
+    const std::optional<Point> point = point_on(scene, ids.locate(uint64_t(primitive), scene), rays[i]);
     if (!point) continue;
     const Vec3 normal = glm::dot(point->normal, rays[i].d) > 0 ? -point->normal : point->normal;
     const double offset = 0x1p-16 * std::max(largest(point->position), largest(point->position - rays[i].o));

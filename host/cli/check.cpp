@@ -49,13 +49,27 @@ size_t bytes(const std::vector<Record>& records) {
   return records.size() * sizeof(Record);
 }
 
+// As often as they are shown.
+uint64_t shapes_in_groups(const Scene& scene) {
+  uint64_t count = 0;
+  for (const GroupInstance& instance : scene.group_instances)
+    count += scene.groups[size_t(instance.group)].shapes.size();
+  return count;
+}
+
+uint64_t shapes_kept_in_groups(const Scene& scene) {
+  uint64_t count = 0;
+  for (const Group& group : scene.groups) count += group.shapes.size();
+  return count;
+}
+
 void list_names(const Scene& scene, Inventory& inventory) {
   constexpr size_t most = 10;
   const Things things(scene);
   for (size_t i = 0; i < things.size(); ++i) {
     const Thing thing = things[i];
     if (!thing.name.own || ++inventory.named > most) continue;
-    inventory.names.push_back(describe(thing.kind, thing.name, scene.names));
+    inventory.names.push_back(describe(thing, scene.names));
   }
 }
 
@@ -63,14 +77,8 @@ Inventory take_inventory(const Scene& scene) {
   const PackedScene packed = pack(scene);
   Inventory inventory;
   std::vector<uint32_t> kinds;
-  std::vector<bool> counted(scene.shapes.size());  // pieces of a shape share its id
-  for (uint32_t slot = 0; slot < packed.trees[0].head.z; ++slot) {
-    // Of the world's own, the first are the shapes, and the others the triangles of meshes.
-    const shader::Primitive& primitive = packed.primitives[slot];
-    if (primitive.head.x >= counted.size() || counted[primitive.head.x]) continue;
-    counted[primitive.head.x] = true;
-    kinds.push_back(kind_of(primitive));
-  }
+  for (const auto& shape : scene.shapes)
+    kinds.push_back(uint32_t(std::ranges::find(shape_types(), shape->type) - shape_types().begin()));
   inventory.shapes = count_kinds(shape_types(), kinds);
   kinds.clear();
   for (const shader::Material& material : packed.materials) kinds.push_back(material.head.x);
@@ -135,6 +143,11 @@ void print_text(const Scene& scene, const Inventory& inventory) {
     line("meshes", fmt::format("{} of {} triangles, shown {} times", scene.meshes.size(),
                                inventory.mesh_triangles, scene.instances.size()));
   }
+  if (!scene.groups.empty()) {
+    line("groups",
+         fmt::format("{} of {} shapes kept once, shown {} times as {} shapes", scene.groups.size(),
+                     shapes_kept_in_groups(scene), scene.group_instances.size(), shapes_in_groups(scene)));
+  }
   if (inventory.named > 0) {
     line("names", fmt::format("{}{}", fmt::join(inventory.names, ", "),
                               inventory.named > inventory.names.size()
@@ -183,6 +196,11 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
        {{"count", scene.meshes.size()},
         {"triangles", inventory.mesh_triangles},
         {"instances", scene.instances.size()}}},
+      {"groups",
+       {{"count", scene.groups.size()},
+        {"shapes", shapes_kept_in_groups(scene)},
+        {"instances", scene.group_instances.size()},
+        {"shapes_shown", shapes_in_groups(scene)}}},
       {"names", {{"count", inventory.named}, {"first", inventory.names}}},
       {"materials", to_json(inventory.materials)},
       {"lights", to_json(inventory.lights)},

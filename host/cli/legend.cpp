@@ -23,7 +23,8 @@ std::string color_of(int64_t id) {
 
 Json entry(const Thing& thing, const Names& names, uint64_t pixels) {
   Json json{{"first", thing.first}, {"last", thing.first + thing.count - 1}, {"kind", thing.kind}};
-  if (thing.name.index != Names::none) json[thing.name.own ? "name" : "group"] = names.path(thing.name.index);
+  if (const std::string name = path(thing, names); !name.empty())
+    json[thing.name.own ? "name" : "group"] = name;
   if (!thing.mesh.empty()) json["mesh"] = thing.mesh;
   if (thing.position->line > 0) {
     json["file"] = thing.position->file;

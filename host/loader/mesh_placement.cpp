@@ -73,7 +73,8 @@ std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
 }
 
 std::string MeshPlacer::place(ImportedScene& import, const Mat4& transform, std::optional<int> material,
-                              const SourcePosition& position, const NameRef& name) {
+                              const SourcePosition& position, const NameRef& name,
+                              std::vector<Instance>& into) {
   Place& place = places_[&import];
   if (place.first_mesh < 0) take_meshes(import, place);
   if (!material && place.first_material < 0) take_materials(import, place);
@@ -85,7 +86,7 @@ std::string MeshPlacer::place(ImportedScene& import, const Mat4& transform, std:
                       : instance.material < 0
                           ? plain_material_index(scene_.meshes[static_cast<size_t>(placed.mesh)])
                           : place.first_material + instance.material;
-    scene_.instances.push_back(std::move(placed));
+    into.push_back(std::move(placed));
   }
   return "";
 }

@@ -15,11 +15,14 @@ class MeshPlacer {
  public:
   explicit MeshPlacer(Scene& scene) : scene_(scene) {}
 
-  // Adds everything that the file shows, moved by `transform`, with one material for all or, absent, with the
-  // file's own. The first time, the file's meshes, and its materials once they are needed, move into the
-  // scene. Why it cannot stand there, or "".
+  // Adds everything that the file shows to `into`, moved by `transform`, with one material for all or,
+  // absent, with the file's own. The first time, the file's meshes, and its materials once they are needed,
+  // move into the scene. Why it cannot stand there, or "".
   std::string place(ImportedScene& import, const Mat4& transform, std::optional<int> material,
-                    const SourcePosition& position, const NameRef& name);
+                    const SourcePosition& position, const NameRef& name, std::vector<Instance>& into);
+
+  // Why a mesh of the scene cannot stand under this map, or "".
+  std::string check(size_t mesh, const Mat4& transform) const;
 
  private:
   // Where in the scene the meshes and materials of a file are; −1 before they are.
@@ -36,7 +39,6 @@ class MeshPlacer {
   void take_meshes(ImportedScene& import, Place& place);
   void take_materials(ImportedScene& import, Place& place);
   int plain_material_index(const Mesh& mesh);
-  std::string check(size_t mesh, const Mat4& transform) const;
 
   Scene& scene_;
   std::map<const ImportedScene*, Place> places_;

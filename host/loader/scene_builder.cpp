@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <map>
 
+#include "loader/batch.hpp"
+#include "loader/group_placement.hpp"
+#include "loader/group_plan.hpp"
 #include "loader/mesh_placement.hpp"
 #include "loader/sections.hpp"
 #include "loader/settings.hpp"
@@ -14,46 +17,13 @@ namespace eyeray {
 
 namespace {
 
-// Batches of groups in groups multiply: a few lines could show more than any memory holds.
-constexpr double most_placed = 0x4000000;
 constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
-
-// A batch of a shape's values, as it was checked.
-struct Batch {
-  const toml::table* lists = nullptr;  // null: the table is one shape
-  size_t count = 1;                    // 0 after an error
-};
 
 // Where a thing stands, and what it is called.
 struct Placing {
   Mat4 to_world{1.0};
   NameRef name;
 };
-
-// The name that a table, or an element of its batch, gives itself, where it is one; "" where there is none.
-std::string_view written_name(const toml::table& table, const Batch& batch, size_t element) {
-  const toml::node* node = table.get("name");
-  if (const toml::node* list = batch.lists ? batch.lists->get("name") : nullptr)
-    node = list->as_array()->get(element);
-  return node && node->is_string() ? std::string_view(node->as_string()->get()) : std::string_view();
-}
-
-// How many shapes, meshes and groups a table shows, groups in it included.
-double count_placed(const toml::table& table) {
-  double members = 1;
-  for (const std::string_view name : placed_names()) {
-    const toml::node* list = table.get(name);
-    if (!list || !list->is_array()) continue;
-    for (const toml::node& member : *list->as_array())
-      if (member.is_table()) members += count_placed(*member.as_table());
-  }
-  if (const toml::node* minus = table.get(minus_key); minus && minus->is_table())
-    members += count_placed(*minus->as_table()) - 1;
-  const toml::node* batch = table.get(batch_key);
-  if (!batch || !batch->is_table() || batch->as_table()->empty()) return members;
-  const toml::array* values = batch->as_table()->begin()->second.as_array();
-  return values ? members * double(values->size()) : members;
-}
 
 class Builder {
  public:
@@ -78,11 +48,11 @@ class Builder {
     });
     for_each(root_, "material",
              [&](const Section& section, const toml::table& table) { add_material(section, table); });
-    if (count_placed(root_) <= most_placed)
+    plan_.emplace(root_, scene_.render.groups, log_);
+    if (plan_->sound()) {
       add_placed(root_, Placing{});
-    else
-      log_.error({}, fmt::format("batches and groups show {:.0f} things; at most {:.0f} are possible",
-                                 count_placed(root_), most_placed));
+      check_idle_patterns();
+    }
     check_whole();
     return std::move(scene_);
   }
@@ -129,6 +99,7 @@ class Builder {
 
   void add_material(const Section& section, const toml::table& table);
   void add_placed(const toml::table& holder, const Placing& group);
+  void add_table(const Section& section, const toml::table& table, const Placing& group);
   template <typename Add>
   size_t for_each_placed(const Section& section, const toml::table& table, const Placing& group,
                          const Add& add);
@@ -137,7 +108,10 @@ class Builder {
   std::unique_ptr<Shape> parse_shape(const Section& section, TableReader& reader, const Placing& placing,
                                      int material);
   void add_mesh(TableReader& reader, const Placing& placing);
-  Batch read_batch(const Section& section, const toml::table& table);
+  void add_group(TableReader& reader, const toml::table& table, const Placing& placing);
+  void add_instance(TableReader& reader, const Placing& placing);
+  Group build_group(const toml::table& table, const Mat4& to_world);
+  void check_idle_patterns();
   int find_material(TableReader& shape);
   void check_whole();
 
@@ -149,6 +123,10 @@ class Builder {
   Scene scene_;
   std::map<std::string, NamedMaterial, std::less<>> materials_;
   MeshPlacer placer_{scene_};
+  std::optional<GroupPlan> plan_;
+  GroupPlacer group_placer_{scene_, placer_};
+  std::map<const toml::table*, int> kept_groups_;  // in Scene::groups
+  Group* building_ = nullptr;                      // where shapes and meshes go; null: into the scene
   size_t media_ = 0;
   bool tried_shapes_ = false;
 };
@@ -196,64 +174,72 @@ void Builder::add_material(const Section& section, const toml::table& table) {
   scene_.materials.push_back(std::move(material));
 }
 
-// Checks that all lists of a batch are lists of the shape's values, and equally long.
-Batch Builder::read_batch(const Section& section, const toml::table& table) {
-  const toml::node* node = table.get(batch_key);
-  if (!node) return {};
-  const toml::table* lists = node->as_table();
-  if (!lists || lists->empty()) {
-    log_.error(position_of(node->source()), "`batch` must be a table of lists, such as { KEY = [value, …] }");
-    return {nullptr, 0};
-  }
-  std::vector<std::string_view> names;
-  for (const std::span<const Key> keys :
-       {section.keys, section.shape ? section.shape->keys : std::span<const Key>()}) {
-    for (const Key& key : keys) names.push_back(key.name);
-  }
-  Batch batch{lists, 0};
-  bool ok = true;
-  const auto fail = [&](const toml::source_region& at, std::string message) {
-    log_.error(position_of(at), std::move(message));
-    ok = false;
-  };
-  const toml::key* first = nullptr;
-  for (const auto& [key, list] : *lists) {
-    if (std::ranges::find(names, key.str()) == names.end()) {
-      const std::string nearest = nearest_name(key.str(), names);
-      fail(key.source(), fmt::format("unknown key `{}` in the batch of {}{}", key.str(), section.title,
-                                     nearest.empty() ? "" : fmt::format("; did you mean `{}`?", nearest)));
-    } else if (table.contains(key.str())) {
-      fail(key.source(), fmt::format("`{}` stands in the table and in its batch", key.str()));
-    } else if (!list.is_array()) {
-      fail(list.source(), fmt::format("`{}` in a batch must be a list, one value each", key.str()));
-    } else if (!first) {
-      first = &key;
-      batch.count = list.as_array()->size();
-    } else if (list.as_array()->size() != batch.count) {
-      fail(list.source(),
-           fmt::format("`{}` has {} values, `{}` has {}: the lists of a batch are equally long", key.str(),
-                       list.as_array()->size(), first->str(), batch.count));
-    }
-  }
-  return ok ? batch : Batch{nullptr, 0};
-}
-
 // The shapes, meshes and groups of a group, or of the scene.
 void Builder::add_placed(const toml::table& holder, const Placing& group) {
   for (const std::string_view name : placed_names()) {
     for_each(holder, name, [&](const Section& section, const toml::table& table) {
-      for_each_placed(section, table, group, [&](TableReader& reader, const Placing& placed) {
-        switch (section.kind) {
-          case Section::Kind::group:
-            return add_placed(table, placed);
-          case Section::Kind::mesh:
-            return add_mesh(reader, placed);
-          default:
-            if (auto shape = read_shape(section, table, reader, placed))
-              scene_.shapes.push_back(std::move(shape));
-        }
-      });
+      // A pattern stands where instances show it.
+      if (section.kind == Section::Kind::group && GroupPlan::is_pattern(table)) return;
+      add_table(section, table, group);
     });
+  }
+}
+
+void Builder::add_table(const Section& section, const toml::table& table, const Placing& group) {
+  for_each_placed(section, table, group, [&](TableReader& reader, const Placing& placed) {
+    switch (section.kind) {
+      case Section::Kind::group:
+        return add_group(reader, table, placed);
+      case Section::Kind::instance:
+        return add_instance(reader, placed);
+      case Section::Kind::mesh:
+        return add_mesh(reader, placed);
+      default:
+        if (auto shape = read_shape(section, table, reader, placed))
+          (building_ ? building_->shapes : scene_.shapes).push_back(std::move(shape));
+    }
+  });
+}
+
+// All of a group, apart from the scene; what it is called there goes before the names in it.
+Group Builder::build_group(const toml::table& table, const Mat4& to_world) {
+  Group group;
+  Group* const outer = std::exchange(building_, &group);
+  add_placed(table, {to_world, {}});
+  building_ = outer;
+  return group;
+}
+
+void Builder::add_group(TableReader& reader, const toml::table& table, const Placing& placing) {
+  if (building_ || !plan_->is_instanced(table)) return add_placed(table, placing);
+  const auto [entry, fresh] = kept_groups_.try_emplace(&table);
+  if (fresh) entry->second = group_placer_.keep(build_group(table, Mat4(1.0)));
+  if (group_placer_.is_to_be_tried(entry->second, placing.to_world)) build_group(table, placing.to_world);
+  const std::string wrong =
+      group_placer_.place(entry->second, placing.to_world, reader.position(), placing.name);
+  if (!wrong.empty()) reader.error("transform", wrong);
+}
+
+void Builder::add_instance(TableReader& reader, const Placing& placing) {
+  if (!reader.valid("group")) return;
+  const std::string name = reader.string("group");
+  if (const toml::table* group = plan_->find(name)) return add_table(*find_section("group"), *group, placing);
+  if (log_.damaged()) return;
+  const std::string nearest = nearest_name(name, plan_->names());
+  reader.error("group", fmt::format("no [[group]] is named \"{}\"{}", name,
+                                    nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+}
+
+// What is wrong in a pattern that nothing shows is wrong all the same.
+void Builder::check_idle_patterns() {
+  for (const toml::table* group : plan_->idle()) {
+    Group unused;
+    building_ = &unused;
+    add_table(*find_section("group"), *group, Placing{});
+    building_ = nullptr;
+    log_.warning(position_of(group->source()),
+                 fmt::format("group \"{}\" is not shown: no [[instance]] names it",
+                             (*group)["name"].value_or(std::string())));
   }
 }
 
@@ -265,7 +251,7 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
   const DiagnosticLog::About about(log_, [&] {
     return placed.name.index == Names::none ? "" : describe(section.name, placed.name, scene_.names);
   });
-  const Batch batch = read_batch(section, table);
+  const Batch batch = read_batch(section, table, log_);
   std::vector<std::string_view> elsewhere{batch_key};
   if (section.kind == Section::Kind::group || section.is_combined())
     elsewhere.insert(elsewhere.end(), placed_names().begin(), placed_names().end());
@@ -339,7 +325,7 @@ void Builder::add_mesh(TableReader& reader, const Placing& placing) {
     }
     const std::string wrong =
         placer_.place(*import, placing.to_world, own_materials ? std::nullopt : std::optional(material),
-                      reader.position(), placing.name);
+                      reader.position(), placing.name, building_ ? building_->instances : scene_.instances);
     if (!wrong.empty()) reader.error("transform", wrong);
   } catch (const Error& refused) {
     reader.error("file", refused.what());
@@ -365,7 +351,7 @@ int Builder::find_material(TableReader& shape) {
 
 // Warns of what is legal but hardly meant.
 void Builder::check_whole() {
-  const bool empty = scene_.shapes.empty() && scene_.instances.empty();
+  const bool empty = scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
   if (empty && !tried_shapes_) log_.warning({}, "the scene has no shapes: only background will be seen");
   if (scene_.lights.empty() && scene_.render.integrator == IntegratorType::whitted && !empty) {
     log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");

@@ -123,10 +123,49 @@ radius = 0.4
 material = "glass"
 ```
 
+An [[instance]](#instance) shows a group once more, by its `name`. With `pattern = true` it is shown by instances alone, and not where it is written.
+
+A group that stands many times is kept once; see `groups` of [render](#render). That costs no more memory than one, and changes no
+id and no surface. One that holds a plane, which has no end, is copied.
+
 What a shape cannot be, it cannot be in a group either: a sphere in one that is stretched is an error; an ellipsoid is not.)";
+
+constexpr std::string_view instance_manual =
+    R"(Shows a [[group]] of the scene by its `name`, as if it were written here: also in another group, also many times by a `batch`.
+
+```toml
+[[group]]
+name = "tree"
+pattern = true
+
+[[group.cone]]
+from = [0, 1, 0]
+to = [0, 4, 0]
+radius = 1
+material = "wall"
+
+[[instance]]
+group = "tree"
+batch = { transform = [[{ translate = [-3, 0, 0] }], [{ scale = 1.5 }, { translate = [3, 0, 0] }]] }
+```
+
+A group that holds itself, by whatever way round, is an error.)";
+
+constexpr Key instance_keys[] = {
+    name_key,
+    {.name = "group", .type = KeyType::string, .doc = "The `name` of a [[group]] that is in no other."},
+    {.name = "transform",
+     .type = KeyType::transform,
+     .doc = "Steps that move it, applied in the order written, after those of the group.",
+     .fallback = "[]"},
+};
 
 constexpr Key group_keys[] = {
     name_key,
+    {.name = "pattern",
+     .type = KeyType::boolean,
+     .doc = "Whether it stands only where an [[instance]] names it; only of groups that are in no other.",
+     .fallback = "false"},
     {.name = "transform",
      .type = KeyType::transform,
      .doc = "Steps that move all of it, applied in the order written, after those of what it holds.",
@@ -149,6 +188,8 @@ std::vector<Section> make_sections() {
   }
   all.push_back({group, "group", "[[group]]", "Shapes, meshes and groups that are moved as one.", group_keys,
                  nullptr, group_manual});
+  all.push_back({instance, "instance", "[[instance]]", "A group that is shown by its name.", instance_keys,
+                 nullptr, instance_manual});
   return all;
 }
 

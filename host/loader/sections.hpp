@@ -12,7 +12,7 @@
 namespace eyeray {
 
 struct Section {
-  enum class Kind { image, camera, render, light, material, group, mesh, shape };
+  enum class Kind { image, camera, render, light, material, group, instance, mesh, shape };
 
   Kind kind;
   std::string_view name;
@@ -24,7 +24,9 @@ struct Section {
 
   bool many() const { return title.starts_with("[["); }
   // Whether it stands in the world: such tables may have a batch, and may stand in a group.
-  bool is_placed() const { return kind == Kind::shape || kind == Kind::mesh || kind == Kind::group; }
+  bool is_placed() const {
+    return kind == Kind::shape || kind == Kind::mesh || kind == Kind::group || kind == Kind::instance;
+  }
   // Whether it is made of the shapes that stand in it.
   bool is_combined() const { return shape && shape->combine; }
 };

@@ -13,6 +13,7 @@ constexpr std::string_view camera_types[] = {"perspective", "orthographic"};
 constexpr std::string_view fov_axes[] = {"horizontal", "vertical", "shorter", "diagonal"};
 constexpr std::string_view integrators[] = {"raycast", "whitted"};
 constexpr std::string_view triangle_methods[] = {"woop", "moller-trumbore"};
+constexpr std::string_view group_storages[] = {"automatic", "instanced", "flat"};
 constexpr std::string_view light_types[] = {"point", "directional"};
 constexpr std::string_view falloffs[] = {"inverse_square", "none"};
 
@@ -107,6 +108,13 @@ constexpr Key render_table[] = {
      .doc = "How triangles are intersected; see [[triangle]].",
      .fallback = "\"woop\"",
      .choices = triangle_methods},
+    {.name = "groups",
+     .type = KeyType::choice,
+     .doc =
+         "Whether groups that stand more than once are kept once or copied; by itself, where that saves much "
+         "memory.",
+     .fallback = "\"automatic\"",
+     .choices = group_storages},
     {.name = "background",
      .type = KeyType::color,
      .doc = "What a ray that meets nothing sees.",
@@ -233,6 +241,7 @@ RenderSettings read_render(TableReader& table) {
   render.min_weight = table.number("min_weight");
   render.seed = static_cast<uint32_t>(table.integer("seed"));
   render.triangle_method = static_cast<TriangleMethod>(table.choice("triangle"));
+  render.groups = static_cast<GroupStorage>(table.choice("groups"));
   render.background = table.color("background");
   render.ambient = table.color("ambient");
   return render;

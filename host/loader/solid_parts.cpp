@@ -27,6 +27,7 @@ std::string why_no_part(const Section& section) {
     case Section::Kind::mesh:
       return "a mesh cannot be part of a solid: nothing says that it encloses a volume";
     case Section::Kind::group:
+    case Section::Kind::instance:
       return "a group cannot be part of a solid; what is to be moved as one is a [[solid.solid]]";
     default:
       return "";

@@ -27,7 +27,7 @@ struct PackedFormula {
 // A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
   // By slot: of the world's own those in no tree, by kind in registry order, then the others as leaves hold
-  // them; then those of each mesh with a tree of its own.
+  // them; then those of each mesh or group with a tree of its own.
   std::vector<shader::Primitive> primitives;
   std::vector<uint32_t> loose_ends;  // by kind, the end of those in no tree
   // Of those of `kind` in no tree.
@@ -38,7 +38,7 @@ struct PackedScene {
   uint32_t solid_leaves = 0;                          // how many of these there are
   bool mixed_solids = false;  // whether a solid's surfaces differ in what they take from a shadow ray
   std::vector<shader::uvec4> nodes;
-  std::vector<shader::Tree> trees;  // the world's, then one a mesh of `instances`
+  std::vector<shader::Tree> trees;  // the world's, then one a mesh or group of `instances`
   std::vector<shader::Instance> instances;
   bool has_tree = false;         // whether `nodes` are to be used; else all is tested one by one
   bool quantised_nodes = false;  // how `nodes` are coded
@@ -62,10 +62,12 @@ struct PackedScene {
 class Packer {
  public:
   // `eye`: the world position that becomes the origin.
-  explicit Packer(const Vec3& eye) : eye_(eye) {}
+  explicit Packer(const Vec3& eye) : origin_(eye) {}
 
   // World to eye-relative, still in float64: only the difference is rounded to float32.
-  Vec3 relative(const Vec3& world) const { return world - eye_; }
+  Vec3 relative(const Vec3& world) const { return world - origin_; }
+  // What stands in a space of its own is relative to another point, of that space.
+  void set_origin(const Vec3& origin) { origin_ = origin; }
 
   void add(const shader::Primitive& primitive) { scene.primitives.push_back(primitive); }
   // One of several primitives that a shape consists of, which share its id.
@@ -101,7 +103,7 @@ class Packer {
       pieces;  // of the shape that is being packed, in the world; empty where it is one primitive
 
  private:
-  Vec3 eye_;
+  Vec3 origin_;
   std::vector<std::pair<std::shared_ptr<const ImageTexture>, uint32_t>>
       images_;  // and the first texel of each
 };

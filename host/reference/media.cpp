@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reference/crossings.hpp"
+
 namespace eyeray::reference {
 
 namespace {
@@ -10,6 +12,21 @@ struct Crossing {
   double t;
   int material;
   bool leaving;
+};
+
+// One body, of the world's or of a group's.
+template <typename Holder>
+struct Body {
+  const Holder& holder;
+  size_t index;
+
+  std::optional<TriangleHit> intersect(const Ray& ray) const {
+    const auto hit = holder.intersect(index, ray);
+    return hit ? std::optional(hit->at) : std::nullopt;
+  }
+  SurfacePoint surface(const Ray& ray, const TriangleHit& hit) const {
+    return holder.surface(ray, {hit, index});
+  }
 };
 
 // The media that the ray leaves without having entered them, innermost first.
@@ -26,11 +43,18 @@ std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
       return true;
     });
   };
-  for (const auto& shape : tracer.scene().shapes)
-    collect(*shape, [&](const Intersection& hit) { return shape->part(hit).material; });
-  for (const InstanceGeometry& instance : tracer.instances())
-    if (has_medium(instance.material()))
-      collect(instance, [&](const TriangleHit&) { return instance.material(); });
+  const auto collect_all = [&]<typename Holder>(const Holder& holder, const Bodies& bodies) {
+    for (size_t i = 0; i < bodies.size(); ++i) {
+      // Which of a solid's parts has a surface is known once it is met.
+      if (!bodies.is_shape(i) && !has_medium(bodies.material({{}, i}))) continue;
+      collect(Body<Holder>{holder, i}, [&](const TriangleHit& hit) { return bodies.material({hit, i}); });
+    }
+  };
+  collect_all(tracer.world(), tracer.world());
+  const BoxRay box_ray = tracer.group_box_ray(ray);
+  for (const GroupGeometry& group : tracer.groups())
+    if (box_ray.entry(group.bounds()) < std::numeric_limits<double>::infinity())
+      collect_all(group, group.bodies());
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/crossings.hpp"
 #include "reference/light.hpp"
 #include "reference/rng.hpp"
 

@@ -125,8 +125,9 @@ std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorO
 }
 
 std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options) {
-  for (const auto& shape : scene.shapes)
-    if (shape->formula_use()) shape->formula_use()->formula->compile();
+  for_each_shape(scene, [](const Shape& shape) {
+    if (shape.formula_use()) shape.formula_use()->formula->compile();
+  });
   return make_reference_executor(
       std::make_shared<const reference::Renderer>(scene, options.pack.acceleration));
 }

@@ -18,15 +18,15 @@ namespace {
 // Each formula once, with the first shape that it is used by.
 std::vector<const Shape*> users(const Scene& scene) {
   std::vector<const Shape*> all;
-  for (const auto& shape : scene.shapes) {
-    const FormulaUse* use = shape->formula_use();
+  for_each_shape(scene, [&](const Shape& shape) {
+    const FormulaUse* use = shape.formula_use();
     if (use && std::ranges::none_of(all, [&](const Shape* other) {
           const FormulaUse& known = *other->formula_use();
           return known.formula->same(*use->formula) && known.lipschitz == use->lipschitz &&
                  known.box.min == use->box.min && known.box.max == use->box.max;
         }))
-      all.push_back(shape.get());
-  }
+      all.push_back(&shape);
+  });
   return all;
 }
 

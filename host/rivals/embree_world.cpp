@@ -71,6 +71,9 @@ EmbreeWorld::EmbreeWorld(const Scene& scene) : device_(rtcNewDevice(nullptr)) {
                   material->name);
     if (material->shadow_transmittance() > 0 && !opaque_) opaque_.reset(rtcNewScene(device_.get()));
   }
+  if (!scene.group_instances.empty())
+    throw Error(ExitCode::bad_input,
+                "Embree is raced without groups that are kept once: copy them, -D render.groups=flat");
   add_shapes(scene);
   add_meshes(scene);
 

@@ -150,6 +150,18 @@ void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
   }
 }
 
+void add_instance(std::string& text, const Scene& scene, const Instance& instance) {
+  append(text, "object {{ Mesh{} {} {} }}\n", instance.mesh, matrix(instance.transform),
+         look(scene, instance.material));
+}
+
+void add_group(std::string& text, const Scene& scene, const Group& group, size_t index) {
+  append(text, "#declare Group{} = union {{\n", index);
+  for (const auto& shape : group.shapes) add_shape(text, scene, *shape);
+  for (const Instance& instance : group.instances) add_instance(text, scene, instance);
+  text += "}\n";
+}
+
 void add_vectors(std::string& text, const char* name, const std::vector<Vec3>& vectors) {
   append(text, "{} {{{},\n", name, vectors.size());
   for (const Vec3& v : vectors) append(text, "{},\n", vector(v));
@@ -179,10 +191,10 @@ std::string povray_scene(const Scene& scene, int width, int height) {
     append(text, "#declare M{} = {}\n", i, texture(*scene.materials[i], scene.render.ambient));
   for (const auto& shape : scene.shapes) add_shape(text, scene, *shape);
   for (size_t i = 0; i < scene.meshes.size(); ++i) add_mesh(text, scene.meshes[i], i);
-  for (const Instance& instance : scene.instances) {
-    append(text, "object {{ Mesh{} {} {} }}\n", instance.mesh, matrix(instance.transform),
-           look(scene, instance.material));
-  }
+  for (const Instance& instance : scene.instances) add_instance(text, scene, instance);
+  for (size_t i = 0; i < scene.groups.size(); ++i) add_group(text, scene, scene.groups[i], i);
+  for (const GroupInstance& instance : scene.group_instances)
+    append(text, "object {{ Group{} {} }}\n", instance.group, matrix(instance.transform));
   return text;
 }
 

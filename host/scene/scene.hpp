@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/vec.hpp"
+#include "scene/group.hpp"
 #include "scene/material.hpp"
 #include "scene/mesh.hpp"
 #include "scene/shape.hpp"
@@ -37,6 +38,7 @@ struct Camera {
 
 enum class IntegratorType { raycast, whitted };
 enum class TriangleMethod { woop, moller_trumbore };
+enum class GroupStorage { automatic, instanced, flat };
 
 struct RenderSettings {
   IntegratorType integrator = IntegratorType::whitted;
@@ -44,8 +46,9 @@ struct RenderSettings {
   double min_weight = 0.001;  // a reflected or refracted ray that would count for less is not traced
   uint32_t seed = 0;
   TriangleMethod triangle_method = TriangleMethod::woop;
-  Vec3 background{0.0};  // what a ray that meets nothing sees
-  Vec3 ambient{0.0};     // light that reaches every point from everywhere
+  GroupStorage groups = GroupStorage::automatic;  // whether groups that stand often are kept once
+  Vec3 background{0.0};                           // what a ray that meets nothing sees
+  Vec3 ambient{0.0};                              // light that reaches every point from everywhere
 };
 
 enum class LightType { point, directional };
@@ -68,17 +71,27 @@ struct Scene {
   RenderSettings render;
   std::vector<Light> lights;
   std::vector<std::unique_ptr<Material>> materials;
-  // In registry order, within a kind in file order (an included file's where its name stands).
+  // In registry order, within a kind in file order (an included file's where its name stands); then those of
+  // each group in turn.
   std::vector<std::unique_ptr<Shape>> shapes;
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
+  std::vector<Group> groups;  // those that are kept once
+  std::vector<GroupInstance> group_instances;
   Names names;  // of shapes and instances
 
-  // The primitive index of every executor, which decides exact ties, counts the shapes, then the triangles of
-  // each instance in turn.
+  // How many primitives there are for rays; scene/primitive_ids.hpp says which is which.
   uint64_t primitive_count() const;
 
   std::vector<Diagnostic> warnings;
 };
+
+// Calls visit(shape) for each shape as it is kept: the scene's own, then those of its groups.
+template <typename Visit>
+void for_each_shape(const Scene& scene, const Visit& visit) {
+  for (const auto& shape : scene.shapes) visit(*shape);
+  for (const Group& group : scene.groups)
+    for (const auto& shape : group.shapes) visit(*shape);
+}
 
 }  // namespace eyeray

@@ -145,6 +145,7 @@ struct ShapeType {
   // where they belong, and from those to be removed from them.
   using Shapes = std::vector<std::unique_ptr<Shape>>;
   std::unique_ptr<Shape> (*combine)(TableReader& table, Shapes operands, Shapes removed) = nullptr;
+  bool bounded = true;  // whether every such shape has an end in all directions
   // Whether a ray meets it once at most, so that it may be of a material with holes.
   bool flat = false;
 };

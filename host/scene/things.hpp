@@ -1,14 +1,16 @@
 // What primitive indices stand for: which shape, or which triangle of which mesh, by the words of the file.
 #pragma once
 
+#include "scene/primitive_ids.hpp"
 #include "scene/scene.hpp"
 
 namespace eyeray {
 
-// A shape of the scene, or an instance of a mesh.
+// A shape of the scene, or an instance of a mesh; the scene's own, or as a group instance shows it.
 struct Thing {
   std::string_view kind;  // "sphere", "mesh"
   NameRef name;
+  NameRef group;          // of the group instance; goes before the name
   std::string_view mesh;  // what its file calls the mesh; "" of shapes
   const SourcePosition* position;
   int material;
@@ -21,8 +23,8 @@ class Things {
   // `scene` must outlive it.
   explicit Things(const Scene& scene);
 
-  // The shapes, then the instances.
-  size_t size() const { return scene_.shapes.size() + ends_.size(); }
+  // The scene's own shapes and instances, then those of each group instance.
+  size_t size() const { return first_in_group_.back(); }
   Thing operator[](size_t index) const;
   // The thing that a primitive belongs to; primitive < Scene::primitive_count().
   size_t of(uint64_t primitive) const;
@@ -32,7 +34,13 @@ class Things {
 
  private:
   const Scene& scene_;
-  std::vector<uint64_t> ends_;  // of the instances' primitive indices
+  PrimitiveIds ids_;
+  std::vector<size_t> first_in_group_;  // things, by group instance; one more at the end
 };
+
+// The names of its groups, then its own; "" where there are none.
+std::string path(const Thing& thing, const Names& names);
+// As describe() of a name.
+std::string describe(const Thing& thing, const Names& names);
 
 }  // namespace eyeray

@@ -109,7 +109,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
 }  // namespace
 
 extern const ShapeType plane_type{
-    .name = "plane", .manual = manual, .keys = keys, .parse = parse, .flat = true};
+    .name = "plane", .manual = manual, .keys = keys, .parse = parse, .bounded = false, .flat = true};
 
 std::unique_ptr<Shape> make_plane(const Vec3& point, const Vec3& normal, const Mat4& transform,
                                   const std::optional<Vec3>& u_axis) {

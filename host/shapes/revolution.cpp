@@ -66,7 +66,10 @@ ObjectShape::Crossings Revolution::crossings(const Ray& ray) const {
 ObjectShape::Point Revolution::point(const Vec3& near, const Intersection& hit) const {
   const auto& [square, linear, constant, bottom, top] = profile_;
   const double distance = std::hypot(near.x, near.z);
-  if (hit.u == side) {
+  const double end = hit.u == bottom_cap ? bottom : top;
+  const double rim = profile_.radius(end);
+  // What would be a cap without a rim is the side's tip.
+  if (hit.u == side || rim == 0) {
     const Vec2 outward = distance > 0 ? Vec2(near.x, near.z) / distance : Vec2(1, 0);
     const double y = std::clamp(near.y, bottom, top);
     const double radius = profile_.radius(y);
@@ -79,11 +82,9 @@ ObjectShape::Point Revolution::point(const Vec3& near, const Intersection& hit) 
     const double u = 0.5 + std::atan2(-outward.y, outward.x) / (2 * std::numbers::pi);
     return {p, gradient, {u < 1 ? u : 0, (y - bottom) / (top - bottom)}};
   }
-  const double y = hit.u == bottom_cap ? bottom : top;
-  const double rim = profile_.radius(y);
   const double up = hit.u == bottom_cap ? -1 : 1;
   const double within = distance > rim ? rim / distance : 1;
-  const Vec3 p(near.x * within, y, near.z * within);
+  const Vec3 p(near.x * within, end, near.z * within);
   return {p, {0, up, 0}, {0.5 + 0.5 * p.x / rim, 0.5 - 0.5 * p.z / rim * up}};
 }
 

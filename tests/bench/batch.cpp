@@ -1,7 +1,12 @@
 #include "bench/batch.hpp"
 
+#include <fmt/format.h>
+
+#include <set>
+
 #include "generate/octasphere.hpp"
 #include "loader/scene_file.hpp"
+#include "reference/tracer.hpp"
 #include "rivals/embree.hpp"
 //
 #include "support/doctest.hpp"
@@ -61,6 +66,78 @@ TEST_CASE("primary rays go block by block through the pixels' centres") {
   for (const auto& [i, expected] : places) {
     CHECK(glm::distance(pixel(i), expected) < 1e-9);
   }
+}
+
+TEST_CASE("rays leave groups that are kept once where they leave copies; Embree is not asked about them") {
+  const auto grouped = [](const char* groups) {
+    Scene scene = parse_scene(fmt::format(R"([render]
+groups = "{}"
+[[material]]
+name = "m"
+type = "phong"
+[[sphere]]
+center = [-1.6, 0, 0]
+radius = 0.4
+material = "m"
+[[group]]
+batch = {{ transform = [[], [{{ scale = [-1, 2, 1] }}, {{ translate = [1, 0.5, 0] }}]] }}
+[[group.box]]
+min = [-0.4, -0.4, -0.4]
+max = [0.3, 0.4, 0.4]
+material = "m"
+[[group.ellipsoid]]
+center = [0, 0.8, 0]
+radii = [0.3, 0.2, 0.3]
+material = "m"
+)",
+                                          groups),
+                              "groups");
+    // The meshes as the loader would place them: one of the scene's own, one in the group, in which there are
+    // two.
+    scene.meshes.push_back(octasphere(4));
+    const auto at = [](double x, double y) {
+      return Mat4({0.3, 0, 0, 0}, {0, 0.3, 0, 0}, {0, 0, 0.3, 0}, {x, y, 0, 1});
+    };
+    const auto mesh = [&](const Mat4& map) { return Instance{.mesh = 0, .transform = map, .position = {}}; };
+    scene.instances.push_back(mesh(at(-1.6, 1)));
+    const std::vector<Instance> members = {mesh(at(0, -0.8)), mesh(at(0, -1.5))};
+    for (GroupInstance& instance : scene.group_instances) instance.instances_before = 1;
+    if (!scene.groups.empty()) {
+      scene.groups[0].instances = members;
+    } else {
+      Mat4 second(1.0);
+      second[0].x = -1;
+      second[1].y = 2;
+      second[3] = {1, 0.5, 0, 1};
+      for (const Mat4& map : {Mat4(1.0), second})
+        for (const Instance& member : members) scene.instances.push_back(mesh(map * member.transform));
+    }
+    return scene;
+  };
+  const Scene once = grouped("instanced"), flat = grouped("flat");
+  REQUIRE(once.group_instances.size() == 2);
+  const Batch primary = primary_batch(flat, 96, 72);
+  std::set<int64_t> met;
+  const auto leaving = [&](const Scene& scene) {
+    const reference::Tracer tracer(scene);
+    std::vector<QueryHit> hits(primary.rays.size());
+    for (size_t i = 0; i < hits.size(); ++i) {
+      const auto hit = tracer.trace({primary.rays[i].o, primary.rays[i].d});
+      if (!hit) continue;
+      hits[i] = {hit->at.t, int64_t(hit->primitive)};
+      met.insert(hits[i].primitive);
+    }
+    return departures(scene, primary.rays, hits);
+  };
+  const std::vector<Departure> a = leaving(once), b = leaving(flat);
+  REQUIRE(a.size() == b.size());
+  CHECK(met.size() > 150);
+  double apart = 0;
+  for (size_t i = 0; i < a.size(); ++i)
+    apart = std::max(
+        {apart, glm::distance(a[i].position, b[i].position), glm::distance(a[i].normal, b[i].normal)});
+  CHECK(apart < 1e-6);
+  CHECK_THROWS_WITH_AS(Embree{once}, doctest::Contains("-D render.groups=flat"), Error);
 }
 
 TEST_CASE("rays leave surfaces outward, and shadow rays end at the light") {

@@ -76,6 +76,26 @@ material = "g"
   CHECK(has(text, "object { Mesh0 matrix <1,0,0,0,1,0,0,0,1,7,8,9> texture {M0} }"));
 }
 
+TEST_CASE("a group that is kept once is a union, wherever it stands") {
+  const std::string text = povray_scene(parse_scene(R"([render]
+groups = "instanced"
+[[material]]
+name = "m"
+type = "phong"
+[[group]]
+batch = { transform = [[{ translate = [1, 2, 3] }], [{ scale = 2 }]] }
+[[group.sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "m"
+)",
+                                                    "a"),
+                                        200, 100);
+  CHECK(has(text, "#declare Group0 = union {\nsphere {<0,0,0>,1 texture {M0}}\n}\n"));
+  CHECK(has(text, "object { Group0 matrix <1,0,0,0,1,0,0,0,1,1,2,3> }"));
+  CHECK(has(text, "object { Group0 matrix <2,0,0,0,2,0,0,0,2,0,0,0> }"));
+}
+
 TEST_CASE("shapes that are a plain one under a map, in POV-Ray's words") {
   const std::string text = povray_scene(parse_scene(R"([camera]
 eye = [0, 0, 5]

@@ -92,3 +92,26 @@ TEST_CASE("samples that disprove a Lipschitz constant are a warning with the pla
   CHECK(run_eyeray({"check", folder.scene()}).err == result.err);
   CHECK(run_eyeray({"check", folder.scene()}, no_compiler).err == "");
 }
+
+TEST_CASE("a formula in a group that is kept once is checked as any other") {
+  const auto keep_once = [](const FormulaFolder& folder) {
+    replace_in_file(
+        folder.scene(), "[[implicit]]",
+        "[[group]]\nbatch = { transform = [[], [{ translate = [3, 0, 0] }]] }\n[[group.implicit]]");
+  };
+  const FormulaFolder wrong("float f(vec3 p) {\n  return length(p) - missing;\n}\n");
+  keep_once(wrong);
+  for (const std::string backend : {"gpu", "twin", "reference"}) {
+    const ProcessResult result = run_eyeray({"render", wrong.scene(), "--backend", backend, "-o",
+                                             wrong / "a.png", "--quiet", "-D", "render.groups=instanced"});
+    CAPTURE(result.err);
+    CHECK(result.code == 2);
+    CHECK(result.err.find(wrong / "f.glsl" + ":2:22: error: 'missing': undeclared identifier") !=
+          std::string::npos);
+  }
+  const FormulaFolder steep("float f(vec3 p) { return 3.0 * (distance(p, vec3(0.0, 1.0, 0.0)) - 0.9); }\n");
+  keep_once(steep);
+  const ProcessResult result = run_eyeray({"check", steep.scene(), "-D", "render.groups=instanced"});
+  CHECK(result.code == 0);
+  CHECK(result.err.find("as steep as 3 at [") != std::string::npos);
+}

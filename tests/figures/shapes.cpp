@@ -11,7 +11,7 @@
 
 #include "core/parallel_for.hpp"
 #include "makers.hpp"
-#include "reference/tracer.hpp"
+#include "reference/crossings.hpp"
 #include "shapes/make.hpp"
 #include "support/random.hpp"
 #include "twin/shader_functions.hpp"

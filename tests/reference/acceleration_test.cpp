@@ -86,6 +86,24 @@ HardScene hard_scene(Dice& dice) {
       keep(scene.meshes.back(), map);
     }
   }
+  if (dice.between(0, 2) < 1) {
+    // A group of spheres and a mesh, more than once.
+    Group& group = scene.groups.emplace_back();
+    for (int i = int(dice.between(0, 4)); i > 0; --i) {
+      group.shapes.push_back(make_sphere(size * dice.in_box(2), size * dice.scale(-3, 0)));
+      group.shapes.back()->material = material();
+    }
+    const int mesh = add(scene, hard_mesh(dice, size));
+    const Mat4 in_group = random_map(dice, dice.between(0, 1), size);
+    group.instances.push_back({mesh, in_group, material(), {}});
+    for (int k = int(dice.between(0, 3)); k >= 0; --k) {
+      const bool repeat = dice.between(0, 3) < 1 && !scene.group_instances.empty();
+      const Mat4 map = repeat ? scene.group_instances.back().transform
+                              : random_map(dice, dice.between(0, 1), dice.between(0, 2) < 1 ? 0 : size);
+      scene.group_instances.push_back({0, map, scene.shapes.size(), scene.instances.size(), {}});
+      keep(scene.meshes.back(), map * in_group);
+    }
+  }
   return result;
 }
 
@@ -138,13 +156,21 @@ std::optional<Intersection> plain_search(const Scene& scene, const Ray& ray) {
   const auto offer = [&](const std::optional<Intersection>& hit) {
     if (hit && (!nearest || hit->t < nearest->t)) nearest = hit;
   };
-  for (const auto& shape : scene.shapes) offer(shape->intersect(ray));
-  for (const Instance& instance : scene.instances) {
+  const auto offer_mesh = [&](const Instance& instance, const Ray& from) {
     const Affine map(instance.transform);
-    const Ray in_mesh{(ray.o - map.offset) * map.cotangent, ray.d * map.cotangent};
+    const Ray in_mesh{(from.o - map.offset) * map.cotangent, from.d * map.cotangent};
     const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
     for (size_t i = 0; i < mesh.triangles.size(); ++i)
       offer(intersect_triangle(corners(mesh, i), geometric_normal(corners(mesh, i)), in_mesh));
+  };
+  for (const auto& shape : scene.shapes) offer(shape->intersect(ray));
+  for (const Instance& instance : scene.instances) offer_mesh(instance, ray);
+  for (const GroupInstance& copy : scene.group_instances) {
+    const Affine map(copy.transform);
+    const Ray in_group{(ray.o - map.offset) * map.cotangent, ray.d * map.cotangent};
+    const Group& group = scene.groups[size_t(copy.group)];
+    for (const auto& shape : group.shapes) offer(shape->intersect(in_group));
+    for (const Instance& instance : group.instances) offer_mesh(instance, in_group);
   }
   return nearest;
 }

@@ -1,4 +1,4 @@
-#include "reference/tracer.hpp"
+#include "reference/crossings.hpp"
 #include "scene/affine.hpp"
 #include "scene/triangle.hpp"
 #include "scenes.hpp"

@@ -1,6 +1,7 @@
 // What rounding does to rays at meshes: none meets again what it leaves, none slips between two triangles.
 #include "core/parallel_for.hpp"
 #include "meshes.hpp"
+#include "reference/crossings.hpp"
 #include "support/doctest.hpp"
 #include "support/random.hpp"
 

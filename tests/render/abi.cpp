@@ -57,10 +57,9 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
   check_struct(samples, "Primitive", sizeof(shader::Primitive),
                {MEMBER(Primitive, head), MEMBER(Primitive, a), MEMBER(Primitive, b), MEMBER(Primitive, c)});
   check_struct(samples, "Tree", sizeof(shader::Tree),
-               {MEMBER(Tree, origin), MEMBER(Tree, step), MEMBER(Tree, extent), MEMBER(Tree, reach),
-                MEMBER(Tree, head)});
+               {MEMBER(Tree, origin), MEMBER(Tree, step), MEMBER(Tree, extent), MEMBER(Tree, head)});
   check_struct(samples, "Instance", sizeof(shader::Instance),
-               {MEMBER(Instance, head), MEMBER(Instance, to_mesh), MEMBER(Instance, to_world)});
+               {MEMBER(Instance, head), MEMBER(Instance, to_local), MEMBER(Instance, to_world)});
   check_struct(samples, "Material", sizeof(shader::Material),
                {MEMBER(Material, head), MEMBER(Material, textures), MEMBER(Material, parameters),
                 MEMBER(Material, mask)});

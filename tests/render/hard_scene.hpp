@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "random_scene.hpp"
+#include "ray_targets.hpp"
 #include "reference/media.hpp"
 
 namespace eyeray::test {
@@ -53,14 +54,23 @@ class HardScene {
       if (chance(0.6)) add_instances(2 + random_.below(4));
       if (scene_.shapes.empty() && scene_.instances.empty()) add_single();
     }
+    if (chance(0.4)) add_groups(1 + random_.below(4));
     sort_shapes();
     // More media around the eye than a ray can carry: all opaque.
     if (reference::media_at(scene_, scene_.camera.eye).size() > 4) {
-      std::erase_if(scene_.shapes, [](const auto& shape) { return is_solid(*shape); });
+      const auto erase_solids = [](auto& shapes) {
+        std::erase_if(shapes, [](const auto& shape) { return is_solid(*shape); });
+      };
+      erase_solids(scene_.shapes);
       for (const auto& shape : scene_.shapes) shape->material = 0;
       for (Instance& instance : scene_.instances) instance.material = 0;
+      for (Group& group : scene_.groups) {
+        erase_solids(group.shapes);
+        for (const auto& shape : group.shapes) shape->material = 0;
+        for (Instance& instance : group.instances) instance.material = 0;
+      }
     }
-    collect_targets();
+    targets_ = ray_targets(scene_, random_);
   }
 
   // Shapes stand in registry order.
@@ -238,6 +248,31 @@ class HardScene {
     }
   }
 
+  // A group of shapes of many kinds, or of one, perhaps with a mesh.
+  void add_groups(int count) {
+    std::vector<std::unique_ptr<Shape>> own;
+    std::swap(own, scene_.shapes);
+    add_spheres(random_.below(5));
+    if (chance(0.7)) add_object_shapes(1 + random_.below(4));
+    if (chance(0.3)) add_solids(1 + random_.below(2));
+    if (chance(0.5)) add_shapes(hard_triangles(1 + random_.below(6)));
+    if (chance(0.3)) add_polygons(1 + random_.below(3));
+    Group group;
+    std::swap(group.shapes, scene_.shapes);
+    std::swap(scene_.shapes, own);
+    if (chance(0.4) || group.shapes.empty())
+      group.instances.push_back(
+          {add(scene_, hard_triangles(1 + random_.below(10))), some_map(), material(), {}});
+    scene_.groups.push_back(std::move(group));
+    Mat4 map(1.0);
+    for (int i = 0; i < count; ++i) {
+      if (i == 0 || !chance(0.2)) map = some_map();
+      scene_.group_instances.push_back(
+          {int(scene_.groups.size()) - 1, map, scene_.shapes.size(), index(scene_.instances.size() + 1), {}});
+    }
+    std::ranges::stable_sort(scene_.group_instances, {}, &GroupInstance::instances_before);
+  }
+
   // Turned, stretched, mirrored, sheared, made tiny or huge, and moved.
   Mat4 some_map() {
     if (chance(0.1)) return Mat4(1.0);
@@ -254,53 +289,8 @@ class HardScene {
     return map * translation(-center_);
   }
 
-  // Where rays go: corners, edges and insides as the records have them, in float32.
-  struct Target {
-    glm::vec3 a, b, c;  // the corners; of a sphere its centre, and points at its poles and on it
-  };
-  void collect_targets() {
-    const PackedScene packed = pack(scene_, {.acceleration = Acceleration::brute_force});
-    const auto take = [&](const shader::Primitive& p, const shader::Instance* instance) {
-      Target target{glm::vec3(p.a), glm::vec3(p.b), glm::vec3(p.c)};
-      if (kind_of(p) == shader::KIND_sphere) {
-        glm::vec3 pole(0);
-        pole[random_.below(3)] = chance(0.5) ? p.a.w : -p.a.w;
-        target.b = target.a + pole;
-        target.c = target.a + glm::vec3(random_.direction()) * p.a.w;
-      } else if (kind_of(p) == shader::KIND_solid) {
-        target.b = target.a + glm::vec3(p.b);
-        target.c = target.a + glm::vec3(p.b.x, -p.b.y, 0);
-      } else if (kind_of(p) > shader::KIND_triangle) {
-        // The centre of object space, and where two of its axes leave the unit cube.
-        glm::vec4 rows[3];
-        for (int i = 0; i < 3; ++i)
-          rows[i] = std::bit_cast<glm::vec4>(packed.vertices[p.head.w + uint32_t(i)]);
-        target.a = {rows[0].w, rows[1].w, rows[2].w};
-        target.b = target.a + glm::vec3(rows[0].x, rows[1].x, rows[2].x);
-        target.c = target.a + glm::vec3(rows[0].y, rows[1].y, rows[2].y);
-      } else if (kind_of(p) == shader::KIND_plane) {
-        target = {target.a * p.a.w, target.a * p.a.w + target.b, target.a * p.a.w + target.c};
-      }
-      if (instance) {
-        for (glm::vec3* corner : {&target.a, &target.b, &target.c}) {
-          Vec3 moved;
-          for (int row = 0; row < 3; ++row) {
-            const glm::dvec4 map(instance->to_world[row]);
-            moved[row] = glm::dot(Vec3(map), Vec3(*corner)) + map.w;
-          }
-          *corner = glm::vec3(moved);
-        }
-      }
-      targets_.push_back(target);
-    };
-    for (uint32_t i = 0; i < packed.trees[0].head.z; ++i) take(packed.primitives[i], nullptr);
-    for (const shader::Instance& instance : packed.instances)
-      for (uint32_t i = packed.trees[instance.head.x].head.y; i < packed.trees[instance.head.x].head.z; ++i)
-        take(packed.primitives[i], &instance);
-  }
-
   glm::vec3 some_point() {
-    const Target& t = targets_[index(targets_.size())];
+    const RayTarget& t = targets_[index(targets_.size())];
     const auto u = float(random_.uniform()), v = float(random_.uniform());
     switch (random_.below(5)) {
       case 0:
@@ -320,7 +310,7 @@ class HardScene {
     const glm::vec3 target = some_point();
     Vec3 origin = Vec3(target) + random_.direction() * size_ * random_.log_uniform(1e-2, 1e2);
     Vec3 direction = Vec3(target) - origin;
-    const Target& other = targets_[index(targets_.size())];
+    const RayTarget& other = targets_[index(targets_.size())];
     switch (random_.below(10)) {
       case 0:  // along an axis
       case 1: {
@@ -376,7 +366,7 @@ class HardScene {
   double glass_ = 0;
   Vec3 sphere_center_{0};
   double sphere_radius_ = 1;
-  std::vector<Target> targets_;
+  std::vector<RayTarget> targets_;
 };
 
 }  // namespace eyeray::test

@@ -65,19 +65,29 @@ struct Place {
   Vec3 scale;
 };
 
-// The mesh in its place, turned; as an instance, it has a second far away, so that both have a tree to share.
+enum class Kept { baked, instance, in_group };
+constexpr Kept all_kept[] = {Kept::baked, Kept::instance, Kept::in_group};
+constexpr const char* kept_names[] = {"baked", "an instance", "in a group"};
+
+// The mesh in its place, turned; as an instance, or in a group, it has a second far away, so that both have a
+// tree to share.
 struct PlacedMesh {
-  PlacedMesh(Mesh mesh, const Place& place, bool instanced) {
+  PlacedMesh(Mesh mesh, const Place& place, Kept kept) {
     map = glm::scale(glm::rotate(translation(place.center), 0.7, Vec3(0.6, 0, 0.8)), place.scale);
     triangles = uint32_t(mesh.triangles.size());
     scene.camera.eye = Vec3(0);
     add(scene, make_phong({}));
     const int index = add(scene, std::move(mesh));
-    add_instance(scene, index, 0, map);
-    if (instanced)
-      add_instance(scene, index, 0, translation(place.center * 3.0 + 1000.0 * place.scale) * map);
+    const Mat4 second = translation(place.center * 3.0 + 1000.0 * place.scale) * map;
+    if (kept == Kept::in_group) {
+      scene.groups.emplace_back().instances.push_back({.mesh = index, .position = {}});
+      for (const Mat4& each : {map, second}) scene.group_instances.push_back({0, each, 0, 0, {}});
+    } else {
+      add_instance(scene, index, 0, map);
+      if (kept == Kept::instance) add_instance(scene, index, 0, second);
+    }
     packed = pack(scene, {.acceleration = Acceleration::tree});
-    REQUIRE(packed.instances.size() == (instanced ? 2 : 0));
+    REQUIRE(packed.instances.size() == (kept == Kept::baked ? 0 : 2));
   }
   Vec3 to_world(const Vec3& p) const { return Vec3(map * glm::dvec4(p, 1)); }
   bool is_hit(const shader::QueryHit& hit) const { return hit.hit.y < triangles; }
@@ -106,8 +116,9 @@ TEST_CASE(
   const int count = 50'000 * effort();
   int64_t all = 0;
   for (const Place& place : places) {
-    for (const bool instanced : {false, true}) {
-      const PlacedMesh placed(mesh, place, instanced);
+    for (const Kept kept : all_kept) {
+      const bool instanced = kept != Kept::baked;
+      const PlacedMesh placed(mesh, place, kept);
       Specialisation specialisation;
       specialisation.profile = {.texel_buffers = instanced, .packets = !instanced, .shift_stack = instanced};
       QueryKernel kernel(device, placed.packed, specialisation);
@@ -126,8 +137,8 @@ TEST_CASE(
         const std::vector<shader::QueryHit> hits = kernel.ask(rays, false);
         const auto leaks =
             std::ranges::count_if(hits, [&](const shader::QueryHit& hit) { return !placed.is_hit(hit); });
-        MESSAGE(fmt::format("{}, {}, aimed {}: {} of {} leak", place.name,
-                            instanced ? "an instance" : "baked", aim_names[int(aim)], leaks, count));
+        MESSAGE(fmt::format("{}, {}, aimed {}: {} of {} leak", place.name, kept_names[int(kept)],
+                            aim_names[int(aim)], leaks, count));
         CHECK(leaks == 0);
         all += count;
       }
@@ -149,8 +160,8 @@ TEST_CASE(
                           {"far away", {148376, 1234, -223423}, Vec3(1000)}};
   const size_t count = size_t(10'000 * effort());
   for (const Place& place : places) {
-    for (const bool instanced : {false, true}) {
-      const PlacedMesh placed(mesh, place, instanced);
+    for (const Kept kept : all_kept) {
+      const PlacedMesh placed(mesh, place, kept);
       std::vector<shader::QueryRay> rays;
       const shader::Binding binding(placed.packed);
       while (rays.size() < count) {
@@ -172,8 +183,7 @@ TEST_CASE(
       const std::vector<shader::QueryHit> hits = kernel.ask(rays, false);
       const auto met =
           std::ranges::count_if(hits, [&](const shader::QueryHit& hit) { return placed.is_hit(hit); });
-      MESSAGE(fmt::format("{}, {}: {} of {} met again", place.name, instanced ? "an instance" : "baked", met,
-                          count));
+      MESSAGE(fmt::format("{}, {}: {} of {} met again", place.name, kept_names[int(kept)], met, count));
       CHECK(met == 0);
     }
   }

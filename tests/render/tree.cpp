@@ -51,7 +51,7 @@ class Tally {
 
 TEST_CASE("10 000 hard scenes on the twin: the tree finds what brute force finds, to the last bit") {
   Tally whole, split;
-  std::atomic<int> trees = 0, quantised = 0, with_splits = 0, with_instances = 0;
+  std::atomic<int> trees = 0, quantised = 0, with_splits = 0, with_instances = 0, with_groups = 0;
   parallel_for(0, 10000, [&](int seed) {
     HardScene hard{uint64_t(seed)};
     const std::vector<shader::QueryRay> rays = hard.rays(200);
@@ -62,6 +62,7 @@ TEST_CASE("10 000 hard scenes on the twin: the tree finds what brute force finds
     trees += tree.has_tree;
     quantised += tree.has_tree && tree.quantised_nodes;
     with_instances += !tree.instances.empty();
+    with_groups += tree.has_tree && !hard.scene().groups.empty();
     with_splits += splits;
     for (const bool any : {false, true}) {
       const std::vector<shader::QueryHit> expected = ask_twin(brute, rays, any);
@@ -70,10 +71,10 @@ TEST_CASE("10 000 hard scenes on the twin: the tree finds what brute force finds
         split.compare(uint64_t(seed), any ? "any" : "nearest", rays, expected, ask_twin(cut, rays, any));
     }
   });
-  MESSAGE(
-      fmt::format("{} compared, {} hit, {} dimmed; of {} trees {} quantised, {} with instances: {} differ",
-                  whole.compared.load(), whole.hits.load(), whole.dimmed.load(), trees.load(),
-                  quantised.load(), with_instances.load(), whole.different.load()));
+  MESSAGE(fmt::format(
+      "{} compared, {} hit, {} dimmed; of {} trees {} quantised, {} with instances, {} of groups: {} differ",
+      whole.compared.load(), whole.hits.load(), whole.dimmed.load(), trees.load(), quantised.load(),
+      with_instances.load(), with_groups.load(), whole.different.load()));
   MESSAGE(fmt::format("{} compared with splits, {} trees: {} differ", split.compared.load(),
                       with_splits.load(), split.different.load()));
   {
@@ -85,6 +86,7 @@ TEST_CASE("10 000 hard scenes on the twin: the tree finds what brute force finds
   CHECK(quantised > 5000);
   CHECK(trees - quantised > 500);
   CHECK(with_instances > 4000);
+  CHECK(with_groups > 3000);
   INFO(split.shown());
   CHECK(with_splits > 2000);
   CHECK(split.different == 0);

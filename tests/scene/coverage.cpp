@@ -26,12 +26,10 @@ struct Kinds {
 Kinds kinds_of(const Scene& scene) {
   const PackedScene packed = pack(scene);
   Kinds kinds;
-  for (const shader::Primitive& primitive : packed.primitives) {
-    kinds.shapes.insert(kind_of(primitive));
-    kinds.materials.insert(packed.materials[material_of(primitive)].head.x);
+  for (const auto& [shape, material] : packed.uses) {
+    kinds.shapes.insert(shape);
+    kinds.materials.insert(packed.materials[material].head.x);
   }
-  for (const shader::Instance& instance : packed.instances)
-    kinds.materials.insert(packed.materials[instance.head.z].head.x);
   return kinds;
 }
 

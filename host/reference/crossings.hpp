@@ -1,0 +1,44 @@
+// How a ray goes on from a surface: off it, and from crossing to crossing of one body.
+#pragma once
+
+#include <cmath>
+
+#include "scene/shape.hpp"
+
+namespace eyeray::reference {
+
+// Where a ray into direction `d` leaves from a surface point: off the surface by a few error bounds, and by
+// `least`, on the side of `d`, so that the ray does not meet the surface that it leaves. As the shaders do
+// (ray.glsl), it stays on its line where that is steep: near an edge it then starts beyond the same other
+// face. With `along_normal` it never does.
+Vec3 departure(const SurfacePoint& point, const Vec3& d, double least = 0, bool along_normal = false);
+
+// Many more than the surfaces of a mesh that a ray can sensibly cross.
+inline constexpr int most_crossings = 1 << 20;
+
+// Calls visit(t, hit, surface) for each crossing of the body, which has a Shape's `intersect` and `surface`,
+// in order of t, until `visit` returns false. It ends after the body's most_crossings(), else most_crossings,
+// and where rounding lets a ray come no further. Returns up to which t none is left out for want of steps,
+// infinity for all.
+template <typename Body, typename Visit>
+double for_each_crossing(const Body& body, const Ray& ray, const Visit& visit) {
+  int most = most_crossings;
+  if constexpr (requires { body.most_crossings(); }) most = body.most_crossings();
+  // Start anew behind each crossing; t stays that of the ray as given.
+  Ray rest = ray;
+  double passed = 0;
+  for (int crossings = 0; crossings < most; ++crossings) {
+    const auto hit = body.intersect(rest);
+    if (!hit) break;
+    if (hit->ran_out) return passed + hit->t;
+    const SurfacePoint surface = body.surface(rest, *hit);
+    if (!visit(passed + hit->t, *hit, surface)) break;
+    rest.o = departure(surface, ray.d);
+    const double before = passed;
+    passed = glm::dot(rest.o - ray.o, ray.d) / glm::dot(ray.d, ray.d);
+    if (!(passed > before)) break;
+  }
+  return HUGE_VAL;
+}
+
+}  // namespace eyeray::reference

@@ -1,0 +1,39 @@
+// Groups that stand many times, each kept once, and where they stand.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+#include "core/vec.hpp"
+#include "scene/mesh.hpp"
+#include "scene/shape.hpp"
+
+namespace eyeray {
+
+// Shapes and meshes in a space of their own. None is without bounds, and none is in two groups.
+struct Group {
+  std::vector<std::unique_ptr<Shape>> shapes;
+  std::vector<Instance> instances;  // their transforms lead into the group's space
+};
+
+// A group in the world. Under a transform that mirrors, the outside stays outside.
+struct GroupInstance {
+  int group = 0;        // index in Scene::groups
+  Mat4 transform{1.0};  // group to world: affine, and can be undone
+  // How many of Scene::shapes and of Scene::instances it stands behind: where it would be, were it no
+  // instance.
+  size_t shapes_before = 0;
+  size_t instances_before = 0;
+  SourcePosition position;
+  NameRef name = {};  // in Scene::names; goes before those of what is in it
+};
+
+// `meshes`: the scene's.
+Bounds bounds(const Group& group, const std::vector<Mesh>& meshes);
+uint64_t count_triangles(const Group& group, const std::vector<Mesh>& meshes);
+uint64_t count_primitives(const Group& group, const std::vector<Mesh>& meshes);
+
+}  // namespace eyeray

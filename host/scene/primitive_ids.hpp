@@ -1,0 +1,51 @@
+// The primitive indices of a scene, which are the same in every executor and decide exact ties: first its
+// shapes, those of groups where the group stands; then the triangles of its meshes in the same manner. They
+// do not depend on which groups are kept once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace eyeray {
+
+struct Scene;
+
+class PrimitiveIds {
+ public:
+  // Of the scene as it is now.
+  explicit PrimitiveIds(const Scene& scene);
+
+  // Of Scene::shapes, and of the first triangle of Scene::instances.
+  uint64_t of_shape(size_t shape) const;
+  uint64_t of_instance(size_t instance) const { return instances_[instance]; }
+
+  // Of a group instance's first shape and first triangle; the others follow in the group's order.
+  struct First {
+    uint64_t shape;
+    uint64_t triangle;
+  };
+  First of_group(size_t group_instance) const { return groups_[group_instance]; }
+
+  uint64_t count() const { return count_; }
+
+  // What a primitive is: a shape, or a triangle of an instance; the scene's own, or of the group that a group
+  // instance shows.
+  struct Location {
+    int group_instance = -1;  // −1: the scene's own
+    bool is_shape = true;
+    size_t index = 0;     // of the shape, or of the instance of a mesh
+    size_t triangle = 0;  // of the instance's mesh
+  };
+  Location locate(uint64_t primitive, const Scene& scene) const;
+
+ private:
+  std::vector<size_t> shapes_before_;   // by group instance, ascending, …
+  std::vector<uint64_t> group_shapes_;  // … and the shapes of those before it; one more at the end
+  std::vector<uint64_t> instances_;
+  std::vector<First> groups_;
+  uint64_t shape_count_ = 0;
+  uint64_t count_ = 0;
+};
+
+}  // namespace eyeray

@@ -1,0 +1,217 @@
+// Groups that stand many times: named ones, where they are kept once, and what may not be.
+#include <fmt/format.h>
+
+#include "loader/scene_file.hpp"
+#include "scene/affine.hpp"
+#include "scene/primitive_ids.hpp"
+#include "scene/things.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+constexpr std::string_view material = "[[material]]\nname = \"wall\"\ntype = \"phong\"\n";
+
+Scene parse(const std::string& text) {
+  return parse_scene(std::string(material) + text, "scene.toml");
+}
+
+std::string refused(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+bool says(const std::string& text, std::string_view what) {
+  return text.find(what) != std::string::npos;
+}
+
+std::string sphere(const std::string& table, double x) {
+  return fmt::format("[[{}]]\ncenter = [{}, 0, 0]\nradius = 1\nmaterial = \"wall\"\n", table, x);
+}
+
+// A list of that many steps along x.
+std::string steps(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += fmt::format("[{{ translate = [{}, 0, 0] }}],", i);
+  return "transform = [" + text + "]";
+}
+
+std::string batch(int count) {
+  return "batch = { " + steps(count) + " }\n";
+}
+
+double middle_x(const Shape& shape) {
+  return (shape.bounds().min.x + shape.bounds().max.x) / 2;
+}
+
+}  // namespace
+
+TEST_CASE("a named group stands where instances name it, after its own transform, and nowhere else") {
+  const Scene scene = parse("[[group]]\nname = \"ball\"\npattern = true\ntransform = [{ scale = 2 }]\n" +
+                            sphere("group.sphere", 1) +
+                            "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n"
+                            "[[group]]\ntransform = [{ translate = [100, 0, 0] }]\n"
+                            "[[group.instance]]\nbatch = { group = [\"ball\", \"ball\"], " +
+                            steps(2) + " }\n");
+  REQUIRE(scene.shapes.size() == 3);
+  CHECK(std::abs(middle_x(*scene.shapes[0]) - 102) < 1e-9);
+  CHECK(std::abs(middle_x(*scene.shapes[1]) - 103) < 1e-9);
+  CHECK(std::abs(middle_x(*scene.shapes[2]) - 12) < 1e-9);
+}
+
+TEST_CASE("of groups in groups, those are kept once that leave the least to keep") {
+  // 2 × 20 000 × 10 spheres: the inner group is; the other way round, the outer one.
+  const auto nested = [](int outer, int inner, int spheres) {
+    std::string text = "[[group]]\n" + batch(outer) + "[[group.group]]\n" + batch(inner);
+    for (int i = 0; i < spheres; ++i) text += sphere("group.group.sphere", 3 * i);
+    return parse(text);
+  };
+  const Scene many_inside = nested(2, 20'000, 10);
+  REQUIRE(many_inside.groups.size() == 1);
+  CHECK(many_inside.groups[0].shapes.size() == 10);
+  CHECK(many_inside.group_instances.size() == 40'000);
+  const Scene many_outside = nested(20'000, 2, 10);
+  REQUIRE(many_outside.groups.size() == 1);
+  CHECK(many_outside.groups[0].shapes.size() == 20);
+  CHECK(many_outside.group_instances.size() == 20'000);
+  CHECK(many_outside.primitive_count() == 400'000);
+  CHECK(std::abs(many_outside.group_instances[7].transform[3].x - 7) < 1e-12);
+
+  // What is small is copied.
+  const Scene small = nested(10, 10, 10);
+  CHECK(small.groups.empty());
+  CHECK(small.shapes.size() == 1000);
+}
+
+TEST_CASE("`groups` decides whether groups are kept once, and changes no id") {
+  const std::string text = sphere("sphere", 0) + "[[group]]\n" + batch(3) + sphere("group.sphere", 1) +
+                           sphere("group.sphere", 2) + "[[group]]\n" + sphere("group.sphere", 50) +
+                           "[[group]]\n" + batch(2) + sphere("group.sphere", 60);
+  const Scene flat = parse("[render]\ngroups = \"flat\"\n" + text);
+  const Scene once = parse("[render]\ngroups = \"instanced\"\n" + text);
+  CHECK(flat.shapes.size() == 10);
+  CHECK(flat.groups.empty());
+  CHECK(once.groups.size() == 2);
+  REQUIRE(once.shapes.size() == 2);
+  REQUIRE(once.group_instances.size() == 5);
+  CHECK(once.primitive_count() == flat.primitive_count());
+
+  const PrimitiveIds ids(once);
+  const auto same = [&](uint64_t id, double x) { return std::abs(middle_x(*flat.shapes[id]) - x) < 1e-9; };
+  for (size_t i = 0; i < once.shapes.size(); ++i) CHECK(same(ids.of_shape(i), middle_x(*once.shapes[i])));
+  for (size_t i = 0; i < once.group_instances.size(); ++i) {
+    const GroupInstance& instance = once.group_instances[i];
+    const auto& shapes = once.groups[size_t(instance.group)].shapes;
+    for (size_t k = 0; k < shapes.size(); ++k)
+      CHECK(same(ids.of_group(i).shape + k, middle_x(*shapes[k]) + instance.transform[3].x));
+  }
+}
+
+TEST_CASE("a group that holds something without an end is copied") {
+  const Scene scene =
+      parse("[render]\ngroups = \"instanced\"\n[[group]]\n" + batch(3) + "[[group.group]]\n" +
+            "[[group.group.plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"wall\"\n");
+  CHECK(scene.groups.empty());
+  CHECK(scene.shapes.size() == 3);
+}
+
+TEST_CASE("a sphere in a stretched group is refused, kept once or not, and at the same place") {
+  for (const char* groups : {"flat", "instanced"}) {
+    const std::string said = refused(fmt::format(
+        "[render]\ngroups = \"{}\"\n[[group]]\nbatch = {{ transform = [[], [{{ scale = [1, 2, 1] }}]] }}\n{}",
+        groups, sphere("group.sphere", 1)));
+    CHECK_MESSAGE(says(said, "scene.toml:8:1: error: "), said);
+    CHECK_MESSAGE(says(said, "ellipsoid"), said);
+  }
+}
+
+TEST_CASE("what is wrong with patterns and instances is said where it stands") {
+  const std::string ball = "[[group]]\nname = \"ball\"\npattern = true\n" + sphere("group.sphere", 1);
+  CHECK(says(refused(ball + "[[instance]]\ngroup = \"bal\"\n"),
+             "scene.toml:12:9: error: no [[group]] is named \"bal\"; did you mean \"ball\"?"));
+  CHECK(says(refused(ball + ball + "[[instance]]\ngroup = \"ball\"\n"),
+             "scene.toml:19:9: error: more than one [[group]] is named \"ball\""));
+  CHECK(says(refused("[[group]]\npattern = true\n"),
+             "scene.toml:5:11: error: a pattern needs a `name`, by which an [[instance]] shows it"));
+  CHECK(says(refused("[[group]]\n[[group.group]]\nname = \"ball\"\npattern = true\n" +
+                     sphere("group.group.sphere", 1)),
+             "scene.toml:7:11: error: only a [[group]] that is in no other can be a pattern"));
+  CHECK(says(refused("[[instance]]\n"), "[[instance]] needs `group`"));
+  CHECK(says(refused("[[group]]\nname = \"a\"\n[[group.instance]]\ngroup = \"b\"\n"
+                     "[[group]]\nname = \"b\"\n[[group.instance]]\ngroup = \"a\"\n"),
+             "scene.toml:5:8: error: group \"a\" holds itself: a → b → a"));
+}
+
+TEST_CASE("a group with a name that is no pattern stands where it is written, too") {
+  const Scene scene = parse("[[group]]\nname = \"ball\"\n" + sphere("group.sphere", 1) +
+                            "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n");
+  REQUIRE(scene.shapes.size() == 2);
+  CHECK(std::abs(middle_x(*scene.shapes[0]) - 1) < 1e-9);
+  CHECK(std::abs(middle_x(*scene.shapes[1]) - 11) < 1e-9);
+}
+
+TEST_CASE("what is kept once is called as its copies are") {
+  const std::string text = sphere("sphere", 0) + "[[group]]\nname = \"cart\"\n" + batch(2) +
+                           sphere("group.sphere", 1) + "name = \"wheel\"\n" + sphere("group.sphere", 2) +
+                           "[[group]]\n" + batch(2) + sphere("group.sphere", 3);
+  const Scene flat = parse("[render]\ngroups = \"flat\"\n" + text);
+  const Scene once = parse("[render]\ngroups = \"instanced\"\n" + text);
+  REQUIRE(once.group_instances.size() == 4);
+  const Things flat_things(flat), once_things(once);
+  REQUIRE(once_things.size() == flat_things.size());
+  for (uint64_t id = 0; id < flat.primitive_count(); ++id)
+    CHECK(once_things.describe(id) == flat_things.describe(id));
+  CHECK(once_things.describe(3) == "sphere \"cart 2/wheel\", scene.toml:13");
+  for (size_t i = 0; i < once_things.size(); ++i) CHECK(once_things.of(once_things[i].first) == i);
+}
+
+TEST_CASE("a group that nothing shows is a warning, and read all the same") {
+  const Scene scene =
+      parse("[[group]]\nname = \"ball\"\npattern = true\n" + sphere("group.sphere", 1) + sphere("sphere", 0));
+  CHECK(scene.shapes.size() == 1);
+  bool warned = false;
+  for (const Diagnostic& warning : scene.warnings)
+    warned = warned || warning.message == "group \"ball\" is not shown: no [[instance]] names it";
+  CHECK(warned);
+  CHECK(says(refused("[[group]]\nname = \"ball\"\npattern = true\n[[group.sphere]]\nradius = 0\n"),
+             "scene.toml:8:10: error: "));
+}
+
+TEST_CASE("groups in each other without end are an error, not a stack that overflows") {
+  std::string text = sphere("sphere", 0);
+  for (int i = 0; i < 20'000; ++i)
+    text += fmt::format("[[group]]\nname = \"{}\"\npattern = true\n[[group.instance]]\ngroup = \"{}\"\n", i,
+                        i + 1);
+  CHECK(says(refused(text + "[[instance]]\ngroup = \"0\"\n"), "groups are nested more than 64 deep"));
+}
+
+TEST_CASE("named groups that double each time are refused, or kept once where that is enough") {
+  const auto doubled = [](int levels) {
+    std::string text = "[[group]]\nname = \"0\"\npattern = true\n" + sphere("group.sphere", 1);
+    for (int i = 1; i <= levels; ++i)
+      text += fmt::format("[[group]]\nname = \"{}\"\npattern = true\n[[group.instance]]\ngroup = \"{}\"\n{}",
+                          i, i - 1, batch(2));
+    return text + fmt::format("[[instance]]\ngroup = \"{}\"\n", levels);
+  };
+  const Scene scene = parse(doubled(20));
+  CHECK(scene.primitive_count() == 1'048'576);
+  CHECK(scene.shapes.size() + scene.group_instances.size() < 20'000);
+  CHECK(says(refused(doubled(40)), "things; at most 2147483647 can be told apart"));
+}
+
+TEST_CASE("what stands in solids counts among what is kept") {
+  const std::string text =
+      "[[group]]\n" + batch(10'000) +
+      "[[group.solid]]\nmaterial = \"wall\"\n[[group.solid.minus.sphere]]\ncenter = [0, 0, 0]\n"
+      "radius = 1\n" +
+      batch(10'000);
+  const std::string said = refused("[render]\ngroups = \"flat\"\n" + text);
+  CHECK_MESSAGE(says(said, "batches and groups come to 100020001 things; at most 67108864 are possible"),
+                said);
+}

@@ -1,0 +1,213 @@
+// Groups that are kept once: every kind of shape is in them what it is where it is copied.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "hard_scene.hpp"
+#include "loader/scene_file.hpp"
+#include "query_kernel.hpp"
+#include "reference/tracer.hpp"
+#include "twin/shader_functions.hpp"
+
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// The shapes of scenes/shapes/KIND.toml as a group that stands four times, the last time sheared.
+std::string grouped(const ShapeType& type, bool sheared) {
+  std::ifstream file(fmt::format("scenes/shapes/{}.toml", type.name));
+  REQUIRE(file);
+  std::string text = "[[group]]\nname = \"all\"\npattern = true\n";
+  bool kept = false;
+  for (std::string line; std::getline(file, line);) {
+    if (const size_t at = line.find_first_not_of('['); at == 1 || at == 2) {
+      const std::string_view table(line.data() + at, line.find_first_of(".]", at) - at);
+      kept = table == "material" || table == type.name;
+      if (table == type.name) line.insert(at, "group.");
+    }
+    if (kept) text += line + '\n';
+  }
+  return text +
+         fmt::format(R"(
+[[instance]]
+group = "all"
+batch = {{ transform = [
+  [],
+  [{{ rotate = {{ axis = [1, 2, 3], degrees = 50 }} }}, {{ scale = 0.3 }}, {{ translate = [30, 4, -9] }}],
+  [{{ scale = [-2, 2, 2] }}, {{ translate = [-80, 10, 20] }}],
+  {}] }}
+)",
+                     sheared ? "[{ matrix = [[1, 0.4, 0, 5], [0, 0.6, 0.2, 90], [0.1, 0, -1.5, 3]] }]" : "");
+}
+
+Scene stored(const std::string& text, std::string_view groups) {
+  return parse_scene(fmt::format("[render]\ngroups = \"{}\"\n{}", groups, text), "scene.toml");
+}
+
+// What a ray meets, and the surface there, whoever says so.
+struct Met {
+  int64_t primitive = -1;
+  double t = 0;
+  Vec3 position{0.0}, normal{0.0}, normal_geometric{0.0};
+  Vec2 uv{0.0};
+  uint32_t flags = 0;
+};
+
+Met by_reference(const reference::Tracer& tracer, const Ray& ray) {
+  uint32_t flags = 0;
+  const auto hit = tracer.trace(ray, flags);
+  if (!hit) return {.flags = flags};
+  const SurfacePoint s = tracer.surface(ray, *hit);
+  return {int64_t(hit->primitive), hit->at.t, s.position, s.normal, s.normal_geometric, s.uv, flags};
+}
+
+Met by_twin(const PackedScene& scene, const Ray& at, const Vec3& eye) {
+  const shader::Binding binding(scene);
+  const shader::Ray ray = shader::make_ray(glm::vec3(at.o - eye), glm::vec3(at.d));
+  uint32_t flags = 0;
+  const shader::Hit hit = shader::trace(ray, flags);
+  if (hit.slot == NONE) return {.flags = flags};
+  const shader::Surface s = shader::surface_at(shader::primitive_at(hit), ray, hit);
+  return {int64_t(hit.id), double(hit.t), Vec3(s.p) + eye, Vec3(s.normal), Vec3(s.normal_geometric),
+          Vec2(s.uv),      flags};
+}
+
+// How far apart they are, 1 being all that rounding may make of it; infinite for different primitives.
+double difference(const Met& a, const Met& b, double rounding, double size) {
+  if (a.primitive != b.primitive || a.flags != b.flags) return HUGE_VAL;
+  if (a.primitive < 0) return 0;
+  // The seam of a texture that goes round.
+  const Vec2 uv = glm::abs(a.uv - b.uv);
+  const double off = std::max(
+      {std::abs(a.t - b.t) / size, magnitude(a.position - b.position) / size, magnitude(a.normal - b.normal),
+       magnitude(a.normal_geometric - b.normal_geometric), std::min(uv.x, std::abs(1 - uv.x)), uv.y});
+  return off / rounding;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "every kind of shape: kept once it is met where copies are, with their ids, normals and uv; by the tree "
+    "as by "
+    "brute force") {
+  for (const ShapeType* type : shape_types()) {
+    CAPTURE(type->name);
+    // Spheres have to stay what they are, in solids too; and normals at a triangle's corners are interpolated
+    // before or after the map.
+    const bool sheared = type->name != "sphere" && type->name != "triangle" && type->name != "solid";
+    const std::string text = grouped(*type, sheared);
+    const Scene flat = stored(text, "flat");
+    const Scene once = stored(text, "instanced");
+    REQUIRE(once.primitive_count() == flat.primitive_count());
+    if (!type->bounded) {
+      CHECK(once.groups.empty());
+      continue;
+    }
+    REQUIRE(once.shapes.empty());
+    REQUIRE(once.group_instances.size() == (sheared ? 4 : 3));
+
+    const reference::Tracer flat_tracer(flat), once_tracer(once);
+    const PackedScene flat_records = pack(flat);
+    const PackedScene once_records = pack(once, {.acceleration = Acceleration::tree});
+    const PackedScene once_brute = pack(once, {.acceleration = Acceleration::brute_force});
+    REQUIRE(once_records.has_tree);
+    const Vec3 eye = once.camera.eye;
+    Random random(3);
+    int hits = 0, wrong = 0, wrong_shader = 0, wrong_tree = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Bounds box = flat.shapes[size_t(random.below(int(flat.shapes.size())))]->bounds();
+      const Vec3 target =
+          glm::mix(box.min, box.max, Vec3(random.uniform(), random.uniform(), random.uniform()));
+      const double size = glm::length(box.max - box.min);
+      Ray ray{target + random.direction() * size * random.log_uniform(0.1, 10), {}};
+      ray.d = glm::normalize(target - ray.o);
+      const Met expected = by_reference(flat_tracer, ray);
+      hits += expected.primitive >= 0;
+      const double off = difference(by_reference(once_tracer, ray), expected, 1e-6, size);
+      const Met met = by_twin(once_records, ray, eye);
+      const double off_shader = difference(met, by_twin(flat_records, ray, eye), 1e-3, size);
+      wrong_tree += difference(met, by_twin(once_brute, ray, eye), 1, size) != 0;
+      wrong += off > 1;
+      wrong_shader += off_shader > 1;
+    }
+    MESSAGE(fmt::format("{}: {} hits; reference {} differ, shaders {}, all where rays graze", type->name,
+                        hits, wrong, wrong_shader));
+    CHECK(hits > 400);
+    CHECK(wrong_tree == 0);
+    CHECK(wrong <= 2);
+    CHECK(wrong_shader <= 40);
+  }
+}
+
+TEST_CASE("a ray that leaves a convex shape of a group outward does not meet it again") {
+  const std::string shapes = R"(
+[[material]]
+name = "wall"
+type = "phong"
+[[group]]
+name = "all"
+pattern = true
+[[group.ellipsoid]]
+center = [0, 0, 0]
+radii = [1, 0.3, 2]
+material = "wall"
+[[group.box]]
+min = [4, 0, 0]
+max = [5, 1, 0.1]
+material = "wall"
+[[group.capsule]]
+from = [-6, 0, 0]
+to = [-6, 3, 1]
+radius = 0.5
+material = "wall"
+[[group.cylinder]]
+from = [0, 7, 0]
+to = [0, 9, 0]
+radius = 1
+material = "wall"
+[[group.superellipsoid]]
+center = [0, -7, 0]
+radii = [1, 2, 1]
+e = 0.5
+n = 0.7
+material = "wall"
+)";
+  for (const char* place : {"{ translate = [0, 0, 0] }", "{ scale = 1e-4 }, { translate = [3e-4, 0, 1e-4] }",
+                            "{ scale = 1e4 }, { translate = [3e4, 1e4, -2e4] }",
+                            "{ scale = 1000 }, { translate = [148376, 1234, -223423] }",
+                            "{ matrix = [[1, 0.8, 0, 9], [0, 0.1, 0.5, 2], [0.3, 0, -3, 1]] }"}) {
+    const Scene scene = stored(shapes + fmt::format("[[instance]]\ngroup = \"all\"\nbatch = {{ transform = "
+                                                    "[[{}], [{{ translate = [0, 5e5, 0] }}]] }}\n",
+                                                    place),
+                               "instanced");
+    const PackedScene packed = pack(scene);
+    REQUIRE(packed.instances.size() == 2);
+    const shader::Binding binding(packed);
+    const Bounds local = bounds(scene.groups[0], scene.meshes);
+    const Affine map(scene.group_instances[0].transform);
+    Random random(4);
+    int left = 0, met = 0;
+    while (left < 20'000) {
+      const Vec3 span(random.uniform(), random.uniform(), random.uniform());
+      const Vec3 target = map.point(glm::mix(local.min, local.max, span)) - scene.camera.eye;
+      const Vec3 origin = target + map.linear * (random.direction() * random.log_uniform(1, 100));
+      const glm::vec3 start(origin);
+      const shader::Ray ray = shader::make_ray(start, glm::normalize(glm::vec3(target) - start));
+      uint32_t flags = 0;
+      const shader::Hit hit = shader::trace(ray, flags);
+      if (hit.slot == NONE || hit.id >= 5) continue;
+      const shader::Surface surface = shader::surface_at(shader::primitive_at(hit), ray, hit);
+      glm::vec3 away(random.direction());
+      if (shader::dot3(away, surface.normal_geometric) < 0) away = -away;
+      const shader::Hit again = shader::trace(shader::leave(surface, away), flags);
+      ++left;
+      met += again.slot != NONE && again.id == hit.id;
+    }
+    CAPTURE(place);
+    CHECK(met == 0);
+  }
+}

@@ -1,0 +1,56 @@
+// Where hard rays go: corners, edges and insides as a scene's records have them, in float32.
+#pragma once
+
+#include "render/pack.hpp"
+#include "support/random.hpp"
+
+namespace eyeray::test {
+
+struct RayTarget {
+  glm::vec3 a, b, c;  // the corners; of a sphere its centre, and points at its poles and on it
+};
+
+// Of every primitive of the scene, as often as instances show it.
+inline std::vector<RayTarget> ray_targets(const Scene& scene, Random& random) {
+  std::vector<RayTarget> targets;
+  const PackedScene packed = pack(scene, {.acceleration = Acceleration::brute_force});
+  const auto take = [&](const shader::Primitive& p, const shader::Instance* instance) {
+    RayTarget target{glm::vec3(p.a), glm::vec3(p.b), glm::vec3(p.c)};
+    if (kind_of(p) == shader::KIND_sphere) {
+      glm::vec3 pole(0);
+      pole[random.below(3)] = random.uniform() < 0.5 ? p.a.w : -p.a.w;
+      target.b = target.a + pole;
+      target.c = target.a + glm::vec3(random.direction()) * p.a.w;
+    } else if (kind_of(p) == shader::KIND_solid) {
+      target.b = target.a + glm::vec3(p.b);
+      target.c = target.a + glm::vec3(p.b.x, -p.b.y, 0);
+    } else if (kind_of(p) > shader::KIND_triangle) {
+      // The centre of object space, and where two of its axes leave the unit cube.
+      glm::vec4 rows[3];
+      for (int i = 0; i < 3; ++i) rows[i] = std::bit_cast<glm::vec4>(packed.vertices[p.head.w + uint32_t(i)]);
+      target.a = {rows[0].w, rows[1].w, rows[2].w};
+      target.b = target.a + glm::vec3(rows[0].x, rows[1].x, rows[2].x);
+      target.c = target.a + glm::vec3(rows[0].y, rows[1].y, rows[2].y);
+    } else if (kind_of(p) == shader::KIND_plane) {
+      target = {target.a * p.a.w, target.a * p.a.w + target.b, target.a * p.a.w + target.c};
+    }
+    if (instance) {
+      for (glm::vec3* corner : {&target.a, &target.b, &target.c}) {
+        Vec3 moved;
+        for (int row = 0; row < 3; ++row) {
+          const glm::dvec4 map(instance->to_world[row]);
+          moved[row] = glm::dot(Vec3(map), Vec3(*corner)) + map.w;
+        }
+        *corner = glm::vec3(moved);
+      }
+    }
+    targets.push_back(target);
+  };
+  for (uint32_t i = 0; i < packed.trees[0].head.z; ++i) take(packed.primitives[i], nullptr);
+  for (const shader::Instance& instance : packed.instances)
+    for (uint32_t i = packed.trees[instance.head.x].head.y; i < packed.trees[instance.head.x].head.z; ++i)
+      take(packed.primitives[i], &instance);
+  return targets;
+}
+
+}  // namespace eyeray::test
