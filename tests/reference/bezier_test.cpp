@@ -1,3 +1,4 @@
+#include "reference/crossings.hpp"
 #include "scenes.hpp"
 #include "support/doctest.hpp"
 
