@@ -10,8 +10,8 @@ using namespace eyeray::test;
 
 TEST_CASE("bench measures every backend, and cold and warm starts") {
   const SceneFolder folder;
-  const ProcessResult result = run_eyeray(
-      {"bench", folder.scene(), "-n", "2", "-s", "64x64", "--backends", "gpu,twin,reference", "--json"});
+  const ProcessResult result = run_eyeray({"bench", folder.scene(), "-n", "2", "-s", "64x64", "--no-povray",
+                                           "--backends", "gpu,twin,reference", "--json"});
   CAPTURE(result.err);
   REQUIRE(result.code == 0);
   const auto entry = nlohmann::json::parse(result.out).at("bench").at(0);
