@@ -25,7 +25,15 @@ endforeach()
 set(EDGES ${SCENES})
 list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
 set(small ${SCENES} -s 96x72)
-list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes")
+list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes|/forest|/shapes/(algebraic|bezier|implicit|solid)")
+# Those whose kernels take seconds to make have fewer modes.
+set(slow scenes/shapes/algebraic.toml scenes/shapes/bezier.toml scenes/shapes/solid.toml -s 96x72)
+eyeray_verify(mode.slow-kernels.packets mode ${slow} scenes/shapes/implicit.toml scenes/forest.toml
+  --acceleration tree --no-constants --rays packets)
+eyeray_verify(mode.slow-kernels.jittered mode ${slow} scenes/shapes/implicit.toml scenes/forest.toml
+  --spp 4 -D image.pattern=jittered --seed 7 --max-explained 0.02)
+# A march takes up to 4096 steps a ray: 64 rays of glass in a row are more than Mesa 22.3.6 grants, and say so (docs/lavapipe.md).
+eyeray_verify(mode.slow-kernels.deep mode ${slow} --max-depth 64 -D render.min_weight=0.01)
 eyeray_verify(mode.no-constants mode ${small} --no-constants)
 eyeray_verify(mode.no-constants.edges mode ${EDGES} --no-constants)
 # However hits are found, they are the same. The GPU's profile runs on any device.
@@ -36,8 +44,8 @@ eyeray_verify(mode.groups-copied mode ${groups} scenes/forest.toml -s 96x72 -D r
 eyeray_verify(mode.tree mode ${small} --acceleration tree --no-constants)
 eyeray_verify(mode.tree.edges mode ${EDGES} --acceleration tree --no-constants)
 eyeray_verify(mode.brute-force mode ${searched} --acceleration brute-force)
-# Without a tree a ray meets each triangle as often as it is shown: more rays in a row are more loops than Mesa 22.3.6 grants.
-eyeray_verify(mode.brute-force.groups mode ${groups} -s 48x36 --acceleration brute-force --max-depth 0)
+# Without a tree a ray meets each triangle as often as it is shown: more rays in a row, or patches, are more loops than Mesa 22.3.6 grants.
+eyeray_verify(mode.brute-force.groups mode scenes/group_instances.toml -s 48x36 --acceleration brute-force --max-depth 0)
 eyeray_verify(mode.splits mode ${searched} ${groups} --acceleration tree --splits)
 eyeray_verify(mode.profile-gpu mode ${small} --profile gpu)
 eyeray_verify(mode.packets mode ${small} --acceleration tree --no-constants --rays packets)
@@ -45,10 +53,7 @@ eyeray_verify(mode.packets.edges mode ${EDGES} --acceleration tree --no-constant
 eyeray_verify(mode.raycast mode ${small} --integrator raycast)
 eyeray_verify(mode.raycast.edges mode ${EDGES} --integrator raycast)
 eyeray_verify(mode.eye-rays mode ${small} --max-depth 0)
-# A march takes up to 4096 steps a ray: 64 rays of glass in a row are more than Mesa 22.3.6 grants, and say so (docs/lavapipe.md).
-set(deep ${small})
-list(FILTER deep EXCLUDE REGEX "/implicit")
-eyeray_verify(mode.deep mode ${deep} --max-depth 64 -D render.min_weight=0.01)
+eyeray_verify(mode.deep mode ${small} --max-depth 64 -D render.min_weight=0.01)
 eyeray_verify(mode.moller-trumbore mode scenes/cornell.toml scenes/whitted.toml scenes/shapes/triangle.toml -s 96x72
   --triangle moller-trumbore)
 # A pixel of n samples is n times as likely to have one at a jump.
@@ -60,7 +65,7 @@ set(some scenes/cornell.toml scenes/inside_glass.toml scenes/orthographic.toml)
 foreach(size 1x1 7x3 1x300 300x1 17x33)
   eyeray_verify(mode.size-${size} mode ${some} -s ${size})
 endforeach()
-# Rays that start beyond another face of the same glass box (docs/verification.md, contact).
+# Rays that start beyond another face of the same glass box (docs/verification.md, rounding).
 eyeray_verify(mode.contact mode scenes/shapes/box.toml -s 640x427 --crop 476,250,24,24)
 eyeray_verify(mode.crop mode ${some} -s 200x150 --crop 51,37,83,71)
 eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --spp 4 -D image.pattern=jittered)
