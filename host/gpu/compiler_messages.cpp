@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <map>
 #include <sstream>
 
 namespace eyeray::gpu {
@@ -34,6 +35,26 @@ int column_of(std::string_view token, std::string_view line) {
   return 0;
 }
 
+// The column (from 1) of the sign at which "syntax error, unexpected RIGHT_BRACE, …" arose; 0 when the line
+// has it more than once, or it has no sign.
+int column_of_unexpected(std::string_view message, std::string_view line) {
+  static const std::map<std::string_view, char> signs = {
+      {"LEFT_PAREN", '('},   {"RIGHT_PAREN", ')'}, {"LEFT_BRACKET", '['}, {"RIGHT_BRACKET", ']'},
+      {"LEFT_BRACE", '{'},   {"RIGHT_BRACE", '}'}, {"DOT", '.'},          {"COMMA", ','},
+      {"COLON", ':'},        {"SEMICOLON", ';'},   {"EQUAL", '='},        {"BANG", '!'},
+      {"DASH", '-'},         {"TILDE", '~'},       {"PLUS", '+'},         {"STAR", '*'},
+      {"SLASH", '/'},        {"PERCENT", '%'},     {"LEFT_ANGLE", '<'},   {"RIGHT_ANGLE", '>'},
+      {"VERTICAL_BAR", '|'}, {"CARET", '^'},       {"AMPERSAND", '&'},    {"QUESTION", '?'},
+  };
+  constexpr std::string_view mark = "unexpected ";
+  const size_t at = message.find(mark);
+  if (at == std::string_view::npos) return 0;
+  message.remove_prefix(at + mark.size());
+  const auto sign = signs.find(message.substr(0, message.find_first_of(", ")));
+  if (sign == signs.end() || std::count(line.begin(), line.end(), sign->second) != 1) return 0;
+  return int(line.find(sign->second)) + 1;
+}
+
 // Splits "file:12: message"; the file itself may hold colons. False when there is no such position.
 bool split_position(std::string_view text, SourcePosition& position, std::string_view& message) {
   for (size_t colon = text.find(':'); colon != std::string_view::npos; colon = text.find(':', colon + 1)) {
@@ -60,6 +81,8 @@ void locate(Diagnostic& diagnostic, std::string_view message, const ShaderSource
         column_of(message.substr(open + 1, close - open - 1), diagnostic.source_line);
     open = message.find('\'', close + 1);
   }
+  if (diagnostic.position.column == 0)
+    diagnostic.position.column = column_of_unexpected(message, diagnostic.source_line);
 }
 
 // "'foo' : undeclared identifier " as people write it: "'foo': undeclared identifier".

@@ -44,11 +44,19 @@ TEST_CASE("errors have file, line, column and the line; all of them in one go") 
   CHECK(main_too);
 }
 
-TEST_CASE("errors without a token have column 0, those of the preamble and of linking no line of ours") {
-  const auto syntax = diagnose({{"main.comp.glsl", head + "void main() {\n  int a = ;\n}\n"}});
-  REQUIRE(!syntax.empty());
-  CHECK(syntax[0].position.line == 4);
-  CHECK(syntax[0].source_line == "  int a = ;");
+TEST_CASE("a syntax error has the column of the sign it is at, where the line has that once") {
+  const auto column = [](const std::string& line) {
+    const auto syntax = diagnose({{"main.comp.glsl", head + "void main() {\n" + line + "\n}\n"}});
+    REQUIRE(!syntax.empty());
+    CHECK(syntax[0].position.line == 4);
+    return syntax[0].position.column;
+  };
+  CHECK(column("  int a = ;") == 11);
+  CHECK(column("  int a = 1; int b = ;") == 0);
+  CHECK(column("  { int a = 1 }") == 15);
+}
+
+TEST_CASE("errors of the preamble and of linking have no line of ours") {
   const auto linking = diagnose({{"main.comp.glsl", head + "void other() {}\n"}});
   REQUIRE(linking.size() == 1);
   CHECK(contains(linking[0].message, "Missing entry point"));
