@@ -33,7 +33,7 @@ struct Implicit {
 #define IMPLICIT_MOST_STRETCH 3.0f  // of a free way
 #define IMPLICIT_WIDTH 1.2e-7f
 #define IMPLICIT_DIFFERENCE 0.00390625f
-#define IMPLICIT_PIECES 512u
+#define IMPLICIT_PIECES 4096u
 #define IMPLICIT_FINEST 2.5e-7f
 #define IMPLICIT_MOST_CLEARANCE 64.0f
 

@@ -6,6 +6,7 @@
 #include "bench/standard_scenes.hpp"
 #include "cli/bench_changes.hpp"
 #include "cli/bench_pictures.hpp"
+#include "cli/bench_runs.hpp"
 #include "cli/command.hpp"
 #include "cli/json.hpp"
 #include "cli/scratch_folder.hpp"
@@ -117,6 +118,17 @@ SceneReport Command::race_on(const std::string& name) const {
   return report;
 }
 
+// The scene in POV-Ray's language; "" where that has not all of it, which is said.
+std::string text_for_povray(const std::string& name, const Scene& scene, const PictureOptions& options) {
+  try {
+    return povray_scene(scene, options.width, options.height);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::bad_input) throw;
+    fmt::print(stderr, "eyeray: {}: without POV-Ray: {}\n", name, error.what());
+    return "";
+  }
+}
+
 // A standard scene is written out first, for us; any that POV-Ray can have, for POV-Ray.
 Json Command::render_all(const std::string& name) const {
   const StandardScene* const standard = as_standard(name);
@@ -130,14 +142,13 @@ Json Command::render_all(const std::string& name) const {
   {
     const Scene scene = load(name);  // gone before anything is measured
     options.primitives = scene.primitive_count();
-    if (options.povray && options.primitives <= most_for_povray) try {
-        const std::string text = povray_scene(scene, options.width, options.height);
+    if (options.povray && have_povray() && options.primitives <= most_for_povray) {
+      const std::string text = text_for_povray(name, scene, options);
+      if (!text.empty()) {
         options.povray_scene = scratch.path() / "scene.pov";
         write_file_atomically(options.povray_scene, text);
-      } catch (const Error& error) {
-        if (error.code() != ExitCode::bad_input) throw;
-        fmt::print(stderr, "eyeray: {}: without POV-Ray: {}\n", name, error.what());
       }
+    }
   }
   return measure_pictures(name, file, options, !json);
 }

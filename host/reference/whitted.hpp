@@ -8,7 +8,7 @@
 
 namespace eyeray::reference {
 
-// How rays leave surfaces: at least this far off, and how (tracer.hpp, departure); and up to this far aside.
+// How rays leave surfaces (crossings.hpp, departure): at least this far off, and up to this far aside.
 struct Clearance {
   double share = 0;  // off, of |n|·|position − eye|; aside, of |position − eye|
   bool along_normal = false;

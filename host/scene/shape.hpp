@@ -98,7 +98,8 @@ using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleFo
 struct FormulaUse {
   std::shared_ptr<const Formula> formula;
   Bounds box;
-  double lipschitz;  // as steep as it is declared to be; 0 where nothing is declared
+  double lipschitz;       // as steep as it is said to be; 0 where nothing is said
+  bool declared = false;  // by the user, who may be wrong
 };
 
 class Shape {

@@ -56,7 +56,7 @@ material = "wall"
 ```
 
 It cannot be derived, and is an error at the line, where a loop goes round as often as p says (or more than 1000 times), and where an index or a whole number is computed from p; loops with a fixed number of turns, also such as
-break off early, are fine. Declare `lipschitz` where f is a distance, where many steps are nested (a Mandelbulb), or where f is not defined or jumps: nothing bounds 1/x around 0 or an angle where it jumps, so pieces get small there.
+break off early, are fine. Declare `lipschitz` where f is a distance, or where f is not defined or jumps: nothing bounds 1/x around 0 or an angle where it jumps, so pieces get small there.
 
 It is closed: where the inside reaches the box, the box's faces are its caps. With `open = true` they are left out. `transform` may be any affine map that can be undone; it moves
 the surface, its box and the coordinates that f sees.
@@ -67,7 +67,7 @@ the surface, its box and the coordinates that f sees.
 | `gyroid` | a wall of `thickness` = 0.25 about the gyroid sin x cos y + sin y cos z + sin z cos x = `level` = 0 of `period` = 1 |
 | `rounded-box` | `center` = [0, 0, 0], `half_size` = [0.8, 0.6, 0.7] with edges of `radius` = 0.2 |
 | `smooth-union` | `sphere` = [0, 0.35, 0, 0.5] (centre and radius) and a box about `box_center` = [0, -0.4, 0] of `box_half_size` = [0.8, 0.25, 0.6], blended over `blend` = 0.4 |
-| `mandelbulb` | of power 8, after `rounds` = 3 (at most 8); it lies within 1.25 of the origin. Its `lipschitz`, 1.5, is the usual estimate and no bound: of four million points of the box f is steeper at 0.5 %, by up to 79 (0.04 % and 6 after 2 rounds). Pictures of it look right; `verify` finds pixels that differ |
+| `mandelbulb` | of power 8 about the y axis, after `rounds` = 2 (at most 8) as far as 1 from the origin; it lies within 1.25. It has no `lipschitz` and is found by intervals: 3 rounds take five times as long as 2, and a few rays in a thousand run out |
 | `height-field` | hills below y = `base` = 0 ± `height` = 0.5, the largest of them `period` = 1 apart; `seed` = 1 |
 
 **uv.** Those of a [box](#box)'s face: of the face itself on a cap, and elsewhere of the face to which the normal points, onto which the texture is
@@ -76,7 +76,7 @@ projected straight.
 **Numeric trap.** All is computed in the coordinates of the box: rounding is 10⁻⁷ of its size, so choose it no larger than need be, and near f's own origin. With `lipschitz` the least step of a ray is 10⁻⁵ of half the
 box: walls thinner than that are passed through. Normals are those of `vec3 gradient(vec3 p)`, if the text has that too; else differences over 1/256 of half the box, to the
 fourth order: waves that are much shorter, and edges, look smoother than they are.
-A ray that takes 4096 steps and has not come to an end has run out: its pixel is told (without `lipschitz`, 512 pieces). Without `lipschitz` none of this is so but the last: no change of sign is overlooked but where f is zero up to
+A ray that takes 4096 steps and has not come to an end has run out: its pixel is told (without `lipschitz`, 4096 pieces). Without `lipschitz` none of this is so but the last: no change of sign is overlooked but where f is zero up to
 rounding ([numerics](numerics.md#implicit-surfaces-by-enclosures)), and a touch without a change of sign is no surface.
 
 **Source.** Hart: Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit Surfaces, The Visual Computer 12, 1996. Comba, Stolfi: Affine Arithmetic and its Applications to Computer Graphics, SIBGRAPI 1993. Bálint, Valasek: Accelerating Sphere Tracing, Eurographics Short Papers 2018.
@@ -101,7 +101,7 @@ constexpr Key keys[] = {
     box_max_key,
     {.name = "lipschitz",
      .type = KeyType::number,
-     .doc = "How steep f is at most; a `ready` one knows, and without it f is bounded by intervals.",
+     .doc = "How steep f is at most; most `ready` ones know, and without it f is bounded by intervals.",
      .min = 0,
      .above_min = true,
      .optional = true},
@@ -175,7 +175,8 @@ class Implicit final : public ObjectShape {
   bool open_;
 };
 
-// The text and its parameters, from whichever key has them; null after an error.
+// The text and its parameters, from whichever key has them; null after an error. A ready one knows its
+// `lipschitz`, if it has one.
 std::shared_ptr<const Formula> read_formula(TableReader& table, double& lipschitz) {
   constexpr std::string_view sources[] = {"code", "file", "ready"};
   if (const auto given = std::ranges::count_if(sources, [&](auto key) { return table.has(key); });
@@ -193,7 +194,6 @@ std::shared_ptr<const Formula> read_formula(TableReader& table, double& lipschit
   const std::string title = fmt::format("the function of [[implicit]] at {}:{}", at.file, at.line);
   if (!table.has("ready")) {
     const FormulaText text = table.formula(table.has("code") ? "code" : "file");
-    lipschitz = table.has("lipschitz") ? table.number("lipschitz") : 0;
     try {
       return std::make_shared<const Formula>(text, std::move(parameters), title);
     } catch (const InputError& faults) {
@@ -225,8 +225,8 @@ std::shared_ptr<const Formula> read_formula(TableReader& table, double& lipschit
     }
     known->values = given.values;
   }
-  lipschitz = table.has("lipschitz") ? table.number("lipschitz") : ready.lipschitz(all);
-  if (!std::isfinite(lipschitz) || lipschitz <= 0) {
+  if (lipschitz == 0 && ready.lipschitz) lipschitz = ready.lipschitz(all);
+  if (ready.lipschitz && !(std::isfinite(lipschitz) && lipschitz > 0)) {
     table.error("parameters", fmt::format("with these parameters \"{}\" has no surface", ready.name));
     return nullptr;
   }
@@ -237,7 +237,8 @@ std::shared_ptr<const Formula> read_formula(TableReader& table, double& lipschit
 std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   const Vec3 min = table.vec3("min");
   const Vec3 max = table.vec3("max");
-  double lipschitz = 1;
+  const bool declared = table.has("lipschitz");
+  double lipschitz = declared ? table.number("lipschitz") : 0;
   const auto formula = table.failed() ? nullptr : read_formula(table, lipschitz);
   if (table.failed()) return nullptr;
   if (!(min.x < max.x && min.y < max.y && min.z < max.z)) {
@@ -245,7 +246,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
     return nullptr;
   }
   if (out_of_range(table, transform * cube::placed(min, max))) return nullptr;
-  return make_implicit({formula, {min, max}, lipschitz}, table.boolean("open"), transform);
+  return make_implicit({formula, {min, max}, lipschitz, declared}, table.boolean("open"), transform);
 }
 
 }  // namespace

@@ -103,75 +103,41 @@ double steepest_distance(Parameters) {
   return 1;
 }
 
-// White and Nylander's bulb: z → z⁸ + p, eight times both angles of spherical coordinates; they are doubled
-// thrice, as complex numbers of length 1. The estimate of the distance to |z| = 1 after so many rounds, ½ log
-// |z| · |z| / |z'|, is Hart, Sandin and Kauffman's (Ray Tracing Deterministic 3-D Fractals, SIGGRAPH 1989).
-// The gradient is that of |z| / |z'|, by numbers that carry their gradients.
+// White and Nylander's bulb: z → z⁸ + p, eight times both angles of spherical coordinates about y; they are
+// doubled thrice, by polynomials. It is where |z| ≤ 1 after so many rounds. |z|'s slope has no useful bound:
+// intervals find it. What min, max and clamp say is so in real numbers anyway; intervals know it from them.
 constexpr std::string_view mandelbulb = R"glsl(
-vec2 eightfold(vec2 a) {
-  for (int i = 0; i < 3; i++) a = vec2(a.x * a.x - a.y * a.y, 2.0 * a.x * a.y);
-  return a;
-}
 float f(vec3 p) {
+  float origin = length(p);
   vec3 z = p;
-  float r = length(z);
-  float dr = 1.0;
-  for (int i = 0; i < 8; i++) {
-    if (float(i) >= rounds || r > 8.0) break;
-    float across = max(length(z.xz), 0.000001);
-    float whole = max(r, 0.000001);
-    vec2 tilt = eightfold(vec2(z.y, across) / whole);
-    vec2 around = eightfold(z.xz / across);
-    float r2 = r * r;
+  float r2 = dot(p, p);
+  for (int i = 0; i < int(min(rounds, 8.0)); i++) {
+    if (r2 > 64.0) break;
+    float across2 = z.x * z.x + z.z * z.z;
     float r4 = r2 * r2;
-    dr = 8.0 * r4 * r2 * r * dr + 1.0;
-    z = r4 * r4 * vec3(tilt.y * around.x, tilt.x, tilt.y * around.y) + p;
-    r = length(z);
-  }
-  // Within, what grows no faster than outside.
-  return 0.5 * (r < 1.0 ? r - 1.0 : log(r) * r) / dr;
-}
+    float r8 = r4 * r4;
 
-vec4 product(vec4 a, vec4 b) { return vec4(a.xyz * b.w + b.xyz * a.w, a.w * b.w); }
-vec4 root(vec4 a) { return vec4(a.xyz * (0.5 / sqrt(a.w)), sqrt(a.w)); }
-vec4 quotient(vec4 a, vec4 b) { return vec4((a.xyz - b.xyz * (a.w / b.w)) / b.w, a.w / b.w); }
-vec3 gradient(vec3 p) {
-  vec4 x = vec4(1.0, 0.0, 0.0, p.x);
-  vec4 y = vec4(0.0, 1.0, 0.0, p.y);
-  vec4 z = vec4(0.0, 0.0, 1.0, p.z);
-  vec4 r = root(product(x, x) + product(y, y) + product(z, z));
-  float dr = 1.0;
-  for (int i = 0; i < 8; i++) {
-    if (float(i) >= rounds || r.w > 8.0) break;
-    vec4 across = root(product(x, x) + product(z, z));
-    vec4 c = quotient(y, r);
-    vec4 s = quotient(across, r);
-    vec4 a = quotient(x, across);
-    vec4 b = quotient(z, across);
-    for (int k = 0; k < 3; k++) {
-      vec4 next = product(c, c) - product(s, s);
-      s = 2.0 * product(c, s);
-      c = next;
-      next = product(a, a) - product(b, b);
-      b = 2.0 * product(a, b);
-      a = next;
+    // Cosines, times r², r⁴, r⁸, and the sine, times r⁸ over the sine of the angle itself.
+    float cosine2 = z.y * z.y - across2;
+    float cosine4 = 2.0 * cosine2 * cosine2 - r4;
+    float cosine8 = 2.0 * cosine4 * cosine4 - r8;
+    float sine8 = 8.0 * z.y * cosine2 * cosine4;
+
+    float share = 1.0 / max(across2, 1.0e-12);
+    float c = clamp((z.x * z.x - z.z * z.z) * share, -1.0, 1.0);
+    float s = clamp(2.0 * z.x * z.z * share, -1.0, 1.0);
+    for (int k = 0; k < 2; k++) {
+      s = 2.0 * c * s;
+      c = 2.0 * c * c - 1.0;
     }
-    vec4 r2 = product(r, r);
-    vec4 r4 = product(r2, r2);
-    vec4 r8 = product(r4, r4);
-    dr = 8.0 * r4.w * r2.w * r.w * dr + 1.0;
-    vec4 level = product(r8, s);
-    x = product(level, a) + vec4(1.0, 0.0, 0.0, p.x);
-    y = product(r8, c) + vec4(0.0, 1.0, 0.0, p.y);
-    z = product(level, b) + vec4(0.0, 0.0, 1.0, p.z);
-    r = root(product(x, x) + product(y, y) + product(z, z));
+    z = vec3(sqrt(across2) * sine8 * vec2(c, s), cosine8).xzy + p;
+    float least = max(r8 - origin, 0.0);
+    float most = r8 + origin;
+    r2 = clamp(dot(z, z), least * least, most * most);
   }
-  return r.xyz * (0.5 / dr);
+  return r2 - 1.0;
 }
 )glsl";
-double steepest_mandelbulb(Parameters) {
-  return 1.5;
-}
 
 // Sums of value noise (Perlin's lattice with values at its corners), each octave twice as fine and half as
 // high. A fifth-degree ease is steepest in the middle, 15/8, along each of the two axes.
@@ -255,7 +221,7 @@ std::span<const ReadyFormula> ready_formulas() {
         {"box_half_size", {0.8, 0.25, 0.6}},
         {"blend", {0.4}}},
        steepest_distance},
-      {ready_names[4], mandelbulb, {{"rounds", {3}}}, steepest_mandelbulb},
+      {ready_names[4], mandelbulb, {{"rounds", {2}}}, nullptr},
       {ready_names[5],
        height_field,
        {{"base", {0}}, {"height", {0.5}}, {"period", {1}}, {"seed", {1}}},

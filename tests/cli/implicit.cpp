@@ -1,5 +1,6 @@
 // Formulas that users write, end to end: what is wrong with them, machines without a C++ compiler, functions
 // without an end.
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "scene.hpp"
@@ -91,6 +92,13 @@ TEST_CASE("samples that disprove a Lipschitz constant are a warning with the pla
         std::string::npos);
   CHECK(run_eyeray({"check", folder.scene()}).err == result.err);
   CHECK(run_eyeray({"check", folder.scene()}, no_compiler).err == "");
+
+  // Of a ready formula too, if it is not its own.
+  std::ofstream(folder.scene(), std::ios::app) << "[[implicit]]\nready = \"gyroid\"\nmin = [3, 0, 0]\nmax = "
+                                                  "[4, 1, 1]\nlipschitz = 0.5\nmaterial = \"matte\"\n";
+  CHECK(run_eyeray({"check", folder.scene()})
+            .err.find("warning: `lipschitz` is 0.5, but the function is as steep as 1.") !=
+        std::string::npos);
 }
 
 TEST_CASE("a formula in a group that is kept once is checked as any other") {

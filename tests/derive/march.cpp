@@ -14,7 +14,7 @@ using test::Random;
 
 namespace {
 
-constexpr int most_steps = 256;
+constexpr int most_steps = 4096;
 
 struct Count {
   int hits = 0, missed = 0, wrong = 0, grazing = 0, ran_out = 0, most = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "shapes/ready_formulas.hpp"
+
 namespace eyeray::test {
 namespace {
 
@@ -80,19 +82,20 @@ double smooth_union(const Vec3& p) {
   return std::min(a, b) - h * h * h * 0.3 / 6;
 }
 
-double bulb(const Vec3& p) {
+// By its angles, as its authors have it.
+double mandelbulb(const Vec3& p) {
   Vec3 z = p;
-  double r = glm::length(z), dr = 1;
-  for (int i = 0; i < 2; ++i) {
-    r = glm::length(z);
-    if (r > 2) break;
-    const double theta = 4 * std::acos(z.z / r), phi = 4 * std::atan2(z.y, z.x);
-    dr = std::pow(r, 3) * 4 * dr + 1;
-    z = std::pow(r, 4) *
-            Vec3(std::sin(theta) * std::cos(phi), std::sin(phi) * std::sin(theta), std::cos(theta)) +
+  for (int i = 0; i < 2 && glm::length(z) < 8; ++i) {
+    const double r = glm::length(z), tilt = 8 * std::acos(z.y / r), around = 8 * std::atan2(z.z, z.x);
+    z = std::pow(r, 8) *
+            Vec3(std::sin(tilt) * std::cos(around), std::cos(tilt), std::sin(tilt) * std::sin(around)) +
         p;
   }
-  return 0.5 * std::log(r) * r / dr - 0.01;
+  return glm::dot(z, z) - 1;
+}
+
+std::string ready_text(std::string_view name) {
+  return std::string(std::ranges::find(ready_formulas(), name, &ReadyFormula::name)->text);
 }
 
 double stairs(const Vec3& p) {
@@ -179,20 +182,7 @@ float f(vec3 p) {
 float torus(vec3 p, vec2 t) { return length(vec2(length(p.xz) - t.x, p.y)) - t.y; }
 float f(vec3 p) { return smooth_min(distance(p, vec3(0.4, 0.0, 0.0)) - 0.6, torus(p, vec2(0.8, 0.2)), 0.3); })",
        smooth_union, 1.3},
-      {"bulb", R"(float f(vec3 p) {
-  vec3 z = p;
-  float r = length(z), dr = 1.0;
-  for (int i = 0; i < 2; ++i) {
-    r = length(z);
-    if (r > 2.0) break;
-    float theta = 4.0 * acos(z.z / r);
-    float phi = 4.0 * atan(z.y, z.x);
-    dr = pow(r, 3.0) * 4.0 * dr + 1.0;
-    z = pow(r, 4.0) * vec3(sin(theta) * cos(phi), sin(phi) * sin(theta), cos(theta)) + p;
-  }
-  return 0.5 * log(r) * r / dr - 0.01;
-})",
-       bulb, 1.3, true},
+      {"mandelbulb", "const float rounds = 2.0;\n" + ready_text("mandelbulb"), mandelbulb, 1.3, true},
       {"stairs", "float f(vec3 p) { return p.y - 0.25 * floor(4.0 * p.x) - mod(p.z, 2.0) * 0.1; }", stairs, 2,
        true},
   };

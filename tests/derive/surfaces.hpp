@@ -2,6 +2,7 @@
 // modelling is made of.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace eyeray::test {
 
 struct TestSurface {
   std::string_view name;
-  std::string_view glsl;
+  std::string glsl;
   double (*f)(const Vec3& p);
   double reach;        // of the cube around 0 within which it is looked at
   bool jumps = false;  // not continuous, or made of functions that are not

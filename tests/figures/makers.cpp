@@ -49,12 +49,12 @@ bool is_definite(const QuadricValues& quadric) {
   return quadric.square.x * quadric.square.y > p.x * p.x && sign * glm::determinant(form) > 0;
 }
 
-// One of eyeray's own formulas, but for the bulb, whose Lipschitz constant is an estimate.
+// One of eyeray's own formulas that are found by sphere tracing.
 FormulaUse some_formula(Random& random) {
   static const std::vector<FormulaUse> all = [] {
     std::vector<FormulaUse> uses;
     for (const ReadyFormula& ready : ready_formulas())
-      if (ready.name != "mandelbulb")
+      if (ready.lipschitz)
         uses.push_back({std::make_shared<const Formula>(FormulaText{std::string(ready.text), {}},
                                                         ready.parameters, std::string(ready.name)),
                         {Vec3(-1), Vec3(1)},

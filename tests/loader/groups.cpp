@@ -1,33 +1,15 @@
 // Groups move what they hold as one, and show it once a transform of their batch.
 #include <fmt/format.h>
 
-#include "loader/scene_file.hpp"
+#include "loader/walls.hpp"
 #include "scene/affine.hpp"
 //
 #include "support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::test;
 
 namespace {
-
-constexpr std::string_view material = "[[material]]\nname = \"wall\"\ntype = \"phong\"\n";
-
-Scene parse(const std::string& text) {
-  return parse_scene(std::string(material) + text, "scene.toml");
-}
-
-std::string refused(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-std::string sphere(const std::string& table, double x) {
-  return fmt::format("[[{}]]\ncenter = [{}, 0, 0]\nradius = 1\nmaterial = \"wall\"\n", table, x);
-}
 
 double middle_x(const Shape& shape) {
   return (shape.bounds().min.x + shape.bounds().max.x) / 2;
@@ -36,7 +18,7 @@ double middle_x(const Shape& shape) {
 }  // namespace
 
 TEST_CASE("a group's transform comes after its members', and its own group's after that") {
-  const Scene scene = parse(
+  const Scene scene = parse_walls(
       "[[group]]\ntransform = [{ translate = [100, 0, 0] }]\n"
       "[[group.group]]\ntransform = [{ scale = 10 }]\n" +
       sphere("group.group.sphere", 1) + "transform = [{ translate = [2, 0, 0] }]\n");
@@ -46,7 +28,7 @@ TEST_CASE("a group's transform comes after its members', and its own group's aft
 }
 
 TEST_CASE("a batch shows a group once more for each transform; batches multiply") {
-  const Scene scene = parse(
+  const Scene scene = parse_walls(
       "[[group]]\nbatch = { transform = [[], [{ translate = [10, 0, 0] }], [{ translate = [20, 0, 0] }]] "
       "}\n" +
       sphere("group.sphere", 1) +
@@ -58,7 +40,7 @@ TEST_CASE("a batch shows a group once more for each transform; batches multiply"
 }
 
 TEST_CASE("what stands in no group comes first, so that its ids do not depend on groups") {
-  const Scene scene = parse("[[group]]\n" + sphere("group.sphere", 5) + sphere("sphere", 1));
+  const Scene scene = parse_walls("[[group]]\n" + sphere("group.sphere", 5) + sphere("sphere", 1));
   REQUIRE(scene.shapes.size() == 2);
   CHECK(std::abs(middle_x(*scene.shapes[0]) - 1) < 1e-12);
 }

@@ -1,7 +1,7 @@
 // Groups that stand many times: named ones, where they are kept once, and what may not be.
 #include <fmt/format.h>
 
-#include "loader/scene_file.hpp"
+#include "loader/walls.hpp"
 #include "scene/affine.hpp"
 #include "scene/primitive_ids.hpp"
 #include "scene/things.hpp"
@@ -9,30 +9,12 @@
 #include "support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::test;
 
 namespace {
 
-constexpr std::string_view material = "[[material]]\nname = \"wall\"\ntype = \"phong\"\n";
-
-Scene parse(const std::string& text) {
-  return parse_scene(std::string(material) + text, "scene.toml");
-}
-
-std::string refused(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 bool says(const std::string& text, std::string_view what) {
   return text.find(what) != std::string::npos;
-}
-
-std::string sphere(const std::string& table, double x) {
-  return fmt::format("[[{}]]\ncenter = [{}, 0, 0]\nradius = 1\nmaterial = \"wall\"\n", table, x);
 }
 
 // A list of that many steps along x.
@@ -53,12 +35,13 @@ double middle_x(const Shape& shape) {
 }  // namespace
 
 TEST_CASE("a named group stands where instances name it, after its own transform, and nowhere else") {
-  const Scene scene = parse("[[group]]\nname = \"ball\"\npattern = true\ntransform = [{ scale = 2 }]\n" +
-                            sphere("group.sphere", 1) +
-                            "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n"
-                            "[[group]]\ntransform = [{ translate = [100, 0, 0] }]\n"
-                            "[[group.instance]]\nbatch = { group = [\"ball\", \"ball\"], " +
-                            steps(2) + " }\n");
+  const Scene scene =
+      parse_walls("[[group]]\nname = \"ball\"\npattern = true\ntransform = [{ scale = 2 }]\n" +
+                  sphere("group.sphere", 1) +
+                  "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n"
+                  "[[group]]\ntransform = [{ translate = [100, 0, 0] }]\n"
+                  "[[group.instance]]\nbatch = { group = [\"ball\", \"ball\"], " +
+                  steps(2) + " }\n");
   REQUIRE(scene.shapes.size() == 3);
   CHECK(std::abs(middle_x(*scene.shapes[0]) - 102) < 1e-9);
   CHECK(std::abs(middle_x(*scene.shapes[1]) - 103) < 1e-9);
@@ -70,7 +53,7 @@ TEST_CASE("of groups in groups, those are kept once that leave the least to keep
   const auto nested = [](int outer, int inner, int spheres) {
     std::string text = "[[group]]\n" + batch(outer) + "[[group.group]]\n" + batch(inner);
     for (int i = 0; i < spheres; ++i) text += sphere("group.group.sphere", 3 * i);
-    return parse(text);
+    return parse_walls(text);
   };
   const Scene many_inside = nested(2, 20'000, 10);
   REQUIRE(many_inside.groups.size() == 1);
@@ -93,8 +76,8 @@ TEST_CASE("`groups` decides whether groups are kept once, and changes no id") {
   const std::string text = sphere("sphere", 0) + "[[group]]\n" + batch(3) + sphere("group.sphere", 1) +
                            sphere("group.sphere", 2) + "[[group]]\n" + sphere("group.sphere", 50) +
                            "[[group]]\n" + batch(2) + sphere("group.sphere", 60);
-  const Scene flat = parse("[render]\ngroups = \"flat\"\n" + text);
-  const Scene once = parse("[render]\ngroups = \"instanced\"\n" + text);
+  const Scene flat = parse_walls("[render]\ngroups = \"flat\"\n" + text);
+  const Scene once = parse_walls("[render]\ngroups = \"instanced\"\n" + text);
   CHECK(flat.shapes.size() == 10);
   CHECK(flat.groups.empty());
   CHECK(once.groups.size() == 2);
@@ -115,8 +98,8 @@ TEST_CASE("`groups` decides whether groups are kept once, and changes no id") {
 
 TEST_CASE("a group that holds something without an end is copied") {
   const Scene scene =
-      parse("[render]\ngroups = \"instanced\"\n[[group]]\n" + batch(3) + "[[group.group]]\n" +
-            "[[group.group.plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"wall\"\n");
+      parse_walls("[render]\ngroups = \"instanced\"\n[[group]]\n" + batch(3) + "[[group.group]]\n" +
+                  "[[group.group.plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"wall\"\n");
   CHECK(scene.groups.empty());
   CHECK(scene.shapes.size() == 3);
 }
@@ -149,8 +132,9 @@ TEST_CASE("what is wrong with patterns and instances is said where it stands") {
 }
 
 TEST_CASE("a group with a name that is no pattern stands where it is written, too") {
-  const Scene scene = parse("[[group]]\nname = \"ball\"\n" + sphere("group.sphere", 1) +
-                            "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n");
+  const Scene scene =
+      parse_walls("[[group]]\nname = \"ball\"\n" + sphere("group.sphere", 1) +
+                  "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n");
   REQUIRE(scene.shapes.size() == 2);
   CHECK(std::abs(middle_x(*scene.shapes[0]) - 1) < 1e-9);
   CHECK(std::abs(middle_x(*scene.shapes[1]) - 11) < 1e-9);
@@ -160,8 +144,8 @@ TEST_CASE("what is kept once is called as its copies are") {
   const std::string text = sphere("sphere", 0) + "[[group]]\nname = \"cart\"\n" + batch(2) +
                            sphere("group.sphere", 1) + "name = \"wheel\"\n" + sphere("group.sphere", 2) +
                            "[[group]]\n" + batch(2) + sphere("group.sphere", 3);
-  const Scene flat = parse("[render]\ngroups = \"flat\"\n" + text);
-  const Scene once = parse("[render]\ngroups = \"instanced\"\n" + text);
+  const Scene flat = parse_walls("[render]\ngroups = \"flat\"\n" + text);
+  const Scene once = parse_walls("[render]\ngroups = \"instanced\"\n" + text);
   REQUIRE(once.group_instances.size() == 4);
   const Things flat_things(flat), once_things(once);
   REQUIRE(once_things.size() == flat_things.size());
@@ -172,8 +156,8 @@ TEST_CASE("what is kept once is called as its copies are") {
 }
 
 TEST_CASE("a group that nothing shows is a warning, and read all the same") {
-  const Scene scene =
-      parse("[[group]]\nname = \"ball\"\npattern = true\n" + sphere("group.sphere", 1) + sphere("sphere", 0));
+  const Scene scene = parse_walls("[[group]]\nname = \"ball\"\npattern = true\n" + sphere("group.sphere", 1) +
+                                  sphere("sphere", 0));
   CHECK(scene.shapes.size() == 1);
   bool warned = false;
   for (const Diagnostic& warning : scene.warnings)
@@ -199,7 +183,7 @@ TEST_CASE("named groups that double each time are refused, or kept once where th
                           i, i - 1, batch(2));
     return text + fmt::format("[[instance]]\ngroup = \"{}\"\n", levels);
   };
-  const Scene scene = parse(doubled(20));
+  const Scene scene = parse_walls(doubled(20));
   CHECK(scene.primitive_count() == 1'048'576);
   CHECK(scene.shapes.size() + scene.group_instances.size() < 20'000);
   CHECK(says(refused(doubled(40)), "things; at most 2147483647 can be told apart"));

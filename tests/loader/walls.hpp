@@ -1,0 +1,30 @@
+// Scenes of one material, "wall".
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "loader/scene_file.hpp"
+
+namespace eyeray::test {
+
+inline Scene parse_walls(const std::string& text) {
+  return parse_scene("[[material]]\nname = \"wall\"\ntype = \"phong\"\n" + text, "scene.toml");
+}
+
+// What is said of it, or "accepted".
+inline std::string refused(const std::string& text) {
+  try {
+    parse_walls(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+inline std::string sphere(const std::string& table, double x) {
+  return fmt::format("[[{}]]\ncenter = [{}, 0, 0]\nradius = 1\nmaterial = \"wall\"\n", table, x);
+}
+
+}  // namespace eyeray::test
