@@ -54,7 +54,7 @@ vec3 onto_cube(vec3 p, vec2 face) {
 vec2 cube_uv(vec3 p, vec2 face) {
   float u = face.x == 0.0f ? -p.z * face.y : face.x == 1.0f ? p.x : p.x * face.y;
   float v = face.x == 1.0f ? -p.z * face.y : p.y;
-  return vec2(0.5f + 0.5f * u, 0.5f + 0.5f * v);
+  return inner_uv(vec2(0.5f + 0.5f * u, 0.5f + 0.5f * v));
 }
 
 SHADER_END

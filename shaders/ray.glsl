@@ -60,6 +60,9 @@ Surface no_surface() {
   return surface;
 }
 
+// uv of a surface that is 1 wide: rounding does not take a point of its border to where the next check begins.
+vec2 inner_uv(vec2 uv) { return vec2(minimum(maximum(uv.x, 0.0f), 1.0f - EPSILON), minimum(maximum(uv.y, 0.0f), 1.0f - EPSILON)); }
+
 PacketHit packet_of_hit(Hit hit, uint flags) {
   PacketHit packet;
   packet.hit = uvec4(floatBitsToUint(hit.t), hit.slot, hit.id, flags);

@@ -48,6 +48,12 @@ struct SurfacePoint {
   Vec3 color{1.0};  // of a mesh's vertices
 };
 
+// uv of a surface that is 1 wide: rounding does not take a point of its border to where the next check
+// begins.
+inline Vec2 inner_uv(const Vec2& uv) {
+  return glm::clamp(uv, 0.0, 1 - 0x1p-53);
+}
+
 // A shape in the terms that other renderers share.
 struct SphereForm {
   Vec3 center;

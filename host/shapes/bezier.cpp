@@ -85,8 +85,7 @@ class Bezier final : public Shape {
       surface.position_error = std::max(surface.position_error, 1e-13 * magnitude(p));
     surface.normal_geometric = normal(at, {hit.u, hit.v}) * (mirrored_ ? -1.0 : 1.0);
     surface.normal = surface.normal_geometric;
-    // What begins at 1, the next check, is not of the patch.
-    surface.uv = glm::min(Vec2(hit.u, hit.v), Vec2(1 - 0x1p-53));
+    surface.uv = inner_uv({hit.u, hit.v});
     return surface;
   }
 

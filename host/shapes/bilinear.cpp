@@ -95,7 +95,7 @@ class Bilinear final : public Shape {
     const Vec3 along_v = (p(3) - p(0)) * (1 - u) + (p(2) - p(1)) * u;
     surface.normal_geometric = unit(glm::cross(along_u, along_v)) * (mirrored_ ? -1.0 : 1.0);
     surface.normal = surface.normal_geometric;
-    surface.uv = {u, v};
+    surface.uv = inner_uv({u, v});
     return surface;
   }
 

@@ -48,7 +48,7 @@ Vec3 onto(int face, const Vec3& near) {
 
 Vec2 uv(int face, const Vec3& p) {
   const Vec2 right_and_up[] = {{-p.z * side(face), p.y}, {p.x, -p.z * side(face)}, {p.x * side(face), p.y}};
-  return right_and_up[face / 2] * 0.5 + 0.5;
+  return inner_uv(right_and_up[face / 2] * 0.5 + 0.5);
 }
 
 }  // namespace eyeray::cube

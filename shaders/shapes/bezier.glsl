@@ -198,8 +198,7 @@ Surface bezier_surface(Primitive s, Ray ray, Hit hit) {
   surface.p = o + at.p;
   surface.normal_geometric = s.c.w < 0.0f ? -n : n;
   surface.normal = surface.normal_geometric;
-  // What begins at 1, the next check, is not of the patch.
-  surface.uv = vec2(minimum(hit.uv.x, 1.0f - EPSILON), minimum(hit.uv.y, 1.0f - EPSILON));
+  surface.uv = inner_uv(hit.uv);
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), abs3(surface.p) + abs3(o)) + 48.0f * EPSILON * patch_ball.w;
   return surface;
 }

@@ -52,7 +52,7 @@ Surface parallelogram_surface(Primitive s, Ray ray, Hit hit) {
   surface.p = p;
   surface.normal_geometric = n;
   surface.normal = n;
-  surface.uv = vec2(minimum(maximum(u, 0.0f), 1.0f), minimum(maximum(v, 0.0f), 1.0f));
+  surface.uv = inner_uv(vec2(u, v));
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), abs3(p) + abs3(vec3(s.a)));
   return surface;
 }

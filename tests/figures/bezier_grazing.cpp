@@ -1,5 +1,4 @@
-// Bézier patches and rays that were once answered wrong, out of millions at random (shapes.cpp); and what a
-// hit on the border shows.
+// Bézier patches and rays that were once answered wrong, out of millions at random (shapes.cpp).
 #include <cmath>
 #include <string>
 
@@ -111,23 +110,4 @@ TEST_CASE("Bézier patches that are all waves, or fold beyond their borders: no 
     }
     CHECK(std::fabs(double(nearest) - each.t) <= 1e-5 * each.t);
   }
-}
-
-TEST_CASE("a hit on the border of a Bézier patch, u = v = 1, is just before what begins there") {
-  BezierNet net;
-  for (size_t i = 0; i < 16; ++i) net[i] = {double(i % 4) / 3, 0, double(i / 4) / 3};
-  const auto patch = make_bezier(net);
-  const PackedScene scene = packed(*patch);
-  const shader::Binding binding(scene);
-  const shader::Ray down = shader::make_ray(glm::vec3(1, 1, 1), glm::vec3(0, -1, 0));
-  shader::Hit hit{};
-  hit.t = 1;
-  hit.uv = glm::vec2(1, 1);
-  const shader::Surface surface = shader::bezier_surface(scene.primitives[0], down, hit);
-  CHECK(surface.uv.x < 1);
-  CHECK(surface.uv.y < 1);
-  CHECK(surface.uv.x > 0.9999f);
-  const Vec2 exact = patch->surface({{1, 1, 1}, {0, -1, 0}}, {.t = 1, .u = 1, .v = 1}).uv;
-  CHECK(exact.x < 1);
-  CHECK(exact.y < 1);
 }
