@@ -36,8 +36,7 @@ constexpr double unit_of_light = 1 / std::numbers::pi;
 class GltfReader {
  public:
   explicit GltfReader(MeshFile& file)
-      : file_(file),
-        container_(open_gltf(file.bytes, file.name)),
+      : container_(open_gltf(file.bytes, file.name)),
         json_(parse_gltf_json(container_.json, file.name)),
         document_(json_, "", file.name),
         textures_(file.assets, scene_.warnings),
@@ -76,7 +75,6 @@ class GltfReader {
   void read_light(const GltfObject& source, const Mat4& world);
   static Mat4 transform(const GltfObject& node);
 
-  MeshFile& file_;
   GltfContainer container_;
   nlohmann::json json_;
   GltfObject document_;

@@ -119,6 +119,12 @@ std::string_view GltfBuffers::view(size_t index) {
   return *decoded;
 }
 
+void GltfBuffers::claim(const GltfObject& owner, uint64_t elements) {
+  elements_read_ += elements;
+  if (elements_read_ > std::max<uint64_t>(1 << 20, 16 * byte_size() + allowed_elements_))
+    owner.fail("takes the elements beyond what a file of this size can mean");
+}
+
 void GltfBuffers::supply(std::map<size_t, std::string> elements) {
   supplied_ = std::move(elements);
 }
@@ -160,10 +166,8 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
     base = elements(accessor, index_of_view, components, component, count);
   }
 
-  // Bytes may be read by several accessors, and without bytes all is 0, but not without end.
-  elements_read_ += count;
-  if (elements_read_ > std::max<uint64_t>(1 << 20, 16 * byte_size() + allowed_elements_))
-    accessor.fail("takes the elements beyond what a file of this size can mean");
+  // Bytes may be read by several accessors, and without bytes all is 0.
+  claim(accessor, count);
   std::vector<T> all(count, T(0));
   for (uint64_t i = 0; base && i < count; ++i) copy(*base, i, all[i]);
 

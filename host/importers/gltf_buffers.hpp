@@ -33,7 +33,10 @@ class GltfBuffers {
   // From now on the elements of these accessors are what is given here, packed, of the accessor's own type
   // and count; those of all other accessors are their bufferViews' again.
   void supply(std::map<size_t, std::string> elements);
-  // So many elements more may be read than a file of this size means without coding.
+  // Counts elements that are read, which what is short may name without end. InputError, of `owner`, where
+  // they are more than a file of this size can mean …
+  void claim(const GltfObject& owner, uint64_t elements);
+  // … but so many more where some of it is coded.
   void allow(uint64_t elements) { allowed_elements_ += elements; }
   // Of what was read so far, as it was read.
   uint64_t byte_size() const;

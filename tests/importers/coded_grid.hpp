@@ -106,6 +106,7 @@ inline std::string meshopt_code(const std::string& bytes, const MeshoptCoding& c
 inline Json& code_view(GltfFile& file, int index, const std::string& bytes, const MeshoptCoding& coding) {
   const std::string coded = meshopt_code(bytes, coding);
   const Json place = file.json["bufferViews"][size_t(file.add_view(coded))];
+  file.json["bufferViews"].erase(file.json["bufferViews"].size() - 1);
   Json& view = file.json["bufferViews"][size_t(index)];
   view = {{"buffer", 1}, {"byteOffset", 0}, {"byteLength", bytes.size()}};
   Json& extension = view["extensions"][coding.name];
@@ -123,13 +124,15 @@ inline std::string view_bytes(const GltfFile& file, int index) {
   return file.data().substr(view["byteOffset"], view["byteLength"]);
 }
 
-// The grid with all of its views coded.
+// The grid with all of its views coded; of the plain one only the accessors are left.
 inline GltfFile meshopt_grid(const std::string& index_mode = "TRIANGLES", int index_component = 5123,
                              const std::string& name = "EXT_meshopt_compression") {
-  GltfFile file = grid_file(index_component);
+  const GltfFile plain = grid_file(index_component);
+  GltfFile file;
+  file.json = plain.json;
   for (int view = 0; view < 3; ++view)
-    code_view(file, view, view_bytes(file, view), {"ATTRIBUTES", view == 2 ? 8u : 12u, "", name});
-  code_view(file, 3, view_bytes(file, 3), {index_mode, index_component == 5123 ? 2u : 4u, "", name});
+    code_view(file, view, view_bytes(plain, view), {"ATTRIBUTES", view == 2 ? 8u : 12u, "", name});
+  code_view(file, 3, view_bytes(plain, 3), {index_mode, index_component == 5123 ? 2u : 4u, "", name});
   return file;
 }
 
@@ -210,12 +213,11 @@ inline std::string draco_grid_data(const DracoCoding& coding, const Grid& grid) 
   return mesh.code(coding);
 }
 
+// The grid coded as a whole; likewise.
 inline GltfFile draco_grid(const DracoCoding& coding = {}) {
   const Grid grid = hilly_grid();
-  // Nothing of the plain file is left but what the accessors say.
-  const Json plain = grid_file().json;
   GltfFile file;
-  file.json = plain;
+  file.json = grid_file().json;
   file.json["bufferViews"] = Json::array();
   code_primitive(file, draco_grid_data(coding, grid), {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}});
   return file;

@@ -159,10 +159,12 @@ TEST_CASE("meshopt: what is against the specification is refused, with its place
       {0, {{"buffer", 7}}, "buffer must be an index below 2"},
       {0, {{"buffer", 1}}, "buffers[1] has no data"},
   };
-  for (const auto& [view, changes, why] : cases) {
+  for (const auto& each : cases) {
+    const size_t view = each.view;
+    const std::string& why = each.why;
     CAPTURE(why);
     GltfFile file = meshopt_grid();
-    coding_of(file, view).update(changes);
+    coding_of(file, view).update(each.changes);
     const std::string message = refusal(file.gltf(), "a.gltf");
     CAPTURE(message);
     CHECK(contains(message, why));
