@@ -1,11 +1,13 @@
 #include "importers/draco_mesh.hpp"
 
+#include <draco/compression/entropy/symbol_decoding.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/varint_decoding.h>
 #include <fmt/format.h>
 
 #include <optional>
+#include <vector>
 
 namespace eyeray {
 
@@ -32,6 +34,29 @@ std::optional<uint64_t> connectivity_values(const draco::MeshEdgebreakerDecoder&
   return uint64_t{3} * faces * (1 + attribute_tables);
 }
 
+// Draco 1.5.5 predicts uv by orientations, of which it reads and keeps as many as are written, be it 2^31.
+// They come after the values; `buffer` is a copy of the data where these begin. Whether there are at most
+// `most` of them.
+bool orientations_within(uint64_t most, draco::DecoderBuffer buffer, draco::PredictionSchemeMethod method,
+                         uint16_t version, uint32_t entries, int components) {
+  uint8_t compressed = 0;
+  uint8_t bytes = 0;
+  const uint32_t values = entries * static_cast<uint32_t>(components);
+  if (!buffer.Decode(&compressed)) return false;
+  if (compressed > 0) {
+    std::vector<uint32_t> skipped(values);
+    if (!draco::DecodeSymbols(values, components, &buffer, skipped.data())) return false;
+  } else {
+    if (!buffer.Decode(&bytes) || int64_t{bytes} * values > buffer.remaining_size()) return false;
+    buffer.Advance(int64_t{bytes} * values);
+  }
+  uint32_t orientations = 0;
+  const bool fixed =
+      method == draco::MESH_PREDICTION_TEX_COORDS_PORTABLE || version < DRACO_BITSTREAM_VERSION(2, 2);
+  const bool read = fixed ? buffer.Decode(&orientations) : draco::DecodeVarint(&orientations, &buffer);
+  return read && orientations <= most;
+}
+
 // Draco's decoder, with a look at what the data claim before room is made for it.
 template <typename Decoder>
 class BoundedDecoder : public Decoder {
@@ -52,7 +77,26 @@ class BoundedDecoder : public Decoder {
     uint64_t values = 0;
     for (int i = 0; i < points.num_attributes(); ++i)
       values += 1 + points.attribute(i)->num_components();  // and the vertex's index of them
-    return take(values * points.num_points()) && Decoder::DecodeAllAttributes();
+    attributes_ = this->buffer();
+    return take(values * points.num_points()) && Decoder::DecodeAllAttributes() && !damaged_;
+  }
+
+  // Asked for each attribute that is predicted over the mesh, when it is known by what method, and its values
+  // are next. Without an answer it would be read as if by another one.
+  const draco::MeshAttributeIndicesEncodingData* GetAttributeEncodingData(int attribute) const override {
+    const auto* data = Decoder::GetAttributeEncodingData(attribute);
+    if (!data || !attributes_) return data;
+    const auto method = static_cast<draco::PredictionSchemeMethod>(attributes_->data_head()[-2]);
+    if (method != draco::MESH_PREDICTION_TEX_COORDS_PORTABLE &&
+        method != draco::MESH_PREDICTION_TEX_COORDS_DEPRECATED)
+      return data;
+    const draco::Mesh& mesh = *this->mesh();
+    if (orientations_within(uint64_t{3} * mesh.num_faces(), *attributes_, method, this->bitstream_version(),
+                            static_cast<uint32_t>(data->num_values),
+                            mesh.attribute(attribute)->num_components()))
+      return data;
+    damaged_ = true;
+    return nullptr;
   }
 
  private:
@@ -63,6 +107,8 @@ class BoundedDecoder : public Decoder {
 
   uint64_t most_;
   uint64_t values_ = 0;
+  const draco::DecoderBuffer* attributes_ = nullptr;
+  mutable bool damaged_ = false;
 };
 
 // Reads over the tree of names and values that may stand before a mesh. Draco keeps a list of the branches to
