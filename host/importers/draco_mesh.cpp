@@ -37,8 +37,8 @@ std::optional<uint64_t> connectivity_values(const draco::MeshEdgebreakerDecoder&
 // Draco 1.5.5 predicts uv by orientations, of which it reads and keeps as many as are written, be it 2^31.
 // They come after the values; `buffer` is a copy of the data where these begin. Whether there are at most
 // `most` of them.
-bool orientations_within(uint64_t most, draco::DecoderBuffer buffer, draco::PredictionSchemeMethod method,
-                         uint16_t version, uint32_t entries, int components) {
+bool orientations_within(uint64_t most, draco::DecoderBuffer buffer, bool plain_count, uint32_t entries,
+                         int components) {
   uint8_t compressed = 0;
   uint8_t bytes = 0;
   const uint32_t values = entries * static_cast<uint32_t>(components);
@@ -51,9 +51,7 @@ bool orientations_within(uint64_t most, draco::DecoderBuffer buffer, draco::Pred
     buffer.Advance(int64_t{bytes} * values);
   }
   uint32_t orientations = 0;
-  const bool fixed =
-      method == draco::MESH_PREDICTION_TEX_COORDS_PORTABLE || version < DRACO_BITSTREAM_VERSION(2, 2);
-  const bool read = fixed ? buffer.Decode(&orientations) : draco::DecodeVarint(&orientations, &buffer);
+  const bool read = plain_count ? buffer.Decode(&orientations) : draco::DecodeVarint(&orientations, &buffer);
   return read && orientations <= most;
 }
 
@@ -86,12 +84,12 @@ class BoundedDecoder : public Decoder {
   const draco::MeshAttributeIndicesEncodingData* GetAttributeEncodingData(int attribute) const override {
     const auto* data = Decoder::GetAttributeEncodingData(attribute);
     if (!data || !attributes_) return data;
-    const auto method = static_cast<draco::PredictionSchemeMethod>(attributes_->data_head()[-2]);
-    if (method != draco::MESH_PREDICTION_TEX_COORDS_PORTABLE &&
-        method != draco::MESH_PREDICTION_TEX_COORDS_DEPRECATED)
-      return data;
+    const int method = attributes_->data_head()[-2];
+    const bool portable = method == draco::MESH_PREDICTION_TEX_COORDS_PORTABLE;
+    if (!portable && method != draco::MESH_PREDICTION_TEX_COORDS_DEPRECATED) return data;
     const draco::Mesh& mesh = *this->mesh();
-    if (orientations_within(uint64_t{3} * mesh.num_faces(), *attributes_, method, this->bitstream_version(),
+    if (orientations_within(uint64_t{3} * mesh.num_faces(), *attributes_,
+                            portable || this->bitstream_version() < DRACO_BITSTREAM_VERSION(2, 2),
                             static_cast<uint32_t>(data->num_values),
                             mesh.attribute(attribute)->num_components()))
       return data;
