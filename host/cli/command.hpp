@@ -30,8 +30,7 @@ void add_generate(CLI::App& app, Run& run);
 void add_shaders(CLI::App& app, Run& run);
 
 // SCENE and what the command line may change of it: -D, --allow-path, -s, --spp, --integrator, --seed,
-// --triangle,
-// --max-depth.
+// --triangle, --max-depth.
 class SceneOptions {
  public:
   void add_to(CLI::App& command);

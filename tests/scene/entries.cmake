@@ -4,8 +4,8 @@ file(GLOB_RECURSE SCENES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_
 list(FILTER SCENES EXCLUDE REGEX "/include/")
 set(SHAPE_SCENES ${SCENES})
 list(FILTER SHAPE_SCENES INCLUDE REGEX "^scenes/shapes/")
-# The gallery has what the others have, in one kernel that takes seconds to make: once is enough.
-list(FILTER SHAPE_SCENES EXCLUDE REGEX "/gallery")
+# The gallery has what the others have, in one kernel that takes seconds to make, and the Mandelbulb takes seconds to trace: once is enough.
+list(FILTER SHAPE_SCENES EXCLUDE REGEX "/(gallery|mandelbulb)")
 
 # eyeray_verify(NAME LABEL ARGUMENT …)
 function(eyeray_verify name label)
@@ -25,10 +25,10 @@ endforeach()
 set(EDGES ${SCENES})
 list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
 set(small ${SCENES} -s 96x72)
-list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes|/forest|/shapes/(algebraic|bezier|implicit|solid)")
+list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes|/forest|/shapes/(algebraic|bezier|implicit|mandelbulb|solid)")
 # Those whose kernels take seconds to make have fewer modes.
 set(slow scenes/shapes/algebraic.toml scenes/shapes/bezier.toml scenes/shapes/solid.toml -s 96x72)
-eyeray_verify(mode.slow-kernels.packets mode ${slow} scenes/shapes/implicit.toml scenes/forest.toml
+eyeray_verify(mode.slow-kernels.packets mode ${slow} scenes/shapes/implicit.toml scenes/shapes/mandelbulb.toml scenes/forest.toml
   --acceleration tree --no-constants --rays packets)
 eyeray_verify(mode.slow-kernels.jittered mode ${slow} scenes/shapes/implicit.toml scenes/forest.toml
   --spp 4 -D image.pattern=jittered --seed 7 --max-explained 0.02)
