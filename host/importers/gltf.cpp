@@ -19,14 +19,13 @@ namespace eyeray {
 
 namespace {
 
-// Extensions that change nothing that we read without them.
+// Extensions that are read, or change nothing that is.
 constexpr std::string_view known_extensions[] = {
-    "KHR_lights_punctual",   "KHR_materials_ior",     "KHR_materials_transmission",
-    "KHR_materials_volume",  "KHR_materials_unlit",   "KHR_materials_emissive_strength",
-    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_pbrSpecularGlossiness",
+    "KHR_lights_punctual",     "KHR_materials_ior",       "KHR_materials_transmission",
+    "KHR_materials_volume",    "KHR_materials_unlit",     "KHR_materials_emissive_strength",
+    "KHR_mesh_quantization",   "KHR_texture_transform",   "KHR_materials_pbrSpecularGlossiness",
+    "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression",
 };
-// Extensions without which the data cannot be read.
-constexpr std::string_view coded_extensions[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"};
 
 // A mesh and what stands in a scene may be multiplied by each other.
 constexpr size_t most_instances = size_t{1} << 20;
@@ -37,8 +36,7 @@ constexpr double unit_of_light = 1 / std::numbers::pi;
 class GltfReader {
  public:
   explicit GltfReader(MeshFile& file)
-      : file_(file),
-        container_(open_gltf(file.bytes, file.name)),
+      : container_(open_gltf(file.bytes, file.name)),
         json_(parse_gltf_json(container_.json, file.name)),
         document_(json_, "", file.name),
         textures_(file.assets, scene_.warnings),
@@ -77,7 +75,6 @@ class GltfReader {
   void read_light(const GltfObject& source, const Mat4& world);
   static Mat4 transform(const GltfObject& node);
 
-  MeshFile& file_;
   GltfContainer container_;
   nlohmann::json json_;
   GltfObject document_;
@@ -93,12 +90,6 @@ class GltfReader {
 };
 
 void GltfReader::check_extensions() {
-  for (const std::string& name : document_.texts("extensionsRequired")) {
-    if (std::ranges::find(coded_extensions, name) != std::end(coded_extensions))
-      throw malformed(
-          file_.name,
-          fmt::format("its data are coded by {}, which eyeray cannot read: export it without", name));
-  }
   for (const std::string& name : document_.texts("extensionsUsed")) {
     if (std::ranges::find(known_extensions, name) == std::end(known_extensions))
       left_out_.add("the extension " + name);

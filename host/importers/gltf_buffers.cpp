@@ -6,38 +6,13 @@
 #include <limits>
 #include <type_traits>
 
+#include "importers/gltf_components.hpp"
+#include "importers/gltf_meshopt.hpp"
 #include "importers/malformed.hpp"
 
 namespace eyeray {
 
 namespace {
-
-// Numbers of the specification.
-enum Component : uint64_t {
-  signed_byte = 5120,
-  unsigned_byte = 5121,
-  signed_short = 5122,
-  unsigned_short = 5123,
-  unsigned_int = 5125,
-  floating = 5126
-};
-
-// 0 for a type that there is not.
-size_t bytes_of(uint64_t type) {
-  switch (type) {
-    case signed_byte:
-    case unsigned_byte:
-      return 1;
-    case signed_short:
-    case unsigned_short:
-      return 2;
-    case unsigned_int:
-    case floating:
-      return 4;
-    default:
-      return 0;
-  }
-}
 
 template <typename T>
 double load(const char* bytes, bool normalized) {
@@ -90,6 +65,7 @@ struct GltfBuffers::Elements {
 GltfBuffers::GltfBuffers(const GltfObject& document, const GltfContainer& container, AssetFiles& assets)
     : document_(document), container_(container), assets_(assets) {
   buffers_.resize(document.size("buffers"));
+  decoded_views_.resize(document.size("bufferViews"));
 }
 
 uint64_t GltfBuffers::byte_size() const {
@@ -115,8 +91,8 @@ std::string_view GltfBuffers::buffer(size_t index) {
   return bytes.substr(0, length);
 }
 
-std::string_view GltfBuffers::view(size_t index) {
-  const GltfObject source = document_.element("bufferViews", index);
+// `source` is a bufferView, or what is coded in one.
+std::string_view GltfBuffers::range(const GltfObject& source) {
   const auto owner = source.index("buffer", buffers_.size());
   if (!owner) source.fail("has no buffer");
   const std::string_view bytes = buffer(*owner);
@@ -125,6 +101,32 @@ std::string_view GltfBuffers::view(size_t index) {
   if (offset > bytes.size() || length > bytes.size() - offset)
     source.fail(fmt::format("reaches to byte {} of a buffer that has {}", offset + length, bytes.size()));
   return bytes.substr(offset, length);
+}
+
+std::string_view GltfBuffers::view(size_t index) {
+  const GltfObject source = document_.element("bufferViews", index);
+  const auto coding = meshopt_coding(source);
+  if (!coding) return range(source);
+  auto& decoded = decoded_views_[index];
+  if (!decoded) {
+    decoded = decode_meshopt(source, *coding, range(*coding));
+    decoded_bytes_ += decoded->size();
+    allow(decoded->size() / 2);
+    // The same bytes may be those of many views.
+    if (decoded_bytes_ > std::max<uint64_t>(1 << 20, 64 * byte_size()))
+      source.fail("takes what is decoded beyond what a file of this size can mean");
+  }
+  return *decoded;
+}
+
+void GltfBuffers::claim(const GltfObject& owner, uint64_t elements) {
+  elements_read_ += elements;
+  if (elements_read_ > std::max<uint64_t>(1 << 20, 16 * byte_size() + allowed_elements_))
+    owner.fail("takes the elements beyond what a file of this size can mean");
+}
+
+void GltfBuffers::supply(std::map<size_t, std::string> elements) {
+  supplied_ = std::move(elements);
 }
 
 // `owner` is an accessor, or what is sparse in one.
@@ -158,13 +160,14 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
       set(to, k, load(bytes + k * bytes_of(component), component, normalized));
   };
   std::optional<Elements> base;
-  if (const auto index_of_view = accessor.index("bufferView", views))
+  if (const auto supplied = supplied_.find(index); supplied != supplied_.end()) {
+    base = Elements{supplied->second.data(), components * bytes_of(component), component};
+  } else if (const auto index_of_view = accessor.index("bufferView", views)) {
     base = elements(accessor, index_of_view, components, component, count);
+  }
 
-  // Bytes may be read by several accessors, and without bytes all is 0, but not without end.
-  elements_read_ += count;
-  if (elements_read_ > std::max<uint64_t>(1 << 20, 16 * byte_size()))
-    accessor.fail("takes the elements beyond what a file of this size can mean");
+  // Bytes may be read by several accessors, and without bytes all is 0.
+  claim(accessor, count);
   std::vector<T> all(count, T(0));
   for (uint64_t i = 0; base && i < count; ++i) copy(*base, i, all[i]);
 

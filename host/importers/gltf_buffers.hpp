@@ -2,6 +2,7 @@
 // importers.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,7 +27,19 @@ class GltfBuffers {
 
   // What a `uri` stands for: data in itself, or a file. Error where it is damaged or cannot be read.
   std::string read_uri(const GltfObject& owner, std::string_view what);
+  // The bytes of a bufferView, decoded where they are coded (gltf_meshopt.hpp).
   std::string_view view(size_t index);
+
+  // From now on the elements of these accessors are what is given here, packed, of the accessor's own type
+  // and count; those of all other accessors are their bufferViews' again.
+  void supply(std::map<size_t, std::string> elements);
+  // Counts elements that are read, which what is short may name without end. InputError, of `owner`, where
+  // they are more than a file of this size can mean …
+  void claim(const GltfObject& owner, uint64_t elements);
+  // … but so many more where some of it is coded.
+  void allow(uint64_t elements) { allowed_elements_ += elements; }
+  // Of what was read so far, as it was read.
+  uint64_t byte_size() const;
 
   // The elements of an accessor. Normalized integers are numbers from −1 or 0 to 1.
   std::vector<Vec2> vec2(size_t accessor);
@@ -40,16 +53,20 @@ class GltfBuffers {
   struct Elements;
 
   std::string_view buffer(size_t index);
+  std::string_view range(const GltfObject& source);
   Elements elements(const GltfObject& owner, std::optional<size_t> view, size_t components, uint64_t type,
                     uint64_t count);
   template <typename T>
   std::vector<T> read(size_t accessor, std::string_view type, size_t components);
-  uint64_t byte_size() const;
 
   const GltfObject& document_;
   GltfContainer container_;
   AssetFiles& assets_;
-  std::vector<std::optional<std::string>> buffers_;  // as they are first asked for
+  std::vector<std::optional<std::string>> buffers_;        // as they are first asked for
+  std::vector<std::optional<std::string>> decoded_views_;  // likewise
+  std::map<size_t, std::string> supplied_;                 // by accessor
+  uint64_t decoded_bytes_ = 0;                             // in the views
+  uint64_t allowed_elements_ = 0;
   uint64_t elements_read_ = 0;
 };
 

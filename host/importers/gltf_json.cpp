@@ -41,6 +41,12 @@ const Json* GltfObject::find(const char* key) const {
   return found == json_->end() ? nullptr : &*found;
 }
 
+std::vector<std::string> GltfObject::keys() const {
+  std::vector<std::string> all;
+  for (const auto& [key, value] : json_->items()) all.push_back(key);
+  return all;
+}
+
 double GltfObject::number(const char* key, double fallback) const {
   const Json* value = find(key);
   if (!value) return fallback;

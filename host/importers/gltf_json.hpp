@@ -18,6 +18,7 @@ class GltfObject {
   GltfObject(const nlohmann::json& json, std::string place, const std::string& file);
 
   bool has(const char* key) const { return find(key) != nullptr; }
+  std::vector<std::string> keys() const;
   // A finite number, or the fallback where there is none.
   double number(const char* key, double fallback) const;
   // An integer from 0.

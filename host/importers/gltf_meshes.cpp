@@ -43,6 +43,7 @@ GltfMeshes::GltfMeshes(const GltfObject& document, GltfBuffers& buffers, const G
       left_out_(left_out),
       file_(file),
       smooth_(smooth),
+      draco_(document, buffers),
       parts_(document.size("meshes")) {}
 
 const std::vector<GltfMeshes::Part>& GltfMeshes::parts(size_t index) {
@@ -87,6 +88,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
     left_out_.add("meshes without positions");
     return std::nullopt;
   }
+  const auto draco_corners = draco_.open(primitive);
   const GltfUv uv_use = material ? materials_.uv(*material) : GltfUv{};
   const auto normals = attributes->index("NORMAL", accessors);
   const auto uv = attributes->index(fmt::format("TEXCOORD_{}", uv_use.set).c_str(), accessors);
@@ -117,20 +119,22 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
 
   // Read the corners.
   std::vector<uint32_t> corners;
-  if (const auto indices = primitive.index("indices", accessors)) {
+  if (draco_corners) {
+    corners = *draco_corners;
+  } else if (const auto indices = primitive.index("indices", accessors)) {
     corners = buffers_.indices(*indices);
-    if (!corners.empty() && std::ranges::max(corners) >= pool.positions.size()) {
-      primitive.fail(fmt::format("refers to vertex {}; there are {}, counted from 0",
-                                 std::ranges::max(corners), pool.positions.size()));
-    }
   } else {
     corners.resize(pool.positions.size());
     std::iota(corners.begin(), corners.end(), 0u);
   }
+  if (!corners.empty() && std::ranges::max(corners) >= pool.positions.size()) {
+    primitive.fail(fmt::format("refers to vertex {}; there are {}, counted from 0", std::ranges::max(corners),
+                               pool.positions.size()));
+  }
   RawTriangles raw;
   raw.has_normals = normals.has_value();
   raw.has_uv = uv.has_value();
-  raw.positions = assemble(mode, corners);
+  raw.positions = assemble(draco_corners ? triangle_list : mode, corners);
   return MeshBuilder(pool, counts_).build(raw, smooth_);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "importers/gltf_buffers.hpp"
+#include "importers/gltf_draco.hpp"
 #include "importers/gltf_materials.hpp"
 #include "importers/gltf_skins.hpp"
 #include "importers/mesh_builder.hpp"
@@ -39,6 +40,7 @@ class GltfMeshes {
   GltfLeftOut& left_out_;
   const std::string& file_;
   double smooth_;  // degrees
+  GltfDraco draco_;
   MeshCounts counts_;
   std::vector<Mesh> meshes_;
   std::vector<std::optional<std::vector<Part>>> parts_;  // of each mesh of the file

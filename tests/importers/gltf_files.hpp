@@ -28,6 +28,7 @@ class GltfFile {
       {"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}},
       {"nodes", {{{"mesh", 0}}}},      {"meshes", {{{"primitives", {{{"attributes", Json::object()}}}}}}},
       {"bufferViews", Json::array()},  {"accessors", Json::array()}};
+  std::vector<Json> more_buffers;  // after the one that the bytes are in
 
   // The accessor of the numbers, stored as the component type, in a bufferView of its own.
   int add(const std::vector<double>& numbers, int component, const char* type, size_t components,
@@ -50,6 +51,12 @@ class GltfFile {
         {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", data_.text().size() - offset}});
     return int(json["bufferViews"].size()) - 1;
   }
+  int add_view(const std::string& bytes) {
+    const int view = add_view({}, 5121);
+    for (const char byte : bytes) data_.add(byte);
+    json["bufferViews"][size_t(view)]["byteLength"] = bytes.size();
+    return view;
+  }
   void add_positions(const std::vector<double>& xyz) {
     primitive()["attributes"]["POSITION"] = add(xyz, 5126, "VEC3", 3);
   }
@@ -61,11 +68,13 @@ class GltfFile {
   std::string gltf(const std::string& uri) const {
     Json whole = json;
     whole["buffers"] = {{{"byteLength", data_.text().size()}, {"uri", uri}}};
+    for (const Json& buffer : more_buffers) whole["buffers"].push_back(buffer);
     return whole.dump();
   }
   std::string glb() const {
     Json whole = json;
     whole["buffers"] = {{{"byteLength", data_.text().size()}}};
+    for (const Json& buffer : more_buffers) whole["buffers"].push_back(buffer);
     std::string text = whole.dump();
     while (text.size() % 4 != 0) text += ' ';
     std::string binary = data_.text();

@@ -193,10 +193,6 @@ TEST_CASE("wrong glTF is refused, and the place named") {
   CHECK(said("/bufferViews/0/byteLength", 1000) ==
         "a.gltf: error: bufferViews[0] reaches to byte 1000 of a buffer that has 60");
   CHECK(said("/bufferViews/0/buffer", 3) == "a.gltf: error: bufferViews[0].buffer must be an index below 1");
-  CHECK(
-      said("/extensionsRequired", {"KHR_draco_mesh_compression"}) ==
-      "a.gltf: error: its data are coded by KHR_draco_mesh_compression, which eyeray cannot read: export it "
-      "without");
 }
 
 TEST_CASE("damaged files are refused") {

@@ -2,7 +2,7 @@
 // read keeps every promise.
 #include <random>
 
-#include "gltf_files.hpp"
+#include "coded_grid.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -37,7 +37,9 @@ std::vector<Seed> seeds() {
       {"b.ply", header("binary_little_endian") + little.text()},
       {"c.ply", header("binary_big_endian") + big.text()},
       {"a.gltf", gltf.gltf()},
-      {"a.glb", gltf.glb()}};
+      {"a.glb", gltf.glb()},
+      {"meshopt.glb", meshopt_grid().glb()},
+      {"draco.glb", draco_grid().glb()}};
 }
 
 // Whether it is read.

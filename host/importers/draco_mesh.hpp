@@ -1,0 +1,26 @@
+// Meshes that are coded by Google's Draco. Private to the importers.
+// Source: Draco Bitstream Specification 2.2.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace draco {
+class Mesh;
+}
+
+namespace eyeray {
+
+struct DracoResult {
+  std::shared_ptr<const draco::Mesh> mesh;  // null where there is none to be had …
+  std::string why;                          // … because the data "are damaged: …", …
+  uint64_t values = 0;                      // numbers that were made: of corners and of vertices
+};
+
+// What the data say. Nothing in them is trusted: how many faces and vertices there are is a few bytes of
+// them, and nothing is allocated for more than `most_values` numbers.
+DracoResult decode_draco(std::string_view data, uint64_t most_values);
+
+}  // namespace eyeray

@@ -1,0 +1,37 @@
+// Primitives of a glTF file that are coded by Draco. Private to the importers.
+// Source: Khronos Group: KHR_draco_mesh_compression.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "importers/gltf_buffers.hpp"
+
+namespace draco {
+class Mesh;
+}
+
+namespace eyeray {
+
+class GltfDraco {
+ public:
+  GltfDraco(const GltfObject& document, GltfBuffers& buffers);
+
+  // Supplies the buffers with the elements of the primitive's accessors that its Draco data have, and returns
+  // the corners of its triangles, three each. Where it is not coded: the accessors are as they are, and
+  // nothing is returned. InputError for data that are damaged, or other than the accessors say.
+  std::optional<std::vector<uint32_t>> open(const GltfObject& primitive);
+
+ private:
+  const draco::Mesh& mesh(const GltfObject& coding);
+  void check(const GltfObject& primitive, const draco::Mesh& mesh);
+
+  const GltfObject& document_;
+  GltfBuffers& buffers_;
+  std::map<size_t, std::shared_ptr<const draco::Mesh>> meshes_;  // by bufferView
+  uint64_t values_ = 0;                                          // in them
+};
+
+}  // namespace eyeray
