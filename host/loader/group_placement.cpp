@@ -5,21 +5,14 @@
 namespace eyeray {
 
 int GroupPlacer::keep(Group group) {
-  Kept& kept = kept_.emplace_back();
+  Bounds& all = bounds_.emplace_back();
   for (const auto& shape : group.shapes) {
     const Bounds box = shape->bounds();
-    kept.bounds.include(box.min);
-    kept.bounds.include(box.max);
+    all.include(box.min);
+    all.include(box.max);
   }
   scene_.groups.push_back(std::move(group));
   return int(scene_.groups.size()) - 1;
-}
-
-bool GroupPlacer::is_to_be_tried(int group, const Mat4& transform) {
-  Kept& kept = kept_[size_t(group)];
-  if (kept.tried || similarity(transform)) return false;
-  kept.tried = true;
-  return true;
 }
 
 std::string GroupPlacer::place(int index, const Mat4& transform, const SourcePosition& position,
@@ -27,7 +20,7 @@ std::string GroupPlacer::place(int index, const Mat4& transform, const SourcePos
   const Group& group = scene_.groups[size_t(index)];
   if (!group.shapes.empty()) {
     const Affine map(transform);
-    const auto& [low, high] = kept_[size_t(index)].bounds;
+    const auto& [low, high] = bounds_[size_t(index)];
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 p(corner & 1 ? low.x : high.x, corner & 2 ? low.y : high.y, corner & 4 ? low.z : high.z);
       if (!(magnitude(map.point(p)) <= max_coordinate))

@@ -214,7 +214,6 @@ void Builder::add_group(TableReader& reader, const toml::table& table, const Pla
   if (building_ || !plan_->is_instanced(table)) return add_placed(table, placing);
   const auto [entry, fresh] = kept_groups_.try_emplace(&table);
   if (fresh) entry->second = group_placer_.keep(build_group(table, Mat4(1.0)));
-  if (group_placer_.is_to_be_tried(entry->second, placing.to_world)) build_group(table, placing.to_world);
   const std::string wrong =
       group_placer_.place(entry->second, placing.to_world, reader.position(), placing.name);
   if (!wrong.empty()) reader.error("transform", wrong);

@@ -67,7 +67,7 @@ the surface, its box and the coordinates that f sees.
 | `gyroid` | a wall of `thickness` = 0.25 about the gyroid sin x cos y + sin y cos z + sin z cos x = `level` = 0 of `period` = 1 |
 | `rounded-box` | `center` = [0, 0, 0], `half_size` = [0.8, 0.6, 0.7] with edges of `radius` = 0.2 |
 | `smooth-union` | `sphere` = [0, 0.35, 0, 0.5] (centre and radius) and a box about `box_center` = [0, -0.4, 0] of `box_half_size` = [0.8, 0.25, 0.6], blended over `blend` = 0.4 |
-| `mandelbulb` | of power 8 about the y axis, after `rounds` = 2 (at most 8) as far as 1 from the origin; it lies within 1.25. It has no `lipschitz` and is found by intervals: 3 rounds take five times as long as 2, and a few rays in a thousand run out |
+| `mandelbulb` | of power 8 about the y axis, after `rounds` = 2 (at most 8) as far as 1 from the origin; it lies within 1.25. It has no `lipschitz` and is found by intervals: 3 rounds take five times as long as 2, a few rays in a thousand run out, and what they add is finer than float32 tells, as `verify` finds |
 | `height-field` | hills below y = `base` = 0 ± `height` = 0.5, the largest of them `period` = 1 apart; `seed` = 1 |
 
 **uv.** Those of a [box](#box)'s face: of the face itself on a cap, and elsewhere of the face to which the normal points, onto which the texture is

@@ -11,7 +11,7 @@
 
 namespace eyeray {
 
-// `transform` must be a similarity.
+// An ellipsoid where `transform` is no similarity.
 std::unique_ptr<Shape> make_sphere(const Vec3& center, double radius, const Mat4& transform = Mat4(1.0));
 
 // Without `u_axis`, the default that the manual names.

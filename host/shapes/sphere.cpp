@@ -1,10 +1,12 @@
 #include <cmath>
+#include <glm/ext/matrix_transform.hpp>
 #include <numbers>
 
 #include "records/packer.hpp"
 #include "scene/affine.hpp"
 #include "shapes/keys.hpp"
 #include "shapes/make.hpp"
+#include "shapes/object_shape.hpp"
 
 namespace eyeray {
 
@@ -20,7 +22,7 @@ radius = 1
 material = "glass"
 ```
 
-`transform` may rotate, move, scale by one number and mirror; anything that would make an ellipsoid of it is an error.
+`transform` may be any affine map that can be undone. One that stretches or shears makes an [ellipsoid](#ellipsoid) of it, with the same uv.
 
 **uv.** In the sphere's own axes (turned by `transform`), with n the unit vector from the centre: the pole is +y,
 `v = atan2(√(n.x² + n.z²), −n.y) / π` runs from 0 at the south pole to 1 at the north pole, and
@@ -118,17 +120,16 @@ class Sphere final : public Shape {
 std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   const Vec3 center = table.vec3("center");
   const double radius = table.number("radius");
+  if (table.failed()) return nullptr;
   const auto map = similarity(transform);
-  if (!map) {
-    table.error("transform",
-                "a sphere can be rotated, moved, scaled by one number and mirrored; for any other map use "
-                "[[ellipsoid]]");
-  } else if (!(radius * map->scale >= min_radius && magnitude(map->point(center)) <= max_coordinate &&
+  if (!map && out_of_range(table, glm::scale(glm::translate(transform, center), Vec3(radius))))
+    return nullptr;
+  if (map && !(radius * map->scale >= min_radius && magnitude(map->point(center)) <= max_coordinate &&
                radius * map->scale <= max_coordinate)) {
     table.error("transform",
                 "the transformed sphere is out of range (radius 1e-12 to 1e12, centre up to 1e12)");
+    return nullptr;
   }
-  if (table.failed()) return nullptr;
   return make_sphere(center, radius, transform);
 }
 
@@ -138,7 +139,7 @@ extern const ShapeType sphere_type{.name = "sphere", .manual = manual, .keys = k
 
 std::unique_ptr<Shape> make_sphere(const Vec3& center, double radius, const Mat4& transform) {
   const auto map = similarity(transform);
-  CHECK(map.has_value());
+  if (!map) return make_ellipsoid(center, Vec3(radius), transform);
   return std::make_unique<Sphere>(map->point(center), radius * map->scale, map->axes);
 }
 

@@ -77,10 +77,10 @@ TEST_CASE("messages begin with what they are about, and say it once for all copi
         std::vector<std::string>{
             "sphere \"cart 1/wheel\": no [[material]] is named \"wal\"; did you mean \"wall\"?"});
   // What is wrong with one copy alone says with which.
-  CHECK(refusals(fmt::format(
-                     "[[group]]\nname = \"cart\"\nbatch = {{ transform = [[], [{{ scale = [1, 2, 1] }}]] }}\n"
-                     "[[group.sphere]]\nname = \"wheel\"\n{}",
-                     sphere))
+  CHECK(refusals(
+            fmt::format("[[group]]\nname = \"cart\"\nbatch = {{ transform = [[], [{{ scale = 1e13 }}]] }}\n"
+                        "[[group.sphere]]\nname = \"wheel\"\n{}",
+                        sphere))
             .at(0)
             .starts_with("sphere \"cart 2/wheel\": "));
 }
