@@ -1,6 +1,7 @@
 // Shapes in a space of their own against numbers worked out by hand.
 #include "scenes.hpp"
 #include "support/doctest.hpp"
+#include "support/random.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -53,6 +54,19 @@ TEST_CASE("ellipsoid: each radius along its axis, normals by the gradient, bound
   shear[1][0] = 1;  // x += y
   const Bounds bounds = make_ellipsoid({0, 0, 0}, {1, 1, 1}, shear)->bounds();
   CHECK(near(bounds.max, Vec3(std::sqrt(2.0), 1, 1), 1e-15));
+}
+
+TEST_CASE("a sphere under a map that is no similarity is what the map makes of it, uv included") {
+  const Mat4 map{{2, 0, 0, 0}, {1, 3, 0, 0}, {0, 0, -0.5, 0}, {5, 6, 7, 1}};
+  const auto plain = make_sphere({1, 2, 3}, 0.7), mapped = make_sphere({1, 2, 3}, 0.7, map);
+  Random random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 out = random.direction(), from = Vec3(1, 2, 3) + out * 2.0;
+    const SurfacePoint here = struck(*plain, {from, -out});
+    const SurfacePoint there = struck(*mapped, {Vec3(map * Vec4(from, 1)), Vec3(map * Vec4(-out, 0))});
+    CHECK(near(there.position, Vec3(map * Vec4(here.position, 1)), 1e-13));
+    CHECK(near(Vec3(there.uv, 0), Vec3(here.uv, 0), 1e-12));
+  }
 }
 
 TEST_CASE("cylinder: side, caps, open, and rays along its axis") {
