@@ -26,20 +26,7 @@ double load(const char* bytes, bool normalized) {
 
 double load(const char* bytes, uint64_t type, bool normalized) {
   static_assert(std::endian::native == std::endian::little, "glTF's numbers are little-endian");
-  switch (type) {
-    case signed_byte:
-      return load<int8_t>(bytes, normalized);
-    case unsigned_byte:
-      return load<uint8_t>(bytes, normalized);
-    case signed_short:
-      return load<int16_t>(bytes, normalized);
-    case unsigned_short:
-      return load<uint16_t>(bytes, normalized);
-    case unsigned_int:
-      return load<uint32_t>(bytes, normalized);
-    default:
-      return load<float>(bytes, false);
-  }
+  return visit_component(type, [&](auto zero) { return load<decltype(zero)>(bytes, normalized); });
 }
 
 template <typename T>

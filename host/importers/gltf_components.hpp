@@ -18,21 +18,30 @@ enum GltfComponent : uint64_t {
   floating = 5126
 };
 
-// 0 for a componentType that there is not.
-constexpr size_t bytes_of(uint64_t component) {
+// What `visit` makes of a 0 of the C++ type of a component; of a float for a componentType that there is not.
+template <typename Visit>
+constexpr auto visit_component(uint64_t component, const Visit& visit) {
   switch (component) {
     case signed_byte:
+      return visit(int8_t{});
     case unsigned_byte:
-      return 1;
+      return visit(uint8_t{});
     case signed_short:
+      return visit(int16_t{});
     case unsigned_short:
-      return 2;
+      return visit(uint16_t{});
     case unsigned_int:
-    case floating:
-      return 4;
+      return visit(uint32_t{});
     default:
-      return 0;
+      return visit(float{});
   }
+}
+
+// 0 for a componentType that there is not.
+constexpr size_t bytes_of(uint64_t component) {
+  const bool known = (component >= signed_byte && component <= unsigned_short) || component == unsigned_int ||
+                     component == floating;
+  return known ? visit_component(component, [](auto zero) { return sizeof zero; }) : 0;
 }
 
 // 0 for what a vertex does not have: matrices, and types that there are not.

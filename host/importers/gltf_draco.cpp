@@ -55,20 +55,7 @@ std::optional<std::string> pack(const draco::PointAttribute& attribute, uint32_t
   if (!readable(attribute.data_type()) || !attribute.buffer() || attribute.buffer()->data_size() < least)
     return std::nullopt;
   if (!attribute.is_mapping_identity() && attribute.indices_map_size() < points) return std::nullopt;
-  switch (component) {
-    case signed_byte:
-      return pack<int8_t>(attribute, points);
-    case unsigned_byte:
-      return pack<uint8_t>(attribute, points);
-    case signed_short:
-      return pack<int16_t>(attribute, points);
-    case unsigned_short:
-      return pack<uint16_t>(attribute, points);
-    case unsigned_int:
-      return pack<uint32_t>(attribute, points);
-    default:
-      return pack<float>(attribute, points);
-  }
+  return visit_component(component, [&](auto zero) { return pack<decltype(zero)>(attribute, points); });
 }
 
 }  // namespace
