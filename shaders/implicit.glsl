@@ -24,6 +24,10 @@ struct Implicit {
 #define IMPLICIT_ITSELF 3.0f
 #define IMPLICIT_RAN_OUT 4.0f
 
+// The t at which the world's ray crosses the surface, s along its ObjectRay, having crossed it at `before` last: always a later one, so
+// that whoever counts crossings misses none.
+float crossing_t(ObjectRay r, float s, float before) { return maximum(r.t + s, before + (2.0f * EPSILON * abs(before) + 1.0e-37f)); }
+
 // Lengths in the cube.
 #define IMPLICIT_STEPS 4096u
 #define IMPLICIT_REFINEMENTS 40u

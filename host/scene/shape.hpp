@@ -141,6 +141,17 @@ class Shape {
   SourcePosition position;          // of its table in the scene file
 };
 
+// Calls visit(leaf) for each shape that a solid and the solids in it are made of, in the order of its table;
+// for any other shape, once with that.
+template <typename Visit>
+void for_each_leaf(const Shape& shape, const Visit& visit) {
+  const ShapeForm form = shape.form();
+  const auto* solid = std::get_if<SolidForm>(&form);
+  if (!solid) return visit(shape);
+  for (const auto* list : {&solid->operands, &solid->removed})
+    for (const Shape* each : *list) for_each_leaf(*each, visit);
+}
+
 // A row of the registry: what the loader and the manual know of a kind of shape.
 struct ShapeType {
   std::string_view name;      // its table in a scene, its .glsl, its scene file

@@ -241,8 +241,8 @@ material = "floor"               # of the ring's inner side
 A solid may be part of another: `[[solid.solid]]`, `[[solid.minus.solid]]`. All may have a `batch` and a `transform`; a solid's moves all that stands in it, by whatever map its parts may have. In no table
 does the order of shapes matter. A part without a `material` has that of the solid around it.
 
-Parts are closed shapes: sphere, box, ellipsoid, capsule, prism, torus, superellipsoid, and cylinder, cone, paraboloid, hyperboloid and quadric unless they are `open`; 32 in one solid, those
-of solids in it included. What encloses nothing is refused, and so are meshes, of which nothing says that they do. A solid is filled with one medium at most: where light passes through
+Parts are closed shapes: sphere, box, ellipsoid, capsule, prism, torus, superellipsoid, and cylinder, cone, paraboloid, hyperboloid, quadric and implicit unless they are `open`; 32 in one
+solid, those of solids in it included. An implicit one is looked at by each ray from end to end as often as it crosses the solid's parts on the way, so it takes long where rays cross it often. What encloses nothing is refused, and so are meshes, of which nothing says that they do. A solid is filled with one medium at most: where light passes through
 several of its surfaces, they are of one material.
 
 **uv.** Those of the part whose surface it is.
@@ -264,20 +264,10 @@ constexpr Key keys[] = {
      .choices = operations},
 };
 
-size_t count_leaves(const Shape& shape) {
-  const ShapeForm form = shape.form();
-  const auto* solid = std::get_if<SolidForm>(&form);
-  if (!solid) return 1;
-  size_t count = 0;
-  for (const auto* list : {&solid->operands, &solid->removed})
-    for (const Shape* each : *list) count += count_leaves(*each);
-  return count;
-}
-
 std::unique_ptr<Shape> combine(TableReader& table, ShapeType::Shapes operands, ShapeType::Shapes removed) {
   size_t leaves = 0;
   for (const auto* list : {&operands, &removed})
-    for (const auto& shape : *list) leaves += count_leaves(*shape);
+    for (const auto& shape : *list) for_each_leaf(*shape, [&](const Shape&) { ++leaves; });
   if (operands.empty()) {
     table.error("operation", "an empty solid: no shape stands in it, such as [[solid.sphere]]");
   } else if (leaves > most_solid_leaves) {
