@@ -19,11 +19,12 @@ vec3 FORMULA_NAME(enclosed)(Implicit it, vec3 o, vec3 d, float m, float h) {
 vec2 FORMULA_NAME(march)(Implicit it, Ray ray, ObjectRay r, float start, float end, bool at_entry, bool wanted) {
   March march = march_begin(start, end, IMPLICIT_FINEST / sqrt(dot3(r.d, r.d)));
   march.over = march.over || !wanted;
+  uint crossings = 0u;
   float t = T_NONE;
   bool begun = false;
   bool inside = false;
   bool caps = false;
-  for (uint i = 0u; i < IMPLICIT_PIECES && !march.over; i++) {
+  for (uint i = 0u; i < IMPLICIT_PIECES && crossings <= IMPLICIT_CROSSINGS && !march.over; i++) {
     march = march_on(march, FORMULA_NAME(enclosed)(it, r.o, r.d, march_middle(march), march_half(march)));
 
     // The side on which it starts.
@@ -40,6 +41,7 @@ vec2 FORMULA_NAME(march)(Implicit it, Ray ray, ObjectRay r, float start, float e
     t = march.found && !caps && !lost ? next : t;
     inside = passed && !lost ? !inside : inside;
     if (passed) march = march_past(march);
+    crossings = passed ? crossings + 1u : crossings;
     march.over = march.over || caps;
   }
   float part = !wanted ? IMPLICIT_NOTHING

@@ -30,7 +30,8 @@ vec2 FORMULA_NAME(march)(Implicit it, Ray ray, ObjectRay r, float start, float e
   bool going = wanted;
   bool stretched = false;
   float least = shortest;
-  for (uint i = 0u; i < IMPLICIT_STEPS && going;) {
+  uint i = 0u;
+  for (uint crossings = 0u; crossings <= IMPLICIT_CROSSINGS && i < IMPLICIT_STEPS && going; crossings++) {
     for (; i < IMPLICIT_STEPS && going; i++) {
       f = FORMULA_VALUE(it, it.center + it.extent * (r.o + r.d * s));
       bool below = f < 0.0f;

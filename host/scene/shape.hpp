@@ -121,7 +121,7 @@ class Shape {
   // Whether it encloses a volume, so that solids can be made of it.
   virtual bool is_closed() const { return false; }
   // Of a closed shape, where the ray's whole line is within it, t < 0 included: in order, none touches
-  // another.
+  // another. Beyond an end that is `ran_out` there is none known.
   virtual std::vector<Span> spans(const Ray&) const { return {}; }
   // For exporters and for comparing with other renderers; monostate for what they do not have.
   virtual ShapeForm form() const { return {}; }

@@ -125,12 +125,13 @@ class Implicit final : public ObjectShape {
   }
 
  private:
-  static constexpr double itself = 6;          // Intersection::u, beside the cube's faces
+  static constexpr double itself = 6;  // Intersection::u, beside the cube's faces
+  static constexpr int most_crossed = 1000;
   static constexpr size_t typical_steps = 96;  // of a ray in the shaders
 
   // The surface's, and the cube's faces where they are within it; v says whether the ray comes in. Each is
-  // sought from where f has the other sign for certain, so that they alternate. Where the search gives up,
-  // the ray is within from there on, or without.
+  // sought from where f has the other sign for certain, so that they alternate. Where the search gives up, as
+  // after too many, the ray is within from there on, or without.
   Crossings crossings(const Ray& ray) const override {
     Crossings all;
     const auto span = cube::span(ray);
@@ -139,9 +140,10 @@ class Implicit final : public ObjectShape {
     bool inside = surface.value(ray.o + ray.d * span->in.t) < 0, ran_out = false;
     if (inside) all.add({span->in.t, double(span->in.face), 1});
     double from = span->in.t;
+    int count = 0;
     while (const auto change = ran_out ? std::nullopt : surface.first_change(ray, from, span->out.t)) {
       inside = !inside;
-      ran_out = change->ran_out;
+      ran_out = change->ran_out || ++count > most_crossed;
       all.add({change->s, itself, inside ? 1.0 : 0.0, 0, ran_out});
       from = change->beyond;
     }

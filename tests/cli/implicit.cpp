@@ -84,6 +84,26 @@ TEST_CASE("a function that is not a number is no surface, and no NaN in the pict
   CHECK(run_eyeray({"compare", folder / "gpu.pfm", folder / "reference.pfm"}).code == 0);
 }
 
+TEST_CASE(
+    "a part of a solid that is crossed more often than is counted runs out, and the picture says where") {
+  // Thousands of sheets in front of the ball that they are cut to, with a Lipschitz constant and without.
+  for (const std::string lipschitz : {"lipschitz = 6000", ""}) {
+    CAPTURE(lipschitz);
+    const FormulaFolder folder("float f(vec3 p) { return sin(6000.0 * p.z); }\n", lipschitz);
+    replace_in_file(folder.scene(), "[[implicit]]",
+                    "[[solid]]\noperation = \"intersection\"\nmaterial = \"matte\"\n[[solid.sphere]]\ncenter "
+                    "= [0, 1, -0.5]\n"
+                    "radius = 0.4\n[[solid.implicit]]");
+    for (const std::string backend : {"gpu", "twin", "reference"}) {
+      const ProcessResult result = run_eyeray(
+          {"render", folder.scene(), "--backend", backend, "-o", folder / "a.pfm", "--quiet", "-s", "16x12"});
+      CAPTURE(result.err);
+      CHECK(result.code == 0);
+      CHECK(result.err.find("was not found in the steps allowed") != std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("samples that disprove a Lipschitz constant are a warning with the place") {
   const FormulaFolder folder("float f(vec3 p) { return 3.0 * (distance(p, vec3(0.0, 1.0, 0.0)) - 0.9); }\n");
   const ProcessResult result = run_eyeray({"check", folder.scene()});
