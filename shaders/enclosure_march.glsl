@@ -29,19 +29,20 @@ struct March {
   float pass;     // the h of a piece that may be passed over
   float waiting;  // while a point is asked for its e: h of the piece after that; else 0
   float root;     // once found; before that where a line was zero
-  float past;     // where it was found within a piece: from there on the sign is the other
+  float past;     // from where on it is passed, where it was found within a piece; else before t
   float beyond;   // the sign past it
   bool found;
   bool over;
 };
 
-March march_begin(float start, float end, float finest) {
+// `sign`: at the start; 0 where it is not known.
+March march_begin(float start, float end, float sign, float finest) {
   March march;
   march.t = start;
   march.h = 0.125f * (end - start);
   march.end = end;
   march.finest = finest;
-  march.sign = 0.0f;
+  march.sign = sign;
   march.unknown = start;
   march.coarse = 3.0e38f;
   march.noise = 0.0f;
@@ -115,24 +116,15 @@ March march_on(March march, vec3 f) {
   next.waiting = doubt ? next.h : 0.0f;
   next.h = doubt ? march.finest : next.h;
   next.over = next.found || next.t >= march.end;
-  next.found = next.found && next.root < march.end;
+  bool outside = next.found && !(next.root < march.end);
+  next.found = next.found && !outside;
+  next.sign = outside ? march.sign : next.sign;
   return next;
 }
 
-// The march on from the root that it has found. A little more than march_half beyond one in a piece, so that it is not met again.
-March march_past(March march) {
-  March next = march;
-  next.t = march.past > march.t ? march.past + 16.0f * (march.finest + EPSILON * abs(march.past)) : march.t;
-  next.h = minimum(march.h, maximum(0.5f * (march.end - next.t), march.finest));
-  next.sign = march.beyond;
-  next.unknown = next.t;
-  next.coarse = 3.0e38f;
-  next.noise = 0.0f;
-  next.waiting = 0.0f;
-  next.root = march.past - 1.0f;
-  next.found = false;
-  next.over = !(next.t < march.end);
-  return next;
+// From where on the sign is that beyond the root that was found: a little more than march_half behind one within a piece, so that it is not found again.
+float march_past(March march) {
+  return march.past > march.t ? march.past + 16.0f * (march.finest + EPSILON * abs(march.past)) : march.t;
 }
 
 SHADER_END

@@ -31,7 +31,7 @@ float crossing_t(ObjectRay r, float s, float before) { return maximum(r.t + s, b
 // Lengths in the cube.
 #define IMPLICIT_STEPS 4096u
 #define IMPLICIT_REFINEMENTS 40u
-#define IMPLICIT_CROSSINGS 128u  // that are passed
+#define IMPLICIT_CROSSINGS 64u  // that are passed in solids
 #define IMPLICIT_LEAST_STEP 1.0e-5f
 #define IMPLICIT_MOST_LEAST 32.0f   // of those
 #define IMPLICIT_RELAXED 1.9f       // of 2, where the free ways would just touch

@@ -259,7 +259,7 @@ does the order of shapes matter. A part without a `material` has that of the sol
 
 Parts are closed shapes: sphere, box, ellipsoid, capsule, prism, torus, superellipsoid, and cylinder, cone, paraboloid, hyperboloid, quadric and implicit unless they are `open`; 32 in one
 solid, those of solids in it included. An implicit one is searched by each ray from end to end as often as that crosses the solid's parts on the way, so it
-takes long where rays cross it often; at its 129th crossing the ray has run out. What encloses nothing is refused, and so are meshes, of which nothing says that they do. A solid is filled with one medium at most: where light passes through
+takes long where rays cross it often; at its 65th crossing the ray has run out. What encloses nothing is refused, and so are meshes, of which nothing says that they do. A solid is filled with one medium at most: where light passes through
 several of its surfaces, they are of one material.
 
 **uv.** Those of the part whose surface it is.

@@ -25,24 +25,47 @@ float implicit_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   Implicit it = load_implicit(s);
   ObjectRay r = object_ray(s, ray, IMPLICIT_REACH);
   CubeSpan span = cube_span(r);
-  bool from_outside = COUNTS(ray) || span.enter > -r.t;
-  float start = from_outside ? span.enter : -r.t;
-  bool meets = start < span.leave;
+  bool at_entry = COUNTS(ray) || span.enter > -r.t;
+  float start = at_entry ? span.enter : -r.t;
+  bool going = start < span.leave;
 
   // Each formula has its own march: those that are not meant end at once.
-  vec2 found = vec2(T_NONE, IMPLICIT_NOTHING);
-#define MARCH_ALONG(number, name)                                                                                \
-  {                                                                                                              \
-    bool wanted = meets && it.formula == number;                                                                 \
-    vec2 end = name##_march(it, ray, r, start, span.leave, from_outside && !it.open, wanted);                    \
-    found = wanted ? end : found;                                                                                \
+  float from = start;
+  float side = 0.0f;
+  vec4 found = vec4(start, IMPLICIT_NOTHING, start, 0.0f);
+#define MARCH_ALONG(number, name)                                                                                        \
+  {                                                                                                                      \
+    bool wanted = going && it.formula == number;                                                                         \
+    vec4 end = name##_march(it, r, from, span.leave, at_entry && !it.open, side, wanted);                                \
+    found = wanted ? end : found;                                                                                        \
   }
+  float t = T_NONE;
+#if HAS_SOLIDS
+  for (uint crossings = 0u; going; crossings++) {
+    FORMULAS(MARCH_ALONG)
+
+    // Where the side beyond is that before, another crossing was lost beside this one, and neither counts. Where that is not known but beyond is outside, the
+    // ray came in through a cap.
+    bool itself = found.y == IMPLICIT_ITSELF;
+    bool lost = COUNTS(ray) && itself && found.w == side;
+    if (COUNTS(ray) && itself && side == 0.0f && found.w > 0.0f) found = vec4(start, IMPLICIT_ENTRY, start, -1.0f);
+    t = lost ? t : crossing_t(r, found.x, t);
+    from = found.z;
+    side = found.w;
+    at_entry = false;
+    going = (found.y == IMPLICIT_ITSELF || found.y == IMPLICIT_ENTRY) && (lost || PASSED(ray, t));
+    found.y = going && crossings == IMPLICIT_CROSSINGS ? IMPLICIT_RAN_OUT : found.y;
+    going = going && crossings < IMPLICIT_CROSSINGS;
+  }
+#else
   FORMULAS(MARCH_ALONG)
+  t = r.t + found.x;
+#endif
 
   // Where the steps ran out there is nothing up to there.
   bool ran_out = found.y == IMPLICIT_RAN_OUT;
-  uv = ran_out ? vec2(found.x, 0.0f) : found.y == IMPLICIT_ITSELF ? vec2(IMPLICIT_ITSELF, 0.0f) : cube_face(span, r, found.y == IMPLICIT_ENTRY);
-  return ran_out ? T_RAN_OUT : found.y == IMPLICIT_NOTHING ? T_NONE : found.x;
+  uv = ran_out ? vec2(t, 0.0f) : found.y == IMPLICIT_ITSELF ? vec2(IMPLICIT_ITSELF, 0.0f) : cube_face(span, r, found.y == IMPLICIT_ENTRY);
+  return ran_out ? T_RAN_OUT : found.y == IMPLICIT_NOTHING ? T_NONE : t;
 }
 
 bool implicit_may_hit(Primitive s, Ray ray) { return true; }
