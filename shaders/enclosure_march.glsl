@@ -29,6 +29,8 @@ struct March {
   float pass;     // the h of a piece that may be passed over
   float waiting;  // while a point is asked for its e: h of the piece after that; else 0
   float root;     // once found; before that where a line was zero
+  float past;     // where it was found within a piece: from there on the sign is the other
+  float beyond;   // the sign past it
   bool found;
   bool over;
 };
@@ -46,6 +48,8 @@ March march_begin(float start, float end, float finest) {
   march.pass = MARCH_FIRST_PASS * finest;
   march.waiting = 0.0f;
   march.root = start - 1.0f;
+  march.past = start;
+  march.beyond = 0.0f;
   march.found = false;
   march.over = !(start < end);
   return march;
@@ -91,6 +95,8 @@ March march_on(March march, vec3 f) {
   bool guessed = march.root >= march.unknown && march.root <= march.t;
   float behind = guessed ? march.root
                  : known ? 0.5f * (march.unknown + march.t) : maximum(march.unknown, minimum(middle + h * centre, middle));
+  next.past = changed ? march.t : right;
+  next.beyond = changed ? sign : f.y < 0.0f ? -1.0f : 1.0f;
   next.root = changed ? behind : narrow || (passes && !guessed && abs(centre) <= 1.0f) ? middle + h * centre : march.root;
   next.t = none || passes ? middle + march.h : maximum(march.t, left);
   bool sure = march.unknown == march.t;
@@ -110,6 +116,22 @@ March march_on(March march, vec3 f) {
   next.h = doubt ? march.finest : next.h;
   next.over = next.found || next.t >= march.end;
   next.found = next.found && next.root < march.end;
+  return next;
+}
+
+// The march on from the root that it has found. A little more than march_half beyond one in a piece, so that it is not met again.
+March march_past(March march) {
+  March next = march;
+  next.t = march.past > march.t ? march.past + 16.0f * (march.finest + EPSILON * abs(march.past)) : march.t;
+  next.h = minimum(march.h, maximum(0.5f * (march.end - next.t), march.finest));
+  next.sign = march.beyond;
+  next.unknown = next.t;
+  next.coarse = 3.0e38f;
+  next.noise = 0.0f;
+  next.waiting = 0.0f;
+  next.root = march.past - 1.0f;
+  next.found = false;
+  next.over = !(next.t < march.end);
   return next;
 }
 

@@ -24,9 +24,14 @@ struct Implicit {
 #define IMPLICIT_ITSELF 3.0f
 #define IMPLICIT_RAN_OUT 4.0f
 
+// The t at which the world's ray crosses the surface, s along its ObjectRay, having crossed it at `before` last: always a later one, so
+// that whoever counts crossings misses none.
+float crossing_t(ObjectRay r, float s, float before) { return maximum(r.t + s, before + (2.0f * EPSILON * abs(before) + 1.0e-37f)); }
+
 // Lengths in the cube.
 #define IMPLICIT_STEPS 4096u
 #define IMPLICIT_REFINEMENTS 40u
+#define IMPLICIT_CROSSINGS 128u  // that are passed
 #define IMPLICIT_LEAST_STEP 1.0e-5f
 #define IMPLICIT_MOST_LEAST 32.0f   // of those
 #define IMPLICIT_RELAXED 1.9f       // of 2, where the free ways would just touch

@@ -14,23 +14,42 @@ vec3 FORMULA_NAME(enclosed)(Implicit it, vec3 o, vec3 d, float m, float h) {
                            enclosure_of_placed(it.center.z, it.extent.z, o.z, d.z, m, h));
 }
 
-// As in implicit_march.glsl.
-vec2 FORMULA_NAME(march)(Implicit it, ObjectRay r, float start, float end, bool at_entry, bool wanted) {
+// As in implicit_march.glsl. Where crossings are passed the ray's side counts: a root that leaves it on the same, for another was lost next to it,
+// is none.
+vec2 FORMULA_NAME(march)(Implicit it, Ray ray, ObjectRay r, float start, float end, bool at_entry, bool wanted) {
   March march = march_begin(start, end, IMPLICIT_FINEST / sqrt(dot3(r.d, r.d)));
   march.over = march.over || !wanted;
+  uint crossings = 0u;
+  float t = T_NONE;
+  bool begun = false;
+  bool inside = false;
   bool caps = false;
-  for (uint i = 0u; i < IMPLICIT_PIECES && !march.over; i++) {
-    bool first = march.sign == 0.0f;
+  for (uint i = 0u; i < IMPLICIT_PIECES && crossings <= IMPLICIT_CROSSINGS && !march.over; i++) {
     march = march_on(march, FORMULA_NAME(enclosed)(it, r.o, r.d, march_middle(march), march_half(march)));
-    caps = caps || (first && march.sign < 0.0f && at_entry);
+
+    // The side on which it starts.
+    bool begins = !begun && (march.sign != 0.0f || march.found);
+    inside = begins ? march.sign < 0.0f || (march.sign == 0.0f && march.beyond > 0.0f) : inside;
+    begun = begun || begins;
+    bool on_cap = begins && inside && at_entry;
+    t = on_cap ? r.t + start : t;
+    caps = on_cap && !PASSED(ray, t);
+
+    float next = crossing_t(r, march.root, t);
+    bool lost = COUNTS(ray) && (march.beyond < 0.0f) == inside;
+    bool passed = march.found && !caps && (lost || PASSED(ray, next));
+    t = march.found && !caps && !lost ? next : t;
+    inside = passed && !lost ? !inside : inside;
+    if (passed) march = march_past(march);
+    crossings = passed ? crossings + 1u : crossings;
     march.over = march.over || caps;
   }
   float part = !wanted ? IMPLICIT_NOTHING
                : caps ? IMPLICIT_ENTRY
                : !march.over ? IMPLICIT_RAN_OUT
                : march.found ? IMPLICIT_ITSELF
-               : march.sign < 0.0f && !it.open ? IMPLICIT_EXIT : IMPLICIT_NOTHING;
-  return vec2(caps ? start : march.found ? march.root : march.over ? end : march.unknown, part);
+               : inside && !it.open ? IMPLICIT_EXIT : IMPLICIT_NOTHING;
+  return vec2(caps || march.found ? t : march.over ? crossing_t(r, end, t) : r.t + march.unknown, part);
 }
 
 // The gradient of f at q, in the cube's coordinates, and f.

@@ -7,17 +7,18 @@
 
 SHADER_BEGIN
 
-// Along o + s·d from `start` to `end`, a segment within the cube. `at_entry`: it starts on a face, which is a cap where f is negative. Not `wanted`, it
-// takes no time. Returns s, and what is there.
-vec2 FORMULA_NAME(march)(Implicit it, ObjectRay r, float start, float end, bool at_entry, bool wanted) {
+// Along o + s·d from `start` to `end`, a segment within the cube. `at_entry`: it starts on a face, which is a cap where f is negative. Crossings that the
+// world's ray has PASSED are passed. Not `wanted`, it takes no time. Returns t, and what is there.
+vec2 FORMULA_NAME(march)(Implicit it, Ray ray, ObjectRay r, float start, float end, bool at_entry, bool wanted) {
   vec3 toward = it.extent * r.d;
   float stride = 1.0f / (it.lipschitz * sqrt(dot3(toward, toward)));
   float unit = 1.0f / sqrt(dot3(r.d, r.d));
   float shortest = IMPLICIT_LEAST_STEP * unit;
 
-  // Step until the sign changes. Nothing is met within |f| over the constant of a place; where the free ways of two places touch, nothing is between them.
+  // From crossing to crossing, to the first that is asked for. Step until the sign changes. Nothing is met within |f| over the constant of a place; where the free ways of two places touch, nothing is between them.
   // So a step may be longer than the free way, as long as that at its far end is expected to touch, by how fast the last two shrank; if it does not, back to
   // the free way (Bálint and Valasek 2018). The least step gets past where f is almost 0, and grows while it stays so; what is thinner is not seen.
+  float t = T_NONE;
   float s = start;
   float f = 0.0f;
   float before = start;
@@ -29,56 +30,70 @@ vec2 FORMULA_NAME(march)(Implicit it, ObjectRay r, float start, float end, bool 
   bool going = wanted;
   bool stretched = false;
   float least = shortest;
-  for (uint i = 0u; i < IMPLICIT_STEPS && going; i++) {
-    f = FORMULA_VALUE(it, it.center + it.extent * (r.o + r.d * s));
-    bool below = f < 0.0f;
-    inside = i == 0u ? below : inside;
-    caps = i == 0u && below && at_entry;
-    float free = abs(f) * stride;
-    float step = s - before;
-    float sure = maximum(least, free_before);
-    bool back = stretched && step > free_before + free;
-    crosses = !back && below != inside;
-    going = !crosses && !caps && (back || s < end);
+  uint i = 0u;
+  for (uint crossings = 0u; crossings <= IMPLICIT_CROSSINGS && i < IMPLICIT_STEPS && going; crossings++) {
+    for (; i < IMPLICIT_STEPS && going; i++) {
+      f = FORMULA_VALUE(it, it.center + it.extent * (r.o + r.d * s));
+      bool below = f < 0.0f;
+      bool on_cap = i == 0u && below && at_entry;
+      inside = i == 0u ? below : inside;
+      t = on_cap ? r.t + start : t;
+      caps = on_cap && !PASSED(ray, t);
+      float free = abs(f) * stride;
+      float step = s - before;
+      float sure = maximum(least, free_before);
+      bool back = stretched && step > free_before + free;
+      crosses = !back && below != inside;
+      going = !crosses && !caps && (back || s < end);
 
-    // Written so that a NaN makes the least step.
-    least = free < shortest ? minimum(1.05f * least, IMPLICIT_MOST_LEAST * shortest) : shortest;
-    float shrinks = step > 0.0f ? (free_before - free) / step : 1.0f;
-    float stretch = minimum(IMPLICIT_RELAXED / maximum(1.0f + shrinks, 0.5f), IMPLICIT_MOST_STRETCH);
-    stretched = !back && stretch > 1.0f;
-    float next = back ? before + sure : s + maximum(least, free * maximum(1.0f, stretch));
-    before = going && !back ? s : before;
-    f_before = going && !back ? f : f_before;
-    free_before = going && !back ? free : free_before;
-    s = going ? minimum(next, end) : s;
-  }
+      // Written so that a NaN makes the least step.
+      least = free < shortest ? minimum(1.05f * least, IMPLICIT_MOST_LEAST * shortest) : shortest;
+      float shrinks = step > 0.0f ? (free_before - free) / step : 1.0f;
+      float stretch = minimum(IMPLICIT_RELAXED / maximum(1.0f + shrinks, 0.5f), IMPLICIT_MOST_STRETCH);
+      stretched = !back && stretch > 1.0f;
+      float next = back ? before + sure : s + maximum(least, free * maximum(1.0f, stretch));
+      before = going && !back ? s : before;
+      f_before = going && !back ? f : f_before;
+      free_before = going && !back ? free : free_before;
+      s = going ? minimum(next, end) : s;
+    }
 
-  // Narrow it down, by halves and secants in turn.
-  float low = before;
-  float high = s;
-  float f_low = f_before;
-  float f_high = f;
-  float width = IMPLICIT_WIDTH * unit;
-  for (uint i = 0u; i < IMPLICIT_REFINEMENTS && crosses && high - low > width; i++) {
+    // Narrow it down, by halves and secants in turn.
+    float low = before;
+    float high = s;
+    float f_low = f_before;
+    float f_high = f;
+    float width = IMPLICIT_WIDTH * unit;
+    for (uint k = 0u; k < IMPLICIT_REFINEMENTS && crosses && high - low > width; k++) {
+      float share = f_low / (f_low - f_high);
+      bool secant = (k & 1u) == 0u && share > 0.05f && share < 0.95f;
+      float middle = low + (high - low) * (secant ? share : 0.5f);
+      float value = FORMULA_VALUE(it, it.center + it.extent * (r.o + r.d * middle));
+      bool left = (value < 0.0f) == inside;
+      low = left ? middle : low;
+      f_low = left ? value : f_low;
+      high = left ? high : middle;
+      f_high = left ? f_high : value;
+    }
     float share = f_low / (f_low - f_high);
-    bool secant = (i & 1u) == 0u && share > 0.05f && share < 0.95f;
-    float middle = low + (high - low) * (secant ? share : 0.5f);
-    float value = FORMULA_VALUE(it, it.center + it.extent * (r.o + r.d * middle));
-    bool left = (value < 0.0f) == inside;
-    low = left ? middle : low;
-    f_low = left ? value : f_low;
-    high = left ? high : middle;
-    f_high = left ? f_high : value;
+    float root = low + (high - low) * (share >= 0.0f && share <= 1.0f ? share : 0.5f);
+    t = crosses ? crossing_t(r, root, t) : t;
+
+    // On from the far side.
+    going = going || (crosses && PASSED(ray, t));
+    inside = going && crosses ? !inside : inside;
+    s = going && crosses ? high : s;
+    before = going && crosses ? high : before;
+    stretched = stretched && !crosses;
+    crosses = crosses && !going;
   }
-  float share = f_low / (f_low - f_high);
-  float root = low + (high - low) * (share >= 0.0f && share <= 1.0f ? share : 0.5f);
 
   float part = !wanted ? IMPLICIT_NOTHING
                : going ? IMPLICIT_RAN_OUT
                : crosses ? IMPLICIT_ITSELF
                : caps ? IMPLICIT_ENTRY
                : inside && !it.open ? IMPLICIT_EXIT : IMPLICIT_NOTHING;
-  return vec2(crosses ? root : s, part);
+  return vec2(crosses || caps ? t : going ? r.t + s : crossing_t(r, s, t), part);
 }
 
 // The gradient of f at q, in the cube's coordinates, and f. By the formula's own gradient if it has one; else by differences of the fourth order, steps

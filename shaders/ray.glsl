@@ -21,16 +21,21 @@ struct Ray {
 };
 
 // What `intersect` of closed shapes asks, so that it is for solids too (shapes/solid.glsl): a crossing is the same number for whoever asks.
-// AFTER: beyond which t it counts. ENTERS: whether of the two crossings of a convex shape the first is asked for, which is at t.
+// AFTER: beyond which t it counts. ENTERS: whether of the two crossings of a convex shape the first is asked for, which is at t. COUNTS: whether
+// crossings are counted along the whole line; then PASSED: whether that at t has been.
 #if HAS_SOLIDS
 #define SIDE_UNKNOWN 0u
 #define SIDE_OUTSIDE 1u
 #define SIDE_INSIDE 2u
 #define AFTER(ray) ray.after
 #define ENTERS(ray, t) (ray.side == SIDE_UNKNOWN ? (t) > 0.0f : ray.side == SIDE_OUTSIDE)
+#define COUNTS(ray) (ray.side != SIDE_UNKNOWN)
+#define PASSED(ray, t) (COUNTS(ray) && !((t) > ray.after))
 #else
 #define AFTER(ray) 0.0f
 #define ENTERS(ray, t) ((t) > 0.0f)
+#define COUNTS(ray) false
+#define PASSED(ray, t) false
 #endif
 
 struct Hit {

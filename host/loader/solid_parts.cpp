@@ -6,22 +6,6 @@
 
 namespace eyeray {
 
-namespace {
-
-// Calls visit(material) for each of the solid's leaves, in the order of its table, until it returns false.
-template <typename Visit>
-bool for_each_material(const Shape& shape, const Visit& visit) {
-  const ShapeForm form = shape.form();
-  const auto* solid = std::get_if<SolidForm>(&form);
-  if (!solid) return visit(shape.material);
-  for (const auto* list : {&solid->operands, &solid->removed})
-    for (const Shape* each : *list)
-      if (!for_each_material(*each, visit)) return false;
-  return true;
-}
-
-}  // namespace
-
 std::string why_no_part(const Section& section) {
   switch (section.kind) {
     case Section::Kind::mesh:
@@ -44,15 +28,15 @@ Blame why_not_closed(const ShapeType& type) {
 std::string why_two_media(const Shape& solid, const std::vector<std::unique_ptr<Material>>& materials) {
   int first = -1;
   std::string why;
-  for_each_material(solid, [&](int index) {
-    if (size_t(index) >= materials.size()) return false;  // after an error
-    if (!materials[size_t(index)]->medium() || index == first) return true;
-    if (first >= 0)
+  for_each_leaf(solid, [&](const Shape& leaf) {
+    const int index = leaf.material;
+    if (size_t(index) >= materials.size()) return;  // after an error
+    if (!materials[size_t(index)]->medium() || index == first) return;
+    if (first >= 0 && why.empty())
       why = fmt::format(
           "a solid is filled with one medium, and light passes through its surfaces of \"{}\" and of \"{}\"",
           materials[size_t(first)]->name, materials[size_t(index)]->name);
     first = index;
-    return why.empty();
   });
   return why;
 }

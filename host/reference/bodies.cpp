@@ -146,9 +146,12 @@ double Bodies::share_of_shape(size_t index, const Ray& ray, double entry, double
   if (&shape.part(*hit) == &shape) return share;
   // A solid counts once, by what its densest surface on the way lets through.
   for (const auto& [in, out] : shape.spans(ray))
-    for (const Intersection& crossing : {in, out})
-      if (crossing.t > 0 && crossing.t < t_end)
+    for (const Intersection& crossing : {in, out}) {
+      if (crossing.ran_out)
+        gave_up = gave_up || crossing.t < t_end;
+      else if (crossing.t > 0 && crossing.t < t_end)
         share = std::min(share, share_of(shape.part(crossing).material));
+    }
   return share;
 }
 

@@ -125,7 +125,7 @@ std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorO
 }
 
 std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options) {
-  for_each_shape(scene, [](const Shape& shape) {
+  for_each_leaf(scene, [](const Shape& shape) {
     if (shape.formula_use()) shape.formula_use()->formula->compile();
   });
   return make_reference_executor(

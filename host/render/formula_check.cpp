@@ -18,7 +18,7 @@ namespace {
 // Each formula once, with the first shape that it is used by.
 std::vector<const Shape*> users(const Scene& scene) {
   std::vector<const Shape*> all;
-  for_each_shape(scene, [&](const Shape& shape) {
+  for_each_leaf(scene, [&](const Shape& shape) {
     const FormulaUse* use = shape.formula_use();
     if (use && std::ranges::none_of(all, [&](const Shape* other) {
           const FormulaUse& known = *other->formula_use();

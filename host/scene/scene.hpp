@@ -94,4 +94,10 @@ void for_each_shape(const Scene& scene, const Visit& visit) {
     for (const auto& shape : group.shapes) visit(*shape);
 }
 
+// The same, with what solids are made of in their place.
+template <typename Visit>
+void for_each_leaf(const Scene& scene, const Visit& visit) {
+  for_each_shape(scene, [&](const Shape& shape) { for_each_leaf(shape, visit); });
+}
+
 }  // namespace eyeray

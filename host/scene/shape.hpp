@@ -121,7 +121,7 @@ class Shape {
   // Whether it encloses a volume, so that solids can be made of it.
   virtual bool is_closed() const { return false; }
   // Of a closed shape, where the ray's whole line is within it, t < 0 included: in order, none touches
-  // another.
+  // another. Beyond an end that is `ran_out` there is none known.
   virtual std::vector<Span> spans(const Ray&) const { return {}; }
   // For exporters and for comparing with other renderers; monostate for what they do not have.
   virtual ShapeForm form() const { return {}; }
@@ -140,6 +140,17 @@ class Shape {
   NameRef name;                     // in Scene::names
   SourcePosition position;          // of its table in the scene file
 };
+
+// Calls visit(leaf) for each shape that a solid and the solids in it are made of, in the order of its table;
+// for any other shape, once with that.
+template <typename Visit>
+void for_each_leaf(const Shape& shape, const Visit& visit) {
+  const ShapeForm form = shape.form();
+  const auto* solid = std::get_if<SolidForm>(&form);
+  if (!solid) return visit(shape);
+  for (const auto* list : {&solid->operands, &solid->removed})
+    for (const Shape* each : *list) for_each_leaf(*each, visit);
+}
 
 // A row of the registry: what the loader and the manual know of a kind of shape.
 struct ShapeType {

@@ -40,20 +40,20 @@ class Search {
     if (!changes && (std::fabs(a.f) + std::fabs(b.f) > rate_ * (b.s - a.s) || std::isnan(a.f + b.f)))
       return std::nullopt;
     const double width = (b.s - a.s) / unit_;
-    if (width < least_gap) return changes ? std::optional(Change{narrow(a, b, inside)}) : std::nullopt;
-    if (values_ > most_values) return Change{a.s, true};
+    if (width < least_gap) return changes ? std::optional(narrow(a, b, inside)) : std::nullopt;
+    if (values_ > most_values) return Change{a.s, a.s, true};
     const Sample middle = sample(0.5 * (a.s + b.s));
     if (const auto left = between(a, middle, inside)) return left;
     return (middle.f < 0) == inside ? between(middle, b, inside) : std::nullopt;
   }
 
  private:
-  double narrow(Sample a, Sample b, bool inside) {
+  Change narrow(Sample a, Sample b, bool inside) {
     for (int i = 0; i < 60 && (b.s - a.s) / unit_ > least_width; ++i) {
       const Sample middle = sample(0.5 * (a.s + b.s));
       ((middle.f < 0) == inside ? a : b) = middle;
     }
-    return 0.5 * (a.s + b.s);
+    return {0.5 * (a.s + b.s), b.s};
   }
 
   const FormulaSurface& surface_;
@@ -83,9 +83,9 @@ class SeriesSearch {
     if (series.clearance() > (ends ? 1e-9 : 0.8) * size && (values[0] < 0) == inside) return std::nullopt;
     if (narrow || (ends && series.monotone())) {
       if ((values[0] < 0) == inside) return std::nullopt;
-      return FormulaSurface::Change{narrowed(from, to, inside)};
+      return narrowed(from, to, inside);
     }
-    if (values_ > most_values) return FormulaSurface::Change{from, true};
+    if (values_ > most_values) return FormulaSurface::Change{from, from, true};
 
     const double middle = 0.5 * (from + to);
     if (const auto left = between(from, middle, inside)) return left;
@@ -97,12 +97,12 @@ class SeriesSearch {
     ++values_;
     return surface_.value(ray_.o + ray_.d * s);
   }
-  double narrowed(double from, double to, bool inside) {
+  FormulaSurface::Change narrowed(double from, double to, bool inside) {
     for (int i = 0; i < 60 && (to - from) / unit_ > least_width; ++i) {
       const double middle = 0.5 * (from + to);
       ((value(middle) < 0) == inside ? from : to) = middle;
     }
-    return 0.5 * (from + to);
+    return {0.5 * (from + to), to};
   }
 
   const FormulaSurface& surface_;

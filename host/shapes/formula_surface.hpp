@@ -22,6 +22,7 @@ class FormulaSurface {
   // up to s.
   struct Change {
     double s;
+    double beyond;  // a place past it that has the other sign
     bool ran_out = false;
   };
   std::optional<Change> first_change(const Ray& ray, double start, double end) const;

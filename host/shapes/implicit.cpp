@@ -114,6 +114,7 @@ class Implicit final : public ObjectShape {
   Implicit(const Mat4& to_world, FormulaUse use, bool open)
       : ObjectShape(shader::KIND_implicit, to_world, {}, typical_steps), use_(std::move(use)), open_(open) {}
 
+  bool is_closed() const override { return !open_; }
   const FormulaUse* formula_use() const override { return &use_; }
 
   void pack(Packer& packer) const override {
@@ -124,20 +125,32 @@ class Implicit final : public ObjectShape {
   }
 
  private:
-  static constexpr double itself = 6;          // Intersection::u, beside the cube's faces
+  static constexpr double itself = 6;  // Intersection::u, beside the cube's faces
+  static constexpr int most_crossed = 1000;
   static constexpr size_t typical_steps = 96;  // of a ray in the shaders
 
-  // The surface's, and the cube's faces where they are within it.
+  // The surface's, and the cube's faces where they are within it; v says whether the ray comes in. Each is
+  // sought from where f has the other sign for certain, so that they alternate. Where the search gives up, as
+  // after too many, the ray is within from there on, or without.
   Crossings crossings(const Ray& ray) const override {
     Crossings all;
-    double from = -HUGE_VAL;
-    while (const auto next = first(ray, from)) {
-      if (next->ran_out) break;
-      all.add(*next);
-      from = next->t;
+    const auto span = cube::span(ray);
+    if (!span) return all;
+    const FormulaSurface surface(use_);
+    bool inside = surface.value(ray.o + ray.d * span->in.t) < 0, ran_out = false;
+    if (inside) all.add({span->in.t, double(span->in.face), 1});
+    double from = span->in.t;
+    int count = 0;
+    while (const auto change = ran_out ? std::nullopt : surface.first_change(ray, from, span->out.t)) {
+      inside = !inside;
+      ran_out = change->ran_out || ++count > most_crossed;
+      all.add({change->s, itself, inside ? 1.0 : 0.0, 0, ran_out});
+      from = change->beyond;
     }
+    if (inside) all.add({span->out.t, double(span->out.face), 0, 0, ran_out});
     return all;
   }
+  bool enters(const Ray&, const Intersection& crossing) const override { return crossing.v != 0; }
 
   std::optional<Intersection> first(const Ray& ray, double from) const override {
     const auto span = cube::span(ray);

@@ -48,6 +48,10 @@ std::optional<Intersection> ObjectShape::first(const Ray& ray, double from) cons
   return nearest;
 }
 
+bool ObjectShape::enters(const Ray& ray, const Intersection& crossing) const {
+  return glm::dot(point(ray.o + ray.d * crossing.t, crossing).gradient, ray.d) < 0;
+}
+
 std::pair<Ray, double> ObjectShape::to_nearest(const Ray& ray) const {
   const Vec3 o = to_object_.point(ray.o);
   const Vec3 d = to_object_.linear * ray.d;
@@ -63,9 +67,9 @@ std::vector<Span> ObjectShape::spans(const Ray& ray) const {
   };
   std::vector<Passage> passages;
   for (Intersection crossing : crossings(local)) {
-    const Vec3 gradient = point(local.o + local.d * crossing.t, crossing).gradient;
+    const bool comes_in = enters(local, crossing);
     crossing.t += start;
-    if (std::isfinite(crossing.t)) passages.push_back({crossing, glm::dot(gradient, local.d) < 0});
+    if (std::isfinite(crossing.t)) passages.push_back({crossing, comes_in});
   }
   std::ranges::stable_sort(passages, {}, [](const Passage& passage) { return passage.at.t; });
 

@@ -48,6 +48,8 @@ class ObjectShape : public Shape {
   virtual Crossings crossings(const Ray& ray) const = 0;
   // The nearest of them beyond t = `from`.
   virtual std::optional<Intersection> first(const Ray& ray, double from) const;
+  // Whether the ray comes in by that crossing, as its gradient says.
+  virtual bool enters(const Ray& ray, const Intersection& crossing) const;
   virtual Point point(const Vec3& near, const Intersection& hit) const = 0;
   virtual Bounds extent() const = 0;
 

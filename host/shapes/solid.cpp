@@ -76,20 +76,36 @@ std::vector<Span> Solid::spans_of(size_t operand_index, const Ray& ray) const {
 }
 
 std::vector<Span> Solid::spans(const Ray& ray) const {
-  std::vector<Span> spans = spans_of(0, ray);
+  std::optional<Intersection> gave_up;
+  const auto look_at = [&](size_t i) {
+    std::vector<Span> spans = spans_of(i, ray);
+    for (const auto& [in, out] : spans)
+      for (const Intersection& crossing : {in, out})
+        if (crossing.ran_out && !(gave_up && gave_up->t < crossing.t)) gave_up = crossing;
+    return spans;
+  };
+  std::vector<Span> spans = look_at(0);
   for (size_t i = 1; i < operand_count(); ++i) {
-    const std::vector<Span> other = spans_of(i, ray);
+    const std::vector<Span> other = look_at(i);
     spans = i >= operands_.size() ? subtract(spans, other)
             : all_                ? eyeray::intersect(spans, other)
                                   : unite(spans, other);
+  }
+  // Where the search for an operand gave up, nothing is known any more.
+  if (gave_up) {
+    std::erase_if(spans, [&](const Span& span) { return span.in.t >= gave_up->t; });
+    if (!spans.empty() && spans.back().out.t > gave_up->t)
+      spans.back().out = *gave_up;
+    else
+      spans.push_back({*gave_up, *gave_up});
   }
   return spans;
 }
 
 std::optional<Intersection> Solid::intersect(const Ray& ray) const {
   for (const auto& [in, out] : spans(ray)) {
-    if (in.t > 0) return in;
-    if (out.t > 0) return out;
+    if (in.t > 0 || in.ran_out) return in;
+    if (out.t > 0 || out.ran_out) return out;
   }
   return std::nullopt;
 }
@@ -241,8 +257,9 @@ material = "floor"               # of the ring's inner side
 A solid may be part of another: `[[solid.solid]]`, `[[solid.minus.solid]]`. All may have a `batch` and a `transform`; a solid's moves all that stands in it, by whatever map its parts may have. In no table
 does the order of shapes matter. A part without a `material` has that of the solid around it.
 
-Parts are closed shapes: sphere, box, ellipsoid, capsule, prism, torus, superellipsoid, and cylinder, cone, paraboloid, hyperboloid and quadric unless they are `open`; 32 in one solid, those
-of solids in it included. What encloses nothing is refused, and so are meshes, of which nothing says that they do. A solid is filled with one medium at most: where light passes through
+Parts are closed shapes: sphere, box, ellipsoid, capsule, prism, torus, superellipsoid, and cylinder, cone, paraboloid, hyperboloid, quadric and implicit unless they are `open`; 32 in one
+solid, those of solids in it included. An implicit one is searched by each ray from end to end as often as that crosses the solid's parts on the way, so it
+takes long where rays cross it often; at its 129th crossing the ray has run out. What encloses nothing is refused, and so are meshes, of which nothing says that they do. A solid is filled with one medium at most: where light passes through
 several of its surfaces, they are of one material.
 
 **uv.** Those of the part whose surface it is.
@@ -264,20 +281,10 @@ constexpr Key keys[] = {
      .choices = operations},
 };
 
-size_t count_leaves(const Shape& shape) {
-  const ShapeForm form = shape.form();
-  const auto* solid = std::get_if<SolidForm>(&form);
-  if (!solid) return 1;
-  size_t count = 0;
-  for (const auto* list : {&solid->operands, &solid->removed})
-    for (const Shape* each : *list) count += count_leaves(*each);
-  return count;
-}
-
 std::unique_ptr<Shape> combine(TableReader& table, ShapeType::Shapes operands, ShapeType::Shapes removed) {
   size_t leaves = 0;
   for (const auto* list : {&operands, &removed})
-    for (const auto& shape : *list) leaves += count_leaves(*shape);
+    for (const auto& shape : *list) for_each_leaf(*shape, [&](const Shape&) { ++leaves; });
   if (operands.empty()) {
     table.error("operation", "an empty solid: no shape stands in it, such as [[solid.sphere]]");
   } else if (leaves > most_solid_leaves) {

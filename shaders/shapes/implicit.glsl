@@ -25,24 +25,24 @@ float implicit_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   Implicit it = load_implicit(s);
   ObjectRay r = object_ray(s, ray, IMPLICIT_REACH);
   CubeSpan span = cube_span(r);
-  bool from_outside = span.enter > -r.t;
-  float start = maximum(span.enter, -r.t);
+  bool from_outside = COUNTS(ray) || span.enter > -r.t;
+  float start = from_outside ? span.enter : -r.t;
   bool meets = start < span.leave;
 
   // Each formula has its own march: those that are not meant end at once.
-  vec2 found = vec2(start, IMPLICIT_NOTHING);
+  vec2 found = vec2(T_NONE, IMPLICIT_NOTHING);
 #define MARCH_ALONG(number, name)                                                                                \
   {                                                                                                              \
     bool wanted = meets && it.formula == number;                                                                 \
-    vec2 end = name##_march(it, r, start, span.leave, from_outside && !it.open, wanted);                         \
+    vec2 end = name##_march(it, ray, r, start, span.leave, from_outside && !it.open, wanted);                    \
     found = wanted ? end : found;                                                                                \
   }
   FORMULAS(MARCH_ALONG)
 
   // Where the steps ran out there is nothing up to there.
   bool ran_out = found.y == IMPLICIT_RAN_OUT;
-  uv = ran_out ? vec2(r.t + found.x, 0.0f) : found.y == IMPLICIT_ITSELF ? vec2(IMPLICIT_ITSELF, 0.0f) : cube_face(span, r, found.y == IMPLICIT_ENTRY);
-  return ran_out ? T_RAN_OUT : found.y == IMPLICIT_NOTHING ? -1.0f : r.t + found.x;
+  uv = ran_out ? vec2(found.x, 0.0f) : found.y == IMPLICIT_ITSELF ? vec2(IMPLICIT_ITSELF, 0.0f) : cube_face(span, r, found.y == IMPLICIT_ENTRY);
+  return ran_out ? T_RAN_OUT : found.y == IMPLICIT_NOTHING ? T_NONE : found.x;
 }
 
 bool implicit_may_hit(Primitive s, Ray ray) { return true; }

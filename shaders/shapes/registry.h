@@ -40,5 +40,6 @@
   X(capsule, 13u) \
   X(quadric, 14u) \
   X(torus, 15u) \
-  X(superellipsoid, 16u)
+  X(superellipsoid, 16u) \
+  X(implicit, 18u)
 #endif

@@ -84,6 +84,26 @@ TEST_CASE("a function that is not a number is no surface, and no NaN in the pict
   CHECK(run_eyeray({"compare", folder / "gpu.pfm", folder / "reference.pfm"}).code == 0);
 }
 
+TEST_CASE(
+    "a part of a solid that is crossed more often than is counted runs out, and the picture says where") {
+  // Thousands of sheets in front of the ball that they are cut to, with a Lipschitz constant and without.
+  for (const std::string lipschitz : {"lipschitz = 6000", ""}) {
+    CAPTURE(lipschitz);
+    const FormulaFolder folder("float f(vec3 p) { return sin(6000.0 * p.z); }\n", lipschitz);
+    replace_in_file(folder.scene(), "[[implicit]]",
+                    "[[solid]]\noperation = \"intersection\"\nmaterial = \"matte\"\n[[solid.sphere]]\ncenter "
+                    "= [0, 1, -0.5]\n"
+                    "radius = 0.4\n[[solid.implicit]]");
+    for (const std::string backend : {"gpu", "twin", "reference"}) {
+      const ProcessResult result = run_eyeray(
+          {"render", folder.scene(), "--backend", backend, "-o", folder / "a.pfm", "--quiet", "-s", "16x12"});
+      CAPTURE(result.err);
+      CHECK(result.code == 0);
+      CHECK(result.err.find("was not found in the steps allowed") != std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("samples that disprove a Lipschitz constant are a warning with the place") {
   const FormulaFolder folder("float f(vec3 p) { return 3.0 * (distance(p, vec3(0.0, 1.0, 0.0)) - 0.9); }\n");
   const ProcessResult result = run_eyeray({"check", folder.scene()});
@@ -101,25 +121,40 @@ TEST_CASE("samples that disprove a Lipschitz constant are a warning with the pla
         std::string::npos);
 }
 
-TEST_CASE("a formula in a group that is kept once is checked as any other") {
-  const auto keep_once = [](const FormulaFolder& folder) {
-    replace_in_file(
-        folder.scene(), "[[implicit]]",
-        "[[group]]\nbatch = { transform = [[], [{ translate = [3, 0, 0] }]] }\n[[group.implicit]]");
-  };
-  const FormulaFolder wrong("float f(vec3 p) {\n  return length(p) - missing;\n}\n");
-  keep_once(wrong);
-  for (const std::string backend : {"gpu", "twin", "reference"}) {
-    const ProcessResult result = run_eyeray({"render", wrong.scene(), "--backend", backend, "-o",
-                                             wrong / "a.png", "--quiet", "-D", "render.groups=instanced"});
-    CAPTURE(result.err);
-    CHECK(result.code == 2);
-    CHECK(result.err.find(wrong / "f.glsl" + ":2:22: error: 'missing': undeclared identifier") !=
-          std::string::npos);
+TEST_CASE("a formula in a group that is kept once, and one in a solid, is checked and run as any other") {
+  const std::string group =
+      "[[group]]\nbatch = { transform = [[], [{ translate = [3, 0, 0] }]] }\n[[group.implicit]]";
+  const std::string solid =
+      "[[solid]]\nmaterial = \"matte\"\n[[solid.sphere]]\ncenter = [0, 1, 0]\nradius = "
+      "1\n[[solid.minus.solid]]\n"
+      "[[solid.minus.solid.implicit]]";
+  for (const std::string& holder : {group, solid}) {
+    CAPTURE(holder);
+    const auto put = [&](const FormulaFolder& folder) {
+      replace_in_file(folder.scene(), "[[implicit]]", holder);
+    };
+    const FormulaFolder wrong("float f(vec3 p) {\n  return length(p) - missing;\n}\n");
+    put(wrong);
+    const FormulaFolder endless("float f(vec3 p) {\n  while (p.x < 1e9) p.y += 1.0;\n  return p.y;\n}\n");
+    put(endless);
+    for (const std::string backend : {"gpu", "twin", "reference"}) {
+      const auto render = [&](const FormulaFolder& folder) {
+        return run_eyeray({"render", folder.scene(), "--backend", backend, "-o", folder / "a.png", "--quiet",
+                           "-D", "render.groups=instanced"},
+                          backend == "gpu" ? no_compiler : Environment{});
+      };
+      const ProcessResult refused = render(wrong);
+      CAPTURE(refused.err);
+      CHECK(refused.code == 2);
+      CHECK(refused.err.find(wrong / "f.glsl" + ":2:22: error: 'missing': undeclared identifier") !=
+            std::string::npos);
+      CHECK(render(endless).code == 5);
+    }
+    const FormulaFolder steep("float f(vec3 p) { return 3.0 * (distance(p, vec3(0.0, 1.0, 0.0)) - 0.9); }\n");
+    put(steep);
+    const ProcessResult result = run_eyeray({"check", steep.scene(), "-D", "render.groups=instanced"});
+    CHECK(result.code == 0);
+    CHECK(result.err.find("as steep as 3 at [") != std::string::npos);
+    CHECK(run_eyeray({"verify", steep.scene(), "--quiet"}, no_compiler).code == 6);
   }
-  const FormulaFolder steep("float f(vec3 p) { return 3.0 * (distance(p, vec3(0.0, 1.0, 0.0)) - 0.9); }\n");
-  keep_once(steep);
-  const ProcessResult result = run_eyeray({"check", steep.scene(), "-D", "render.groups=instanced"});
-  CHECK(result.code == 0);
-  CHECK(result.err.find("as steep as 3 at [") != std::string::npos);
 }

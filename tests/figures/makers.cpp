@@ -59,6 +59,13 @@ FormulaUse some_formula(Random& random) {
                                                         ready.parameters, std::string(ready.name)),
                         {Vec3(-1), Vec3(1)},
                         ready.lipschitz(ready.parameters)});
+    // Two that are found by enclosures.
+    const char* tanglecube = "float f(vec3 p) { vec3 q = p * p; return dot(q, q - 5.0) + 11.8; }";
+    uses.push_back({std::make_shared<const Formula>(FormulaText{tanglecube, {}},
+                                                    std::vector<FormulaParameter>{}, "tanglecube"),
+                    {Vec3(-2.4), Vec3(2.4)},
+                    0});
+    uses.push_back({uses[1].formula, {Vec3(-1), Vec3(1)}, 0});
     return uses;
   }();
   return all[size_t(random.below(int(all.size())))];

@@ -1,6 +1,7 @@
 // Solids against numbers worked out by hand.
 #include <fmt/format.h>
 
+#include "formula/formula.hpp"
 #include "reference/media.hpp"
 #include "scenes.hpp"
 #include "shapes/spans.hpp"
@@ -129,6 +130,34 @@ TEST_CASE("each closed shape says where a line is within it, whichever way the l
   CHECK(!make_plane({0, 0, 0}, {0, 1, 0})->is_closed());
   CHECK(make_cone({0, 0, 0}, {0, 1, 0}, 1)->is_closed());
   CHECK(make_paraboloid({0, 0, 0}, {0, 1, 0}, 1)->is_closed());
+}
+
+TEST_CASE("what a formula bounds: each crossing once, alternating, with a Lipschitz constant and without") {
+  // Sheets of a width that the ray crosses two by two, and the box's faces where it begins and ends within
+  // one.
+  const auto sheets = [](double lipschitz) {
+    FormulaUse use{std::make_shared<const Formula>(
+                       FormulaText{"float f(vec3 p) { return cos(6.283185307179586 * p.x) - 0.5; }", {}},
+                       std::vector<FormulaParameter>{}, "sheets"),
+                   {Vec3(-1.5, -1, -1), Vec3(1, 1, 1)},
+                   lipschitz};
+    return make_implicit(std::move(use), false);
+  };
+  for (const double lipschitz : {6.3, 0.0}) {
+    CAPTURE(lipschitz);
+    const std::vector<double> found = ends(*sheets(lipschitz), along_x);
+    const std::vector<double> expected{8.5,          9 - 1.0 / 6,  9 + 1.0 / 6,
+                                       10 - 1.0 / 6, 10 + 1.0 / 6, 11 - 1.0 / 6};
+    REQUIRE(found.size() == expected.size());
+    for (size_t i = 0; i < found.size(); ++i) CHECK(near(found[i], expected[i], 1e-12));
+    // Less a ball, whose surface is seen where it cuts a sheet.
+    const auto cut = make_solid(false, shapes(sheets(lipschitz)), shapes(make_sphere({-0.3, 0, 0}, 0.3)));
+    const std::vector<double> left = ends(*cut, along_x);
+    REQUIRE(left.size() == 6);
+    CHECK(near(left[2], 9 + 1.0 / 6, 1e-12));
+    CHECK(near(left[3], 9.4, 1e-12));
+    CHECK(near(struck(*cut, {{0, 0, 0}, {-1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-9));
+  }
 }
 
 TEST_CASE("shadows: a solid counts once, by the densest of its surfaces on the way") {

@@ -25,16 +25,16 @@ endforeach()
 set(EDGES ${SCENES})
 list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
 set(small ${SCENES} -s 96x72)
-list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes|/forest|/shapes/(algebraic|bezier|implicit|mandelbulb|solid)")
+list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes|/forest|/shapes/(algebraic|bezier|implicit|mandelbulb|sculpture|solid)")
 # Modes that no shape's code knows of need no scene for each shape.
 set(views ${small})
 list(FILTER views EXCLUDE REGEX "^scenes/shapes/")
 # Those whose kernels take seconds to make have fewer modes.
 set(slow scenes/shapes/algebraic.toml scenes/shapes/bezier.toml scenes/shapes/solid.toml -s 96x72)
-eyeray_verify(mode.slow-kernels.packets mode ${slow} scenes/shapes/implicit.toml scenes/shapes/mandelbulb.toml scenes/forest.toml
+eyeray_verify(mode.slow-kernels.packets mode ${slow} scenes/shapes/implicit.toml scenes/shapes/mandelbulb.toml scenes/shapes/sculpture.toml scenes/forest.toml
   --acceleration tree --no-constants --rays packets)
 set(jittered --spp 4 -D image.pattern=jittered --seed 7 --max-explained 0.02)
-eyeray_verify(mode.slow-kernels.jittered mode scenes/shapes/implicit.toml scenes/forest.toml -s 96x72 ${jittered})
+eyeray_verify(mode.slow-kernels.jittered mode scenes/shapes/implicit.toml scenes/shapes/sculpture.toml scenes/forest.toml -s 96x72 ${jittered})
 # A march takes up to 4096 steps a ray: 64 rays of glass in a row are more than Mesa 22.3.6 grants, and say so (docs/lavapipe.md).
 set(deep --max-depth 64 -D render.min_weight=0.01)
 eyeray_verify(mode.slow-kernels.deep-jittered mode ${slow} ${deep} ${jittered})

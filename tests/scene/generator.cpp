@@ -249,19 +249,19 @@ std::string Writer::write() {
     // An uneven scale is no sphere's.
     if (chance(0.5)) mostly.insert("transform");
     // A formula stands in one place; that of a file, in none.
-    std::string given;
-    if (type.name == "implicit") {
-      given = chance(0.5) ? "ready = \"rounded-box\"\n"
-                          : "code = \"float f(vec3 p) { return dot(p, p) - 0.25; }\"\nlipschitz = 4\n";
-      mostly.insert({"code", "file", "ready", "lipschitz"});
-    }
-    table(fmt::format("[[{}]]", type.name), {type.keys, find_section(type.name)->keys}, mostly, given);
+    mostly.insert({"code", "file", "ready", "lipschitz"});
+    const auto given = [&](const ShapeType& shape) {
+      if (shape.name != "implicit") return "";
+      return chance(0.5) ? "ready = \"rounded-box\"\n"
+                         : "code = \"float f(vec3 p) { return dot(p, p) - 0.25; }\"\nlipschitz = 4\n";
+    };
+    table(fmt::format("[[{}]]", type.name), {type.keys, find_section(type.name)->keys}, mostly, given(type));
     if (!type.combine) continue;
     for (int part = 1 + random_.below(3); part > 0; --part) {
       const ShapeType& inner = closed_shape();
       const char* holder = part > 1 && chance(0.3) ? "solid.minus" : "solid";
       table(fmt::format("[[{}.{}]]", holder, inner.name), {inner.keys, find_section("sphere")->keys}, mostly,
-            "");
+            given(inner));
     }
   }
   return text_;
