@@ -12,11 +12,15 @@ if(EYERAY_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)  # coverage for the fuzzers in everything
 endif()
 
-# eyeray_layer(NAME LINK …): the static library of every host/NAME/*.cpp.
+# eyeray_layer(NAME [COMPUTES] LINK …): the static library of every host/NAME/*.cpp. With sanitizers in the code, optimising takes a
+# compiler longer than all else it does, and pays only for layers that compute, and for fuzzers.
 function(eyeray_layer name)
-  cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(arg "COMPUTES" "" "LINK" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/host/${name}/*.cpp)
   add_library(${name} STATIC ${sources})
   target_link_libraries(${name} PRIVATE eyeray_warnings)
   target_link_libraries(${name} ${arg_LINK})
+  if(EYERAY_SANITIZE AND NOT EYERAY_FUZZ AND NOT arg_COMPUTES)
+    target_compile_options(${name} PRIVATE -O0)
+  endif()
 endfunction()

@@ -1,5 +1,6 @@
 // eyeray bench: rays a second beside Embree on the same rays, and how long whole pictures and their stages
 // take beside POV-Ray. It measures; it never judges.
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "bench/field_run.hpp"

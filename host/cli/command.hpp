@@ -2,7 +2,7 @@
 // and the command's `run` is called and answers the exit code. Errors are thrown; main prints them.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -13,6 +13,10 @@
 #include "core/rect.hpp"
 #include "render/render.hpp"
 #include "scene/scene.hpp"
+
+namespace CLI {
+class App;  // a second or more to compile: <CLI/CLI.hpp> is for the .cpp files that describe options
+}
 
 namespace eyeray::cli {
 
@@ -74,18 +78,6 @@ void add_backend_option(CLI::App& command, Backend& backend);
 // "gpu", "twin", "reference", both ways; Error (bad_input) for another name.
 Backend parse_backend(const std::string& name);
 std::string_view backend_name(Backend backend);
-
-// As CLI::Range, which lets NaN through.
-inline CLI::Validator within(double low, double high) {
-  const std::string range = fmt::format("{} to {}", low, high);
-  return CLI::Validator(
-      [=](const std::string& text) {
-        double value = 0;
-        const bool ok = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-        return ok ? std::string() : fmt::format("'{}' is not a number from {}", text, range);
-      },
-      range);
-}
 
 // --crop X,Y,W,H; an empty rect when not given. Error (bad_input) at load time when it leaves the picture.
 void add_crop_option(CLI::App& command, Rect& crop);

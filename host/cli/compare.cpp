@@ -4,6 +4,7 @@
 
 #include "cli/command.hpp"
 #include "cli/json.hpp"
+#include "cli/within.hpp"
 #include "compare/report.hpp"
 #include "core/false_color.hpp"
 #include "core/image_file.hpp"

@@ -1,6 +1,7 @@
 // eyeray dev: renders, watches the scene and the shaders, and renders again on every save. The rendering is
 // done in a worker process, so that a shader which never ends or crashes the driver costs nothing but a line
 // of text.
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "cli/picture.hpp"

@@ -1,4 +1,5 @@
 // eyeray devices: what --device can choose from.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 

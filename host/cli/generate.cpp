@@ -1,6 +1,7 @@
 // eyeray generate: procedural scenes as files.
 #include "cli/command.hpp"
 #include "cli/generate_files.hpp"
+#include "cli/within.hpp"
 #include "generate/sphereflake.hpp"
 #include "generate/terrain.hpp"
 

@@ -1,5 +1,6 @@
 // eyeray: reads the command line, runs one command, and turns whatever goes wrong into words and an exit
 // code.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <csignal>

@@ -1,5 +1,6 @@
 // Options that several commands share. What a scene may hold is the loader's to judge: an option becomes an
 // override.
+#include <CLI/CLI.hpp>
 #include <charconv>
 
 #include "cli/command.hpp"

@@ -1,5 +1,6 @@
 #include "cli/picture.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/picture.hpp"
+#include "cli/within.hpp"
 
 namespace eyeray::cli {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "cli/command.hpp"
 #include "cli/evidence.hpp"
+#include "cli/within.hpp"
 #include "compare/report.hpp"
 #include "reference/renderer.hpp"
 #include "render/executors.hpp"
