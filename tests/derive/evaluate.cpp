@@ -39,7 +39,7 @@ shader::vec3 enclose_piece(const calculus::StraightLine& line, const shader::vec
 
 FirstRoot march(const calculus::StraightLine& line, const shader::vec3& o, const shader::vec3& d, float end,
                 float finest, int most) {
-  shader::March march = shader::march_begin(0, end, finest);
+  shader::March march = shader::march_begin(0, end, 0, finest);
   int steps = 0;
   for (; steps < most && !march.over; ++steps)
     march = shader::march_on(
