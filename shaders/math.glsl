@@ -21,6 +21,8 @@ uint quotient(uint a, uint b) {
   q = q * b > a ? q - 1u : q;
   return a - q * b >= b ? q + 1u : q;
 }
+// The number of the lowest bit that x ≠ 0 has, by the exponent of a float.
+uint lowest_bit(uint x) { return ((floatBitsToUint(float(int(x & (~x + 1u)))) >> 23u) & 255u) - 127u; }
 vec4 bits_to_floats(uvec4 v) {
   return vec4(uintBitsToFloat(v.x), uintBitsToFloat(v.y), uintBitsToFloat(v.z), uintBitsToFloat(v.w));
 }

@@ -27,6 +27,16 @@ layout(std430, binding = BINDING_RAYS) readonly restrict buffer Rays { QueryRay 
 layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { QueryHit results[]; };
 #endif
 
+// Which ray of the packet is a lane's k-th. Blocks of pixels come in rows of 8: neighbours go to different lanes, 4 × 2 of them, so that
+// a triangle that few rays pass is one lane's only once.
+uint ray_of(uint lane, uint k) {
+#if SUBGROUP_SIZE == 8
+  return (lane & 3u) | ((k & 1u) << 2u) | ((lane & 4u) << 1u) | ((k >> 1u) << 4u);
+#else
+  return k * LANES + lane;
+#endif
+}
+
 // Where the result of ray i of a packet goes; NONE where there is no such ray.
 uint place_of(uint packet, uint i) {
   uint j = packet * uint(PACKET) + i;
@@ -69,7 +79,7 @@ void main() {
   uint packet = group * (64u / LANES) + gl_SubgroupID;
   uint lane = gl_SubgroupInvocationID;
   uint place[RAYS_A_LANE];
-  EACH place[k] = place_of(packet, uint(k) * LANES + lane);
+  EACH place[k] = place_of(packet, ray_of(lane, uint(k)));
 
 #ifdef PACKET_SHADOW
   Surface seen[RAYS_A_LANE];

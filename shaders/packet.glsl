@@ -40,7 +40,9 @@ uint stack[STACK_ROWS];
 uint first_slot;
 Primitive mine;
 int key;  // how far along the shaft meets its box, and in the last bits the lane; FAR_AWAY if it does not, and once it is tested
-bool passes[RAYS_A_LANE];
+// Which of this lane's rays may hit which of the leaf's primitives: bit k of each RAYS_A_LANE bits, those of lane 0's primitive lowest.
+uint passing;
+bool any_passes() { return in_any_lane(passing != 0u); }
 
 bool any_waits() {
   bool any = false;
@@ -246,10 +248,10 @@ uint next_lane() {
   return nearest == uint(FAR_AWAY) ? nearest : nearest & (LANES - 1u);
 }
 
-// Which rays may hit the primitive of lane `from`. Returns whether any does.
-bool look_at_primitive(uint from) {
+// Notes which rays may hit the primitive of lane `from`.
+void look_at_primitive(uint from) {
   Primitive primitive = from_lane(mine, from & (LANES - 1u));
-  bool any = false;
+  uint bits = 0u;
   EACH {
     Ray r = ray[k];
     r.major = shaft.major;  // all members': said so that a driver permutes vertices once for all rays
@@ -257,28 +259,83 @@ bool look_at_primitive(uint from) {
 #define MAY_HIT(name, number) \
     if (TREE_HOLDS(number, primitive)) may = name##_may_hit(primitive, r);
     SHAPES(MAY_HIT)
-    passes[k] = may && member[k] && from != uint(FAR_AWAY);
-    any = any || passes[k];
+    bits = may && member[k] ? bits | (1u << k) : bits;
   }
+  passing = from != uint(FAR_AWAY) ? passing | (bits << (uint(RAYS_A_LANE) * from)) : passing;
   key = lane == from ? FAR_AWAY : key;
   work += 1u;
-  return in_any_lane(any);
 }
 
-void intersect_primitive(uint from) {
-  Primitive primitive = from_lane(mine, from & (LANES - 1u));
-  EACH {
-    Ray r = ray[k];
-    r.major = shaft.major;
-    vec2 uv = vec2(0.0f, 0.0f);
-    float t = -1.0f;
+// The whole test.
+float intersect_primitive(Primitive primitive, Ray r, out vec2 uv) {
+  r.major = shaft.major;
+  uv = vec2(0.0f, 0.0f);
+  float t = -1.0f;
 #define INTERSECT_TOGETHER(name, number) \
-    if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, r, uv);
-    SHAPES(INTERSECT_TOGETHER)
-    t = unless_in_hole(primitive, NONE, r, t, uv);
-    meet(found[k], passes[k] ? t : -1.0f, uv, first_slot + from, primitive.head.x, NONE, primitive.head.z, ANY);
-  }
+  if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, r, uv);
+  SHAPES(INTERSECT_TOGETHER)
+  return unless_in_hole(primitive, NONE, r, t, uv);
 }
+
+#if TREE_OF_TRIANGLES
+// Of what passes, in each lane one ray with one primitive.
+void intersect_passing() {
+  bool some = passing != 0u;
+  uint lowest = lowest_bit(some ? passing : 1u);
+  uint from = lowest / uint(RAYS_A_LANE);
+  uint chosen = lowest % uint(RAYS_A_LANE);
+  passing = passing & (passing - 1u);
+  Primitive primitive = from_lane(mine, from);
+  Ray r = ray[0];
+  EACH {
+    bool here = chosen == uint(k);
+    r.o = here ? ray[k].o : r.o;
+    r.d = here ? ray[k].d : r.d;
+    r.inverse = here ? ray[k].inverse : r.inverse;
+    r.shear = here ? ray[k].shear : r.shear;
+  }
+  vec2 uv;
+  float t = intersect_primitive(primitive, r, uv);
+  t = some ? t : -1.0f;
+  EACH meet(found[k], chosen == uint(k) ? t : -1.0f, uv, first_slot + from, primitive.head.x, NONE, primitive.head.z, ANY);
+}
+
+// Few rays pass a triangle: they wait until all of the leaf's have been looked at.
+void visit_leaves() {
+  do {
+    do { visit_leaf(); } while (next_lane() == uint(FAR_AWAY) && at >= LEAF && at != TREE_DONE);
+    do { look_at_primitive(next_lane()); } while (next_lane() != uint(FAR_AWAY));
+  } while (!any_passes() && at >= LEAF && at != TREE_DONE);
+  do { intersect_passing(); } while (any_passes());
+}
+#else
+// All rays with the primitive of lane `from`, the only one with any that pass.
+void intersect_passing(uint from) {
+  Primitive primitive = from_lane(mine, from & (LANES - 1u));
+  uint bits = passing >> (uint(RAYS_A_LANE) * (from & (LANES - 1u)));
+  EACH {
+    vec2 uv;
+    float t = intersect_primitive(primitive, ray[k], uv);
+    t = (bits & (1u << k)) != 0u ? t : -1.0f;
+    meet(found[k], t, uv, first_slot + from, primitive.head.x, NONE, primitive.head.z, ANY);
+  }
+  passing = 0u;
+}
+
+void visit_leaves() {
+  do { visit_leaf(); } while (next_lane() == uint(FAR_AWAY) && at >= LEAF && at != TREE_DONE);
+  uint from = next_lane();
+  do {
+    uint tested = from;
+    do {
+      tested = from;
+      look_at_primitive(tested);
+      from = next_lane();
+    } while (!any_passes() && from != uint(FAR_AWAY));
+    intersect_passing(tested);
+  } while (from != uint(FAR_AWAY));
+}
+#endif
 
 void shorten_rays() {
   float farthest = -1.0f;
@@ -300,21 +357,11 @@ void walk_along_shaft() {
   limit = FAR_AWAY;
   work = 0u;
   at = 0u;
+  passing = 0u;
   do { visit_node(); } while (at < LEAF);
   do {
     do {
-      do { visit_leaf(); } while (next_lane() == uint(FAR_AWAY) && at >= LEAF && at != TREE_DONE);
-      uint from = next_lane();
-      do {
-        uint tested = from;
-        bool any = false;
-        do {
-          tested = from;
-          any = look_at_primitive(tested);
-          from = next_lane();
-        } while (!any && from != uint(FAR_AWAY));
-        intersect_primitive(tested);
-      } while (from != uint(FAR_AWAY));
+      visit_leaves();
       shorten_rays();
       at = work > patience ? TREE_DONE : at;
     } while (at >= LEAF && at != TREE_DONE);

@@ -260,6 +260,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("TREE_HOLDS(number, primitive)", scene.tree_kinds.size() == 1
                                               ? fmt::format("(number == {}u)", *scene.tree_kinds.begin())
                                               : "(kind_of(primitive) == number)");
+  define("TREE_OF_TRIANGLES", int(scene.tree_kinds == std::set<uint32_t>{shader::KIND_triangle}));
   if (options.loop_budget > 0) define("LOOP_BUDGET", fmt::format("{}u", options.loop_budget));
   define("GROUP_STRIDE", fmt::format("{}u", options.group_stride));
   for (const Row& shape : shapes) {

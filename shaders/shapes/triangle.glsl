@@ -38,14 +38,15 @@ bool triangle_inside(TriangleEdges edges) {
   return minimum(edges.u, minimum(edges.v, edges.w)) >= 0.0f || maximum(edges.u, maximum(edges.v, edges.w)) <= 0.0f;
 }
 
-// How far along the ray, of which only the edge functions are known to say "inside".
+// How far along the ray, where the edge functions say "inside".
 // There, the triangle is its plane: near the plane, and for slivers, this is far more exact than the weighted mean of the vertices'
 // distances, and a ray that starts off the plane on the far side has t ≤ 0 for certain. But along a ray that grazes the plane, t may
 // come out anywhere, and where products round to the same, edges reach far past their ends. A tree would miss what brute force finds
 // there. So the triangle is cut by a plane through the ray and the x or y axis: a ray that has all vertices on one side of it misses,
 // for a product never rounds past another, and else t is brought to between the two points where edges cross it. Every hit then lies
 // on the triangle, up to a few roundings of what is farthest along the ray: within the box of any part that the triangle may be cut
-// into. Of the two planes it is the one less along the triangle's own.
+// into. Of the two planes it is the one less along the triangle's own. The other one parts the vertices too: were they all on one side,
+// two edge functions would be sums of what has one sign, a different one each.
 float triangle_t(Primitive s, Ray ray, TriangleEdges edges) {
   vec3 n = vec3(s.a.w, s.b.w, s.c.w);
   float t = dot3(n, vec3(s.a) - ray.o) / dot3(n, ray.d);
@@ -67,21 +68,7 @@ float triangle_t(Primitive s, Ray ray, TriangleEdges edges) {
   float inverse = permute(ray.inverse, ray.major).z;
   float along_p = (alone.y + (p.y - alone.y) * (alone.x / (alone.x - p.x))) * inverse;
   float along_q = (alone.y + (q.y - alone.y) * (alone.x / (alone.x - q.x))) * inverse;
-  t = minimum(maximum(t, minimum(along_p, along_q)), maximum(along_p, along_q));
-
-  // Where not even that holds, the ray must meet the triangle's own bounds all the same, and t is brought into them: up to `room`, 16
-  // roundings of the largest coordinate along the ray, a quarter of what tree.glsl widens its boxes by.
-  vec3 o = permute(ray.o, ray.major);
-  vec3 inverses = permute(ray.inverse, ray.major);
-  vec3 ta = (permute(vec3(s.a), ray.major) - o) * inverses;
-  vec3 tb = (permute(vec3(s.b), ray.major) - o) * inverses;
-  vec3 tc = (permute(vec3(s.c), ray.major) - o) * inverses;
-  vec3 room = abs3(inverses) * (16.0f * EPSILON * maximum(abs(edges.z.x), maximum(abs(edges.z.y), abs(edges.z.z))));
-  vec3 nearest = vec3(minimum(ta.x, minimum(tb.x, tc.x)), minimum(ta.y, minimum(tb.y, tc.y)), minimum(ta.z, minimum(tb.z, tc.z)));
-  vec3 farthest = vec3(maximum(ta.x, maximum(tb.x, tc.x)), maximum(ta.y, maximum(tb.y, tc.y)), maximum(ta.z, maximum(tb.z, tc.z)));
-  float entry = max_component(nearest - room);
-  float exit = -max_component(-farthest - room);
-  return passes && t > 0.0f && entry <= exit ? minimum(maximum(t, entry), exit) : -1.0f;
+  return passes && t > 0.0f ? minimum(maximum(t, minimum(along_p, along_q)), maximum(along_p, along_q)) : -1.0f;
 }
 
 float triangle_intersect_woop(Primitive s, Ray ray, OUT(vec2) uv) {
@@ -102,7 +89,8 @@ float triangle_intersect_moller_trumbore(Primitive s, Ray ray, OUT(vec2) uv) {
   vec3 f = ray.o - vec3(s.a);
   uv = vec2(dot3(f, p) / det, dot3(ray.d, cross3(f, e1)) / det);
   bool inside = uv.x >= 0.0f && uv.y >= 0.0f && uv.x + uv.y <= 1.0f;
-  return inside ? triangle_t(s, ray, triangle_edges(s, ray)) : -1.0f;
+  TriangleEdges edges = triangle_edges(s, ray);
+  return inside && triangle_inside(edges) && (edges.u + edges.v) + edges.w != 0.0f ? triangle_t(s, ray, edges) : -1.0f;
 }
 
 float triangle_intersect(Primitive s, Ray ray, OUT(vec2) uv) {

@@ -12,8 +12,8 @@ using test::Random;
 
 namespace {
 
-// A cloud of small triangles and spheres, every other one of them half transparent.
-Scene cloud(Random& random, int count, double size) {
+// A cloud of small triangles, and of spheres if wanted, every other one of them half transparent.
+Scene cloud(Random& random, int count, double size, bool spheres) {
   Scene scene;
   scene.camera.eye = Vec3(0, 0, 8);
   const int opaque = test::add(scene, make_phong({}));
@@ -21,7 +21,7 @@ Scene cloud(Random& random, int count, double size) {
   for (int i = 0; i < count; ++i) {
     const Vec3 a = random.point(3);
     const int material = random.below(2) == 0 ? glass : opaque;
-    if (random.below(3) == 0) {
+    if (spheres && random.below(3) == 0) {
       test::add(scene, make_sphere(a, size * random.uniform(0.1, 0.5)), material);
     } else {
       TriangleValues triangle;
@@ -52,13 +52,19 @@ std::vector<shader::QueryRay> picture(Random& random, int size, int strays) {
 TEST_CASE("nearest and any: rays in packets find what the twin finds, bit by bit") {
   gpu::Device device({});
   Random random(17);
-  for (const auto& [count, size, pixels, strays] :
-       {std::tuple(3000, 0.1, 199, 0),  // narrow shafts
-        {200, 1.0, 199, 0},
-        {20'000, 0.05, 33, 0},  // wide ones, with hundreds of triangles
-        {3000, 0.1, 101, 5}}) {
-    const PackedScene scene = pack(cloud(random, count, size), {.acceleration = Acceleration::tree});
+  // In trees of triangles alone rays take turns in another way.
+  for (const auto& [count, size, spheres, pixels, strays] :
+       {std::tuple(3000, 0.1, true, 199, 0),  // narrow shafts
+        {3000, 0.1, false, 199, 0},
+        {200, 1.0, true, 199, 0},
+        {200, 1.0, false, 199, 0},
+        {20'000, 0.05, true, 33, 0},  // wide ones, with hundreds of triangles
+        {20'000, 0.05, false, 33, 0},
+        {3000, 0.1, true, 101, 5},
+        {3000, 0.1, false, 101, 5}}) {
+    const PackedScene scene = pack(cloud(random, count, size, spheres), {.acceleration = Acceleration::tree});
     REQUIRE(scene.has_tree);
+    REQUIRE(scene.tree_kinds.size() == (spheres ? 2 : 1));
     Specialisation specialisation;
     specialisation.profile = {.texel_buffers = true, .packets = true};
     test::QueryKernel kernel(device, scene, specialisation);

@@ -165,6 +165,25 @@ TEST_CASE("both methods find t and the weights of random triangles to float32") 
   CHECK(worst_uv < 1e-3);
 }
 
+TEST_CASE("a ray along an edge of a sliver hits the sliver, or nothing, by both methods") {
+  // Seen along the ray, which lies in its plane, all its y are 0: by Moeller and Trumbore's weights, rounded,
+  // it is hit.
+  shader::Primitive sliver{};
+  sliver.head.w = NONE;
+  sliver.a = {0.836856663F, -1.32419038F, 0.496149808F, -0.328005642F};
+  sliver.b = {0.336856663F, -1.32419038F, 0.246149793F, -0.679751098F};
+  sliver.c = {0.636856377F, -1.32419074F, 0.396149218F, 0.656011283F};
+  const shader::Ray ray =
+      shader::make_ray({39.0139923F, -1.32419038F, 19.5847187F}, {-0.89442718F, 0, -0.44721362F});
+  const float nearest = (sliver.a.x - ray.o.x) / ray.d.x, farthest = (sliver.b.x - ray.o.x) / ray.d.x;
+  for (const Intersect intersect :
+       {shader::triangle_intersect_woop, shader::triangle_intersect_moller_trumbore}) {
+    shader::vec2 uv{};
+    const float t = intersect(sliver, ray, uv);
+    CHECK((t == -1 || (t > nearest * (1 - 1e-6F) && t < farthest * (1 + 1e-6F))));
+  }
+}
+
 TEST_CASE("2 million rays that leave a triangle, size 1e-4 to 1e4: none meets it again") {
   for (const Intersect intersect :
        {&shader::triangle_intersect_woop, &shader::triangle_intersect_moller_trumbore}) {
