@@ -14,6 +14,7 @@ struct RayTarget {
 inline std::vector<RayTarget> ray_targets(const Scene& scene, Random& random) {
   std::vector<RayTarget> targets;
   const PackedScene packed = pack(scene, {.acceleration = Acceleration::brute_force});
+  const auto vertex = [&](uint32_t i) { return std::bit_cast<glm::vec4>(packed.vertices.at(i)); };
   const auto take = [&](const shader::Primitive& p, const shader::Instance* instance) {
     RayTarget target{glm::vec3(p.a), glm::vec3(p.b), glm::vec3(p.c)};
     if (kind_of(p) == shader::KIND_sphere) {
@@ -24,15 +25,17 @@ inline std::vector<RayTarget> ray_targets(const Scene& scene, Random& random) {
     } else if (kind_of(p) == shader::KIND_solid) {
       target.b = target.a + glm::vec3(p.b);
       target.c = target.a + glm::vec3(p.b.x, -p.b.y, 0);
-    } else if (kind_of(p) > shader::KIND_triangle) {
-      // The centre of object space, and where two of its axes leave the unit cube.
-      glm::vec4 rows[3];
-      for (int i = 0; i < 3; ++i) rows[i] = std::bit_cast<glm::vec4>(packed.vertices[p.head.w + uint32_t(i)]);
-      target.a = {rows[0].w, rows[1].w, rows[2].w};
-      target.b = target.a + glm::vec3(rows[0].x, rows[1].x, rows[2].x);
-      target.c = target.a + glm::vec3(rows[0].y, rows[1].y, rows[2].y);
     } else if (kind_of(p) == shader::KIND_plane) {
       target = {target.a * p.a.w, target.a * p.a.w + target.b, target.a * p.a.w + target.c};
+    } else if (kind_of(p) == shader::KIND_polygon) {
+      const uint32_t path = p.head.w + 2;
+      target = {glm::vec3(vertex(path)), glm::vec3(vertex(path + 1)), glm::vec3(vertex(path + 2))};
+    } else if (kind_of(p) != shader::KIND_triangle && kind_of(p) != shader::KIND_parallelogram) {
+      // The centre of object space, and where two of its axes leave the unit cube.
+      const glm::vec4 x = vertex(p.head.w), y = vertex(p.head.w + 1), z = vertex(p.head.w + 2);
+      target.a = {x.w, y.w, z.w};
+      target.b = target.a + glm::vec3(x.x, y.x, z.x);
+      target.c = target.a + glm::vec3(x.y, y.y, z.y);
     }
     if (instance) {
       for (glm::vec3* corner : {&target.a, &target.b, &target.c}) {
