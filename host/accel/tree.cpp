@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "core/error.hpp"
@@ -91,10 +92,22 @@ void split_item(const RTCBuildPrimitive* item, unsigned axis, float position, RT
   Box high = box;
   low.upper[int(axis)] = position;
   high.lower[int(axis)] = position;
-  const auto [cut_low, cut_high] =
-      static_cast<const TreeOptions*>(user)->cut(item->primID, int(axis), position);
-  low = low.intersection(cut_low);
-  high = high.intersection(cut_high);
+  // No slices of a few roundings: Embree may put such a one on the other side than it thought it would, and
+  // comes to an assertion where that side is left empty (RenderKit/embree#489; Debian's 3.13 has it).
+  const float start = box.lower[int(axis)], end = box.upper[int(axis)];
+  const float thin = 0x1p-20f * std::max(std::fabs(start), std::fabs(end));
+  if (position - start <= thin) {
+    low = Box();
+    high = box;
+  } else if (end - position <= thin) {
+    low = box;
+    high = Box();
+  } else {
+    const auto [cut_low, cut_high] =
+        static_cast<const TreeOptions*>(user)->cut(item->primID, int(axis), position);
+    low = low.intersection(cut_low);
+    high = high.intersection(cut_high);
+  }
   set_bounds(*below, low);
   set_bounds(*above, high);
 }
