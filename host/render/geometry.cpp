@@ -220,7 +220,8 @@ class GeometryPacker {
   accel::TreeOptions tree_options(const SpaceRecords& items) const {
     accel::TreeOptions options;
     options.first_lone = items.size();
-    // An item that stands in two leaves would weaken a shadow ray twice; a solid of several materials may do so too.
+    // An item that stands in two leaves would weaken a shadow ray twice; a solid of several materials may do
+    // so too.
     options.split = options_.split && !translucent_ && !packed_.mixed_solids;
     options.cut = [&items](uint32_t item, int axis, float position) {
       if (item < items.size()) {
