@@ -29,7 +29,10 @@ namespace {
 constexpr int parts = 64;
 
 int rays_a_part() {
-  return (std::getenv("EYERAY_FULL_TESTS") ? 1'000'000 : 100'000) / parts;
+  return (std::getenv("EYERAY_FULL_TESTS")  ? 1'000'000
+          : std::getenv("EYERAY_FEW_TESTS") ? 10'000
+                                            : 100'000) /
+         parts;
 }
 
 // Other shapes and rays, with EYERAY_SEED set.

@@ -52,7 +52,7 @@ eyeray_verify(mode.brute-force mode ${searched} --acceleration brute-force)
 # Without a tree a ray meets each triangle as often as it is shown: more rays in a row, or patches, are more loops than Mesa 22.3.6 grants.
 eyeray_verify(mode.brute-force.groups mode scenes/group_instances.toml -s 48x36 --acceleration brute-force --max-depth 0)
 eyeray_verify(mode.splits mode ${searched} ${groups} --acceleration tree --splits)
-eyeray_verify(mode.profile-gpu mode ${small} --profile gpu)
+eyeray_verify(mode.profile-gpu mode ${views} scenes/shapes/polygon.toml scenes/shapes/torus.toml --profile gpu)
 eyeray_verify(mode.packets mode ${small} --acceleration tree --no-constants --rays packets)
 eyeray_verify(mode.packets.edges mode ${EDGES} --acceleration tree --no-constants --rays packets)
 eyeray_verify(mode.raycast mode ${small} --integrator raycast)
