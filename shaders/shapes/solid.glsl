@@ -127,7 +127,7 @@ SolidHit solid_walk(Primitive s, Ray ray, float t_max, uint enough) {
     bool boundary = now != solid_holds(nodes, head.x, inside ^ head.y) && next < t_max;
     uint changed = crossed & (now ? literals : ~literals);
     uint first = boundary ? changed & (~changed + 1u) : 1u;
-    hit.leaf = (floatBitsToUint(float(first)) >> 23u) - 127u;
+    hit.leaf = lowest_bit(first);
     uint density = boundary ? load_outline(leaves + LEAF_WORDS * hit.leaf).z : 0u;
     hit.density = density > hit.density ? density : hit.density;
     hit.side = (inside & first) != 0u ? SIDE_INSIDE : SIDE_OUTSIDE;
