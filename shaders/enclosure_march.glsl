@@ -21,7 +21,7 @@ struct March {
   float t;        // up to here the sign is known, but for what was passed over
   float h;        // half the length of the piece that is next
   float end;      // of the ray
-  float finest;   // a piece with a smaller h is not told from a point
+  float finest;   // a piece with a smaller h is not told from a point; at least an ulp of t, so that every piece leads on
   float sign;     // the last that was known; 0 where none was
   float unknown;  // from here to t pieces were passed over
   float coarse;   // e of the piece before, where that was undecided; beyond all else
@@ -41,7 +41,7 @@ March march_begin(float start, float end, float sign, float finest) {
   march.t = start;
   march.h = 0.125f * (end - start);
   march.end = end;
-  march.finest = finest;
+  march.finest = maximum(finest, 2.0f * EPSILON * maximum(abs(start), abs(end)));
   march.sign = sign;
   march.unknown = start;
   march.coarse = 3.0e38f;

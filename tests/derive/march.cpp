@@ -85,6 +85,19 @@ Count march_often(const test::TestSurface& surface, int rays) {
 
 }  // namespace
 
+TEST_CASE("however short a march's finest piece is, it gets to its end") {
+  const calculus::StraightLine one =
+      derive::read_function("float f(vec3 p) { return p.x + 1.0; }", {"f.glsl", 1, 0});
+  Random random(3);
+  for (int i = 0; i < 10'000; ++i) {
+    const float end = float(random.log_uniform(1e-3, 1e4));
+    const float finest = end * float(random.log_uniform(1e-9, 1e-6));
+    const test::FirstRoot found = test::march(one, {0, 0, 0}, {1, 0, 0}, end, finest, most_steps);
+    INFO(end, " ", finest, " ", found.steps);
+    REQUIRE(found.over);
+  }
+}
+
 TEST_CASE("2 000 rays at each surface: no root is missed, none comes out of nothing") {
   for (const test::TestSurface& surface : test::test_surfaces()) {
     CAPTURE(surface.name);

@@ -56,7 +56,7 @@ std::string why_useless(const InputError& error) {
 
 // Scene `i` of the extreme ones, as small as they are rendered; InputError when the loader refuses it.
 std::string extreme_text(int i) {
-  Random random{uint64_t(i)};
+  Random random{uint64_t(i) + 10'000 * seed()};
   return random_scene_text(random,
                            {std::array{0.01, 0.05, 0.2, 0.4}[size_t(i) % 4], i % 3 > 0 || i % 4 == 3});
 }

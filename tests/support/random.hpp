@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <numbers>
 
 #include "core/vec.hpp"
@@ -43,5 +44,11 @@ class Random {
 
   uint64_t state_;
 };
+
+// Of the tests that let anyone draw something else, by EYERAY_SEED.
+inline uint64_t seed() {
+  const char* set = std::getenv("EYERAY_SEED");
+  return set ? std::strtoull(set, nullptr, 10) : 0;
+}
 
 }  // namespace eyeray::test
