@@ -59,6 +59,10 @@ int Bodies::material(const Hit& hit) const {
                             : instances_[hit.body - shapes_.size()].material();
 }
 
+int Bodies::most_crossings(size_t body) const {
+  return is_shape(body) ? shapes_[body]->most_crossings() : reference::most_crossings;
+}
+
 // A hole is not met, and behind it there is nothing more of a shape that may have one.
 std::optional<Intersection> Bodies::intersect_shape(size_t index, const Ray& ray) const {
   const Shape& shape = *shapes_[index];

@@ -33,6 +33,14 @@ class Bodies {
   int material(const Hit& hit) const;
   std::optional<Hit> intersect(size_t body, const Ray& ray,
                                double limit = std::numeric_limits<double>::infinity()) const;
+  // How often a line crosses the body at most, as far as that is known.
+  int most_crossings(size_t body) const;
+  // Calls visit(material) for each that the body has surfaces of.
+  template <typename Visit>
+  void for_each_material(size_t body, const Visit& visit) const {
+    if (!is_shape(body)) return visit(instances_[body - shapes_.size()].material());
+    for_each_leaf(*shapes_[body], [&](const Shape& leaf) { visit(leaf.material); });
+  }
   // Whether it is a shape; else how many triangles of instances come before those of the body.
   bool is_shape(size_t body) const { return body < shapes_.size(); }
   uint64_t triangles_before(size_t body) const { return triangles_before_[body - shapes_.size()]; }

@@ -18,6 +18,7 @@ struct Crossing {
 template <typename Holder>
 struct Body {
   const Holder& holder;
+  const Bodies& bodies;
   size_t index;
 
   std::optional<TriangleHit> intersect(const Ray& ray) const {
@@ -27,6 +28,7 @@ struct Body {
   SurfacePoint surface(const Ray& ray, const TriangleHit& hit) const {
     return holder.surface(ray, {hit, index});
   }
+  int most_crossings() const { return bodies.most_crossings(index); }
 };
 
 // The media that the ray leaves without having entered them, innermost first.
@@ -45,9 +47,12 @@ std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
   };
   const auto collect_all = [&]<typename Holder>(const Holder& holder, const Bodies& bodies) {
     for (size_t i = 0; i < bodies.size(); ++i) {
-      // Which of a solid's parts has a surface is known once it is met.
-      if (!bodies.is_shape(i) && !has_medium(bodies.material({{}, i}))) continue;
-      collect(Body<Holder>{holder, i}, [&](const TriangleHit& hit) { return bodies.material({hit, i}); });
+      bool any_medium = false;
+      bodies.for_each_material(i, [&](int material) { any_medium = any_medium || has_medium(material); });
+      if (!any_medium) continue;
+      collect(Body<Holder>{holder, bodies, i}, [&](const TriangleHit& hit) {
+        return bodies.material({hit, i});
+      });
     }
   };
   collect_all(tracer.world(), tracer.world());

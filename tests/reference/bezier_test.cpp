@@ -1,4 +1,5 @@
 #include "reference/crossings.hpp"
+#include "reference/media.hpp"
 #include "scenes.hpp"
 #include "support/doctest.hpp"
 
@@ -101,4 +102,10 @@ TEST_CASE("bezier: a patch that is 1e12 wide and bent within 1: its crossings en
                                  [&](double, const auto&, const auto&) { return ++crossings < 1000; });
     CHECK(crossings <= 18);
   }
+
+  // Nor do those who ask what is around the eye.
+  Scene scene;
+  scene.materials.push_back(make_dielectric({}));
+  scene.shapes.push_back(make_bezier(net));
+  CHECK(reference::media_at(scene, eye).size() <= 36);
 }
