@@ -79,7 +79,8 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
   bool itself = hit.uv.x == IMPLICIT_ITSELF;
   p = itself ? p : onto_cube(p, hit.uv);
 
-  // Step onto it along the gradient. Where there is none, it is taken to face the ray.
+  // Step onto it along the gradient. Where there is none, it is taken to face the ray. It is made a unit vector: that of a box 1e12 wide may be so short,
+  // or long, that its squares are lost on the way into the world.
   vec4 slope = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 #define SLOPE_OF(number, name)                              \
   {                                                         \
@@ -94,7 +95,7 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
   vec3 correction = gradient * (slope.w / squared);
   bool near = steep && dot3(correction, correction) < 1.0e-8f;
   p = itself && near ? into_cube(p - correction) : p;
-  gradient = !itself ? cube_normal(hit.uv) : steep ? gradient : -r.d;
+  gradient = !itself ? cube_normal(hit.uv) : normalize3(steep ? gradient : -r.d);
 
   // The uv are those of the face that the normal points to.
   vec3 facing = abs3(gradient);

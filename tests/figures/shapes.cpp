@@ -125,6 +125,15 @@ bool is_grazing(const Sample& sample, const shader::Ray& ray, double t, double r
   return t >= least - spread && t <= greatest + spread;
 }
 
+// The exact t of the first hit on what is, along the ray, thicker than `room`.
+double first_thick(const Sample& sample, const shader::Ray& ray, double room) {
+  for (const Span& span : sample.shape->spans({Vec3(ray.o), Vec3(ray.d)})) {
+    const double t = span.in.t > 0 ? span.in.t : span.out.t;
+    if (t > 0 && span.out.t - span.in.t > room) return t;
+  }
+  return HUGE_VAL;
+}
+
 // What is needed to shoot again, in digits that lose nothing. The same seed makes other shapes with another
 // compiler.
 std::string describe(const Sample& sample, const shader::Ray& ray, double t, double exact) {
@@ -142,7 +151,7 @@ std::string describe(const Sample& sample, const shader::Ray& ray, double t, dou
 // Shoots at shapes from a distance, in their own sizes; half of the rays aimed at the shape, half past it.
 template <typename Make>
 void check_first_hits(const std::string& name, const Make& make, double distance) {
-  std::atomic<int> rays = 0, hits = 0, misses = 0, grazing = 0, wrong = 0;
+  std::atomic<int> rays = 0, hits = 0, misses = 0, grazing = 0, thin = 0, wrong = 0;
   std::mutex mutex;
   std::string first_wrong;
   for_shapes(make, [&](const Sample& sample, Random& random) {
@@ -160,15 +169,19 @@ void check_first_hits(const std::string& name, const Make& make, double distance
     // What is seen all but edge-on is so thin that few of the probes meet it.
     if (is_grazing(sample, ray, t, room, 500) || is_grazing(sample, ray, t, room, 100'000)) {
       ++grazing;
+    } else if (const double thick = first_thick(sample, ray, room); std::fabs(t - thick) <= 1e-6 * thick) {
+      ++thin;
     } else {
       ++wrong;
       const std::lock_guard lock(mutex);
       if (first_wrong.empty()) first_wrong = describe(sample, ray, t, exact);
     }
   });
-  MESSAGE(fmt::format("{} at {:g}: {} rays, {} hits, {} misses of them ({:.1f} ppm), {} grazing, {} wrong",
-                      name, distance, rays.load(), hits.load(), misses.load(), 1e6 * misses / hits,
-                      grazing.load(), wrong.load()));
+  MESSAGE(
+      fmt::format("{} at {:g}: {} rays, {} hits, {} misses of them ({:.1f} ppm), {} grazing, {} behind "
+                  "walls thinner than rounding, {} wrong",
+                  name, distance, rays.load(), hits.load(), misses.load(), 1e6 * misses / hits,
+                  grazing.load(), thin.load(), wrong.load()));
   CHECK(hits > rays / 20);
   CHECK_MESSAGE(wrong == 0, first_wrong);
 }

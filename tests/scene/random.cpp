@@ -107,6 +107,31 @@ TEST_CASE("10 000 scenes with extreme values: a clear error or a sound picture")
   CHECK(ran_out_of_steps < count / 100);
 }
 
+// Its gradient in the world is so short that the squares are lost.
+TEST_CASE("a formula in a box 1e12 wide has normals") {
+  const Scene scene = parse_scene(R"(
+image = { width = 8, height = 6 }
+[camera]
+up = [1.7, -1e15, 0]
+fov = 179.99999982
+fov_axis = "horizontal"
+[[material]]
+name = "mirror"
+type = "mirror"
+[[implicit]]
+ready = "rounded-box"
+min = [-1e12, -1e12, -1e12]
+max = [1, 0, 0]
+material = "mirror"
+)",
+                                  "scene.toml");
+  const Frame frame = render_frame(scene, Backend::twin);
+  CHECK(std::ranges::any_of(frame.first_hits, [](const FirstHit& hit) { return hit.primitive >= 0; }));
+  const Soundness soundness = inspect(frame);
+  INFO(describe(soundness));
+  CHECK(soundness.infinite == 0);
+}
+
 TEST_CASE("extreme scenes: the GPU and the twin, bit by bit") {
   int compared = 0;
   for (int i = 0; compared < 16; ++i) {
