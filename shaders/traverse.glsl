@@ -77,55 +77,98 @@ void meet_in_order(INOUT(Found) found, float t, vec2 uv, uint slot, uint id, uin
   }
 }
 #else
-// A primitive of the tree that `place` is in.
+// A primitive of the tree that `place` is in, whose shape the ray meets at t_shape.
+void meet_in_tree(INOUT(Found) found, float t_shape, vec2 uv, uint slot, Primitive primitive, bool is_solid, Place place, bool any) {
+  float t = unless_in_hole(primitive, place.instance, place.ray, t_shape, uv);
+  uint density = place.density;
+  if (HAS_INSTANCES == 0 || density == NONE) density = shadow_density(primitive, is_solid, place.ray, found.hit.t, any);
+  meet(found, t, uv, slot, id_at(place, primitive), place.instance, density, any);
+}
+
+#define INTERSECT_KIND(name, number) \
+  if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, place.ray, uv);
+
+// One that does not wait.
 void meet_slot(INOUT(Found) found, uint slot, Place place, bool any) {
   Primitive primitive = load_primitive(slot);
   vec2 uv = vec2(0.0f, 0.0f);
   float t = -1.0f;
-#define INTERSECT_KIND(name, number) \
-  if (TREE_HOLDS(number, primitive)) t = name##_intersect(primitive, place.ray, uv);
-  SHAPES(INTERSECT_KIND)
-  t = unless_in_hole(primitive, place.instance, place.ray, t, uv);
-  uint density = place.density;
-  if (HAS_INSTANCES == 0 || density == NONE) density = shadow_density(primitive, kind_of(primitive) == KIND_solid, place.ray, found.hit.t, any);
-  meet(found, t, uv, slot, id_at(place, primitive), place.instance, density, any);
+  QUICK_SHAPES(INTERSECT_KIND)
+  meet_in_tree(found, t, uv, slot, primitive, HAS_SLOW_SHAPES == 0 && kind_of(primitive) == KIND_solid, place, any);
 }
 
-// Walks the tree of the world, and of every instance on the way.
+#if HAS_SLOW_SHAPES
+void meet_slow_slot(INOUT(Found) found, uint slot, Place place, bool any) {
+  Primitive primitive = load_primitive(slot);
+  vec2 uv = vec2(0.0f, 0.0f);
+  float t = -1.0f;
+  SLOW_SHAPES(INTERSECT_KIND)
+  meet_in_tree(found, t, uv, slot, primitive, kind_of(primitive) == KIND_solid, place, any);
+}
+#endif
+
+bool is_slow(uint slot) {
+  bool slow = false;
+#if HAS_SLOW_SHAPES
+  uint kind = kind_of(load_primitive(slot));
+#define IS_KIND(name, number) slow = slow || kind == number;
+  SLOW_SHAPES(IS_KIND)
+#endif
+  return slow;
+}
+
+// Walks the tree of the world, and of every instance on the way. A driver that runs both sides of every branch runs what is in a loop as often as the ray that
+// needs it most; so a ray that comes to a slow shape waits there until the other rays have come to one as well, or are done.
 void walk(INOUT(Found) found, Place world, bool any) {
   Place place = world;
   BoxRay boxes = box_ray(place.ray, load_tree(0u));
   Stack stack = empty_stack();
   uint at = load_tree(0u).head.x;
   do {
-    // Go down to a leaf, nearer child first. Back from an instance, a leaf may be next.
-    if (HAS_INSTANCES == 0 || at < LEAF) do {
-      Child a = load_child(at, 0u, boxes);
-      Child b = load_child(at, 1u, boxes);
-      int limit = floatBitsToInt(found.hit.t);
-      int entry_a = entry_of(a, boxes);
-      int entry_b = entry_of(b, boxes);
-      bool meets_a = entry_a <= exit_of(a, boxes, limit);
-      bool meets_b = entry_b <= exit_of(b, boxes, limit);
-      bool swap = entry_b < entry_a;
-      bool both = meets_a && meets_b;
-      at = both ? (swap ? b.refers_to : a.refers_to)
-                : meets_a ? a.refers_to : meets_b ? b.refers_to : top_of(stack);
-      move_stack(stack, both, !meets_a && !meets_b, swap ? a.refers_to : b.refers_to);
+#if HAS_SLOW_SHAPES
+    do {
+#endif
+      // Go down to a leaf, nearer child first. Back from an instance or a slow shape, a leaf may be next.
+      if (HAS_INSTANCES + HAS_SLOW_SHAPES == 0 || at < LEAF) do {
+        Child a = load_child(at, 0u, boxes);
+        Child b = load_child(at, 1u, boxes);
+        int limit = floatBitsToInt(found.hit.t);
+        int entry_a = entry_of(a, boxes);
+        int entry_b = entry_of(b, boxes);
+        bool meets_a = entry_a <= exit_of(a, boxes, limit);
+        bool meets_b = entry_b <= exit_of(b, boxes, limit);
+        bool swap = entry_b < entry_a;
+        bool both = meets_a && meets_b;
+        at = both ? (swap ? b.refers_to : a.refers_to)
+                  : meets_a ? a.refers_to : meets_b ? b.refers_to : top_of(stack);
+        move_stack(stack, both, !meets_a && !meets_b, swap ? a.refers_to : b.refers_to);
+      } while (at < LEAF);
+
+      // Test the primitives of this leaf, and of those that wait on top of the stack. From a slow one on, what is left of a leaf is one.
+      if (at < INSTANCE_LEAF) {
+        bool waits = false;
+        do {
+          // Tested at the top: Mesa 22.3.6 may take what such a loop's last round computed from the rounds of other rays, if it ends at
+          // the bottom (docs/lavapipe.md).
+          uint slot = (at & ~LEAF) >> 3u;
+          uint end = slot + (at & 7u) + 1u;
+          for (; slot < end && !is_slow(slot); slot++) meet_slot(found, slot, place, any);
+          bool lost = any && found.occluded >= SHADOW_OPAQUE;
+          waits = slot < end && !lost;
+          at = lost ? TREE_DONE : waits ? LEAF | slot << 3u | (end - slot - 1u) : top_of(stack);
+          move_stack(stack, false, !waits, 0u);
+        } while (at >= LEAF && at < INSTANCE_LEAF && !waits);
+      }
+#if HAS_SLOW_SHAPES
     } while (at < LEAF);
 
-    // Test the primitives of this leaf, and of those that wait on top of the stack.
     if (at < INSTANCE_LEAF) {
-      do {
-        // Tested at the top: Mesa 22.3.6 may take what such a loop's last round computed from the rounds of other rays, if it ends at
-        // the bottom (docs/lavapipe.md).
-        uint slot = (at & ~LEAF) >> 3u;
-        uint end = slot + (at & 7u) + 1u;
-        for (; slot < end; slot++) meet_slot(found, slot, place, any);
-        at = any && found.occluded >= SHADOW_OPAQUE ? TREE_DONE : top_of(stack);
-        move_stack(stack, false, true, 0u);
-      } while (at >= LEAF && at < INSTANCE_LEAF);
+      meet_slow_slot(found, (at & ~LEAF) >> 3u, place, any);
+      bool last = (at & 7u) == 0u;
+      at = any && found.occluded >= SHADOW_OPAQUE ? TREE_DONE : last ? top_of(stack) : at + 8u - 1u;
+      move_stack(stack, false, last, 0u);
     }
+#endif
 
 #if HAS_INSTANCES
     // Go into an instance, or come back from one.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string_view>
@@ -24,6 +25,7 @@ struct Row {
 };
 #define ROW(name, number) {#name, number},
 constexpr Row shapes[] = {SHAPES(ROW)};
+constexpr Row slow_shapes[] = {SLOW_SHAPES(ROW)};
 constexpr Row materials[] = {MATERIALS(ROW)};
 constexpr Row integrators[] = {INTEGRATORS(ROW)};
 #undef ROW
@@ -173,6 +175,14 @@ std::string formulas(const PackedScene& scene) {
   return text + "#define FORMULAS(X)" + rows + "\n";
 }
 
+// Those of the trees' kinds that rays wait with: none where all are slow.
+std::set<uint32_t> slow_kinds(const std::set<uint32_t>& tree_kinds) {
+  std::set<uint32_t> slow;
+  for (const Row& row : slow_shapes)
+    if (tree_kinds.contains(row.number)) slow.insert(row.number);
+  return slow == tree_kinds ? std::set<uint32_t>() : slow;
+}
+
 // Whether any texture of the material varies over a surface.
 bool varies(const PackedScene& scene, const shader::Material& material) {
   const shader::uvec4& used = material.textures;
@@ -280,6 +290,12 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   text += formulas(scene);
   text += registry("CLOSED_SHAPES", "shapes", shapes, leaves_used);
   text += registry("SHAPES", "shapes", shapes, shapes_used);
+  const std::set<uint32_t> slow = slow_kinds(scene.tree_kinds);
+  std::set<uint32_t> quick;
+  std::ranges::set_difference(scene.tree_kinds, slow, std::inserter(quick, quick.end()));
+  define("HAS_SLOW_SHAPES", int(!slow.empty()));
+  text += registry("QUICK_SHAPES", "shapes", shapes, quick);
+  text += registry("SLOW_SHAPES", "shapes", shapes, slow);
   text += registry("SHAPES_WITH_HOLES", "shapes", shapes, kinds_with_holes);
   text += registry("MATERIALS", "materials", materials, material_kinds);
   text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.counts.z});

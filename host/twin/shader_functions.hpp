@@ -86,6 +86,8 @@ class Binding {
 #define QUANTISED_NODES bound_scene->quantised_nodes
 #define TREE_HOLDS(number, primitive) (kind_of(primitive) == number)
 #define HAS_INSTANCES 1
+#define HAS_SLOW_SHAPES 0
+#define QUICK_SHAPES SHAPES
 #define INSTANCE_COUNT uint(bound_scene->instances.size())
 #define STORED_HITS 0
 #define STEPS_MAY_RUN_OUT 1

@@ -25,6 +25,17 @@
   X(bezier, 20u)
 #endif
 
+// Those that take long: in a tree that holds others too, rays wait with them for each other (traverse.glsl). A specialised kernel overrides this
+// list too, and has the others of its trees as QUICK_SHAPES.
+#ifndef SLOW_SHAPES
+#define SLOW_SHAPES(X) \
+  X(torus, 15u) \
+  X(superellipsoid, 16u) \
+  X(implicit, 18u) \
+  X(solid, 19u) \
+  X(bezier, 20u)
+#endif
+
 // Those that enclose a volume, where they have no `open`: what solids are made of. Their rows stand before that of solid, which asks them.
 // A specialised kernel overrides this list too, with those that its scene's solids are made of.
 #ifndef CLOSED_SHAPES
