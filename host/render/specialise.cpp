@@ -175,12 +175,12 @@ std::string formulas(const PackedScene& scene) {
   return text + "#define FORMULAS(X)" + rows + "\n";
 }
 
-// Those of the trees' kinds that rays wait with: none where all are slow.
-std::set<uint32_t> slow_kinds(const std::set<uint32_t>& tree_kinds) {
+// The kinds that rays wait with in trees: none where all are slow, or nothing is in a tree.
+std::set<uint32_t> slow_kinds(const PackedScene& scene) {
   std::set<uint32_t> slow;
   for (const Row& row : slow_shapes)
-    if (tree_kinds.contains(row.number)) slow.insert(row.number);
-  return slow == tree_kinds ? std::set<uint32_t>() : slow;
+    if (scene.has_tree && scene.tree_kinds.contains(row.number)) slow.insert(row.number);
+  return slow == scene.tree_kinds ? std::set<uint32_t>() : slow;
 }
 
 // Whether any texture of the material varies over a surface.
@@ -290,7 +290,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   text += formulas(scene);
   text += registry("CLOSED_SHAPES", "shapes", shapes, leaves_used);
   text += registry("SHAPES", "shapes", shapes, shapes_used);
-  const std::set<uint32_t> slow = slow_kinds(scene.tree_kinds);
+  const std::set<uint32_t> slow = slow_kinds(scene);
   std::set<uint32_t> quick;
   std::ranges::set_difference(scene.tree_kinds, slow, std::inserter(quick, quick.end()));
   define("HAS_SLOW_SHAPES", int(!slow.empty()));
