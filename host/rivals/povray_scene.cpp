@@ -22,6 +22,11 @@ std::string vector(const Vec3& v) {
   return fmt::format("<{},{},{}>", plain.x, plain.y, plain.z);
 }
 
+std::string vector(const Vec2& v) {
+  const Vec2 plain = v + 0.0;
+  return fmt::format("<{},{}>", plain.x, plain.y);
+}
+
 double mean(const Vec3& v) {
   return (v.x + v.y + v.z) / 3;
 }
@@ -112,6 +117,19 @@ void add_solid(std::string& text, const Scene& scene, const SolidForm& solid) {
   text += "}\n";
 }
 
+// How many points, and the points; each outline ends where it began.
+template <typename Point>
+std::string closed(const std::vector<std::vector<Point>>& outlines) {
+  size_t count = 0;
+  std::string points;
+  for (const auto& outline : outlines) {
+    for (const Point& p : outline) append(points, ",{}", vector(p));
+    append(points, ",{}", vector(outline[0]));
+    count += outline.size() + 1;
+  }
+  return fmt::format("{}{}", count, points);
+}
+
 std::string control_points(const BezierForm& form) {
   std::string text;
   for (const Vec3& p : form.net) append(text, "{}{}", text.empty() ? "" : ",", vector(p));
@@ -138,6 +156,17 @@ void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
            capsule->half, matrix(capsule->to_world), material);
   } else if (const auto* shape_quadric = std::get_if<QuadricForm>(&form)) {
     append(text, "{} {} {}}}\n", quadric(*shape_quadric), matrix(shape_quadric->to_world), material);
+  } else if (const auto* torus = std::get_if<TorusForm>(&form)) {
+    append(text, "torus {{1,{} {} {}}}\n", torus->minor, matrix(torus->to_world), material);
+  } else if (const auto* superellipsoid = std::get_if<SuperellipsoidForm>(&form)) {
+    // POV-Ray's stands along z.
+    append(text, "superellipsoid {{<{},{}> matrix <1,0,0,0,0,1,0,1,0,0,0,0> {} {}}}\n", superellipsoid->e,
+           superellipsoid->n, matrix(superellipsoid->to_world), material);
+  } else if (const auto* polygon = std::get_if<PolygonForm>(&form)) {
+    append(text, "polygon {{{} {}}}\n", closed(polygon->outlines), material);
+  } else if (const auto* prism = std::get_if<ExtrusionForm>(&form)) {
+    append(text, "prism {{linear_sweep linear_spline -1,1,{} {} {}}}\n", closed(prism->outlines),
+           matrix(prism->to_world), material);
   } else if (const auto* solid = std::get_if<SolidForm>(&form)) {
     add_solid(text, scene, *solid);
   } else if (const auto* bezier = std::get_if<BezierForm>(&form)) {

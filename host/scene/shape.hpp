@@ -87,6 +87,22 @@ struct QuadricForm {
   Bounds clip;
   bool open;
 };
+struct TorusForm {  // within `minor` of the unit circle in y = 0
+  Mat4 to_world;
+  double minor;
+};
+struct SuperellipsoidForm {  // (|x|^(2/e) + |z|^(2/e))^(e/n) + |y|^(2/n) ≤ 1
+  Mat4 to_world;
+  double e, n;
+};
+// Outlines of the shape that is asked: around it, then around each hole.
+struct PolygonForm {  // in the world
+  std::vector<std::vector<Vec3>> outlines;
+};
+struct ExtrusionForm {  // of (x, z), from y = −1 to 1
+  Mat4 to_world;
+  std::vector<std::vector<Vec2>> outlines;
+};
 struct BezierForm {  // rows of four control points
   std::array<Vec3, 16> net;
 };
@@ -98,7 +114,8 @@ struct SolidForm {
   std::vector<const Shape*> removed;
 };
 using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm,
-                               CapsuleForm, QuadricForm, BezierForm, SolidForm>;
+                               CapsuleForm, QuadricForm, TorusForm, SuperellipsoidForm, PolygonForm,
+                               ExtrusionForm, BezierForm, SolidForm>;
 
 // A formula that bounds a shape: negative within, on one side of a box of its own space.
 struct FormulaUse {

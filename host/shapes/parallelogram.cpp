@@ -78,6 +78,10 @@ class Parallelogram final : public Shape {
     return bounds;
   }
 
+  ShapeForm form() const override {
+    return PolygonForm{{{origin_, origin_ + edge_u_, origin_ + edge_u_ + edge_v_, origin_ + edge_v_}}};
+  }
+
   void pack(Packer& packer) const override {
     const Vec3 origin = packer.relative(origin_);
     const uint32_t opposite = packer.add_vertices({to_bits(to_vec4(origin + edge_u_ + edge_v_))});

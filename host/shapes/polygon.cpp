@@ -73,6 +73,12 @@ class Polygon final : public Shape {
     return bounds;
   }
 
+  ShapeForm form() const override {
+    PolygonForm form{{region_.outer}};
+    for (const Outline& hole : region_.holes) form.outlines.push_back(hole);
+    return form;
+  }
+
   void pack(Packer& packer) const override {
     const Vec3 first = packer.relative(origin());
     std::vector<shader::uvec4> vertices = {to_bits(to_vec4(u_gradient_, -glm::dot(u_gradient_, first))),

@@ -130,6 +130,7 @@ class Prism final : public ObjectShape {
         form_(std::move(form)) {}
 
   bool is_closed() const override { return true; }
+  ShapeForm form() const override { return ExtrusionForm{to_world().matrix(), form_.outlines}; }
 
  private:
   // Each face by itself: a wall where the line meets its plane between its ends, a cap where the outlines

@@ -62,6 +62,7 @@ class Superellipsoid final : public ObjectShape {
       : ObjectShape(shader::KIND_superellipsoid, to_world, {float(p), float(q)}, steps), p_(p), q_(q) {}
 
   bool is_closed() const override { return true; }
+  ShapeForm form() const override { return SuperellipsoidForm{to_world().matrix(), 2 / p_, 2 / q_}; }
 
  private:
   struct Sample {

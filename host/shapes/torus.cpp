@@ -70,6 +70,7 @@ class Torus final : public ObjectShape {
       : ObjectShape(shader::KIND_torus, to_world, {float(minor)}, steps), minor_(minor) {}
 
   bool is_closed() const override { return true; }
+  ShapeForm form() const override { return TorusForm{to_world().matrix(), minor_}; }
 
  private:
   // |p|² + 1 − minor² − 2ρ on a ray of unit speed, ρ = √(x² + z²): below 0 inside. Both |p|² and ρ are

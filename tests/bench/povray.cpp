@@ -129,6 +129,31 @@ from = [0, -3, 0]
 to = [0, 3, 0]
 radius = 2
 material = "m"
+[[torus]]
+center = [1, 2, 3]
+axis = [0, 1, 0]
+major_radius = 2
+minor_radius = 0.5
+material = "m"
+[[superellipsoid]]
+center = [0, 0, 0]
+radii = [1, 2, 3]
+e = 0.5
+n = 2
+material = "m"
+[[polygon]]
+vertices = [[0, 0, 0], [4, 0, 0], [0, 4, 0]]
+holes = [[[1, 1, 0], [1.5, 1, 0], [1.5, 1.5, 0], [1, 1.5, 0]]]
+material = "m"
+[[parallelogram]]
+origin = [0, 0, 0]
+edge_u = [1, 0, 0]
+edge_v = [0, 1, 0]
+material = "m"
+[[prism]]
+vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+extrusion = [0, 0, 1]
+material = "m"
 [[quadric]]
 square = [4, 0, -1]
 product = [0, 2, 0]
@@ -144,6 +169,14 @@ material = "m"
   CHECK(has(text,
             "quadric {<1,0,1>,<0,0,0>,<0,0,0>,-1 clipped_by {box {<-2,-1,-2>,<2,1,2>}} matrix "
             "<1,0,0,0,1,0,0,0,1,0,0,0> texture {M0}}"));
+  CHECK(has(text, "torus {1,0.25 matrix <2,0,0,0,2,0,0,0,2,1,2,3> texture {M0}}"));
+  CHECK(
+      has(text,
+          "superellipsoid {<0.5,2> matrix <1,0,0,0,0,1,0,1,0,0,0,0> matrix <1,0,0,0,2,0,0,0,3,0,0,0> texture "
+          "{M0}}"));
+  CHECK(has(text, "polygon {9,<0,0,0>,<4,0,0>,<0,4,0>,<0,0,0>,<1,1,0>,"));
+  CHECK(has(text, "polygon {5,<0,0,0>,<1,0,0>,<1,1,0>,<0,1,0>,<0,0,0> texture {M0}}"));
+  CHECK(has(text, "prism {linear_sweep linear_spline -1,1,5,<"));
   CHECK(has(text, "disc {0,y,1,0.5 matrix <2,0,0,0,2,0,0,0,2,4,5,6> texture {M0}}"));
   CHECK(has(text,
             "intersection {quadric {<1,0,1>,<0,0,0>,<0,-1,0>,0} box {<-2,0,-2>,<2,1,2>} matrix "
