@@ -114,7 +114,7 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
     factor = wanted ? found : factor;                                    \
   }
   FORMULAS(CLEARANCE_OF)
-  surface.offset = itself ? surface.offset * (factor + 1.0f) : surface.offset;
+  surface.offset = itself ? surface.offset * (2.0f * factor + 1.0f) : surface.offset;
   return surface;
 }
 
