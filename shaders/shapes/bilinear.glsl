@@ -82,7 +82,7 @@ Surface bilinear_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal = surface.normal_geometric;
   surface.uv = inner_uv(hit.uv);
   vec3 reach = (abs3(p00) + abs3(vec3(s.b))) + (abs3(vec3(s.c)) + abs3(vec3(s.a.w, s.b.w, s.c.w)));
-  surface.offset = 64.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);
+  surface.offset = 48.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);
   return surface;
 }
 

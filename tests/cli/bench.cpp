@@ -97,8 +97,8 @@ TEST_CASE("any scene is written out for POV-Ray, or it is said why not") {
   std::string err;
   CHECK(names_of("scenes/shapes/bezier.toml", err).size() == (povray ? 2 : 1));
   CHECK(err.find("POV-Ray") == std::string::npos);
-  CHECK(names_of("scenes/shapes/torus.toml", err) == std::vector<std::string>{"twin"});
-  CHECK((err.find("torus.toml: without POV-Ray: ") != std::string::npos) == povray);
+  CHECK(names_of("scenes/shapes/bilinear.toml", err) == std::vector<std::string>{"twin"});
+  CHECK((err.find("bilinear.toml: without POV-Ray: ") != std::string::npos) == povray);
 }
 
 TEST_CASE("a mesh from its file to a picture, beside POV-Ray and an older run") {
