@@ -68,7 +68,7 @@ void object_box(Primitive s, vec3 extent, OUT(vec3) lower, OUT(vec3) upper) {
 
 vec4 object_parameters(Primitive s) { return bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS)); }
 
-// The world's surface. `p`: on the shape. `gradient`: of any length but 0, points outward there.
+// The world's surface. `p`: on the shape. `gradient`: points outward there, of about the length 1 where the map is extreme.
 Surface object_surface(Primitive s, vec3 p, vec3 gradient, vec2 uv) {
   vec4 x = bits_to_floats(load_vertex(s.head.w));
   vec4 y = bits_to_floats(load_vertex(s.head.w + 1u));

@@ -29,6 +29,11 @@ constexpr Row slow_shapes[] = {SLOW_SHAPES(ROW)};
 constexpr Row materials[] = {MATERIALS(ROW)};
 constexpr Row integrators[] = {INTEGRATORS(ROW)};
 #undef ROW
+// The registry's other lists have the numbers of the first.
+#define SAME(name, number) static_assert(number == shader::KIND_##name);
+SLOW_SHAPES(SAME)
+CLOSED_SHAPES(SAME)
+#undef SAME
 
 // The registry macro `list` with the rows that are used alone, and the files of `folder` that they need.
 template <size_t n>

@@ -95,7 +95,7 @@ struct SuperellipsoidForm {  // (|x|^(2/e) + |z|^(2/e))^(e/n) + |y|^(2/n) ≤ 1
   Mat4 to_world;
   double e, n;
 };
-// Outlines of the shape that is asked: around it, then around each hole.
+// Outlines: around the shape, then around each hole.
 struct PolygonForm {  // in the world
   std::vector<std::vector<Vec3>> outlines;
 };
