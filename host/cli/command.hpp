@@ -69,7 +69,7 @@ std::pair<int, int> parse_size(const std::string& text);
 // "auto", "tree", "brute-force"; Error (bad_input) for another name.
 Acceleration parse_acceleration(const std::string& name);
 
-// --device, --shaders, --fast-math, --validate, --timeout, --no-constants, --acceleration,
+// --device, --shaders, --fast-math, --validate, --timeout, --no-constants, --no-optimiser, --acceleration,
 // --splits, --profile, --loads, --stack, and the hidden --inject-fault.
 void add_executor_options(CLI::App& command, ExecutorOptions& options);
 

@@ -141,6 +141,12 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options) {
           "--no-constants", [&options] { options.constants = false; },
           "Keep materials, lights and a small scene's shapes in buffers instead of in the kernel.")
       ->group(group);
+  command
+      .add_flag_callback(
+          "--no-optimiser", [&options] { options.optimise = false; },
+          "Give the driver kernels as glslang writes them, all functions and copies: it takes longer at each "
+          "start.")
+      ->group(group);
   const auto choose = [&](const char* name, std::string& value, const char* text, const char* description) {
     command.add_option(name, value, description)->option_text(text)->group("How hits are found (not which)");
   };

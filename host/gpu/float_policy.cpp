@@ -122,8 +122,4 @@ std::vector<uint32_t> set_float_modes(std::span<const uint32_t> spirv, const Flo
   return words;
 }
 
-std::vector<uint32_t> strict_floats(std::span<const uint32_t> spirv, const FloatModes& modes) {
-  return set_float_modes(decorate_no_contraction(spirv), modes);
-}
-
 }  // namespace eyeray::gpu

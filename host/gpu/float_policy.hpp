@@ -1,4 +1,5 @@
-// How floats behave in a kernel, decided in one place: after glslang, on the SPIR-V itself.
+// How floats behave in a kernel, unless the user asks for --fast-math: decided in one place, after glslang,
+// on the SPIR-V itself.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,5 @@ std::vector<uint32_t> decorate_no_contraction(std::span<const uint32_t> spirv);
 
 // The module with the float32 execution modes of `modes` on its entry points (SPV_KHR_float_controls).
 std::vector<uint32_t> set_float_modes(std::span<const uint32_t> spirv, const FloatModes& modes);
-
-// Both: what every kernel gets unless the user asks for --fast-math.
-std::vector<uint32_t> strict_floats(std::span<const uint32_t> spirv, const FloatModes& modes);
 
 }  // namespace eyeray::gpu

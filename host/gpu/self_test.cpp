@@ -6,8 +6,7 @@
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
 #include "gpu/command_list.hpp"
-#include "gpu/float_policy.hpp"
-#include "gpu/spirv_cache.hpp"
+#include "gpu/kernel_compiler.hpp"
 
 namespace eyeray::gpu {
 namespace {
@@ -101,8 +100,7 @@ DeviceFacts judge(const Device& device, const Inputs& inputs, std::span<const ui
 DeviceFacts self_test(Device& device, const SourceProvider& shaders, const DiskCache& cache) {
   const Stopwatch watch;
   const ShaderSource source = read_shader(shaders, "selftest.comp.glsl");
-  const std::vector<uint32_t> spirv =
-      strict_floats(compile_shader(source, "", cache).spirv, device.info().float_modes);
+  const std::vector<uint32_t> spirv = compile_kernel(source, "", {device.info().float_modes}, cache).spirv;
   Kernel kernel(device, spirv, "selftest", cache);
 
   const Inputs inputs;

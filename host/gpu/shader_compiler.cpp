@@ -88,7 +88,7 @@ CompiledShader compile_shader(const ShaderSource& source, std::string_view pream
   Includer includer(source);
   if (!shader.parse(GetDefaultResources(), 450, false, messages, includer)) fail(shader.getInfoLog(), source);
 
-  // Link, and write the words. The driver optimises; names stay for reflection.
+  // Link, and write the words. What optimises comes later; names stay for reflection.
   glslang::TProgram program;
   program.addShader(&shader);
   if (!program.link(messages)) fail(program.getInfoLog(), source);

@@ -57,6 +57,7 @@ struct ExecutorOptions {
   ProfileOptions profile;               // gpu
   bool ray_kinds = false;               // gpu: count reflected and refracted rays; the others always do
   bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
+  bool optimise = true;                 // gpu: give the driver an optimised kernel
   std::string fault;                    // gpu, tests only: a fault to inject (docs/verification.md)
 };
 

@@ -9,7 +9,7 @@
 
 #include "derive/function.hpp"
 #include "formula/formula.hpp"
-#include "gpu/spirv_cache.hpp"
+#include "gpu/kernel_compiler.hpp"
 #include "render/shader_files.hpp"
 
 namespace eyeray {
@@ -45,7 +45,7 @@ void compile(const Formula& formula, const DiskCache& cache) {
     return embedded.read(name);
   };
   try {
-    gpu::compile_shader(gpu::read_shader(read, "formula.comp"), "", cache);
+    gpu::compile_kernel(gpu::read_shader(read, "formula.comp"), "", {}, cache);
   } catch (const InputError& error) {
     std::vector<Diagnostic> diagnostics;
     for (const Diagnostic& diagnostic : error.diagnostics())

@@ -8,9 +8,8 @@
 #include "core/interrupt.hpp"
 #include "core/parallel_for.hpp"
 #include "gpu/command_list.hpp"
-#include "gpu/float_policy.hpp"
+#include "gpu/kernel_compiler.hpp"
 #include "gpu/self_test.hpp"
-#include "gpu/spirv_cache.hpp"
 #include "render/executors.hpp"
 #include "render/fault.hpp"
 #include "render/pack.hpp"
@@ -229,17 +228,17 @@ class GpuExecutor final : public Executor {
       auto text = shaders_.read(name);
       return text ? std::optional(fault_.damage(name, std::move(*text))) : std::nullopt;
     };
-    std::vector<uint32_t> spirv = times_.measure("shader compile", [&] {
+    gpu::KernelOptions how{.strict = device_.info().float_modes, .optimise = options_.optimise};
+    if (options_.fast_math || fault_.is("contraction")) how.strict = std::nullopt;
+    const std::vector<uint32_t> spirv = times_.measure("shader compile", [&] {
       try {
-        return gpu::compile_shader(gpu::read_shader(read, entry), defines, cache_).spirv;
+        return gpu::compile_kernel(gpu::read_shader(read, entry), defines, how, cache_).spirv;
       } catch (const InputError& error) {
         std::vector<Diagnostic> diagnostics = error.diagnostics();
         for (Diagnostic& d : diagnostics) d.position.file = shaders_.shown(d.position.file);
         throw InputError(std::move(diagnostics));
       }
     });
-    if (!options_.fast_math && !fault_.is("contraction"))
-      spirv = gpu::strict_floats(spirv, device_.info().float_modes);
     auto kernel = times_.measure(
         "pipeline", [&] { return std::make_unique<gpu::Kernel>(device_, spirv, entry, cache_); });
     for (const auto& [binding, buffer] : buffers_) kernel->set_buffer(binding, buffer);

@@ -1,4 +1,4 @@
-#include "gpu/spirv_cache.hpp"
+#include "gpu/kernel_compiler.hpp"
 #include "support.hpp"
 #include "support/process.hpp"
 
@@ -135,27 +135,27 @@ TEST_CASE("SPIR-V is remembered by content, and a damaged entry is made anew") {
       paths.push_back(entry.path());
     return paths;
   };
-  const std::vector<uint32_t> first = gpu::compile_shader(source("int a = 1;"), "", cache).spirv;
+  const std::vector<uint32_t> first = gpu::compile_kernel(source("int a = 1;"), "", {}, cache).spirv;
   REQUIRE(entries().size() == 1);
   const std::filesystem::path entry = entries()[0];
 
   // It is the entry that answers: put another shader's words there, under a true hash, and they come back.
   const std::string key = entry.stem().string();
   cache.store(key, "12345678");
-  CHECK(gpu::compile_shader(source("int a = 1;"), "", cache).spirv.size() == 2);
+  CHECK(gpu::compile_kernel(source("int a = 1;"), "", {}, cache).spirv.size() == 2);
 
   // Cut and changed entries are not believed.
   cache.store(key, "12345678");
   for (const std::string& damage :
        {std::string("x"), std::string(), read_text(entry).substr(0, 38), "0" + read_text(entry)}) {
     write_text(entry, damage);
-    CHECK(gpu::compile_shader(source("int a = 1;"), "", cache).spirv == first);
+    CHECK(gpu::compile_kernel(source("int a = 1;"), "", {}, cache).spirv == first);
     CHECK(cache.load(key)->size() == first.size() * 4);
   }
 
   // Another text, preamble or entry is another shader.
-  gpu::compile_shader(source("int a = 2;"), "", cache);
-  gpu::compile_shader(source("int a = 1;"), "#define A\n", cache);
+  gpu::compile_kernel(source("int a = 2;"), "", {}, cache);
+  gpu::compile_kernel(source("int a = 1;"), "#define A\n", {}, cache);
   CHECK(entries().size() == 3);
 }
 
@@ -167,7 +167,7 @@ TEST_CASE("a shader with warnings is compiled every time, so that they are seen 
                                                "enable\nlayout(local_size_x = 1) in;\nvoid main() {}\n"}}),
                                        "m");
   for (int i = 0; i < 2; ++i) {
-    const auto warnings = gpu::compile_shader(source, "", cache).warnings;
+    const auto warnings = gpu::compile_kernel(source, "", {}, cache).warnings;
     REQUIRE(warnings.size() == 1);
     CHECK(warnings[0].severity == Severity::warning);
     CHECK(warnings[0].position.line == 2);

@@ -88,7 +88,7 @@ TEST_CASE("NoContraction is on every float arithmetic result, once, and the modu
 TEST_CASE("float modes are declared on the entry point, and the module stays valid") {
   const std::vector<uint32_t> plain = compile(arithmetic);
   CHECK(gpu::set_float_modes(plain, {}) == plain);
-  const std::vector<uint32_t> strict = gpu::strict_floats(plain, {true, true, true});
+  const std::vector<uint32_t> strict = gpu::set_float_modes(plain, {true, true, true});
   CHECK(validate(strict) == "");
   for (const spv::ExecutionMode mode : {spv::ExecutionModeDenormPreserve, spv::ExecutionModeRoundingModeRTE,
                                         spv::ExecutionModeSignedZeroInfNanPreserve})
@@ -109,10 +109,11 @@ TEST_CASE("what is not SPIR-V is refused") {
 }
 
 TEST_CASE("a·b + c rounds twice") {
-  const std::vector<uint32_t> spirv = gpu::strict_floats(
-      word_kernel("float a = uintBitsToFloat(data[3u * i]);\nfloat b = uintBitsToFloat(data[3u * i + 1u]);\n"
-                  "data[3u * i + 2u] = floatBitsToUint(a * b + uintBitsToFloat(data[3u * i + 2u]));"),
-      device().info().float_modes);
+  const std::vector<uint32_t> plain = word_kernel(
+      "float a = uintBitsToFloat(data[3u * i]);\nfloat b = uintBitsToFloat(data[3u * i + 1u]);\n"
+      "data[3u * i + 2u] = floatBitsToUint(a * b + uintBitsToFloat(data[3u * i + 2u]));");
+  const std::vector<uint32_t> spirv =
+      gpu::set_float_modes(gpu::decorate_no_contraction(plain), device().info().float_modes);
   gpu::Kernel kernel(device(), spirv, "multiply and add", no_cache);
   constexpr uint32_t triples = 1024;
   std::vector<uint32_t> words(3 * triples), expected(triples);

@@ -7,6 +7,7 @@
 #include "core/atomic_file.hpp"
 #include "gpu/command_list.hpp"
 #include "gpu/float_policy.hpp"
+#include "gpu/kernel_compiler.hpp"
 #include "gpu/self_test.hpp"
 #include "gpu/shader_compiler.hpp"
 #include "support/doctest.hpp"

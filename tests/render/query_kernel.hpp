@@ -77,10 +77,10 @@ class QueryKernel {
   }
 
   std::unique_ptr<gpu::Kernel> make_kernel(bool any) {
-    const std::vector<uint32_t> spirv =
-        gpu::strict_floats(compile_entry(entry_, scene_, specialisation_,
-                                         (defines_ + (any ? "#define QUERY_ANY\n" : "")).c_str()),
-                           device_.info().float_modes);
+    const std::vector<uint32_t> spirv = gpu::compile_kernel(entry_source(entry_, scene_, specialisation_),
+                                                            defines_ + (any ? "#define QUERY_ANY\n" : ""),
+                                                            {device_.info().float_modes}, cache_)
+                                            .spirv;
     auto kernel = std::make_unique<gpu::Kernel>(device_, spirv, entry_, cache_);
     for (const auto& [binding, buffer] : buffers_) kernel->set_buffer(binding, buffer);
     return kernel;

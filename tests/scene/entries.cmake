@@ -43,6 +43,7 @@ eyeray_verify(mode.no-constants mode ${small} --no-constants)
 eyeray_verify(mode.no-constants.edges mode ${EDGES} --no-constants)
 # However hits are found, they are the same. The GPU's profile runs on any device.
 set(searched scenes/meshes.toml scenes/sphereflake.toml scenes/cornell.toml scenes/inside_glass.toml -s 96x72)
+eyeray_verify(mode.no-optimiser mode ${searched} --no-optimiser)
 set(groups scenes/group_instances.toml scenes/group_shapes.toml)
 eyeray_verify(mode.groups-once mode scenes/groups.toml scenes/group_instances.toml -s 96x72 -D render.groups=instanced)
 eyeray_verify(mode.groups-copied mode ${groups} scenes/forest.toml -s 96x72 -D render.groups=flat)

@@ -1,0 +1,46 @@
+#include "gpu/kernel_compiler.hpp"
+
+#include <cstring>
+
+#include "core/content_hash.hpp"
+#include "gpu/float_policy.hpp"
+#include "gpu/spirv_optimiser.hpp"
+
+namespace eyeray::gpu {
+namespace {
+
+// Everything that does not depend on the device.
+CompiledShader compile(const ShaderSource& source, std::string_view preamble, const KernelOptions& options,
+                       const DiskCache& cache) {
+  ContentHash hash;
+  hash.add(compiler_version()).add(options.optimise ? optimiser_version() : "");
+  hash.add(options.strict ? "strict" : "fast");
+  hash.add(preamble).add(source.entry);
+  for (const auto& [path, text] : source.files) hash.add(path).add(text);
+  const std::string name = "spirv-" + hash.hex();
+
+  if (const auto bytes = cache.load(name); bytes && bytes->size() % sizeof(uint32_t) == 0) {
+    CompiledShader found;
+    found.spirv.resize(bytes->size() / sizeof(uint32_t));
+    std::memcpy(found.spirv.data(), bytes->data(), bytes->size());
+    return found;
+  }
+  CompiledShader compiled = compile_shader(source, preamble);
+  if (options.strict) compiled.spirv = decorate_no_contraction(compiled.spirv);
+  if (options.optimise) compiled.spirv = optimise(compiled.spirv);
+  if (compiled.warnings.empty())
+    cache.store(name, {reinterpret_cast<const char*>(compiled.spirv.data()),
+                       compiled.spirv.size() * sizeof(uint32_t)});
+  return compiled;
+}
+
+}  // namespace
+
+CompiledShader compile_kernel(const ShaderSource& source, std::string_view preamble,
+                              const KernelOptions& options, const DiskCache& cache) {
+  CompiledShader compiled = compile(source, preamble, options, cache);
+  if (options.strict) compiled.spirv = set_float_modes(compiled.spirv, *options.strict);
+  return compiled;
+}
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,24 @@
+// From GLSL to what a kernel is made of: compiled, with the float policy, optimised, and remembered.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "core/disk_cache.hpp"
+#include "gpu/device.hpp"
+#include "gpu/shader_compiler.hpp"
+
+namespace eyeray::gpu {
+
+struct KernelOptions {
+  std::optional<FloatModes>
+      strict;            // the float policy, with these modes; none: floats are the driver's affair
+  bool optimise = true;  // spirv_optimiser.hpp
+};
+
+// compile_shader and what `options` say, or what these made of the same text and preamble before. A shader
+// with warnings is compiled every time, so that they are seen every time.
+CompiledShader compile_kernel(const ShaderSource& source, std::string_view preamble,
+                              const KernelOptions& options, const DiskCache& cache);
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,22 @@
+// What a driver would otherwise do at every start, done once: SPIRV-Tools' passes over a module.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace eyeray::gpu {
+
+// The same module, with functions inlined, variables that need no memory gone, and nothing left that has no
+// effect. Every result has the same bits: of arithmetic decorated NoContraction nothing is folded. A module
+// that the passes cannot take comes back as it was.
+//
+// The passes know no float modes and leave a module that declares some nearly as it is; so those come after
+// them.
+std::vector<uint32_t> optimise(std::span<const uint32_t> spirv);
+
+// What the result depends on besides the module.
+std::string optimiser_version();
+
+}  // namespace eyeray::gpu

@@ -1,0 +1,120 @@
+#include "gpu/spirv_optimiser.hpp"
+
+#include <glslang/SPIRV/spirv.hpp>
+#include <spirv-tools/libspirv.hpp>
+
+#include "gpu/spirv.hpp"
+#include "support.hpp"
+#include "support/process.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+size_t count(const std::vector<uint32_t>& spirv, std::initializer_list<spv::Op> wanted) {
+  size_t found = 0;
+  gpu::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t>) {
+    found += std::find(wanted.begin(), wanted.end(), spv::Op(opcode)) != wanted.end();
+  });
+  return found;
+}
+
+size_t arithmetic(const std::vector<uint32_t>& spirv) {
+  return count(spirv, {spv::OpFAdd, spv::OpFSub, spv::OpFMul, spv::OpFDiv, spv::OpFNegate, spv::OpDot,
+                       spv::OpVectorTimesScalar});
+}
+
+// Whatever algebra of real numbers would shorten, and floats may not be.
+const std::string shortenable =
+    "float x = uintBitsToFloat(data[i]);\n"
+    "float third = 1.0 / 3.0 * 0.1 + 0.7;\n"
+    "float sum = (x + 1.0) - 1.0 + (x + 0.0) + (x * 3.0) * 5.0 + x * 0.0 + (x / 3.0) * 3.0 - (-(-x)) + (x - "
+    "x) * third;\n"
+    "vec3 v = vec3(x, 2.0 * x, 3.0) * 4.0 * 0.25;\n"
+    "data[i] = floatBitsToUint(sum + dot(v, vec3(0.0, 1.0, 0.0)) + x / 7.0 / 9.0);";
+
+}  // namespace
+
+TEST_CASE("of decorated arithmetic nothing is folded") {
+  const std::vector<uint32_t> plain = word_kernel(shortenable);
+  const std::vector<uint32_t> strict = gpu::decorate_no_contraction(plain);
+  CHECK(arithmetic(gpu::optimise(strict)) == arithmetic(plain));
+  CHECK(arithmetic(gpu::optimise(plain)) + 5 < arithmetic(plain));  // the question can tell
+}
+
+TEST_CASE("an optimised kernel has the same bits") {
+  const std::vector<uint32_t> strict = gpu::decorate_no_contraction(word_kernel(shortenable));
+  constexpr uint32_t numbers = 4096;
+  std::vector<uint32_t> words(numbers), results[2];
+  for (uint32_t i = 0; i < numbers; ++i)
+    words[i] = i < 64 ? i << 26 : i * 2654435761u;  // zeros, infinities and NaN too
+  for (const bool optimised : {false, true}) {
+    const std::vector<uint32_t> spirv =
+        gpu::set_float_modes(optimised ? gpu::optimise(strict) : strict, device().info().float_modes);
+    gpu::Kernel kernel(device(), spirv, "bits", no_cache);
+    gpu::Buffer data(device(), words.size() * 4, "data");
+    data.upload_records(words);
+    kernel.set_buffer(0, data);
+    gpu::dispatch(device(), kernel, {}, {numbers / 64});
+    results[optimised] = data.read_records<uint32_t>(words.size());
+  }
+  CHECK(results[0] != words);
+  CHECK(results[0] == results[1]);
+}
+
+TEST_CASE("functions are inlined, what nobody needs is gone, and the module stays valid") {
+  const std::vector<uint32_t> plain = compile(R"(#version 450
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) buffer Data { float data[]; };
+layout(std430, binding = 1) buffer More { float more[]; };
+float early(float x) {
+  for (int i = 0; i < 9; ++i) if (data[i] > x) return data[i];
+  return x;
+}
+void main() {
+  float wasted = early(data[1]) * 2.0;
+  data[2] = early(data[3]);
+  if (false) data[4] = more[0];
+}
+)");
+  const std::vector<uint32_t> optimised = gpu::optimise(plain);
+  CHECK(count(plain, {spv::OpFunction}) == 2);
+  CHECK(count(optimised, {spv::OpFunction}) == 1);
+  CHECK(count(plain, {spv::OpFMul}) == 1);
+  CHECK(count(optimised, {spv::OpFMul}) == 0);
+  CHECK(gpu::reflect(plain).bindings.size() == 2);
+  CHECK(gpu::reflect(optimised).bindings.size() == 1);
+  CHECK(spvtools::SpirvTools(SPV_ENV_VULKAN_1_1).Validate(optimised));
+}
+
+TEST_CASE("what cannot be optimised comes back as it was") {
+  const std::vector<uint32_t> words = {1, 2, 3};
+  CHECK(gpu::optimise(words) == words);
+}
+
+TEST_CASE("a kernel has the float policy before it is optimised, whether remembered or not") {
+  const TemporaryFolder folder;
+  const DiskCache cache(folder.path());
+  const auto read = [](std::string_view) -> std::optional<std::string> {
+    return R"(#version 450
+layout(local_size_x = 1) in;
+layout(std430, binding = 0) buffer Data { float data[]; };
+void main() { data[0] = data[1] * data[2] + data[3]; }
+)";
+  };
+  const gpu::ShaderSource source = gpu::read_shader(read, "m");
+  const auto words = [&](const gpu::KernelOptions& options) {
+    return gpu::compile_kernel(source, "", options, cache).spirv;
+  };
+  const gpu::KernelOptions strict{gpu::FloatModes{true, true, true}}, fast,
+      fast_as_written{.strict = {}, .optimise = false};
+  for (int time = 0; time < 2; ++time) {
+    CHECK(count(words(strict), {spv::OpFAdd}) == 1);
+    CHECK(count(words(strict), {spv::OpExecutionMode}) == 4);
+    CHECK(gpu::decorate_no_contraction(words(strict)) == words(strict));
+    CHECK(count(words(fast), {spv::OpFAdd}) == 0);  // fused
+    CHECK(count(words(fast), {spv::OpExecutionMode}) == 1);
+    CHECK(count(words(fast_as_written), {spv::OpFAdd}) == 1);
+  }
+}
