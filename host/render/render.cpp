@@ -4,23 +4,26 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/parallel_for.hpp"
 #include "render/checkpoint.hpp"
 
 namespace eyeray {
 namespace {
 
-// How many pixels are handed on at a time: tens of megabytes of whatever is made of them.
-constexpr int most_pixels_at_a_time = 1 << 20;
+// How many pixels are traced at a time: tens of megabytes of whatever is made of them.
+constexpr int most_traced = 1 << 20;
+// How many are handed on: what is made of them stays in the caches, and in memory that was used before.
+constexpr int most_handed_on = 1 << 16;
 
-int rows_at_a_time(int width) {
-  return std::max(1, most_pixels_at_a_time / width);
+int rows_of(int pixels, int width) {
+  return std::max(1, pixels / width);
 }
 
 // How many rows to ask for at a time: as many as take about a fifth of a second, so that progress shows and
 // Ctrl-C works.
 class RowsAtATime {
  public:
-  explicit RowsAtATime(int width) : rows_(rows_at_a_time(width)), most_(2 * rows_) {}
+  explicit RowsAtATime(int width) : rows_(rows_of(most_traced, width)), most_(2 * rows_) {}
   int rows() const { return rows_; }
   void took(double seconds) {
     if (seconds > 0.4) rows_ = std::max(1, rows_ / 2);
@@ -102,7 +105,7 @@ class Driver {
     // Hand the finished rows on again, to the files of this run.
     for (int row = 0; row < int(position.finished_rows);) {
       if (interrupted()) return false;
-      const int count = std::min(rows_at_a_time(crop_.width), int(position.finished_rows) - row);
+      const int count = std::min(rows_of(most_handed_on, crop_.width), int(position.finished_rows) - row);
       sink_(checkpoint.read_rows(row, count, crop_.width));
       row += count;
     }
@@ -120,7 +123,8 @@ class Driver {
       if (interrupted() || !sample(tile)) return false;
 
       sums_.add(row, tile_samples_);
-      for (const PixelSample& each : tile_samples_) position_.rays += each.rays;
+      position_.rays += parallel_sum(0, int(tile_samples_.size()),
+                                     [&](int i) { return uint64_t{tile_samples_[size_t(i)].rays}; });
       if (options_.ray_kinds) {
         for (const PixelSample& each : tile_samples_) totals_.ray_kinds.add(each);
       }
@@ -161,7 +165,7 @@ class Driver {
   void hand_on() {
     const bool last = int(position_.finished_rows) + sums_.height() == crop_.height;
     for (int row = 0; row < sums_.height();) {
-      const int count = std::min(rows_at_a_time(crop_.width), sums_.height() - row);
+      const int count = std::min(rows_of(most_handed_on, crop_.width), sums_.height() - row);
       FinishedRows rows = sums_.mean(row, count, int(position_.samples), int(position_.extra_rows));
       rows.first += int(position_.finished_rows);
       position_.flags |= rows.flags;
@@ -222,7 +226,7 @@ bool trace_first_hits(Executor& executor, const Rect& crop, const FirstHitSink& 
   std::vector<FirstHit> hits;
   for (int row = 0; row < crop.height;) {
     const Rect tile{crop.x, crop.y + row, crop.width,
-                    std::min(rows_at_a_time(crop.width), crop.height - row)};
+                    std::min(rows_of(most_traced, crop.width), crop.height - row)};
     hits.assign(size_t(tile.pixels()), {});
     executor.first_hits(tile, hits);
     // An interrupted executor leaves out what it likes.

@@ -1,6 +1,7 @@
 #include "render/sums.hpp"
 
 #include "core/error.hpp"
+#include "core/parallel_for.hpp"
 
 namespace eyeray {
 
@@ -15,13 +16,13 @@ void PixelSums::reset(int width, int height) {
 void PixelSums::add(int first, std::span<const PixelSample> samples) {
   const size_t begin = size_t(first) * size_t(width_);
   CHECK_LE(begin + samples.size(), pixels_.size());
-  Pixel* pixel = &pixels_[begin];
-  for (const PixelSample& sample : samples) {
-    pixel->color += sample.color;
-    pixel->hits += sample.hits;
-    pixel->flags |= sample.flags;
-    ++pixel;
-  }
+  parallel_for(0, int(samples.size()), [&](int i) {
+    const PixelSample& sample = samples[size_t(i)];
+    Pixel& pixel = pixels_[begin + size_t(i)];
+    pixel.color += sample.color;
+    pixel.hits += sample.hits;
+    pixel.flags |= sample.flags;
+  });
 }
 
 FinishedRows PixelSums::mean(int first, int count, int samples, int extra_rows) const {
