@@ -75,7 +75,7 @@ std::string power_label(int exponent) {
 class Plot {
  public:
   explicit Plot(const FieldReport& report)
-      : report_(report), cast_(report), svg_(width(), margin + panel_height + 2 * margin + bars_height()) {
+      : report_(report), cast_(report), svg_(width(), 2 * margin + panel_height + bars_height()) {
     for (const SceneReport& scene : report_) {
       for (const BatchReport& batch : scene.batches) {
         for (const Lap& lap : batch.laps) {

@@ -11,9 +11,8 @@
 namespace eyeray::gpu {
 
 struct KernelOptions {
-  std::optional<FloatModes>
-      strict;            // the float policy, with these modes; none: floats are the driver's affair
-  bool optimise = true;  // spirv_optimiser.hpp
+  std::optional<FloatModes> strict = {};  // the float policy, with these modes; none: --fast-math
+  bool optimise = true;                   // spirv_optimiser.hpp
 };
 
 // compile_shader and what `options` say, or what these made of the same text and preamble before. A shader

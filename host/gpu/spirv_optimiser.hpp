@@ -10,7 +10,8 @@ namespace eyeray::gpu {
 
 // The same module, with functions inlined, variables that need no memory gone, and nothing left that has no
 // effect. Every result has the same bits: of arithmetic decorated NoContraction nothing is folded. A module
-// that the passes cannot take comes back as it was.
+// that inlining would make twice as large as our largest, or that the passes cannot take, comes back as it
+// was. Error (bad_input) for what is not SPIR-V.
 //
 // The passes know no float modes and leave a module that declares some nearly as it is; so those come after
 // them.

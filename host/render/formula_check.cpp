@@ -45,7 +45,7 @@ void compile(const Formula& formula, const DiskCache& cache) {
     return embedded.read(name);
   };
   try {
-    gpu::compile_kernel(gpu::read_shader(read, "formula.comp"), "", {}, cache);
+    gpu::compile_kernel(gpu::read_shader(read, "formula.comp"), "", {.optimise = false}, cache);
   } catch (const InputError& error) {
     std::vector<Diagnostic> diagnostics;
     for (const Diagnostic& diagnostic : error.diagnostics())

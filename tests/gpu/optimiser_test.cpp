@@ -88,9 +88,23 @@ void main() {
   CHECK(spvtools::SpirvTools(SPV_ENV_VULKAN_1_1).Validate(optimised));
 }
 
-TEST_CASE("what cannot be optimised comes back as it was") {
-  const std::vector<uint32_t> words = {1, 2, 3};
-  CHECK(gpu::optimise(words) == words);
+TEST_CASE("what inlining would make too large comes back as it was, at once") {
+  const auto doubling = [](int functions) {
+    std::string text =
+        "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer Data { float data[]; "
+        "};\n"
+        "float f0(float x) { return x * data[1] + 1.0; }\n";
+    for (int i = 1; i <= functions; ++i)
+      text += fmt::format("float f{0}(float x) {{ return f{1}(x + {0}.5) * f{1}(x - {0}.25); }}\n", i, i - 1);
+    return compile(text + fmt::format("void main() {{ data[0] = f{}(data[2]); }}\n", functions));
+  };
+  const std::vector<uint32_t> few = doubling(4), many = doubling(40);
+  CHECK(gpu::optimise(few) != few);
+  CHECK(gpu::optimise(many) == many);
+}
+
+TEST_CASE("what is not SPIR-V is not optimised") {
+  CHECK(error_of([] { gpu::optimise(std::vector<uint32_t>{1, 2, 3}); }).second == ExitCode::bad_input);
 }
 
 TEST_CASE("a kernel has the float policy before it is optimised, whether remembered or not") {
@@ -108,7 +122,7 @@ void main() { data[0] = data[1] * data[2] + data[3]; }
     return gpu::compile_kernel(source, "", options, cache).spirv;
   };
   const gpu::KernelOptions strict{gpu::FloatModes{true, true, true}}, fast,
-      fast_as_written{.strict = {}, .optimise = false};
+      fast_as_written{.optimise = false};
   for (int time = 0; time < 2; ++time) {
     CHECK(count(words(strict), {spv::OpFAdd}) == 1);
     CHECK(count(words(strict), {spv::OpExecutionMode}) == 4);
