@@ -13,9 +13,9 @@
 namespace eyeray::gpu {
 namespace {
 
-// Chosen for what they save lavapipe and cost themselves (docs/performance.md). Not among them: values
-// instead of variables across blocks (ssa-rewrite) and common subexpressions, with which the driver is a
-// little faster still, and its kernels slower.
+// Chosen for what they save lavapipe and cost themselves (docs/performance.md). Not among them: ssa-rewrite,
+// with which the driver is faster still and some kernels are slower, and common subexpressions, which gain
+// nothing.
 constexpr const char* within_functions[] = {
     "--eliminate-local-single-block",
     "--eliminate-local-single-store",
