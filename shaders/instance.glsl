@@ -66,8 +66,7 @@ Surface out_of_instance(Surface surface, Instance instance) {
   vec3 across = transposed(instance.to_local, surface.normal_geometric);
   float shrinks = sqrt(dot3(across, across));
   world.normal_geometric = across / shrinks;
-  vec3 shading = transposed(instance.to_local, surface.normal);
-  world.normal = dot3(shading, world.normal_geometric) > 0.0f ? normalize3(shading) : world.normal_geometric;
+  world.normal = normalize3(transposed(instance.to_local, surface.normal));
   vec3 local = abs3(surface.p) + map_size(instance.to_local, abs3(world.p - map_offset(instance.to_world)));
   vec3 reach = map_size(instance.to_world, local) + (abs3(world.p) + abs3(map_offset(instance.to_world)));
   world.offset = surface.offset / shrinks + 8.0f * EPSILON * dot3(abs3(world.normal_geometric), reach);

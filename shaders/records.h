@@ -50,6 +50,7 @@ struct Primitive {
 
 // ---- Corners of a triangle with normals, texture coordinates or colours: 16 or 32 bytes in vertices ------------------
 //   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u; with CORNERS_COLORS then color.rgb, alpha
+//                                           normals are unit, or of the lengths that a map that stretches has left them
 //  12 CORNERS_ bits
 //  16 v 0  20 v 1  24 v 2  28 -             only with CORNERS_UV
 #define CORNERS_NORMALS 1u

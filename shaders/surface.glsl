@@ -35,6 +35,8 @@ Surface surface_at(Primitive primitive, Ray ray, Hit hit) {
 #if HAS_INSTANCES
   if (hit.instance != NONE) surface = out_of_instance(surface, load_instance(hit.instance));
 #endif
+  // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
+  if (!(dot3(surface.normal, surface.normal_geometric) > 0.0f)) surface.normal = surface.normal_geometric;
   return surface;
 }
 

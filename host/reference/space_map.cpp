@@ -22,7 +22,7 @@ SurfacePoint SpaceMap::out(const SurfacePoint& local) const {
   SurfacePoint point = local;
   point.position = to_world_.point(local.position);
   point.normal_geometric = unit(across);
-  point.normal = glm::dot(shading, point.normal_geometric) > 0 ? unit(shading) : point.normal_geometric;
+  point.normal = unit(shading);
 
   // The next ray starts here and goes back into the space: there it may be off by the rounding of both maps,
   // which counts across the surface. A distance e across it is e / |across| in the world.

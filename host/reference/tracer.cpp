@@ -74,7 +74,11 @@ void Tracer::search_groups(const Ray& ray, std::optional<Hit>& nearest, double& 
 
 SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
   const Bodies::Hit body{hit.at, hit.body};
-  return hit.group < 0 ? world_->surface(ray, body) : groups_[size_t(hit.group)].surface(ray, body);
+  SurfacePoint point =
+      hit.group < 0 ? world_->surface(ray, body) : groups_[size_t(hit.group)].surface(ray, body);
+  // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
+  if (!(glm::dot(point.normal, point.normal_geometric) > 0)) point.normal = point.normal_geometric;
+  return point;
 }
 
 double Tracer::reach(const Hit& hit, const Vec3& eye) const {

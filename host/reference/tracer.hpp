@@ -29,7 +29,7 @@ class Tracer {
   // SampleFlags, what may be wrong with it.
   std::optional<Hit> trace(const Ray& ray, uint32_t& flags) const;
   std::optional<Hit> trace(const Ray& ray) const;
-  // The surface where `ray` has that hit.
+  // The surface where `ray` has that hit, its normal on the side of the geometric one.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
 
   // The largest coordinate, relative to `eye`, of the terms that what was hit is made of; 0 for unbounded

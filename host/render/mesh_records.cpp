@@ -27,9 +27,10 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
   const auto first_corners = uint32_t(first_vertex + mesh.positions.size() * vertex_records);
   head_.w = first_corners;
   corner_records_ = uv ? 2 : 1;
+  const CornerNormals map_normal(map);
   vertices.resize(first_corners + mesh.triangles.size() * corner_records_);
   parallel_for(0, int(mesh.positions.size()), [&](int i) {
-    const Vec3 normal = normals ? map.normal(mesh.normals[size_t(i)]) : Vec3(0);
+    const Vec3 normal = normals ? map_normal(mesh.normals[size_t(i)]) : Vec3(0);
     shader::uvec4* vertex = &vertices[first_vertex + size_t(i) * vertex_records];
     vertex[0] = to_bits(to_vec4(normal, uv ? mesh.uv[size_t(i)].x : 0.0));
     if (colors)

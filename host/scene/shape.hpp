@@ -43,7 +43,7 @@ struct SurfacePoint {
   Vec3 position;          // projected onto the surface
   double position_error;  // a bound on its distance from the true surface, in float64 arithmetic
   Vec3 normal_geometric;  // unit; outward for closed shapes, by counter-clockwise winding for open ones
-  Vec3 normal;            // unit shading normal, on the side of normal_geometric
+  Vec3 normal;            // unit shading normal; on the other side than normal_geometric it does not count
   Vec2 uv;
   Vec3 color{1.0};  // of a mesh's vertices
 };

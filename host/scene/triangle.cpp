@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/affine.hpp"
-
 namespace eyeray {
 namespace {
 
@@ -24,6 +22,12 @@ double thickness(const Corners& v) {
 Vec3 geometric_normal(const Corners& v) {
   const double size = magnitude(v[1] - v[0]);
   return unit(glm::cross((v[1] - v[0]) / size, (v[2] - v[0]) / size));
+}
+
+CornerNormals::CornerNormals(const Affine& map)
+    : keeps_angles_(similarity(map.matrix()).has_value()), linear_(map.cotangent) {
+  if (!keeps_angles_)
+    linear_ /= std::max({magnitude(linear_[0]), magnitude(linear_[1]), magnitude(linear_[2])});
 }
 
 std::optional<Intersection> intersect_triangle(const Corners& corners, const Vec3& normal, const Ray& ray) {

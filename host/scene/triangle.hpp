@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/vec.hpp"
+#include "scene/affine.hpp"
 #include "scene/shape.hpp"
 
 namespace eyeray {
@@ -23,6 +24,23 @@ double thickness(const Corners& corners);
 
 // Unit, by counter-clockwise winding; for any triangle of at least `thinnest_triangle`.
 Vec3 geometric_normal(const Corners& corners);
+
+// Takes shading normals at corners along where a map takes the triangle. To interpolate in the object's space
+// and then map is to interpolate between what this makes of the corners' normals, for it is linear: they are
+// unit no more, about 1 at most, and their lengths count. Under a similarity they stay unit.
+class CornerNormals {
+ public:
+  explicit CornerNormals(const Affine& map);
+
+  // `normal` is unit.
+  Vec3 operator()(const Vec3& normal) const {
+    return keeps_angles_ ? unit(linear_ * normal) : linear_ * normal;
+  }
+
+ private:
+  bool keeps_angles_;
+  Mat3 linear_;  // the map's inverse transpose, its largest component 1 unless it keeps angles
+};
 
 // Where the ray meets the triangle, edges included, with the weights of the second and third corner. `normal`
 // is perpendicular to the triangle, of any length but 0. Watertight: a ray never passes between two triangles

@@ -25,7 +25,7 @@ material = "wall"
 `transform` may be any affine map that can be undone. Under one that mirrors, the outside stays outside. A closed mesh of a
 dielectric needs all its normals outward: in and out of the glass is decided by them.
 
-**normals** (three, of any length but 0, each on the side of the geometric normal) are interpolated for shading.
+**normals** (three, of any length but 0, each on the side of the geometric normal) are interpolated for shading, before any transform.
 **uv** (three) are interpolated for textures; without them u and v are the weights of the second and third vertex.
 
 **Numeric trap.** Methods that compare barycentrics with 0 after a division (Möller–Trumbore) let rays through between two
@@ -54,11 +54,13 @@ constexpr Key keys[] = {
      .optional = true},
 };
 
-// The triangle in the world, its normals unit.
+// The triangle in the world.
 TriangleValues transformed(TriangleValues values, const Affine& map) {
   for (Vec3& vertex : values.vertices) vertex = map.point(vertex);
-  if (values.normals)
-    for (Vec3& normal : *values.normals) normal = map.normal(unit(normal));
+  if (values.normals) {
+    const CornerNormals map_normal(map);
+    for (Vec3& normal : *values.normals) normal = map_normal(unit(normal));
+  }
 
   // A mirror turns the winding round; turn it back, and let every corner keep what is its own.
   if (map.mirrors()) {
@@ -157,10 +159,17 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   if (table.failed()) return nullptr;
 
   // Check the triangle as it came, so that the message is at the key that is to blame, and then in the world.
+  // The normals only as they came: there they are interpolated, wherever the triangle is taken.
   if (!(thickness(values.vertices) >= thinnest_triangle)) {
     table.error("vertices", "the triangle has no area: its vertices coincide or lie on one line");
   } else if (values.normals && std::count(values.normals->begin(), values.normals->end(), Vec3(0)) > 0) {
     table.error("normals", "a normal has no length");
+  } else if (values.normals && std::ranges::any_of(*values.normals, [&](const Vec3& normal) {
+               return glm::dot(unit(normal), geometric_normal(values.vertices)) <= least_normal_cosine;
+             })) {
+    table.error("normals",
+                "a normal points away from the outside, which is where the vertices run counter-clockwise; "
+                "turn it, or swap two vertices");
   }
   if (table.failed()) return nullptr;
   const TriangleValues world = transformed(values, Affine(transform));
@@ -172,17 +181,6 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   if (!(thickness(world.vertices) >= thinnest_triangle)) {
     table.error("transform", "the map leaves the triangle no area");
     return nullptr;
-  }
-  if (world.normals) {
-    const Vec3 geometric = geometric_normal(world.vertices);
-    for (const Vec3& normal : *world.normals) {
-      if (glm::dot(normal, geometric) > least_normal_cosine) continue;
-      table.error("normals",
-                  "a normal points away from the outside, which is where the vertices run counter-clockwise; "
-                  "turn it, or "
-                  "swap two vertices");
-      return nullptr;
-    }
   }
   return std::make_unique<Triangle>(world);
 }

@@ -123,10 +123,8 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
     vec4 n0 = bits_to_floats(load_vertex(corners.x));
     vec4 n1 = bits_to_floats(load_vertex(corners.y));
     vec4 n2 = bits_to_floats(load_vertex(corners.z));
-    if ((corners.w & CORNERS_NORMALS) != 0u) {
-      vec3 normal = normalize3((vec3(n0) * wa + vec3(n1) * hit.uv.x) + vec3(n2) * hit.uv.y);
-      surface.normal = dot3(normal, surface.normal_geometric) > 0.0f ? normal : surface.normal_geometric;
-    }
+    if ((corners.w & CORNERS_NORMALS) != 0u)
+      surface.normal = normalize3((vec3(n0) * wa + vec3(n1) * hit.uv.x) + vec3(n2) * hit.uv.y);
     if ((corners.w & CORNERS_UV) != 0u) {
       vec4 v = bits_to_floats(load_vertex(s.head.w + 1u));
       surface.uv = vec2((n0.w * wa + n1.w * hit.uv.x) + n2.w * hit.uv.y,

@@ -104,6 +104,29 @@ TEST_CASE("a group that holds something without an end is copied") {
   CHECK(scene.shapes.size() == 3);
 }
 
+TEST_CASE("a triangle's normals are right or wrong in its own space, however its group is kept") {
+  // A slope, z' = z + 2 x, turns the first to the other side, and the second to the right one.
+  const auto verdict = [](const char* groups, const char* normal) {
+    const char* const slope = "{ matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [2, 0, 1, 0]] }";
+    return refused(fmt::format(R"([render]
+groups = "{0}"
+[[group]]
+batch = {{ transform = [[{1}], [{1}, {{ translate = [9, 0, 0] }}]] }}
+[[group.triangle]]
+material = "wall"
+vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+normals = [{2}, {2}, {2}]
+)",
+                               groups, slope, normal));
+  };
+  for (const char* groups : {"flat", "instanced"}) {
+    CAPTURE(groups);
+    CHECK(verdict(groups, "[1, 0, 0.2]") == "accepted");
+    CHECK(says(verdict(groups, "[-1, 0, -0.1]"),
+               "scene.toml:11:11: error: a normal points away from the outside"));
+  }
+}
+
 TEST_CASE("a sphere in a stretched group is an ellipsoid") {
   const Scene scene =
       parse_walls("[[group]]\ntransform = [{ scale = [1, 2, 1] }]\n" + sphere("group.sphere", 1));
