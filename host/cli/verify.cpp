@@ -73,9 +73,15 @@ Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int 
     const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift);
     result.color += sample.color / double(scene.image.samples);
     result.sample_colors.push_back(sample.color);
-    for (const bool along_normal : {false, true})
-      result.rounded_colors.push_back(
-          renderer.sample(x, y, uint32_t(i), shift, {float32_clearance, along_normal, seed}).color);
+    using reference::TextureChoice;
+    const auto add_rounded = [&](bool along_normal, TextureChoice textures) {
+      const reference::Clearance clearance{float32_clearance, along_normal, seed, textures};
+      result.rounded_colors.push_back(renderer.sample(x, y, uint32_t(i), shift, clearance).color);
+    };
+    for (const bool along_normal : {false, true}) add_rounded(along_normal, TextureChoice::at_hit);
+    if (shift == Vec2(0.0))
+      for (const auto textures : {TextureChoice::darkest, TextureChoice::brightest})
+        add_rounded(false, textures);
     result.hits += sample.hits;
     result.direct = result.direct && sample.hits <= 1;
     const Vec2 place = reference::sample_place(scene.image, scene.render.seed, x, y, uint32_t(i));
@@ -83,6 +89,7 @@ Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int 
   }
   result.hits_per_sample = double(result.hits) / scene.image.samples;
   result.first_hit = renderer.first_hit(x, y, shift);
+  result.rounding = renderer.rounding(x, y, result.first_hit.t);
   return result;
 }
 

@@ -61,9 +61,9 @@ class Judge {
   // Looks into the pixels that differ, of each gate all of them, or an even choice when they are too many to
   // pass.
   void explain(const Reference& probe) {
-    look_at(together(choose(colors_), choose(first_hits_)), probe, usual_angles);
+    look_at(together(choose(colors_), choose(first_hits_)), probe, usual_angles, false);
     const std::vector<size_t> left = together(unexplained(colors_), unexplained(first_hits_));
-    if (left.size() <= few) look_at(left, probe, many_angles);
+    if (left.size() <= few) look_at(left, probe, many_angles, true);
   }
 
   Tally count_colors() const { return tally(colors_); }
@@ -119,17 +119,17 @@ class Judge {
     return pixels;
   }
 
-  void look_at(const std::vector<size_t>& pixels, const Reference& probe, int angles) {
+  void look_at(const std::vector<size_t>& pixels, const Reference& probe, int angles, bool between) {
     parallel_for(0, int(pixels.size()), [&](int n) {
       const size_t i = pixels[size_t(n)];
       const WorstPixel p = at(i);
-      const Neighbourhood neighbourhood(probe, p.pixel, angles);
+      const Neighbourhood neighbourhood(probe, p.pixel, angles, between);
       if (neighbourhood.explains(p.value, tolerances_))
-        settle(colors_[i], true, neighbourhood.cause_of_color());
+        settle(colors_[i], true, neighbourhood.cause(p.value, tolerances_));
       else
         settle(colors_[i], neighbourhood.explains_as_rounding(p.value, tolerances_), Cause::rounding);
       settle(first_hits_[i], neighbourhood.explains(p.value_hit, tolerances_),
-             neighbourhood.cause_of_first_hit());
+             neighbourhood.cause(p.value_hit, tolerances_));
     });
   }
 
@@ -194,7 +194,7 @@ int64_t Tally::explained_pixels() const {
 }
 
 int64_t Tally::capped_pixels() const {
-  return explained_pixels() - explained[size_t(Cause::grazing)];
+  return explained_pixels() - explained[size_t(Cause::grazing)] - explained[size_t(Cause::undecidable)];
 }
 
 bool Tally::passes() const {

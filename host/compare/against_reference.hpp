@@ -23,7 +23,8 @@ struct Tally {
 
   int64_t explained_pixels() const;
   // Those that count against the cap: all but the grazing ones, where the reference does not jump but runs
-  // steeply, along whole rows of a horizon.
+  // steeply, along whole rows of a horizon, and the undecidable ones: an edge may run along the centres of a
+  // whole row of pixels.
   int64_t capped_pixels() const;
   bool passes() const;
 };

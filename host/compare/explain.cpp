@@ -9,6 +9,8 @@ namespace {
 
 constexpr int rings = 4;
 constexpr double radius_step = 0.001;  // pixels
+// Rings between the innermost and those grow by this.
+constexpr double radius_growth = 3;
 // A rounding error grows from surface to surface: the neighbourhood of a path grows with the surfaces it
 // strikes, to this at most.
 constexpr double most_reach = 8;
@@ -18,58 +20,18 @@ bool within(double value, double low, double high, double below, double above) {
   return value >= low - below && value <= high + above;
 }
 
-}  // namespace
-
-const char* name(Cause cause) {
-  switch (cause) {
-    case Cause::silhouette:
-      return "silhouette";
-    case Cause::texture_edge:
-      return "texture edge";
-    case Cause::refraction_branch:
-      return "refraction branch";
-    case Cause::shadow_edge:
-      return "shadow edge";
-    case Cause::grazing:
-      return "grazing";
-    case Cause::rounding:
-      return "rounding";
-  }
-  return "unknown";
-}
-
-Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles) {
-  probes_.push_back(reference(pixel.x, pixel.y, Vec2(0.0)));
-  const double reach = std::min(most_reach, 1 + probes_.front().hits_per_sample / 8);
-  for (int ring = 1; ring <= rings; ++ring) {
-    for (int step = 0; step < angles; ++step) {
-      // Each ring is turned a little, so that no direction is looked at twice.
-      const double angle = 2 * M_PI * (step + (ring - 1.0) / rings) / angles;
-      probes_.push_back(
-          reference(pixel.x, pixel.y, ring * radius_step * reach * Vec2(std::cos(angle), std::sin(angle))));
-    }
-  }
-}
-
-bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) const {
-  return bounds_hold(value, tolerances, false);
-}
-
-bool Neighbourhood::explains_as_rounding(const Vec3& value, const Tolerances& tolerances) const {
-  return !probes_.front().rounded_colors.empty() && bounds_hold(value, tolerances, true);
-}
-
-bool Neighbourhood::bounds_hold(const Vec3& value, const Tolerances& tolerances, bool rounded) const {
+bool bounds_hold(std::span<const Probe> probes, const Vec3& value, const Tolerances& tolerances,
+                 bool rounded) {
   // Each sample may fall on either side of its own edges, whatever the others do: the bounds of the mean are
   // the means of the bounds.
-  const size_t samples = std::max(probes_.front().sample_colors.size(), size_t{1});
+  const size_t samples = std::max(probes.front().sample_colors.size(), size_t{1});
   const auto color = [&](const Probe& probe, size_t sample) {
     return probe.sample_colors.empty() ? probe.color : probe.sample_colors[sample];
   };
   Vec3 low(0.0), high(0.0);
   for (size_t i = 0; i < samples; ++i) {
-    Vec3 least = color(probes_.front(), i), greatest = least;
-    for (const Probe& probe : probes_) {
+    Vec3 least = color(probes.front(), i), greatest = least;
+    for (const Probe& probe : probes) {
       least = glm::min(least, color(probe, i));
       greatest = glm::max(greatest, color(probe, i));
       if (!rounded) continue;
@@ -90,13 +52,13 @@ bool Neighbourhood::bounds_hold(const Vec3& value, const Tolerances& tolerances,
   return true;
 }
 
-bool Neighbourhood::explains(const FirstHit& value, const Tolerances& tolerances) const {
-  // Gather what the neighbourhood knows of the primitive that was hit.
+bool bounds_hold(std::span<const Probe> probes, const FirstHit& value, const Tolerances& tolerances) {
+  // Gather what is known of the primitive that was hit.
   double t_low = 0, t_high = 0, tolerance = 0;
   Vec3 normal_low(0.0), normal_high(0.0);
   bool found = false;
   bool silhouette = false;
-  for (const Probe& probe : probes_) {
+  for (const Probe& probe : probes) {
     const FirstHit& hit = probe.first_hit;
     if (hit.primitive != value.primitive || hit.material != value.material) {
       silhouette = true;
@@ -122,6 +84,74 @@ bool Neighbourhood::explains(const FirstHit& value, const Tolerances& tolerances
     if (!within(value.normal[c], normal_low[c], normal_high[c], margin, margin)) return false;
   }
   return true;
+}
+
+}  // namespace
+
+const char* name(Cause cause) {
+  switch (cause) {
+    case Cause::silhouette:
+      return "silhouette";
+    case Cause::texture_edge:
+      return "texture edge";
+    case Cause::refraction_branch:
+      return "refraction branch";
+    case Cause::shadow_edge:
+      return "shadow edge";
+    case Cause::grazing:
+      return "grazing";
+    case Cause::rounding:
+      return "rounding";
+    case Cause::undecidable:
+      return "undecidable";
+  }
+  return "unknown";
+}
+
+Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between) {
+  probes_.push_back(reference(pixel.x, pixel.y, Vec2(0.0)));
+  const double reach = std::min(most_reach, 1 + probes_.front().hits_per_sample / 8);
+
+  // What varies more quickly than from ring to ring, the rings within show: a caustic's rim may be a
+  // hundred-thousandth of a pixel wide.
+  if (const double rounding = std::min(probes_.front().rounding, radius_step); rounding > 0) {
+    add_ring(reference, pixel, rounding, angles, 0.25);
+    innermost_ = probes_.size();
+    if (between)
+      for (double radius = radius_growth * rounding; radius < radius_step; radius *= radius_growth)
+        add_ring(reference, pixel, radius * reach, angles / 2, 0.25);
+  }
+  // Each ring is turned a little, so that no direction is looked at twice.
+  for (int ring = 1; ring <= rings; ++ring)
+    add_ring(reference, pixel, ring * radius_step * reach, angles, (ring - 1.0) / rings);
+}
+
+void Neighbourhood::add_ring(const Reference& reference, Pixel pixel, double radius, int angles,
+                             double turn) {
+  for (int step = 0; step < angles; ++step) {
+    const double angle = 2 * M_PI * (step + turn) / angles;
+    probes_.push_back(reference(pixel.x, pixel.y, radius * Vec2(std::cos(angle), std::sin(angle))));
+  }
+}
+
+bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) const {
+  return bounds_hold(probes_, value, tolerances, false);
+}
+
+bool Neighbourhood::explains_as_rounding(const Vec3& value, const Tolerances& tolerances) const {
+  return !probes_.front().rounded_colors.empty() && bounds_hold(probes_, value, tolerances, true);
+}
+
+bool Neighbourhood::explains(const FirstHit& value, const Tolerances& tolerances) const {
+  return bounds_hold(probes_, value, tolerances);
+}
+
+Cause Neighbourhood::cause(const Vec3& value, const Tolerances& tolerances) const {
+  return bounds_hold(innermost(), value, tolerances, false) ? Cause::undecidable : cause_of_color();
+}
+
+Cause Neighbourhood::cause(const FirstHit& value, const Tolerances& tolerances) const {
+  return bounds_hold(innermost(), value, tolerances) ? Cause::undecidable : cause_of_first_hit();
 }
 
 Cause Neighbourhood::cause_of_color() const {

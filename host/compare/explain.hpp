@@ -1,8 +1,9 @@
 // Why a pixel may differ from the reference: the reference itself jumps there. It is rendered again at places
-// 0.001–0.004 pixels away, and a value within what those say is explained.
+// up to 0.004 pixels away, and a value within what those say is explained.
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "compare/tolerance.hpp"
@@ -14,7 +15,7 @@ struct Probe {
   Vec3 color{0.0};                  // the mean of the samples
   std::vector<Vec3> sample_colors;  // of each sample, where there are several
   // As many of each sample, one after the other, where rays leave surfaces as far off and aside as float32
-  // may put them; may be empty.
+  // may put them, or take the darkest or the brightest of a texture as near as that; may be empty.
   std::vector<Vec3> rounded_colors;
   uint64_t hits = 0;  // surfaces struck, all samples together
   double hits_per_sample = 0;
@@ -22,6 +23,7 @@ struct Probe {
   uint64_t first_colors = 0;    // a fingerprint of the surface's own colour where each meets it
   bool direct = true;           // nothing is seen by reflection or refraction
   FirstHit first_hit;           // of the pixel's centre
+  double rounding = 0;          // as many pixels as float32's arithmetic may move the eye ray; 0 if unknown
 };
 
 // (x, y): a pixel of the whole picture; called from many threads at once.
@@ -32,17 +34,19 @@ enum class Cause {
   texture_edge,       // the surface's own colour jumps
   refraction_branch,  // rays reflected or refracted on the way meet something else
   shadow_edge,        // none of these: it is the light that changes
-  rounding,  // a ray that leaves a surface starts as close to another, or to an edge, as it is rounded
-  grazing,   // of a first hit alone: the same surface, met at so small an angle that t or the normal races
+  rounding,     // a ray that leaves a surface starts as close to another, or to an edge, as it is rounded
+  grazing,      // of a first hit alone: the same surface, met at so small an angle that t or the normal races
+  undecidable,  // the jump is as near to the eye ray as float32 rounds that: no float32 renderer can tell
 };
-inline constexpr int cause_count = 6;
+inline constexpr int cause_count = 7;
 const char* name(Cause cause);
 
 // The reference in the neighbourhood of one pixel.
 class Neighbourhood {
  public:
-  // `angles`: how many places on each of four rings.
-  Neighbourhood(const Reference& reference, Pixel pixel, int angles);
+  // `angles`: how many places on each of four rings, and on one within them, as wide as a rounding error.
+  // `between`: half as many on each ring between that and the four as well.
+  Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between = false);
 
   // Whether `value` lies within [min, max] of the neighbourhood, each bound widened by the tolerance.
   bool explains(const Vec3& value, const Tolerances& tolerances) const;
@@ -52,14 +56,19 @@ class Neighbourhood {
   // The same, of a neighbourhood in which rays also start as far off surfaces and aside as float32 may put
   // them.
   bool explains_as_rounding(const Vec3& value, const Tolerances& tolerances) const;
-  // What changes the colour across the neighbourhood, and what changes the first hit.
-  Cause cause_of_color() const;
-  Cause cause_of_first_hit() const;
+  // What it is in the neighbourhood that explains a value.
+  Cause cause(const Vec3& value, const Tolerances& tolerances) const;
+  Cause cause(const FirstHit& value, const Tolerances& tolerances) const;
 
  private:
-  bool bounds_hold(const Vec3& value, const Tolerances& tolerances, bool rounded) const;
+  void add_ring(const Reference& reference, Pixel pixel, double radius, int angles, double turn);
+  Cause cause_of_color() const;
+  Cause cause_of_first_hit() const;
+  // The pixel itself and the ring of a rounding error.
+  std::span<const Probe> innermost() const { return std::span(probes_).first(innermost_); }
 
   std::vector<Probe> probes_;
+  size_t innermost_ = 1;
 };
 
 }  // namespace eyeray

@@ -36,4 +36,13 @@ FirstHit Renderer::first_hit(int x, int y, Vec2 shift) const {
           hit->material, result.flags,     t_scale};
 }
 
+double Renderer::rounding(int x, int y, double t) const {
+  // A direction takes some five roundings, and where it meets a surface a few more.
+  constexpr double roundings = 8 * 0x1p-24;
+  const Ray ray = camera_.ray(Vec2(x, y) + Vec2(0.5)), next = camera_.ray(Vec2(x, y) + Vec2(1.5, 0.5));
+  const double distance = std::isfinite(t) ? t : 1;
+  const Vec3 place = ray.o + distance * ray.d;
+  return roundings * glm::length(place - scene_.camera.eye) / glm::length(next.o + distance * next.d - place);
+}
+
 }  // namespace eyeray::reference

@@ -21,6 +21,8 @@ class Renderer {
                      const Clearance& clearance = {}) const;
   // What the ray through the pixel's centre + `shift` meets.
   FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}) const;
+  // How many pixels aside float32 may take the ray through the pixel's centre, where it has come to `t`.
+  double rounding(int x, int y, double t) const;
 
   const Tracer& tracer() const { return tracer_; }
 

@@ -44,6 +44,8 @@ class Tree {
   Vec3 direct(const View& view, const Scattering& scattering);
   Vec3 child(const Path& path, const View& view, const Vec3& d, const MediaStack& media, const Vec3& share,
              uint32_t& count);
+  Scattering scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
+                        ScatteringContext context) const;
   Medium medium(const MediaStack& media) const;
   Ray leave(const SurfacePoint& point, const Vec3& d);
 
@@ -59,6 +61,7 @@ Medium Tree::medium(const MediaStack& media) const {
 }
 
 Ray Tree::leave(const SurfacePoint& point, const Vec3& d) {
+  if (clearance_.textures != TextureChoice::at_hit) return {departure(point, d), d};
   const Vec3 from_eye = glm::abs(point.position - scene_.camera.eye);
   const double least = clearance_.share * glm::dot(glm::abs(point.normal_geometric), from_eye);
   Ray ray{departure(point, d, least, clearance_.along_normal), d};
@@ -70,6 +73,37 @@ Ray Tree::leave(const SurfacePoint& point, const Vec3& d) {
   aside -= glm::dot(aside, point.normal_geometric) * point.normal_geometric;
   ray.o += clearance_.share * glm::length(from_eye) * aside;
   return ray;
+}
+
+// A ray may run along the border of two checks through many walls of glass, and be rounded to either side at
+// each: of so many ways the bounds are known without trying them, since no colour falls where a texture's
+// rises.
+Scattering Tree::scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
+                            ScatteringContext context) const {
+  const Material& material = *scene_.materials[size_t(hit.material)];
+  Scattering result = material.scattering(context);
+  if (clearance_.textures == TextureChoice::at_hit) return result;
+
+  const auto choose = [&](Vec3& value, const Vec3& other) {
+    value = clearance_.textures == TextureChoice::darkest ? glm::min(value, other) : glm::max(value, other);
+  };
+  const Vec3 u = glm::normalize(glm::cross(ray.d, std::abs(ray.d.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+  const Vec3 v = glm::cross(ray.d, u);
+  const double aside = clearance_.share * glm::length(point.position - scene_.camera.eye);
+  for (int i = 0; i < 8; ++i) {
+    const Ray moved{ray.o + aside * (std::cos(i * M_PI / 4) * u + std::sin(i * M_PI / 4) * v), ray.d};
+    const auto other_hit = tracer_.trace(moved);
+    if (!other_hit || other_hit->primitive != hit.primitive) continue;
+    context.uv = tracer_.surface(moved, *other_hit).uv;
+    const Scattering other = material.scattering(context);
+    choose(result.ambient, other.ambient);
+    choose(result.diffuse, other.diffuse);
+    choose(result.specular, other.specular);
+    choose(result.reflected, other.reflected);
+    choose(result.transmitted, other.transmitted);
+    choose(result.emitted, other.emitted);
+  }
+  return result;
 }
 
 // d of a ray that is bent at the boundary from ior n1 to n2; there is no total reflection.
@@ -109,7 +143,8 @@ Vec3 Tree::radiance(const Path& path) {
   }
   const double ior_beyond = medium(beyond).ior;
   const Scattering scattering =
-      material.scattering({view.surface.uv, view.cos_view, before.ior, ior_beyond, view.surface.color});
+      this->scattering(path.ray, *hit, view.surface,
+                       {view.surface.uv, view.cos_view, before.ior, ior_beyond, view.surface.color});
 
   // Add up the light that the point scatters, mirrors and lets through, and dim it on its way here.
   Path arrived = path;

@@ -8,11 +8,16 @@
 
 namespace eyeray::reference {
 
+// Of what a texture shows as near to a hit as rays may start aside: what it shows at the hit, or the least or
+// the greatest in each channel. For these two rays leave as the mathematics says.
+enum class TextureChoice { at_hit, darkest, brightest };
+
 // How rays leave surfaces (crossings.hpp, departure): at least this far off, and up to this far aside.
 struct Clearance {
   double share = 0;  // off, of |n|·|position − eye|; aside, of |position − eye|
   bool along_normal = false;
   uint32_t seed = 0;  // of where aside
+  TextureChoice textures = TextureChoice::at_hit;
 };
 
 // What `ray` (with a unit direction) sees, starting in `media`.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "compare/against_reference.hpp"
 #include "support/analytic_picture.hpp"
 //
 #include "support/doctest.hpp"
@@ -19,7 +20,7 @@ Cause cause_of(const Change& change) {
     if (shift.x > 0) change(probe);
     return probe;
   };
-  return Neighbourhood(reference, {48, 30}, 16).cause_of_color();
+  return Neighbourhood(reference, {48, 30}, 16).cause(Vec3(0.0), {});
 }
 
 }  // namespace
@@ -65,7 +66,7 @@ TEST_CASE("a first hit that differs does so at a silhouette, or on a surface met
       if (shift.x > 0) probe.first_hit.primitive = primitive;
       return probe;
     };
-    return Neighbourhood(reference, {48, 30}, 16).cause_of_first_hit();
+    return Neighbourhood(reference, {48, 30}, 16).cause(FirstHit{}, {});
   };
   CHECK(cause(1) == Cause::grazing);
   CHECK(cause(0) == Cause::silhouette);
@@ -89,6 +90,64 @@ TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around,
     ++quadrants[(shifts[i].x > 0 ? 1 : 0) + (shifts[i].y > 0 ? 2 : 0)];
   }
   for (const int count : quadrants) CHECK(count >= 14);
+}
+
+TEST_CASE("a jump within a rounding error of the eye ray is undecidable") {
+  const auto cause = [](double edge, double rounding) {
+    const Reference reference = [=](int, int, const Vec2& shift) {
+      const bool beyond_edge = shift.y > edge;
+      Probe probe;
+      probe.color = Vec3(beyond_edge ? 0.7 : 0.2);
+      probe.first_hit = {.t = 1, .normal = {0, 0, 1}, .primitive = beyond_edge, .material = 0};
+      probe.first_surfaces = beyond_edge;
+      probe.rounding = rounding;
+      return probe;
+    };
+    const Neighbourhood neighbourhood(reference, {0, 0}, 16);
+    const FirstHit other{.t = 1, .normal = {0, 0, 1}, .primitive = 1, .material = 0};
+    CHECK(neighbourhood.explains(Vec3(0.7), {}));
+    CHECK(neighbourhood.explains(other, {}));
+    CHECK(neighbourhood.cause(other, {}) == neighbourhood.cause(Vec3(0.7), {}));
+    return neighbourhood.cause(Vec3(0.7), {});
+  };
+  CHECK(cause(3e-5, 4e-5) == Cause::undecidable);
+  CHECK(cause(3e-5, 2e-5) == Cause::silhouette);
+  CHECK(cause(3e-5, 0) == Cause::silhouette);
+  // However much is rounded, what is beyond the first ring can be told.
+  CHECK(cause(1.5e-3, 1) == Cause::silhouette);
+}
+
+TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what may be explained") {
+  const auto colors = [](double rounding) {
+    const Reference picture = [=](int, int y, const Vec2& shift) {
+      Probe probe;
+      probe.color = Vec3(y + shift.y > 30 + 5e-7 ? 0.7 : 0.2);
+      probe.rounding = rounding;
+      return probe;
+    };
+    const Frame value = picture_frame({0, 1e-6}, picture), reference = picture_frame({0, 0}, picture);
+    return compare_with_reference(value, reference, picture).colors;
+  };
+  const Tally undecidable = colors(1e-5), shadow = colors(1e-7);
+  CHECK(undecidable.explained[size_t(Cause::undecidable)] == picture_width);
+  CHECK(undecidable.capped_pixels() == 0);
+  CHECK(undecidable.passes());
+  CHECK(shadow.explained[size_t(Cause::shadow_edge)] == picture_width);
+  CHECK(shadow.capped_pixels() == picture_width);
+  CHECK_FALSE(shadow.passes());
+}
+
+TEST_CASE("what is narrower than the first ring is found by the second look") {
+  const Reference reference = [](int, int, const Vec2& shift) {
+    Probe probe;
+    const double r = glm::length(shift);
+    probe.color = Vec3(r > 2e-5 && r < 4e-4 ? 0.7 : 0.2);
+    probe.rounding = 1e-5;
+    return probe;
+  };
+  CHECK_FALSE(Neighbourhood(reference, {0, 0}, 256).explains(Vec3(0.6), {}));
+  CHECK(Neighbourhood(reference, {0, 0}, 256, true).explains(Vec3(0.6), {}));
+  CHECK_FALSE(Neighbourhood(reference, {0, 0}, 256, true).explains(Vec3(0.8), {}));
 }
 
 TEST_CASE("what is explained lies between the neighbours, a tolerance more at each end") {

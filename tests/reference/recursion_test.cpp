@@ -92,6 +92,32 @@ TEST_CASE("depth and weight end the recursion") {
   CHECK(look(scene).rays == 3);
 }
 
+TEST_CASE("rounding that takes another check at each mirror stays within the darkest and the brightest") {
+  // Between two walls that mirror a half, along a border of both their checks.
+  const auto look_with = [](double x, reference::TextureChoice textures) {
+    Scene scene = one_pixel({x, 0.5, 0}, {x, 0.5, -1});
+    scene.render.ambient = Vec3(1);
+    scene.render.max_depth = 3;
+    scene.render.min_weight = 0;
+    const Texture checks{{}, Checker{Vec3(0.25, 1, 0), Vec3(1, 0.5, 0), Vec2(1)}};
+    const int wall =
+        add(scene, make_phong({.diffuse = gray(0), .ambient = checks, .reflectance = gray(0.5)}));
+    add(scene, make_plane({0, 0, -1}, {0, 0, 1}), wall);
+    add(scene, make_plane({0, 0, 1}, {0, 0, -1}), wall);
+    return reference::Renderer(scene).sample(0, 0, 0, {0, 0}, {1e-6, false, 0, textures}).color;
+  };
+  using enum reference::TextureChoice;
+  for (const double x : {0.0, 1.0, -3.0}) {
+    CHECK(look_with(x, darkest) == 1.875 * Vec3(0.25, 0.5, 0));
+    CHECK(look_with(x, brightest) == 1.875 * Vec3(1, 1, 0));
+  }
+  // Off the border by more than what is rounded there is one colour at each.
+  for (const double x : {0.001, 0.5, -0.001}) {
+    CHECK(look_with(x, darkest) == look_with(x, at_hit));
+    CHECK(look_with(x, brightest) == look_with(x, at_hit));
+  }
+}
+
 TEST_CASE("the weight that ends the recursion counts absorption, and the greatest channel") {
   // A mirror deep in dark water: exp(−1) on the way, for red alone.
   Scene scene = one_pixel({0, -1, 0}, {0, -2, 0});

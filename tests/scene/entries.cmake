@@ -73,6 +73,16 @@ foreach(size 1x1 7x3 1x300 300x1 17x33)
 endforeach()
 # Rays that start beyond another face of the same glass box (docs/verification.md, rounding).
 eyeray_verify(mode.contact mode scenes/shapes/box.toml -s 640x427 --crop 476,250,24,24)
+# Sizes that put a row or a column of pixels onto an edge, or one beside a caustic's rim (docs/verification.md, undecidable). What the
+# kernels make is the twin's, bit by bit, at any size: those that take seconds to make are left out.
+foreach(size 126x63 160x79)
+  eyeray_verify(mode.edge-row-${size} mode scenes/edges/grazing.toml -s ${size})
+endforeach()
+eyeray_verify(mode.edge-row-horizon mode scenes/shapes/algebraic.toml -s 110x73 --crop 0,0,110,6 --backends twin)
+eyeray_verify(mode.caustic-rim mode scenes/shapes/gallery.toml -s 96x72 --crop 75,38,9,9 --backends twin)
+eyeray_verify(mode.caustic-rim-wide mode scenes/shapes/gallery.toml -s 96x54 --crop 75,29,9,9 --backends twin)
+eyeray_verify(mode.plane-of-symmetry mode scenes/whitted.toml -s 333x250 --crop 162,69,9,9)
+eyeray_verify(mode.plane-of-symmetry-walls mode scenes/whitted.toml -s 309x231 --crop 154,163,1,1 --backends twin)
 eyeray_verify(mode.crop mode ${some} -s 200x150 --crop 51,37,83,71)
 eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --spp 4 -D image.pattern=jittered)
 
