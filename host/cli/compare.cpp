@@ -72,6 +72,11 @@ ExitCode Command::run() const {
   if (!diff.empty()) {
     image_format(diff);
     check_writable(diff);
+    for (const std::string& read : {a, b}) {
+      std::error_code absent;
+      if (std::filesystem::equivalent(diff, read, absent))
+        throw Error(ExitCode::bad_input, "{} is compared, and --diff would overwrite it", diff);
+    }
   }
   const Image image_a = read_image(a), image_b = read_image(b);
   const Comparison result = compare(*this, image_a, image_b);

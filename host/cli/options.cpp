@@ -212,6 +212,8 @@ void add_crop_option(CLI::App& command, Rect& crop) {
     if (!parse_integers(text, ',', numbers))
       throw Error(ExitCode::bad_input, "--crop wants X,Y,W,H in pixels, as 0,0,64,64, not '{}'", text);
     crop = {numbers[0], numbers[1], numbers[2], numbers[3]};
+    if (crop.width < 1 || crop.height < 1)
+      throw Error(ExitCode::bad_input, "--crop {} has no pixels: width and height are at least 1", text);
   };
   command
       .add_option_function<std::string>("--crop", parse,

@@ -45,6 +45,19 @@ void make_classic(Scene& scene) {
   scene.render.min_weight = 0;
 }
 
+// Throws where what is to be written would take the place of what was read, links followed.
+void spare_sources(const PictureRequest& request, const Scene& scene) {
+  for (const fs::path& output : files_written(request.outputs, request.aovs)) {
+    for (const fs::path& source : scene.files) {
+      std::error_code absent;
+      if (fs::equivalent(output, source, absent))
+        throw Error(ExitCode::bad_input,
+                    "{} would be overwritten, and the scene reads it{}: -o names another file",
+                    output.string(), output == source ? "" : " as " + source.string());
+    }
+  }
+}
+
 std::optional<Checkpoint> checkpoint_of(const PictureRequest& request, const Scene& scene,
                                         const Executor& executor) {
   const LongRender& wanted = request.long_render;
@@ -101,6 +114,7 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
   const Stopwatch watch;
   Picture picture;
   Scene scene = picture.times.measure("load", [&] { return request.scene.load(); });
+  spare_sources(request, scene);
   check_crop(request.crop, scene.image);
   const Rect crop = request.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : request.crop;
   if (request.classic) make_classic(scene);

@@ -19,6 +19,16 @@ fs::path aov_file(fs::path output, Aov aov, std::string_view ending) {
 
 }  // namespace
 
+std::vector<fs::path> files_written(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs) {
+  std::vector<fs::path> files(outputs.begin(), outputs.end());
+  for (const Aov aov : aovs) {
+    files.push_back(aov_file(outputs[0], aov, "pfm"));
+    files.push_back(aov_file(outputs[0], aov, "png"));
+    if (has_legend(aov)) files.push_back(aov_file(outputs[0], aov, "json"));
+  }
+  return files;
+}
+
 AovFiles::AovFiles(Aov aov, fs::path output, int width, int height, const Scene& scene)
     : aov_(aov),
       width_(width),

@@ -15,6 +15,10 @@
 
 namespace eyeray::cli {
 
+// All that a picture with these outputs and AOVs writes.
+std::vector<std::filesystem::path> files_written(const std::vector<std::string>& outputs,
+                                                 const std::vector<Aov>& aovs);
+
 // One AOV on its way to NAME.AOV.pfm and NAME.AOV.png, and one of ids to NAME.AOV.json.
 class AovFiles {
  public:

@@ -7,6 +7,29 @@ namespace eyeray {
 
 namespace {
 
+// Characters of a long line that are shown on each side of the column.
+constexpr size_t window = 60;
+
+// The length of the well-formed UTF-8 sequence at the start of `text`, or 0.
+size_t codepoint_length(std::string_view text) {
+  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const auto tail = [&](size_t i) { return (byte(i) & 0xc0) == 0x80; };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return 1;
+  if (lead >= 0xc2 && lead < 0xe0) return tail(1) ? 2 : 0;
+  if (lead >= 0xe0 && lead < 0xf0) {
+    const bool overlong = lead == 0xe0 && byte(1) < 0xa0;
+    const bool surrogate = lead == 0xed && byte(1) >= 0xa0;
+    return tail(1) && tail(2) && !overlong && !surrogate ? 3 : 0;
+  }
+  if (lead >= 0xf0 && lead < 0xf5) {
+    const bool overlong = lead == 0xf0 && byte(1) < 0x90;
+    const bool beyond = lead == 0xf4 && byte(1) >= 0x90;
+    return tail(1) && tail(2) && tail(3) && !overlong && !beyond ? 4 : 0;
+  }
+  return 0;
+}
+
 bool continues_codepoint(char c) {
   return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
 }
@@ -50,6 +73,41 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::string printable(std::string_view text) {
+  std::string clean;
+  clean.reserve(text.size());
+  while (!text.empty()) {
+    const size_t length = codepoint_length(text);
+    const auto lead = static_cast<unsigned char>(text[0]);
+    const bool control =
+        (lead < 0x20 && lead != '\t') || lead == 0x7f || (lead == 0xc2 && length == 2 && text[1] < '\xa0');
+    if (length == 0 || control) {
+      clean += '?';
+    } else {
+      clean += text.substr(0, length);
+    }
+    text.remove_prefix(std::max<size_t>(1, length));
+  }
+  return clean;
+}
+
+void show_source_line(Diagnostic& diagnostic, std::string_view line, int first_column) {
+  diagnostic.source_column = first_column;
+  if (line.size() <= 2 * window) {
+    diagnostic.source_line = printable(line);
+    return;
+  }
+
+  // Such lines hold numbers: a byte is a column, near enough; the cut is moved to the start of a character.
+  const auto column = static_cast<size_t>(std::max(diagnostic.position.column - first_column + 1, 1));
+  const size_t middle = std::min(line.size(), column);
+  size_t start = middle > window ? middle - window : 0;
+  while (start > 0 && start < line.size() && continues_codepoint(line[start])) --start;
+  diagnostic.source_line = printable(line.substr(start, 2 * window));
+  diagnostic.source_column += static_cast<int>(start);
+  if (start + 2 * window < line.size()) diagnostic.source_line += "…";
+}
 
 std::string format_diagnostic(const Diagnostic& diagnostic) {
   const SourcePosition& at = diagnostic.position;

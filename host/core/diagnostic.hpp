@@ -27,6 +27,14 @@ struct Diagnostic {
   int source_column = 1;    // the column at which source_line starts, where a long line was cut
 };
 
+// Fills source_line with `line`, which starts at `first_column`: printable, and cut to a window around the
+// diagnostic's column where it is long.
+void show_source_line(Diagnostic& diagnostic, std::string_view line, int first_column = 1);
+
+// `text` as valid UTF-8 without control characters (tabs stay), so that it can be shown on any terminal and
+// in JSON.
+std::string printable(std::string_view text);
+
 // "scene.toml:12:5: error: message", then the source line and a caret under the column, without a final
 // newline.
 std::string format_diagnostic(const Diagnostic& diagnostic);

@@ -7,12 +7,14 @@
 #include "core/atomic_file.hpp"
 #include "core/content_hash.hpp"
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 
 namespace eyeray {
 namespace {
 
 constexpr std::string_view ending = ".eyeray-cache";
 constexpr size_t most_entries = 512;
+constexpr size_t most_bytes = size_t{1} << 30;  // of one
 
 std::filesystem::path path_from(const char* variable) {
   const char* value = std::getenv(variable);
@@ -38,7 +40,7 @@ std::optional<std::string> DiskCache::load(std::string_view name) const {
   if (folder_.empty() || !std::filesystem::exists(path(name), failed)) return std::nullopt;
   std::string text;
   try {
-    text = read_file(path(name));
+    text = read_input_file(path(name), "a cache entry", most_bytes);
   } catch (const Error&) {
     return std::nullopt;  // somebody else's file, or removed a moment ago
   }

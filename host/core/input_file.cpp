@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <vector>
@@ -13,6 +14,8 @@
 namespace eyeray {
 
 namespace {
+
+constexpr size_t least_piece = size_t{1} << 16;
 
 class Descriptor {
  public:
@@ -66,18 +69,20 @@ std::string read_input_file(const std::filesystem::path& file, std::string_view 
                            most_bytes >> 20));
   }
 
-  // Read it piece by piece.
-  std::string text(static_cast<size_t>(status.st_size), '\0');
-  size_t done = 0;
-  while (done < text.size()) {
+  // Read to the end, whatever the size says: files of /proc say 0.
+  std::string text(std::min(std::max(static_cast<size_t>(status.st_size), least_piece), most_bytes) + 1,
+                   '\0');
+  for (size_t done = 0;;) {
+    if (done > most_bytes) throw fail(fmt::format("it has more than {} bytes", most_bytes));
+    if (done == text.size()) text.resize(std::min(2 * done, most_bytes) + 1);
     const ssize_t count = read(descriptor.get(), text.data() + done, text.size() - done);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw fail(std::strerror(errno));
-    if (count == 0) break;
     done += static_cast<size_t>(count);
+    if (count > 0) continue;
+    text.resize(done);
+    return text;
   }
-  text.resize(done);
-  return text;
 }
 
 }  // namespace eyeray

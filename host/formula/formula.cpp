@@ -59,13 +59,12 @@ Diagnostic located(const FormulaText& text, int line, int column, std::string me
   Diagnostic diagnostic;
   diagnostic.message = std::move(message);
   diagnostic.position = text.start;
-  diagnostic.source_line = line_of(text.text, line);
+  const int indent = text.start.line > 0 && line == 1 ? text.start.column - 1 : 0;
   if (text.start.line > 0) {
-    const int indent = line == 1 ? text.start.column - 1 : 0;
     diagnostic.position.line = text.start.line + line - 1;
     diagnostic.position.column = column > 0 ? column + indent : 0;
-    diagnostic.source_column = 1 + indent;
   }
+  show_source_line(diagnostic, line_of(text.text, line), 1 + indent);
   return diagnostic;
 }
 

@@ -31,8 +31,7 @@ CommandList::~CommandList() {
 void CommandList::dispatch(const Kernel& kernel, std::span<const std::byte> push_constants, Groups groups) {
   CHECK(context_->recording);
   const Kernel::Objects& objects = *kernel.objects_;
-  CHECK_EQ(push_constants.size(), kernel.reflection().push_constant_bytes);
-  CHECK_EQ(objects.bound.size(), kernel.reflection().bindings.size());
+  kernel.check_interface(push_constants.size());
   CHECK_LE(groups.x, context_->info.limits.groups[0]);
   CHECK_LE(groups.y, context_->info.limits.groups[1]);
   CHECK_LE(groups.z, context_->info.limits.groups[2]);
@@ -41,7 +40,7 @@ void CommandList::dispatch(const Kernel& kernel, std::span<const std::byte> push
   if (objects.set)
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, objects.layout, 0, 1, &objects.set, 0,
                             nullptr);
-  if (!push_constants.empty())
+  if (kernel.reflection().push_constant_bytes > 0)
     vkCmdPushConstants(commands, objects.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        uint32_t(push_constants.size()), push_constants.data());
   vkCmdDispatch(commands, groups.x, groups.y, groups.z);

@@ -30,8 +30,8 @@ class CommandList {
   CommandList(const CommandList&) = delete;
   CommandList& operator=(const CommandList&) = delete;
 
-  // push_constants.size() is what the kernel reflects; all its buffers are bound; groups within the device's
-  // limits.
+  // Error (bad_input) where the kernel declares push constants of another size, or a buffer that is not
+  // bound. Groups are within the device's limits.
   void dispatch(const Kernel& kernel, std::span<const std::byte> push_constants, Groups groups);
   // What earlier dispatches wrote is seen by later ones.
   void barrier();

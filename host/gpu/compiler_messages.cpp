@@ -73,16 +73,15 @@ bool split_position(std::string_view text, SourcePosition& position, std::string
 void locate(Diagnostic& diagnostic, std::string_view message, const ShaderSource& source) {
   const auto file = source.files.find(diagnostic.position.file);
   if (file == source.files.end()) return;
-  diagnostic.source_line = line_of(file->second, diagnostic.position.line);
+  const std::string line = line_of(file->second, diagnostic.position.line);
   for (size_t open = message.find('\''); open != std::string_view::npos && diagnostic.position.column == 0;) {
     const size_t close = message.find('\'', open + 1);
-    if (close == std::string_view::npos) return;
-    diagnostic.position.column =
-        column_of(message.substr(open + 1, close - open - 1), diagnostic.source_line);
+    if (close == std::string_view::npos) break;
+    diagnostic.position.column = column_of(message.substr(open + 1, close - open - 1), line);
     open = message.find('\'', close + 1);
   }
-  if (diagnostic.position.column == 0)
-    diagnostic.position.column = column_of_unexpected(message, diagnostic.source_line);
+  if (diagnostic.position.column == 0) diagnostic.position.column = column_of_unexpected(message, line);
+  show_source_line(diagnostic, line);
 }
 
 // "'foo' : undeclared identifier " as people write it: "'foo': undeclared identifier".

@@ -138,6 +138,20 @@ void Kernel::create_pipeline(std::span<const uint32_t> spirv, const DiskCache& d
   cache.save();
 }
 
+void Kernel::check_interface(size_t push_constant_bytes) const {
+  const uint32_t wanted = reflection_.push_constant_bytes;
+  if (wanted != 0 && wanted != push_constant_bytes)
+    throw Error(
+        ExitCode::bad_input,
+        "kernel '{}' declares {} bytes of push constants, and is given {}: declare them as eyeray's own does",
+        name_, wanted, push_constant_bytes);
+  for (const auto& [binding, kind] : reflection_.bindings) {
+    if (!objects_->bound.contains(binding))
+      throw Error(ExitCode::bad_input, "kernel '{}' reads binding {}, of which it is given no buffer", name_,
+                  binding);
+  }
+}
+
 bool Kernel::uses(uint32_t binding) const {
   return reflection_.bindings.contains(binding);
 }
@@ -153,7 +167,11 @@ void Kernel::set_buffer_with_guards(uint32_t binding, const Buffer& buffer) {
 void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t bytes) {
   if (!uses(binding)) return;
   const BindingKind kind = reflection_.bindings.at(binding);
-  CHECK(buffer.kind() == kind);
+  if (buffer.kind() != kind)
+    throw Error(ExitCode::bad_input,
+                "kernel '{}' declares binding {} as a {} buffer; here it is the other kind: declare it by "
+                "eyeray's own bindings.glsl",
+                name_, binding, kind == BindingKind::texels ? "texel" : "storage");
   const VkDescriptorBufferInfo info{buffer.raw().handle(), offset, bytes};
   VkBufferView view = VK_NULL_HANDLE;
   auto write = make<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);

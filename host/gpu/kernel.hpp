@@ -35,6 +35,10 @@ class Kernel {
   friend class CommandList;
   struct Objects;  // Vulkan's
 
+  // Error (bad_input) where the shader, which may be a user's, wants other push constants than so many bytes,
+  // or a buffer that nobody bound. It need not want any.
+  void check_interface(size_t push_constant_bytes) const;
+
   void create_layout();
   void create_pipeline(std::span<const uint32_t> spirv, const DiskCache& cache);
   void bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t bytes);

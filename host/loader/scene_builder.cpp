@@ -19,6 +19,10 @@ namespace {
 
 constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
 
+// Each light is a turn of a loop and a shadow ray at every hit. A driver that ends loops after 65 535 turns
+// has room for so many where a scene has 24 shapes and no tree, too (docs/lavapipe.md).
+constexpr size_t most_lights = 2048;
+
 // Where a thing stands, and what it is called.
 struct Placing {
   Mat4 to_world{1.0};
@@ -43,6 +47,11 @@ class Builder {
     scene_.render = read_render(render);
 
     for_each(root_, "light", [&](const Section& section, const toml::table& table) {
+      if (++lights_ == most_lights + 1) {
+        log_.error(position_of(table.source()),
+                   fmt::format("a scene can have at most {} lights", most_lights));
+      }
+      if (lights_ > most_lights) return;
       TableReader light = read_table({section.title, &table, {section.keys}}, log_);
       scene_.lights.push_back(read_light(light));
     });
@@ -128,6 +137,7 @@ class Builder {
   std::map<const toml::table*, int> kept_groups_;  // in Scene::groups
   Group* building_ = nullptr;                      // where shapes and meshes go; null: into the scene
   size_t media_ = 0;
+  size_t lights_ = 0;
   bool tried_shapes_ = false;
 };
 

@@ -57,7 +57,7 @@ class DiagnosticLog {
 
   void add(Severity severity, SourcePosition position, std::string message);
   size_t source_index(std::string_view file) const;
-  // Fills source_line: printable, and cut to a window around the column when long.
+  // Finds the line in its file and shows it.
   void show_line(Diagnostic& diagnostic);
 
   std::deque<Source> sources_;  // a deque, so that texts never move
@@ -67,9 +67,5 @@ class DiagnosticLog {
   size_t errors_ = 0;
   bool damaged_ = false;
 };
-
-// `text` as valid UTF-8 without control characters (tabs stay), so that it can be shown on any terminal and
-// in JSON.
-std::string printable(std::string_view text);
 
 }  // namespace eyeray

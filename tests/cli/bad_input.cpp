@@ -124,6 +124,61 @@ TEST_CASE("an output that cannot be written is refused before rendering") {
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "folder.png"});
 }
 
+TEST_CASE("what a render reads it does not overwrite, by whatever name") {
+  const SceneFolder folder;
+  const auto path = [&](const std::string& name) { return std::filesystem::path(folder / name); };
+  std::filesystem::create_directory(path("work"));
+  std::filesystem::copy("tests/core/pictures/rgb.png", path("work/wood.png"));
+  const std::string scene = std::string("include = \"more.hdr\"\n") + small_scene;
+  write_text(path("work/scene.png"),
+             replaced(scene, "diffuse = [0.8, 0.4, 0.2]", "diffuse = { image = \"wood.png\" }"));
+  write_text(path("work/more.hdr"), "[render]\nmax_depth = 3\n");
+  std::filesystem::create_symlink("work", path("way"));
+  std::filesystem::create_hard_link(path("work/wood.png"), path("same.depth.pfm"));
+  const auto kept = [&] {
+    return read_text(path("work/scene.png")) + read_text(path("work/more.hdr")) +
+           read_text(path("work/wood.png"));
+  };
+  const std::string before = kept();
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"render", folder / "work/scene.png", "--backend", "reference", "-q"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_eyeray(words);
+  };
+  for (const std::vector<std::string>& output :
+       std::vector<std::vector<std::string>>{{"-o", folder / "work/scene.png"},
+                                             {"-o", folder / "way/scene.png"},
+                                             {"-o", folder / "way/../work/more.hdr"},
+                                             {"-o", folder / "a.png", "-o", folder / "work/wood.png"},
+                                             {"-o", folder / "same.png", "--aov", "depth"}}) {
+    const ProcessResult result = render(output);
+    CAPTURE(result.err);
+    CHECK(result.code == 2);
+    CHECK(result.err.find("would be overwritten, and the scene reads it") != std::string::npos);
+    CHECK(kept() == before);
+  }
+  // The name that is taken by default is no better.
+  const ProcessResult result =
+      run_process({"sh", "-c", "cd \"$0\" && exec \"$1\" render scene.png --backend reference",
+                   folder / "way", std::filesystem::absolute(eyeray_binary()).string()});
+  CHECK(result.code == 2);
+  CHECK(kept() == before);
+  CHECK(render({"-o", folder / "work/fine.png"}).code == 0);
+
+  const std::string picture = folder / "work/fine.png";
+  const ProcessResult compared = run_eyeray({"compare", picture, picture, "--diff", folder / "way/fine.png"});
+  CHECK(compared.code == 2);
+  CHECK(compared.err.find("--diff would overwrite it") != std::string::npos);
+}
+
+TEST_CASE("a scene out of a file that says it is empty") {
+  // A process's environment is a file of /proc, of size 0 and with text in it.
+  const ProcessResult result = run_eyeray({"check", "/proc/self/environ", "--json"}, {{"A", "\xff"}});
+  CAPTURE(result.err);
+  CHECK(result.code == 2);
+  CHECK(result.err.find("/proc/self/environ:1:") != std::string::npos);
+}
+
 TEST_CASE("without a Vulkan driver or loader nothing is rendered, and what to install is said") {
   const SceneFolder folder;
   const Environment no_driver{{"VK_DRIVER_FILES", "/nonexistent.json"},
@@ -163,6 +218,34 @@ TEST_CASE("a shader that does not compile is shown at its line") {
   const ProcessResult nowhere = run_eyeray({"render", folder.scene(), "--shaders", folder / "none"});
   CHECK(nowhere.code == 4);
   CHECK(nowhere.err.find("no such folder") != std::string::npos);
+}
+
+TEST_CASE("a kernel of the user's that reads no push constants runs; one that wants others is told") {
+  const SceneFolder folder;
+  const std::string shaders = folder / "shaders";
+  std::filesystem::create_directory(shaders);
+  const auto render = [&](const std::string& kernel) {
+    write_text(shaders + "/render.comp.glsl",
+               "#version 450\nlayout(local_size_x = 64) in;\n"
+               "layout(std430, set = 0, binding = 7) buffer Words { uint words[]; };\n" +
+                   kernel);
+    return run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--shaders", shaders});
+  };
+  const ProcessResult none = render("void main() { words[gl_LocalInvocationIndex] = 0u; }\n");
+  CAPTURE(none.err);
+  CHECK(none.code == 0);
+  const ProcessResult other = render(
+      "layout(push_constant) uniform Push { uint x; };\nvoid main() { words[gl_LocalInvocationIndex] = x; "
+      "}\n");
+  CAPTURE(other.err);
+  CHECK(other.code == 2);
+  CHECK(other.err.find("kernel 'render.comp.glsl' declares 4 bytes of push constants, and is given 32") !=
+        std::string::npos);
+  const ProcessResult unknown = render(
+      "layout(std430, binding = 99) buffer More { uint more[]; };\nvoid main() { words[0] = more[0]; }\n");
+  CAPTURE(unknown.err);
+  CHECK(unknown.code == 2);
+  CHECK(unknown.err.find("kernel 'render.comp.glsl' reads binding 99") != std::string::npos);
 }
 
 TEST_CASE("a shader that loops for ever is given up after --timeout") {

@@ -23,6 +23,25 @@ TEST_CASE("the caret stands under the column, past tabs, long characters and a c
   CHECK(format_diagnostic({Severity::error, {"a", 1, 99}, "m", "12", 1}) == "a:1:99: error: m\n  12\n    ^");
 }
 
+TEST_CASE("of a long line only what is around the column is shown") {
+  const std::string line = std::string(5'000'000, ' ') + "x\x01y" + std::string(5'000'000, ' ');
+  Diagnostic diagnostic{Severity::error, {"a", 1, 5'000'001}, "m", "", 1};
+  show_source_line(diagnostic, line);
+  const std::string shown = format_diagnostic(diagnostic);
+  CHECK(shown.size() < 400);
+  CHECK(shown.find("x?y") != std::string::npos);
+  // The caret stands under the x: one character before it is the sign of the cut.
+  const size_t text = shown.find("\n") + 1, caret = shown.rfind("\n") + 1;
+  CHECK(shown.find('^') - caret + std::string("…").size() - 1 == shown.find('x', text) - text);
+
+  diagnostic.position.column = 0;
+  show_source_line(diagnostic, line);
+  CHECK(format_diagnostic(diagnostic).size() < 400);
+  show_source_line(diagnostic, "short", 3);
+  CHECK(diagnostic.source_line == "short");
+  CHECK(diagnostic.source_column == 3);
+}
+
 TEST_CASE("an InputError tells everything") {
   const InputError error(
       {{Severity::error, {"a", 1, 1}, "x", "", 1}, {Severity::error, {"b", 2, 1}, "y", "", 1}});

@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include "gpu/kernel_compiler.hpp"
 #include "support.hpp"
 #include "support/process.hpp"
@@ -42,6 +44,15 @@ TEST_CASE("errors have file, line, column and the line; all of them in one go") 
            d.source_line == "  int a = foo;";
   });
   CHECK(main_too);
+}
+
+TEST_CASE("a long line is cut around the fault") {
+  const auto found = diagnose({{"main.comp.glsl", head + "void main() {" + std::string(100'000, ' ') +
+                                                      "int a = foo;" + std::string(100'000, ' ') + "}\n"}});
+  REQUIRE(!found.empty());
+  CHECK(found[0].position.column == 13 + 100'000 + 9);
+  CHECK(found[0].source_line.size() < 200);
+  CHECK(found[0].source_line.find("int a = foo;") != std::string::npos);
 }
 
 TEST_CASE("a syntax error has the column of the sign it is at, where the line has that once") {
@@ -177,6 +188,10 @@ TEST_CASE("a shader with warnings is compiled every time, so that they are seen 
 TEST_CASE("a cache that cannot be written remembers nothing, and harms nothing") {
   const TemporaryFolder folder;
   write_text(folder / "file", "");
+  const DiskCache pipes(folder.path() / "pipes");
+  std::filesystem::create_directory(pipes.folder());
+  REQUIRE(mkfifo((pipes.folder() / "x.eyeray-cache").c_str(), 0600) == 0);
+  CHECK_FALSE(pipes.load("x"));
   for (const DiskCache& cache :
        {DiskCache({}), DiskCache(folder.path() / "file"), DiskCache("/proc/nowhere")}) {
     cache.store("name", "bytes");

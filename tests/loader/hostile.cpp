@@ -5,6 +5,7 @@
 #include <iterator>
 #include <random>
 
+#include "core/input_file.hpp"
 #include "loader/scene_file.hpp"
 #include "support/process.hpp"
 //
@@ -74,6 +75,18 @@ TEST_CASE("large input") {
               repeat("[1, 2], ", many) + "] }"));
 }
 
+TEST_CASE("lights are bounded, and the first beyond is named") {
+  const std::string light = "[[light]]\ntype = \"point\"\nposition = [0, 1, 0]\nintensity = 1\n";
+  CHECK_FALSE(refused(repeat(light, 2048)));
+  try {
+    parse_scene(repeat(light, 5000), "scene.toml");
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    CHECK(error.what() ==
+          std::string("scene.toml:8193:1: error: a scene can have at most 2048 lights\n  [[light]]\n  ^"));
+  }
+}
+
 TEST_CASE("errors beyond counting are counted") {
   try {
     parse_scene(repeat("[[light]]\n", 1234), "scene.toml");
@@ -90,6 +103,11 @@ TEST_CASE("files that are none") {
   CHECK(unreadable(folder.path()) == "cannot read the scene " + folder.path().string() + ": it is a folder");
   CHECK(unreadable("") == "cannot read the scene : No such file or directory");
   CHECK(unreadable(folder / std::string(300, 'x')).ends_with(": File name too long"));
+
+  // A file of /proc says that it has no bytes, and has.
+  CHECK(!read_input_file("/proc/self/status", "the scene", 1 << 20).empty());
+  CHECK_THROWS_WITH_AS(read_input_file("/proc/self/status", "the scene", 10),
+                       "cannot read the scene /proc/self/status: it has more than 10 bytes", Error);
 
   std::ofstream(folder / "whitted.toml") << "";
   CHECK(unreadable(folder / "whited.toml") == "cannot read the scene " + (folder / "whited.toml") +
