@@ -2,11 +2,11 @@
 
 #include <stb_image.h>
 
-#include <cstring>
 #include <memory>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/png_rows.hpp"
 
 namespace eyeray {
 
@@ -31,7 +31,19 @@ struct Free {
 
 }  // namespace
 
-CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name) {
+void PixelBudget::take(int width, int height, const std::string& name) {
+  const int64_t pixels = int64_t{width} * height;
+  if (pixels > left)
+    throw Error(
+        ExitCode::file_io,
+        "cannot read {}: it has {}×{} pixels; of the 2^28 that all images of a scene may have together, {} "
+        "are left",
+        name, width, height, left);
+  left -= pixels;
+}
+
+CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name,
+                              PixelBudget& budget) {
   const auto fail = [&](const std::string& why) {
     return Error(ExitCode::file_io, "cannot read {}: {}", name, why);
   };
@@ -48,15 +60,23 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
     throw fail(fmt::format("it is damaged ({})", stbi_failure_reason()));
   if (width < 1 || height < 1 || width > most_coded_side || height > most_coded_side)
     throw fail(fmt::format("it has {}×{} pixels; the most is {} a side", width, height, most_coded_side));
-  if (int64_t{width} * height > most_pixels_a_byte * size) throw fail("it ends early");
+  const int64_t pixels = int64_t{width} * height;
+  if (pixels > most_pixels_a_byte * size) throw fail("it ends early");
+  budget.take(width, height, name);
 
   // Decode it, always to four channels.
-  const std::unique_ptr<stbi_uc, Free> codes(
-      stbi_load_from_memory(data, size, &width, &height, &channels, 4));
-  if (!codes) throw fail(fmt::format("it is damaged ({})", stbi_failure_reason()));
   CodedImage image{width, height, {}};
-  image.pixels.resize(size_t(width) * size_t(height));
-  std::memcpy(image.pixels.data(), codes.get(), 4 * image.pixels.size());
+  if (is_png(text)) {
+    image.pixels.resize(size_t(pixels));
+    if (const std::string fault = read_png_rows(bytes, image.pixels); !fault.empty())
+      throw fail(fmt::format("it is damaged ({})", fault));
+  } else {
+    const std::unique_ptr<stbi_uc, Free> codes(
+        stbi_load_from_memory(data, size, &width, &height, &channels, 4));
+    if (!codes) throw fail(fmt::format("it is damaged ({})", stbi_failure_reason()));
+    const auto* first = reinterpret_cast<const std::array<uint8_t, 4>*>(codes.get());
+    image.pixels.assign(first, first + pixels);
+  }
   return image;
 }
 

@@ -19,11 +19,19 @@ struct CodedImage {
 inline constexpr int most_coded_side = 16384;                // pixels; hence at most 2^28 of them
 inline constexpr size_t most_coded_bytes = size_t{1} << 30;  // of a file
 
+// How many pixels the images of one scene may have together; they are counted where they are decoded or
+// copied.
+struct PixelBudget {
+  int64_t left = int64_t{1} << 28;  // 1 GiB
+  // Error (file_io) where fewer are left.
+  void take(int width, int height, const std::string& name);
+};
+
 // Decodes a PNG or a JPEG, told apart by their first bytes. Grey becomes equal red, green and blue, of 16
 // bits the upper 8 are kept, and what has no alpha gets 255; colour profiles and gamma chunks are not looked
 // at. Error (file_io) that says "cannot read NAME: why" for all else, a file that ends early included. The
 // header is believed only as far as a file of that length can go, so that memory is bounded by the file's
-// size.
-CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name);
+// size; and no more is decoded than is taken from the budget.
+CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name, PixelBudget& budget);
 
 }  // namespace eyeray

@@ -25,7 +25,7 @@ fs::path AssetFiles::locate(std::string_view name) {
     throw Error(ExitCode::bad_input, "{} lies outside the file's folder; --allow-path DIR allows other ones",
                 name);
   }
-  if (std::ranges::find(files_, file) == files_.end()) files_.push_back(file);
+  if (known_.insert(file).second) files_.push_back(file);
   return file;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,7 @@ class AssetFiles {
   std::filesystem::path folder_;
   FolderTrees allowed_;  // nothing, until a file is known
   std::vector<std::filesystem::path> files_;
+  std::set<std::filesystem::path> known_;  // the same
 };
 
 // The most that is read of one file.

@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "importers/formats.hpp"
 #include "importers/gltf_materials.hpp"
@@ -27,6 +28,12 @@ constexpr std::string_view known_extensions[] = {
     "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression",
 };
 
+constexpr size_t most_extensions_named = 16;
+
+std::set<std::string> as_set(const std::vector<std::string>& names) {
+  return {names.begin(), names.end()};
+}
+
 // A mesh and what stands in a scene may be multiplied by each other.
 constexpr size_t most_instances = size_t{1} << 20;
 
@@ -39,10 +46,11 @@ class GltfReader {
       : container_(open_gltf(file.bytes, file.name)),
         json_(parse_gltf_json(container_.json, file.name)),
         document_(json_, "", file.name),
-        textures_(file.assets, scene_.warnings),
-        buffers_(document_, container_, file.assets),
-        materials_(document_, buffers_, textures_, left_out_),
-        meshes_(document_, buffers_, materials_, left_out_, file.name, file.smooth.value_or(0)) {}
+        breaches_(document_),
+        textures_(file.assets, *file.pixels, scene_.warnings),
+        buffers_(document_, container_, file.assets, breaches_),
+        materials_(document_, buffers_, textures_, left_out_, breaches_),
+        meshes_(document_, buffers_, materials_, left_out_, breaches_, file.name, file.smooth.value_or(0)) {}
 
   ImportedScene read() {
     check_extensions();
@@ -56,6 +64,7 @@ class GltfReader {
                                             flattened_ == 1 ? "a node" : fmt::format("{} nodes", flattened_),
                                             flattened_ == 1 ? "was" : "were"));
     }
+    breaches_.report(scene_.warnings);
     scene_.meshes = meshes_.take(scene_.warnings);
     return std::move(scene_);
   }
@@ -73,11 +82,13 @@ class GltfReader {
   void read_mesh(const GltfObject& node, size_t mesh, const Mat4& world);
   void read_camera(const GltfObject& source, const Mat4& world);
   void read_light(const GltfObject& source, const Mat4& world);
-  static Mat4 transform(const GltfObject& node);
+  Mat4 transform(const GltfObject& node);
+  void check_roots(const std::vector<size_t>& order) const;
 
   GltfContainer container_;
   nlohmann::json json_;
   GltfObject document_;
+  GltfBreaches breaches_;
   ImportedScene scene_;
   GltfLeftOut left_out_;
   TextureFiles textures_;
@@ -90,10 +101,16 @@ class GltfReader {
 };
 
 void GltfReader::check_extensions() {
-  for (const std::string& name : document_.texts("extensionsUsed")) {
-    if (std::ranges::find(known_extensions, name) == std::end(known_extensions))
-      left_out_.add("the extension " + name);
+  std::set<std::string> names;
+  for (const char* list : {"extensionsUsed", "extensionsRequired"})
+    names.merge(as_set(document_.texts(list)));
+  size_t unknown = 0;
+  for (const std::string& name : names) {
+    if (std::ranges::find(known_extensions, name) != std::end(known_extensions)) continue;
+    if (++unknown > most_extensions_named) continue;
+    left_out_.add("the extension " + name);
   }
+  if (unknown > most_extensions_named) left_out_.add("more extensions", unknown - most_extensions_named);
 }
 
 // The nodes of the scene that is shown, or where there is none, those without a parent.
@@ -139,12 +156,31 @@ void GltfReader::read_nodes() {
     push(node.indices("children", nodes), world);
   }
 
+  check_roots(order);
+
   // Only now is known where the joints of skins are.
   for (const size_t index : order) read_node(document_.element("nodes", index), *worlds_[index]);
 }
 
+// A scene that shows a node without the nodes above it puts it elsewhere than they would.
+void GltfReader::check_roots(const std::vector<size_t>& order) const {
+  const size_t nodes = document_.size("nodes");
+  std::vector<bool> shown(nodes, false);
+  for (const size_t node : order) shown[node] = true;
+  for (size_t i = 0; i < nodes; ++i) {
+    if (shown[i]) continue;
+    const GltfObject parent = document_.element("nodes", i);
+    for (const size_t below : parent.indices("children", nodes)) {
+      if (shown[below])
+        parent.fail(fmt::format("is not in the scene, but nodes[{}], which is below it, is", below));
+    }
+  }
+}
+
 Mat4 GltfReader::transform(const GltfObject& node) {
   if (node.has("matrix")) {
+    if (node.has("translation") || node.has("rotation") || node.has("scale"))
+      node.fail("has a matrix, and a translation, rotation or scale beside it");
     const Mat4 matrix =
         glm::make_mat4(node.numbers("matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}).data());
     if (matrix[0].w != 0 || matrix[1].w != 0 || matrix[2].w != 0 || matrix[3].w != 1)
@@ -156,6 +192,8 @@ Mat4 GltfReader::transform(const GltfObject& node) {
   const std::vector<double> s = node.numbers("scale", {1, 1, 1});
   const glm::dquat turn(q[3], q[0], q[1], q[2]);
   if (!(glm::length(turn) > 1e-6)) node.fail("has a rotation without length");
+  if (std::abs(glm::length(turn) - 1) > 0.01)
+    breaches_.add("rotations that are not of unit length, normalised", node.place() + ".rotation");
   return glm::translate(Mat4(1.0), {t[0], t[1], t[2]}) * glm::mat4_cast(glm::normalize(turn)) *
          glm::scale(Mat4(1.0), {s[0], s[1], s[2]});
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -40,6 +41,17 @@ void set(T& element, size_t component, double value) {
   }
 }
 
+template <typename T>
+double component_of(const T& element, size_t k) {
+  if constexpr (std::is_arithmetic_v<T>) {
+    return double(element);
+  } else if constexpr (std::is_same_v<T, Mat4>) {
+    return element[static_cast<int>(k / 4)][static_cast<int>(k % 4)];
+  } else {
+    return element[static_cast<int>(k)];
+  }
+}
+
 }  // namespace
 
 // Elements that lie in a buffer, every one of them inside.
@@ -49,8 +61,9 @@ struct GltfBuffers::Elements {
   uint64_t type = 0;
 };
 
-GltfBuffers::GltfBuffers(const GltfObject& document, const GltfContainer& container, AssetFiles& assets)
-    : document_(document), container_(container), assets_(assets) {
+GltfBuffers::GltfBuffers(const GltfObject& document, const GltfContainer& container, AssetFiles& assets,
+                         GltfBreaches& breaches)
+    : document_(document), container_(container), assets_(assets), breaches_(breaches) {
   buffers_.resize(document.size("buffers"));
   decoded_views_.resize(document.size("bufferViews"));
 }
@@ -126,10 +139,51 @@ GltfBuffers::Elements GltfBuffers::elements(const GltfObject& owner, std::option
   const uint64_t stride = document_.element("bufferViews", *index).count("byteStride", size);
   const uint64_t offset = owner.count("byteOffset", 0);
   if (stride < size) owner.fail(fmt::format("has elements of {} bytes, {} apart", size, stride));
+  check_layout(owner, *index, bytes_of(type));
   const bool inside = offset <= bytes.size() && size <= bytes.size() - offset &&
                       count - 1 <= (bytes.size() - offset - size) / stride;
   if (count > 0 && !inside) owner.fail("reaches beyond the end of its bufferView");
   return {bytes.data() + offset, stride, type};
+}
+
+// Rules for those who hand bytes to a GPU as they are; here each number is read by itself.
+void GltfBuffers::check_layout(const GltfObject& owner, size_t index, size_t component_size) {
+  const GltfObject view = document_.element("bufferViews", index);
+  const uint64_t offset = owner.count("byteOffset", 0);
+  if (offset % component_size != 0 || (offset + view.count("byteOffset", 0)) % component_size != 0)
+    breaches_.add("accessors that do not begin at a multiple of their components' size", owner.place());
+  const uint64_t stride = view.count("byteStride", 4);
+  if (stride < 4 || stride > 252 || stride % 4 != 0)
+    breaches_.add("strides that are no multiple of 4 from 4 to 252", view.place() + ".byteStride");
+}
+
+// What is said of the data that the data do not keep is a sign that they are others than were meant.
+template <typename T>
+void GltfBuffers::check_range(const GltfObject& accessor, const std::vector<T>& all, size_t components) {
+  if (all.empty() || !(accessor.has("min") || accessor.has("max"))) return;
+  double unit = 1;  // of what is said, in the data's terms
+  if (accessor.flag("normalized")) {
+    visit_component(accessor.count("componentType", 0), [&](auto zero) {
+      if constexpr (std::is_integral_v<decltype(zero)>)
+        unit = 1.0 / std::numeric_limits<decltype(zero)>::max();
+    });
+  }
+  for (size_t k = 0; k < components; ++k) {
+    double low = component_of(all[0], k), high = low;
+    for (const T& element : all) {
+      low = std::min(low, component_of(element, k));
+      high = std::max(high, component_of(element, k));
+    }
+    const double slack =
+        1e-3 * (high - low) + 1e-5 * std::max(std::abs(low), std::abs(high)) + (unit < 1 ? unit : 0);
+    for (const auto& [key, found] : {std::pair{"min", low}, {"max", high}}) {
+      const std::vector<double> said = accessor.numbers(key);
+      if (!said.empty() && said.size() != components)
+        accessor.fail(fmt::format("has a {} of {} numbers", key, said.size()));
+      if (!said.empty() && !(std::abs(said[k] * unit - found) <= slack))
+        breaches_.add("accessors whose min or max is not that of their data, which count", accessor.place());
+    }
+  }
 }
 
 template <typename T>
@@ -140,6 +194,7 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
   const uint64_t count = accessor.count("count", 0);
   const uint64_t component = accessor.count("componentType", 0);
   const bool normalized = accessor.flag("normalized");
+  if (count == 0) accessor.fail("has no elements");
 
   const auto copy = [&](const Elements& from, uint64_t i, T& to) {
     const char* bytes = from.bytes + i * from.stride;
@@ -161,6 +216,9 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
   // Lay what is sparse over it.
   if (const auto sparse = accessor.object("sparse")) {
     const uint64_t changes = sparse->count("count", 0);
+    if (changes == 0 || changes > count)
+      sparse->fail(
+          fmt::format("has a count of {}: it is from 1 to that of its accessor, {}", changes, count));
     const auto places = sparse->object("indices");
     const auto values = sparse->object("values");
     if (!places || !values) sparse->fail("needs indices and values");
@@ -170,14 +228,30 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
     const Elements at = elements(*places, places->index("bufferView", views), 1, place_type, changes);
     const Elements from =
         elements(*values, values->index("bufferView", views), components, component, changes);
+    refuse_stride(*places, views);
+    refuse_stride(*values, views);
+    double last = -1;
     for (uint64_t i = 0; i < changes; ++i) {
       const double place = load(at.bytes + i * at.stride, place_type, false);
+      if (!(place > last)) places->fail(fmt::format("have {} after {}: they must increase", place, last));
+      last = place;
       if (!(place < static_cast<double>(count)))
         places->fail(fmt::format("have {}, beyond the accessor", place));
       copy(from, i, all[static_cast<size_t>(place)]);
     }
   }
+  if (!supplied_.contains(index)) check_range(accessor, all, components);
   return all;
+}
+
+// What is no attribute of vertices lies packed, and some readers do not look for a stride.
+void GltfBuffers::refuse_stride(const GltfObject& owner, size_t views) const {
+  const auto view = owner.index("bufferView", views);
+  if (!view) return;
+  const GltfObject source = document_.element("bufferViews", *view);
+  if (source.has("byteStride") && !meshopt_coding(source))
+    owner.fail(fmt::format(
+        "is in bufferViews[{}], which has a byteStride: that is for attributes of vertices", *view));
 }
 
 std::vector<Vec2> GltfBuffers::vec2(size_t accessor) {
@@ -190,6 +264,7 @@ std::vector<Vec4> GltfBuffers::vec4(size_t accessor) {
   return read<Vec4>(accessor, "VEC4", 4);
 }
 std::vector<Mat4> GltfBuffers::mat4(size_t accessor) {
+  refuse_stride(document_.element("accessors", accessor), document_.size("bufferViews"));
   return read<Mat4>(accessor, "MAT4", 16);
 }
 std::vector<Vec4> GltfBuffers::colors(size_t accessor) {
@@ -203,6 +278,8 @@ std::vector<uint32_t> GltfBuffers::indices(size_t accessor) {
   const uint64_t type = source.count("componentType", 0);
   if (type != unsigned_byte && type != unsigned_short && type != unsigned_int)
     source.fail("holds indices, which must be unsigned integers");
+  if (source.flag("normalized")) source.fail("holds indices, which cannot be normalized");
+  refuse_stride(source, document_.size("bufferViews"));
   return read<uint32_t>(accessor, "SCALAR", 1);
 }
 

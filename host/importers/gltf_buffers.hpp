@@ -10,6 +10,7 @@
 
 #include "core/vec.hpp"
 #include "importers/asset_files.hpp"
+#include "importers/gltf_breaches.hpp"
 #include "importers/gltf_json.hpp"
 
 namespace eyeray {
@@ -23,7 +24,8 @@ GltfContainer open_gltf(std::string_view bytes, const std::string& file);
 
 class GltfBuffers {
  public:
-  GltfBuffers(const GltfObject& document, const GltfContainer& container, AssetFiles& assets);
+  GltfBuffers(const GltfObject& document, const GltfContainer& container, AssetFiles& assets,
+              GltfBreaches& breaches);
 
   // What a `uri` stands for: data in itself, or a file. Error where it is damaged or cannot be read.
   std::string read_uri(const GltfObject& owner, std::string_view what);
@@ -56,12 +58,17 @@ class GltfBuffers {
   std::string_view range(const GltfObject& source);
   Elements elements(const GltfObject& owner, std::optional<size_t> view, size_t components, uint64_t type,
                     uint64_t count);
+  void refuse_stride(const GltfObject& owner, size_t views) const;
+  void check_layout(const GltfObject& owner, size_t view, size_t component_size);
+  template <typename T>
+  void check_range(const GltfObject& accessor, const std::vector<T>& all, size_t components);
   template <typename T>
   std::vector<T> read(size_t accessor, std::string_view type, size_t components);
 
   const GltfObject& document_;
   GltfContainer container_;
   AssetFiles& assets_;
+  GltfBreaches& breaches_;
   std::vector<std::optional<std::string>> buffers_;        // as they are first asked for
   std::vector<std::optional<std::string>> decoded_views_;  // likewise
   std::map<size_t, std::string> supplied_;                 // by accessor

@@ -12,6 +12,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int deepest = 64;
+// A tree of them takes about 1 GiB.
+constexpr size_t most_values = size_t{1} << 24;
 
 // An integer from 0 that a double holds exactly.
 std::optional<uint64_t> as_count(const Json& json) {
@@ -19,6 +21,36 @@ std::optional<uint64_t> as_count(const Json& json) {
   const double value = json.get<double>();
   if (!(value >= 0 && value <= 0x1p53) || value != std::trunc(value)) return std::nullopt;
   return static_cast<uint64_t>(value);
+}
+
+// Throws where the text has more brackets in each other, or more values, than a tree of it should: copying
+// and destroying one recurse. nlohmann/json could be asked at each value, but then takes time by the square.
+void check_size(std::string_view text, const std::string& file) {
+  int depth = 0;
+  size_t values = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
+    switch (text[i]) {
+      case '"':
+        for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\';
+        break;
+      case '[':
+      case '{':
+        if (++depth > deepest)
+          throw malformed_at(file, text, i, fmt::format("its JSON is nested more than {} deep", deepest));
+        ++values;
+        break;
+      case ']':
+      case '}':
+        --depth;
+        break;
+      case ',':
+        if (++values > most_values)
+          throw malformed_at(file, text, i, fmt::format("its JSON has more than {} values", most_values));
+        break;
+      default:
+        break;
+    }
+  }
 }
 
 }  // namespace
@@ -146,14 +178,10 @@ std::optional<GltfObject> GltfObject::extension(const char* name) const {
 }
 
 Json parse_gltf_json(std::string_view text, const std::string& file) {
-  // Copying and destroying a tree recurse.
-  const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > deepest) throw malformed(file, fmt::format("its JSON is nested more than {} deep", deepest));
-    return true;
-  };
+  check_size(text, file);
   Json json;
   try {
-    json = Json::parse(text, shallow);
+    json = Json::parse(text);
   } catch (const Json::parse_error& error) {
     throw malformed_at(file, text, error.byte > 0 ? error.byte - 1 : 0, "this is not JSON");
   } catch (const Json::exception&) {

@@ -53,8 +53,7 @@ class GltfObject {
   const std::string* file_;
 };
 
-// InputError for what is no JSON, is nested absurdly
-// deep, or is no glTF 2.
+// InputError for what is no JSON, is nested absurdly deep, has more than 2^24 values, or is no glTF 2.
 nlohmann::json parse_gltf_json(std::string_view text, const std::string& file);
 
 }  // namespace eyeray

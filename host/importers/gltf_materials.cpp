@@ -39,14 +39,17 @@ Vec2 mean_green_blue(const ImageTexture& image) {
   return sum / (255.0 * static_cast<double>(std::max<size_t>(1, image.texels.size())));
 }
 
+// What samplers say, in the numbers of the specification.
+constexpr uint64_t nearest = 9728, linear = 9729;
+constexpr uint64_t repeat = 10497, clamp_to_edge = 33071, mirrored_repeat = 33648;
+
 Wrap wrap(uint64_t code) {
-  constexpr uint64_t clamp_to_edge = 33071;
-  constexpr uint64_t mirrored_repeat = 33648;
   return code == clamp_to_edge ? Wrap::clamp : code == mirrored_repeat ? Wrap::mirror : Wrap::repeat;
 }
 
 GltfUv uv_of(const GltfObject& reference) {
   GltfUv uv;
+  uv.taken = true;
   uv.set = reference.count("texCoord", 0);
   if (const auto transform = reference.extension("KHR_texture_transform")) {
     const std::vector<double> offset = transform->numbers("offset", {0, 0});
@@ -101,10 +104,10 @@ struct GltfMaterials::Surface {
 };
 
 GltfMaterials::GltfMaterials(const GltfObject& document, GltfBuffers& buffers, TextureFiles& textures,
-                             GltfLeftOut& left_out)
-    : document_(document), buffers_(buffers), textures_(textures), left_out_(left_out) {}
+                             GltfLeftOut& left_out, GltfBreaches& breaches)
+    : document_(document), buffers_(buffers), textures_(textures), left_out_(left_out), breaches_(breaches) {}
 
-ImageTexture GltfMaterials::decode_image(size_t index) {
+ImageTexture GltfMaterials::decode_image(size_t index, PixelBudget& budget) {
   const GltfObject image = document_.element("images", index);
   std::string data;
   std::string_view bytes;
@@ -114,7 +117,7 @@ ImageTexture GltfMaterials::decode_image(size_t index) {
     data = buffers_.read_uri(image, "the picture");
     bytes = data;
   }
-  return decode_image_texture(std::as_bytes(std::span(bytes)), image.place());
+  return decode_image_texture(std::as_bytes(std::span(bytes)), image.place(), budget);
 }
 
 // Null where the picture cannot be had.
@@ -129,13 +132,18 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
     left_out_.add(webp ? "textures in WebP" : ktx2 ? "textures in KTX2" : "textures without a picture");
     return nullptr;
   }
-  constexpr uint64_t nearest = 9728;
   uint64_t filter = 0, wrap_s = 0, wrap_t = 0;
   if (const auto sampler = texture.index("sampler", document_.size("samplers"))) {
     const GltfObject how = document_.element("samplers", *sampler);
-    filter = how.count("magFilter", 0);
-    wrap_s = how.count("wrapS", 0);
-    wrap_t = how.count("wrapT", 0);
+    const auto one_of = [&](const char* key, std::initializer_list<uint64_t> known) {
+      const uint64_t code = how.count(key, *known.begin());
+      if (std::ranges::find(known, code) == known.end())
+        how.fail(fmt::format("has a {} that glTF does not know", key));
+      return code;
+    };
+    filter = one_of("magFilter", {linear, nearest});
+    wrap_s = one_of("wrapS", {repeat, clamp_to_edge, mirrored_repeat});
+    wrap_t = one_of("wrapT", {repeat, clamp_to_edge, mirrored_repeat});
   }
 
   // The same picture with other settings is another texture.
@@ -146,8 +154,8 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
   settings.wrap_v = wrap(wrap_t);
   const std::string name = fmt::format("{} {} {} {} {}", *source, srgb, static_cast<int>(settings.filter),
                                        static_cast<int>(settings.wrap_u), static_cast<int>(settings.wrap_v));
-  return textures_.load(name, [&] {
-    ImageTexture image = decode_image(*source);
+  return textures_.load(name, [&](PixelBudget& budget) {
+    ImageTexture image = decode_image(*source, budget);
     image.srgb = settings.srgb;
     image.filter = settings.filter;
     image.wrap_u = settings.wrap_u;
@@ -158,7 +166,7 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
 
 // What its picture takes of a mesh's uv must be what the base colour takes: a vertex has one uv.
 Texture GltfMaterials::emission(const GltfObject& material) {
-  Texture emission{share(material.numbers("emissiveFactor", {0, 0, 0})), {}};
+  Texture emission{share(factors(material, "emissiveFactor", {0, 0, 0})), {}};
   if (emission.value == Vec3(0)) return emission;
   if (const auto strength = material.extension("KHR_materials_emissive_strength"))
     emission.value *= std::clamp(strength->number("emissiveStrength", 1), 0.0, most_emission);
@@ -181,15 +189,15 @@ GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
   const auto pbr = material.object("pbrMetallicRoughness");
   if (!pbr) {
     if (const auto old = material.extension(specular_glossiness)) {
-      surface.base = share(old->numbers("diffuseFactor", {1, 1, 1, 1}));
+      surface.base = share(factors(*old, "diffuseFactor", {1, 1, 1, 1}));
       surface.metalness = 0;
-      surface.roughness = 1 - share(old->number("glossinessFactor", 1));
+      surface.roughness = 1 - factor(*old, "glossinessFactor", 1);
     }
     return surface;
   }
-  surface.base = share(pbr->numbers("baseColorFactor", {1, 1, 1, 1}));
-  surface.metalness = share(pbr->number("metallicFactor", 1));
-  surface.roughness = share(pbr->number("roughnessFactor", 1));
+  surface.base = share(factors(*pbr, "baseColorFactor", {1, 1, 1, 1}));
+  surface.metalness = factor(*pbr, "metallicFactor", 1);
+  surface.roughness = factor(*pbr, "roughnessFactor", 1);
   if (const auto reference = pbr->object("metallicRoughnessTexture")) {
     if (const auto image = texture(*reference, false)) {
       left_out_.add("variations of metalness and roughness within textures");
@@ -248,8 +256,8 @@ std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material) {
   const auto pbr = material.object("pbrMetallicRoughness");
   const auto old = pbr ? std::nullopt : material.extension(specular_glossiness);
   AlphaMask mask{.cutoff = cutoff};
-  if (pbr) mask.alpha.value = Vec3(share(pbr->numbers("baseColorFactor", {1, 1, 1, 1})[3]));
-  if (old) mask.alpha.value = Vec3(share(old->numbers("diffuseFactor", {1, 1, 1, 1})[3]));
+  if (pbr) mask.alpha.value = Vec3(factors(*pbr, "baseColorFactor", {1, 1, 1, 1})[3]);
+  if (old) mask.alpha.value = Vec3(factors(*old, "diffuseFactor", {1, 1, 1, 1})[3]);
   if (const auto reference = base_texture(material)) mask.alpha.image = texture(*reference, true);
   return mask;
 }
@@ -268,10 +276,31 @@ GltfUv GltfMaterials::uv(size_t index) const {
   return reference ? uv_of(*reference) : GltfUv{};
 }
 
+double GltfMaterials::factor(const GltfObject& owner, const char* key, double fallback) {
+  const double value = owner.number(key, fallback);
+  if (share(value) != value)
+    breaches_.add("factors below 0 or above 1, clamped", fmt::format("{}.{}", owner.place(), key));
+  return share(value);
+}
+
+std::vector<double> GltfMaterials::factors(const GltfObject& owner, const char* key,
+                                           std::vector<double> fallback) {
+  std::vector<double> values = owner.numbers(key, std::move(fallback));
+  for (double& value : values) {
+    if (share(value) != value)
+      breaches_.add("factors below 0 or above 1, clamped", fmt::format("{}.{}", owner.place(), key));
+    value = share(value);
+  }
+  return values;
+}
+
 void GltfMaterials::note_rest(const GltfObject& material) {
+  const std::string alpha = material.text("alphaMode");
+  if (!alpha.empty() && alpha != "OPAQUE" && alpha != "MASK" && alpha != "BLEND")
+    material.fail("has an alphaMode that glTF does not know");
   if (material.has("normalTexture")) left_out_.add("normal maps");
   if (material.has("occlusionTexture")) left_out_.add("occlusion maps");
-  if (material.text("alphaMode") == "BLEND") left_out_.add("transparency by alpha");
+  if (alpha == "BLEND") left_out_.add("transparency by alpha");
 }
 
 }  // namespace eyeray

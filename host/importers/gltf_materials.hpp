@@ -30,6 +30,7 @@ struct GltfUv {
   uint64_t set = 0;
   glm::dmat2 linear{1.0};
   Vec2 offset{0.0};
+  bool taken = false;  // by any picture
 
   bool operator==(const GltfUv&) const = default;
 };
@@ -37,7 +38,7 @@ struct GltfUv {
 class GltfMaterials {
  public:
   GltfMaterials(const GltfObject& document, GltfBuffers& buffers, TextureFiles& textures,
-                GltfLeftOut& left_out);
+                GltfLeftOut& left_out, GltfBreaches& breaches);
 
   std::unique_ptr<Material> material(size_t index);
   // What the material's pictures take of a mesh's uv.
@@ -50,14 +51,18 @@ class GltfMaterials {
   Texture emission(const GltfObject& material);
   std::optional<AlphaMask> mask(const GltfObject& material);
   std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, bool srgb);
-  ImageTexture decode_image(size_t index);
+  ImageTexture decode_image(size_t index, PixelBudget& budget);
   static std::optional<GltfObject> base_texture(const GltfObject& material);
   void note_rest(const GltfObject& material);
+  // Numbers that are shares, from 0 to 1.
+  double factor(const GltfObject& owner, const char* key, double fallback);
+  std::vector<double> factors(const GltfObject& owner, const char* key, std::vector<double> fallback);
 
   const GltfObject& document_;
   GltfBuffers& buffers_;
   TextureFiles& textures_;
   GltfLeftOut& left_out_;
+  GltfBreaches& breaches_;
 };
 
 }  // namespace eyeray

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "scene/diagnostic_log.hpp"
@@ -33,14 +34,21 @@ std::vector<IndexTriangle> assemble(uint64_t mode, const std::vector<uint32_t>& 
   return triangles;
 }
 
+// Of normals in bytes, rounding alone makes 0.007. One of length 0 is counted elsewhere.
+bool is_no_unit(const Vec3& normal) {
+  const double length = glm::length(normal);
+  return length > 0 && !(std::abs(length - 1) < 0.01);
+}
+
 }  // namespace
 
 GltfMeshes::GltfMeshes(const GltfObject& document, GltfBuffers& buffers, const GltfMaterials& materials,
-                       GltfLeftOut& left_out, const std::string& file, double smooth)
+                       GltfLeftOut& left_out, GltfBreaches& breaches, const std::string& file, double smooth)
     : document_(document),
       buffers_(buffers),
       materials_(materials),
       left_out_(left_out),
+      breaches_(breaches),
       file_(file),
       smooth_(smooth),
       draco_(document, buffers),
@@ -91,11 +99,23 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   const auto draco_corners = draco_.open(primitive);
   const GltfUv uv_use = material ? materials_.uv(*material) : GltfUv{};
   const auto normals = attributes->index("NORMAL", accessors);
-  const auto uv = attributes->index(fmt::format("TEXCOORD_{}", uv_use.set).c_str(), accessors);
+  const std::string uv_name = fmt::format("TEXCOORD_{}", uv_use.set);
+  const auto uv = attributes->index(uv_name.c_str(), accessors);
   const auto colors = attributes->index("COLOR_0", accessors);
+  if (uv_use.taken && !uv)
+    breaches_.add("meshes without the uv that their material's picture takes", primitive.place());
+  for (const auto& [name, accessor] :
+       {std::pair<std::string_view, const std::optional<size_t>&>{"POSITION", positions},
+        {"NORMAL", normals},
+        {uv_name, uv},
+        {"COLOR_0", colors}}) {
+    if (accessor) breaches_.check_attribute(name, *accessor);
+  }
   VertexPool pool;
   pool.positions = buffers_.vec3(*positions);
   if (normals) pool.normals = buffers_.vec3(*normals);
+  if (std::ranges::any_of(pool.normals, is_no_unit))
+    breaches_.add("normals that are not of unit length, normalised", attributes->place() + ".NORMAL");
   if (uv) pool.uv = buffers_.vec2(*uv);
   if (colors) {
     for (const Vec4& color : buffers_.colors(*colors)) {
@@ -114,8 +134,10 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   check(normals.has_value(), pool.normals.size());
   check(uv.has_value(), pool.uv.size());
   check(colors.has_value(), pool.colors.size());
-  add_targets(primitive, pose.weights, document_, buffers_, pool);
-  if (!pose.joints.empty()) move_to_joints(*attributes, pose.joints, document_, buffers_, pool);
+  add_targets(primitive, pose.weights, document_, buffers_, breaches_, pool);
+  if (!pose.joints.empty()) move_to_joints(*attributes, pose.joints, document_, buffers_, breaches_, pool);
+  if (pose.joints.empty() && attributes->has("JOINTS_0"))
+    breaches_.add("meshes with joints that are shown without a skin, as they are", attributes->place());
 
   // Read the corners.
   std::vector<uint32_t> corners;
@@ -131,10 +153,13 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
     primitive.fail(fmt::format("refers to vertex {}; there are {}, counted from 0", std::ranges::max(corners),
                                pool.positions.size()));
   }
+  const uint64_t made_as = draco_corners ? triangle_list : mode;
+  if (made_as == triangle_list ? corners.size() % 3 != 0 : corners.size() < 3)
+    breaches_.add("primitives whose last corners make no triangle", primitive.place());
   RawTriangles raw;
   raw.has_normals = normals.has_value();
   raw.has_uv = uv.has_value();
-  raw.positions = assemble(draco_corners ? triangle_list : mode, corners);
+  raw.positions = assemble(made_as, corners);
   return MeshBuilder(pool, counts_).build(raw, smooth_);
 }
 

@@ -16,7 +16,7 @@ namespace eyeray {
 class GltfMeshes {
  public:
   GltfMeshes(const GltfObject& document, GltfBuffers& buffers, const GltfMaterials& materials,
-             GltfLeftOut& left_out, const std::string& file, double smooth);
+             GltfLeftOut& left_out, GltfBreaches& breaches, const std::string& file, double smooth);
 
   // A primitive of a mesh: an index of all our meshes, and of the file's materials, or −1.
   struct Part {
@@ -38,6 +38,7 @@ class GltfMeshes {
   GltfBuffers& buffers_;
   const GltfMaterials& materials_;
   GltfLeftOut& left_out_;
+  GltfBreaches& breaches_;
   const std::string& file_;
   double smooth_;  // degrees
   GltfDraco draco_;

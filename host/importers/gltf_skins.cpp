@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "importers/gltf_components.hpp"
 #include "scene/affine.hpp"
 
 namespace eyeray {
@@ -29,7 +31,15 @@ std::vector<Mat4> joint_matrices(const GltfObject& document, GltfBuffers& buffer
   const std::vector<size_t> joints = source.indices("joints", worlds.size());
   std::vector<Mat4> inverse(joints.size(), Mat4(1.0));
   if (const auto accessor = source.index("inverseBindMatrices", document.size("accessors"))) {
+    const GltfObject matrices = document.element("accessors", *accessor);
+    if (matrices.count("componentType", 0) != floating)
+      matrices.fail("holds inverseBindMatrices, which must be floats");
     inverse = buffers.mat4(*accessor);
+    for (const Mat4& m : inverse) {
+      const Vec4 last(m[0].w, m[1].w, m[2].w, m[3].w - 1);
+      if (!(glm::length(last) < 1e-4))
+        matrices.fail("holds inverseBindMatrices, whose last rows must be 0, 0, 0, 1");
+    }
     if (inverse.size() < joints.size()) source.fail("has fewer inverseBindMatrices than joints");
   }
   std::vector<Mat4> matrices;
@@ -42,14 +52,17 @@ std::vector<Mat4> joint_matrices(const GltfObject& document, GltfBuffers& buffer
 }
 
 void add_targets(const GltfObject& primitive, std::span<const double> weights, const GltfObject& document,
-                 GltfBuffers& buffers, VertexPool& vertices) {
-  const size_t count = std::min(weights.size(), primitive.size("targets"));
-  for (size_t i = 0; i < count; ++i) {
+                 GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices) {
+  const size_t count = primitive.size("targets");
+  if (!weights.empty() && weights.size() != count)
+    primitive.fail(fmt::format("has {} targets, for which there are {} weights", count, weights.size()));
+  for (size_t i = 0; i < weights.size(); ++i) {
     if (weights[i] == 0) continue;
     const GltfObject target = primitive.element("targets", i);
     const auto add = [&](const char* name, std::vector<Vec3>& to) {
       const auto accessor = target.index(name, document.size("accessors"));
       if (!accessor || to.empty()) return;
+      breaches.check_attribute(name, *accessor);
       const std::vector<Vec3> change = buffers.vec3(*accessor);
       check_count(target, change, vertices);
       for (size_t k = 0; k < to.size(); ++k) to[k] += weights[i] * change[k];
@@ -60,15 +73,23 @@ void add_targets(const GltfObject& primitive, std::span<const double> weights, c
 }
 
 void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, const GltfObject& document,
-                    GltfBuffers& buffers, VertexPool& vertices) {
+                    GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices) {
   // Sum up by sets of four: JOINTS_0, JOINTS_1, …
   std::vector<Mat4> sums(vertices.positions.size(), Mat4(0.0));
   std::vector<double> total(vertices.positions.size(), 0.0);
+  bool negative = false;
+  if (!attributes.has("JOINTS_0")) attributes.fail("have no JOINTS_0, but the mesh is shown with a skin");
   for (int set = 0;; ++set) {
     const size_t accessors = document.size("accessors");
-    const auto which = attributes.index(fmt::format("JOINTS_{}", set).c_str(), accessors);
-    const auto share = attributes.index(fmt::format("WEIGHTS_{}", set).c_str(), accessors);
-    if (!which || !share) break;
+    const std::string joints_name = fmt::format("JOINTS_{}", set),
+                      weights_name = fmt::format("WEIGHTS_{}", set);
+    const auto which = attributes.index(joints_name.c_str(), accessors);
+    const auto share = attributes.index(weights_name.c_str(), accessors);
+    if (which.has_value() != share.has_value())
+      attributes.fail(fmt::format("have one of {} and {} without the other", joints_name, weights_name));
+    if (!which) break;
+    breaches.check_attribute(joints_name, *which);
+    breaches.check_attribute(weights_name, *share);
     const std::vector<Vec4> numbers = buffers.vec4(*which);
     const std::vector<Vec4> weights = buffers.vec4(*share);
     check_count(attributes, numbers, vertices);
@@ -76,6 +97,7 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
     for (size_t i = 0; i < numbers.size(); ++i) {
       for (int k = 0; k < 4; ++k) {
         const double weight = weights[i][k];
+        if (weight < 0) negative = true;
         if (!(weight > 0)) continue;
         if (!(numbers[i][k] >= 0 && numbers[i][k] < static_cast<double>(joints.size())))
           attributes.fail(fmt::format("name joint {}; there are {}", numbers[i][k], joints.size()));
@@ -84,6 +106,11 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
       }
     }
   }
+
+  if (negative) breaches.add("weights below 0, taken as 0", attributes.place() + ".WEIGHTS_0");
+  if (std::ranges::any_of(total, [](double sum) { return !(std::abs(sum - 1) < 0.02); }))
+    breaches.add("weights of joints that do not sum to 1, divided by their sum",
+                 attributes.place() + ".WEIGHTS_0");
 
   // A vertex that no joint holds is held by the first.
   for (size_t i = 0; i < sums.size(); ++i) {

@@ -24,10 +24,10 @@ std::vector<Mat4> joint_matrices(const GltfObject& document, GltfBuffers& buffer
 
 // Adds the morph targets of a primitive, by their weights, to its vertices.
 void add_targets(const GltfObject& primitive, std::span<const double> weights, const GltfObject& document,
-                 GltfBuffers& buffers, VertexPool& vertices);
+                 GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices);
 
 // Moves vertices to where their joints hold them, each by the mean of its joints' matrices.
 void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, const GltfObject& document,
-                    GltfBuffers& buffers, VertexPool& vertices);
+                    GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices);
 
 }  // namespace eyeray

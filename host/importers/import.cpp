@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/coded_image.hpp"
 #include "core/input_file.hpp"
 #include "importers/formats.hpp"
 #include "importers/malformed.hpp"
@@ -58,8 +59,9 @@ bool is_mesh_file(const std::filesystem::path& file) {
 }
 
 ImportedScene import_file(const std::filesystem::path& file, const ImportOptions& options) {
+  PixelBudget own;
   MeshFile source{file.string(), read_input_file(file, "the mesh", most_mesh_bytes), options.smooth,
-                  AssetFiles(file, options.allowed_folders)};
+                  AssetFiles(file, options.allowed_folders), options.pixels ? options.pixels : &own};
   ImportedScene scene = read_mesh_file(source);
   scene.files = source.assets.files();
   scene.files.insert(scene.files.begin(), file);
@@ -67,7 +69,8 @@ ImportedScene import_file(const std::filesystem::path& file, const ImportOptions
 }
 
 ImportedScene import_bytes(std::string bytes, const std::string& name, const ImportOptions& options) {
-  MeshFile source{name, std::move(bytes), options.smooth, {}};
+  PixelBudget own;
+  MeshFile source{name, std::move(bytes), options.smooth, {}, options.pixels ? options.pixels : &own};
   return read_mesh_file(source);
 }
 

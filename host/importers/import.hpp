@@ -12,12 +12,16 @@
 
 namespace eyeray {
 
+struct PixelBudget;
+
 struct ImportOptions {
   // Where a file has no normals: the greatest angle, in degrees, between faces that are shaded as one smooth
   // surface; 0: flat. Absent: 40 for OBJ and PLY; 0 for glTF, whose specification says so.
   std::optional<double> smooth = {};
   // Where what the file names (materials, buffers, pictures) may lie beside the file's own folder tree.
   std::vector<std::filesystem::path> allowed_folders = {};
+  // Of the pictures of the scene that the file is for; null: it is for none.
+  PixelBudget* pixels = nullptr;
 };
 
 struct ImportedScene {

@@ -36,7 +36,7 @@ bool is_space(char c) {
 
 class ObjReader {
  public:
-  explicit ObjReader(MeshFile& file) : materials(file.assets), file_(file), text_(file.bytes) {}
+  explicit ObjReader(MeshFile& file) : materials(file.assets, *file.pixels), file_(file), text_(file.bytes) {}
 
   void read() {
     while (begin_ < text_.size()) {

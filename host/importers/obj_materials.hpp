@@ -15,7 +15,8 @@ namespace eyeray {
 
 class ObjMaterials {
  public:
-  explicit ObjMaterials(AssetFiles& assets) : assets_(assets), textures_(assets, warnings) {}
+  ObjMaterials(AssetFiles& assets, PixelBudget& pixels)
+      : assets_(assets), textures_(assets, pixels, warnings) {}
 
   // Reads the .mtl files of an `mtllib` statement, which are parted by spaces or one whose name has some. One
   // that cannot be read, or what of it has no counterpart here, is a warning.

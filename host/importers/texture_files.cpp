@@ -6,15 +6,15 @@
 namespace eyeray {
 
 std::shared_ptr<const ImageTexture> TextureFiles::load(const std::string& name) {
-  return load(name, [&] { return load_image_texture(assets_.locate(name)); });
+  return load(name, [&](PixelBudget& budget) { return load_image_texture(assets_.locate(name), budget); });
 }
 
-std::shared_ptr<const ImageTexture> TextureFiles::load(const std::string& name,
-                                                       const std::function<ImageTexture()>& decode) {
+std::shared_ptr<const ImageTexture> TextureFiles::load(
+    const std::string& name, const std::function<ImageTexture(PixelBudget&)>& decode) {
   const auto [entry, fresh] = known_.try_emplace(name);
   if (!fresh) return entry->second;
   try {
-    entry->second = std::make_shared<const ImageTexture>(decode());
+    entry->second = std::make_shared<const ImageTexture>(decode(budget_));
   } catch (const Error& error) {
     warnings_.push_back(std::string("a picture was left out: ") + error.what());
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/coded_image.hpp"
 #include "importers/asset_files.hpp"
 #include "scene/texture.hpp"
 
@@ -14,17 +15,18 @@ namespace eyeray {
 
 class TextureFiles {
  public:
-  TextureFiles(AssetFiles& assets, std::vector<std::string>& warnings)
-      : assets_(assets), warnings_(warnings) {}
+  TextureFiles(AssetFiles& assets, PixelBudget& budget, std::vector<std::string>& warnings)
+      : assets_(assets), budget_(budget), warnings_(warnings) {}
 
   // The picture in a file; null, with a warning, where it cannot be had.
   std::shared_ptr<const ImageTexture> load(const std::string& name);
   // The same for a picture that `decode` makes the first time that `name` is asked for; it may throw Error.
   std::shared_ptr<const ImageTexture> load(const std::string& name,
-                                           const std::function<ImageTexture()>& decode);
+                                           const std::function<ImageTexture(PixelBudget&)>& decode);
 
  private:
   AssetFiles& assets_;
+  PixelBudget& budget_;
   std::vector<std::string>& warnings_;
   std::map<std::string, std::shared_ptr<const ImageTexture>> known_;
 };

@@ -29,14 +29,21 @@ std::shared_ptr<const ImageTexture> ImageFiles::load(ImageTexture wanted, const 
     const auto source = std::ranges::find(sources_, std::filesystem::path(position.file));
     const auto [path, whole] =
         folders_.find("image", wanted.name, source != sources_.end() ? *source : sources_.front());
-    auto& variants = images_[whole];
-    if (variants.empty()) {
+    const auto [entry, fresh] = images_.try_emplace(whole);
+    auto& [variants, refused] = entry->second;
+    if (fresh) {
       if (std::ranges::find(files_, path) == files_.end()) files_.push_back(path);
-      variants.push_back(with_settings(load_image_texture(path), wanted));
+      try {
+        variants.push_back(with_settings(load_image_texture(path, budget_), wanted));
+      } catch (const Error& unreadable) {
+        refused = unreadable.what();
+      }
     }
+    if (!refused.empty()) throw Error(ExitCode::file_io, refused);
     const auto found =
         std::ranges::find_if(variants, [&](const auto& image) { return same_settings(*image, wanted); });
     if (found != variants.end()) return *found;
+    budget_.take(variants.front()->width, variants.front()->height, path.string());
     variants.push_back(with_settings(*variants.front(), wanted));
     return variants.back();
   } catch (const Error& unreadable) {

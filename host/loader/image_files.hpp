@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "core/coded_image.hpp"
 #include "loader/allowed_folders.hpp"
 #include "scene/diagnostic_log.hpp"
 #include "scene/image_source.hpp"
@@ -15,8 +16,9 @@ class ImageFiles final : public ImageSource {
  public:
   // Names in `scene` or in one of the other `sources`, which it includes, are relative to the folder of the
   // file that they stand in; names that stand in no file (an override) are relative to the scene's.
-  ImageFiles(const AllowedFolders& folders, std::vector<std::filesystem::path> sources, DiagnosticLog& log)
-      : folders_(folders), sources_(std::move(sources)), log_(log) {}
+  ImageFiles(const AllowedFolders& folders, std::vector<std::filesystem::path> sources, PixelBudget& budget,
+             DiagnosticLog& log)
+      : folders_(folders), sources_(std::move(sources)), budget_(budget), log_(log) {}
 
   std::shared_ptr<const ImageTexture> load(ImageTexture wanted, const SourcePosition& position) override;
 
@@ -26,10 +28,15 @@ class ImageFiles final : public ImageSource {
  private:
   const AllowedFolders& folders_;
   std::vector<std::filesystem::path> sources_;  // the scene first
+  PixelBudget& budget_;
   DiagnosticLog& log_;
   std::vector<std::filesystem::path> files_;
-  // By canonical path, the same texels with each filter, wrap and colour space that was asked for.
-  std::map<std::filesystem::path, std::vector<std::shared_ptr<const ImageTexture>>> images_;
+  struct Entry {
+    // The same texels with each filter, wrap and colour space that was asked for.
+    std::vector<std::shared_ptr<const ImageTexture>> variants;
+    std::string refused;  // why there are none
+  };
+  std::map<std::filesystem::path, Entry> images_;  // by canonical path
 };
 
 }  // namespace eyeray

@@ -43,17 +43,18 @@ Scene load_scene(const fs::path& file, std::span<const Override> overrides,
                  std::span<const fs::path> allowed_folders) {
   DiagnosticLog log;
   const AllowedFolders folders(file, allowed_folders);
+  PixelBudget pixels;
   std::vector<fs::path> trees(allowed_folders.begin(), allowed_folders.end());
   trees.push_back(file.parent_path());
   if (is_mesh_file(file)) {
-    MeshImports meshes(folders, std::move(trees), {file});
+    MeshImports meshes(folders, std::move(trees), {file}, pixels);
     Document document = read_mesh(file, meshes, log);
-    ImageFiles images(folders, document.files, log);
+    ImageFiles images(folders, document.files, pixels, log);
     return finish(std::move(document), file, overrides, &images, &meshes, nullptr, log);
   }
   Document document = read_document(file, folders, log);
-  ImageFiles images(folders, document.files, log);
-  MeshImports meshes(folders, std::move(trees), document.files);
+  ImageFiles images(folders, document.files, pixels, log);
+  MeshImports meshes(folders, std::move(trees), document.files, pixels);
   FormulaFiles formulas(folders, document.files, log);
   return finish(std::move(document), file, overrides, &images, &meshes, &formulas, log);
 }

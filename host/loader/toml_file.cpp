@@ -134,7 +134,8 @@ std::string explain_syntax(std::string_view description, std::string_view statem
 toml::table parse_toml(std::string_view original, const std::string& name, DiagnosticLog& log) {
   // Refuse what would nest the tree deeper than a stack can follow.
   if (const auto deep = find_deep_key(original)) {
-    log.error({name, deep->line, deep->column}, fmt::format("a key of more than {} parts", most_key_parts));
+    log.error({name, deep->line, deep->column},
+              fmt::format("a key of more than {} parts; groups nest deeper by [[instance]]", most_key_parts));
     log.set_damaged();
     return {};
   }

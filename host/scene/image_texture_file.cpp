@@ -10,7 +10,7 @@ namespace eyeray {
 
 namespace fs = std::filesystem;
 
-ImageTexture load_image_texture(const fs::path& path) {
+ImageTexture load_image_texture(const fs::path& path, PixelBudget& budget) {
   const auto fail = [&](const std::string& why) {
     return Error(ExitCode::file_io, "cannot read {}: {}", path.string(), why);
   };
@@ -24,11 +24,12 @@ ImageTexture load_image_texture(const fs::path& path) {
   if (const auto size = fs::file_size(path, error); !error && size > most_coded_bytes)
     throw fail(fmt::format("it has {} bytes; the most is {} (1 GiB)", size, most_coded_bytes));
   const std::string bytes = read_file(path);
-  return decode_image_texture(std::as_bytes(std::span(bytes)), path.string());
+  return decode_image_texture(std::as_bytes(std::span(bytes)), path.string(), budget);
 }
 
-ImageTexture decode_image_texture(std::span<const std::byte> bytes, const std::string& name) {
-  CodedImage image = decode_coded_image(bytes, name);
+ImageTexture decode_image_texture(std::span<const std::byte> bytes, const std::string& name,
+                                  PixelBudget& budget) {
+  CodedImage image = decode_coded_image(bytes, name, budget);
   return {.name = name, .width = image.width, .height = image.height, .texels = std::move(image.pixels)};
 }
 

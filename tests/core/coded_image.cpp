@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/peak_memory.hpp"
 #include "support/random.hpp"
 //
 #include "support/doctest.hpp"
@@ -18,7 +19,8 @@ std::string bytes_of(const std::string& file) {
 }
 
 CodedImage decode(const std::string& bytes) {
-  return decode_coded_image(std::as_bytes(std::span(bytes)), "a picture");
+  PixelBudget budget;
+  return decode_coded_image(std::as_bytes(std::span(bytes)), "a picture", budget);
 }
 
 // What is said of bytes that are no picture.
@@ -63,6 +65,42 @@ TEST_CASE("PNG of every kind: the codes come out, from the top left") {
     const uint8_t code = std::array<uint8_t, 6>{0, 64, 128, 192, 254, 255}[i];
     CHECK(grey.pixels[i] == Pixel{code, code, code, 255});
   }
+}
+
+TEST_CASE("two bits a pixel, and a grey that is transparent") {
+  const CodedImage image = decode(bytes_of("grey2_transparent.png"));
+  REQUIRE(image.pixels.size() == 10);
+  for (size_t i = 0; i < 10; ++i) {
+    const uint8_t code = std::array<uint8_t, 10>{0, 1, 2, 3, 0, 3, 2, 1, 0, 3}[i];
+    const auto grey = uint8_t(85 * code);
+    CHECK(image.pixels[i] == Pixel{grey, grey, grey, uint8_t(code == 1 ? 0 : 255)});
+  }
+}
+
+TEST_CASE("a PNG takes little more memory than its pixels, and only what the budget has left") {
+  const std::string bytes = bytes_of("one_bit_4096.png");
+  CHECK(bytes.size() < 11'000);
+  const uint64_t before = peak_memory();
+  const CodedImage image = decode(bytes);
+  CHECK(peak_memory() - before < (uint64_t{80} << 20));  // its pixels are 64 MiB
+  CHECK(image.pixels[2047] == Pixel{0, 0, 0, 255});
+  CHECK(image.pixels.back() == Pixel{255, 255, 255, 255});
+
+  PixelBudget budget{4096 * 4096 + 6};
+  const auto said = [&](const std::string& picture) -> std::string {
+    try {
+      decode_coded_image(std::as_bytes(std::span(picture)), "a picture", budget);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  CHECK(said(bytes) == "accepted");
+  CHECK(said(bytes_of("rgb.png")) == "accepted");
+  CHECK(
+      said(bytes_of("rgb.png")) ==
+      "cannot read a picture: it has 3×2 pixels; of the 2^28 that all images of a scene may have together, 0 "
+      "are left");
 }
 
 TEST_CASE("JPEG, baseline, progressive and grey: the codes come out, but for its own losses") {

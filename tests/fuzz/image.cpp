@@ -7,8 +7,9 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
+    eyeray::PixelBudget budget;
     const auto image = std::make_shared<eyeray::ImageTexture>(
-        eyeray::decode_image_texture(std::as_bytes(std::span(data, size)), INPUT_NAME));
+        eyeray::decode_image_texture(std::as_bytes(std::span(data, size)), INPUT_NAME, budget));
     if (image->width < 1 || image->height < 1 ||
         image->texels.size() != size_t(image->width) * size_t(image->height))
       std::abort();

@@ -6,7 +6,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   eyeray::AssetFiles none;
-  eyeray::ObjMaterials materials(none);
+  eyeray::PixelBudget pixels;
+  eyeray::ObjMaterials materials(none, pixels);
   materials.parse({reinterpret_cast<const char*>(data), size});
   for (const auto& material : materials.materials) {
     const eyeray::Scattering s = material->scattering({{0, 0}, 1, 1, 1});

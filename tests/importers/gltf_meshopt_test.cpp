@@ -64,6 +64,7 @@ TEST_CASE("meshopt: interleaved and quantised attributes in one view") {
   file.json["accessors"][0].update({{"componentType", 5122}, {"normalized", true}});
   file.json["accessors"][2].update(
       {{"componentType", 5123}, {"normalized", true}, {"bufferView", 0}, {"byteOffset", 6}});
+  file.json["extensionsUsed"].push_back("KHR_mesh_quantization");
   check_grid(import_sound(file.gltf(), "a.gltf"), 1e-3);
 }
 
@@ -77,6 +78,7 @@ TEST_CASE("meshopt: the filter OCTAHEDRAL, in 8 and 16 bits") {
     code_view(file, 1, coded, {"ATTRIBUTES", stride, "OCTAHEDRAL"});
     file.json["bufferViews"][1]["byteStride"] = stride;
     file.json["accessors"][1].update({{"componentType", stride == 4 ? 5120 : 5122}, {"normalized", true}});
+    file.json["extensionsUsed"].push_back("KHR_mesh_quantization");
     check_grid(import_sound(file.gltf(), "a.gltf"), stride == 4 ? 2e-2 : 1e-3);
     coding_of(file, 1).erase("filter");
     const ImportedScene raw = import_bytes(file.gltf(), "a.gltf");  // its numbers are no normals then

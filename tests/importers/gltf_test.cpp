@@ -42,6 +42,7 @@ TEST_CASE("every type of index and of coordinate") {
       std::vector<double> numbers = square_positions;
       for (double& number : numbers) number *= normalized ? one.at(component) : 1;
       GltfFile file;
+      file.json["extensionsUsed"] = {"KHR_mesh_quantization"};
       file.primitive()["attributes"]["POSITION"] = file.add(numbers, component, "VEC3", 3, normalized);
       file.primitive()["mode"] = 6;
       check_square(import_sound(file.gltf(), "a.gltf"));
@@ -75,7 +76,7 @@ TEST_CASE("interleaved attributes, normals and uv, whose v starts at the top") {
   std::vector<double> rows;
   for (size_t i = 0; i < 4; ++i) {
     const double x = square_positions[3 * i], y = square_positions[3 * i + 1];
-    rows.insert(rows.end(), {x, y, 0, 0, 0, 3, x, 1 - y});
+    rows.insert(rows.end(), {x, y, 0, 0, 0, 1, x, 1 - y});
   }
   const int view = file.add_view(rows, 5126);
   file.json["bufferViews"][size_t(view)]["byteStride"] = 32;
@@ -177,7 +178,8 @@ TEST_CASE("wrong glTF is refused, and the place named") {
   CHECK(said("/meshes/0/primitives/0/indices", 0) ==
         "a.gltf: error: accessors[0] holds indices, which must be unsigned integers");
   CHECK(said("/meshes/0/primitives/0/attributes/NORMAL", 1) ==
-        "a.gltf: error: accessors[1] must be of type VEC3");
+        "a.gltf: error: accessors[1] holds NORMAL, which cannot be componentType 5123");
+  CHECK(said("/accessors/0/type", "VEC2") == "a.gltf: error: accessors[0] must be of type VEC3");
   CHECK(said("/accessors/0/count", 3) ==
         "a.gltf: error: meshes[0].primitives[0] refers to vertex 3; there are 3, counted from 0");
   CHECK(said("/accessors/0/count", 5) ==

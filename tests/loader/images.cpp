@@ -90,7 +90,8 @@ TEST_CASE("names are relative to the file that they stand in; each file is read 
 
   DiagnosticLog log;
   const AllowedFolders allowed(main, {});
-  ImageFiles files(allowed, {main, part}, log);
+  PixelBudget budget;
+  ImageFiles files(allowed, {main, part}, budget, log);
   ImageTexture wanted;
   wanted.name = "a.png";
   const auto first = files.load(wanted, {part, 1, 1});
@@ -160,10 +161,34 @@ TEST_CASE("what is no picture is an error at its name") {
   CHECK(said_of("a.png\\u0000") == "`image` needs the name of a file");
 }
 
+TEST_CASE("all images of a scene share their pixels, each setting of one counted; the place is said") {
+  const Folder folder("a.png");
+  const std::string main = folder.write(
+      "scene.toml", scene_with("{ image = 'a.png' }\nspecular = { image = 'a.png', filter = 'nearest' }"));
+  DiagnosticLog log;
+  log.add_source(main, read_file(main));
+  const AllowedFolders allowed(main, {});
+  PixelBudget budget{10};
+  ImageFiles files(allowed, {main}, budget, log);
+  ImageTexture wanted;
+  wanted.name = "a.png";
+  CHECK(files.load(wanted, {main, 4, 21}));
+  CHECK(files.load(wanted, {main, 4, 21}));
+  CHECK(budget.left == 4);
+  wanted.filter = Filter::nearest;
+  CHECK_FALSE(files.load(wanted, {main, 5, 22}));
+  REQUIRE(log.sorted().size() == 1);
+  CHECK(format_diagnostic(log.sorted()[0])
+            .starts_with(main + ":5:22: error: cannot read " + (folder / "a.png") +
+                         ": it has 3×2 pixels; of the 2^28"));
+}
+
 TEST_CASE("a picture in memory is the same as in a file, but for its name") {
   const std::string bytes = read_file(picture);
-  const ImageTexture image = decode_image_texture(std::as_bytes(std::span(bytes)), "model.glb, image 2");
-  const ImageTexture file = load_image_texture(picture);
+  PixelBudget budget;
+  const ImageTexture image =
+      decode_image_texture(std::as_bytes(std::span(bytes)), "model.glb, image 2", budget);
+  const ImageTexture file = load_image_texture(picture, budget);
   CHECK(image.name == "model.glb, image 2");
   CHECK(file.name == picture);
   CHECK(image.width == 3);
@@ -171,6 +196,6 @@ TEST_CASE("a picture in memory is the same as in a file, but for its name") {
   CHECK(image.texels == file.texels);
   CHECK(image.texels[5] == std::array<uint8_t, 4>{64, 128, 192, 255});
   CHECK(image.srgb);
-  CHECK_THROWS_WITH_AS(decode_image_texture({}, "model.glb, image 3"),
+  CHECK_THROWS_WITH_AS(decode_image_texture({}, "model.glb, image 3", budget),
                        "cannot read model.glb, image 3: it is neither a PNG nor a JPEG", Error);
 }

@@ -1,0 +1,81 @@
+#include "importers/gltf_breaches.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "importers/gltf_components.hpp"
+
+namespace eyeray {
+
+namespace {
+
+// A set of component types: a bit for each, and one more for each that is normalized.
+using Types = uint32_t;
+
+constexpr Types plain(uint64_t component) {
+  return Types{1} << (component - signed_byte);
+}
+constexpr Types normalized(uint64_t component) {
+  return plain(component) << 8;
+}
+
+constexpr Types any_float = plain(floating) | normalized(floating);
+constexpr Types bytes_and_shorts =
+    plain(signed_byte) | plain(unsigned_byte) | plain(signed_short) | plain(unsigned_short);
+constexpr Types shares = any_float | normalized(unsigned_byte) | normalized(unsigned_short);
+constexpr Types directions = normalized(signed_byte) | normalized(signed_short);
+
+// Of the specification, 3.7.2.1; `quantized`: what KHR_mesh_quantization adds; `clear`: what nothing allows,
+// and can be read in one way only.
+struct AttributeRule {
+  std::string_view name;
+  Types core;
+  Types quantized = 0;
+  Types clear = 0;
+};
+constexpr AttributeRule rules[] = {
+    {"POSITION", any_float, bytes_and_shorts | bytes_and_shorts << 8},
+    {"NORMAL", any_float, directions},
+    {"TEXCOORD_", shares, bytes_and_shorts | bytes_and_shorts << 8},
+    {"COLOR_", shares, 0, directions},
+    {"JOINTS_", plain(unsigned_byte) | plain(unsigned_short), 0, plain(unsigned_int)},
+    {"WEIGHTS_", shares, 0, directions},
+};
+
+}  // namespace
+
+GltfBreaches::GltfBreaches(const GltfObject& document)
+    : document_(document),
+      quantization_declared_(std::ranges::count(document.texts("extensionsUsed"), "KHR_mesh_quantization") >
+                             0) {}
+
+void GltfBreaches::add(std::string_view kind, const std::string& place) {
+  auto known = std::ranges::find(kinds_, kind, &Kind::name);
+  if (known == kinds_.end()) known = kinds_.insert(known, {std::string(kind), place, {}});
+  known->places.insert(place);
+}
+
+void GltfBreaches::report(std::vector<std::string>& warnings) const {
+  for (const Kind& kind : kinds_)
+    warnings.push_back(fmt::format("{}: {}, the first {}", kind.name, kind.places.size(), kind.first));
+}
+
+void GltfBreaches::check_attribute(std::string_view name, size_t index) {
+  const auto rule =
+      std::ranges::find_if(rules, [&](const AttributeRule& r) { return name.starts_with(r.name); });
+  if (rule == std::end(rules)) return;
+  const GltfObject accessor = document_.element("accessors", index);
+  const uint64_t component = accessor.count("componentType", 0);
+  if (bytes_of(component) == 0) return;  // whoever reads it says so
+  const bool is_normalized = accessor.flag("normalized");
+  const Types type = is_normalized ? normalized(component) : plain(component);
+  if (type & (quantization_declared_ ? rule->core | rule->quantized : rule->core)) return;
+  if (!(type & (rule->quantized | rule->clear))) {
+    accessor.fail(fmt::format("holds {}, which cannot be {}componentType {}", name,
+                              is_normalized ? "normalized " : "", component));
+  }
+  add("attributes of component types that glTF does not give them, read as they say", accessor.place());
+}
+
+}  // namespace eyeray

@@ -1,0 +1,262 @@
+// What is said of glTF that breaks a rule of its specification, where that can change the picture: a row a
+// rule.
+#include <ctime>
+#include <functional>
+
+#include "core/coded_image.hpp"
+#include "gltf_files.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// The accessors of the file below, in order.
+enum Accessor { positions, indices, normals, uv, joints, weights, bind_matrices, target };
+
+const std::vector<double> identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+// A square with all that rules are about, none of them broken.
+GltfFile rich_file() {
+  GltfFile file = square_file();
+  Json& attributes = file.primitive()["attributes"];
+  attributes["NORMAL"] = file.add({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 5126, "VEC3", 3);
+  attributes["TEXCOORD_0"] = file.add({0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
+  attributes["JOINTS_0"] = file.add(std::vector<double>(16, 0), 5121, "VEC4", 4);
+  attributes["WEIGHTS_0"] = file.add({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4);
+  const int bind = file.add(identity, 5126, "MAT4", 16);
+  file.primitive()["targets"] = {{{"POSITION", file.add(std::vector<double>(12, 0.5), 5126, "VEC3", 3)}}};
+  file.json["meshes"][0]["weights"] = {1};
+  file.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"children", {1}}}, {{"rotation", {0, 0, 0, 1}}}};
+  file.json["skins"] = {{{"joints", {1}}, {"inverseBindMatrices", bind}}};
+  file.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 0}}}}};
+  file.primitive()["material"] = 0;
+  return file;
+}
+
+// The refusal, or the warnings, or "".
+std::string said_of(const GltfFile& file) {
+  const std::string refused = refusal(file.gltf(), "a.gltf");
+  if (refused != "accepted") return refused;
+  std::string all;
+  for (const std::string& warning : import_sound(file.gltf(), "a.gltf").warnings)
+    all += (all.empty() ? "" : "; ") + warning;
+  return all;
+}
+
+struct Rule {
+  std::string name;
+  std::function<void(GltfFile&)> breach;
+  std::string said;
+};
+
+std::function<void(GltfFile&)> set(const char* pointer, const Json& value) {
+  return [=](GltfFile& file) { file.json[Json::json_pointer(pointer)] = value; };
+}
+std::function<void(GltfFile&)> erase(const char* parent, const char* key) {
+  return [=](GltfFile& file) { file.json[Json::json_pointer(parent)].erase(key); };
+}
+// The attribute made of other numbers.
+std::function<void(GltfFile&)> attribute(const char* name, const std::vector<double>& numbers, int component,
+                                         const char* type, size_t components, bool normalized = false) {
+  return [=](GltfFile& file) {
+    file.primitive()["attributes"][name] = file.add(numbers, component, type, components, normalized);
+  };
+}
+std::function<void(GltfFile&)> sparse(const std::vector<double>& places, const Json& count) {
+  return [=](GltfFile& file) {
+    file.json["accessors"][positions]["sparse"] = {
+        {"count", count},
+        {"indices", {{"bufferView", file.add_view(places, 5121)}, {"componentType", 5121}}},
+        {"values", {{"bufferView", file.add_view(std::vector<double>(3 * places.size(), 0.25), 5126)}}}};
+  };
+}
+std::vector<double> with(std::vector<double> numbers, size_t at, double value) {
+  numbers[at] = value;
+  return numbers;
+}
+
+const std::string attributes_at = "meshes[0].primitives[0].attributes";
+
+}  // namespace
+
+TEST_CASE("rules of glTF: what is said when each is broken") {
+  CHECK(said_of(rich_file()) == "");
+  const std::string error = "a.gltf: error: ";
+  const std::vector<double> ones(16, 1), flat_normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+  const Rule table[] = {
+      // Nodes.
+      {"matrix and TRS", set("/nodes/1/matrix", identity),
+       error + "nodes[1] has a matrix, and a translation, rotation or scale beside it"},
+      {"rotation of length 2", set("/nodes/1/rotation", {0, 0, 0, 2}),
+       "rotations that are not of unit length, normalised: 1, the first nodes[1].rotation"},
+      {"rotation nearly of length 1", set("/nodes/1/rotation", {0, 0, 0, 1.005}), ""},
+      {"a scene that shows what is below a node that it does not show", set("/scenes/0/nodes", {1}),
+       error + "nodes[0] is not in the scene, but nodes[1], which is below it, is"},
+      {"skin without joints in the mesh",
+       [](GltfFile& file) {
+         file.primitive()["attributes"].erase("JOINTS_0");
+         file.primitive()["attributes"].erase("WEIGHTS_0");
+       },
+       error + attributes_at + " have no JOINTS_0, but the mesh is shown with a skin"},
+      {"joints without a skin", erase("/nodes/0", "skin"),
+       "meshes with joints that are shown without a skin, as they are: 1, the first " + attributes_at},
+      // Skins and morph targets.
+      {"joints without weights", erase("/meshes/0/primitives/0/attributes", "WEIGHTS_0"),
+       error + attributes_at + " have one of JOINTS_0 and WEIGHTS_0 without the other"},
+      {"inverse bind matrix with another last row",
+       [](GltfFile& file) {
+         file.json["skins"][0]["inverseBindMatrices"] = file.add(with(identity, 3, 0.5), 5126, "MAT4", 16);
+       },
+       error + "accessors[8] holds inverseBindMatrices, whose last rows must be 0, 0, 0, 1"},
+      {"inverse bind matrices in bytes",
+       [](GltfFile& file) {
+         file.json["skins"][0]["inverseBindMatrices"] = file.add(identity, 5120, "MAT4", 16);
+       },
+       error + "accessors[8] holds inverseBindMatrices, which must be floats"},
+      {"weights that sum to 4", attribute("WEIGHTS_0", ones, 5126, "VEC4", 4),
+       "weights of joints that do not sum to 1, divided by their sum: 1, the first " + attributes_at +
+           ".WEIGHTS_0"},
+      {"a negative weight",
+       attribute("WEIGHTS_0", {1, -1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4),
+       "weights below 0, taken as 0: 1, the first " + attributes_at + ".WEIGHTS_0"},
+      {"more weights than targets", set("/meshes/0/weights", {1, 1}),
+       error + "meshes[0].primitives[0] has 1 targets, for which there are 2 weights"},
+      // Accessors and views.
+      {"no elements", set("/accessors/0/count", 0), error + "accessors[0] has no elements"},
+      {"misaligned accessor",
+       [](GltfFile& file) {
+         file.json["bufferViews"][uv]["byteOffset"] =
+             file.json["bufferViews"][uv]["byteOffset"].get<int>() - 2;
+         file.json["bufferViews"][uv]["byteLength"] =
+             file.json["bufferViews"][uv]["byteLength"].get<int>() + 2;
+       },
+       "accessors that do not begin at a multiple of their components' size: 1, the first accessors[3]"},
+      {"stride of 13",
+       [](GltfFile& file) {
+         const int view = file.add_view(std::vector<double>(13 * 3 + 12, 0), 5121);
+         file.json["bufferViews"][size_t(view)]["byteStride"] = 13;
+         file.json["accessors"][target]["bufferView"] = view;
+       },
+       "strides that are no multiple of 4 from 4 to 252: 1, the first bufferViews[8].byteStride"},
+      {"stride of indices", set("/bufferViews/1/byteStride", 4),
+       error +
+           "accessors[1] is in bufferViews[1], which has a byteStride: that is for attributes of vertices"},
+      {"stride of inverse bind matrices", set("/bufferViews/6/byteStride", 64),
+       error +
+           "accessors[6] is in bufferViews[6], which has a byteStride: that is for attributes of vertices"},
+      {"normalized indices", set("/accessors/1/normalized", true),
+       error + "accessors[1] holds indices, which cannot be normalized"},
+      {"min of other data", set("/accessors/0/min", {0, -5, 0}),
+       "accessors whose min or max is not that of their data, which count: 1, the first accessors[0]"},
+      {"max of two numbers", set("/accessors/0/max", {1, 1}), error + "accessors[0] has a max of 2 numbers"},
+      {"max, rounded", set("/accessors/0/max", {1.0001, 1, 0}), ""},
+      {"max of normalized numbers, as they are stored",
+       [](GltfFile& file) {
+         attribute("TEXCOORD_0", {0, 0, 255, 0, 255, 255, 0, 255}, 5121, "VEC2", 2, true)(file);
+         file.json["accessors"][8]["max"] = {255, 255};
+       },
+       ""},
+      {"sparse of nothing", sparse({0}, 0),
+       error + "accessors[0].sparse has a count of 0: it is from 1 to that of its accessor, 4"},
+      {"sparse of more than there are", sparse({0, 1, 2, 3, 3}, 5),
+       error + "accessors[0].sparse has a count of 5: it is from 1 to that of its accessor, 4"},
+      {"sparse, not in order", sparse({2, 1}, 2),
+       error + "accessors[0].sparse.indices have 1 after 2: they must increase"},
+      {"sparse, one twice", sparse({1, 1}, 2),
+       error + "accessors[0].sparse.indices have 1 after 1: they must increase"},
+      // Attributes.
+      {"normals of length 3", attribute("NORMAL", with(with(flat_normals, 2, 3), 5, 3), 5126, "VEC3", 3),
+       "normals that are not of unit length, normalised: 1, the first " + attributes_at + ".NORMAL"},
+      {"positions in shorts, undeclared", attribute("POSITION", square_positions, 5122, "VEC3", 3),
+       "attributes of component types that glTF does not give them, read as they say: 1, the first "
+       "accessors[8]"},
+      {"positions in 32 bits", attribute("POSITION", square_positions, 5125, "VEC3", 3),
+       error + "accessors[8] holds POSITION, which cannot be componentType 5125"},
+      {"weights in bytes that are no shares",
+       attribute("WEIGHTS_0", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5121, "VEC4", 4),
+       error + "accessors[8] holds WEIGHTS_0, which cannot be componentType 5121"},
+      {"joints as floats", attribute("JOINTS_0", std::vector<double>(16, 0), 5126, "VEC4", 4),
+       error + "accessors[8] holds JOINTS_0, which cannot be componentType 5126"},
+      {"normalized joints", attribute("JOINTS_0", std::vector<double>(16, 0), 5121, "VEC4", 4, true),
+       error + "accessors[8] holds JOINTS_0, which cannot be normalized componentType 5121"},
+      {"colours in bytes that are no shares", attribute("COLOR_0", ones, 5121, "VEC4", 4),
+       error + "accessors[8] holds COLOR_0, which cannot be componentType 5121"},
+      {"corners that make no triangle",
+       [](GltfFile& file) {
+         file.primitive()["indices"] = file.add({0, 1, 2, 0, 2}, 5123, "SCALAR", 1);
+       },
+       "primitives whose last corners make no triangle: 1, the first meshes[0].primitives[0]"},
+      // Materials.
+      {"a factor above 1", set("/materials/0/pbrMetallicRoughness/roughnessFactor", 7),
+       "factors below 0 or above 1, clamped: 1, the first materials[0].pbrMetallicRoughness.roughnessFactor"},
+      {"an alphaMode that there is not", set("/materials/0/alphaMode", "GLASS"),
+       error + "materials[0] has an alphaMode that glTF does not know"},
+      {"an extension that is required and not used", set("/extensionsRequired", {"ABC_future"}),
+       "left out: the extension ABC_future (1)"},
+  };
+  for (const Rule& rule : table) {
+    GltfFile file = rich_file();
+    rule.breach(file);
+    CAPTURE(rule.name);
+    CHECK(said_of(file) == rule.said);
+  }
+}
+
+TEST_CASE("rules of glTF: samplers, and pictures without uv") {
+  GltfFile file = rich_file();
+  std::ifstream png("tests/core/pictures/rgb.png", std::ios::binary);
+  const std::string picture{std::istreambuf_iterator<char>(png), {}};
+  file.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
+  file.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+  file.json["samplers"] = {{{"wrapS", 10497}, {"magFilter", 9729}}};
+  file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  CHECK(said_of(file) == "");
+  file.json["samplers"][0]["wrapS"] = 5;
+  CHECK(said_of(file) == "a.gltf: error: samplers[0] has a wrapS that glTF does not know");
+  file.json["samplers"][0] = {{"magFilter", 1}};
+  CHECK(said_of(file) == "a.gltf: error: samplers[0] has a magFilter that glTF does not know");
+  file.json["samplers"][0] = Json::object();
+  file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 1;
+  CHECK(said_of(file) ==
+        "meshes without the uv that their material's picture takes: 1, the first meshes[0].primitives[0]");
+
+  // The picture is one of the scene's, and counts among its pixels.
+  file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 0;
+  PixelBudget few{5};
+  const ImportedScene scene = import_sound(file.gltf(), "a.gltf", {.pixels = &few});
+  CHECK(warns(scene, "a picture was left out: cannot read images[0]: it has 3×2 pixels"));
+}
+
+TEST_CASE("rules of glTF: a kind is said once, with its count and first place") {
+  GltfFile file = rich_file();
+  for (int i = 2; i < 40; ++i) {
+    file.json["nodes"].push_back({{"rotation", {0, 0, 0, 3}}});
+    file.json["nodes"][0]["children"].push_back(i);
+  }
+  CHECK(said_of(file) ==
+        "rotations that are not of unit length, normalised: 38, the first nodes[2].rotation");
+}
+
+TEST_CASE("JSON is read in time that grows with its length, and to a bound") {
+  GltfFile file = square_file();
+  const std::string plain = file.gltf();
+  const size_t place = plain.find("\"nodes\":[") + 9;
+  const auto with_nodes = [&](size_t count) {
+    std::string nodes;
+    for (size_t i = 0; i < count; ++i) nodes += "{},";
+    return std::string(plain).insert(place, nodes);
+  };
+  // By the square it took 17 s; now a tenth of one.
+  std::string many = with_nodes(300'000);
+  many.replace(many.find("\"nodes\":[0]"), 11, "\"nodes\":[300000]");
+  const std::clock_t before = std::clock();
+  CHECK(import_bytes(many, "a.gltf").instances.size() == 1);
+  CHECK(double(std::clock() - before) / CLOCKS_PER_SEC < 8);
+
+  const std::string too_many = refusal("{\"a\":[0\n" + std::string(size_t{1} << 24, ',') + ",0]}", "a.gltf");
+  CHECK(too_many == "a.gltf:2:16777215: error: its JSON has more than 16777216 values");
+  // What stands in strings is no structure.
+  CHECK(refusal("{\"a\":\"" + std::string(100, '[') + "\\\"" + std::string(100, '{') + "\"}", "a.gltf") ==
+        "a.gltf: error: it is not glTF 2: its asset.version is \"\"");
+}
