@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
+#include "core/termination.hpp"
 
 namespace eyeray {
 

@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "core/error.hpp"
+#include "core/termination.hpp"
 
 namespace fs = std::filesystem;
 
@@ -15,7 +16,8 @@ constexpr double longest_run_seconds = 600;
 
 ProcessResult run_or_throw(const std::vector<std::string>& argv, const Environment& environment = {}) {
   ProcessResult result = run_process(argv, environment, longest_run_seconds);
-  if (result.code == int(ExitCode::interrupted)) throw Error(ExitCode::interrupted, "interrupted");
+  if (interrupted() || result.code == int(ExitCode::interrupted))
+    throw Error(ExitCode::interrupted, "interrupted");
   if (result.code > 0 && result.code < 6)
     throw Error(ExitCode(result.code), "{} failed:\n{}", argv[0], result.err);
   if (result.code != 0)

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/picture.hpp"
-#include "core/interrupt.hpp"
+#include "core/termination.hpp"
 #include "dev/file_watcher.hpp"
 #include "dev/worker.hpp"
 

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/termination.hpp"
+
 namespace eyeray::cli {
 
 Json to_json(const Diagnostic& diagnostic) {
@@ -14,7 +16,7 @@ Json to_json(const Diagnostic& diagnostic) {
 }
 
 Json to_json(const Error& error) {
-  Json json{{"code", int(error.code())}, {"message", error.what()}};
+  Json json{{"code", exit_status(error.code())}, {"message", error.what()}};
   if (const auto* input = dynamic_cast<const InputError*>(&error)) {
     json["diagnostics"] = Json::array();
     for (const Diagnostic& diagnostic : input->diagnostics())

@@ -2,20 +2,22 @@
 // code.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <system_error>
 
 #include "cli/command.hpp"
 #include "cli/help.hpp"
 #include "cli/json.hpp"
 #include "core/diagnostic.hpp"
-#include "core/interrupt.hpp"
+#include "core/standard_streams.hpp"
+#include "core/termination.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -34,7 +36,8 @@ void describe(CLI::App& app) {
       "First picture:   eyeray render scenes/whitted.toml -o whitted.png\n"
       "Proof:           eyeray verify scenes/whitted.toml\n"
       "Exit codes: 0 ok, 1 a comparison failed, 2 bad usage, scene or shader, 3 no usable Vulkan device,\n"
-      "            4 file input or output, 5 time-out, 6 no C++ compiler for a formula, 130 interrupted.\n"
+      "            4 file input or output, 5 time-out, 6 no C++ compiler for a formula, 128 + N ended by "
+      "signal N.\n"
       "Data goes to standard output, words to standard error. Under --json a failure is JSON too: "
       "{\"error\": ...}.");
 }
@@ -84,7 +87,10 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
                      nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest), help);
 }
 
+// Says why the program ends, once: what ends it and what that brings about may both have a word.
 void report(const Error& error, bool json) {
+  static std::atomic_flag said;
+  if (said.test_and_set()) return;
   if (json) print_json({{"error", to_json(error)}});
   if (const auto* input = dynamic_cast<const InputError*>(&error)) {
     const size_t count = input->diagnostics().size();
@@ -111,7 +117,10 @@ int run_command_line(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
+    std::ostringstream text;
+    const int code = app.exit(asked, text, text);
+    fmt::print("{}", text.str());
+    return code;
   } catch (const CLI::ParseError& error) {
     throw Error(ExitCode::bad_input, usage_message(app, error));
   }
@@ -119,22 +128,23 @@ int run_command_line(int argc, char** argv) {
     fmt::print(stderr, "{}", app.help());
     return int(ExitCode::bad_input);
   }
-  return int(run());
+  return exit_status(run());
 }
 
 // Every way in which a command can fail, as an exit code.
 int guarded_main(int argc, char** argv) {
+  make_standard_streams_safe();
   const bool json =
       std::any_of(argv + 1, argv + argc, [](std::string_view word) { return word == "--json"; });
   try {
+    watch_for_termination([json](const Error& error) { report(error, json); });
     const int code = run_command_line(argc, argv);
-    // A reader that went away (`eyeray devices | head -1`) wanted no more; a full disk is an error.
-    if ((std::fflush(stdout) != 0 || std::ferror(stdout)) && errno != EPIPE)
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
       throw Error(ExitCode::file_io, "cannot write to standard output: {}", strerror(errno));
     return code;
   } catch (const Error& error) {
     report(error, json);
-    return int(error.code());
+    return exit_status(error.code());
   } catch (const std::bad_alloc&) {
     report({ExitCode::bad_input, "out of memory; try a smaller picture or scene"}, json);
     return int(ExitCode::bad_input);
@@ -142,7 +152,6 @@ int guarded_main(int argc, char** argv) {
     report({ExitCode::file_io, "{}", error.what()}, json);
     return int(ExitCode::file_io);
   } catch (const std::system_error& error) {
-    if (error.code() == std::errc::broken_pipe) return int(ExitCode::ok);
     report({ExitCode::file_io, "{}", error.what()}, json);
     return int(ExitCode::file_io);
   } catch (const std::exception& error) {
@@ -158,7 +167,5 @@ int guarded_main(int argc, char** argv) {
 }  // namespace eyeray::cli
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);
-  eyeray::catch_interrupts();
   return eyeray::cli::guarded_main(argc, argv);
 }

@@ -10,6 +10,7 @@
 #include "core/atomic_file.hpp"
 #include "core/image_file.hpp"
 #include "core/peak_memory.hpp"
+#include "core/termination.hpp"
 #include "render/corners.hpp"
 #include "render/render.hpp"
 
@@ -148,7 +149,10 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
   picture.interrupted = totals.interrupted;
 
   // A picture in which every pixel has a sample is worth keeping; a part of one is not.
-  if (totals.samples_done > 0) encoding.measure("encode", [&] { files->finish_picture(picture.files); });
+  if (totals.samples_done > 0) {
+    const Saving saving;
+    encoding.measure("encode", [&] { files->finish_picture(picture.files); });
+  }
   if (!picture.interrupted && need_first_hits(request.aovs)) {
     picture.interrupted = !trace_first_hits(*executor, crop, [&](int, std::span<const FirstHit> hits) {
       for (const FirstHit& hit : hits) {

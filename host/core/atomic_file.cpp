@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/unfinished_files.hpp"
 
 namespace eyeray {
 
@@ -60,16 +61,21 @@ AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
   // A name of its own, even where one program writes a file twice at once or a killed one left its part.
   const std::string stem = path_.string() + ".part." + std::to_string(::getpid());
   part_ = stem;
+  UnfinishedFiles unfinished;
   for (int i = 1; file_ < 0; ++i) {
     file_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ < 0 && errno != EEXIST) fail("write", part_, errno);
     if (file_ < 0) part_ = stem + "." + std::to_string(i);
   }
+  unfinished.add(part_);
 }
 
 AtomicFile::~AtomicFile() {
   if (file_ >= 0) ::close(file_);
-  if (!renamed_) ::unlink(part_.c_str());
+  if (renamed_) return;
+  UnfinishedFiles unfinished;
+  ::unlink(part_.c_str());
+  unfinished.drop(part_);
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
@@ -91,8 +97,12 @@ void AtomicFile::commit() {
   if (::fsync(file_) != 0) fail("write", part_, errno);
   // Some file systems report a full disk only here.
   if (::close(std::exchange(file_, -1)) != 0) fail("write", part_, errno);
-  if (::rename(part_.c_str(), path_.c_str()) != 0) fail("replace", path_, errno);
-  renamed_ = true;
+  {
+    UnfinishedFiles unfinished;
+    if (::rename(part_.c_str(), path_.c_str()) != 0) fail("replace", path_, errno);
+    renamed_ = true;
+    unfinished.drop(part_);
+  }
 
   // Make the rename itself durable; file systems that cannot sync a folder say EINVAL.
   const Descriptor folder(folder_of(path_), O_RDONLY | O_DIRECTORY);

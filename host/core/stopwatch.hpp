@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -15,6 +16,22 @@ class Stopwatch {
  private:
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
+};
+
+// Seconds in which this process ran. It is to be asked several times a second: between two questions it
+// counts a quarter of a second at most, so not the hours for which the process was stopped (Ctrl-Z).
+class WakefulStopwatch {
+ public:
+  double seconds() {
+    const double now = watch_.seconds();
+    counted_ += std::min(now - std::exchange(last_, now), 0.25);
+    return counted_;
+  }
+
+ private:
+  Stopwatch watch_;
+  double last_ = 0;
+  double counted_ = 0;
 };
 
 // Seconds spent in named stages, in the order of their first appearance; the same name adds up.

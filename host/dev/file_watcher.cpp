@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
+#include "core/termination.hpp"
 
 namespace fs = std::filesystem;
 

@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
 #include "core/stopwatch.hpp"
+#include "core/termination.hpp"
 
 namespace eyeray {
 namespace {
@@ -60,7 +60,7 @@ void Worker::start() {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(1);
     std::signal(SIGINT, SIG_IGN);
-    std::signal(SIGTERM, SIG_DFL);
+    for (const int number : {SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
     ::close(ends[0]);
     serve_forever(ends[1], serve_);
   }

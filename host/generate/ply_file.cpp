@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
+#include "core/termination.hpp"
 
 namespace eyeray {
 

@@ -2,13 +2,13 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
 #include "core/stopwatch.hpp"
+#include "core/termination.hpp"
 #include "gpu/device_choice.hpp"
 #include "gpu/physical_device.hpp"
 
@@ -106,31 +106,30 @@ void Context::submit_and_wait(std::string_view what) {
   auto submit = make<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands;
-  const Stopwatch watch;
-  check(vkQueueSubmit(queue, 1, &submit, fence), what);
+  const ForeignCall call(options.timeout_seconds, time_out(what));
+  const VkResult submitted = vkQueueSubmit(queue, 1, &submit, fence);
+  if (submitted != VK_SUCCESS) abandon(failure(submitted, what));
 
-  // Wait in slices, to see Ctrl-C; then the device has a second to finish what it is at.
-  constexpr double slice = 0.05, grace = 1.0;
-  double limit = options.timeout_seconds;
-  bool stopping = false;
+  // Wait in slices, to see Ctrl-C; then the device has a moment to finish what it is at.
+  constexpr uint64_t slice = 20'000'000;
+  constexpr double grace = 0.15;
+  std::optional<Stopwatch> stopping;
   for (;;) {
-    const double wait = std::clamp(limit - watch.seconds(), 0.0, slice);
-    const VkResult result = vkWaitForFences(device, 1, &fence, VK_TRUE, uint64_t(wait * 1e9));
+    const VkResult result = vkWaitForFences(device, 1, &fence, VK_TRUE, slice);
     if (result == VK_SUCCESS) return;
-    if (result != VK_TIMEOUT) check(result, what);
-    if (!stopping && interrupted()) {
-      stopping = true;
-      limit = std::min(limit, watch.seconds() + grace);
-    }
-    if (watch.seconds() < limit) continue;
-    if (stopping)
+    if (result != VK_TIMEOUT) abandon(failure(result, what));
+    if (call.passed()) abandon(time_out(what));
+    if (interrupted() && !stopping) stopping.emplace();
+    if (stopping && stopping->seconds() >= grace)
       abandon(Error(ExitCode::interrupted, "interrupted; the device was still busy and is left behind"));
-    abandon(Error(
-        ExitCode::timed_out,
-        "{} could not {} within {} s: look for a loop that does not end, or raise --timeout if the work is "
-        "really that heavy",
-        info.name, what, options.timeout_seconds));
   }
+}
+
+Error Context::time_out(std::string_view what) const {
+  return {ExitCode::timed_out,
+          "{} could not {} within {} s: look for a loop that does not end, or raise --timeout if the work is "
+          "really that heavy",
+          info.name, what, options.timeout_seconds};
 }
 
 void Context::abandon(const Error& error) {

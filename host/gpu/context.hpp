@@ -20,9 +20,11 @@ struct Context {
   // Gives up what was recorded since, if it was not submitted.
   void cancel() noexcept;
   // Ends it, submits it and waits until the device is done. Error (timed_out) after the time-out,
-  // (interrupted) when the user asked to stop and the device did not finish within a second; the context is
-  // then abandoned.
+  // (interrupted) when the user asked to stop and the device did not finish soon, (no_device) when the driver
+  // fails. From the submission on, the context is then abandoned.
   void submit_and_wait(std::string_view what);
+  // That `what` took longer than the time-out.
+  Error time_out(std::string_view what) const;
 
   DeviceOptions options;
   std::unique_ptr<Instance> instance;
@@ -39,8 +41,7 @@ struct Context {
   uint32_t timestamp_bits = 0;
   double timestamp_seconds = 0;  // of one tick
   bool recording = false;
-  bool abandoned =
-      false;  // the device is still busy and never to be waited for: nothing of it may be destroyed
+  bool abandoned = false;  // the device may be busy, and is not waited for: nothing of it may be destroyed
 
  private:
   struct InstanceOnly {};

@@ -70,7 +70,7 @@ void require_validation_layer() {
 
 }  // namespace
 
-Instance::Instance(const std::string& validation) {
+Instance::Instance(const std::string& validation) : Instance() {
   if (!validation.empty() && validation != "core" && validation != "sync")
     throw Error(ExitCode::bad_input, "validation is \"core\" or \"sync\", not \"{}\"", validation);
   open_loader();
@@ -118,6 +118,7 @@ Instance::Instance(const std::string& validation) {
 }
 
 Instance::~Instance() {
+  if (!instance_) return;
   if (messenger_) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
   vkDestroyInstance(instance_, nullptr);
 }

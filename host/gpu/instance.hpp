@@ -30,6 +30,8 @@ class Instance {
   std::vector<std::string> validation_messages() const;
 
  private:
+  Instance() = default;  // the public constructor completes it, and cleans up if it cannot
+
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::unique_ptr<ValidationLog> log_ = std::make_unique<ValidationLog>();

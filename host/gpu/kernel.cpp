@@ -4,6 +4,7 @@
 
 #include "core/content_hash.hpp"
 #include "core/error.hpp"
+#include "core/termination.hpp"
 #include "gpu/kernel_objects.hpp"
 #include "gpu/raw_buffer.hpp"
 
@@ -29,7 +30,8 @@ VkDescriptorType descriptor_type(BindingKind kind) {
                                      : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
-// A pipeline cache that comes from disk and goes back there when the driver added to it.
+// A pipeline cache that comes from disk and goes back there when the driver added to it. What fails of it
+// costs time and nothing else.
 class PipelineCache {
  public:
   PipelineCache(const Context& context, std::span<const uint32_t> spirv, const DiskCache& disk)
@@ -41,19 +43,19 @@ class PipelineCache {
     auto info = make<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
     info.initialDataSize = loaded_.size();
     info.pInitialData = loaded_.data();
-    check(vkCreatePipelineCache(context.device, &info, nullptr, &cache_), "create a pipeline cache");
+    if (vkCreatePipelineCache(context.device, &info, nullptr, &cache_) != VK_SUCCESS) cache_ = VK_NULL_HANDLE;
   }
   ~PipelineCache() { vkDestroyPipelineCache(context_.device, cache_, nullptr); }
   PipelineCache(const PipelineCache&) = delete;
   PipelineCache& operator=(const PipelineCache&) = delete;
 
-  VkPipelineCache handle() const { return cache_; }
+  VkPipelineCache handle() const { return cache_; }  // null is none
 
   void save() const {
     size_t size = 0;
-    check(vkGetPipelineCacheData(context_.device, cache_, &size, nullptr), "read a pipeline cache");
+    if (!cache_ || vkGetPipelineCacheData(context_.device, cache_, &size, nullptr) != VK_SUCCESS) return;
     std::string data(size, '\0');
-    check(vkGetPipelineCacheData(context_.device, cache_, &size, data.data()), "read a pipeline cache");
+    if (vkGetPipelineCacheData(context_.device, cache_, &size, data.data()) != VK_SUCCESS) return;
     data.resize(size);
     if (data != loaded_) disk_.store(name_, data);
   }
@@ -64,6 +66,27 @@ class PipelineCache {
   std::string name_;
   std::string loaded_;
   VkPipelineCache cache_ = VK_NULL_HANDLE;
+};
+
+class ShaderModule {
+ public:
+  ShaderModule(const Context& context, std::span<const uint32_t> spirv, const std::string& kernel)
+      : context_(context) {
+    auto info = make<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
+    info.codeSize = spirv.size_bytes();
+    info.pCode = spirv.data();
+    check(vkCreateShaderModule(context.device, &info, nullptr, &module_),
+          fmt::format("load kernel '{}'", kernel));
+  }
+  ~ShaderModule() { vkDestroyShaderModule(context_.device, module_, nullptr); }
+  ShaderModule(const ShaderModule&) = delete;
+  ShaderModule& operator=(const ShaderModule&) = delete;
+
+  VkShaderModule handle() const { return module_; }
+
+ private:
+  const Context& context_;
+  VkShaderModule module_ = VK_NULL_HANDLE;
 };
 
 }  // namespace
@@ -118,23 +141,20 @@ void Kernel::create_layout() {
 }
 
 void Kernel::create_pipeline(std::span<const uint32_t> spirv, const DiskCache& disk) {
-  auto module_info = make<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
-  module_info.codeSize = spirv.size_bytes();
-  module_info.pCode = spirv.data();
-  VkShaderModule module = VK_NULL_HANDLE;
-  check(vkCreateShaderModule(context_->device, &module_info, nullptr, &module),
-        fmt::format("load kernel '{}'", name_));
+  const ShaderModule module(*context_, spirv, name_);
   auto info = make<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
   info.stage = make<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
   info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  info.stage.module = module;
+  info.stage.module = module.handle();
   info.stage.pName = "main";
   info.layout = objects_->layout;
   const PipelineCache cache(*context_, spirv, disk);
-  const VkResult result =
-      vkCreateComputePipelines(context_->device, cache.handle(), 1, &info, nullptr, &objects_->pipeline);
-  vkDestroyShaderModule(context_->device, module, nullptr);
-  check(result, fmt::format("build kernel '{}'", name_));
+  const std::string what = fmt::format("build kernel '{}'", name_);
+  {
+    const ForeignCall compiler(context_->options.timeout_seconds, context_->time_out(what));
+    check(vkCreateComputePipelines(context_->device, cache.handle(), 1, &info, nullptr, &objects_->pipeline),
+          what);
+  }
   cache.save();
 }
 

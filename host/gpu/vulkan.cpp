@@ -1,7 +1,5 @@
 #include "gpu/vulkan.hpp"
 
-#include "core/error.hpp"
-
 namespace eyeray::gpu {
 
 std::string result_name(VkResult result) {
@@ -35,19 +33,18 @@ std::string result_name(VkResult result) {
   }
 }
 
+Error failure(VkResult result, std::string_view what) {
+  if (result == VK_ERROR_DEVICE_LOST)
+    return {
+        ExitCode::no_device,
+        "the Vulkan device was lost while trying to {} (VK_ERROR_DEVICE_LOST): the driver stopped it, most "
+        "often because a shader ran too long or reached outside its buffers; --validate=core may say more",
+        what};
+  return {ExitCode::no_device, "the Vulkan driver could not {}: {}", what, result_name(result)};
+}
+
 void check(VkResult result, std::string_view what) {
-  switch (result) {
-    case VK_SUCCESS:
-      return;
-    case VK_ERROR_DEVICE_LOST:
-      throw Error(
-          ExitCode::no_device,
-          "the Vulkan device was lost while trying to {} (VK_ERROR_DEVICE_LOST): the driver stopped it, most "
-          "often because a shader ran too long or reached outside its buffers; --validate=core may say more",
-          what);
-    default:
-      throw Error(ExitCode::no_device, "the Vulkan driver could not {}: {}", what, result_name(result));
-  }
+  if (result != VK_SUCCESS) throw failure(result, what);
 }
 
 }  // namespace eyeray::gpu

@@ -4,14 +4,20 @@
 
 #include <volk.h>
 
+#include <string>
 #include <string_view>
+
+#include "core/error.hpp"
 
 namespace eyeray::gpu {
 
 // "VK_ERROR_DEVICE_LOST", or "VkResult N" for a result this table does not know.
 std::string result_name(VkResult result);
 
-// Error (no_device) that names `what` was tried and the result, unless it is VK_SUCCESS.
+// That `what` was tried, and failed with `result`, as an Error (no_device).
+Error failure(VkResult result, std::string_view what);
+
+// Throws that, unless the result is VK_SUCCESS.
 void check(VkResult result, std::string_view what);
 
 // A Vulkan structure with its sType set and everything else zero.

@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
 #include "core/parallel_for.hpp"
+#include "core/termination.hpp"
 #include "formula/formula.hpp"
 #include "reference/renderer.hpp"
 #include "render/executors.hpp"
@@ -17,16 +17,17 @@
 namespace eyeray {
 namespace {
 
-// Calls pixel(x, y, out[i]) for every pixel of the tile. Returns false when interrupted, between rows.
+// Calls pixel(x, y, out[i]) for every pixel of the tile. Returns false when interrupted.
 template <typename Result, typename Pixel>
 bool for_each_pixel(const Rect& tile, std::span<Result> out, const Pixel& pixel) {
   CHECK_EQ(out.size(), size_t(tile.pixels()));
   std::atomic<bool> stopped = false;
   parallel_for(0, tile.height, [&](int row) {
-    if (interrupted()) stopped = true;
-    if (stopped) return;
-    for (int column = 0; column < tile.width; ++column)
+    for (int column = 0; column < tile.width; ++column) {
+      if (interrupted()) stopped = true;
+      if (stopped) return;
       out[size_t(row) * size_t(tile.width) + size_t(column)] = pixel(tile.x + column, tile.y + row);
+    }
   });
   return !stopped;
 }

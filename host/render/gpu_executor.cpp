@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
 #include "core/parallel_for.hpp"
+#include "core/termination.hpp"
 #include "gpu/command_list.hpp"
 #include "gpu/kernel_compiler.hpp"
 #include "gpu/self_test.hpp"

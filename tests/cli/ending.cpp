@@ -1,0 +1,109 @@
+// How eyeray ends where its streams, its files, its time or its device end before it.
+#include <csignal>
+
+#include "scene.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// Runs a line of bash in which $EYERAY is the program and $SCENE the scene. `gone` is a pipe nobody reads.
+ProcessResult run_line(const SceneFolder& folder, const std::string& line) {
+  return run_process(
+      {"bash", "-c", "exec {gone}> >(exit); wait $!; cd " + folder.path().string() + "; " + line},
+      {{"EYERAY", eyeray_binary()}, {"SCENE", folder.scene()}}, 120);
+}
+
+// A render that is a matter of hours, once it keeps a checkpoint of more than its start.
+class LongRender : public Process {
+ public:
+  explicit LongRender(const SceneFolder& folder, const Environment& environment = {})
+      : Process(
+            {eyeray_binary(), "render", folder.scene(), "-s", "200x100", "--spp", "65536", "--backend",
+             "twin", "--checkpoint", folder / "work", "--checkpoint-every", "0.01", "-o", folder / "a.pfm"},
+            environment) {
+    const Stopwatch watch;
+    while (!std::filesystem::exists(folder / "work") && watch.seconds() < 60 && !wait(0.005)) {
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a standard error that takes nothing costs nothing") {
+  const SceneFolder folder;
+  // A warning is the first thing said.
+  write_text(folder.scene(), std::string(small_scene) + "[[material]]\nname = \"spare\"\ntype = \"phong\"\n");
+  REQUIRE(run_line(folder, "$EYERAY render $SCENE -o whole.png").err.find("warning") != std::string::npos);
+  for (const std::string streams :
+       {"2>&$gone", "2>/dev/full", "2>&-", "<&- >&- 2>&-", "<&- 2>/dev/full >&$gone"}) {
+    CAPTURE(streams);
+    CHECK(run_line(folder, "$EYERAY render $SCENE -o a.png " + streams).code == 0);
+    CHECK(read_text(folder / "a.png") == read_text(folder / "whole.png"));
+    std::filesystem::remove(folder / "a.png");
+  }
+  CHECK(run_line(folder, "$EYERAY render nowhere.toml 2>&-").code == 4);
+}
+
+TEST_CASE("a reader of standard output may go, and the exit code is that of the work") {
+  const SceneFolder folder;
+  REQUIRE(run_line(folder,
+                   "$EYERAY render $SCENE -o a.pfm && $EYERAY render $SCENE -o b.pfm -D "
+                   "render.background=[1,1,1]")
+              .code == 0);
+  CHECK(run_line(folder, "$EYERAY check --manual >&$gone").code == 0);
+  CHECK(run_line(folder, "$EYERAY compare a.pfm b.pfm >&$gone").code == 1);
+  for (const std::string stream : {">&-", ">/dev/full"}) {
+    CHECK(run_line(folder, "$EYERAY check --manual " + stream).code == 4);
+    CHECK(run_line(folder, "$EYERAY --help " + stream).code == 4);
+  }
+}
+
+TEST_CASE("a limit on the size of files is an error of the file, and leaves nothing") {
+  const SceneFolder folder;
+  const ProcessResult result = run_line(folder, "ulimit -f 1; $EYERAY render $SCENE -o a.pfm");
+  CHECK(result.code == 4);
+  CHECK(result.err.find("File too large") != std::string::npos);
+  CHECK(folder.names() == std::set<std::string>{"scene.toml"});
+}
+
+TEST_CASE("each signal that ends a render keeps its checkpoint, and is told by the exit code") {
+  for (const int signal : {SIGHUP, SIGTERM}) {
+    const SceneFolder folder;
+    LongRender render(folder);
+    render.send_signal(signal);
+    REQUIRE(render.wait(60));
+    CAPTURE(render.err());
+    CHECK(render.code() == 128 + signal);
+    CHECK(render.err().find(" of the work: to go on, give the same options and --resume ") !=
+          std::string::npos);
+    std::set<std::string> left = folder.names();
+    left.erase("a.pfm");  // there if every pixel has a sample
+    CHECK(left == std::set<std::string>{"scene.toml", "work"});
+  }
+}
+
+TEST_CASE("a device that fails while it works leaves a message, and the checkpoint") {
+  const SceneFolder folder;
+  // The 30th wait: by then pixels have been rendered.
+  const ProcessResult result = run_eyeray(
+      {"render", folder.scene(), "--spp", "1024", "--checkpoint", folder / "work", "-o", folder / "a.pfm"},
+      {{"EYERAY_VULKAN_LOADER", FAILING_VULKAN}, {"EYERAY_FAILING_CALL", "vkWaitForFences 30 -4"}});
+  CHECK(result.code == 3);
+  CHECK(result.err.find("eyeray: error: the Vulkan device was lost") != std::string::npos);
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "work"});
+}
+
+TEST_CASE("a pipeline cache that fails costs no picture") {
+  const SceneFolder folder;
+  for (const std::string call : {"vkCreatePipelineCache 1 -1", "vkGetPipelineCacheData 1 -3"}) {
+    const ProcessResult result =
+        run_eyeray({"render", folder.scene(), "-o", folder / "a.pfm"},
+                   {{"EYERAY_VULKAN_LOADER", FAILING_VULKAN}, {"EYERAY_FAILING_CALL", call}});
+    CAPTURE(result.err);
+    CHECK(result.code == 0);
+  }
+}

@@ -1,0 +1,192 @@
+#include "core/termination.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <thread>
+
+#include "core/atomic_file.hpp"
+#include "core/stopwatch.hpp"
+#include "support/process.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+void watch_and_say_why() {
+  watch_for_termination([](const Error& error) { fmt::print(stderr, "ended: {}\n", error.what()); });
+}
+
+void sleep_seconds(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+[[noreturn]] void hang() {
+  while (true) ::pause();
+}
+
+// A process that runs one of the skipped tests below.
+class Child : public Process {
+ public:
+  explicit Child(const std::string& test, const Environment& environment = {})
+      : Process({std::filesystem::read_symlink("/proc/self/exe").string(), "--test-case=child: " + test,
+                 "--no-skip"},
+                environment) {}
+  bool says(const std::string& text) { return wait_for_error_text(text, 30); }
+  bool ends() { return wait(30); }
+};
+
+}  // namespace
+
+TEST_CASE("child: asks" * doctest::skip()) {
+  watch_and_say_why();
+  const Saving saving;
+  fmt::print(stderr, "ready\n");
+  while (!interrupted()) sleep_seconds(0.001);
+  std::_Exit(exit_status(ExitCode::interrupted));
+}
+
+TEST_CASE("the first signal sets the flag, and gives the status") {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    Child child("asks");
+    REQUIRE(child.says("ready"));
+    child.send_signal(signal);
+    REQUIRE(child.ends());
+    CHECK(child.code() == 128 + signal);
+    CHECK(child.err().find("ended") == std::string::npos);
+  }
+}
+
+TEST_CASE("child: ignores SIGHUP" * doctest::skip()) {
+  std::signal(SIGHUP, SIG_IGN);
+  watch_and_say_why();
+  fmt::print(stderr, "ready\n");
+  hang();
+}
+
+TEST_CASE("under nohup SIGHUP is no signal") {
+  Child child("ignores SIGHUP");
+  REQUIRE(child.says("ready"));
+  child.send_signal(SIGHUP);
+  CHECK_FALSE(child.wait(0.1));
+  child.send_signal(SIGTERM);
+  REQUIRE(child.ends());
+  CHECK(child.code() == 128 + SIGTERM);  // of the first that was seen
+}
+
+TEST_CASE("child: does not ask" * doctest::skip()) {
+  watch_and_say_why();
+  AtomicFile file(std::getenv("EYERAY_TEST_FILE"));
+  file.write("half of it");
+  fmt::print(stderr, "ready\n");
+  hang();
+}
+
+TEST_CASE("what does not ask is ended, and what it has half written is gone") {
+  const TemporaryFolder folder;
+  Child child("does not ask", {{"EYERAY_TEST_FILE", folder / "file"}});
+  REQUIRE(child.says("ready"));
+  CHECK(folder.names().size() == 1);
+  child.send_signal(SIGTERM);
+  REQUIRE(child.ends());
+  CHECK(child.code() == 128 + SIGTERM);
+  CHECK(child.err().find("ended: interrupted\n") != std::string::npos);
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("child: has its output full" * doctest::skip()) {
+  watch_and_say_why();
+  int ends[2];
+  CHECK(::pipe(ends) == 0);
+  fmt::print(stderr, "ready\n");
+  // Nobody reads: the write below never returns, and holds standard error's lock.
+  ::dup2(ends[1], STDERR_FILENO);
+  while (true) fmt::print(stderr, "{}\n", std::string(65536, '.'));
+}
+
+TEST_CASE("an output that takes no more holds nothing up") {
+  Child child("has its output full");
+  REQUIRE(child.says("ready"));
+  child.send_signal(SIGINT);
+  REQUIRE(child.ends());
+  CHECK(child.code() == 128 + SIGINT);
+}
+
+TEST_CASE("child: saves for ever" * doctest::skip()) {
+  watch_and_say_why();
+  const Saving saving;
+  fmt::print(stderr, "ready\n");
+  while (!interrupted()) sleep_seconds(0.001);
+  fmt::print(stderr, "seen\n");
+  hang();
+}
+
+TEST_CASE("one signal lets it save, two at once are one, a second ends it") {
+  Child child("saves for ever");
+  REQUIRE(child.says("ready"));
+  child.send_signal(SIGTERM);
+  child.send_signal(SIGINT);
+  REQUIRE(child.says("seen"));
+  CHECK_FALSE(child.wait(0.5));
+  child.send_signal(SIGINT);
+  REQUIRE(child.ends());
+  // Either of the two may come first.
+  CHECK((child.code() == 128 + SIGTERM || child.code() == 128 + SIGINT));
+  CHECK(child.err().find("ended: interrupted\n") != std::string::npos);
+}
+
+TEST_CASE("child: calls what does not return" * doctest::skip()) {
+  watch_and_say_why();
+  const Saving saving;
+  const ForeignCall call(0.05, Error(ExitCode::timed_out, "it took too long"));
+  hang();
+}
+
+TEST_CASE("a call that does not return is ended, whatever there is to save") {
+  Child child("calls what does not return");
+  REQUIRE(child.ends());
+  CHECK(child.code() == int(ExitCode::timed_out));
+  CHECK(child.err().find("ended: it took too long\n") != std::string::npos);
+}
+
+TEST_CASE("child: returns too late and saves" * doctest::skip()) {
+  watch_and_say_why();
+  {
+    const Saving saving;
+    {
+      const ForeignCall call(0.05, Error(ExitCode::timed_out, "it took too long"));
+      while (!call.passed()) sleep_seconds(0.001);
+    }
+    sleep_seconds(0.6);  // twice the grace
+    fmt::print(stderr, "saved\n");
+  }
+  hang();
+}
+
+TEST_CASE("after a call that returned too late there is time to save, and no more") {
+  Child child("returns too late and saves");
+  REQUIRE(child.ends());
+  CHECK(child.code() == int(ExitCode::timed_out));
+  CHECK(child.err().find("saved\nended: it took too long\n") != std::string::npos);
+}
+
+TEST_CASE("child: measures" * doctest::skip()) {
+  const Stopwatch wall;
+  WakefulStopwatch watch;
+  fmt::print(stderr, "ready\n");
+  while (watch.seconds() < 0.4) sleep_seconds(0.001);
+  std::_Exit(wall.seconds() - watch.seconds() > 0.3 ? 7 : 8);
+}
+
+TEST_CASE("time in which the process is stopped does not count") {
+  Child child("measures");
+  REQUIRE(child.says("ready"));
+  child.send_signal(SIGSTOP);
+  sleep_seconds(0.6);
+  child.send_signal(SIGCONT);
+  REQUIRE(child.ends());
+  CHECK(child.code() == 7);
+}

@@ -1,0 +1,15 @@
+// A Vulkan loader in front of the system's, for EYERAY_VULKAN_LOADER: one chosen call fails without reaching
+// the driver, calls are counted, and so are the objects that were made and not destroyed.
+//
+// EYERAY_FAILING_CALL="vkWaitForFences 3 -4" chooses in a process of its own: the third call answers −4.
+#pragma once
+
+extern "C" {
+// From now on the `number`-th call of `function`, from 1, answers `result`; 0: none does. Counts begin at 0.
+void fail_call(const char* function, int number, int result);
+// How many functions there are that answer a result; the name of each, and how often it was called.
+int function_count();
+const char* function_name(int function);
+int calls(int function);
+int objects_alive();
+}
