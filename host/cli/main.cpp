@@ -16,6 +16,7 @@
 #include "cli/help.hpp"
 #include "cli/json.hpp"
 #include "core/diagnostic.hpp"
+#include "core/memory_shortage.hpp"
 #include "core/standard_streams.hpp"
 #include "core/termination.hpp"
 
@@ -138,6 +139,7 @@ int guarded_main(int argc, char** argv) {
       std::any_of(argv + 1, argv + argc, [](std::string_view word) { return word == "--json"; });
   try {
     watch_for_termination([json](const Error& error) { report(error, json); });
+    report_memory_shortage();
     const int code = run_command_line(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout))
       throw Error(ExitCode::file_io, "cannot write to standard output: {}", strerror(errno));
@@ -146,8 +148,8 @@ int guarded_main(int argc, char** argv) {
     report(error, json);
     return exit_status(error.code());
   } catch (const std::bad_alloc&) {
-    report({ExitCode::bad_input, "out of memory; try a smaller picture or scene"}, json);
-    return int(ExitCode::bad_input);
+    report(out_of_memory(), json);
+    return int(out_of_memory().code());
   } catch (const std::filesystem::filesystem_error& error) {
     report({ExitCode::file_io, "{}", error.what()}, json);
     return int(ExitCode::file_io);

@@ -1,5 +1,6 @@
 #include "core/error.hpp"
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
@@ -9,6 +10,7 @@ void check_failed(const char* file, int line, const char* expression, const std:
   fmt::print(stderr,
              "{}:{}: check failed: {}{}\nThis is a bug in eyeray; please report it with the command line.\n",
              file, line, expression, values);
+  std::signal(SIGABRT, SIG_DFL);  // whatever memory is left, this is a bug
   std::abort();
 }
 

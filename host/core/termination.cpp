@@ -33,6 +33,7 @@ constexpr size_t stack_bytes = 256 << 10;
 std::atomic<int64_t> first_signal = 0;  // when it came, on the monotonic clock; 0: none did
 std::atomic<int> signal_number = SIGINT;
 std::atomic<bool> insisted = false;
+std::atomic<bool> without_memory = false;
 static_assert(std::atomic<int64_t>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 struct Semaphore {
   sem_t handle;
@@ -87,6 +88,7 @@ bool can_write(int file) {
 
 // Whether the process is to end, and why.
 std::optional<Error> reason_to_end() {
+  if (without_memory) return out_of_memory();
   if (interrupted()) return Error(ExitCode::interrupted, "interrupted");
   const std::lock_guard lock(call_mutex);
   if (call && call->clock.seconds() >= call->limit) return call->error;
@@ -112,7 +114,8 @@ void wait_for_tick() {
       since.reset();
     else if (!since)
       since.emplace();
-    if (reason && (insisted || (since && since->seconds() >= grace_seconds))) end(report, *reason);
+    if (reason && (insisted || without_memory || (since && since->seconds() >= grace_seconds)))
+      end(report, *reason);
     if (reason || in_foreign_call())
       wait_for_tick();
     else
@@ -159,6 +162,21 @@ bool interrupted() {
 
 int exit_status(ExitCode code) {
   return code == ExitCode::interrupted ? 128 + signal_number : int(code);
+}
+
+Error out_of_memory() {
+  return {ExitCode::no_device, "out of memory; allow more (ulimit), or try a smaller picture or scene"};
+}
+
+// Leaves the words to the watching thread, which is whole; and does without where that has no memory either.
+void end_for_want_of_memory() noexcept {
+  without_memory = true;
+  ::sem_post(&something_happened.handle);
+  const timespec time{1, 0};
+  ::clock_nanosleep(CLOCK_MONOTONIC, 0, &time, nullptr);
+  constexpr char words[] = "eyeray: error: out of memory\n";
+  if (::write(STDERR_FILENO, words, sizeof words - 1) >= 0) errno = 0;
+  ::_exit(int(ExitCode::no_device));
 }
 
 Saving::Saving() {

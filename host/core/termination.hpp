@@ -22,6 +22,12 @@ bool interrupted();
 // What the process answers to its caller: the code, and where that is `interrupted` 128 + the signal.
 int exit_status(ExitCode code);
 
+// Why a command ends that has too little memory.
+Error out_of_memory();
+
+// Ends the process with that, from any thread and any signal handler.
+[[noreturn]] void end_for_want_of_memory() noexcept;
+
 // While one is alive there is something to lose: the thread asks interrupted(), saves, and ends in its own
 // time.
 class Saving {

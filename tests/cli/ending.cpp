@@ -107,3 +107,17 @@ TEST_CASE("a pipeline cache that fails costs no picture") {
     CHECK(result.code == 0);
   }
 }
+
+TEST_CASE("a limit on memory is a message and exit code 3") {
+  const SceneFolder folder;
+  // Less than drivers get by with, and less than a picture's sums.
+  for (const std::string options : {"", "--backend twin -s 16000x8000 --band-memory 8192"}) {
+    const ProcessResult result =
+        run_line(folder, "ulimit -v 600000; $EYERAY render $SCENE -o a.pfm " + options);
+    CAPTURE(result.err);
+    CHECK(result.code == 3);
+    CHECK(result.err.starts_with("eyeray: error: "));
+    CHECK(result.err.find("(ulimit") != std::string::npos);
+  }
+  CHECK(run_line(folder, "ulimit -v 600000; $EYERAY render $SCENE -o a.pfm --backend twin").code == 0);
+}

@@ -1,11 +1,13 @@
 #include "core/termination.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <thread>
 
 #include "core/atomic_file.hpp"
+#include "core/memory_shortage.hpp"
 #include "core/stopwatch.hpp"
 #include "support/process.hpp"
 //
@@ -189,4 +191,33 @@ TEST_CASE("time in which the process is stopped does not count") {
   child.send_signal(SIGCONT);
   REQUIRE(child.ends());
   CHECK(child.code() == 7);
+}
+
+TEST_CASE("child: has no memory in a thread" * doctest::skip()) {
+  watch_and_say_why();
+  report_memory_shortage();
+  std::thread([] { throw std::bad_alloc(); }).join();
+}
+
+TEST_CASE("child: breaks off" * doctest::skip()) {
+  watch_and_say_why();
+  report_memory_shortage();
+  if (std::getenv("EYERAY_TEST_LIMIT")) {
+    const rlimit limit{1 << 20, RLIM_INFINITY};  // less than it has
+    CHECK(::setrlimit(RLIMIT_AS, &limit) == 0);
+  }
+  std::abort();
+}
+
+TEST_CASE("memory that runs out in a library's hands is a message, any other crash a crash") {
+  for (Child* const child :
+       {new Child("has no memory in a thread"), new Child("breaks off", {{"EYERAY_TEST_LIMIT", "1"}})}) {
+    const std::unique_ptr<Child> owned(child);
+    REQUIRE(child->ends());
+    CHECK(child->code() == int(ExitCode::no_device));
+    CHECK(child->err().find("ut of memory") != std::string::npos);
+  }
+  Child crash("breaks off");
+  REQUIRE(crash.ends());
+  CHECK(crash.code() == 128 + SIGABRT);
 }

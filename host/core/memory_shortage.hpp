@@ -1,0 +1,15 @@
+// What to do about too little memory where nobody can catch std::bad_alloc: in a driver and its threads.
+#pragma once
+
+#include <cstddef>
+
+namespace eyeray {
+
+// Whether so many bytes of address space can still be had (ulimit -v).
+bool address_space_left(size_t bytes);
+
+// From now on a std::bad_alloc that nobody catches, and a crash with hardly any memory left, is a message and
+// exit code 3. Any other crash stays what it is. Needs the watch of core/termination.
+void report_memory_shortage();
+
+}  // namespace eyeray
