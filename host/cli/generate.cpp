@@ -110,6 +110,7 @@ void add_output(CLI::App& command, GenerateOutput& output) {
 void add_sphereflake(CLI::App& generate, Run& run) {
   CLI::App* const command = generate.add_subcommand(
       "sphereflake", "Spheres on spheres: \"balls\" of Haines' procedural databases.");
+  command->alias("balls");
   const auto options = std::make_shared<SphereflakeCommand>();
   add_output(*command, options->output);
   command->add_option("--size-factor", options->size_factor, "Levels: 4 has 7381 spheres, 5 has 66430.")

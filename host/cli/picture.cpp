@@ -30,7 +30,9 @@ constexpr FlagText flag_texts[] = {
     {stack_overflow, "stack_overflow",
      "more rays were pending than the shader keeps: lower render.max_depth or raise render.min_weight"},
     {loop_budget, "loop_budget",
-     "the driver's limit on loop iterations was near: try fewer shapes, --backend twin or a newer driver"},
+     "the driver's limit on loop iterations was near: lower render.max_depth or raise render.min_weight; "
+     "else "
+     "show fewer shapes, or use --backend twin or a newer driver"},
     {ran_out, "ran_out",
      "a shape that is searched for step by step was not found in the steps allowed; --aov flags shows where"},
 };

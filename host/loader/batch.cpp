@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/foreign_words.hpp"
 #include "scene/table.hpp"
 #include "scene/value.hpp"
 
@@ -34,7 +35,7 @@ Batch read_batch(const Section& section, const toml::table& table, DiagnosticLog
   const toml::key* first = nullptr;
   for (const auto& [key, list] : *lists) {
     if (std::ranges::find(names, key.str()) == names.end()) {
-      const std::string nearest = nearest_name(key.str(), names);
+      const std::string nearest = suggest_name(key.str(), names);
       fail(key.source(), fmt::format("unknown key `{}` in the batch of {}{}", key.str(), section.title,
                                      nearest.empty() ? "" : fmt::format("; did you mean `{}`?", nearest)));
     } else if (table.contains(key.str())) {

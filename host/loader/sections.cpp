@@ -5,6 +5,7 @@
 
 #include "core/diagnostic.hpp"
 #include "loader/settings.hpp"
+#include "scene/foreign_words.hpp"
 
 namespace eyeray {
 
@@ -128,7 +129,7 @@ An [[instance]](#instance) shows a group once more, by its `name`. With `pattern
 A group that stands many times is kept once; see `groups` of [render](#render). That costs no more memory than one, and changes no
 id and no surface. One that holds a plane, which has no end, is copied.
 
-What a shape cannot be, it cannot be in a group either: a sphere in one that is stretched is an error; an ellipsoid is not.)";
+A group may stretch and shear all that it holds: a sphere is an ellipsoid then.)";
 
 constexpr std::string_view instance_manual =
     R"(Shows a [[group]] of the scene by its `name`, as if it were written here: also in another group, also many times by a `batch`.
@@ -225,7 +226,7 @@ std::string suggest_section(std::string_view name) {
   std::vector<std::string_view> names;
   for (const Section& section : sections()) names.push_back(section.name);
   names.push_back(include_key);
-  const std::string nearest = nearest_name(name, names);
+  const std::string nearest = suggest_name(name, names);
   if (nearest.empty()) return fmt::format("a scene has {}", fmt::join(names, ", "));
   const Section* section = find_section(nearest);
   return fmt::format("did you mean {}?", section ? section->title : nearest);

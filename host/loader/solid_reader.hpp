@@ -87,20 +87,17 @@ class SolidReader {
   template <typename Placing>
   std::unique_ptr<Shape> read_part(const Section& section, TableReader& reader, const Placing& placing,
                                    std::optional<int> material) {
-    if (reader.has("material")) {
-      material = host_.find_material(reader);
-    } else if (!material) {
-      reader.error("material",
-                   fmt::format("no material: neither this {} nor a solid around it has one", section.title));
-    }
+    if (reader.has("material")) material = host_.find_material(reader);
     std::unique_ptr<Shape> part = host_.parse_shape(section, reader, placing, material.value_or(0));
-    if (!part || !material) return nullptr;
-    if (!part->is_closed()) {
+    if (part && !part->is_closed()) {
       const auto& [key, why] = why_not_closed(*section.shape);
       reader.error(key, why);
       return nullptr;
     }
-    return part;
+    if (!material)
+      reader.error("material",
+                   fmt::format("no material: neither this {} nor a solid around it has one", section.title));
+    return material ? std::move(part) : nullptr;
   }
 
   Host& host_;

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "formula/formula.hpp"
+#include "scene/foreign_words.hpp"
 #include "scene/table.hpp"
 
 namespace eyeray {
@@ -88,7 +89,7 @@ void TableReader::Table::check_names() {
   names.insert(names.end(), source.extra_keys.begin(), source.extra_keys.end());
   for (const auto& [written, node] : *source.table) {
     if (std::ranges::find(names, written.str()) != names.end()) continue;
-    const std::string nearest = nearest_name(written.str(), names);
+    const std::string nearest = suggest_name(written.str(), names);
     const std::string hint = nearest.empty() ? fmt::format("; its keys are {}", fmt::join(names, ", "))
                                              : fmt::format("; did you mean `{}`?", nearest);
     error(position_of(written.source()),
@@ -194,6 +195,10 @@ void TableReader::error(std::string_view key, std::string message, std::initiali
   for (const size_t i : element)
     if (at) at = at->as_array()->get(i);
   table_->error(at ? position_of(at->source()) : position(key), std::move(message));
+}
+
+void TableReader::warning(std::string_view key, std::string message) {
+  table_->log.warning(position(key), std::move(message));
 }
 
 void TableReader::error(const InputError& faults) {

@@ -58,8 +58,9 @@ struct Key {
   double max = inf;
   bool above_min = false;  // the minimum itself is out of range
   std::span<const std::string_view> choices = {};
-  bool optional = false;   // may be absent without a default: ask has()
-  bool below_max = false;  // the maximum itself is out of range
+  bool optional = false;       // may be absent without a default: ask has()
+  bool below_max = false;      // the maximum itself is out of range
+  std::string_view hint = {};  // of a choice: said of a value that is none and that nothing is near to
 };
 
 // What a value of this key is, for messages and the manual: "an integer from 1 to 65536", "a number above 0".
@@ -93,6 +94,8 @@ class TableReader {
   // Adds an error at the key's value, or at the table where the key is absent; nothing when the value already
   // had one. `element`: of a list, [i], or of a list in it, [i, k], to which the error belongs.
   void error(std::string_view key, std::string message, std::initializer_list<size_t> element = {});
+  // Adds a warning at the key's value, or at the table where the key is absent.
+  void warning(std::string_view key, std::string message);
   // Adds what is wrong within the text of a formula.
   void error(const InputError& faults);
   // Whether the key's value, written or default, is right: false after an error in it, or where it is

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "scene/foreign_words.hpp"
 #include "scene/table.hpp"
 #include "scene/transform.hpp"
 
@@ -138,13 +139,15 @@ int64_t Reader::choice(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     const auto found = std::ranges::find(key_.choices, std::string_view(text->get()));
     if (found != key_.choices.end()) return found - key_.choices.begin();
-    if (const std::string nearest = nearest_name(text->get(), key_.choices); !nearest.empty()) {
+    if (const std::string nearest = suggest_name(text->get(), key_.choices); !nearest.empty()) {
       fail(node, fmt::format("`{}` must be {}, not {}; did you mean \"{}\"?", key_.name, describe(key_),
                              describe_node(node), nearest));
       return 0;
     }
   }
-  return mismatch(node), 0;
+  fail(node,
+       fmt::format("`{}` must be {}, not {}{}", key_.name, describe(key_), describe_node(node), key_.hint));
+  return 0;
 }
 
 std::array<int64_t, 2> Reader::choice2(const toml::node& node) {

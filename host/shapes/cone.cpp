@@ -26,7 +26,8 @@ material = "wall"
 [cylinder](#cylinder).
 
 **uv.** On the side u runs from 0 to 1 about the axis, counter-clockwise seen from the smaller end, with ½ towards the world's +x (where the axis is
-parallel to that, towards +z), and v from 0 at the larger end to 1 at the smaller. On a cap (½, ½) is the middle, and the rim is ½ away from it.
+parallel to that, towards +z), and v from 0 at the larger end to 1 at the smaller. On a cap (½, ½) is the middle, and the rim is ½ away from it: seen from outside
+the texture is upright, with u to the right along that same direction.
 
 **Numeric trap.** The equation of the side is also that of its mirror image beyond the apex: a ray may be inside of both. Where it runs along the side, the quadratic equation is a
 linear one. Sides and caps are cut as a cylinder's are.

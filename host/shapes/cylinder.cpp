@@ -23,7 +23,7 @@ material = "wall"
 
 **uv.** On the side u runs from 0 to 1 about the axis, counter-clockwise seen from `to`, with ½ towards the world's +x
 (where the axis is parallel to that, towards +z), and v from 0 at `from` to 1 at `to`. On a cap (½, ½) is the middle,
-and the rim is ½ away from it.
+and the rim is ½ away from it: seen from outside the texture is upright, with u to the right along that same direction.
 
 **Numeric trap.** Along the axis the quadratic equation of the side is none; at a rim, a side and a cap that are tested apart let rays through
 between them. Here the ray's stretch between the planes of the caps is cut with that inside the side: both end in the same numbers.

@@ -29,7 +29,7 @@ material = "wall"
 
 **uv.** On the side u runs from 0 to 1 about the axis, counter-clockwise seen from `to`, with ½ towards the world's +x
 (where the axis is parallel to that, towards +z), and v from 0 at `from` to 1 at `to`. On a cap (½, ½) is the middle,
-and the rim is ½ away from it.
+and the rim is ½ away from it: seen from outside the texture is upright, with u to the right along that same direction.
 
 **Numeric trap.** It is not convex: a ray may enter and leave it twice, through a cap, out of the waist's hollow, in again and out of the other cap. Where a ray
 runs within the cone that the side tends to, it is inside beyond the roots of the equation, not between them.

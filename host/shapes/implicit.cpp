@@ -63,15 +63,15 @@ the surface, its box and the coordinates that f sees.
 
 | `ready` | its parameters, and what they are if they are not given |
 | --- | --- |
-| `metaballs` | `ball1` … `ball4` = [x, y, z, reach]: four balls that flow into each other where their weights, 1 in the middle and 0 at their `reach`, add up to `level` = 0.3 |
-| `gyroid` | a wall of `thickness` = 0.25 about the gyroid sin x cos y + sin y cos z + sin z cos x = `level` = 0 of `period` = 1 |
+| `metaballs` | `ball1` … `ball4` = [x, y, z, reach]: four balls that flow into each other: where their weights, each (1 − r²/reach²)³ at the distance r from [x, y, z] and 0 beyond `reach`, add up to `level` = 0.3 |
+| `gyroid` | all where sin x cos y + sin y cos z + sin z cos x, at 2π/`period` times the point, is within `thickness` = 0.25 of `level` = 0; `period` = 1. About the gyroid itself that is a wall as wide as 0.18 to 0.23 · `thickness` · `period` |
 | `rounded-box` | `center` = [0, 0, 0], `half_size` = [0.8, 0.6, 0.7] with edges of `radius` = 0.2 |
 | `smooth-union` | `sphere` = [0, 0.35, 0, 0.5] (centre and radius) and a box about `box_center` = [0, -0.4, 0] of `box_half_size` = [0.8, 0.25, 0.6], blended over `blend` = 0.4 |
 | `mandelbulb` | of power 8 about the y axis, after `rounds` = 2 (at most 8) as far as 1 from the origin; it lies within 1.25. It has no `lipschitz` and is found by intervals: 3 rounds take five times as long as 2, a few rays in a thousand run out, and what they add is finer than float32 tells, as `verify` finds |
 | `height-field` | hills below y = `base` = 0 ± `height` = 0.5, the largest of them `period` = 1 apart; `seed` = 1 |
 
-**uv.** Those of a [box](#box)'s face: of the face itself on a cap, and elsewhere of the face to which the normal points, onto which the texture is
-projected straight.
+**uv.** Those of a [box](#box)'s face: of the face itself on a cap, and elsewhere of the face to which the normal would point
+if the box were stretched to a cube, onto which the texture is projected straight.
 
 **Numeric trap.** All is computed in the coordinates of the box: rounding is 10⁻⁷ of its size, so choose it no larger than need be, and near f's own origin. With `lipschitz` the least step of a ray is 10⁻⁵ of half the
 box: walls thinner than that are passed through. Normals are those of `vec3 gradient(vec3 p)`, if the text has that too; else differences over 1/256 of half the box, to the

@@ -24,7 +24,8 @@ As a mirror it gathers what comes along its axis in one point, radius² / 4H abo
 `transform` may be any affine map that can be undone: it may make the paraboloid elliptic and oblique.
 
 **uv.** On the bowl u runs from 0 to 1 about the axis, counter-clockwise seen from `to`, with ½ towards the world's +x (where the axis is parallel to
-that, towards +z), and v = h / H. On the cap (½, ½) is the middle, and the rim is ½ away from it.
+that, towards +z), and v = h / H. On the cap (½, ½) is the middle, and the rim is ½ away from it: seen from outside the texture is upright, with
+u to the right along that same direction.
 
 **Numeric trap.** Along the axis the quadratic equation is a linear one. Near the tip √h is off by far more than h is: a hit is put back onto the bowl along
 its normal, not at its height. Bowl and cap are cut as a cylinder's are.

@@ -31,8 +31,8 @@ A hyperboloid of two sheets is `square = [1, -1, 1]`, `constant = 0.1`; a hyperb
 
 `transform` may be any affine map that can be undone; it moves the surface and the box.
 
-**uv.** Those of a [box](#box)'s face: of the face itself on a cap, and elsewhere of the face to which the normal points, onto which the texture is
-projected straight.
+**uv.** Those of a [box](#box)'s face: of the face itself on a cap, and elsewhere of the face to which the normal would point
+if the box were stretched to a cube, onto which the texture is projected straight.
 
 **Numeric trap.** All is computed in a space where the box is the cube from −1 to 1: rounding is 10⁻⁷ of the largest term there, so choose the box no larger than need be.
 At a point where the gradient is 0, as at a cone's apex, f is a square, and its root is far off: rays start farther away there. The box's faces and the

@@ -27,10 +27,6 @@ std::pair<Vec3, Vec3> center_and_half(const Bounds& bounds) {
   return {bounds.min + half, half};
 }
 
-bool is_empty(const Bounds& bounds) {
-  return !(bounds.min.x < bounds.max.x && bounds.min.y < bounds.max.y && bounds.min.z < bounds.max.z);
-}
-
 }  // namespace
 
 Solid::Solid(bool all, Shapes operands, Shapes removed)
@@ -121,7 +117,7 @@ SurfacePoint Solid::surface(const Ray& ray, const Intersection& hit) const {
   return surface;
 }
 
-Bounds Solid::bounds() const {
+Bounds Solid::bounds_of_operands() const {
   Bounds bounds = operands_[0]->bounds();
   for (const auto& operand : operands_) {
     const Bounds other = operand->bounds();
@@ -129,6 +125,17 @@ Bounds Solid::bounds() const {
     bounds.max = all_ ? glm::min(bounds.max, other.max) : glm::max(bounds.max, other.max);
   }
   return bounds;
+}
+
+bool Solid::is_empty() const {
+  const Bounds bounds = bounds_of_operands();
+  return !(bounds.min.x < bounds.max.x && bounds.min.y < bounds.max.y && bounds.min.z < bounds.max.z);
+}
+
+Bounds Solid::bounds() const {
+  const Bounds bounds = bounds_of_operands();
+  const Vec3 middle = 0.5 * (bounds.min + bounds.max);
+  return is_empty() ? Bounds{middle, middle} : bounds;
 }
 
 ShapeForm Solid::form() const {
@@ -278,7 +285,8 @@ constexpr Key keys[] = {
      .type = KeyType::choice,
      .doc = "What is within any of its parts, or within all of them; those below `minus` are taken from it.",
      .fallback = "\"union\"",
-     .choices = operations},
+     .choices = operations,
+     .hint = "; what is taken away stands below `minus`, as [[solid.minus.sphere]]"},
 };
 
 std::unique_ptr<Shape> combine(TableReader& table, ShapeType::Shapes operands, ShapeType::Shapes removed) {
@@ -293,12 +301,10 @@ std::unique_ptr<Shape> combine(TableReader& table, ShapeType::Shapes operands, S
   }
   if (table.failed()) return nullptr;
   const bool all = operations[size_t(table.choice("operation"))] == "intersection";
-  auto solid = make_solid(all, std::move(operands), std::move(removed));
-  if (is_empty(solid->bounds())) {
-    table.error("operation",
-                "an empty solid: its parts lie beside each other, so none is within all of them");
-    return nullptr;
-  }
+  auto solid = std::make_unique<Solid>(all, std::move(operands), std::move(removed));
+  if (all && solid->is_empty())
+    table.warning("operation",
+                  "an empty solid: its parts lie beside each other, so nothing is within all of them");
   return solid;
 }
 

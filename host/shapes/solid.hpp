@@ -21,7 +21,10 @@ class Solid final : public Shape {
 
   std::optional<Intersection> intersect(const Ray& ray) const override;
   SurfacePoint surface(const Ray& ray, const Intersection& hit) const override;
+  // A point where there is nothing.
   Bounds bounds() const override;
+  // Whether bounds alone show that nothing is within it.
+  bool is_empty() const;
   const Shape& part(const Intersection& hit) const override { return *leaves_[hit.part].shape; }
   bool is_closed() const override { return true; }
   std::vector<Span> spans(const Ray& ray) const override;
@@ -52,6 +55,7 @@ class Solid final : public Shape {
     return *(i < operands_.size() ? operands_[i] : removed_[i - operands_.size()]);
   }
   std::vector<Span> spans_of(size_t operand, const Ray& ray) const;
+  Bounds bounds_of_operands() const;  // min above max where they do not meet
 
   bool all_;
   Shapes operands_, removed_;

@@ -28,6 +28,9 @@ TEST_CASE("a generated sphereflake is a scene, the same every time") {
   // What it made itself it makes again.
   CHECK(run_eyeray({"generate", "sphereflake", "-o", scene}).code == 0);
   CHECK(read_text(scene) == text);
+  // By its first name too.
+  CHECK(run_eyeray({"generate", "balls", "-o", scene}).code == 0);
+  CHECK(read_text(scene) == text);
   CHECK(folder.names() == std::set<std::string>{"balls.toml"});
 }
 

@@ -49,6 +49,18 @@ TEST_CASE("transforms of a part, of its solid, and of the group come one after t
   CHECK(scene.shapes[0]->bounds().max.x == doctest::Approx(130));
 }
 
+TEST_CASE("where parts of an intersection lie beside each other there is nothing") {
+  const Scene scene = parse(
+      "[[solid]]\noperation = \"intersection\"\nmaterial = \"wall\"\n[[solid.sphere]]\nradius = 1\n"
+      "batch = { center = [[0, 0, 0], [2.5, 0, 0]] }\n");
+  REQUIRE(scene.shapes.size() == 1);
+  CHECK_FALSE(scene.shapes[0]->intersect(from_left));
+  // Its bounds are those of something: what sorts them need not ask.
+  const Bounds bounds = scene.shapes[0]->bounds();
+  CHECK(bounds.min == bounds.max);
+  CHECK(bounds.min == Vec3(1.25, 0, 0));
+}
+
 TEST_CASE("batches: of a part, more parts; of a solid, more solids, each of its material") {
   const Scene scene = parse(
       "[[solid]]\nbatch = { transform = [[], [{ translate = [0, 50, 0] }]], material = [\"wall\", \"ink\"] "

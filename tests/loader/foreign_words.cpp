@@ -1,0 +1,49 @@
+// What other renderers call things.
+#include "scene/foreign_words.hpp"
+
+#include <vector>
+
+#include "loader/sections.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+std::string suggested(std::string_view word, const std::vector<std::string_view>& names) {
+  return suggest_name(word, names);
+}
+
+}  // namespace
+
+TEST_CASE("a word of another renderer is answered by ours, where that is possible") {
+  CHECK(suggested("look_at", {"eye", "target"}) == "target");
+  CHECK(suggested("LookAt", {"eye", "target"}) == "target");
+  CHECK(suggested("look_at", {"eye", "size"}) == "");
+  // What a word means depends on where it stands.
+  CHECK(suggested("location", {"eye", "target", "up"}) == "eye");
+  CHECK(suggested("location", {"type", "position", "direction"}) == "position");
+  CHECK(suggested("location", {"center", "radius", "transform"}) == "center");
+  CHECK(suggested("location", {"min", "max", "transform"}) == "transform");
+  CHECK(suggested("colour", {"diffuse", "specular"}) == "diffuse");
+  CHECK(suggested("colour", {"type", "intensity"}) == "intensity");
+  CHECK(suggested("colour", {"center", "radius", "material"}) == "material");
+}
+
+TEST_CASE("a slip is still a slip, and a foreign word never stands in for one of ours") {
+  CHECK(suggested("raduis", {"center", "radius"}) == "radius");
+  CHECK(suggested("maxDepth", {"max_depth", "min_weight"}) == "max_depth");
+  CHECK(suggested("", {"center"}) == "");
+  CHECK(suggested(std::string(100'000, 'a'), {"center"}) == "");
+  CHECK(suggested(" ", {"center", "eye"}) == "");
+}
+
+TEST_CASE("tables of other renderers") {
+  CHECK(suggest_section("light_source") == "did you mean [[light]]?");
+  CHECK(suggest_section("global_settings") == "did you mean [render]?");
+  CHECK(suggest_section("difference") == "did you mean [[solid]]?");
+  CHECK(suggest_section("isosurface") == "did you mean [[implicit]]?");
+  CHECK(suggest_section("cuboid") == "did you mean [[box]]?");
+  CHECK(suggest_section("film") == "did you mean [image]?");
+}
