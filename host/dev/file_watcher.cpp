@@ -115,7 +115,7 @@ std::set<std::string> FileWatcher::wait() {
   while (!interrupted()) {
     pollfd polled{fd_, POLLIN, 0};
     // A signal that comes just before poll() begins does not end it: look at the flag now and then.
-    const double longest = quiet.value_or(0.25);
+    const double longest = quiet.value_or(0.1);
     if (::poll(&polled, 1, int(longest * 1000)) > 0) {
       if (const auto next = read_events(changed)) quiet = next;
     } else if (quiet) {

@@ -20,6 +20,8 @@
 namespace eyeray {
 namespace {
 
+constexpr double longest_farewell = 2;  // seconds
+
 // Whether the whole text went out; a reader that is gone is an answer, not a signal.
 bool send_all(int socket, const std::string& text) {
   for (size_t done = 0; done < text.size();) {
@@ -56,11 +58,12 @@ void Worker::start() {
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ == 0) {
-    // The parent ends its child; Ctrl-C in a terminal reaches both, and is the parent's business.
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    // The parent ends its child, with a watch of its own so that no file stays half written. Ctrl-C in a
+    // terminal reaches both, and is the parent's business.
+    watch_for_termination([](const Error&) {});
+    for (const int number : {SIGINT, SIGHUP}) std::signal(number, SIG_IGN);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(1);
-    std::signal(SIGINT, SIG_IGN);
-    for (const int number : {SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
     ::close(ends[0]);
     serve_forever(ends[1], serve_);
   }
@@ -74,6 +77,11 @@ void Worker::start() {
 
 void Worker::kill() {
   if (pid_ < 0) return;
+  // One that is idle ends by itself, and any other at a signal: it should not come to the second.
+  ::shutdown(socket_, SHUT_RDWR);
+  ::kill(pid_, SIGTERM);
+  const Stopwatch watch;
+  while (!has_ended() && watch.seconds() < longest_farewell) ::usleep(1000);
   ::kill(pid_, SIGKILL);
   bury();
 }
@@ -100,12 +108,12 @@ Worker::Answer Worker::ask(const std::string& request, double timeout_seconds) {
   if (!send_all(socket_, request + '\n')) return bury();
 
   // Read a line, looking at the clock and at Ctrl-C now and then.
-  const Stopwatch watch;
+  WakefulStopwatch watch;
   std::string line;
   while (true) {
     pollfd polled{socket_, POLLIN, 0};
     const double left = timeout_seconds - watch.seconds();
-    const int ready = ::poll(&polled, 1, int(std::clamp(left, 0.0, 0.25) * 1000) + 1);
+    const int ready = ::poll(&polled, 1, int(std::clamp(left, 0.0, 0.1) * 1000) + 1);
     if (ready > 0) {
       char buffer[4096];
       const ssize_t count = ::read(socket_, buffer, sizeof buffer);

@@ -31,7 +31,7 @@ class Worker {
   // Requests and answers hold no line breaks. A child that ended between two requests is replaced without a
   // word. Whatever the outcome but `answered`, the child is gone afterwards.
   Answer ask(const std::string& request, double timeout_seconds);
-  // Ends the child at once, whatever it does.
+  // Ends the child, whatever it does: soon, and with its unfinished files gone.
   void kill();
 
  private:

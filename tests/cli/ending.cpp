@@ -97,6 +97,32 @@ TEST_CASE("a device that fails while it works leaves a message, and the checkpoi
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "work"});
 }
 
+TEST_CASE("a driver that does not return is left where it is, by a signal or --timeout") {
+  const SceneFolder folder;
+  // Calls from opening the device to a dispatch amid the picture.
+  for (const std::string call : {"vkCreateDevice 1", "vkCreateComputePipelines 2", "vkWaitForFences 10"}) {
+    CAPTURE(call);
+    const Environment environment{{"EYERAY_VULKAN_LOADER", FAILING_VULKAN},
+                                  {"EYERAY_FAILING_CALL", call + " 1000"}};
+    std::vector<std::string> arguments{eyeray_binary(), "render", folder.scene(),   "--spp",
+                                       "1024",          "-o",     folder / "a.pfm", "--timeout"};
+    arguments.push_back("1000");
+    Process render(arguments, environment);
+    REQUIRE(render.wait_for_error_text("hanging", 60));
+    render.send_signal(SIGTERM);
+    REQUIRE(render.wait(30));
+    CHECK(render.code() == 143);
+    CHECK(render.err().find("eyeray: error: interrupted\n") != std::string::npos);
+
+    if (call == "vkCreateDevice 1") continue;  // not what --timeout is about
+    arguments.back() = "0.5";
+    const ProcessResult late = run_process(arguments, environment);
+    CHECK(late.code == 5);
+    CHECK(late.err.find("within 0.5 s") != std::string::npos);
+  }
+  CHECK(folder.names() == std::set<std::string>{"scene.toml"});
+}
+
 TEST_CASE("a pipeline cache that fails costs no picture") {
   const SceneFolder folder;
   for (const std::string call : {"vkCreatePipelineCache 1 -1", "vkGetPipelineCacheData 1 -3"}) {

@@ -5,6 +5,7 @@
 
 #include <csignal>
 
+#include "core/atomic_file.hpp"
 #include "support/process.hpp"
 //
 #include "support/doctest.hpp"
@@ -73,6 +74,17 @@ TEST_CASE("a worker that hangs is killed in time") {
   CHECK(watch.seconds() < 5);
   CHECK(kill(pid, 0) != 0);
   CHECK(worker.ask("hello", 10).text == "hello");
+}
+
+TEST_CASE("a worker that is killed leaves nothing half written") {
+  const test::TemporaryFolder folder;
+  Worker worker([&](const std::string&) {
+    const AtomicFile file(folder / "file");
+    while (true) pause();
+    return std::string();
+  });
+  CHECK(worker.ask("write", 0.2).outcome == Outcome::timed_out);
+  CHECK(folder.names().empty());
 }
 
 TEST_CASE("a worker ends with its owner") {

@@ -67,12 +67,16 @@ inline std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-// Waits until a process is gone, or a zombie that its parent has not looked at yet.
+// Waits until a process is gone with all its threads, or a zombie that its parent has not looked at yet.
 inline bool wait_until_ended(pid_t pid, double seconds = 10) {
   const Stopwatch watch;
   while (watch.seconds() < seconds) {
-    const std::string stat = read_text("/proc/" + std::to_string(pid) + "/stat");
-    if (stat.empty() || stat.find(") Z ") != std::string::npos) return true;
+    const std::filesystem::path process = "/proc/" + std::to_string(pid);
+    const std::string stat = read_text(process / "stat");
+    std::error_code gone;
+    const auto threads = std::distance(std::filesystem::directory_iterator(process / "task", gone),
+                                       std::filesystem::directory_iterator());
+    if (stat.empty() || (stat.find(") Z ") != std::string::npos && threads <= 1)) return true;
     usleep(1000);
   }
   return false;

@@ -1,6 +1,7 @@
 #include "failing_vulkan.hpp"
 
 #include <dlfcn.h>
+#include <unistd.h>
 #include <vulkan/vulkan.h>
 
 #include <atomic>
@@ -68,6 +69,12 @@ std::atomic<int> counts[functions];
 std::atomic<int> alive = 0;
 std::atomic<int> failing_function = -1, failing_number = 0, failing_result = 0;
 
+VkResult fail() {
+  if (failing_result != never_returns) return VkResult(failing_result.load());
+  std::fputs("hanging\n", stderr);
+  while (true) ::pause();
+}
+
 template <int id, typename Function>
 struct Call;
 
@@ -76,7 +83,7 @@ struct Call<id, VkResult(VKAPI_PTR*)(Arguments...)> {
   static inline VkResult(VKAPI_PTR* real)(Arguments...) = nullptr;
   static VkResult VKAPI_PTR call(Arguments... arguments) {
     const int number = ++counts[id];
-    if (id == failing_function && number == failing_number) return VkResult(failing_result.load());
+    if (id == failing_function && number == failing_number) return fail();
     const VkResult result = real(arguments...);
     if (id < makers && result == VK_SUCCESS) ++alive;
     return result;

@@ -1,8 +1,11 @@
 // A Vulkan loader in front of the system's, for EYERAY_VULKAN_LOADER: one chosen call fails without reaching
 // the driver, calls are counted, and so are the objects that were made and not destroyed.
 //
-// EYERAY_FAILING_CALL="vkWaitForFences 3 -4" chooses in a process of its own: the third call answers −4.
+// EYERAY_FAILING_CALL="vkWaitForFences 3 -4" chooses in a process of its own: the third call answers −4; 1000
+// in its place is a call that says so on standard error and never returns.
 #pragma once
+
+constexpr int never_returns = 1000;
 
 extern "C" {
 // From now on the `number`-th call of `function`, from 1, answers `result`; 0: none does. Counts begin at 0.
