@@ -137,10 +137,11 @@ InputError::InputError(std::vector<Diagnostic> diagnostics)
 std::string nearest_name(std::string_view word, std::span<const std::string_view> candidates) {
   constexpr size_t longest =
       64;  // no name of ours is longer, and the distance costs the product of the lengths
+  constexpr size_t most_candidates = 1000;
   if (word.empty() || word.size() > longest) return "";
   size_t best = std::max<size_t>(1, word.size() / 3) + 1;
   std::string_view nearest;
-  for (const std::string_view candidate : candidates) {
+  for (const std::string_view candidate : candidates.first(std::min(candidates.size(), most_candidates))) {
     if (candidate.size() > longest) continue;
     const size_t distance = edit_distance(word, candidate);
     if (distance < best) {

@@ -29,7 +29,9 @@ void merge(toml::table& root, toml::table& file, DiagnosticLog& log) {
     const Section* section = find_section(key.str());
     if (!section) {
       const char* brackets = node.is_table() || node.is_array_of_tables() ? "table" : "key";
-      log.error(at, fmt::format("unknown {} `{}`; {}", brackets, key.str(), suggest_section(key.str())));
+      log.error(at, log.full() ? "unknown"
+                               : fmt::format("unknown {} `{}`; {}", brackets, key.str(),
+                                             suggest_section(key.str())));
       continue;
     }
 
@@ -81,7 +83,7 @@ class Includer {
     document_.files.push_back(file);
 
     const std::string name = file.string();
-    toml::table tree = parse_toml(log_.add_source(name, std::move(text)), name, log_);
+    toml::table tree = parse_toml(log_.add_source(name, std::move(text)), name, budget_, log_);
     if (const toml::node* include = tree.get(include_key)) include_all(*include, file);
     merge(document_.root, tree, log_);
     chain_.pop_back();
@@ -125,6 +127,7 @@ class Includer {
   Document& document_;
   const AllowedFolders& folders_;
   DiagnosticLog& log_;
+  TreeBudget budget_;
   std::vector<fs::path> chain_;  // the files being read, from the scene down
   std::vector<fs::path> done_;
 };
@@ -139,7 +142,8 @@ Document read_document(const fs::path& scene, const AllowedFolders& folders, Dia
 
 Document parse_document(std::string_view text, const std::string& name, DiagnosticLog& log) {
   Document document;
-  toml::table tree = parse_toml(log.add_source(name, std::string(text)), name, log);
+  TreeBudget budget;
+  toml::table tree = parse_toml(log.add_source(name, std::string(text)), name, budget, log);
   if (const toml::node* include = tree.get(include_key)) {
     log.error(position_of(include->source()), "only a scene in a file can include others");
   }

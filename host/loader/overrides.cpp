@@ -44,7 +44,8 @@ class Assignment {
   // Reads KEY=VALUE as the TOML it is; a bare word gets its quotes.
   bool parse() {
     const size_t equals = text_.find('=');
-    const bool one_line = text_.find('\n') == std::string_view::npos && !find_deep_key(text_);
+    TreeBudget budget;
+    const bool one_line = text_.find('\n') == std::string_view::npos && !find_excess(text_, budget);
     if (equals == std::string_view::npos || !one_line)
       return fail("write KEY=VALUE, such as render.max_depth=3"), false;
     try {

@@ -1,5 +1,7 @@
 #include "loader/statements.hpp"
 
+#include <fmt/format.h>
+
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -133,34 +135,85 @@ void blank(std::string& text, const Statement& statement) {
   }
 }
 
-std::optional<TextPosition> find_deep_key(std::string_view text) {
-  TextPosition at{1, 1};
-  int dots = 0;
-  const auto advance = [&](size_t count) {
-    for (const char c : text.substr(0, count)) {
-      if (c == '\n') at = {at.line + 1, 0};
-      ++at.column;
-    }
-    text.remove_prefix(std::min(count, text.size()));
-  };
-  while (!text.empty()) {
-    const char c = text[0];
-    if (c == '#') {
-      advance(std::min(text.find('\n'), text.size()));
-    } else if (c == '"' || c == '\'') {
-      // Step over a string, in one or three quotes.
-      const std::string_view quotes = text.substr(0, text.starts_with(std::string(3, c)) ? 3 : 1);
-      size_t end = quotes.size();
-      while (end < text.size() && !text.substr(end).starts_with(quotes) &&
-             (quotes.size() == 3 || text[end] != '\n')) {
-        end += c == '"' && text[end] == '\\' ? 2 : 1;
+std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget) {
+  // What toml++ takes for each, measured, in the budget's units. Each part of a key may be a table of its
+  // own.
+  constexpr size_t of_comma = 1, of_list = 2, of_table = 4, of_key_part = 8;
+
+  int line = 1;
+  size_t line_begin = 0;
+  int parts = 1;  // of what may be a key
+  int depth = 0;  // of brackets
+  bool blank = true, header = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const auto excess = [&](std::string message) {
+      return Excess{line, static_cast<int>(i - line_begin) + 1, std::move(message)};
+    };
+    size_t cost = 0;
+    switch (c) {
+      case '\n':
+        ++line;
+        line_begin = i + 1;
+        parts = 1;
+        blank = true;
+        header = false;
+        continue;
+      case '#':
+        i = std::min(text.find('\n', i), text.size()) - 1;
+        continue;
+      case '"':
+      case '\'': {
+        // Step over a string, in one or three quotes.
+        const std::string_view quotes = text.substr(i, text.substr(i).starts_with(std::string(3, c)) ? 3 : 1);
+        size_t end = i + quotes.size();
+        while (end < text.size() && !text.substr(end).starts_with(quotes) &&
+               (quotes.size() == 3 || text[end] != '\n')) {
+          if (c == '"' && text[end] == '\\') ++end;
+          if (end < text.size() && text[end] == '\n') {
+            ++line;
+            line_begin = end + 1;
+          }
+          ++end;
+        }
+        i = end + quotes.size() - 1;
+        if (quotes.size() == 1 && end < text.size() && text[end] == '\n') --i;
+        break;
       }
-      advance(std::min(end + quotes.size(), text.size()));
-    } else {
-      if (c == '.' && ++dots >= most_key_parts) return at;
-      if (c == '\n' || c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '}') dots = 0;
-      advance(1);
+      case '.':
+        if (++parts > most_key_parts)
+          return excess(
+              fmt::format("a key of more than {} parts; groups nest deeper by [[instance]]", most_key_parts));
+        if (header) cost = of_key_part;
+        break;
+      case '=':
+        cost = of_key_part * static_cast<size_t>(parts);
+        parts = 1;
+        break;
+      case '[':
+      case '{':
+        cost = c == '[' ? of_list : of_table;
+        if (c == '[' && blank && depth == 0) header = true;
+        if (!header) ++depth;
+        parts = 1;
+        break;
+      case ']':
+      case '}':
+        if (!header && depth > 0) --depth;
+        parts = 1;
+        break;
+      case ',':
+        cost = of_comma;
+        parts = 1;
+        break;
+      default:
+        break;
     }
+    if (!is_space(c)) blank = false;
+    if (cost > budget.left)
+      return excess(
+          "the scene has more keys and values than eyeray reads; a batch takes less, a mesh file hardly any");
+    budget.left -= cost;
   }
   return std::nullopt;
 }

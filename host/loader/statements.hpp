@@ -31,11 +31,20 @@ void blank(std::string& text, const Statement& statement);
 // More parts than any key of a scene has. A tree as deep as keys can be long would overflow the stack.
 inline constexpr int most_key_parts = 16;
 
-struct TextPosition {
+// About how much a tree of the files of one scene may take, in units of 80 bytes: what the largest scene does
+// that eyeray generates, 256 MiB of numbers in lists.
+struct TreeBudget {
+  size_t left = size_t{1} << 25;
+};
+
+// What is too much for a tree, and where.
+struct Excess {
   int line = 0;
   int column = 0;
+  std::string message;
 };
-// The first key with more parts than that.
-std::optional<TextPosition> find_deep_key(std::string_view text);
+// The first key with more parts than that, or the place from which on the tree would exceed the budget, of
+// which the text is taken.
+std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget);
 
 }  // namespace eyeray

@@ -131,11 +131,11 @@ std::string explain_syntax(std::string_view description, std::string_view statem
   return what;
 }
 
-toml::table parse_toml(std::string_view original, const std::string& name, DiagnosticLog& log) {
-  // Refuse what would nest the tree deeper than a stack can follow.
-  if (const auto deep = find_deep_key(original)) {
-    log.error({name, deep->line, deep->column},
-              fmt::format("a key of more than {} parts; groups nest deeper by [[instance]]", most_key_parts));
+toml::table parse_toml(std::string_view original, const std::string& name, TreeBudget& budget,
+                       DiagnosticLog& log) {
+  // Refuse what would make the tree deeper than a stack can follow, or larger than memory should be.
+  if (const auto excess = find_excess(original, budget)) {
+    log.error({name, excess->line, excess->column}, excess->message);
     log.set_damaged();
     return {};
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "loader/statements.hpp"
 #include "scene/diagnostic_log.hpp"
 
 namespace eyeray {
@@ -16,8 +17,9 @@ namespace eyeray {
 std::string read_scene_text(const std::filesystem::path& file);
 
 // The tree of `text`, whose positions bear `name`. A statement with a syntax error is reported and left out,
-// and the log marked as damaged.
-toml::table parse_toml(std::string_view text, const std::string& name, DiagnosticLog& log);
+// and the log marked as damaged; so is a text for which the budget has too little left.
+toml::table parse_toml(std::string_view text, const std::string& name, TreeBudget& budget,
+                       DiagnosticLog& log);
 
 // What the parser says of a statement, in the words of somebody who wants to mend it.
 std::string explain_syntax(std::string_view description, std::string_view statement = {});

@@ -30,12 +30,12 @@ void DiagnosticLog::add(Severity severity, SourcePosition position, std::string 
   if (position.file.empty() && !sources_.empty()) position = {sources_.front().file, 0, 0};
   if (source_index(position.file) == sources_.size()) position.line = position.column = 0;
 
-  // Drop what was said before, and what nobody would read.
-  if (!seen_.insert(fmt::format("{}:{}:{}:{}", position.file, position.line, position.column, message))
-           .second)
-    return;
+  // Drop what was said before, and what nobody would read; that is not kept for comparison either.
+  std::string text = fmt::format("{}:{}:{}:{}", position.file, position.line, position.column, message);
+  if (seen_.contains(text)) return;
   if (severity == Severity::error) ++errors_;
-  if (diagnostics_.size() >= most_diagnostics) return;
+  if (full()) return;
+  seen_.insert(std::move(text));
 
   // In copies of a group the same thing is wrong once: the first of them stands for all.
   if (const std::string subject = subject_ ? subject_() : ""; !subject.empty())
@@ -43,6 +43,10 @@ void DiagnosticLog::add(Severity severity, SourcePosition position, std::string 
   Diagnostic diagnostic{severity, std::move(position), printable(message), "", 1};
   show_line(diagnostic);
   diagnostics_.push_back(std::move(diagnostic));
+}
+
+bool DiagnosticLog::full() const {
+  return diagnostics_.size() >= most_diagnostics;
 }
 
 size_t DiagnosticLog::source_index(std::string_view file) const {

@@ -44,6 +44,9 @@ class DiagnosticLog {
   void set_damaged() { damaged_ = true; }
   bool damaged() const { return damaged_; }
 
+  // Whether what is added from now on is only counted, so that its words need no care.
+  bool full() const;
+
   bool has_errors() const { return errors_ > 0; }
   // The errors, or if there are none the warnings: by file, in the order they were added, then by line.
   std::vector<Diagnostic> sorted() const;

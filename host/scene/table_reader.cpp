@@ -89,6 +89,10 @@ void TableReader::Table::check_names() {
   names.insert(names.end(), source.extra_keys.begin(), source.extra_keys.end());
   for (const auto& [written, node] : *source.table) {
     if (std::ranges::find(names, written.str()) != names.end()) continue;
+    if (log.full()) {
+      error(position_of(written.source()), "unknown key");
+      continue;
+    }
     const std::string nearest = suggest_name(written.str(), names);
     const std::string hint = nearest.empty() ? fmt::format("; its keys are {}", fmt::join(names, ", "))
                                              : fmt::format("; did you mean `{}`?", nearest);

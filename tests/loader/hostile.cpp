@@ -7,6 +7,7 @@
 
 #include "core/input_file.hpp"
 #include "loader/scene_file.hpp"
+#include "loader/statements.hpp"
 #include "support/process.hpp"
 //
 #include "support/doctest.hpp"
@@ -73,6 +74,66 @@ TEST_CASE("large input") {
       refused("[[material]]\nname = \"m\"\ntype = \"phong\"\n[[sphere]]\nmaterial = \"m\"\nradius = 1\nbatch "
               "= { center = [" +
               repeat("[1, 2], ", many) + "] }"));
+}
+
+TEST_CASE("keys and values are bounded, over all files of a scene, and the place is said") {
+  const auto said = [](const std::string& text) -> std::string {
+    try {
+      parse_scene(text, "scene.toml");
+    } catch (const InputError& error) {
+      CHECK(error.diagnostics().size() == 1);
+      return format_diagnostic(error.diagnostics()[0]);
+    }
+    return "accepted";
+  };
+  // Lists of numbers, tables, keys of two parts, headers of two.
+  constexpr std::string_view much = ": error: the scene has more keys and values than eyeray reads";
+  const auto starts = [&](const std::string& text, const std::string& place) {
+    CAPTURE(text.substr(0, 200));
+    return text.starts_with(place + std::string(much));
+  };
+  CHECK(starts(said("x = [\n" + std::string(size_t{1} << 25, ',') + "]"), "scene.toml:2:33554423"));
+  CHECK(starts(said("x = [\n" + repeat("{},", 6'800'000) + "]"), "scene.toml:2:20132653"));
+  CHECK(starts(said(repeat("k.k=1\n", 2'100'000)), "scene.toml:2097153:4"));
+  CHECK(starts(said(repeat("[[a.b]]\n", 2'800'000)), "scene.toml:2796203:4"));
+
+  // What is in strings and comments is none, and floats in rows of a list are no keys.
+  TreeBudget budget;
+  CHECK_FALSE(find_excess(
+      "x = \"" + std::string(100, '{') + "\" # [[[[\ny = '''" + std::string(100, '[') + "\n'''", budget));
+  CHECK(budget.left == (size_t{1} << 25) - 16);
+  CHECK_FALSE(find_excess("x = [\n[0.5, 1.5],\n[0.5, 1.5]\n]", budget));
+  CHECK(budget.left == (size_t{1} << 25) - 16 - 8 - 3 * 2 - 3);
+
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "a.toml", "include = ['b.toml', 'c.toml']\n");
+  for (const char* name : {"b.toml", "c.toml"})
+    test::write_text(folder / name, "y = [\n" + repeat("#,\n", 10) + std::string(size_t{1} << 24, ',') + "]");
+  try {
+    load_scene(folder / "a.toml");
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    CHECK(what.find((folder / "c.toml") + ":12:") != std::string::npos);
+    CHECK(what.find("the scene has more keys") != std::string::npos);
+  }
+}
+
+TEST_CASE("groups nest 15 deep by their headers, and deeper by instances") {
+  const auto nested = [](int deep) {
+    std::string text = "[[material]]\nname = \"m\"\ntype = \"mirror\"\n", path = "group";
+    for (int i = 0; i < deep; ++i, path += ".group") text += "[[" + path + "]]\n";
+    path.replace(path.size() - 5, 5, "sphere");
+    return text + "[[" + path + "]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n";
+  };
+  CHECK_FALSE(refused(nested(15)));
+  try {
+    parse_scene(nested(16), "scene.toml");
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    CHECK(std::string(error.what()).find("a key of more than 16 parts; groups nest deeper by [[instance]]") !=
+          std::string::npos);
+  }
 }
 
 TEST_CASE("lights are bounded, and the first beyond is named") {
