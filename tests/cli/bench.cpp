@@ -101,7 +101,8 @@ TEST_CASE("any scene is written out for POV-Ray, or it is said why not") {
   CHECK((err.find("bilinear.toml: without POV-Ray: ") != std::string::npos) == povray);
 }
 
-TEST_CASE("a mesh from its file to a picture, beside POV-Ray and an older run") {
+TEST_CASE("a mesh from its file to a picture, beside POV-Ray and an older run" *
+          doctest::test_suite("long")) {
   const SceneFolder folder;
   const auto run = [&](std::vector<std::string> more) {
     const std::vector<std::string> command{"bench", "terrain-51k", "scenes/meshes/gem.obj", "-n", "1", "-s",

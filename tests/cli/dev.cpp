@@ -11,7 +11,7 @@ using namespace eyeray::test;
 
 namespace {
 
-constexpr double patience = 60;
+constexpr double patience = 600;
 
 // A running `eyeray dev`, and the place in its words up to which they have been looked at.
 class Dev {
@@ -101,7 +101,7 @@ TEST_CASE("dev renders on every save, and outlives what it renders") {
   // Ctrl-C ends it and its worker.
   const pid_t last_worker = dev.worker();
   dev.process().send_signal(SIGINT);
-  CHECK(dev.process().wait(10));
+  CHECK(dev.process().wait(600));
   CHECK(dev.process().code() == 130);
   CHECK(wait_until_ended(last_worker));
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "scene.toml~", "shaders", "a.pfm"});
@@ -126,7 +126,7 @@ TEST_CASE("dev stops a shader that never ends, and renders again once it is mend
   const pid_t worker = dev.worker();
   CHECK(worker > 0);
   dev.process().send_signal(SIGKILL);
-  CHECK(dev.process().wait(10));
+  CHECK(dev.process().wait(600));
   CHECK(wait_until_ended(worker));
 }
 

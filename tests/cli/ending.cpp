@@ -26,7 +26,7 @@ class LongRender : public Process {
              "twin", "--checkpoint", folder / "work", "--checkpoint-every", "0.01", "-o", folder / "a.pfm"},
             environment) {
     const Stopwatch watch;
-    while (!std::filesystem::exists(folder / "work") && watch.seconds() < 60 && !wait(0.005)) {
+    while (!std::filesystem::exists(folder / "work") && watch.seconds() < 600 && !wait(0.005)) {
     }
   }
 };
@@ -75,7 +75,7 @@ TEST_CASE("each signal that ends a render keeps its checkpoint, and is told by t
     const SceneFolder folder;
     LongRender render(folder);
     render.send_signal(signal);
-    REQUIRE(render.wait(60));
+    REQUIRE(render.wait(600));
     CAPTURE(render.err());
     CHECK(render.code() == 128 + signal);
     CHECK(render.err().find(" of the work: to go on, give the same options and --resume ") !=

@@ -56,7 +56,7 @@ TEST_CASE("meshes lie beside their scene, as large as they say") {
   CHECK(folder.names() == std::set<std::string>{"alps.ply", "alps.toml", "flake.ply", "flake.toml"});
 }
 
-TEST_CASE("every classic is a scene that passes verify, its mesh beside it") {
+TEST_CASE("every classic is a scene that passes verify, its mesh beside it" * doctest::test_suite("long")) {
   struct ClassicCase {
     std::string name, size_factor;
     std::map<std::string, int> counts;

@@ -121,7 +121,8 @@ TEST_CASE("samples that disprove a Lipschitz constant are a warning with the pla
         std::string::npos);
 }
 
-TEST_CASE("a formula in a group that is kept once, and one in a solid, is checked and run as any other") {
+TEST_CASE("a formula in a group that is kept once, and one in a solid, is checked and run as any other" *
+          doctest::test_suite("long")) {
   const std::string group =
       "[[group]]\nbatch = { transform = [[], [{ translate = [3, 0, 0] }]] }\n[[group.implicit]]";
   const std::string solid =

@@ -56,7 +56,8 @@ std::map<std::string, std::string> files_of(const SceneFolder& folder, const std
 
 }  // namespace
 
-TEST_CASE("interrupted at any time and resumed, all files are those of an uninterrupted render") {
+TEST_CASE("interrupted at any time and resumed, all files are those of an uninterrupted render" *
+          doctest::test_suite("long")) {
   const SceneFolder folder;
   Random random(11);
   REQUIRE(run_eyeray(long_render(folder, "whole")).code == 0);
@@ -112,10 +113,10 @@ TEST_CASE("the GPU resumes as well, and says in JSON what it had") {
   Process process(with(with({eyeray_binary()}, command),
                        {"--checkpoint", folder / "work", "--checkpoint-every", "0.01"}));
   const Stopwatch watch;
-  while (!std::filesystem::exists(folder / "work") && watch.seconds() < 30 && !process.wait(0.001)) {
+  while (!std::filesystem::exists(folder / "work") && watch.seconds() < 600 && !process.wait(0.001)) {
   }
   process.send_signal(SIGKILL);
-  process.wait(10);
+  process.wait(600);
   REQUIRE(process.code() == 128 + SIGKILL);
 
   const ProcessResult rest = run_eyeray(with(command, {"--resume", folder / "work"}));
@@ -136,10 +137,10 @@ TEST_CASE("another scene, size, sampling or backend does not resume, and is told
   Process first(
       with(with({eyeray_binary()}, command), {"--checkpoint", checkpoint, "--checkpoint-every", "0.01"}));
   const Stopwatch watch;
-  while (!std::filesystem::exists(checkpoint) && watch.seconds() < 60 && !first.wait(0.005)) {
+  while (!std::filesystem::exists(checkpoint) && watch.seconds() < 600 && !first.wait(0.005)) {
   }
   first.send_signal(SIGINT);
-  REQUIRE(first.wait(60));
+  REQUIRE(first.wait(600));
   REQUIRE(first.code() == 130);
   const std::string kept = read_text(checkpoint);
 

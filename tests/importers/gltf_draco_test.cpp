@@ -1,5 +1,5 @@
 // KHR_draco_mesh_compression: what the library's encoder makes is read back; all else is refused.
-#include <chrono>
+#include <ctime>
 
 #include "coded_grid.hpp"
 
@@ -297,9 +297,9 @@ TEST_CASE("draco: orientations of uv without end") {
   for (size_t at = 40; at + 4 <= whole.size(); ++at) {
     std::string data = whole;
     data.replace(at, 4, "\xff\xff\xff\x7f");
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     survived += refusal_of_data(data) == "accepted";
-    REQUIRE(std::chrono::steady_clock::now() - start < std::chrono::seconds(2));
+    REQUIRE(std::clock() - start < 4 * CLOCKS_PER_SEC);
   }
   CHECK(survived < whole.size() - 44);
 }

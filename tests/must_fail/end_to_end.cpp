@@ -67,7 +67,8 @@ TEST_CASE("every fault on the GPU's side is noticed, with its reason") {
   }
 }
 
-TEST_CASE("a picture with rays whose steps ran out does not pass, and says why") {
+TEST_CASE("a picture with rays whose steps ran out does not pass, and says why" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const ProcessResult result = run_eyeray({"verify", "scenes/shapes/superellipsoid.toml", "-s", "96x72",
                                            "--quiet", "--inject-fault", "steps", "--keep", folder / "kept"});

@@ -177,7 +177,8 @@ std::optional<Intersection> plain_search(const Scene& scene, const Ray& ray) {
 
 }  // namespace
 
-TEST_CASE("10 000 hard scenes: the tree finds what brute force finds, to the last bit") {
+TEST_CASE("10 000 hard scenes: the tree finds what brute force finds, to the last bit" *
+          doctest::test_suite("long")) {
   Dice dice;
   int rays = 0, hits = 0, different = 0, different_light = 0, dimmed = 0, beside_boxes = 0;
   for (int i = 0; i < 10000; ++i) {

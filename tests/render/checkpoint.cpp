@@ -85,7 +85,7 @@ TEST_CASE("interrupted anywhere and resumed, a picture is the uninterrupted one"
   }
 }
 
-TEST_CASE("interrupted within a sample of a band, too") {
+TEST_CASE("interrupted within a sample of a band, too" * doctest::test_suite("long")) {
   // So wide that a band takes several calls.
   const TemporaryFolder folder;
   const std::string file = folder / "a";

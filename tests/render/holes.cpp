@@ -85,7 +85,8 @@ TEST_CASE("an alpha of the cutoff is there, below it there is a hole; behind a h
   }
 }
 
-TEST_CASE("holes: trees find what brute force finds, and in float64 too, to the last bit") {
+TEST_CASE("holes: trees find what brute force finds, and in float64 too, to the last bit" *
+          doctest::test_suite("long")) {
   Random random(3);
   for (const int instances : {0, 5}) {
     const Scene scene = leafy_scene(random, 200, instances);
@@ -116,7 +117,7 @@ TEST_CASE("holes: trees find what brute force finds, and in float64 too, to the 
   }
 }
 
-TEST_CASE("holes on the GPU: in every search what the twin finds") {
+TEST_CASE("holes on the GPU: in every search what the twin finds" * doctest::test_suite("long")) {
   gpu::Device device({});
   Random random(4);
   for (const auto& [count, instances] : {std::pair(12, 0), {200, 0}, {200, 4}}) {

@@ -105,7 +105,8 @@ constexpr const char* aim_names[] = {"at random", "at edges", "at vertices"};
 
 TEST_CASE(
     "closed meshes: no ray leaks through the tree, wherever they are, whatever their size, of needles, as "
-    "instances") {
+    "instances" *
+    doctest::test_suite("long")) {
   gpu::Device device({});
   Random random(11);
   const Mesh mesh = icosphere(3, 0.1, random);

@@ -89,7 +89,8 @@ class LongTriangles {
 
 }  // namespace
 
-TEST_CASE("triangles cut in parts: 4 million grazing rays find what brute force finds, to the last bit") {
+TEST_CASE("triangles cut in parts: 4 million grazing rays find what brute force finds, to the last bit" *
+          doctest::test_suite("long")) {
   std::atomic<int64_t> compared = 0, hits = 0, different = 0, parts = 0, triangles = 0;
   parallel_for(0, 500, [&](int seed) {
     LongTriangles hard{uint64_t(seed)};

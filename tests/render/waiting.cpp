@@ -47,8 +47,8 @@ void check_against_twin(gpu::Device& device, const Scene& scene, const PackedSce
 
 }  // namespace
 
-TEST_CASE(
-    "slow shapes among others in a tree, with instances and without: the GPU finds what the twin does") {
+TEST_CASE("slow shapes among others in a tree, with instances and without: the GPU finds what the twin does" *
+          doctest::test_suite("long")) {
   gpu::Device device({});
   for (const std::string file : {"scenes/shapes/gallery.toml", "scenes/group_shapes.toml"}) {
     CAPTURE(file);

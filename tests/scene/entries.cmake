@@ -7,12 +7,25 @@ list(FILTER SHAPE_SCENES INCLUDE REGEX "^scenes/shapes/")
 # The gallery has what the others have, in one kernel that takes seconds to make, and the Mandelbulb takes seconds to trace: once is enough.
 list(FILTER SHAPE_SCENES EXCLUDE REGEX "/(gallery|mandelbulb)")
 
-# eyeray_verify(NAME LABEL ARGUMENT …)
+# eyeray_verify(NAME LABEL [QUICK] ARGUMENT …): one process for all its scenes. QUICK: it is in what `scripts/test` alone runs.
 function(eyeray_verify name label)
-  add_test(NAME ${name} COMMAND eyeray verify ${ARGN} --quiet --keep ${CMAKE_CURRENT_BINARY_DIR}/kept/${name}
+  cmake_parse_arguments(arg "QUICK" "" "" ${ARGN})
+  if(NOT arg_QUICK)
+    list(APPEND label full)
+  endif()
+  add_test(NAME ${name} COMMAND eyeray verify ${arg_UNPARSED_ARGUMENTS} --quiet --timeout 3600
+    --keep ${CMAKE_CURRENT_BINARY_DIR}/kept/${name}
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 600)
+  set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 3600)
 endfunction()
+
+# Every scene, small; but for the edge scenes, which have one size.
+set(EDGES ${SCENES})
+list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
+set(quick ${SCENES})
+list(FILTER quick EXCLUDE REGEX "^scenes/edges/|/gallery")
+eyeray_verify(scenes.small scene QUICK ${quick} -s 48x36)
+eyeray_verify(scenes.edges scene QUICK ${EDGES})
 
 # Every scene as its file says.
 foreach(scene IN LISTS SCENES)
@@ -22,8 +35,6 @@ foreach(scene IN LISTS SCENES)
 endforeach()
 
 # Every mode, on small pictures. The edge scenes put whole rows of pixels where the picture jumps, for one size and one sample.
-set(EDGES ${SCENES})
-list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
 set(small ${SCENES} -s 96x72)
 list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes|/forest|/shapes/(algebraic|bezier|implicit|mandelbulb|sculpture|solid)")
 # Modes that no shape's code knows of need no scene for each shape.
@@ -40,14 +51,17 @@ set(deep --max-depth 64 -D render.min_weight=0.01)
 eyeray_verify(mode.slow-kernels.deep-jittered mode ${slow} ${deep} ${jittered})
 # Without constants the kernels are the same for many modes, and made once.
 eyeray_verify(mode.no-constants mode ${small} --no-constants)
-eyeray_verify(mode.no-constants.edges mode ${EDGES} --no-constants)
+eyeray_verify(mode.no-constants.edges mode QUICK ${EDGES} --no-constants)
 # However hits are found, they are the same. The GPU's profile runs on any device.
 set(searched scenes/meshes.toml scenes/sphereflake.toml scenes/cornell.toml scenes/inside_glass.toml -s 96x72)
 eyeray_verify(mode.no-optimiser mode ${searched} --no-optimiser)
 set(groups scenes/group_instances.toml scenes/group_shapes.toml)
-eyeray_verify(mode.groups-once mode scenes/groups.toml scenes/group_instances.toml -s 96x72 -D render.groups=instanced)
+eyeray_verify(mode.groups-once mode QUICK scenes/groups.toml scenes/group_instances.toml -s 96x72 -D render.groups=instanced)
 eyeray_verify(mode.groups-copied mode ${groups} scenes/forest.toml -s 96x72 -D render.groups=flat)
 eyeray_verify(mode.tree mode ${small} --acceleration tree --no-constants)
+set(few scenes/cornell.toml scenes/inside_glass.toml scenes/meshes.toml scenes/group_instances.toml -s 48x36)
+eyeray_verify(mode.packets.few mode QUICK ${few} --acceleration tree --no-constants --rays packets)
+eyeray_verify(mode.profile-gpu.few mode QUICK ${few} --profile gpu)
 eyeray_verify(mode.tree.edges mode ${EDGES} --acceleration tree --no-constants)
 eyeray_verify(mode.brute-force mode ${searched} --acceleration brute-force)
 # Without a tree a ray meets each triangle as often as it is shown: more rays in a row, or patches, are more loops than Mesa 22.3.6 grants.
@@ -69,7 +83,7 @@ eyeray_verify(mode.jittered mode ${small} --no-constants --spp 9 -D image.patter
 # Pictures that no workgroup fits, and parts of pictures.
 set(some scenes/cornell.toml scenes/inside_glass.toml scenes/orthographic.toml)
 foreach(size 1x1 7x3 1x300 300x1 17x33)
-  eyeray_verify(mode.size-${size} mode ${some} -s ${size})
+  eyeray_verify(mode.size-${size} mode QUICK ${some} -s ${size})
 endforeach()
 # Rays that start beyond another face of the same glass box (docs/verification.md, rounding).
 eyeray_verify(mode.contact mode scenes/shapes/box.toml -s 640x427 --crop 476,250,24,24)
@@ -84,7 +98,7 @@ eyeray_verify(mode.caustic-rim-wide mode scenes/shapes/gallery.toml -s 96x54 --c
 eyeray_verify(mode.plane-of-symmetry mode scenes/whitted.toml -s 333x250 --crop 162,69,9,9)
 eyeray_verify(mode.plane-of-symmetry-walls mode scenes/whitted.toml -s 309x231 --crop 154,163,1,1 --backends twin)
 eyeray_verify(mode.empty-solids mode tests/loader/warned/empty_solids.toml)
-eyeray_verify(mode.crop mode ${some} -s 200x150 --crop 51,37,83,71)
+eyeray_verify(mode.crop mode QUICK ${some} -s 200x150 --crop 51,37,83,71)
 eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --spp 4 -D image.pattern=jittered)
 
 # Every message of a validation layer is a failure; tests/gpu proves that the layers are there and speak. `core` reads the kernels too,
@@ -92,5 +106,5 @@ eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --sp
 set(set scenes/whitted.toml ${some} -s 96x72)
 eyeray_verify(validation.core validation ${set} ${SHAPE_SCENES} --validate core)
 eyeray_verify(validation.core.no-constants validation ${set} ${SHAPE_SCENES} --validate core --no-constants)
-eyeray_verify(validation.sync validation ${set} --validate sync)
+eyeray_verify(validation.sync validation QUICK ${set} --validate sync)
 eyeray_verify(validation.sync.no-constants validation ${set} --validate sync --no-constants)

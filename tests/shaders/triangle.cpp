@@ -95,7 +95,8 @@ int leaks(const Mesh& mesh, const Vec3& centre, const Vec3& reach, Aim aim, Inte
 
 }  // namespace
 
-TEST_CASE("closed meshes: 0 of 12 million rays leak, at the origin, far away, tiny, and of needles") {
+TEST_CASE("closed meshes: 0 of 12 million rays leak, at the origin, far away, tiny, and of needles" *
+          doctest::test_suite("long")) {
   constexpr int count = 1'000'000;
   const struct {
     const char* name;

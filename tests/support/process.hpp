@@ -21,9 +21,10 @@ inline std::string eyeray_binary() {
   return path ? path : "eyeray";
 }
 
-// Runs eyeray with `arguments`.
+// Runs eyeray with `arguments`. How long it may take says only that it ends at all, however busy the machine
+// is.
 inline ProcessResult run_eyeray(std::vector<std::string> arguments, const Environment& environment = {},
-                                double timeout_seconds = 120, int signal_after_ms = -1) {
+                                double timeout_seconds = 3600, int signal_after_ms = -1) {
   arguments.insert(arguments.begin(), eyeray_binary());
   return run_process(arguments, environment, timeout_seconds, signal_after_ms);
 }
@@ -68,7 +69,7 @@ inline std::string read_text(const std::filesystem::path& path) {
 }
 
 // Waits until a process is gone with all its threads, or a zombie that its parent has not looked at yet.
-inline bool wait_until_ended(pid_t pid, double seconds = 10) {
+inline bool wait_until_ended(pid_t pid, double seconds = 600) {
   const Stopwatch watch;
   while (watch.seconds() < seconds) {
     const std::filesystem::path process = "/proc/" + std::to_string(pid);
