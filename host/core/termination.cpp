@@ -191,7 +191,7 @@ ForeignCall::ForeignCall(double seconds, Error error) {
   {
     const std::lock_guard lock(call_mutex);
     CHECK(!call || call->returned);
-    call.emplace(seconds, std::move(error), WakefulStopwatch());
+    call = Call{seconds, std::move(error), {}};
   }
   ::sem_post(&something_happened.handle);
 }
