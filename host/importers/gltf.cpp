@@ -247,6 +247,8 @@ void GltfReader::read_camera(const GltfObject& source, const Mat4& world) {
   camera.eye = Vec3(world[3]);
   camera.target = camera.eye - unit(Vec3(world[2])) * std::max(1.0, magnitude(camera.eye));
   camera.up = unit(Vec3(world[1]));
+  if (source.has("perspective") && source.has("orthographic"))
+    source.fail("is both perspective and orthographic");
   if (const auto perspective = source.object("perspective")) {
     camera.fov_axis = FovAxis::vertical;
     camera.fov_degrees = glm::degrees(perspective->number("yfov", 0));

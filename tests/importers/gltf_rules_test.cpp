@@ -187,6 +187,14 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
          file.primitive()["indices"] = file.add({0, 1, 2, 0, 2}, 5123, "SCALAR", 1);
        },
        "primitives whose last corners make no triangle: 1, the first meshes[0].primitives[0]"},
+      {"a camera of both types",
+       [](GltfFile& file) {
+         file.json["nodes"][1]["camera"] = 0;
+         file.json["cameras"] = {{{"type", "perspective"},
+                                  {"perspective", {{"yfov", 1}}},
+                                  {"orthographic", {{"xmag", 1}, {"ymag", 1}}}}};
+       },
+       error + "cameras[0] is both perspective and orthographic"},
       // Materials.
       {"a factor above 1", set("/materials/0/pbrMetallicRoughness/roughnessFactor", 7),
        "factors below 0 or above 1, clamped: 1, the first materials[0].pbrMetallicRoughness.roughnessFactor"},
