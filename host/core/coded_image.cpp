@@ -12,10 +12,11 @@ namespace eyeray {
 
 namespace {
 
-// The most pixels that a byte of a file can stand for: deflate makes at most 1032 bytes of one (RFC 1951),
-// and a byte holds at most 8 pixels. A JPEG spends at least a bit on each block, and a block is no more than
-// 8 · 8 pixels of one channel, subsampled by at most 4 · 4.
-constexpr int64_t most_pixels_a_byte = 1032 * 8;
+// The most pixels that a byte of a file can stand for. Of a PNG: deflate makes at most 1032 bytes of one (RFC
+// 1951), and a byte holds at most 8 pixels. A JPEG spends at least a bit on each block of 8 · 8 samples of a
+// channel; a channel may be coarser than the picture by 4 in one direction, if another is fine in that one.
+constexpr int64_t most_png_pixels_a_byte = 1032 * 8;
+constexpr int64_t most_jpeg_pixels_a_byte = 8 * 256;
 
 bool is_png(std::string_view bytes) {
   return bytes.starts_with("\x89PNG\r\n\x1a\n");
@@ -61,7 +62,8 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
   if (width < 1 || height < 1 || width > most_coded_side || height > most_coded_side)
     throw fail(fmt::format("it has {}×{} pixels; the most is {} a side", width, height, most_coded_side));
   const int64_t pixels = int64_t{width} * height;
-  if (pixels > most_pixels_a_byte * size) throw fail("it ends early");
+  if (pixels > (is_png(text) ? most_png_pixels_a_byte : most_jpeg_pixels_a_byte) * size)
+    throw fail("it ends early");
   budget.take(width, height, name);
 
   // Decode it, always to four channels.

@@ -1,5 +1,7 @@
 #include "core/coded_image.hpp"
 
+#include <cmath>
+
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/peak_memory.hpp"
@@ -159,6 +161,13 @@ TEST_CASE("a header that promises more than its file can hold takes no memory") 
   const size_t frame = jpeg.find("\xff\xc0");
   REQUIRE(frame != std::string::npos);
   jpeg.replace(frame + 5, 4, "\x40\x00\x40\x00", 4);
+  CHECK(refusal(jpeg) == "cannot read a picture: it ends early");
+  // 3000 pixels a byte are more than its blocks have bits for.
+  const auto side = static_cast<int>(std::sqrt(3000.0 * double(jpeg.size())));
+  for (const size_t at : {5, 7}) {
+    jpeg[frame + at] = char(side >> 8);
+    jpeg[frame + at + 1] = char(side);
+  }
   CHECK(refusal(jpeg) == "cannot read a picture: it ends early");
   jpeg.replace(frame + 5, 4, "\xff\xff\xff\xff", 4);
   CHECK(refusal(jpeg) == "cannot read a picture: it has 65535×65535 pixels; the most is 16384 a side");
