@@ -161,7 +161,7 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options) {
       .add_flag("--splits", options.pack.split,
                 "Cut long, thin primitives for a better tree: slower to build, faster to trace.")
       ->group("How hits are found (not which)");
-  choose("--profile", options.profile.profile, "auto|cpu|gpu",
+  choose("--profile", options.profile.profile, "auto|cpu|gpu|small",
          "What kernels are made for; by default what the device is.");
   choose("--loads", options.profile.loads, "texels|storage",
          "Load the scene as texels or from storage buffers.");

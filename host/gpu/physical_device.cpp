@@ -52,7 +52,8 @@ void describe_version_1_1(VkPhysicalDevice device, uint32_t version, DeviceInfo&
   info.limits.allocation = maintenance.maxMemoryAllocationSize;
   if (version < VK_API_VERSION_1_2) return;
   info.driver = driver.driverName;
-  info.driver_version = driver.driverInfo;
+  if (driver.driverInfo[0] != '\0') info.driver_version = driver.driverInfo;  // SwiftShader's is empty
+  info.slow_compiler = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
   info.float_modes = {
       .denorm_preserve = floats.shaderDenormPreserveFloat32 == VK_TRUE,
       .round_to_nearest_even = floats.shaderRoundingModeRTEFloat32 == VK_TRUE,
@@ -68,7 +69,7 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
   info.index = index;
   info.name = properties.deviceName;
   info.driver = "unknown driver";
-  info.driver_version = fmt::format("{:#x}", properties.driverVersion);
+  info.driver_version = version_text(properties.driverVersion);
   info.api_version = version_text(properties.apiVersion);
   info.driver_id = driver_id(properties);
   info.type = device_type(properties.deviceType);

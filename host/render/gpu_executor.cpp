@@ -151,7 +151,7 @@ class GpuExecutor final : public Executor {
 
   void specialise_for(PackedScene& packed) {
     Specialisation specialisation;
-    specialisation.constants = options_.constants;
+    specialisation.constants = options_.constants && profile_.constants;
     specialisation.profile = profile_;
     specialisation.ray_kinds = options_.ray_kinds;
     const uint32_t lanes = device_.info().limits.subgroup_size;

@@ -15,7 +15,7 @@ struct PackOptions {
 
 // The kernels' profile (render/profile.hpp); an empty choice is the profile's.
 struct ProfileOptions {
-  std::string profile = "auto";  // auto: by the device | cpu | gpu
+  std::string profile = "auto";  // auto: by the device | cpu | gpu | small: for slow compilers
   std::string loads;             // texels | storage
   std::string stack;             // shift | array
   std::string rays;              // packets: trace rays that run side by side together | lanes: each alone

@@ -41,11 +41,16 @@ std::string_view describe(const std::optional<Rays>& scattered) {
 }  // namespace
 
 Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& device) {
-  const std::string profile = options.profile == "auto" ? "" : options.profile;
-  const bool cpu = chosen("--profile", profile, "cpu", "gpu", device.type == gpu::DeviceType::cpu);
+  const std::string& profile = options.profile;
+  const bool automatic = profile.empty() || profile == "auto";
+  if (!automatic && profile != "cpu" && profile != "gpu" && profile != "small")
+    throw Error(ExitCode::bad_input, "--profile is cpu, gpu or small, not '{}'", profile);
+  // A stack in registers, and a scene as constants, are too much for a slow compiler (docs/lavapipe.md).
+  const bool small = automatic ? device.slow_compiler : profile == "small";
+  const bool cpu = automatic ? device.type == gpu::DeviceType::cpu && !small : profile == "cpu";
   return {chosen("--loads", options.loads, "texels", "storage", cpu),
           chosen("--rays", options.rays, "packets", "lanes", cpu),
-          chosen("--stack", options.stack, "shift", "array", cpu),
+          chosen("--stack", options.stack, "shift", "array", cpu), !small,
           chosen_for_scattered(options.scattered, cpu)};
 }
 
@@ -61,9 +66,10 @@ Rays scattered_rays(const Profile& profile, const PackedScene& scene, bool packe
 }
 
 std::string describe(const Profile& profile) {
-  return fmt::format("{} loads, {}, {} stack, scattered rays {}", profile.texel_buffers ? "texel" : "storage",
-                     profile.packets ? "packets" : "lanes", profile.shift_stack ? "shifted" : "indexed",
-                     describe(profile.scattered));
+  return fmt::format("{} loads, {}, {} stack, scattered rays {}{}",
+                     profile.texel_buffers ? "texel" : "storage", profile.packets ? "packets" : "lanes",
+                     profile.shift_stack ? "shifted" : "indexed", describe(profile.scattered),
+                     profile.constants ? "" : ", no constants");
 }
 
 }  // namespace eyeray

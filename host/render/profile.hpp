@@ -19,7 +19,8 @@ struct Profile {
   bool texel_buffers = false;  // load the scene as texels of 16 bytes instead of from storage buffers
   bool packets = false;        // trace rays that run side by side together
   bool shift_stack =
-      false;  // keep the stack in registers, shifted as a whole, instead of in an indexed array
+      false;              // keep the stack in registers, shifted as a whole, instead of in an indexed array
+  bool constants = true;  // compile a small scene in, instead of loading it
   // Rays that part, where the scene allows it; by the scene it is wide in big trees, lanes in small ones.
   std::optional<Rays> scattered = Rays::lanes;
 };
@@ -30,7 +31,8 @@ Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& dev
 // How rays that part are traced in this scene, where `packets` says whether any can be traced together.
 Rays scattered_rays(const Profile& profile, const PackedScene& scene, bool packets, uint32_t subgroup_size);
 
-// For people: "texel loads, packets, shifted stack, scattered rays by the scene".
+// For people: "texel loads, packets, shifted stack, scattered rays by the scene", and "no constants" where
+// there are none.
 std::string describe(const Profile& profile);
 
 }  // namespace eyeray
