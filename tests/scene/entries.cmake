@@ -105,7 +105,7 @@ eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --sp
 # compiler minutes are not among them.
 set(SWIFTSHADER /usr/lib/chromium/vk_swiftshader_icd.json CACHE FILEPATH "The manifest of the driver that the label `driver` asks")
 set(driver ${SHAPE_SCENES})
-list(FILTER driver EXCLUDE REGEX "/(algebraic|bezier|implicit|sculpture|solid|superellipsoid)")
+list(FILTER driver EXCLUDE REGEX "/(algebraic|implicit|sculpture|solid|superellipsoid)")
 # eyeray_driver(NAME COMMAND…): on that driver alone.
 function(eyeray_driver name)
   add_test(NAME driver.${name} COMMAND prlimit --as=8589934592 $<TARGET_FILE:eyeray> ${ARGN} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
