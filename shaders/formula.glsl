@@ -1,5 +1,5 @@
-// GLSL's built-in functions for formulas that users write (docs/implicit-surfaces.md), `sin` as `fn_sin`: in the operations of math.glsl alone,
-// so that GPU and twin agree to the last bit. Absolute or relative errors, whichever is larger, are of some 1e-7 where nothing else is said.
+// GLSL's built-in functions for formulas that users write (docs/implicit-surfaces.md), of one number each, `sin` as `fn_sin`: in the operations of
+// math.glsl alone, so that GPU and twin agree to the last bit. Absolute or relative errors, whichever is larger, are of some 1e-7 where nothing else is said.
 #ifndef FORMULA_GLSL
 #define FORMULA_GLSL
 #include "math.glsl"
@@ -9,7 +9,7 @@ SHADER_BEGIN
 #define NOT_A_NUMBER uintBitsToFloat(0x7fc00000u)
 #define INFINITE uintBitsToFloat(0x7f800000u)
 
-// Turns that the loops of a formula may make in one call; none of them goes on after that (docs/implicit-surfaces.md).
+// Turns that the loops of a formula may make in one call, longer ones counting more; none goes on after that (docs/implicit-surfaces.md).
 #define FORMULA_TURNS 10000u
 
 // One argument.
@@ -92,95 +92,27 @@ float fn_smoothstep(float low, float high, float x) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-// The same for each component.
-#define EACH_OF_ONE(name)                                                                    \
-  vec2 name(vec2 v) { return vec2(name(v.x), name(v.y)); }                                   \
-  vec3 name(vec3 v) { return vec3(name(v.x), name(v.y), name(v.z)); }                        \
-  vec4 name(vec4 v) { return vec4(name(v.x), name(v.y), name(v.z), name(v.w)); }
-#define EACH_OF_TWO(name)                                                                    \
-  vec2 name(vec2 a, vec2 b) { return vec2(name(a.x, b.x), name(a.y, b.y)); }                 \
-  vec3 name(vec3 a, vec3 b) { return vec3(name(a.x, b.x), name(a.y, b.y), name(a.z, b.z)); } \
-  vec4 name(vec4 a, vec4 b) { return vec4(name(a.x, b.x), name(a.y, b.y), name(a.z, b.z), name(a.w, b.w)); }
-#define EACH_AND_A_NUMBER(name)                                                              \
-  vec2 name(vec2 a, float b) { return name(a, vec2(b, b)); }                                 \
-  vec3 name(vec3 a, float b) { return name(a, vec3(b, b, b)); }                              \
-  vec4 name(vec4 a, float b) { return name(a, vec4(b, b, b, b)); }
-#define EACH_OF_THREE(name)                                                                  \
-  vec2 name(vec2 a, vec2 b, vec2 c) { return vec2(name(a.x, b.x, c.x), name(a.y, b.y, c.y)); } \
-  vec3 name(vec3 a, vec3 b, vec3 c) { return vec3(name(a.x, b.x, c.x), name(a.y, b.y, c.y), name(a.z, b.z, c.z)); } \
-  vec4 name(vec4 a, vec4 b, vec4 c) {                                                        \
-    return vec4(name(a.x, b.x, c.x), name(a.y, b.y, c.y), name(a.z, b.z, c.z), name(a.w, b.w, c.w)); \
-  }
-EACH_OF_ONE(fn_abs)
-EACH_OF_ONE(fn_sign)
-EACH_OF_ONE(fn_floor)
-EACH_OF_ONE(fn_ceil)
-EACH_OF_ONE(fn_trunc)
-EACH_OF_ONE(fn_round)
-EACH_OF_ONE(fn_fract)
-EACH_OF_ONE(fn_sqrt)
-EACH_OF_ONE(fn_inversesqrt)
-EACH_OF_ONE(fn_radians)
-EACH_OF_ONE(fn_degrees)
-EACH_OF_ONE(fn_sin)
-EACH_OF_ONE(fn_cos)
-EACH_OF_ONE(fn_tan)
-EACH_OF_ONE(fn_asin)
-EACH_OF_ONE(fn_acos)
-EACH_OF_ONE(fn_atan)
-EACH_OF_TWO(fn_atan)
-EACH_OF_ONE(fn_exp)
-EACH_OF_ONE(fn_log)
-EACH_OF_ONE(fn_exp2)
-EACH_OF_ONE(fn_log2)
-EACH_OF_TWO(fn_pow)
-EACH_OF_ONE(fn_sinh)
-EACH_OF_ONE(fn_cosh)
-EACH_OF_ONE(fn_tanh)
-EACH_OF_TWO(fn_min)
-EACH_AND_A_NUMBER(fn_min)
-EACH_OF_TWO(fn_max)
-EACH_AND_A_NUMBER(fn_max)
-EACH_OF_TWO(fn_mod)
-EACH_AND_A_NUMBER(fn_mod)
-EACH_OF_TWO(fn_step)
-vec2 fn_step(float edge, vec2 v) { return fn_step(vec2(edge, edge), v); }
-vec3 fn_step(float edge, vec3 v) { return fn_step(vec3(edge, edge, edge), v); }
-vec4 fn_step(float edge, vec4 v) { return fn_step(vec4(edge, edge, edge, edge), v); }
-EACH_OF_THREE(fn_clamp)
-vec2 fn_clamp(vec2 v, float low, float high) { return fn_min(fn_max(v, low), high); }
-vec3 fn_clamp(vec3 v, float low, float high) { return fn_min(fn_max(v, low), high); }
-vec4 fn_clamp(vec4 v, float low, float high) { return fn_min(fn_max(v, low), high); }
-EACH_OF_THREE(fn_mix)
-vec2 fn_mix(vec2 a, vec2 b, float share) { return fn_mix(a, b, vec2(share, share)); }
-vec3 fn_mix(vec3 a, vec3 b, float share) { return fn_mix(a, b, vec3(share, share, share)); }
-vec4 fn_mix(vec4 a, vec4 b, float share) { return fn_mix(a, b, vec4(share, share, share, share)); }
-EACH_OF_THREE(fn_smoothstep)
-vec2 fn_smoothstep(float low, float high, vec2 v) { return fn_smoothstep(vec2(low, low), vec2(high, high), v); }
-vec3 fn_smoothstep(float low, float high, vec3 v) { return fn_smoothstep(vec3(low, low, low), vec3(high, high, high), v); }
-vec4 fn_smoothstep(float low, float high, vec4 v) {
-  return fn_smoothstep(vec4(low, low, low, low), vec4(high, high, high, high), v);
+// Whole numbers, those of ints in two's complement: nothing that formulas do with them is undefined (host/formula/ir.hpp). Divisors are made harmless
+// before any division: processors trap.
+uint whole_divide(uint x, uint y) {
+  bool odd = y == 0u || y == 0xffffffffu;
+  uint quotient = uint(int(x) / int(odd ? 1u : y));
+  return y == 0u ? 0u : odd ? 0u - x : quotient;
 }
-
-// Vectors as such.
-float fn_dot(float a, float b) { return a * b; }
-float fn_dot(vec2 a, vec2 b) { return a.x * b.x + a.y * b.y; }
-float fn_dot(vec3 a, vec3 b) { return dot3(a, b); }
-float fn_dot(vec4 a, vec4 b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
-float fn_length(float x) { return abs(x); }
-float fn_length(vec2 v) { return sqrt(fn_dot(v, v)); }
-float fn_length(vec3 v) { return sqrt(fn_dot(v, v)); }
-float fn_length(vec4 v) { return sqrt(fn_dot(v, v)); }
-float fn_distance(float a, float b) { return abs(a - b); }
-float fn_distance(vec2 a, vec2 b) { return fn_length(a - b); }
-float fn_distance(vec3 a, vec3 b) { return fn_length(a - b); }
-float fn_distance(vec4 a, vec4 b) { return fn_length(a - b); }
-vec2 fn_normalize(vec2 v) { return v / fn_length(v); }
-vec3 fn_normalize(vec3 v) { return v / fn_length(v); }
-vec4 fn_normalize(vec4 v) { return v / fn_length(v); }
-vec3 fn_cross(vec3 a, vec3 b) { return cross3(a, b); }
-vec2 fn_reflect(vec2 v, vec2 n) { return v - n * (2.0f * fn_dot(n, v)); }
-vec3 fn_reflect(vec3 v, vec3 n) { return v - n * (2.0f * fn_dot(n, v)); }
+uint natural_divide(uint x, uint y) {
+  uint quotient = x / (y == 0u ? 1u : y);
+  return y == 0u ? 0u : quotient;
+}
+uint whole_remainder(uint x, uint y) { return y == 0u ? 0u : x - whole_divide(x, y) * y; }
+uint natural_remainder(uint x, uint y) { return y == 0u ? 0u : x - natural_divide(x, y) * y; }
+// With the sign of y.
+uint whole_modulo(uint x, uint y) {
+  uint rest = whole_remainder(x, y);
+  return rest != 0u && int(rest ^ y) < 0 ? rest + y : rest;
+}
+uint whole_of(float x) { return x >= -2147483648.0f && x < 2147483648.0f ? uint(int(x)) : 0x80000000u; }
+uint natural_of(float x) { return x >= 0.0f && x < 4294967296.0f ? uint(x) : 0u; }
+uint clamped_index(uint i, uint count) { return int(i) < 0 ? 0u : i < count ? i : count - 1u; }
 
 SHADER_END
 #endif

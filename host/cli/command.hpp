@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/rect.hpp"
+#include "loader/scene_file.hpp"
 #include "render/render.hpp"
 #include "scene/scene.hpp"
 
@@ -54,7 +55,7 @@ class SceneOptions {
  private:
   std::string file_;
   std::vector<std::string> defines_;
-  std::vector<std::filesystem::path> allowed_folders_;
+  Trust trust_;
   std::string size_;
   std::string samples_;
   std::string integrator_;

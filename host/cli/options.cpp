@@ -46,10 +46,14 @@ void SceneOptions::add_to(CLI::App& command) {
       "repeated.")
       ->allow_extra_args(false)
       ->take_all();
-  add("--allow-path", allowed_folders_, "DIR",
+  add("--allow-path", trust_.folders, "DIR",
       "A folder outside the scene's whose scenes and images it may use. May be repeated.")
       ->allow_extra_args(false)
       ->take_all();
+  command
+      .add_flag("--no-formulas{false}", trust_.formulas,
+                "Refuse a scene that brings functions of its own ([[implicit]] with `code` or `file`).")
+      ->group(group);
   add("-s,--size", size_, "WxH", "Picture size in pixels, as 640x480.");
   add("--spp", samples_, "N", "Samples a pixel, a square number.");
   add("--integrator", integrator_, "NAME", "whitted, or raycast: eye rays only.");
@@ -90,8 +94,8 @@ Scene SceneOptions::load() const {
   add("render.seed", seed_);
   add("render.triangle", triangle_);
 
-  Scene scene = load_scene(file_, overrides, allowed_folders_);
-  compile_formulas(scene);
+  Scene scene = load_scene(file_, overrides, trust_);
+  check_formulas(scene);
   for (Diagnostic& doubt : doubt_lipschitz_constants(scene)) scene.warnings.push_back(std::move(doubt));
   for (const Diagnostic& warning : scene.warnings) fmt::print(stderr, "{}\n", format_diagnostic(warning));
   return scene;

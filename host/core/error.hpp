@@ -18,7 +18,6 @@ enum class ExitCode : int {
   no_device = 3,  // no usable Vulkan device, or it was lost
   file_io = 4,
   timed_out = 5,
-  no_compiler = 6,  // a formula cannot run on the CPU: nothing was verified
   interrupted = 130,
 };
 

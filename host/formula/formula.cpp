@@ -3,45 +3,74 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <optional>
 
-#include "formula/cpp_language.hpp"
-#include "formula/cpp_library.hpp"
-#include "formula/translation.hpp"
+#include "formula/execution.hpp"
+#include "formula/kernel_text.hpp"
+#include "formula/limits.hpp"
+#include "formula/lowering.hpp"
+#include "formula/machine.hpp"
+#include "formula/text.hpp"
 #include "formula/vocabulary.hpp"
+#include "gpu/shader_compiler.hpp"
 
 namespace eyeray {
+
+namespace formula {
+
+struct Compiled {
+  Text text;
+  Module module;
+  ir::Program program;
+  Machine value;
+  std::optional<Machine> gradient;
+};
+
+}  // namespace formula
 
 namespace {
 
 using formula::Fault;
-using formula::Program;
+using formula::user_prefix;
 
-constexpr size_t longest_text = size_t{1} << 16;
-// Of names in what a GLSL compiler is shown; taken out of its messages.
-const std::string check_prefix = "user_";
-const std::string cpp_prefix = "u_";
+// Of straight-line code: each is a call in kernels, and drivers take more than a second for a hundred.
+constexpr size_t most_steps = 512;
 
-std::string type_of(const FormulaParameter& parameter) {
-  return parameter.values.size() == 1 ? "float" : fmt::format("vec{}", parameter.values.size());
-}
+// As glslang mangles them.
+const std::string value_name = std::string(user_prefix) + "f(vf3;";
+const std::string gradient_name = std::string(user_prefix) + "gradient(vf3;";
 
-// "TYPE NAME = TYPE(…);" a line each.
-template <typename Literal>
-std::string constants(const std::vector<FormulaParameter>& parameters, const std::string& prefix,
-                      std::string_view qualifier, std::string_view scalar, const Literal& literal) {
+// "const TYPE NAME = TYPE(…);" a line each.
+std::string constants(const std::vector<FormulaParameter>& parameters) {
   std::string text;
   for (const FormulaParameter& parameter : parameters) {
     std::vector<std::string> values;
-    for (const double value : parameter.values) values.push_back(literal(value));
-    const std::string type = parameter.values.size() == 1 ? std::string(scalar) : type_of(parameter);
-    text += fmt::format("{}{} {}{} = {}({});\n", qualifier, type, prefix, parameter.name, type,
+    for (const double value : parameter.values) values.push_back(fmt::format("{:.9e}", double(float(value))));
+    const std::string type =
+        parameter.values.size() == 1 ? "float" : fmt::format("vec{}", parameter.values.size());
+    text += fmt::format("const {0} {1}{2} = {0}({3});\n", type, user_prefix, parameter.name,
                         fmt::join(values, ", "));
   }
   return text;
 }
 
-std::string decimal(double value) {
-  return fmt::format("{:.17e}", value);
+constexpr const char* entry = "formula.comp";
+constexpr const char* text_file = "text";
+
+// What glslang compiles: main calls what is to be kept.
+std::vector<uint32_t> spirv_of(const formula::Text& text, const std::vector<FormulaParameter>& parameters) {
+  gpu::ShaderSource source{entry, {}};
+  source.files[text_file] = text.glsl();
+  source.files[entry] = fmt::format(
+      "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, set = 0, binding = 0) buffer Values {{ "
+      "vec4 values[]; }};\n{}"
+      "#line 1 \"{}\"\n{}\n#line 1 \"{}\"\nvoid main() {{ vec3 p = values[0].xyz; values[0].w = {}f(p); {} "
+      "}}\n",
+      constants(parameters), text_file, source.files[text_file], entry, user_prefix,
+      text.has_gradient ? fmt::format("values[1].xyz = {}gradient(p);", user_prefix) : "");
+  return gpu::compile_shader(source, "", gpu::Lines::kept).spirv;
 }
 
 // Line `number` (from 1) of a text.
@@ -68,16 +97,57 @@ Diagnostic located(const FormulaText& text, int line, int column, std::string me
   return diagnostic;
 }
 
+// What a compiler said, with the names as they were written.
+std::string without_prefix(std::string_view message) {
+  std::string result;
+  while (!message.empty()) {
+    const bool begins = result.empty() || result.back() == '\'' || result.back() == ' ';
+    if (begins && message.starts_with(user_prefix)) message.remove_prefix(user_prefix.size());
+    result += message[0];
+    message.remove_prefix(1);
+  }
+  return result;
+}
+
+// The same text with the same parameters is compiled once for as long as somebody has it.
+std::shared_ptr<const formula::Compiled> compiled(const formula::Text& text,
+                                                  const std::vector<FormulaParameter>& parameters,
+                                                  std::vector<Fault>& faults) {
+  static std::mutex mutex;
+  static std::map<std::string, std::weak_ptr<const formula::Compiled>> known;
+  const std::string key = constants(parameters) + text.glsl();
+  const std::scoped_lock lock(mutex);
+  std::erase_if(known, [](const auto& known_text) { return known_text.second.expired(); });
+  if (const auto found = known.find(key); found != known.end()) return found->second.lock();
+
+  formula::Module module(spirv_of(text, parameters));
+  formula::ir::Program program = formula::lower(module, value_name, gradient_name);
+  if (std::string why = formula::limit(program); !why.empty()) {
+    faults.push_back({1, 1, std::move(why)});
+    return nullptr;
+  }
+  formula::Machine value(program, program.value);
+  std::optional<formula::Machine> gradient;
+  if (!program.gradient.empty()) gradient.emplace(program, program.gradient[0]);
+  const std::shared_ptr<const formula::Compiled> result(new formula::Compiled{
+      text, std::move(module), std::move(program), std::move(value), std::move(gradient)});
+  known[key] = result;
+  return result;
+}
+
 }  // namespace
 
 Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std::string title)
     : text_(std::move(text)), parameters_(std::move(parameters)), title_(std::move(title)) {
   std::vector<Fault> faults;
-  if (text_.text.size() > longest_text)
-    faults.push_back({1, 1, fmt::format("a formula has at most {} bytes", longest_text)});
-  std::vector<std::string> names;
-  for (const FormulaParameter& parameter : parameters_) names.push_back(parameter.name);
-  if (faults.empty()) program_ = std::make_unique<const Program>(formula::analyse(text_.text, names, faults));
+  formula::Text judged = formula::read_text(text_.text, faults);
+  if (faults.empty()) {
+    try {
+      compiled_ = compiled(judged, parameters_, faults);
+    } catch (const InputError& error) {
+      throw InputError(in_text(error, judged));
+    }
+  }
   if (faults.empty()) return;
   std::vector<Diagnostic> diagnostics;
   for (const Fault& fault : faults)
@@ -87,89 +157,79 @@ Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std
 
 Formula::~Formula() = default;
 
+// What a compiler said of Text::glsl() as said of the user's text.
+std::vector<Diagnostic> Formula::in_text(const InputError& error, const formula::Text& text) const {
+  std::vector<Diagnostic> diagnostics;
+  for (const Diagnostic& said : error.diagnostics()) {
+    // The last token that begins no farther right.
+    const auto [line, column] = std::pair(std::max(said.position.line, 1), said.position.column);
+    int source_column = 0;
+    for (const formula::Text::Place& place : text.places())
+      if (place.line == line && place.column <= column) source_column = place.source_column;
+    diagnostics.push_back(located(text_, line, source_column, without_prefix(said.message)));
+    diagnostics.back().severity = said.severity;
+  }
+  return diagnostics;
+}
+
 bool Formula::same(const Formula& other) const {
   return text_.text == other.text_.text && parameters_ == other.parameters_;
 }
 
-std::string Formula::declarations() const {
-  return constants(parameters_, "", "const ", "float", decimal);
+bool Formula::has_gradient() const {
+  return compiled_->gradient.has_value();
 }
 
-Formula::Checkable Formula::checkable() const {
-  return {constants(parameters_, check_prefix, "const ", "float", decimal),
-          formula::checked_glsl(*program_, check_prefix).text};
-}
-
-Diagnostic Formula::in_user_text(Diagnostic diagnostic) const {
-  // The names as they were written.
-  std::string message;
-  for (std::string_view rest = diagnostic.message; !rest.empty();) {
-    size_t skip = 0;
-    const bool begins = message.empty() || message.back() == '\'' || message.back() == ' ';
-    for (const std::string_view prefix : {std::string_view(check_prefix), std::string_view("fn_")})
-      if (begins && rest.starts_with(prefix)) skip = prefix.size();
-    if (skip == 0) message += rest[0];
-    rest.remove_prefix(std::max<size_t>(skip, 1));
-  }
-
-  // The last token that begins no farther right.
-  const auto [line, column] = std::pair(diagnostic.position.line, diagnostic.position.column);
-  int source_column = 0;
-  for (const formula::Place& place : formula::checked_glsl(*program_, check_prefix).places)
-    if (place.line == line && place.column <= column) source_column = place.source_column;
-  Diagnostic there = located(text_, std::max(line, 1), source_column, std::move(message));
-  there.severity = diagnostic.severity;
-  return there;
+double Formula::instructions() const {
+  return formula::size_of(compiled_->program).instructions;
 }
 
 std::string Formula::kernel(const std::string& name) const {
-  const auto literal = [](double value) { return formula::unfolded(float(value)); };
-  return constants(parameters_, name, "", "float", literal) + formula::kernel_glsl(*program_, name).text;
+  return formula::kernel_text(compiled_->program, name);
 }
 
 bool Formula::loops() const {
-  return !program_->conditions.empty();
+  return compiled_->program.counts_turns;
 }
 
-bool Formula::has_gradient() const {
-  return std::ranges::any_of(program_->functions, [](const Program::Function& function) {
-    return function.name == "gradient" && function.type == "vec3" && function.body.begin < function.body.end;
+const calculus::StraightLine& Formula::straight_line() const {
+  std::call_once(straightened_, [&] {
+    try {
+      calculus::Tape tape;
+      formula::Execution execution(compiled_->module, tape);
+      straight_line_ = calculus::straight_line(tape, execution.run(value_name));
+      if (straight_line_.size() > most_steps)
+        throw InputError(
+            {{Severity::error,
+              {},
+              fmt::format("without loops, calls and branches the function has {} operations, and may have {}",
+                          straight_line_.size(), most_steps),
+              ""}});
+    } catch (const InputError& error) {
+      std::vector<Diagnostic> diagnostics = in_text(error, compiled_->text);
+      for (Diagnostic& diagnostic : diagnostics)
+        diagnostic.message += "; so no interval can be computed for it: declare a `lipschitz`";
+      throw InputError(std::move(diagnostics));
+    }
   });
-}
-
-void Formula::compile() const {
-  std::call_once(compiled_, [&] {
-    const auto single = [](double value) { return fmt::format("real({})", decimal(double(float(value)))); };
-    const auto full = [](double value) { return fmt::format("real({})", decimal(value)); };
-    const std::string unit = formula::cpp_unit(constants(parameters_, cpp_prefix, "const ", "real", single),
-                                               constants(parameters_, cpp_prefix, "const ", "real", full),
-                                               formula::cpp(*program_, cpp_prefix).text, has_gradient());
-    library_ = formula::CppLibrary::load(unit, title_, DiskCache::of_user());
-    value32_ = reinterpret_cast<decltype(value32_)>(library_->symbol("eyeray_f32"));
-    if (has_gradient())
-      gradient32_ = reinterpret_cast<decltype(gradient32_)>(library_->symbol("eyeray_gradient_f32"));
-    value64_ = reinterpret_cast<decltype(value64_)>(library_->symbol("eyeray_f64"));
-  });
+  return straight_line_;
 }
 
 float Formula::value(const std::array<float, 3>& p) const {
-  compile();
   float value = 0;
-  if (value32_(p[0], p[1], p[2], &value) != 0) endless();
+  if (!compiled_->value.run(p, &value)) endless();
   return value;
 }
 
-double Formula::value(const std::array<double, 3>& p) const {
-  compile();
+double Formula::value(const std::array<double, 3>& p, uint64_t* turns) const {
   double value = 0;
-  if (value64_(p[0], p[1], p[2], &value) != 0) endless();
+  if (!compiled_->value.run(p, &value, turns)) endless();
   return value;
 }
 
 std::array<float, 3> Formula::gradient(const std::array<float, 3>& p) const {
-  compile();
   std::array<float, 3> gradient{};
-  if (gradient32_(p[0], p[1], p[2], gradient.data()) != 0) endless();
+  if (!compiled_->gradient->run(p, gradient.data())) endless();
   return gradient;
 }
 
@@ -191,10 +251,6 @@ std::string endless_formula(const std::string& title) {
       "{} did not come to an end: in one call its loops made more than 10000 turns, which is as long as "
       "eyeray waits",
       title);
-}
-
-bool has_cpp_compiler() {
-  return formula::has_cpp_compiler();
 }
 
 }  // namespace eyeray

@@ -1,5 +1,7 @@
-// A scalar function of a point that a user has written in GLSL: checked, as GLSL for kernels, and as machine
-// code in float32 and float64. docs/implicit-surfaces.md says which GLSL.
+// A scalar function of a point that a user has written in GLSL. Its text is a stranger's: it is judged,
+// compiled by glslang, and forgotten. What its SPIR-V says, with nothing undefined left (formula/ir.hpp), is
+// what every executor runs. docs/implicit-surfaces.md says which GLSL, docs/security.md what a stranger can
+// do with it.
 #pragma once
 
 #include <array>
@@ -8,13 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "calculus/tape.hpp"
 #include "core/diagnostic.hpp"
 
 namespace eyeray {
 
 namespace formula {
-struct Program;
-class CppLibrary;
+struct Compiled;
+struct Text;
 }  // namespace formula
 
 // The text as a person wrote it, and where: `start` is the place of its first character. Without a line (0)
@@ -33,8 +36,8 @@ struct FormulaParameter {
 
 class Formula {
  public:
-  // InputError with every fault that can be seen without a compiler. `title`: for messages, "the formula of
-  // [[implicit]] at scene.toml:12".
+  // InputError with every fault, at its place. `title`: for messages, "the formula of [[implicit]] at
+  // scene.toml:12".
   Formula(FormulaText text, std::vector<FormulaParameter> parameters, std::string title);
   ~Formula();
   Formula(const Formula&) = delete;
@@ -44,47 +47,39 @@ class Formula {
   const FormulaText& text() const { return text_; }
   // Whether it is the same function as the other one.
   bool same(const Formula& other) const;
-
-  // ---- As GLSL ----
-  // Declarations of the parameters, to stand before the text as it was written.
-  std::string declarations() const;
-  // For a compiler to judge: constants, then from line 1 of a file of its own the text. Both with names of
-  // their own.
-  struct Checkable {
-    std::string constants, text;
-  };
-  Checkable checkable() const;
-  // What a compiler said of Checkable::text as said of the user's text.
-  Diagnostic in_user_text(Diagnostic diagnostic) const;
   // Whether the text has a `vec3 gradient(vec3 p)` too.
   bool has_gradient() const;
-  // `float NAMEf(vec3 p)` and what it needs, with NAME before every name. Loops ask `bool formula_turn()`, if
-  // there are any that must (loops()).
+  // Instructions, with functions written where they are called: what a kernel's compiler has to do with it.
+  double instructions() const;
+
+  // `float NAMEf(vec3 p)`, `vec3 NAMEgradient(vec3 p)` if it has one, and what they need, as GLSL for
+  // kernels, beside shaders/formula.glsl. Loops ask `bool formula_turn(uint turns)`, if there are any that
+  // must (loops()).
   std::string kernel(const std::string& name) const;
   bool loops() const;
 
-  // ---- As machine code ----
-  // Done once, by whoever comes first. Error (no_compiler) where there is no C++ compiler, or it refuses the
-  // text. Only for a text that a GLSL compiler has found right. Thread-safe, as are the values.
-  void compile() const;
-  // Error as compile()'s; and (timed_out) where the loops make more turns than FORMULA_TURNS of formula.glsl.
+  // f as straight-line code, of which bounds and derivatives are made. InputError, at the place in the text,
+  // for what cannot be written so: loops whose number of turns depends on p without a bound, indices and
+  // whole numbers computed from p.
+  const calculus::StraightLine& straight_line() const;
+
+  // In float32, to the bit what kernels compute, and in float64. Error (timed_out) where the loops make more
+  // turns than FORMULA_TURNS of formula.glsl. Thread-safe. `turns`, if given, grows by those that were made.
   float value(const std::array<float, 3>& p) const;
-  double value(const std::array<double, 3>& p) const;
+  double value(const std::array<double, 3>& p, uint64_t* turns = nullptr) const;
   // The text's own, if it has one.
   std::array<float, 3> gradient(const std::array<float, 3>& p) const;
 
  private:
   [[noreturn]] void endless() const;
+  std::vector<Diagnostic> in_text(const InputError& error, const formula::Text& text) const;
 
   FormulaText text_;
   std::vector<FormulaParameter> parameters_;
   std::string title_;
-  std::unique_ptr<const formula::Program> program_;
-  mutable std::once_flag compiled_;
-  mutable std::shared_ptr<const formula::CppLibrary> library_;
-  mutable int (*value32_)(float, float, float, float*) = nullptr;
-  mutable int (*gradient32_)(float, float, float, float*) = nullptr;
-  mutable int (*value64_)(double, double, double, double*) = nullptr;
+  std::shared_ptr<const formula::Compiled> compiled_;
+  mutable std::once_flag straightened_;
+  mutable calculus::StraightLine straight_line_;
 };
 
 // Whether a constant may be called so.
@@ -92,8 +87,5 @@ bool is_formula_name(const std::string& name);
 
 // What is said of a formula whose loops do not end.
 std::string endless_formula(const std::string& title);
-
-// Whether formulas can run on the CPU.
-bool has_cpp_compiler();
 
 }  // namespace eyeray

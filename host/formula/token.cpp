@@ -8,8 +8,9 @@ namespace eyeray::formula {
 
 namespace {
 
-constexpr std::string_view pairs[] = {"++", "--", "+=", "-=", "*=", "/=", "%=", "&=", "|=",
-                                      "^=", "==", "!=", "<=", ">=", "&&", "||", "<<", ">>"};
+// The longest first.
+constexpr std::string_view longer[] = {"<<=", ">>=", "++", "--", "+=", "-=", "*=", "/=", "%=", "&=", "|=",
+                                       "^=",  "==",  "!=", "<=", ">=", "&&", "||", "^^", "<<", ">>"};
 constexpr std::string_view single = "()[]{}.,;+-*/%<>=!?:&|^~";
 
 bool is_digit(char c) {
@@ -29,15 +30,16 @@ class Tokenizer {
       if (c == '\n' || c == ' ' || c == '\t' || c == '\r')
         take(1);
       else if (rest_.starts_with("//"))
-        take(std::min(rest_.find('\n'), rest_.size()));
+        line_comment();
       else if (rest_.starts_with("/*"))
         comment();
       else if (is_digit(c) || (c == '.' && rest_.size() > 1 && is_digit(rest_[1])))
         number();
       else if (is_word(c))
         add(Token::Kind::word, size_t(std::ranges::find_if_not(rest_, is_word) - rest_.begin()));
-      else if (std::ranges::any_of(pairs, [&](std::string_view pair) { return rest_.starts_with(pair); }))
-        add(Token::Kind::sign, 2);
+      else if (const auto sign = std::ranges::find_if(longer, [&](auto s) { return rest_.starts_with(s); });
+               sign != std::end(longer))
+        add(Token::Kind::sign, sign->size());
       else if (single.find(c) != std::string_view::npos)
         add(Token::Kind::sign, 1);
       else
@@ -57,6 +59,16 @@ class Tokenizer {
   void add(Token::Kind kind, size_t length) {
     tokens_.push_back({kind, std::string(rest_.substr(0, length)), line_, column_});
     take(length);
+  }
+
+  // One that ends in a backslash goes on in the next line, for GLSL; hardly anybody who reads it sees that.
+  void line_comment() {
+    const size_t end = std::min(rest_.find('\n'), rest_.size());
+    const size_t last = rest_.find_last_not_of('\r', end == 0 ? 0 : end - 1);
+    if (rest_[last] == '\\')
+      faults_.push_back({line_, column_ + int(last),
+                         "a comment must not end in a backslash: to GLSL the next line would be part of it"});
+    take(end);
   }
 
   void comment() {

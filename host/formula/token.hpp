@@ -12,7 +12,7 @@ namespace eyeray::formula {
 struct Token {
   enum class Kind { word, integer, decimal, sign };
   Kind kind;
-  std::string text;  // of a sign one or two characters: + or +=
+  std::string text;  // of a sign one to three characters: +, +=, <<=
   int line;          // from 1
   int column;        // from 1, in bytes
 

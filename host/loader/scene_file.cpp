@@ -2,6 +2,7 @@
 
 #include "loader/document.hpp"
 #include "loader/formula_files.hpp"
+#include "loader/formula_refusal.hpp"
 #include "loader/image_files.hpp"
 #include "loader/mesh_imports.hpp"
 #include "loader/mesh_scene.hpp"
@@ -39,12 +40,11 @@ Document read_mesh(const fs::path& file, MeshImports& meshes, DiagnosticLog& log
 
 }  // namespace
 
-Scene load_scene(const fs::path& file, std::span<const Override> overrides,
-                 std::span<const fs::path> allowed_folders) {
+Scene load_scene(const fs::path& file, std::span<const Override> overrides, const Trust& trust) {
   DiagnosticLog log;
-  const AllowedFolders folders(file, allowed_folders);
+  const AllowedFolders folders(file, trust.folders);
   PixelBudget pixels;
-  std::vector<fs::path> trees(allowed_folders.begin(), allowed_folders.end());
+  std::vector<fs::path> trees = trust.folders;
   trees.push_back(file.parent_path());
   if (is_mesh_file(file)) {
     MeshImports meshes(folders, std::move(trees), {file}, pixels);
@@ -53,6 +53,7 @@ Scene load_scene(const fs::path& file, std::span<const Override> overrides,
     return finish(std::move(document), file, overrides, &images, &meshes, nullptr, log);
   }
   Document document = read_document(file, folders, log);
+  if (!trust.formulas) refuse_formulas(document.root, log);
   ImageFiles images(folders, document.files, pixels, log);
   MeshImports meshes(folders, std::move(trees), document.files, pixels);
   FormulaFiles formulas(folders, document.files, log);

@@ -17,12 +17,18 @@ struct Override {
   std::string text;
 };
 
+// What a scene file is trusted with.
+struct Trust {
+  std::vector<std::filesystem::path> folders =
+      {};  // beside its own that it may read included files, images and meshes from, with all below
+  bool formulas = true;  // whether it may bring functions of its own, or ready ones alone
+};
+
 // Reads, includes, overrides and checks a scene, or makes one that shows a mesh file (.obj, .ply, .gltf,
-// .glb). Included files, images and meshes may lie in the scene file's folder tree and in those of
-// `allowed_folders`. Throws InputError with every error at once, or Error (file_io) when the file itself
+// .glb). Throws InputError with every error at once, or Error (file_io) when the file itself
 // cannot be read.
 Scene load_scene(const std::filesystem::path& file, std::span<const Override> overrides = {},
-                 std::span<const std::filesystem::path> allowed_folders = {});
+                 const Trust& trust = {});
 // The same from memory, for tests; `name` stands in messages. It can neither include files nor name images or
 // meshes.
 Scene parse_scene(std::string_view text, const std::string& name, std::span<const Override> overrides = {});

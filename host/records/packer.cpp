@@ -41,7 +41,7 @@ uint32_t Packer::add_formula(const std::shared_ptr<const Formula>& formula, bool
   auto& all = scene.formulas;
   for (size_t i = 0; i < all.size(); ++i)
     if (formula->same(*all[i].formula) && all[i].enclosed == enclosed) return uint32_t(i);
-  all.push_back({formula, enclosed, {}});
+  all.push_back({formula, enclosed});
   return uint32_t(all.size() - 1);
 }
 

@@ -20,8 +20,7 @@ class Formula;  // formula/formula.hpp
 
 struct PackedFormula {
   std::shared_ptr<const Formula> formula;
-  bool enclosed;                // instead of stepped along by a Lipschitz constant
-  calculus::StraightLine line;  // what is enclosed; filled in when all is packed
+  bool enclosed;  // instead of stepped along by a Lipschitz constant
 };
 
 // A scene as the shaders see it; every position is relative to the camera's eye.

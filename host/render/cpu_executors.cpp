@@ -7,7 +7,6 @@
 #include "core/error.hpp"
 #include "core/parallel_for.hpp"
 #include "core/termination.hpp"
-#include "formula/formula.hpp"
 #include "reference/renderer.hpp"
 #include "render/executors.hpp"
 #include "render/pack.hpp"
@@ -49,8 +48,6 @@ class TwinExecutor final : public Executor {
  public:
   TwinExecutor(const Scene& scene, const PackOptions& options) : eye_(scene.camera.eye) {
     times_.measure("pack", [&] { packed_ = pack(scene, options); });
-    for (const auto& formula : packed_.formulas)
-      if (!formula.enclosed) times_.measure("C++ compile", [&] { formula.formula->compile(); });
   }
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
@@ -126,9 +123,6 @@ std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorO
 }
 
 std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options) {
-  for_each_leaf(scene, [](const Shape& shape) {
-    if (shape.formula_use()) shape.formula_use()->formula->compile();
-  });
   return make_reference_executor(
       std::make_shared<const reference::Renderer>(scene, options.pack.acceleration));
 }

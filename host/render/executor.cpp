@@ -1,12 +1,10 @@
 #include "render/executor.hpp"
 
 #include "render/executors.hpp"
-#include "render/formula_check.hpp"
 
 namespace eyeray {
 
 std::unique_ptr<Executor> make_executor(Backend backend, const Scene& scene, const ExecutorOptions& options) {
-  compile_formulas(scene);
   if (backend == Backend::gpu) return make_gpu_executor(scene, options);
   if (backend == Backend::twin) return make_twin_executor(scene, options);
   return make_reference_executor(scene, options);

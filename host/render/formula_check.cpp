@@ -7,10 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "derive/function.hpp"
 #include "formula/formula.hpp"
-#include "gpu/kernel_compiler.hpp"
-#include "render/shader_files.hpp"
 
 namespace eyeray {
 namespace {
@@ -30,29 +27,8 @@ std::vector<const Shape*> users(const Scene& scene) {
   return all;
 }
 
-constexpr std::string_view entry =
-    "#version 450\n#include \"formula.glsl\"\n#include \"constants\"\n#include \"text\"\n"
-    "layout(local_size_x = 1) in;\nlayout(std430, set = 0, binding = 0) buffer Values { vec4 values[]; };\n"
-    "void main() { values[0].w = user_f(vec3(values[0])); }\n";
-
-void compile(const Formula& formula, const DiskCache& cache) {
-  const Formula::Checkable parts = formula.checkable();
-  ShaderFiles embedded({}, "");
-  const auto read = [&](std::string_view name) -> std::optional<std::string> {
-    if (name == "formula.comp") return std::string(entry);
-    if (name == "constants") return parts.constants;
-    if (name == "text") return parts.text;
-    return embedded.read(name);
-  };
-  try {
-    gpu::compile_kernel(gpu::read_shader(read, "formula.comp"), "", {.optimise = false}, cache);
-  } catch (const InputError& error) {
-    std::vector<Diagnostic> diagnostics;
-    for (const Diagnostic& diagnostic : error.diagnostics())
-      diagnostics.push_back(formula.in_user_text(diagnostic));
-    throw InputError(std::move(diagnostics));
-  }
-}
+// Together, in one kernel.
+constexpr double most_instructions = 1 << 15;
 
 struct Steepest {
   double slope = 0;
@@ -60,12 +36,14 @@ struct Steepest {
 };
 
 // Differences over short steps at random points; those that are steeper than any before are looked at more
-// closely.
+// closely. Fewer points where each takes long.
 Steepest steepest(const FormulaUse& use) {
   constexpr int points = 20000;
+  constexpr uint64_t most_turns = 1 << 22;
+  uint64_t turns = 0;
   const Vec3 extent = (use.box.max - use.box.min) * 0.5, center = (use.box.max + use.box.min) * 0.5;
   const double step = 1e-4 * std::min({extent.x, extent.y, extent.z});
-  const auto value = [&](const Vec3& p) { return use.formula->value(std::array{p.x, p.y, p.z}); };
+  const auto value = [&](const Vec3& p) { return use.formula->value(std::array{p.x, p.y, p.z}, &turns); };
   const auto slope = [&](const Vec3& p) {
     Vec3 gradient;
     for (int axis = 0; axis < 3; ++axis) {
@@ -82,7 +60,7 @@ Steepest steepest(const FormulaUse& use) {
   std::mt19937_64 random(1);
   const auto uniform = [&] { return double(random() >> 11) * 0x1p-52 - 1; };
   Steepest worst;
-  for (int i = 0; i < points; ++i) {
+  for (int i = 0; i < points && turns < most_turns; ++i) {
     // One half anywhere, the other near the worst so far.
     const double reach = i % 2 == 0 ? 1 : std::ldexp(1.0, -(i / 2 % 10));
     Vec3 q = Vec3(uniform(), uniform(), uniform()) * reach;
@@ -95,24 +73,18 @@ Steepest steepest(const FormulaUse& use) {
 
 }  // namespace
 
-void compile_formulas(const Scene& scene) {
-  const DiskCache cache = DiskCache::of_user();
+void check_formulas(const Scene& scene) {
+  double instructions = 0;
   for (const Shape* shape : users(scene)) {
-    compile(*shape->formula_use()->formula, cache);
-    if (shape->formula_use()->lipschitz == 0) enclose_formula(*shape->formula_use()->formula);
-  }
-}
-
-calculus::StraightLine enclose_formula(const Formula& formula) {
-  try {
-    return derive::read_function(formula.text().text, {"formula", 1, 0}, formula.declarations());
-  } catch (const InputError& error) {
-    std::vector<Diagnostic> diagnostics;
-    for (Diagnostic diagnostic : error.diagnostics()) {
-      diagnostic.message += "; so no interval can be computed for it: declare a `lipschitz`";
-      diagnostics.push_back(formula.in_user_text(diagnostic));
-    }
-    throw InputError(std::move(diagnostics));
+    const FormulaUse& use = *shape->formula_use();
+    if (use.lipschitz == 0) (void)use.formula->straight_line();
+    if (instructions += use.formula->instructions(); instructions > most_instructions)
+      throw InputError(
+          {{Severity::error, shape->position,
+            fmt::format("the functions of all [[implicit]] up to this one have {} instructions, and "
+                        "may have {}: fewer of them, or shorter ones",
+                        instructions, most_instructions),
+            ""}});
   }
 }
 
@@ -121,13 +93,7 @@ std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene) {
   for (const Shape* shape : users(scene)) {
     const FormulaUse& use = *shape->formula_use();
     if (!use.declared) continue;
-    Steepest found;
-    try {
-      found = steepest(use);
-    } catch (const Error& error) {
-      if (error.code() == ExitCode::no_compiler) continue;
-      throw;
-    }
+    const Steepest found = steepest(use);
     if (found.slope <= use.lipschitz * (1 + 1e-3)) continue;
     Diagnostic& warning = warnings.emplace_back();
     warning.severity = Severity::warning;

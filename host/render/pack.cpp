@@ -5,7 +5,6 @@
 
 #include "core/error.hpp"
 #include "reference/media.hpp"
-#include "render/formula_check.hpp"
 #include "render/geometry.hpp"
 #include "scene/camera_frame.hpp"
 
@@ -66,8 +65,6 @@ PackedScene pack(const Scene& scene, const PackOptions& options) {
   }
   pack_geometry(scene, options, packer);
   for (const Light& light : scene.lights) packer.scene.lights.push_back(pack_light(light, packer));
-  for (PackedFormula& formula : packer.scene.formulas)
-    if (formula.enclosed) formula.line = enclose_formula(*formula.formula);
   packer.scene.frame = pack_frame(scene, packer.scene);
   return std::move(packer.scene);
 }

@@ -145,7 +145,7 @@ std::string formulas(const PackedScene& scene) {
   if (std::ranges::any_of(scene.formulas, loops))
     text +=
         "uint formula_turns = 0u;\nbool formula_overran = false;\n#define FORMULA_OVERRAN formula_overran\n"
-        "bool formula_turn() {\n  formula_turns = formula_turns + 1u;\n"
+        "bool formula_turn(uint turns) {\n  formula_turns = formula_turns + turns;\n"
         "  formula_overran = formula_overran || formula_turns > FORMULA_TURNS;\n  return "
         "!formula_overran;\n}\n";
   std::string rows;
@@ -154,7 +154,7 @@ std::string formulas(const PackedScene& scene) {
     const std::string name = fmt::format("f{}_", i);
     rows += fmt::format(" X({0}u, formula{0})", i);
     if (scene.formulas[i].enclosed) {
-      const calculus::StraightLine& line = scene.formulas[i].line;
+      const calculus::StraightLine& line = formula.straight_line();
       text += calculus::enclosure_text(line, fmt::format("formula{}_enclosure", i)) +
               calculus::gradient_text(line, fmt::format("formula{}_dual", i));
       text += fmt::format(

@@ -36,7 +36,7 @@ The text stands in `code`, in a file of its own, `file = "bumps.glsl"`, or it is
 `float`, a list of two to four numbers a `vec2` … `vec4`.
 
 `lipschitz` is a bound on how steep f is, anywhere in the box: |f(p) − f(q)| ≤ `lipschitz` · |p − q|. Rays step by |f| / `lipschitz`, so that none ever steps over the surface: too small,
-and there are holes; too large, and it takes long. A function that is a distance has 1. Where a C++ compiler is there, samples are taken when the scene is read, and a bound
+and there are holes; too large, and it takes long. A function that is a distance has 1. Samples are taken when the scene is read, and a bound
 that they disprove is a warning with the point.
 
 **Without `lipschitz`** eyeray works out itself what f may be along each piece of a ray, by interval arithmetic that it derives from your text, and steps over a piece only if f is not

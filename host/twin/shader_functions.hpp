@@ -44,10 +44,10 @@ class Binding {
   return bound_scene->formulas[number].formula->value(std::array{p.x, p.y, p.z});
 }
 [[maybe_unused]] vec3 load_formula_enclosure(uint number, const vec3& x, const vec3& y, const vec3& z) {
-  return enclose(bound_scene->formulas[number].line, x, y, z);
+  return enclose(bound_scene->formulas[number].formula->straight_line(), x, y, z);
 }
 [[maybe_unused]] vec4 load_formula_dual(uint number, const vec3& p) {
-  return differentiate(bound_scene->formulas[number].line, p);
+  return differentiate(bound_scene->formulas[number].formula->straight_line(), p);
 }
 // The formula's number if it is found that way, else none.
 [[maybe_unused]] uint if_enclosed(uint number, bool enclosed) {
@@ -117,7 +117,7 @@ class Binding {
 #define FORMULA_ENCLOSURE(it, x, y, z) load_formula_enclosure(it.formula, x, y, z)
 #define FORMULA_DUAL(it, p) load_formula_dual(it.formula, p)
 
-#include "twin/local_shaders.hpp"
+#include "core/local_shaders.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"

@@ -4,7 +4,7 @@
 
 #include "calculus/emit.hpp"
 
-#include "twin/local_shaders.hpp"
+#include "core/local_shaders.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"

@@ -1,8 +1,10 @@
 #include "derive/evaluate.hpp"
 
+#include "formula/formula.hpp"
+
 #include "twin/straight_line.hpp"
 
-#include "twin/local_shaders.hpp"
+#include "core/local_shaders.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -10,6 +12,10 @@
 #pragma GCC diagnostic pop
 
 namespace eyeray::test {
+
+calculus::StraightLine straight_line(const std::string& glsl) {
+  return Formula({glsl, {"f.glsl", 10, 1}}, {}, "it").straight_line();
+}
 
 using calculus::Op;
 

@@ -7,6 +7,8 @@
 
 namespace eyeray::test {
 
+// A formula's text, its first line being f.glsl:10, as straight-line code.
+calculus::StraightLine straight_line(const std::string& glsl);
 // In float64.
 double evaluate(const calculus::StraightLine& line, const Vec3& p);
 // Enclosed on the piece o + (m + h·s)·d of a ray.

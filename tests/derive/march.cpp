@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "derive/evaluate.hpp"
-#include "derive/function.hpp"
 #include "derive/surfaces.hpp"
 #include "support/random.hpp"
 
@@ -41,7 +40,7 @@ double first_change(const F& f, const Vec3& o, const Vec3& d, double end) {
 }
 
 Count march_often(const test::TestSurface& surface, int rays) {
-  const calculus::StraightLine function = derive::read_function(surface.glsl, {"surface.glsl", 1, 0});
+  const calculus::StraightLine function = test::straight_line(surface.glsl);
   Random random(11);
   Count count;
   for (int i = 0; i < rays; ++i) {
@@ -86,8 +85,7 @@ Count march_often(const test::TestSurface& surface, int rays) {
 }  // namespace
 
 TEST_CASE("however short a march's finest piece is, it gets to its end") {
-  const calculus::StraightLine one =
-      derive::read_function("float f(vec3 p) { return p.x + 1.0; }", {"f.glsl", 1, 0});
+  const calculus::StraightLine one = test::straight_line("float f(vec3 p) { return p.x + 1.0; }");
   Random random(3);
   for (int i = 0; i < 10'000; ++i) {
     const float end = float(random.log_uniform(1e-3, 1e4));

@@ -168,9 +168,9 @@ float f(vec3 p) { return chebyshev(6, p.x) + chebyshev(6, p.y) + chebyshev(6, p.
 })",
        metaballs, 2},
       {"twisted box",
-       R"(mat2 turn(float angle) { return mat2(cos(angle), sin(angle), -sin(angle), cos(angle)); }
+       R"(vec2 turn(vec2 v, float angle) { return vec2(dot(v, vec2(cos(angle), -sin(angle))), dot(v, vec2(sin(angle), cos(angle)))); }
 float f(vec3 p) {
-  p.xz = turn(2.0 * p.y) * p.xz;
+  p.xz = turn(p.xz, 2.0 * p.y);
   vec3 d = abs(p) - vec3(0.5, 1.0, 0.3);
   return length(max(d, 0.0)) + min(max(d.x, max(d.y, d.z)), 0.0) - 0.1;
 })",

@@ -8,7 +8,7 @@
 
 #include "calculus/tape.hpp"
 
-namespace eyeray::derive {
+namespace eyeray::formula {
 
 using calculus::no_term;
 using calculus::Op;
@@ -32,4 +32,4 @@ std::optional<Value> glsl_function(Tape& tape, uint32_t function, const std::vec
 Term dot(Tape& tape, const Value& a, const Value& b);
 Term truncate(Tape& tape, Term x);
 
-}  // namespace eyeray::derive
+}  // namespace eyeray::formula

@@ -1,9 +1,9 @@
 // The instructions that move numbers, and those that lead from block to block.
 #include <algorithm>
 
-#include "derive/execution.hpp"
+#include "formula/execution.hpp"
 
-namespace eyeray::derive {
+namespace eyeray::formula {
 
 bool Execution::run_memory(Call& call, const Instruction& instruction) {
   const std::vector<uint32_t>& words = instruction.words;
@@ -44,7 +44,7 @@ bool Execution::run_memory(Call& call, const Instruction& instruction) {
     case spv::OpFunctionCall: {
       const uint32_t block = call.block;
       call.values[instruction.result] =
-          this->call(module_.functions.at(words[0]), {words.begin() + 1, words.end()}, &call);
+          this->call(module_.function(words[0]), {words.begin() + 1, words.end()}, call);
       call.block = block;
       return true;
     }
@@ -166,4 +166,4 @@ bool Execution::run_branch(Call& call, const Instruction& instruction) {
   }
 }
 
-}  // namespace eyeray::derive
+}  // namespace eyeray::formula

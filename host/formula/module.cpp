@@ -1,9 +1,11 @@
 #define SPV_ENABLE_UTILITY_CODE
-#include "derive/module.hpp"
+#include "formula/module.hpp"
+
+#include <algorithm>
 
 #include "gpu/spirv.hpp"
 
-namespace eyeray::derive {
+namespace eyeray::formula {
 
 uint32_t Type::member_offset(const std::map<uint32_t, Type>& types, uint32_t index) const {
   uint32_t offset = 0;
@@ -28,7 +30,7 @@ void Module::read_type(spv::Op op, std::span<const uint32_t> words) {
       type.members.assign(words[3], words[2]);
       break;
     case spv::OpTypeArray:
-      type.members.assign(lengths_.at(words[3]), words[2]);
+      type.members.assign(constant_bits_.at(words[3]).at(0), words[2]);
       break;
     case spv::OpTypeStruct:
       type.members.assign(words.begin() + 2, words.end());
@@ -40,6 +42,27 @@ void Module::read_type(spv::Op op, std::span<const uint32_t> words) {
       return;
   }
   for (const uint32_t member : type.members) type.size += types.at(member).size;
+}
+
+void Module::read_constant(const Instruction& instruction) {
+  if (instruction.op == spv::OpVariable) return;
+  std::vector<uint32_t>& bits = constant_bits_[instruction.result];
+  switch (instruction.op) {
+    case spv::OpConstant:
+      bits = {instruction.words[0]};
+      return;
+    case spv::OpConstantTrue:
+      bits = {1};
+      return;
+    case spv::OpConstantComposite:
+      for (const uint32_t part : instruction.words) {
+        const std::vector<uint32_t>& more = constant_bits(part);
+        bits.insert(bits.end(), more.begin(), more.end());
+      }
+      return;
+    default:  // false, null, undefined
+      bits.assign(type(instruction.type).size, 0);
+  }
 }
 
 Module::Module(std::span<const uint32_t> spirv) {
@@ -67,11 +90,12 @@ Module::Module(std::span<const uint32_t> spirv) {
         return;
       case spv::OpNoLine:
         return;
-      case spv::OpEntryPoint:
-        entry = words[2];
+      case spv::OpName:
+        names_[words[1]] = gpu::spirv_string(words, 2);
         return;
       case spv::OpFunction:
-        function = &functions[words[2]];
+        function = &functions.emplace_back();
+        function->id = words[2];
         return;
       case spv::OpFunctionParameter:
         function->parameters.push_back(words[2]);
@@ -85,8 +109,10 @@ Module::Module(std::span<const uint32_t> spirv) {
         return;
       case spv::OpLoopMerge:
         function->blocks.back().merge = words[1];
+        function->blocks.back().next = words[2];
         return;
       case spv::OpSelectionMerge:
+        function->blocks.back().join = words[1];
         return;
       default:
         break;
@@ -94,7 +120,7 @@ Module::Module(std::span<const uint32_t> spirv) {
     if (function) {
       function->blocks.back().instructions.push_back(std::move(instruction));
     } else if (has_type) {
-      if (op == spv::OpConstant) lengths_[instruction.result] = instruction.words[0];
+      read_constant(instruction);
       constants.push_back(std::move(instruction));
     } else if (has_result) {
       read_type(op, words);
@@ -102,4 +128,23 @@ Module::Module(std::span<const uint32_t> spirv) {
   });
 }
 
-}  // namespace eyeray::derive
+const Function& Module::function(uint32_t id) const {
+  const auto found = std::ranges::find(functions, id, &Function::id);
+  CHECK(found != functions.end());
+  return *found;
+}
+
+const Function* Module::named(std::string_view name) const {
+  const auto found = std::ranges::find_if(functions, [&](const Function& function) {
+    const auto entry = names_.find(function.id);
+    return entry != names_.end() && entry->second == name;
+  });
+  return found == functions.end() ? nullptr : &*found;
+}
+
+std::optional<uint32_t> Module::constant(uint32_t id) const {
+  if (!is_constant(id) || type_of(id).op != spv::OpTypeInt) return std::nullopt;
+  return constant_bits(id)[0];
+}
+
+}  // namespace eyeray::formula

@@ -1,9 +1,9 @@
-#include "derive/arithmetic.hpp"
+#include "formula/arithmetic.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::derive {
+namespace eyeray::formula {
 namespace {
 
 // Op by Op on each component; y may be missing.
@@ -214,9 +214,11 @@ std::optional<Value> whole_arithmetic(Tape& tape, spv::Op op, const std::vector<
       case spv::OpNot:
         return ~x;
       case spv::OpBitcast:
-      case spv::OpConvertFToS:
-      case spv::OpConvertFToU:
         return x;
+      case spv::OpConvertFToS:
+        return x >= INT32_MIN && x <= INT32_MAX ? x : INT32_MIN;
+      case spv::OpConvertFToU:
+        return x >= 0 && x <= UINT32_MAX ? x : 0;
       default:
         return std::nullopt;
     }
@@ -232,4 +234,4 @@ std::optional<Value> whole_arithmetic(Tape& tape, spv::Op op, const std::vector<
   return result;
 }
 
-}  // namespace eyeray::derive
+}  // namespace eyeray::formula

@@ -1,20 +1,16 @@
-#include "derive/execution.hpp"
+#include "formula/execution.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::derive {
+namespace eyeray::formula {
 namespace {
 
-constexpr size_t most_instructions = 400'000;  // followed, those of loops each time
-constexpr size_t most_steps = 20'000;          // written down, dead ones too
-constexpr int most_turns = 1'000;              // of one loop
-
-// A literal such as 0.25 is what was meant; 0.1 as float32 is half a unit in the last place off it at most.
-double literal_error(float x) {
-  const bool short_enough = (__builtin_bit_cast(uint32_t, x) & 0xffu) == 0;
-  return short_enough ? 0 : std::ldexp(std::abs(double(x)), -24);
-}
+constexpr size_t most_effort =
+    400'000;                           // instructions followed, those of loops each time, and memories copied
+constexpr size_t effortless = 64;      // numbers of a memory that take no longer to copy than an instruction
+constexpr size_t most_steps = 20'000;  // written down, dead ones too
+constexpr int most_turns = 1'000;      // of one loop
 
 }  // namespace
 
@@ -33,8 +29,7 @@ void Execution::define_constant(const Instruction& instruction) {
     case spv::OpConstant: {
       const uint32_t bits = instruction.words[0];
       if (type.op == spv::OpTypeFloat) {
-        const float x = __builtin_bit_cast(float, bits);
-        value = {tape_.constant(double(x), literal_error(x))};
+        value = {tape_.constant(double(__builtin_bit_cast(float, bits)))};
       } else {
         value = {tape_.constant(type.is_signed ? double(int32_t(bits)) : double(bits))};
       }
@@ -46,12 +41,9 @@ void Execution::define_constant(const Instruction& instruction) {
       break;
     case spv::OpVariable: {
       constants_.erase(instruction.result);
-      const uint32_t storage = instruction.words[0];
       const uint32_t variable = new_variable(module_.type(type.members[0]));
       if (instruction.words.size() > 1) memory_[variable] = constants_.at(instruction.words[1]);
       globals_[instruction.result] = {variable, 0};
-      if (storage == spv::StorageClassStorageBuffer || storage == spv::StorageClassUniform)
-        buffer_ = variable;
       break;
     }
     default:  // OpConstantNull, OpUndef
@@ -59,25 +51,36 @@ void Execution::define_constant(const Instruction& instruction) {
   }
 }
 
-Value Execution::run(const Value& input) {
-  std::copy(input.begin(), input.end(), memory_.at(buffer_).begin());
-  call(module_.functions.at(module_.entry), {}, nullptr);
-  return memory_.at(buffer_);
+Term Execution::run(std::string_view name) {
+  const Function& function = *module_.named(name);
+  const Value p{tape_.input(0), tape_.input(1), tape_.input(2)};
+  Call caller{.function = function};
+  constexpr uint32_t argument = 0;  // no id of the module's
+  if (module_.type_of(function.parameters[0]).op == spv::OpTypePointer) {
+    memory_[++variables_] = p;
+    caller.pointers[argument] = {variables_, 0};
+  } else {
+    caller.values[argument] = p;
+  }
+  return call(function, {argument}, caller)[0];
 }
 
-Value Execution::call(const Function& function, const std::vector<uint32_t>& arguments, const Call* caller) {
+Value Execution::call(const Function& function, const std::vector<uint32_t>& arguments, const Call& caller) {
   Call call{.function = function};
   for (size_t i = 0; i < arguments.size(); ++i) {
-    if (caller->pointers.contains(arguments[i]) || globals_.contains(arguments[i]))
-      call.pointers[function.parameters[i]] = pointer(*caller, arguments[i]);
+    if (caller.pointers.contains(arguments[i]) || globals_.contains(arguments[i]))
+      call.pointers[function.parameters[i]] = pointer(caller, arguments[i]);
     else
-      call.values[function.parameters[i]] = value(*caller, arguments[i]);
+      call.values[function.parameters[i]] = value(caller, arguments[i]);
   }
+  const uint32_t outer = variables_;
   call.condition = tape_.truth(true);
   go(call, function.blocks[0].label, call.condition);
   run_blocks(call, 0, function.blocks.size());
   Value returned;
   join(call.returns, returned);
+  for (auto local = memory_.upper_bound(outer); local != memory_.end(); local = memory_.erase(local))
+    memory_size_ -= local->second.size();
   return returned;
 }
 
@@ -146,11 +149,12 @@ Term Execution::join(const std::vector<Way>& ways, Value& returned) {
 
 void Execution::go(Call& call, uint32_t to, Term condition) {
   if (tape_.is(condition, 0)) return;
+  effort_ += memory_size_ / effortless;
   call.ways[to].push_back({call.block, condition, memory_, {}});
 }
 
 void Execution::run_instruction(Call& call, const Instruction& instruction) {
-  if (++instructions_ > most_instructions || tape_.steps().size() > most_steps)
+  if (++effort_ > most_effort || tape_.steps().size() > most_steps)
     refuse(instruction, "with all turns of its loops the function is too long");
   if (run_memory(call, instruction) || run_composite(call, instruction) || run_branch(call, instruction))
     return;
@@ -195,6 +199,7 @@ uint32_t Execution::new_variable(const Type& type) {
   Value value(type.size, tape_.constant(0));
   if (type.op == spv::OpTypeBool) value[0] = tape_.truth(false);
   memory_[++variables_] = value;
+  memory_size_ += value.size();
   return variables_;
 }
 
@@ -208,4 +213,4 @@ void Execution::refuse(const Instruction& instruction, const std::string& what) 
   throw InputError({{Severity::error, instruction.where, what, ""}});
 }
 
-}  // namespace eyeray::derive
+}  // namespace eyeray::formula

@@ -1,23 +1,22 @@
-// Runs a module on terms instead of numbers. Loops are followed as often as they go round, both sides of an
+// Runs a function on terms instead of numbers. Loops are followed as often as they go round, both sides of an
 // if where its condition is no constant, and where paths meet again each variable is chosen by the condition.
 // Private to this layer.
 #pragma once
 
-#include <functional>
 #include <map>
 
-#include "derive/arithmetic.hpp"
-#include "derive/module.hpp"
+#include "formula/arithmetic.hpp"
+#include "formula/module.hpp"
 
-namespace eyeray::derive {
+namespace eyeray::formula {
 
 class Execution {
  public:
   Execution(const Module& module, Tape& tape);
 
-  // Runs the entry point, with `input` in the first numbers of the module's buffer, and returns what stands
-  // in the buffer at the end. InputError with the line for what cannot be followed.
-  Value run(const Value& input);
+  // What the function of this name gives for a point of which the inputs 0, 1, 2 are the coordinates.
+  // InputError with the line for what cannot be followed.
+  Term run(std::string_view function);
 
  private:
   struct Pointer {
@@ -45,7 +44,7 @@ class Execution {
     uint32_t block = 0;
   };
 
-  Value call(const Function& function, const std::vector<uint32_t>& arguments, const Call* caller);
+  Value call(const Function& function, const std::vector<uint32_t>& arguments, const Call& caller);
   void run_blocks(Call& call, size_t first, size_t end);
   void run_loop(Call& call, size_t header);
   void run_block(Call& call, const Block& block);
@@ -71,9 +70,9 @@ class Execution {
   Memory memory_;
   std::map<uint32_t, Value> constants_;
   std::map<uint32_t, Pointer> globals_;
-  uint32_t buffer_ = 0;  // variable
   uint32_t variables_ = 0;
-  size_t instructions_ = 0;
+  size_t memory_size_ = 0;  // numbers
+  size_t effort_ = 0;
 };
 
-}  // namespace eyeray::derive
+}  // namespace eyeray::formula

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "derive/arithmetic.hpp"
+#include "formula/arithmetic.hpp"
 
-namespace eyeray::derive {
+namespace eyeray::formula {
 namespace {
 
 // Writes down formulas; everything GLSL has, made of the few operations of a tape.
@@ -213,4 +213,4 @@ std::optional<Value> glsl_function(Tape& tape, uint32_t function, const std::vec
   return result;
 }
 
-}  // namespace eyeray::derive
+}  // namespace eyeray::formula

@@ -1,9 +1,9 @@
-// A SPIR-V module as glslang writes it, in the pieces that execution.hpp walks through. Private to this
-// layer.
+// A SPIR-V module as glslang writes it, in pieces. Private to this layer.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@
 
 #include "core/diagnostic.hpp"
 
-namespace eyeray::derive {
+namespace eyeray::formula {
 
 // Numbers lie flat: a vector, matrix, array or struct is the numbers of its members, one after the other.
 struct Type {
@@ -34,10 +34,13 @@ struct Instruction {
 struct Block {
   uint32_t label = 0;
   uint32_t merge = 0;  // of a loop's header, else 0
+  uint32_t next = 0;   // of a loop's header: its continue target
+  uint32_t join = 0;   // where a selection's ways meet again, else 0
   std::vector<Instruction> instructions{};
 };
 
 struct Function {
+  uint32_t id = 0;
   std::vector<uint32_t> parameters;
   std::vector<Block> blocks;
   std::map<uint32_t, size_t> block_of;  // by label
@@ -46,20 +49,30 @@ struct Function {
 struct Module {
   std::map<uint32_t, Type> types;
   std::vector<Instruction> constants;  // and variables outside functions, in order
-  std::map<uint32_t, Function> functions;
-  uint32_t entry = 0;
+  std::vector<Function> functions;     // in the order in which they stand
 
-  // InputError for more than this program knows of SPIR-V.
+  // Of what formula/text.hpp lets through; Error for words that are no SPIR-V.
   explicit Module(std::span<const uint32_t> spirv);
+
+  const Function& function(uint32_t id) const;
+  // The one of this name, mangled as glslang does, "f(vf3;"; null where there is none.
+  const Function* named(std::string_view name) const;
 
   const Type& type(uint32_t id) const { return types.at(id); }
   // Of the value or variable that `id` names.
   const Type& type_of(uint32_t id) const { return types.at(value_types_.at(id)); }
+  // A whole number that `id` names as a constant.
+  std::optional<uint32_t> constant(uint32_t id) const;
+  bool is_constant(uint32_t id) const { return constant_bits_.contains(id); }
+  // The bits of a constant's numbers, flat.
+  const std::vector<uint32_t>& constant_bits(uint32_t id) const { return constant_bits_.at(id); }
 
  private:
   void read_type(spv::Op op, std::span<const uint32_t> words);
+  void read_constant(const Instruction& instruction);
   std::map<uint32_t, uint32_t> value_types_;
-  std::map<uint32_t, uint32_t> lengths_;  // constants that arrays' lengths are
+  std::map<uint32_t, std::vector<uint32_t>> constant_bits_;
+  std::map<uint32_t, std::string> names_;
 };
 
-}  // namespace eyeray::derive
+}  // namespace eyeray::formula

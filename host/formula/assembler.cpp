@@ -1,0 +1,276 @@
+// From a program to the machine's code: functions are written where they are called, ways become jumps.
+#include <algorithm>
+#include <atomic>
+
+#include "core/error.hpp"
+#include "formula/machine.hpp"
+
+namespace eyeray::formula {
+
+class Assembler {
+ public:
+  Assembler(Machine& machine, const ir::Program& program) : machine_(machine), program_(program) {}
+
+  void run(uint32_t number) {
+    for (const ir::Constant& constant : program_.constants)
+      constants_.push_back(constant.type == ir::Type::real
+                               ? add(machine_.reals_, __builtin_bit_cast(float, constant.bits))
+                               : add(machine_.wholes_, constant.bits));
+    for (const ir::Table& table : program_.tables) {
+      const bool real = table.type == ir::Type::real;
+      tables_.push_back(uint32_t(real ? machine_.reals_.size() : machine_.wholes_.size()));
+      for (const uint32_t bits : table.bits)
+        real ? add(machine_.reals_, __builtin_bit_cast(float, bits)) : add(machine_.wholes_, bits);
+    }
+    real_top_ = uint32_t(machine_.reals_.size());
+    whole_top_ = uint32_t(machine_.wholes_.size());
+
+    // The three floats of p, then the call.
+    machine_.input_ = real_top_;
+    real_top_ += 3;
+    const Slots p{{machine_.input_, machine_.input_ + 1, machine_.input_ + 2}, true, ir::Type::real};
+    Frame frame = enter(program_.functions[number]);
+    machine_.results_ = slots(frame, frame.function.result).at;
+    call(frame, {p});
+    emit({.op = Machine::end});
+    machine_.real_count_ = std::max(real_most_, real_top_);
+    machine_.whole_count_ = std::max(whole_most_, whole_top_);
+  }
+
+ private:
+  using Code = Machine::Code;
+
+  // Places in one of the files.
+  struct Slots {
+    std::vector<uint32_t> at;
+    bool in_a_row = false;
+    ir::Type type = ir::Type::real;
+  };
+  // A function where it is called, and where its registers and arrays lie.
+  struct Frame {
+    const ir::Function& function;
+    std::vector<uint32_t> registers{};
+    std::vector<uint32_t> arrays{};
+    std::vector<size_t> returns{};  // jumps to its end
+  };
+  struct LoopJumps {
+    std::vector<size_t> leaves, nexts;
+  };
+
+  template <typename T>
+  static uint32_t add(std::vector<T>& file, T value) {
+    file.push_back(value);
+    return uint32_t(file.size() - 1);
+  }
+
+  Frame enter(const ir::Function& function) {
+    Frame frame{.function = function};
+    const auto take = [&](ir::Type type, uint32_t count) {
+      uint32_t& top = type == ir::Type::real ? real_top_ : whole_top_;
+      return std::exchange(top, top + count);
+    };
+    for (const ir::Type type : function.registers) frame.registers.push_back(take(type, 1));
+    for (const ir::Array& array : function.arrays) frame.arrays.push_back(take(array.type, array.length));
+    real_most_ = std::max(real_most_, real_top_);
+    whole_most_ = std::max(whole_most_, whole_top_);
+    return frame;
+  }
+
+  // Writes down what the function does with `arguments`. Where nobody can tell, a parameter is its argument;
+  // else it is copied, and back.
+  void call(Frame& frame, const std::vector<Slots>& arguments) {
+    std::vector<std::pair<Slots, Slots>> back;  // to, from
+    for (size_t i = 0; i < arguments.size(); ++i) {
+      const ir::Parameter& parameter = frame.function.parameters[i];
+      const bool is_shared = parameter.written && std::ranges::any_of(arguments, [&](const Slots& other) {
+                               return &other != &arguments[i] && overlap(other, arguments[i]);
+                             });
+      const bool fits = !parameter.place.is_array || arguments[i].in_a_row;
+      const bool is_constant =
+          parameter.written && !arguments[i].at.empty() && arguments[i].at[0] < input_end(arguments[i].type);
+      if (!is_shared && fits && !is_constant) {
+        if (parameter.place.is_array) frame.arrays[size_t(parameter.place.array)] = arguments[i].at[0];
+        for (size_t k = 0; k < parameter.place.numbers.size(); ++k)
+          frame.registers[size_t(parameter.place.numbers[k])] = arguments[i].at[k];
+        continue;
+      }
+      const Slots own = slots(frame, parameter.place);
+      move(own, arguments[i]);
+      if (parameter.written) back.push_back({arguments[i], own});
+    }
+    write(frame, frame.function.body);
+    // The last way back leads to what comes next anyway.
+    if (!frame.returns.empty() && frame.returns.back() + 1 == machine_.code_.size()) {
+      machine_.code_.pop_back();
+      frame.returns.pop_back();
+    }
+    for (const size_t at : frame.returns) land(at);
+    for (const auto& [to, from] : back) move(to, from);
+  }
+
+  // Below this slots are constants, and p.
+  uint32_t input_end(ir::Type type) const {
+    return type == ir::Type::real ? machine_.input_ + 3 : uint32_t(machine_.wholes_.size());
+  }
+  static bool overlap(const Slots& a, const Slots& b) {
+    const bool same_file = (a.type == ir::Type::real) == (b.type == ir::Type::real);
+    return same_file && std::ranges::any_of(
+                            a.at, [&](uint32_t slot) { return std::ranges::find(b.at, slot) != b.at.end(); });
+  }
+  void move(const Slots& to, const Slots& from) {
+    for (size_t i = 0; i < to.at.size(); ++i)
+      emit({.op = to.type == ir::Type::real ? uint16_t(Machine::move_real) : uint16_t(ir::Op::move),
+            .to = to.at[i],
+            .from = {from.at[i]}});
+  }
+
+  ir::Type type_of(const Frame& frame, ir::Operand operand) const {
+    return operand < 0 ? program_.constants[size_t(~operand)].type
+                       : frame.function.registers[size_t(operand)];
+  }
+  uint32_t slot(const Frame& frame, ir::Operand operand) const {
+    return operand < 0 ? constants_[size_t(~operand)] : frame.registers[size_t(operand)];
+  }
+  ir::Array array(const Frame& frame, ir::ArrayId id) const {
+    if (id >= 0) return frame.function.arrays[size_t(id)];
+    const ir::Table& table = program_.tables[size_t(~id)];
+    return {table.type, uint32_t(table.bits.size())};
+  }
+  uint32_t first(const Frame& frame, ir::ArrayId id) const {
+    return id < 0 ? tables_[size_t(~id)] : frame.arrays[size_t(id)];
+  }
+  Slots slots(const Frame& frame, const ir::Place& place) const {
+    Slots result;
+    if (place.is_array) {
+      const auto [type, length] = array(frame, place.array);
+      for (uint32_t i = 0; i < length; ++i) result.at.push_back(first(frame, place.array) + i);
+      result.in_a_row = true;
+      result.type = type;
+    } else {
+      for (const ir::Operand number : place.numbers) result.at.push_back(slot(frame, number));
+      if (!place.numbers.empty()) result.type = type_of(frame, place.numbers[0]);
+    }
+    return result;
+  }
+
+  size_t emit(const Code& code) {
+    machine_.code_.push_back(code);
+    return machine_.code_.size() - 1;
+  }
+  // Makes the jump at `at` lead to what comes next.
+  void land(size_t at) { machine_.code_[at].to = uint32_t(machine_.code_.size()); }
+
+  void write(Frame& frame, const ir::Block& block) {
+    for (const ir::Statement& statement : block)
+      std::visit([&](const auto& what) { write(frame, what); }, statement.what);
+  }
+
+  void write(Frame& frame, const ir::Instruction& instruction) {
+    using ir::Op;
+    Code code{.op = uint16_t(instruction.op)};
+    const auto from = [&](size_t i) { return slot(frame, instruction.from[i]); };
+    const auto real = [&](Machine::Control control) { code.op = control; };
+    switch (instruction.op) {
+      case Op::load:
+      case Op::store:
+      case Op::clear:
+      case Op::copy: {
+        const auto [type, length] = array(frame, instruction.array);
+        code.array = first(frame, instruction.array);
+        code.length = length;
+        if (instruction.op == Op::load) code.to = slot(frame, instruction.to);
+        if (instruction.op == Op::load || instruction.op == Op::store) code.from[0] = from(0);
+        if (instruction.op == Op::store) code.from[1] = from(1);
+        if (instruction.op == Op::copy) code.from[0] = first(frame, instruction.other);
+        if (type == ir::Type::real)
+          real(instruction.op == Op::load    ? Machine::load_real
+               : instruction.op == Op::store ? Machine::store_real
+               : instruction.op == Op::clear ? Machine::clear_real
+                                             : Machine::copy_real);
+        break;
+      }
+      case Op::clamp_index:
+        // The length is a constant, and says what is in range.
+        code.length = program_.constants[size_t(~instruction.from[1])].bits;
+        [[fallthrough]];
+      default:
+        code.to = slot(frame, instruction.to);
+        for (size_t i = 0; i < 3; ++i) code.from[i] = from(i);
+        if (type_of(frame, instruction.to) == ir::Type::real && instruction.op == Op::move)
+          real(Machine::move_real);
+        if (type_of(frame, instruction.to) == ir::Type::real && instruction.op == Op::select)
+          real(Machine::select_real);
+    }
+    emit(code);
+  }
+
+  void write(Frame& frame, const ir::Call& call) {
+    const auto [reals, wholes] = std::pair(real_top_, whole_top_);
+    std::vector<Slots> arguments;
+    for (const ir::Place& place : call.arguments) arguments.push_back(slots(frame, place));
+    Frame inner = enter(program_.functions[call.function]);
+    // Its result is the caller's at once: nobody else asks for that.
+    const ir::Place& result = inner.function.result;
+    if (result.is_array) inner.arrays[size_t(result.array)] = first(frame, call.result.array);
+    for (size_t i = 0; i < result.numbers.size(); ++i)
+      inner.registers[size_t(result.numbers[i])] = slot(frame, call.result.numbers[i]);
+    this->call(inner, arguments);
+    real_top_ = reals;
+    whole_top_ = wholes;
+  }
+
+  void write(Frame& frame, const ir::Branch& branch) {
+    const uint32_t condition = slot(frame, branch.condition);
+    if (branch.yes.empty()) {
+      const size_t over = emit({.op = Machine::jump_if, .from = {condition}});
+      write(frame, branch.no);
+      land(over);
+      return;
+    }
+    const size_t otherwise = emit({.op = Machine::jump_unless, .from = {condition}});
+    write(frame, branch.yes);
+    if (branch.no.empty()) {
+      land(otherwise);
+      return;
+    }
+    const size_t over = emit({.op = Machine::jump});
+    land(otherwise);
+    write(frame, branch.no);
+    land(over);
+  }
+
+  void write(Frame& frame, const ir::Loop& loop) {
+    loops_.push_back({});
+    const auto start = uint32_t(machine_.code_.size());
+    if (loop.turns == 0) emit({.op = Machine::turn, .length = loop.weight});
+    write(frame, loop.body);
+    for (const size_t at : loops_.back().nexts) land(at);
+    write(frame, loop.next);
+    emit({.op = Machine::jump, .to = start});
+    for (const size_t at : loops_.back().leaves) land(at);
+    loops_.pop_back();
+  }
+
+  void write(Frame& frame, const ir::Jump& jump) {
+    const size_t at = emit({.op = Machine::jump});
+    if (jump == ir::Jump::give_back)
+      frame.returns.push_back(at);
+    else
+      (jump == ir::Jump::leave ? loops_.back().leaves : loops_.back().nexts).push_back(at);
+  }
+
+  Machine& machine_;
+  const ir::Program& program_;
+  std::vector<uint32_t> constants_, tables_;  // where they lie
+  uint32_t real_top_ = 0, whole_top_ = 0;     // the first that is free
+  uint32_t real_most_ = 0, whole_most_ = 0;
+  std::vector<LoopJumps> loops_;
+};
+
+Machine::Machine(const ir::Program& program, uint32_t function) {
+  static std::atomic<uint64_t> machines = 0;
+  id_ = ++machines;
+  Assembler(*this, program).run(function);
+}
+
+}  // namespace eyeray::formula

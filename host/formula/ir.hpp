@@ -1,0 +1,191 @@
+// A formula as a program over single numbers: what its SPIR-V says, with nothing undefined left. Every
+// executor runs this, in its own arithmetic: the interpreter in float32 and float64, kernels as GLSL. Private
+// to this layer.
+//
+// Whole numbers wrap around, shifts take the last five bits of their distance, x / 0 = x % 0 = 0, indices are
+// clamped into their arrays, conversions of what no whole number holds give the least int or 0u, and what is
+// read before it is written is 0.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <variant>
+#include <vector>
+
+namespace eyeray::formula::ir {
+
+// A float; the 32 bits of an int or uint; a bool.
+enum class Type : uint8_t { real, whole, truth };
+
+enum class Op : uint8_t {
+  move,  // of any type
+  // Of floats: C's operators, then the functions fn_… of shaders/formula.glsl.
+  negate,
+  add,
+  subtract,
+  multiply,
+  divide,
+  absolute,
+  sign,
+  floor,
+  ceil,
+  trunc,
+  round,
+  fract,
+  sqrt,
+  inversesqrt,
+  radians,
+  degrees,
+  sin,
+  cos,
+  tan,
+  asin,
+  acos,
+  atan,
+  exp,
+  log,
+  exp2,
+  log2,
+  sinh,
+  cosh,
+  tanh,
+  atan2,
+  pow,
+  min,
+  max,
+  mod,
+  step,
+  clamp,
+  mix,
+  smoothstep,
+  // Of floats to a truth; whatever is not a number is neither, and unequal to all.
+  less,
+  less_equal,
+  equal,
+  // Of whole numbers, signed ones in two's complement.
+  whole_negate,
+  whole_add,
+  whole_subtract,
+  whole_multiply,
+  signed_divide,
+  unsigned_divide,
+  signed_remainder,
+  unsigned_remainder,
+  signed_modulo,
+  bit_and,
+  bit_or,
+  bit_xor,
+  bit_not,
+  shift_left,
+  shift_right,
+  signed_shift_right,
+  whole_equal,
+  signed_less,
+  unsigned_less,
+  clamp_index,  // the second whole number, a signed one, into [0, third)
+  // Conversions.
+  from_signed,
+  from_unsigned,
+  to_signed,
+  to_unsigned,
+  // Truths.
+  both,
+  either,
+  opposite,
+  same,
+  select,  // by a truth, of any type
+  // Memory: array[from 0], array[from 0] = from 1; all of an array: to 0, or those of another one.
+  load,
+  store,
+  clear,
+  copy,
+};
+
+// A register of the function, or ~index of one of the program's constants.
+using Operand = int32_t;
+// An array of the function's, or ~index of one of the program's tables.
+using ArrayId = int32_t;
+
+struct Instruction {
+  Op op;
+  Operand to = 0;
+  std::array<Operand, 3> from{};
+  ArrayId array = 0, other = 0;
+};
+
+// Where a value lies: its numbers, those of a matrix by columns; or an array.
+struct Place {
+  std::vector<Operand> numbers{};
+  bool is_array = false;
+  ArrayId array = 0;
+};
+
+struct Statement;
+using Block = std::vector<Statement>;
+
+// Arguments are copied in, and those that the function writes to copied back; so is the result.
+struct Call {
+  uint32_t function;
+  std::vector<Place> arguments;
+  Place result;
+};
+struct Branch {
+  Operand condition;
+  Block yes, no;
+};
+// Goes round until it is left; `next` follows each turn.
+struct Loop {
+  Block body, next;
+  uint32_t turns = 0;   // how often it goes round at most, if that is known and needs no counting; else 0
+  uint32_t weight = 0;  // what a turn counts where turns are counted
+};
+enum class Jump : uint8_t { leave, next, give_back };  // of the innermost loop; of the function
+
+struct Statement {
+  std::variant<Instruction, Call, Branch, Loop, Jump> what;
+};
+
+struct Array {
+  Type type;
+  uint32_t length;
+};
+
+struct Parameter {
+  Place place;
+  bool written = false;
+};
+
+struct Function {
+  std::vector<Type> registers;
+  std::vector<Array> arrays;
+  std::vector<Parameter> parameters;
+  Place result;
+  Block body;
+};
+
+struct Constant {
+  Type type;
+  uint32_t bits;  // of a float32, of a whole number, 0 or 1
+  auto operator<=>(const Constant&) const = default;
+};
+struct Table {
+  Type type;
+  std::vector<uint32_t> bits;
+  bool operator==(const Table&) const = default;
+};
+
+struct Program {
+  std::vector<Function> functions;  // a function calls only those before it
+  std::vector<Constant> constants;
+  std::map<Constant, uint32_t> constant_numbers;
+  std::vector<Table> tables;
+  uint32_t value = 0;                // the function f
+  std::vector<uint32_t> gradient{};  // the function gradient, if there is one
+  bool counts_turns = false;
+};
+
+// The longest that one call may take in turns of loops that are counted (shaders/formula.glsl).
+inline constexpr uint32_t most_turns = 10000;
+
+}  // namespace eyeray::formula::ir

@@ -1,0 +1,15 @@
+// A formula as GLSL for kernels. Private to this layer.
+#pragma once
+
+#include <string>
+
+#include "formula/ir.hpp"
+
+namespace eyeray::formula {
+
+// `float NAMEf(vec3 p)`, `vec3 NAMEgradient(vec3 p)` if there is one, and what they call; needs
+// shaders/formula.glsl and, where loops are counted, `bool formula_turn(uint)`. One operation a statement, on
+// numbers alone: nothing of the user's text is left, and nothing for a compiler to fold.
+std::string kernel_text(const ir::Program& program, const std::string& name);
+
+}  // namespace eyeray::formula

@@ -1,0 +1,26 @@
+// How large a formula is, with all that it calls, and how long it may take. Private to this layer.
+#pragma once
+
+#include <string>
+
+#include "formula/ir.hpp"
+
+namespace eyeray::formula {
+
+// A function with the functions that it calls written in their places.
+struct Size {
+  double instructions = 0;
+  double branches = 0;  // and loops
+  double memory = 0;    // numbers in arrays
+  // Instructions of one call, a loop that is counted gone round once. docs/implicit-surfaces.md tells the
+  // limits.
+  double work = 0;
+};
+
+// Settles for each loop whether its turns are counted, and what one counts. What is too much, in words; ""
+// where nothing is.
+std::string limit(ir::Program& program);
+// Of f and gradient together, once limited.
+Size size_of(const ir::Program& program);
+
+}  // namespace eyeray::formula

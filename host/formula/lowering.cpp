@@ -1,0 +1,338 @@
+// Functions as a whole: what is known of their values beforehand, and the ways from block to block.
+#include "formula/lowering.hpp"
+
+#include <algorithm>
+
+namespace eyeray::formula {
+
+namespace {
+
+// What computes nothing: its result is its operands' numbers, put together anew.
+bool only_arranges(spv::Op op) {
+  return op == spv::OpCompositeConstruct || op == spv::OpCompositeExtract || op == spv::OpVectorShuffle ||
+         op == spv::OpCompositeInsert || op == spv::OpCopyObject || op == spv::OpBitcast;
+}
+
+bool is_access(spv::Op op) {
+  return op == spv::OpAccessChain || op == spv::OpInBoundsAccessChain;
+}
+
+}  // namespace
+
+ir::Program lower(const Module& module, std::string_view value, std::string_view gradient) {
+  ir::Program program;
+  std::map<uint32_t, uint32_t> numbers;
+
+  // What is called comes first. glslang refuses recursion.
+  const auto lower_with_callees = [&](const auto& self, const Function& function) -> void {
+    if (numbers.contains(function.id)) return;
+    for (const Block& block : function.blocks)
+      for (const Instruction& instruction : block.instructions)
+        if (instruction.op == spv::OpFunctionCall) self(self, module.function(instruction.words[0]));
+    ir::Function lowered = FunctionLowering(module, program, numbers, function).run();
+    numbers[function.id] = uint32_t(program.functions.size());
+    program.functions.push_back(std::move(lowered));
+  };
+  const Function* f = module.named(value);
+  CHECK(f);
+  lower_with_callees(lower_with_callees, *f);
+  program.value = numbers.at(f->id);
+  if (const Function* g = module.named(gradient)) {
+    lower_with_callees(lower_with_callees, *g);
+    program.gradient.push_back(numbers.at(g->id));
+  }
+  return program;
+}
+
+FunctionLowering::FunctionLowering(const Module& module, ir::Program& program,
+                                   const std::map<uint32_t, uint32_t>& numbers, const Function& function)
+    : module_(module), program_(program), numbers_(numbers), function_(function) {}
+
+ir::Function FunctionLowering::run() {
+  look_ahead();
+
+  // Parameters: what glslang passes by pointer is the variable itself.
+  for (const uint32_t id : function_.parameters) {
+    const Type& type = module_.type_of(id);
+    const bool by_pointer = type.op == spv::OpTypePointer;
+    const Type& whole = by_pointer ? module_.type(type.members[0]) : type;
+    const ir::Place place =
+        new_place(whole, whole.op == spv::OpTypeArray || (by_pointer && accesses_[id].is_indexed));
+    const Accesses& accesses = accesses_[id];
+    out_.parameters.push_back({place, by_pointer && (accesses.stores > 0 || accesses.part_writes > 0)});
+    if (by_pointer)
+      pointers_[id] = {.variable = id, .place = place, .type = &whole};
+    else
+      values_[id] = place;
+  }
+  const Type& result = module_.type_of(function_.id);
+  if (result.op != spv::OpTypeVoid) out_.result = new_place(result, result.op == spv::OpTypeArray);
+
+  walk(function_.blocks[0].label, 0, out_.body);
+  return std::move(out_);
+}
+
+// ---- Beforehand ----
+
+void FunctionLowering::look_ahead() {
+  for (size_t b = 0; b < function_.blocks.size(); ++b)
+    for (const Instruction& instruction : function_.blocks[b].instructions)
+      if (instruction.result) defined_in_[instruction.result] = b;
+  for (size_t b = 0; b < function_.blocks.size(); ++b) count_uses(b);
+  note_accesses();
+}
+
+// Backwards, since what only arranges is used for as long as its result is.
+void FunctionLowering::count_uses(size_t b) {
+  const std::vector<Instruction>& all = function_.blocks[b].instructions;
+  for (size_t i = all.size(); i-- > 0;) {
+    const Instruction& instruction = all[i];
+    size_t last = i;
+    if (only_arranges(instruction.op)) last = std::max(last, uses_[instruction.result].last);
+    if (instruction.op == spv::OpPhi) {
+      last = all.size();
+      for (size_t k = 0; k + 1 < instruction.words.size(); k += 2)
+        phis_[instruction.words[k + 1]].push_back({instruction.result, instruction.words[k]});
+    }
+    // Some words are no values; taking them for such keeps a value longer, no more.
+    for (const uint32_t id : instruction.words) {
+      const auto defined = defined_in_.find(id);
+      if (defined == defined_in_.end()) continue;
+      Uses& uses = uses_[id];
+      ++uses.count;
+      const bool elsewhere = defined->second != b || instruction.op == spv::OpPhi;
+      uses.last =
+          std::max(uses.last, elsewhere ? function_.blocks[defined->second].instructions.size() : last);
+    }
+  }
+}
+
+void FunctionLowering::note_accesses() {
+  std::map<uint32_t, uint32_t> variable_of;  // of a pointer
+  const auto variable = [&](uint32_t id) {
+    const auto found = variable_of.find(id);
+    return found == variable_of.end() ? id : found->second;
+  };
+  for (size_t b = 0; b < function_.blocks.size(); ++b) {
+    const std::vector<Instruction>& all = function_.blocks[b].instructions;
+    for (size_t i = 0; i < all.size(); ++i) {
+      const Instruction& instruction = all[i];
+      const auto touch = [&](uint32_t id, bool stores_all) -> Accesses& {
+        Accesses& accesses = accesses_[variable(id)];
+        if (accesses.blocks.empty()) {
+          accesses.first_block = b;
+          accesses.first_is_store = stores_all;
+        }
+        accesses.blocks.insert(b);
+        return accesses;
+      };
+      const auto write = [&](uint32_t id, bool all_of_it, uint32_t stored) {
+        Accesses& accesses = touch(id, all_of_it);
+        accesses.writes[b].insert(i);
+        ++(all_of_it ? accesses.stores : accesses.part_writes);
+        accesses.stored = stored;
+      };
+      if (is_access(instruction.op)) {
+        variable_of[instruction.result] = variable(instruction.words[0]);
+        Accesses& accesses = accesses_[variable(instruction.words[0])];
+        for (size_t k = 1; k < instruction.words.size(); ++k)
+          if (!module_.constant(instruction.words[k])) accesses.is_indexed = true;
+      } else if (instruction.op == spv::OpLoad) {
+        touch(instruction.words[0], false);
+      } else if (instruction.op == spv::OpStore) {
+        write(instruction.words[0], !variable_of.contains(instruction.words[0]), instruction.words[1]);
+      } else if (instruction.op == spv::OpFunctionCall) {
+        for (size_t k = 1; k < instruction.words.size(); ++k)
+          if (module_.type_of(instruction.words[k]).op == spv::OpTypePointer)
+            write(instruction.words[k], false, 0);
+      } else if (instruction.op == spv::OpVariable && instruction.words.size() > 1) {
+        write(instruction.result, true, instruction.words[1]);
+      }
+    }
+  }
+}
+
+// Whether a variable is only ever what one constant says: glslang makes such ones to find an element of a
+// constant. Stored in the first block, or used nowhere but where it is stored, it is never seen without.
+bool FunctionLowering::is_table(uint32_t variable) const {
+  const auto found = accesses_.find(variable);
+  if (found == accesses_.end() || !defined_in_.contains(variable))
+    return false;  // a parameter is its caller's
+  const Accesses& accesses = found->second;
+  return accesses.stores == 1 && accesses.part_writes == 0 && accesses.first_is_store &&
+         (accesses.first_block == 0 || accesses.blocks.size() == 1) &&
+         !defined_in_.contains(accesses.stored) && module_.is_constant(accesses.stored);
+}
+
+// ---- From block to block ----
+
+bool FunctionLowering::jump(uint32_t label, ir::Block& out) const {
+  if (loops_.empty()) return false;
+  const LoopLabels& loop = loops_.back();
+  if (label == loop.merge)
+    out.push_back({ir::Jump::leave});
+  else if (label == loop.next && !loop.in_next)
+    out.push_back({ir::Jump::next});
+  else
+    return false;
+  return true;
+}
+
+void FunctionLowering::walk(uint32_t label, uint32_t stop, ir::Block& out) {
+  while (label != stop && !jump(label, out)) {
+    const Block& block = function_.blocks[function_.block_of.at(label)];
+    const bool enters = block.merge != 0 && (loops_.empty() || loops_.back().header != label);
+    if (!enters) {
+      walk_instructions(block, out);
+      if (!walk_branch(block, stop, label, out)) return;
+      continue;
+    }
+    ir::Loop loop;
+    loops_.push_back({label, block.merge, block.next});
+    walk_instructions(block, loop.body);
+    uint32_t after = 0;
+    if (walk_branch(block, 0, after, loop.body)) walk(after, 0, loop.body);
+    if (!loop.body.empty())
+      if (const auto* last = std::get_if<ir::Jump>(&loop.body.back().what); last && *last == ir::Jump::next)
+        loop.body.pop_back();
+    loops_.back().in_next = true;
+    walk(block.next, label, loop.next);
+    loops_.pop_back();
+    out.push_back({std::move(loop)});
+    label = block.merge;
+  }
+}
+
+void FunctionLowering::walk_instructions(const Block& block, ir::Block& out) {
+  block_ = function_.block_of.at(block.label);
+  for (at_ = 0; at_ + 1 < block.instructions.size(); ++at_) lower_instruction(block.instructions[at_], out);
+  const auto phis = phis_.find(block.label);
+  if (phis == phis_.end()) return;
+  for (const auto& [result, id] : phis->second) {
+    if (!values_.contains(result)) values_[result] = new_place(module_.type_of(result), false);
+    assign(values_.at(result).numbers, value(id).numbers, out);
+  }
+}
+
+// Follows the block's last instruction. Whether it goes on, at `label`.
+bool FunctionLowering::walk_branch(const Block& block, uint32_t stop, uint32_t& label, ir::Block& out) {
+  const Instruction& last = block.instructions.back();
+  const std::vector<uint32_t>& words = last.words;
+  switch (last.op) {
+    case spv::OpBranch:
+      label = words[0];
+      return true;
+    case spv::OpBranchConditional: {
+      ir::Branch branch{value(words[0]).numbers[0], {}, {}};
+      if (block.join) {
+        walk(words[1], block.join, branch.yes);
+        walk(words[2], block.join, branch.no);
+        label = block.join;
+      } else if (jump(words[2], branch.no)) {
+        label = words[1];
+      } else if (jump(words[1], branch.yes)) {
+        label = words[2];
+      } else {
+        refuse(last, "this branch cannot be followed");
+      }
+      out.push_back({std::move(branch)});
+      return true;
+    }
+    case spv::OpReturn:
+    case spv::OpReturnValue:
+    case spv::OpUnreachable:
+      give_back(last, out);
+      return false;
+    default:
+      refuse(last, fmt::format("instruction {} of SPIR-V is not known here", int(last.op)));
+  }
+  (void)stop;
+}
+
+void FunctionLowering::give_back(const Instruction& terminator, ir::Block& out) {
+  if (terminator.op == spv::OpReturnValue) {
+    copy(out_.result, value(terminator.words[0]), out);
+  } else if (terminator.op == spv::OpUnreachable) {
+    for (const ir::Operand number : out_.result.numbers)
+      assign({number}, {constant(type_of(number), 0)}, out);
+    if (out_.result.is_array)
+      out.push_back({ir::Instruction{.op = ir::Op::clear, .array = out_.result.array}});
+  }
+  out.push_back({ir::Jump::give_back});
+}
+
+// ---- Registers and constants ----
+
+ir::Operand FunctionLowering::new_register(ir::Type type) {
+  out_.registers.push_back(type);
+  return ir::Operand(out_.registers.size() - 1);
+}
+
+ir::Operand FunctionLowering::constant(ir::Type type, uint32_t bits) {
+  const auto [at, fresh] =
+      program_.constant_numbers.try_emplace({type, bits}, uint32_t(program_.constants.size()));
+  if (fresh) program_.constants.push_back({type, bits});
+  return ~ir::Operand(at->second);
+}
+
+ir::Operand FunctionLowering::real(float value) {
+  return constant(ir::Type::real, __builtin_bit_cast(uint32_t, value));
+}
+
+ir::Type FunctionLowering::scalar(const Type& type) const {
+  if (!type.members.empty()) return scalar(module_.type(type.members[0]));
+  return type.op == spv::OpTypeFloat ? ir::Type::real
+         : type.op == spv::OpTypeInt ? ir::Type::whole
+                                     : ir::Type::truth;
+}
+
+ir::Type FunctionLowering::type_of(ir::Operand operand) const {
+  return operand < 0 ? program_.constants[size_t(~operand)].type : out_.registers[size_t(operand)];
+}
+
+ir::Place FunctionLowering::new_place(const Type& type, bool as_array) {
+  ir::Place place;
+  if (as_array) {
+    out_.arrays.push_back({scalar(type), type.size});
+    place.is_array = true;
+    place.array = ir::ArrayId(out_.arrays.size() - 1);
+  } else {
+    for (uint32_t i = 0; i < type.size; ++i) place.numbers.push_back(new_register(scalar(type)));
+  }
+  return place;
+}
+
+ir::Place FunctionLowering::constant_place(uint32_t id) {
+  const Type& type = module_.type_of(id);
+  const std::vector<uint32_t> bits = module_.constant_bits(id);
+  ir::Place place;
+  if (type.op == spv::OpTypeArray) {
+    const ir::Table table{scalar(type), bits};
+    const auto known = std::ranges::find(program_.tables, table);
+    place.is_array = true;
+    place.array = ~ir::ArrayId(known - program_.tables.begin());
+    if (known == program_.tables.end()) program_.tables.push_back(table);
+  } else {
+    for (const uint32_t b : bits) place.numbers.push_back(constant(scalar(type), b));
+  }
+  return place;
+}
+
+const ir::Place& FunctionLowering::value(uint32_t id) {
+  const auto found = values_.find(id);
+  if (found != values_.end()) return found->second;
+  CHECK(module_.is_constant(id));
+  return values_[id] = constant_place(id);
+}
+
+const FunctionLowering::Pointer& FunctionLowering::pointer(uint32_t id) const {
+  const auto found = pointers_.find(id);
+  if (found != pointers_.end()) return found->second;
+  throw InputError({{Severity::error, {}, "this place cannot be followed", ""}});
+}
+
+void FunctionLowering::refuse(const Instruction& instruction, const std::string& what) const {
+  throw InputError({{Severity::error, instruction.where, what, ""}});
+}
+
+}  // namespace eyeray::formula

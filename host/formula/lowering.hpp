@@ -1,0 +1,116 @@
+// From SPIR-V to the program of ir.hpp. Private to this layer.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "formula/ir.hpp"
+#include "formula/module.hpp"
+
+namespace eyeray::formula {
+
+// The program whose f and gradient are the module's functions of these names, as Module::named takes them;
+// the latter may be missing. InputError, with the line, for what formulas cannot be made of.
+ir::Program lower(const Module& module, std::string_view value, std::string_view gradient);
+
+// One function's.
+class FunctionLowering {
+ public:
+  // `numbers`: of the functions lowered so far, by their id.
+  FunctionLowering(const Module& module, ir::Program& program, const std::map<uint32_t, uint32_t>& numbers,
+                   const Function& function);
+  ir::Function run();
+
+ private:
+  // Where a variable or a part of it lies. In an array at `offset`, or, where its index is not known
+  // beforehand, at the whole number `address`.
+  struct Pointer {
+    uint32_t variable = 0;
+    ir::Place place;
+    const Type* type = nullptr;
+    uint32_t offset = 0;
+    bool is_dynamic = false;
+    ir::Operand address = 0;
+  };
+  struct LoopLabels {
+    uint32_t header, merge, next;
+    bool in_next = false;
+  };
+  // Of a value: how often it is used, and where last in its own block; past its end if another one uses it.
+  struct Uses {
+    size_t count = 0;
+    size_t last = 0;
+  };
+  // What is done to a variable, at (block, instruction).
+  struct Accesses {
+    std::set<size_t> blocks{};
+    std::map<size_t, std::set<size_t>> writes{};  // by block
+    size_t first_block = 0;
+    bool first_is_store = false;
+    bool is_indexed = false;  // by what is not known beforehand
+    size_t stores = 0;        // of all of it
+    size_t part_writes = 0;
+    uint32_t stored = 0;  // the value of the last store
+  };
+
+  void look_ahead();
+  void count_uses(size_t block);
+  void note_accesses();
+  bool is_table(uint32_t variable) const;
+
+  // Blocks in order from `label` until `stop`.
+  void walk(uint32_t label, uint32_t stop, ir::Block& out);
+  void walk_instructions(const Block& block, ir::Block& out);
+  bool walk_branch(const Block& block, uint32_t stop, uint32_t& label, ir::Block& out);
+  bool jump(uint32_t label, ir::Block& out) const;
+  void give_back(const Instruction& terminator, ir::Block& out);
+
+  void lower_instruction(const Instruction& instruction, ir::Block& out);
+  bool lower_memory(const Instruction& instruction, ir::Block& out);
+  bool lower_composite(const Instruction& instruction, ir::Block& out);
+  bool lower_arithmetic(const Instruction& instruction, ir::Block& out);
+  bool lower_function(const Instruction& instruction, ir::Block& out);
+  void lower_call(const Instruction& instruction, ir::Block& out);
+  Pointer index(const Instruction& instruction, ir::Block& out);
+  void load(const Instruction& instruction, ir::Block& out);
+  void store(const Instruction& instruction, ir::Block& out);
+
+  // Writes one instruction down; its result is a new register.
+  ir::Operand apply(ir::Block& out, ir::Op op, ir::Operand x, ir::Operand y = 0, ir::Operand z = 0);
+  void each(ir::Block& out, const Instruction& instruction, ir::Op op, const std::vector<ir::Place>& from);
+  ir::Operand sum_of_products(ir::Block& out, const ir::Place& a, const ir::Place& b);
+  void assign(const std::vector<ir::Operand>& to, std::vector<ir::Operand> from, ir::Block& out);
+  bool retarget(const std::vector<ir::Operand>& to, const std::vector<ir::Operand>& from,
+                ir::Block& out) const;
+  void copy(const ir::Place& to, const ir::Place& from, ir::Block& out);
+
+  ir::Operand new_register(ir::Type type);
+  ir::Operand constant(ir::Type type, uint32_t bits);
+  ir::Operand real(float value);
+  ir::Operand whole(uint32_t value) { return constant(ir::Type::whole, value); }
+  ir::Place new_place(const Type& type, bool as_array);
+  ir::Place constant_place(uint32_t id);
+  const ir::Place& value(uint32_t id);
+  const Pointer& pointer(uint32_t id) const;
+  ir::Type scalar(const Type& type) const;
+  ir::Type type_of(ir::Operand operand) const;
+  [[noreturn]] void refuse(const Instruction& instruction, const std::string& what) const;
+
+  const Module& module_;
+  ir::Program& program_;
+  const std::map<uint32_t, uint32_t>& numbers_;
+  const Function& function_;
+  ir::Function out_;
+  std::map<uint32_t, ir::Place> values_;
+  std::map<uint32_t, Pointer> pointers_;
+  std::map<uint32_t, Accesses> accesses_;
+  std::map<uint32_t, size_t> defined_in_;  // block
+  std::map<uint32_t, Uses> uses_;
+  std::map<uint32_t, std::vector<std::pair<uint32_t, uint32_t>>> phis_;  // by the block left: result, value
+  std::vector<LoopLabels> loops_;
+  std::set<uint32_t> computed_;  // values each number of which has an instruction of its own
+  size_t block_ = 0, at_ = 0;    // what is lowered now
+};
+
+}  // namespace eyeray::formula

@@ -1,0 +1,217 @@
+// Variables, their parts, and calls.
+#include <algorithm>
+
+#include "formula/lowering.hpp"
+
+namespace eyeray::formula {
+
+bool FunctionLowering::lower_memory(const Instruction& instruction, ir::Block& out) {
+  const uint32_t id = instruction.result;
+  switch (instruction.op) {
+    case spv::OpVariable: {
+      const Type& type = module_.type(module_.type(instruction.type).members[0]);
+      const Accesses& accesses = accesses_[id];
+      if (is_table(id)) {
+        pointers_[id] = {.variable = id, .place = value(accesses.stored), .type = &type};
+        if (!accesses.is_indexed || type.op == spv::OpTypeArray) return true;
+      }
+      const bool as_array = type.op == spv::OpTypeArray || accesses.is_indexed;
+      pointers_[id] = {.variable = id, .place = new_place(type, as_array), .type = &type};
+      const ir::Place& place = pointers_[id].place;
+      if (instruction.words.size() > 1) copy(place, value(instruction.words[1]), out);
+      // What is read before it is written is 0.
+      if (accesses.first_is_store && (accesses.first_block == 0 || accesses.blocks.size() == 1)) return true;
+      if (as_array) out.push_back({ir::Instruction{.op = ir::Op::clear, .array = place.array}});
+      for (const ir::Operand number : place.numbers) assign({number}, {constant(scalar(type), 0)}, out);
+      return true;
+    }
+    case spv::OpAccessChain:
+    case spv::OpInBoundsAccessChain:
+      pointers_[id] = index(instruction, out);
+      return true;
+    case spv::OpLoad:
+      load(instruction, out);
+      return true;
+    case spv::OpStore:
+      store(instruction, out);
+      return true;
+    case spv::OpFunctionCall:
+      lower_call(instruction, out);
+      return true;
+    default:
+      return false;
+  }
+}
+
+// Indices are clamped as Vulkan's robust access does: a negative one is 0, one past the end is the last.
+FunctionLowering::Pointer FunctionLowering::index(const Instruction& instruction, ir::Block& out) {
+  Pointer at = pointer(instruction.words[0]);
+  for (size_t i = 1; i < instruction.words.size(); ++i) {
+    const auto count = uint32_t(at.type->members.size());
+    const Type& element = module_.type(at.type->members[0]);
+    if (const auto known = module_.constant(instruction.words[i])) {
+      const auto clamped = uint32_t(std::clamp<int64_t>(int32_t(*known), 0, int64_t(count) - 1));
+      at.offset += clamped * element.size;
+    } else {
+      CHECK(at.place.is_array);
+      ir::Operand step =
+          apply(out, ir::Op::clamp_index, value(instruction.words[i]).numbers[0], whole(count));
+      if (element.size > 1) step = apply(out, ir::Op::whole_multiply, step, whole(element.size));
+      at.address = at.is_dynamic ? apply(out, ir::Op::whole_add, at.address, step) : step;
+      at.is_dynamic = true;
+    }
+    at.type = &element;
+  }
+  // All of it in one number.
+  if (at.is_dynamic && at.offset > 0) {
+    at.address = apply(out, ir::Op::whole_add, at.address, whole(at.offset));
+    at.offset = 0;
+  }
+  return at;
+}
+
+void FunctionLowering::load(const Instruction& instruction, ir::Block& out) {
+  const Pointer& at = pointer(instruction.words[0]);
+  const Type& type = module_.type(instruction.type);
+  ir::Place& result = values_[instruction.result];
+
+  // As long as nobody writes to the variable, its own numbers serve.
+  const Accesses& accesses = accesses_[at.variable];
+  const Uses& uses = uses_[instruction.result];
+  const auto writes = accesses.writes.find(block_);
+  const bool outlives = uses.last >= function_.blocks[block_].instructions.size();
+  const bool changes = writes != accesses.writes.end() && [&] {
+    const auto next = writes->second.upper_bound(at_);
+    return next != writes->second.end() && *next < uses.last;
+  }();
+  const bool is_kept = (!outlives && !changes) || accesses.writes.empty();
+
+  if (!at.place.is_array) {
+    const auto first = at.place.numbers.begin() + at.offset;
+    const std::vector<ir::Operand> numbers(first, first + type.size);
+    if (is_kept) {
+      result.numbers = numbers;
+    } else {
+      result = new_place(type, false);
+      assign(result.numbers, numbers, out);
+    }
+  } else if (type.op == spv::OpTypeArray) {
+    result = at.place;
+    if (!is_kept) {
+      result = new_place(type, true);
+      copy(result, at.place, out);
+    }
+  } else {
+    const ir::Type scalar = this->scalar(type);
+    if (type.size == 1) computed_.insert(instruction.result);
+    for (uint32_t i = 0; i < type.size; ++i) {
+      const ir::Operand address = !at.is_dynamic ? whole(at.offset + i)
+                                  : i == 0       ? at.address
+                                                 : apply(out, ir::Op::whole_add, at.address, whole(i));
+      result.numbers.push_back(new_register(scalar));
+      out.push_back({ir::Instruction{
+          .op = ir::Op::load, .to = result.numbers.back(), .from = {address}, .array = at.place.array}});
+    }
+  }
+}
+
+void FunctionLowering::store(const Instruction& instruction, ir::Block& out) {
+  const Pointer& at = pointer(instruction.words[0]);
+  const uint32_t id = instruction.words[1];
+  if (is_table(at.variable) && (!at.place.is_array || at.place.array < 0)) return;
+  const ir::Place& stored = value(id);
+  if (!at.place.is_array) {
+    const auto first = at.place.numbers.begin() + at.offset;
+    const std::vector<ir::Operand> to(first, first + ptrdiff_t(stored.numbers.size()));
+    const bool is_private = computed_.contains(id) && uses_[id].count == 1;
+    if (!is_private || !retarget(to, stored.numbers, out)) assign(to, stored.numbers, out);
+  } else if (stored.is_array) {
+    copy(at.place, stored, out);
+  } else {
+    for (uint32_t i = 0; i < stored.numbers.size(); ++i) {
+      const ir::Operand address = !at.is_dynamic ? whole(at.offset + i)
+                                  : i == 0       ? at.address
+                                                 : apply(out, ir::Op::whole_add, at.address, whole(i));
+      out.push_back({ir::Instruction{
+          .op = ir::Op::store, .from = {address, stored.numbers[i]}, .array = at.place.array}});
+    }
+  }
+}
+
+void FunctionLowering::lower_call(const Instruction& instruction, ir::Block& out) {
+  const uint32_t number = numbers_.at(instruction.words[0]);
+  const std::vector<ir::Parameter>& parameters = program_.functions[number].parameters;
+  ir::Call call{number, {}, {}};
+  std::vector<std::pair<ir::Place, ir::Place>> back;  // to, from
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    const uint32_t id = instruction.words[i + 1];
+    const bool by_pointer = module_.type_of(id).op == spv::OpTypePointer;
+    ir::Place given = by_pointer ? pointer(id).place : value(id);
+    // Where one side keeps numbers and the other an array, a copy of the other's kind goes in, and back.
+    if (given.is_array != parameters[i].place.is_array) {
+      const Type& type = by_pointer ? *pointer(id).type : module_.type_of(id);
+      const ir::Place between = new_place(type, parameters[i].place.is_array);
+      copy(between, given, out);
+      if (parameters[i].written) back.push_back({given, between});
+      given = between;
+    }
+    call.arguments.push_back(std::move(given));
+  }
+  const Type& type = module_.type(instruction.type);
+  if (type.op != spv::OpTypeVoid) call.result = new_place(type, type.op == spv::OpTypeArray);
+  values_[instruction.result] = call.result;
+  out.push_back({std::move(call)});
+  for (const auto& [to, from] : back) copy(to, from, out);
+}
+
+void FunctionLowering::copy(const ir::Place& to, const ir::Place& from, ir::Block& out) {
+  if (to.is_array && from.is_array) {
+    out.push_back({ir::Instruction{.op = ir::Op::copy, .array = to.array, .other = from.array}});
+  } else if (to.is_array) {
+    for (uint32_t i = 0; i < from.numbers.size(); ++i)
+      out.push_back(
+          {ir::Instruction{.op = ir::Op::store, .from = {whole(i), from.numbers[i]}, .array = to.array}});
+  } else if (from.is_array) {
+    for (uint32_t i = 0; i < to.numbers.size(); ++i)
+      out.push_back({ir::Instruction{
+          .op = ir::Op::load, .to = to.numbers[i], .from = {whole(i)}, .array = from.array}});
+  } else {
+    assign(to.numbers, from.numbers, out);
+  }
+}
+
+// All at once: what is overwritten before it is read is kept aside.
+void FunctionLowering::assign(const std::vector<ir::Operand>& to, std::vector<ir::Operand> from,
+                              ir::Block& out) {
+  const auto move = [&](ir::Operand into, ir::Operand source) {
+    if (into != source) out.push_back({ir::Instruction{.op = ir::Op::move, .to = into, .from = {source}}});
+  };
+  for (size_t i = 0; i < from.size(); ++i) {
+    const auto written = std::ranges::find(to.begin(), to.begin() + ptrdiff_t(i), from[i]);
+    if (written == to.begin() + ptrdiff_t(i)) continue;
+    const ir::Operand kept = new_register(type_of(from[i]));
+    move(kept, from[i]);
+    from[i] = kept;
+  }
+  for (size_t i = 0; i < from.size(); ++i) move(to[i], from[i]);
+}
+
+// Lets the last instructions, if they are those that compute `from` and nobody else asks for it, write to
+// `to` at once.
+bool FunctionLowering::retarget(const std::vector<ir::Operand>& to, const std::vector<ir::Operand>& from,
+                                ir::Block& out) const {
+  if (out.size() < from.size()) return false;
+  const size_t first = out.size() - from.size();
+  for (size_t i = 0; i < from.size(); ++i) {
+    const auto* instruction = std::get_if<ir::Instruction>(&out[first + i].what);
+    if (!instruction || instruction->op == ir::Op::store || instruction->op == ir::Op::clear ||
+        instruction->op == ir::Op::copy || instruction->to != from[i] || from[i] < 0)
+      return false;
+    for (size_t k = 0; k < i; ++k)
+      if (std::ranges::find(instruction->from, to[k]) != instruction->from.end()) return false;
+  }
+  for (size_t i = 0; i < from.size(); ++i) std::get<ir::Instruction>(out[first + i].what).to = to[i];
+  return true;
+}
+
+}  // namespace eyeray::formula

@@ -1,0 +1,66 @@
+// Runs a formula on the CPU. Nothing of it is machine code: an interpreter goes through a list of
+// instructions that name numbers in a file of its own, so that whatever the formula says it can reach nothing
+// else. Private to this layer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "formula/ir.hpp"
+
+namespace eyeray::formula {
+
+class Machine {
+ public:
+  // `function`: of the program, of a vec3; limit() must have found nothing.
+  Machine(const ir::Program& program, uint32_t function);
+
+  // The numbers that the function gives: one, or three. In float32 by the shaders' own functions
+  // (formula.glsl), so that the bits are a kernel's; in float64 by those of C's library. False where loops
+  // that are counted make more turns than FORMULA_TURNS; `turns`, if given, grows by those made. Thread-safe.
+  bool run(const std::array<float, 3>& p, float* result, uint64_t* turns = nullptr) const;
+  bool run(const std::array<double, 3>& p, double* result, uint64_t* turns = nullptr) const;
+
+ private:
+  friend class Assembler;
+
+  // What an instruction does, beside ir::Op's.
+  enum Control : uint16_t {
+    jump = 256,
+    jump_if,
+    jump_unless,
+    turn,
+    end,
+    move_real,
+    select_real,
+    load_real,
+    store_real,
+    clear_real,
+    copy_real
+  };
+  // Numbers are named by their place in the file of floats or in that of whole numbers and truths. An array
+  // is `length` of them from `array` on.
+  struct Code {
+    uint16_t op;
+    uint32_t to = 0;
+    std::array<uint32_t, 3> from{};
+    uint32_t array = 0, length = 0;
+  };
+  template <typename T>
+  struct Files;
+
+  template <typename T>
+  bool run_as(const std::array<T, 3>& p, T* result, uint64_t* turns) const;
+
+  uint64_t id_;  // no other machine's
+  std::vector<Code> code_;
+  std::vector<float> reals_;  // constants, with which the file of floats begins
+  std::vector<uint32_t> wholes_;
+  size_t real_count_ = 0, whole_count_ = 0;
+  uint32_t input_ = 0;             // the first of three floats
+  std::vector<uint32_t> results_;  // floats
+};
+
+}  // namespace eyeray::formula

@@ -1,0 +1,280 @@
+#include "formula/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <optional>
+#include <set>
+
+#include "core/diagnostic.hpp"
+#include "formula/vocabulary.hpp"
+
+namespace eyeray::formula {
+
+namespace {
+
+// A compiler that recurses, recurses no deeper than these allow; the largest takes it a fraction of a second.
+constexpr size_t most_bytes = size_t{1} << 16;
+constexpr size_t most_nesting = 64;
+constexpr size_t most_links = 500;
+constexpr size_t most_elements = 1024;
+constexpr size_t most_functions = 256;
+// Of comparisons of arrays, each of which is written out element by element.
+constexpr size_t most_compared = size_t{1} << 15;
+
+class Judge {
+ public:
+  Judge(Text& text, std::vector<Fault>& faults) : t_(text), faults_(faults) {}
+
+  void run() {
+    if (!pair_brackets()) return;
+    find_functions();
+    for (size_t i = 0; i < t_.tokens.size(); ++i)
+      if (t_.tokens[i].kind == Token::Kind::word) t_.is_name[i] = judge_word(i);
+    judge_arrays();
+    judge_chains();
+    judge_globals();
+    judge_entries();
+  }
+
+ private:
+  static constexpr size_t none = size_t(-1);
+  struct Function {
+    size_t type;  // token; the name and the parenthesis follow
+    bool defined;
+  };
+
+  bool is(size_t i, std::string_view what) const { return i < t_.tokens.size() && t_.tokens[i].is(what); }
+  bool is_word(size_t i) const { return i < t_.tokens.size() && t_.tokens[i].kind == Token::Kind::word; }
+  bool type_at(size_t i) const { return is_word(i) && is_type(text(i)); }
+  const std::string& text(size_t i) const { return t_.tokens[i].text; }
+  // if, else, for, while: a statement follows that is part of this one.
+  bool chains(size_t i) const { return is(i, "if") || is(i, "else") || is(i, "for") || is(i, "while"); }
+  bool opens(size_t i) const { return is(i, "(") || is(i, "[") || is(i, "{"); }
+  void fail(size_t i, std::string message) {
+    faults_.push_back({t_.tokens[i].line, t_.tokens[i].column, std::move(message)});
+  }
+
+  bool pair_brackets();
+  void find_functions();
+  bool judge_word(size_t i);
+  void judge_arrays();
+  std::optional<size_t> size_written_at(size_t i) const;
+  void judge_chains();
+  void judge_globals();
+  void judge_entries();
+  bool defines(std::string_view type, std::string_view name) const;
+
+  Text& t_;
+  std::vector<Fault>& faults_;
+  std::vector<size_t> partner_;  // of each bracket; elsewhere none
+  std::vector<Function> functions_;
+  std::set<std::string, std::less<>> own_;  // their names
+};
+
+bool Judge::pair_brackets() {
+  partner_.resize(t_.tokens.size(), none);
+  std::vector<size_t> open;
+  for (size_t i = 0; i < t_.tokens.size(); ++i) {
+    if (t_.tokens[i].kind != Token::Kind::sign) continue;
+    const char c = text(i)[0];
+    if (c == '(' || c == '[' || c == '{') open.push_back(i);
+    if (open.size() > most_nesting) {
+      fail(i, fmt::format("brackets nest at most {} deep: name a part of it", most_nesting));
+      return false;
+    }
+    if (c != ')' && c != ']' && c != '}') continue;
+    const char wanted = c == ')' ? '(' : c == ']' ? '[' : '{';
+    if (open.empty() || text(open.back())[0] != wanted) {
+      fail(i, fmt::format("this '{}' closes nothing", c));
+      return false;
+    }
+    partner_[i] = open.back();
+    partner_[open.back()] = i;
+    open.pop_back();
+  }
+  if (!open.empty()) fail(open.back(), fmt::format("this '{}' is never closed", text(open.back())));
+  return open.empty();
+}
+
+// TYPE NAME ( … ) at the top level.
+void Judge::find_functions() {
+  for (size_t i = 0; i < t_.tokens.size(); ++i) {
+    if (type_at(i) && is_word(i + 1) && is(i + 2, "(")) {
+      const size_t close = partner_[i + 2];
+      functions_.push_back({i, is(close + 1, "{")});
+      own_.insert(text(i + 1));
+      if (functions_.size() == most_functions + 1)
+        fail(i, fmt::format("a formula has at most {} functions", most_functions));
+      i = close;
+    } else if (opens(i)) {
+      i = partner_[i];
+    }
+  }
+}
+
+// Whether it is a name of the text's own.
+bool Judge::judge_word(size_t i) {
+  const std::string& word = text(i);
+  if (i > 0 && is(i - 1, ".")) {
+    if (!is_swizzle(word)) fail(i, fmt::format("'.{}' is no part of a vector", word));
+    return false;
+  }
+  if (is_type(word) || is_keyword(word)) return false;
+  if (is_refused(word)) {
+    fail(i, fmt::format("'{}' cannot be used in a formula", word));
+    return false;
+  }
+  if (word.starts_with("gl_")) fail(i, fmt::format("'{}' is not known here", word));
+  if (!is(i + 1, "(") || own_.contains(word)) return true;
+  if (is_built_in(word)) return false;
+  std::vector<std::string_view> known(built_in_functions().begin(), built_in_functions().end());
+  known.insert(known.end(), own_.begin(), own_.end());
+  const std::string nearest = nearest_name(word, known);
+  fail(i, fmt::format("there is no function '{}' here{}", word,
+                      nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
+  return false;
+}
+
+// The number [ N ] at i, if it is one that means to everybody the same: decimal, without a leading 0.
+std::optional<size_t> Judge::size_written_at(size_t i) const {
+  if (!is(i + 2, "]") || t_.tokens[i + 1].kind != Token::Kind::integer) return std::nullopt;
+  const std::string& digits = text(i + 1);
+  size_t size = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), size);
+  if (error != std::errc() || end != digits.data() + digits.size() || digits[0] == '0') return std::nullopt;
+  return size <= most_elements ? std::optional(size) : std::nullopt;
+}
+
+// TYPE NAME [ SIZE ], and float[2](1, 2). Comparing arrays takes an instruction an element.
+void Judge::judge_arrays() {
+  size_t largest = 0, comparisons = 0;
+  for (size_t i = 0; i + 1 < t_.tokens.size(); ++i) {
+    comparisons += is(i, "==") || is(i, "!=");
+    if (!type_at(i)) continue;
+    const bool list = is(i + 1, "[");
+    if (!list && !(is_word(i + 1) && is(i + 2, "["))) continue;
+    const size_t open = list ? i + 1 : i + 2, close = partner_[open];
+    if (list && !is(close + 1, "("))
+      fail(i, fmt::format("write the size of an array behind its name: {} name[…]", text(i)));
+    const auto size = size_written_at(open);
+    if (!size && !(list && close == open + 1))
+      fail(open - 1, fmt::format("the size of an array must be a decimal number from 1 to {}, written out",
+                                 most_elements));
+    if (is(close + 1, "[")) fail(close + 1, "arrays of arrays are not known here");
+    // A list without a size has no more elements than tokens.
+    largest = std::max(largest, size.value_or(close == open + 1 ? partner_[close + 1] - close : 0));
+    i = open;
+  }
+  if (largest * comparisons > most_compared)
+    faults_.push_back(
+        {1, 1,
+         fmt::format("arrays of {} and {} comparisons are too much together: compare elements in a loop",
+                     largest, comparisons)});
+}
+
+// How long a chain each statement is, with all that it stands in: a + b + …, if … else if …. Compilers go as
+// deep as that. The parts of a list, as of an argument's, are no chain.
+void Judge::judge_chains() {
+  struct Bracket {
+    size_t links;  // where it was opened
+    bool is_list;
+  };
+  std::vector<Bracket> open;
+  size_t links = 0;
+  for (size_t i = 0; i < t_.tokens.size(); ++i) {
+    const size_t base = open.empty() ? 0 : open.back().links;
+    const char c = text(i)[0];
+    const bool is_sign = t_.tokens[i].kind == Token::Kind::sign;
+    if (opens(i)) {
+      const bool is_call = is(i, "(") && i > 0 && (is(i - 1, "]") || (is_word(i - 1) && !chains(i - 1)));
+      open.push_back({links, is_call});
+    } else if (is_sign && (c == ')' || c == ']')) {
+      links = base;
+      open.pop_back();
+    } else if (is(i, "}")) {
+      open.pop_back();
+      links = is(i + 1, "else") ? base : open.empty() ? 0 : open.back().links;
+    } else if (is(i, ";")) {
+      if (!is(i + 1, "else")) links = base;
+    } else if (is(i, ",") && !open.empty() && open.back().is_list) {
+      links = base;
+    } else if ((is_sign || chains(i)) && ++links == most_links + 1) {
+      fail(i, fmt::format("a statement chains at most {} operators: split it", most_links));
+    }
+  }
+}
+
+// What lies outside of functions and is no constant would make f depend on what it was asked before.
+void Judge::judge_globals() {
+  bool constant = false;
+  for (size_t i = 0; i < t_.tokens.size(); ++i) {
+    if (is(i, "const")) constant = true;
+    if (is(i, ";") || is(i, "}")) constant = false;
+    if (type_at(i) && is_word(i + 1) && !is(i + 2, "(") && !constant)
+      fail(i + 1,
+           fmt::format("'{}' must be const: outside of functions a formula has no variables", text(i + 1)));
+    if (opens(i)) i = partner_[i];
+  }
+}
+
+// Whether there is TYPE NAME(vec3 p) { … }.
+bool Judge::defines(std::string_view type, std::string_view name) const {
+  return std::ranges::any_of(functions_, [&](const Function& function) {
+    size_t i = function.type;
+    if (!function.defined || !is(i, type) || !is(i + 1, name)) return false;
+    const size_t close = partner_[i + 2];
+    for (i += 3; is(i, "const") || is(i, "in");) ++i;
+    return is(i, "vec3") && i + 2 == close;
+  });
+}
+
+void Judge::judge_entries() {
+  t_.has_gradient = defines("vec3", "gradient");
+  if (!defines("float", "f")) faults_.push_back({1, 1, "the text must have a function `float f(vec3 p)`"});
+}
+
+}  // namespace
+
+std::string Text::glsl() const {
+  std::string result;
+  int line = 1;
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    result += tokens[i].line == line ? " " : "";
+    for (; line < tokens[i].line; ++line) result += '\n';
+    if (is_name[i]) result += user_prefix;
+    result += tokens[i].text;
+  }
+  return result + '\n';
+}
+
+std::vector<Text::Place> Text::places() const {
+  std::vector<Place> places;
+  int line = 0, column = 1;
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    if (tokens[i].line != line)
+      column = tokens[i].line == 1 ? 2 : 1;
+    else
+      column += 1;
+    line = tokens[i].line;
+    places.push_back({line, column, tokens[i].column});
+    column += int(tokens[i].text.size() + (is_name[i] ? user_prefix.size() : 0));
+  }
+  return places;
+}
+
+Text read_text(std::string_view text, std::vector<Fault>& faults) {
+  Text result;
+  if (text.size() > most_bytes) {
+    faults.push_back({1, 1, fmt::format("a formula has at most {} bytes", most_bytes)});
+    return result;
+  }
+  result.tokens = tokenize(text, faults);
+  result.is_name.resize(result.tokens.size(), false);
+  Judge(result, faults).run();
+  return result;
+}
+
+}  // namespace eyeray::formula

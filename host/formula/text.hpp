@@ -1,0 +1,38 @@
+// The text of a formula before any compiler sees it: its tokens, judged by what may be said and by how much
+// of it. Private to this layer.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formula/fault.hpp"
+#include "formula/token.hpp"
+
+namespace eyeray::formula {
+
+// Before every name of a user's in what the compiler is given, so that none is one of GLSL's.
+inline constexpr std::string_view user_prefix = "user_";
+
+struct Text {
+  std::vector<Token> tokens;
+  std::vector<bool> is_name;  // of the text's own, for each token
+  bool has_gradient = false;  // whether it defines `vec3 gradient(vec3 p)`
+
+  // Where a token of glsl() stands in the text; both from 1.
+  struct Place {
+    int line, column;
+    int source_column;
+  };
+  // What a compiler is given: the tokens alone, each on its own line of the text, with user_prefix before
+  // each name. Comments, line continuations and whatever else two readers might read in two ways are gone.
+  std::string glsl() const;
+  std::vector<Place> places() const;
+};
+
+// Adds to `faults` what is wrong with the text, each at its place. Without faults a compiler may see it: it
+// is of at most 64 KiB, nests at most 64 deep, chains at most 500 operators, and has only words that formulas
+// know.
+Text read_text(std::string_view text, std::vector<Fault>& faults);
+
+}  // namespace eyeray::formula

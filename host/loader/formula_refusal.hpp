@@ -1,0 +1,13 @@
+// Scenes that may bring no functions of their own. Private to the loader.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include "scene/diagnostic_log.hpp"
+
+namespace eyeray {
+
+// An error at each `code` and `file` of an [[implicit]], wherever it stands; before any of them is read.
+void refuse_formulas(const toml::table& root, DiagnosticLog& log);
+
+}  // namespace eyeray

@@ -1,0 +1,152 @@
+// Texts that want to harm: each is refused at its place, or does what GLSL says and no more.
+#include <fmt/format.h>
+
+#include "formula/formula.hpp"
+//
+#include "support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+std::string times(int count, const std::string& text) {
+  std::string all;
+  for (int i = 0; i < count; ++i) all += text;
+  return all;
+}
+
+// Why the text is refused; "" where it is not.
+std::string refusal(const std::string& text) {
+  try {
+    const Formula formula({text, {"f.glsl", 1, 1}}, {}, "it");
+  } catch (const InputError& error) {
+    CHECK(error.diagnostics()[0].position.line >= 1);
+    return error.diagnostics()[0].message;
+  }
+  return "";
+}
+std::string refusal_of_f(const std::string& body) {
+  return refusal("float f(vec3 p) {\n" + body + "\n}\n");
+}
+
+bool is_endless(const std::string& body) {
+  const Formula formula({"float f(vec3 p) {\n" + body + "\n}\n", {"f.glsl", 1, 1}}, {}, "it");
+  CHECK(formula.loops());
+  try {
+    (void)formula.value(std::array{0.5f, 0.5f, 0.5f});
+  } catch (const Error& error) {
+    return error.code() == ExitCode::timed_out;
+  }
+  return false;
+}
+
+const std::string too_long_a_chain = "a statement chains at most 500 operators: split it";
+const std::string odd_size = "the size of an array must be a decimal number from 1 to 1024, written out";
+
+}  // namespace
+
+TEST_CASE("an array has the size that everybody reads, or none") {
+  for (const std::string size :
+       {"0100", "0x10", "1u", "0", "1025", "4 + 4", "99999999999999999999", "-1", "n"}) {
+    CAPTURE(size);
+    CHECK(refusal_of_f("const int n = 4; int a[" + size + "]; return p.x;") == odd_size);
+  }
+  CHECK(refusal_of_f("int a[64]; return p.x;") == "");
+  CHECK(refusal_of_f("float a[2][2]; return p.x;") == "arrays of arrays are not known here");
+}
+
+TEST_CASE("a loop whose counter is written to in any way ends, by the count of its turns") {
+  for (const std::string store : {"i &= 0;", "i %= 1;", "(i) = 0;", "i |= 0; i = 0;", "i ^= i;", "i--;",
+                                  "int k = i; i -= k;", "i <<= 31;", "i >>= 31;"}) {
+    CAPTURE(store);
+    CHECK(is_endless("for (int i = 0; i < 10; i++) { " + store + " p.y += p.x; }\nreturn p.y;"));
+  }
+  CHECK(is_endless("vec2 v = vec2(0.0); for (int i = 0; i < 10; v.yx = v + 1.0) p.y += p.x;\nreturn p.y;"));
+  CHECK(is_endless("while (true) { if (p.x > 9.0) break; }\nreturn p.y;"));
+  CHECK(is_endless("for (int i = 0; i <= 2147483647; i++) p.y += p.x;\nreturn p.y;"));
+}
+
+TEST_CASE("calls are counted as what they come to") {
+  std::string chain = "float g0(float x) { return sin(x); }\n";
+  for (int i = 1; i < 40; ++i)
+    chain += fmt::format(
+        "float g{0}(float x) {{ return g{1}(x) + g{1}(x + 1.0) + g{1}(x + 2.0) + g{1}(x + 3.0); }}\n", i,
+        i - 1);
+  CHECK(refusal(chain + "float f(vec3 p) { return g39(p.x); }\n").find("instructions, and may have 16384") !=
+        std::string::npos);
+  CHECK(refusal("float g(float x);\nfloat h(float x) { return g(x); }\nfloat g(float x) { return h(x); "
+                "}\nfloat f(vec3 p) { return g(p.x); }\n") != "");
+  CHECK(refusal(times(300, "float g(float x);\n") + "float f(vec3 p) { return p.x; }\n") ==
+        "a formula has at most 256 functions");
+}
+
+TEST_CASE("what is too long or too deep is refused before a compiler sees it") {
+  CHECK(refusal_of_f("return p.x" + times(30000, "+1") + ";") == too_long_a_chain);
+  CHECK(refusal_of_f("float x; x = 0." + times(30000, ",1") + "; return x;") == too_long_a_chain);
+  CHECK(refusal_of_f("vec2 v = p.xy" + times(15000, ".xy") + "; return v.x;") == too_long_a_chain);
+  CHECK(refusal_of_f("return " + times(30000, "- ") + "p.x;") == too_long_a_chain);
+  CHECK(refusal_of_f("return p.x > 0. ? 1. : " + times(6000, "p.x>0.?1.:") + "0.;") == too_long_a_chain);
+  CHECK(refusal_of_f(times(6000, "if(p.x>0.)") + ";return 0.;") == too_long_a_chain);
+  CHECK(refusal_of_f(times(4000, "if(p.x>.0);else ") + ";return 0.;") == too_long_a_chain);
+  CHECK(refusal_of_f(times(3500, "if(p.x>.0){}else ") + ";return 0.;") == too_long_a_chain);
+  CHECK(refusal_of_f("return " + times(20000, "(") + "p.x" + times(20000, ")") + ";") ==
+        "brackets nest at most 64 deep: name a part of it");
+  CHECK(refusal_of_f(times(20000, "{") + times(20000, "}") + "return p.x;") ==
+        "brackets nest at most 64 deep: name a part of it");
+  CHECK(refusal_of_f(times(1500, "for(int i=0;i<2;i++)p.x+=1.;\n") + "return p.x;")
+            .find("branches and loops, and may have 256") != std::string::npos);
+  CHECK(refusal_of_f(times(1000, "if(p.x>1.)p.x-=.5;\n") + "return p.x;")
+            .find("branches and loops, and may have 256") != std::string::npos);
+  CHECK(refusal_of_f(times(60, "vec4 a[1024];a[int(p.x)]=vec4(1.);p.x+=a[int(p.y)].x;{") + times(60, "}") +
+                     "return p.x;")
+            .find("numbers in arrays, and may have 8192") != std::string::npos);
+  CHECK(refusal_of_f("vec4 a[1024], b[1024];" + times(3000, "a==b;") + "return p.x;")
+            .find("arrays of 1024 and 3000 comparisons are too much together") != std::string::npos);
+  // What a person writes is far from that.
+  CHECK(refusal_of_f("float s = 0.0;\n" + times(200, "s += sin(p.x * 3.0) * (p.y - 2.0) + s / 3.0;\n") +
+                     "return s;") == "");
+  std::string table = "const vec4 t[1000] = vec4[1000](";
+  for (int i = 0; i < 1000; ++i) table += fmt::format("{}vec4(-{}.5, 1.0 + 2.0, .5, 1)", i ? "," : "", i);
+  CHECK(refusal(table + ");\nfloat f(vec3 p) { return t[int(p.x)].y; }\n") == "");
+}
+
+TEST_CASE("nobody can read two functions out of one text") {
+  CHECK(refusal_of_f("// \\\nreturn 1.0;\nreturn dot(p, p) - 0.64;") ==
+        "a comment must not end in a backslash: to GLSL the next line would be part of it");
+  CHECK(refusal_of_f("// \\\r\nreturn 1.0;") ==
+        "a comment must not end in a backslash: to GLSL the next line would be part of it");
+  CHECK(refusal_of_f("return p.x; // \\\n#define p q\n;") != "");
+  CHECK(refusal_of_f("ret\\\nurn p.x;") == "'\\' has no meaning in a formula");
+  CHECK(refusal_of_f("/* \\\n*/ return p.x; // a \\ b") == "");
+  CHECK(refusal_of_f("return p.x; }\n#include \"math.glsl\"\nfloat g() { return 1.0;") ==
+        "a formula has no preprocessor: write a const or a function");
+}
+
+TEST_CASE("indices reach nothing beyond their arrays") {
+  const Formula formula(
+      {"float f(vec3 p) {\n  int a[64]; float b[3]; for (int i = 0; i < 3; i++) b[i] = float(i);\n"
+       "  for (int i = -1000; i < 1000; i++) a[i * int(p.x)] = 0x41414141;\n"
+       "  b[int(p.y)] = 7.0;\n  return b[0] + b[1] * 10.0 + b[2] * 100.0 + float(a[int(p.z)] - "
+       "0x41414141);\n}\n",
+       {"f.glsl", 1, 1}},
+      {}, "it");
+  for (const float far : {1e9f, -1e9f, 3e38f, -3e38f, 100000.0f})
+    CHECK(formula.value(std::array{far, far, far}) == (far > 0 && far < 2e9f ? 710.0f : 217.0f));
+}
+
+TEST_CASE("what is enclosed is no longer than drivers compile in seconds") {
+  const auto why = [](int terms) -> std::string {
+    const Formula formula(
+        {"float f(vec3 p) {\n float s = p.x;\n" + times(terms, "s = s * p.y + 0.5;\n") + "return s;\n}\n",
+         {"f.glsl", 1, 1}},
+        {}, "it");
+    try {
+      return formula.straight_line().size() > 100 ? "" : "too short";
+    } catch (const InputError& error) {
+      return error.diagnostics()[0].message;
+    }
+  };
+  CHECK(why(200) == "");
+  CHECK(why(400).starts_with("without loops, calls and branches the function has 80"));
+  CHECK(why(400).ends_with("and may have 512; so no interval can be computed for it: declare a `lipschitz`"));
+}
