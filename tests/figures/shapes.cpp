@@ -12,7 +12,6 @@
 #include "core/parallel_for.hpp"
 #include "makers.hpp"
 #include "reference/crossings.hpp"
-#include "render/formula_check.hpp"
 #include "shapes/make.hpp"
 #include "support/random.hpp"
 #include "twin/shader_functions.hpp"
@@ -41,8 +40,6 @@ struct Sample {
     Packer packer(Vec3(0));
     shape->pack(packer);
     scene = std::move(packer.scene);
-    for (PackedFormula& formula : scene.formulas)
-      if (formula.enclosed) formula.line = enclose_formula(*formula.formula);
     const Bounds bounds = shape->bounds();
     center = (bounds.min + bounds.max) * 0.5;
     radius = glm::length(bounds.max - bounds.min) * 0.5;

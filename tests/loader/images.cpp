@@ -129,8 +129,7 @@ TEST_CASE("images stay in the scene's folder tree, unless others are allowed") {
                                 " lies outside the scene's folder; --allow-path DIR allows other ones\n"
                                 "  diffuse = { image = '" +
                                 name + "' }\n                      ^");
-    const fs::path allowed = folder.path();
-    CHECK(load_scene(scene, {}, {&allowed, 1}).materials.size() == 1);
+    CHECK(load_scene(scene, {}, {.folders = {folder.path()}}).materials.size() == 1);
   }
 }
 
