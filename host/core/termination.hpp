@@ -10,10 +10,11 @@
 
 namespace eyeray {
 
-// Starts the watch; main calls it, once, and so does a forked child that is to have one. SIGINT, SIGTERM and SIGHUP (unless that is ignored, as under nohup)
-// then end the process from whatever state it is in, UnfinishedFiles removed; a second one does so even while
-// something is saved. Signals within a tenth of a second are one: timeout(1) sends its signal to the process
-// and then to the group. `report` is told why, by the watching thread, if standard output and error take it.
+// Starts the watch; main calls it, once, and so does a forked child that is to have one. SIGINT, SIGTERM and
+// SIGHUP (unless that is ignored, as under nohup) then end the process from whatever state it is in,
+// UnfinishedFiles removed; a second one does so even while something is saved. Signals within a tenth of a
+// second are one: timeout(1) sends its signal to the process and then to the group. `report` is told why, by
+// the watching thread, if standard output and error take it.
 void watch_for_termination(std::function<void(const Error&)> report);
 
 // Whether a signal has asked to stop. Safe from any thread.
