@@ -49,7 +49,8 @@ float exp_negative(float x) {
   p = p * r + 1.6666665459e-1f;
   p = p * r + 5.0000001201e-1f;
   p = (p * (r * r) + r) + 1.0f;
-  float y = p * uintBitsToFloat(uint(int(k) + 127) << 23u);
+  // What is not a number stays that by p, and is no exponent.
+  float y = p * uintBitsToFloat(uint(int(maximum(-127.0f, k)) + 127) << 23u);
   return x < -87.0f ? 0.0f : y;
 }
 
