@@ -1,6 +1,8 @@
 // Solids against numbers worked out by hand.
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "formula/formula.hpp"
 #include "reference/media.hpp"
 #include "scenes.hpp"
@@ -143,18 +145,20 @@ TEST_CASE("what a formula bounds: each crossing once, alternating, with a Lipsch
                    lipschitz};
     return make_implicit(std::move(use), false);
   };
+  const float turn = 6.283185307179586f;  // as the formula has it
+  const double sixth = std::numbers::pi / 3 / double(turn);
   for (const double lipschitz : {6.3, 0.0}) {
     CAPTURE(lipschitz);
     const std::vector<double> found = ends(*sheets(lipschitz), along_x);
-    const std::vector<double> expected{8.5,          9 - 1.0 / 6,  9 + 1.0 / 6,
-                                       10 - 1.0 / 6, 10 + 1.0 / 6, 11 - 1.0 / 6};
+    const std::vector<double> expected{8.5,        10 - 7 * sixth, 10 - 5 * sixth,
+                                       10 - sixth, 10 + sixth,     10 + 5 * sixth};
     REQUIRE(found.size() == expected.size());
     for (size_t i = 0; i < found.size(); ++i) CHECK(near(found[i], expected[i], 1e-12));
     // Less a ball, whose surface is seen where it cuts a sheet.
     const auto cut = make_solid(false, shapes(sheets(lipschitz)), shapes(make_sphere({-0.3, 0, 0}, 0.3)));
     const std::vector<double> left = ends(*cut, along_x);
     REQUIRE(left.size() == 6);
-    CHECK(near(left[2], 9 + 1.0 / 6, 1e-12));
+    CHECK(near(left[2], 10 - 5 * sixth, 1e-12));
     CHECK(near(left[3], 9.4, 1e-12));
     CHECK(near(struck(*cut, {{0, 0, 0}, {-1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-9));
   }
