@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -141,6 +142,11 @@ Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std
     : text_(std::move(text)), parameters_(std::move(parameters)), title_(std::move(title)) {
   std::vector<Fault> faults;
   formula::Text judged = formula::read_text(text_.text, faults);
+  for (const FormulaParameter& parameter : parameters_)
+    for (const double value : parameter.values)
+      if (!std::isfinite(float(value)))
+        faults.push_back(
+            {1, 1, fmt::format("the parameter `{}` = {:g} is beyond float32", parameter.name, value)});
   if (faults.empty()) {
     try {
       compiled_ = compiled(judged, parameters_, faults);

@@ -184,14 +184,14 @@ void FunctionLowering::walk(uint32_t label, uint32_t stop, ir::Block& out) {
     const bool enters = block.merge != 0 && (loops_.empty() || loops_.back().header != label);
     if (!enters) {
       walk_instructions(block, out);
-      if (!walk_branch(block, stop, label, out)) return;
+      if (!walk_branch(block, label, out)) return;
       continue;
     }
     ir::Loop loop;
     loops_.push_back({label, block.merge, block.next});
     walk_instructions(block, loop.body);
     uint32_t after = 0;
-    if (walk_branch(block, 0, after, loop.body)) walk(after, 0, loop.body);
+    if (walk_branch(block, after, loop.body)) walk(after, 0, loop.body);
     if (!loop.body.empty())
       if (const auto* last = std::get_if<ir::Jump>(&loop.body.back().what); last && *last == ir::Jump::next)
         loop.body.pop_back();
@@ -215,7 +215,7 @@ void FunctionLowering::walk_instructions(const Block& block, ir::Block& out) {
 }
 
 // Follows the block's last instruction. Whether it goes on, at `label`.
-bool FunctionLowering::walk_branch(const Block& block, uint32_t stop, uint32_t& label, ir::Block& out) {
+bool FunctionLowering::walk_branch(const Block& block, uint32_t& label, ir::Block& out) {
   const Instruction& last = block.instructions.back();
   const std::vector<uint32_t>& words = last.words;
   switch (last.op) {
@@ -246,7 +246,6 @@ bool FunctionLowering::walk_branch(const Block& block, uint32_t stop, uint32_t& 
     default:
       refuse(last, fmt::format("instruction {} of SPIR-V is not known here", int(last.op)));
   }
-  (void)stop;
 }
 
 void FunctionLowering::give_back(const Instruction& terminator, ir::Block& out) {

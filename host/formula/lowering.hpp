@@ -62,7 +62,7 @@ class FunctionLowering {
   // Blocks in order from `label` until `stop`.
   void walk(uint32_t label, uint32_t stop, ir::Block& out);
   void walk_instructions(const Block& block, ir::Block& out);
-  bool walk_branch(const Block& block, uint32_t stop, uint32_t& label, ir::Block& out);
+  bool walk_branch(const Block& block, uint32_t& label, ir::Block& out);
   bool jump(uint32_t label, ir::Block& out) const;
   void give_back(const Instruction& terminator, ir::Block& out);
 

@@ -94,6 +94,12 @@ TEST_CASE("loops are counted, but those whose few turns are written out") {
   CHECK(counted("while (p.x < 1.0) p.x += 1.0;"));
 }
 
+TEST_CASE("a parameter that no float32 holds is refused") {
+  CHECK(faults_of("float f(vec3 p) { return p.x - r; }", {{"r", {1e300}}}) ==
+        "10:1: the parameter `r` = 1e+300 is beyond float32\n");
+  CHECK(faults_of("float f(vec3 p) { return p.x - r; }", {{"r", {3e38}}}) == "");
+}
+
 TEST_CASE("what the compiler says is said of the text, with its own names") {
   CHECK(faults_of("float f(vec3 p) {\n  return missing + sin(p.x);\n}") ==
         "11:10: 'missing': undeclared identifier\n");
