@@ -185,7 +185,4 @@ struct Program {
   bool counts_turns = false;
 };
 
-// The longest that one call may take in turns of loops that are counted (shaders/formula.glsl).
-inline constexpr uint32_t most_turns = 10000;
-
 }  // namespace eyeray::formula::ir

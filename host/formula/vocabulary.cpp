@@ -6,8 +6,7 @@ namespace eyeray::formula {
 
 namespace {
 
-constexpr std::string_view float_types[] = {"float", "vec2", "vec3", "vec4"};
-constexpr std::string_view other_types[] = {"void", "bool", "int", "uint"};
+constexpr std::string_view types[] = {"void", "bool", "int", "uint", "float", "vec2", "vec3", "vec4"};
 constexpr std::string_view keywords[] = {"if",   "else",  "for",   "while", "break", "continue", "return",
                                          "true", "false", "const", "in",    "out",   "inout"};
 constexpr std::string_view refused[] = {
@@ -32,11 +31,8 @@ bool holds(const List& list, std::string_view word) {
 
 }  // namespace
 
-bool is_float_type(std::string_view word) {
-  return holds(float_types, word);
-}
 bool is_type(std::string_view word) {
-  return is_float_type(word) || holds(other_types, word);
+  return holds(types, word);
 }
 bool is_keyword(std::string_view word) {
   return holds(keywords, word);

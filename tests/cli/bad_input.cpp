@@ -127,29 +127,29 @@ TEST_CASE("an output that cannot be written is refused before rendering") {
 TEST_CASE("what a render reads it does not overwrite, by whatever name") {
   const SceneFolder folder;
   const auto path = [&](const std::string& name) { return std::filesystem::path(folder / name); };
-  std::filesystem::create_directory(path("work"));
-  std::filesystem::copy("tests/core/pictures/rgb.png", path("work/wood.png"));
+  std::filesystem::create_directory(path("art"));
+  std::filesystem::copy("tests/core/pictures/rgb.png", path("art/wood.png"));
   const std::string scene = std::string("include = \"more.hdr\"\n") + small_scene;
-  write_text(path("work/scene.png"),
+  write_text(path("art/scene.png"),
              replaced(scene, "diffuse = [0.8, 0.4, 0.2]", "diffuse = { image = \"wood.png\" }"));
-  write_text(path("work/more.hdr"), "[render]\nmax_depth = 3\n");
-  std::filesystem::create_symlink("work", path("way"));
-  std::filesystem::create_hard_link(path("work/wood.png"), path("same.depth.pfm"));
+  write_text(path("art/more.hdr"), "[render]\nmax_depth = 3\n");
+  std::filesystem::create_symlink("art", path("way"));
+  std::filesystem::create_hard_link(path("art/wood.png"), path("same.depth.pfm"));
   const auto kept = [&] {
-    return read_text(path("work/scene.png")) + read_text(path("work/more.hdr")) +
-           read_text(path("work/wood.png"));
+    return read_text(path("art/scene.png")) + read_text(path("art/more.hdr")) +
+           read_text(path("art/wood.png"));
   };
   const std::string before = kept();
   const auto render = [&](std::vector<std::string> more) {
-    std::vector<std::string> words{"render", folder / "work/scene.png", "--backend", "reference", "-q"};
+    std::vector<std::string> words{"render", folder / "art/scene.png", "--backend", "reference", "-q"};
     words.insert(words.end(), more.begin(), more.end());
     return run_eyeray(words);
   };
   for (const std::vector<std::string>& output :
-       std::vector<std::vector<std::string>>{{"-o", folder / "work/scene.png"},
+       std::vector<std::vector<std::string>>{{"-o", folder / "art/scene.png"},
                                              {"-o", folder / "way/scene.png"},
-                                             {"-o", folder / "way/../work/more.hdr"},
-                                             {"-o", folder / "a.png", "-o", folder / "work/wood.png"},
+                                             {"-o", folder / "way/../art/more.hdr"},
+                                             {"-o", folder / "a.png", "-o", folder / "art/wood.png"},
                                              {"-o", folder / "same.png", "--aov", "depth"}}) {
     const ProcessResult result = render(output);
     CAPTURE(result.err);
@@ -163,9 +163,9 @@ TEST_CASE("what a render reads it does not overwrite, by whatever name") {
                    folder / "way", std::filesystem::absolute(eyeray_binary()).string()});
   CHECK(result.code == 2);
   CHECK(kept() == before);
-  CHECK(render({"-o", folder / "work/fine.png"}).code == 0);
+  CHECK(render({"-o", folder / "art/fine.png"}).code == 0);
 
-  const std::string picture = folder / "work/fine.png";
+  const std::string picture = folder / "art/fine.png";
   const ProcessResult compared = run_eyeray({"compare", picture, picture, "--diff", folder / "way/fine.png"});
   CHECK(compared.code == 2);
   CHECK(compared.err.find("--diff would overwrite it") != std::string::npos);
