@@ -75,7 +75,7 @@ void list_names(const Scene& scene, Inventory& inventory) {
 }
 
 Inventory take_inventory(const Scene& scene) {
-  const PackedScene packed = pack(scene);
+  const PackedScene packed = pack_without_texels(scene);
   Inventory inventory;
   std::vector<uint32_t> kinds;
   for (const auto& shape : scene.shapes)
@@ -94,8 +94,8 @@ Inventory take_inventory(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) inventory.mesh_triangles += mesh.triangles.size();
   inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.nodes) +
                     bytes(packed.trees) + bytes(packed.instances) + bytes(packed.materials) +
-                    bytes(packed.textures) + bytes(packed.texels) + bytes(packed.media) +
-                    bytes(packed.lights) + sizeof(packed.frame);
+                    bytes(packed.textures) + packed.texel_count * sizeof(packed.texels[0]) +
+                    bytes(packed.media) + bytes(packed.lights) + sizeof(packed.frame);
   return inventory;
 }
 

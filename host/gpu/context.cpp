@@ -15,7 +15,7 @@
 namespace eyeray::gpu {
 
 Context::Context(const DeviceOptions& device_options, InstanceOnly)
-    : options(device_options), instance(std::make_unique<Instance>(options.validation)) {}
+    : options(device_options), instance(std::make_unique<Instance>(options)) {}
 
 Context::Context(const DeviceOptions& device_options) : Context(device_options, InstanceOnly{}) {
   choose();
@@ -34,6 +34,7 @@ void Context::choose() {
 }
 
 void Context::create_device() {
+  const ForeignCall driver(options.timeout_seconds, late_start(options.timeout_seconds));
   const QueueFamily family = *compute_queue_family(physical);
   const float priority = 1.0f;
   auto queue_info = make<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);

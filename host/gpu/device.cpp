@@ -6,7 +6,7 @@
 namespace eyeray::gpu {
 
 std::vector<DeviceInfo> list_devices() {
-  const Instance instance("");
+  const Instance instance(DeviceOptions{});
   std::vector<DeviceInfo> devices;
   for (VkPhysicalDevice handle : instance.physical_devices())
     devices.push_back(describe(handle, int(devices.size())));

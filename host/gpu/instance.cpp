@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/memory_shortage.hpp"
+#include "core/termination.hpp"
 
 namespace eyeray::gpu {
 namespace {
@@ -75,7 +76,8 @@ void require_validation_layer() {
 
 }  // namespace
 
-Instance::Instance(const std::string& validation) : Instance() {
+Instance::Instance(const DeviceOptions& options) : Instance(options.timeout_seconds) {
+  const std::string& validation = options.validation;
   if (!validation.empty() && validation != "core" && validation != "sync")
     throw Error(ExitCode::bad_input, "validation is \"core\" or \"sync\", not \"{}\"", validation);
   if (!address_space_left(needed_addresses))
@@ -83,6 +85,7 @@ Instance::Instance(const std::string& validation) : Instance() {
         ExitCode::no_device,
         "Vulkan drivers need a GiB of address space, and less is left: allow more (ulimit -v), or use "
         "--backend twin");
+  const ForeignCall drivers(timeout_seconds_, late_start(timeout_seconds_));
   open_loader();
   if (volkGetInstanceVersion() < VK_API_VERSION_1_1)
     throw Error(ExitCode::no_device, "the Vulkan loader is of version 1.0, eyeray needs 1.1 or later");
@@ -134,6 +137,7 @@ Instance::~Instance() {
 }
 
 std::vector<VkPhysicalDevice> Instance::physical_devices() const {
+  const ForeignCall drivers(timeout_seconds_, late_start(timeout_seconds_));
   uint32_t count = 0;
   const VkResult result = vkEnumeratePhysicalDevices(instance_, &count, nullptr);
   // Mesa's drivers answer INITIALIZATION_FAILED when none of them finds its hardware.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/device.hpp"
 #include "gpu/vulkan.hpp"
 
 namespace eyeray::gpu {
@@ -18,9 +19,10 @@ struct ValidationLog {
 
 class Instance {
  public:
-  // validation: "", "core" or "sync". Error (no_device) that says what to install when there is no loader, no
-  // driver or no validation layer.
-  explicit Instance(const std::string& validation);
+  // Error (no_device) that says what to install when there is no loader, no driver or no validation layer.
+  // Drivers that take longer than the time-out end the process (core/termination.hpp), as in
+  // physical_devices().
+  explicit Instance(const DeviceOptions& options);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
@@ -30,7 +32,10 @@ class Instance {
   std::vector<std::string> validation_messages() const;
 
  private:
-  Instance() = default;  // the public constructor completes it, and cleans up if it cannot
+  // The public constructor completes it, and cleans up if it cannot.
+  explicit Instance(double timeout_seconds) : timeout_seconds_(timeout_seconds) {}
+
+  double timeout_seconds_;
 
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;

@@ -43,6 +43,12 @@ Error failure(VkResult result, std::string_view what) {
   return {ExitCode::no_device, "the Vulkan driver could not {}: {}", what, result_name(result)};
 }
 
+Error late_start(double seconds) {
+  return {ExitCode::timed_out,
+          "the Vulkan driver could not start within {} s: look whether its device hangs, or raise --timeout",
+          seconds};
+}
+
 void check(VkResult result, std::string_view what) {
   if (result != VK_SUCCESS) throw failure(result, what);
 }

@@ -17,7 +17,10 @@ std::string result_name(VkResult result);
 // That `what` was tried, and failed with `result`, as an Error (no_device).
 Error failure(VkResult result, std::string_view what);
 
-// Throws that, unless the result is VK_SUCCESS.
+// That drivers took longer than `seconds` to load or to open a device, as an Error (timed_out).
+Error late_start(double seconds);
+
+// Throws failure(result, what), unless the result is VK_SUCCESS.
 void check(VkResult result, std::string_view what);
 
 // A Vulkan structure with its sType set and everything else zero.

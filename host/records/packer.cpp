@@ -2,7 +2,9 @@
 
 #include <bit>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "core/srgb.hpp"
@@ -29,6 +31,10 @@ uint32_t image_flags(const ImageTexture& image) {
          wrap_code(image.wrap_u) << IMAGE_WRAP_U_SHIFT | wrap_code(image.wrap_v) << IMAGE_WRAP_V_SHIFT;
 }
 
+size_t hash_bytes(std::span<const std::byte> bytes) {
+  return std::hash<std::string_view>{}({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
 }  // namespace
 
 uint32_t Packer::add_vertices(std::span<const shader::uvec4> data) {
@@ -51,31 +57,43 @@ uint32_t Packer::add_medium(double ior, const Vec3& absorption) {
   return uint32_t(scene.media.size() - 1);
 }
 
-uint32_t Packer::add_image(const std::shared_ptr<const ImageTexture>& shared) {
-  const ImageTexture& image = *shared;
-  for (const auto& [known, first] : images_)
-    if (known == shared || known->texels == image.texels) return first;
-
-  // The tables of the two colour spaces stand before the first image.
-  if (scene.texels.empty()) {
-    for (const bool srgb : {true, false})
-      for (int code = 0; code < 256; ++code) {
-        const double value = srgb ? linear_from_srgb(code / 255.0) : code / 255.0;
-        scene.texels.push_back(std::bit_cast<uint32_t>(float(value)));
-      }
-    CHECK_EQ(scene.texels.size(), size_t{TEXELS_FIRST});
+uint32_t Packer::add_image(const std::shared_ptr<const ImageTexture>& image) {
+  const auto& texels = image->texels;
+  const size_t hash = hash_bytes(std::as_bytes(std::span(texels)));
+  const auto [begin, end] = images_by_texels_.equal_range(hash);
+  for (auto known = begin; known != end; ++known) {
+    const PlacedImage& placed = images_[known->second];
+    if (placed.image == image || placed.image->texels == texels) return placed.first;
   }
-  CHECK_EQ(image.texels.size(), size_t(image.width) * size_t(image.height));
-  const size_t first = scene.texels.size();
-  if (first + image.texels.size() > std::numeric_limits<uint32_t>::max())
+
+  CHECK_EQ(texels.size(), size_t(image->width) * size_t(image->height));
+  const size_t first = std::max(scene.texel_count, size_t{TEXELS_FIRST});
+  if (first + texels.size() > std::numeric_limits<uint32_t>::max())
     throw Error(ExitCode::bad_input, "the scene's images have more than {} pixels together",
                 std::numeric_limits<uint32_t>::max() - TEXELS_FIRST);
-  scene.texels.reserve(first + image.texels.size());
-  for (const auto& [red, green, blue, alpha] : image.texels)
-    scene.texels.push_back(uint32_t(red) | uint32_t(green) << 8 | uint32_t(blue) << 16 |
-                           uint32_t(alpha) << 24);
-  images_.emplace_back(shared, uint32_t(first));
+  scene.texel_count = first + texels.size();
+  images_by_texels_.emplace(hash, images_.size());
+  images_.push_back({image, uint32_t(first)});
   return uint32_t(first);
+}
+
+void Packer::write_texels() {
+  if (images_.empty()) return;
+  scene.texels.reserve(scene.texel_count);
+
+  // The tables of the two colour spaces stand before the first image.
+  for (const bool srgb : {true, false})
+    for (int code = 0; code < 256; ++code) {
+      const double value = srgb ? linear_from_srgb(code / 255.0) : code / 255.0;
+      scene.texels.push_back(std::bit_cast<uint32_t>(float(value)));
+    }
+  for (const auto& [image, first] : images_) {
+    CHECK_EQ(scene.texels.size(), size_t{first});
+    for (const auto& [red, green, blue, alpha] : image->texels)
+      scene.texels.push_back(uint32_t(red) | uint32_t(green) << 8 | uint32_t(blue) << 16 |
+                             uint32_t(alpha) << 24);
+  }
+  CHECK_EQ(scene.texels.size(), scene.texel_count);
 }
 
 uint32_t Packer::add_texture(const Texture& texture) {
@@ -93,8 +111,12 @@ uint32_t Packer::add_texture(const Texture& texture) {
     record.image = {uint32_t(image.width), uint32_t(image.height), add_image(texture.image),
                     image_flags(image)};
   }
-  for (size_t i = 0; i < scene.textures.size(); ++i)
-    if (std::memcmp(&scene.textures[i], &record, sizeof record) == 0) return uint32_t(i);
+  const size_t hash = hash_bytes(std::as_bytes(std::span(&record, 1)));
+  const auto [begin, end] = textures_by_bytes_.equal_range(hash);
+  for (auto known = begin; known != end; ++known)
+    if (std::memcmp(&scene.textures[known->second], &record, sizeof record) == 0)
+      return uint32_t(known->second);
+  textures_by_bytes_.emplace(hash, scene.textures.size());
   scene.textures.push_back(record);
   return uint32_t(scene.textures.size() - 1);
 }

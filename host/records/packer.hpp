@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -52,7 +53,8 @@ struct PackedScene {
   bool steps_may_run_out = false;       // whether any shape may return T_RAN_OUT
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
-  std::vector<uint32_t> texels;                                   // records.h says how; empty without images
+  size_t texel_count = 0;        // of `texels`, written or not; 0 without images
+  std::vector<uint32_t> texels;  // records.h says how
   std::vector<shader::Medium> media{{shader::vec4(0, 0, 0, 1)}};  // by number; 0 is the vacuum
   std::vector<shader::Light> lights;
   shader::Frame frame{};
@@ -90,8 +92,10 @@ class Packer {
   // The index of a texture; equal textures share one.
   uint32_t add_texture(const Texture& texture);
   // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there
-  // are more than an index can tell apart.
+  // are more than an index can tell apart. Counts them alone: write_texels() writes.
   uint32_t add_image(const std::shared_ptr<const ImageTexture>& image);
+  // Writes the texels of all images: a second copy of them, which only executors need.
+  void write_texels();
   // The number of a formula; equal formulas share one. `enclosed`: rays find its surface by enclosures.
   uint32_t add_formula(const std::shared_ptr<const Formula>& formula, bool enclosed);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
@@ -102,9 +106,16 @@ class Packer {
       pieces;  // of the shape that is being packed, in the world; empty where it is one primitive
 
  private:
+  struct PlacedImage {
+    std::shared_ptr<const ImageTexture> image;
+    uint32_t first;  // of its texels
+  };
+
   Vec3 origin_;
-  std::vector<std::pair<std::shared_ptr<const ImageTexture>, uint32_t>>
-      images_;  // and the first texel of each
+  std::vector<PlacedImage> images_;
+  // By the hash of what is to be shared: places in images_, and in scene.textures.
+  std::unordered_multimap<size_t, size_t> images_by_texels_;
+  std::unordered_multimap<size_t, size_t> textures_by_bytes_;
 };
 
 inline uint32_t kind_of(const shader::Primitive& primitive) {

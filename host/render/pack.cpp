@@ -55,9 +55,7 @@ shader::Frame pack_frame(const Scene& scene, const PackedScene& packed) {
   return frame;
 }
 
-}  // namespace
-
-PackedScene pack(const Scene& scene, const PackOptions& options) {
+Packer pack_records(const Scene& scene, const PackOptions& options) {
   Packer packer(scene.camera.eye);
   for (const auto& material : scene.materials) {
     material->pack(packer);
@@ -66,7 +64,19 @@ PackedScene pack(const Scene& scene, const PackOptions& options) {
   pack_geometry(scene, options, packer);
   for (const Light& light : scene.lights) packer.scene.lights.push_back(pack_light(light, packer));
   packer.scene.frame = pack_frame(scene, packer.scene);
+  return packer;
+}
+
+}  // namespace
+
+PackedScene pack(const Scene& scene, const PackOptions& options) {
+  Packer packer = pack_records(scene, options);
+  packer.write_texels();
   return std::move(packer.scene);
+}
+
+PackedScene pack_without_texels(const Scene& scene) {
+  return pack_records(scene, {}).scene;
 }
 
 }  // namespace eyeray

@@ -108,7 +108,7 @@ std::string looks_as_constants(const PackedScene& scene, const std::set<uint32_t
                      constant_loader("Texture", "texture", scene.textures) +
                      constant_loader("Medium", "medium", scene.media) +
                      constant_loader("Light", "light", scene.lights) + "#define LOOKS_AS_CONSTANTS\n";
-  if (!scene.texels.empty()) return text;
+  if (scene.texel_count > 0) return text;
   text += "#define SCENE_MATERIALS(X)";
   for (const uint32_t i : materials_used) {
     const auto row = std::ranges::find(materials, scene.materials[i].head.x, &Row::number);
@@ -233,7 +233,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   take_note(scene.leaf_uses, leaves_used);
   const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
                                    [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
-  const bool images = !scene.texels.empty();
+  const bool images = scene.texel_count > 0;
   const bool media = scene.media.size() > 1;
   const bool absorption = std::any_of(scene.media.begin(), scene.media.end(), [](const shader::Medium& m) {
     return glm::vec3(m.absorption_ior) != glm::vec3(0);

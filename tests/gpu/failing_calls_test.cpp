@@ -128,7 +128,7 @@ std::vector<int> count_calls(bool staging) {
 // Single-threaded, so that it may fork, and with the libraries loaded that take each process long.
 void test::fail_every_call() {
   setenv("EYERAY_VULKAN_LOADER", FAILING_VULKAN, 1);
-  const gpu::Instance warm("");
+  const gpu::Instance warm(gpu::DeviceOptions{});
   const bool all = std::getenv("EYERAY_FULL_TESTS") != nullptr;
   int cases = 0;
   for (const bool staging : {false, true}) {

@@ -39,7 +39,7 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver")
       scene.lights.push_back({});
       scene.textures[0].even.w = TEXTURE_CHECKER;
       scene.textures.emplace_back().even.w = TEXTURE_IMAGE;
-      scene.texels.resize(TEXELS_FIRST);
+      scene.texel_count = TEXELS_FIRST;
       for (const uint32_t material : {0u, 1u, 2u}) {
         scene.materials[0].head.x = material;
         const std::vector<uint32_t> written = test::compile_entry("render.comp.glsl", scene, specialisation);
