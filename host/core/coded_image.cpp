@@ -5,7 +5,6 @@
 #include <memory>
 #include <string_view>
 
-#include "core/error.hpp"
 #include "core/png_rows.hpp"
 
 namespace eyeray {
@@ -35,7 +34,7 @@ struct Free {
 void PixelBudget::take(int width, int height, const std::string& name) {
   const int64_t pixels = int64_t{width} * height;
   if (pixels > left)
-    throw Error(
+    throw TooManyPixels(
         ExitCode::file_io,
         "cannot read {}: it has {}×{} pixels; of the 2^28 that all images of a scene may have together, {} "
         "are left",

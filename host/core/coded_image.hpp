@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace eyeray {
 
 struct CodedImage {
@@ -19,11 +21,16 @@ struct CodedImage {
 inline constexpr int most_coded_side = 16384;                // pixels; hence at most 2^28 of them
 inline constexpr size_t most_coded_bytes = size_t{1} << 30;  // of a file
 
+// That a scene's images have too many pixels.
+class TooManyPixels : public Error {
+  using Error::Error;
+};
+
 // How many pixels the images of one scene may have together; they are counted where they are decoded or
 // copied.
 struct PixelBudget {
   int64_t left = int64_t{1} << 28;  // 1 GiB
-  // Error (file_io) where fewer are left.
+  // TooManyPixels (file_io) where fewer are left.
   void take(int width, int height, const std::string& name);
 };
 

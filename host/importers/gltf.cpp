@@ -82,6 +82,7 @@ class GltfReader {
   void read_mesh(const GltfObject& node, size_t mesh, const Mat4& world);
   void read_camera(const GltfObject& source, const Mat4& world);
   void read_light(const GltfObject& source, const Mat4& world);
+  void read_cone(const GltfObject& light);
   Mat4 transform(const GltfObject& node);
   void check_roots(const std::vector<size_t>& order) const;
 
@@ -264,21 +265,37 @@ void GltfReader::read_camera(const GltfObject& source, const Mat4& world) {
   scene_.camera = camera;
 }
 
+// Of which nothing is taken but its rules.
+void GltfReader::read_cone(const GltfObject& light) {
+  left_out_.add("cones of spot lights (they shine as points)");
+  const auto cone = light.object("spot");
+  const double inner = cone ? cone->number("innerConeAngle", 0) : 0;
+  const double outer = cone ? cone->number("outerConeAngle", std::numbers::pi / 4) : 0;
+  // A quarter turn in float32 is a little more.
+  if (!(inner >= 0 && inner < outer && outer <= std::numbers::pi / 2 + 1e-6))
+    breaches_.add("spot lights without angles that grow from 0 to a quarter turn", light.place());
+}
+
 void GltfReader::read_light(const GltfObject& source, const Mat4& world) {
   const std::string type = source.text("type");
   const std::vector<double> color = source.numbers("color", {1, 1, 1});
+  const double intensity = source.number("intensity", 1);
   Light light;
-  light.intensity = Vec3(color[0], color[1], color[2]) * source.number("intensity", 1) * unit_of_light;
+  light.intensity = Vec3(color[0], color[1], color[2]) * intensity * unit_of_light;
   const bool right =
-      glm::all(glm::greaterThanEqual(light.intensity, Vec3(0))) && magnitude(light.intensity) < 1e12;
+      intensity >= 0 && *std::ranges::min_element(color) >= 0 && magnitude(light.intensity) < 1e12;
   if (!right) source.fail("has an intensity that no light has");
+  if (*std::ranges::max_element(color) > 1)
+    breaches_.add("colours of lights above 1, taken as they are", source.place());
   if (source.has("range")) left_out_.add("ranges of lights");
+  if (source.has("range") && !(source.number("range", 0) > 0))
+    breaches_.add("ranges of lights that are not above 0", source.place());
   if (type == "directional") {
     light.type = LightType::directional;
     light.to_light = unit(Vec3(world[2]));
   } else if (type == "point" || type == "spot") {
     light.position = Vec3(world[3]);
-    if (type == "spot") left_out_.add("cones of spot lights (they shine as points)");
+    if (type == "spot") read_cone(source);
   } else {
     source.fail("has a type that glTF does not know");
   }

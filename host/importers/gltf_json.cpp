@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "importers/json_text.hpp"
 #include "importers/malformed.hpp"
 #include "scene/diagnostic_log.hpp"
 
@@ -11,10 +12,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int deepest = 64;
-// A tree of them takes about 1 GiB.
-constexpr size_t most_values = size_t{1} << 24;
-
 // An integer from 0 that a double holds exactly.
 std::optional<uint64_t> as_count(const Json& json) {
   if (!json.is_number()) return std::nullopt;
@@ -23,34 +20,9 @@ std::optional<uint64_t> as_count(const Json& json) {
   return static_cast<uint64_t>(value);
 }
 
-// Throws where the text has more brackets in each other, or more values, than a tree of it should: copying
-// and destroying one recurse. nlohmann/json could be asked at each value, but then takes time by the square.
-void check_size(std::string_view text, const std::string& file) {
-  int depth = 0;
-  size_t values = 0;
-  for (size_t i = 0; i < text.size(); ++i) {
-    switch (text[i]) {
-      case '"':
-        for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\';
-        break;
-      case '[':
-      case '{':
-        if (++depth > deepest)
-          throw malformed_at(file, text, i, fmt::format("its JSON is nested more than {} deep", deepest));
-        ++values;
-        break;
-      case ']':
-      case '}':
-        --depth;
-        break;
-      case ',':
-        if (++values > most_values)
-          throw malformed_at(file, text, i, fmt::format("its JSON has more than {} values", most_values));
-        break;
-      default:
-        break;
-    }
-  }
+// Whether a reader of glTF 2.0 may read what asks for this version: "MAJOR.MINOR", up to 2.0.
+bool is_readable(std::string_view version) {
+  return version == "2.0" || version.starts_with("1.") || version.starts_with("0.");
 }
 
 }  // namespace
@@ -178,7 +150,7 @@ std::optional<GltfObject> GltfObject::extension(const char* name) const {
 }
 
 Json parse_gltf_json(std::string_view text, const std::string& file) {
-  check_size(text, file);
+  check_json_text(text, file);
   Json json;
   try {
     json = Json::parse(text);
@@ -192,6 +164,10 @@ Json parse_gltf_json(std::string_view text, const std::string& file) {
   const std::string version = asset ? asset->text("version") : "";
   if (!version.starts_with("2."))
     throw malformed(file, fmt::format("it is not glTF 2: its asset.version is \"{}\"", printable(version)));
+  if (asset->has("minVersion") && !is_readable(asset->text("minVersion")))
+    throw malformed(file,
+                    fmt::format("it asks for readers of glTF {}, and this is one of 2.0 (asset.minVersion)",
+                                printable(asset->text("minVersion"))));
   return json;
 }
 

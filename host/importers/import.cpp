@@ -42,7 +42,12 @@ ImportedScene read_mesh_file(MeshFile& file) {
   if (!read) throw malformed(file.name, "a mesh file ends in .obj, .ply, .gltf or .glb");
   if (file.bytes.starts_with("\xff\xfe") || file.bytes.starts_with("\xfe\xff"))
     throw malformed(file.name, "it is text in UTF-16: save it as UTF-8");
-  ImportedScene scene = read(file);
+  ImportedScene scene;
+  try {
+    scene = read(file);
+  } catch (const TooManyPixels& error) {
+    throw malformed(file.name, error.what());
+  }
   drop_empty(scene);
   if (scene.instances.empty()) {
     std::string why = "it has no triangles that could be seen";

@@ -15,6 +15,8 @@ std::shared_ptr<const ImageTexture> TextureFiles::load(
   if (!fresh) return entry->second;
   try {
     entry->second = std::make_shared<const ImageTexture>(decode(budget_));
+  } catch (const TooManyPixels&) {
+    throw;
   } catch (const Error& error) {
     warnings_.push_back(std::string("a picture was left out: ") + error.what());
   }

@@ -18,7 +18,7 @@ class TextureFiles {
   TextureFiles(AssetFiles& assets, PixelBudget& budget, std::vector<std::string>& warnings)
       : assets_(assets), budget_(budget), warnings_(warnings) {}
 
-  // The picture in a file; null, with a warning, where it cannot be had.
+  // The picture in a file; null, with a warning, where it cannot be had. TooManyPixels beyond the budget.
   std::shared_ptr<const ImageTexture> load(const std::string& name);
   // The same for a picture that `decode` makes the first time that `name` is asked for; it may throw Error.
   std::shared_ptr<const ImageTexture> load(const std::string& name,

@@ -76,6 +76,18 @@ std::vector<double> with(std::vector<double> numbers, size_t at, double value) {
   return numbers;
 }
 
+// A light at a node.
+std::function<void(GltfFile&)> light(const Json& json) {
+  return [=](GltfFile& file) {
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {json};
+    file.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  };
+}
+
+const std::string light_at = "extensions.KHR_lights_punctual.lights[0]";
+const std::string spots = "left out: cones of spot lights (they shine as points) (1)";
+const std::string wrong_cone =
+    "; spot lights without angles that grow from 0 to a quarter turn: 1, the first " + light_at;
 const std::string attributes_at = "meshes[0].primitives[0].attributes";
 
 }  // namespace
@@ -195,6 +207,29 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
                                   {"orthographic", {{"xmag", 1}, {"ymag", 1}}}}};
        },
        error + "cameras[0] is both perspective and orthographic"},
+      // Lights.
+      {"a light as it should be", light({{"type", "point"}, {"color", {0.5, 0, 1}}, {"intensity", 0}}), ""},
+      {"an intensity below 0", light({{"type", "point"}, {"intensity", -1}}),
+       error + light_at + " has an intensity that no light has"},
+      {"intensity and colour below 0", light({{"type", "point"}, {"intensity", -1}, {"color", {-1, -1, -1}}}),
+       error + light_at + " has an intensity that no light has"},
+      {"a colour above 1", light({{"type", "point"}, {"color", {2, 1, 1}}}),
+       "colours of lights above 1, taken as they are: 1, the first " + light_at},
+      {"a range of 0", light({{"type", "point"}, {"range", 0}}),
+       "left out: ranges of lights (1); ranges of lights that are not above 0: 1, the first " + light_at},
+      {"a spot as wide as can be",
+       light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0}, {"outerConeAngle", 1.57079637}}}}), spots},
+      {"a spot without a cone", light({{"type", "spot"}}), spots + wrong_cone},
+      {"a cone that is wider inside",
+       light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.4}}}}),
+       spots + wrong_cone},
+      {"a cone beyond a quarter turn", light({{"type", "spot"}, {"spot", {{"outerConeAngle", 2}}}}),
+       spots + wrong_cone},
+      {"a cone below 0", light({{"type", "spot"}, {"spot", {{"innerConeAngle", -0.1}}}}), spots + wrong_cone},
+      // The asset.
+      {"a minVersion that is read", set("/asset/minVersion", "2.0"), ""},
+      {"a minVersion beyond", set("/asset/minVersion", "2.1"),
+       error + "it asks for readers of glTF 2.1, and this is one of 2.0 (asset.minVersion)"},
       // Materials.
       {"a factor above 1", set("/materials/0/pbrMetallicRoughness/roughnessFactor", 7),
        "factors below 0 or above 1, clamped: 1, the first materials[0].pbrMetallicRoughness.roughnessFactor"},
@@ -232,8 +267,10 @@ TEST_CASE("rules of glTF: samplers, and pictures without uv") {
   // The picture is one of the scene's, and counts among its pixels.
   file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 0;
   PixelBudget few{5};
-  const ImportedScene scene = import_sound(file.gltf(), "a.gltf", {.pixels = &few});
-  CHECK(warns(scene, "a picture was left out: cannot read images[0]: it has 3×2 pixels"));
+  CHECK_THROWS_WITH_AS(import_bytes(file.gltf(), "a.gltf", {.pixels = &few}),
+                       "a.gltf: error: cannot read images[0]: it has 3×2 pixels; of the 2^28 that all images "
+                       "of a scene may have together, 5 are left",
+                       InputError);
 }
 
 TEST_CASE("rules of glTF: a kind is said once, with its count and first place") {
@@ -244,6 +281,19 @@ TEST_CASE("rules of glTF: a kind is said once, with its count and first place") 
   }
   CHECK(said_of(file) ==
         "rotations that are not of unit length, normalised: 38, the first nodes[2].rotation");
+}
+
+TEST_CASE("a key that stands twice in an object is refused, with its place") {
+  const std::string plain = square_file().gltf();
+  const auto with = [&](const std::string& extras) {
+    return refusal("{\n\"extras\": " + extras + "," + plain.substr(1), "a.gltf");
+  };
+  CHECK(with("{\"a\": {\"a\": 1}, \"b\": [{\"a\": \"a\"}, {\"a\": \"\\\"b\"}]}") == "accepted");
+  CHECK(with("{\"a\": 1, \"b\": {}, \"a\": 1}") ==
+        "a.gltf:2:29: error: the key \"a\" stands twice in an object");
+  CHECK(with("[{\"a\": [1, \"a\"], \"\\u0061\": 1}]") ==
+        "a.gltf:2:28: error: the key \"a\" stands twice in an object");
+  CHECK(with("1, \"extras\": 2") == "a.gltf:2:14: error: the key \"extras\" stands twice in an object");
 }
 
 TEST_CASE("JSON is read in time that grows with its length, and to a bound") {
