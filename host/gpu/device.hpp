@@ -41,7 +41,7 @@ struct DeviceInfo {
   std::string api_version;     // "1.3.230"
   std::string driver_id;       // changes with anything that makes a compiled pipeline stale; hexadecimal
   DeviceType type = DeviceType::other;
-  bool slow_compiler = false;  // large kernels take it minutes and many gigabytes, if they end at all
+  bool slow_compiler = false;  // branches in loops take it minutes and many gigabytes, if it ends at all
   bool usable = false;
   std::string why_not;  // reasons, when not usable
   DeviceLimits limits;

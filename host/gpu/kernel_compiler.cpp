@@ -13,7 +13,7 @@ namespace {
 CompiledShader compile(const ShaderSource& source, std::string_view preamble, const KernelOptions& options,
                        const DiskCache& cache) {
   ContentHash hash;
-  hash.add(compiler_version()).add(options.optimise ? optimiser_version() : "");
+  hash.add(compiler_version()).add(options.optimise ? optimiser_version(options.flatten) : "");
   hash.add(options.strict ? "strict" : "fast");
   hash.add(preamble).add(source.entry);
   for (const auto& [path, text] : source.files) hash.add(path).add(text);
@@ -27,7 +27,7 @@ CompiledShader compile(const ShaderSource& source, std::string_view preamble, co
   }
   CompiledShader compiled = compile_shader(source, preamble);
   if (options.strict) compiled.spirv = decorate_no_contraction(compiled.spirv);
-  if (options.optimise) compiled.spirv = optimise(compiled.spirv);
+  if (options.optimise) compiled.spirv = optimise(compiled.spirv, options.flatten);
   if (compiled.warnings.empty())
     cache.store(name, {reinterpret_cast<const char*>(compiled.spirv.data()),
                        compiled.spirv.size() * sizeof(uint32_t)});

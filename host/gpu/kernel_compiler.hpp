@@ -13,6 +13,7 @@ namespace eyeray::gpu {
 struct KernelOptions {
   std::optional<FloatModes> strict = {};  // the float policy, with these modes; none: --fast-math
   bool optimise = true;                   // spirv_optimiser.hpp
+  bool flatten = false;                   // the same; only where `optimise`
 };
 
 // compile_shader and what `options` say, or what these made of the same text and preamble before. A shader

@@ -8,6 +8,7 @@
 #include <map>
 #include <spirv-tools/optimizer.hpp>
 
+#include "gpu/selection_flattener.hpp"
 #include "gpu/spirv.hpp"
 
 namespace eyeray::gpu {
@@ -37,13 +38,29 @@ constexpr const char* inlining[] = {
     "--eliminate-dead-functions",
 };
 
+// What flattening asks for, and what it leaves to do.
+constexpr const char* before_flattening[] = {
+    "--ssa-rewrite",
+    "--eliminate-dead-code-aggressive",
+    "--simplify-instructions",
+    "--merge-blocks",
+};
+constexpr const char* after_flattening[] = {
+    "--simplify-instructions",
+    "--eliminate-dead-code-aggressive",
+    "--merge-blocks",
+};
+
+using Passes = std::vector<std::string>;
+
 // Functions are made small before they are copied to where they are called, and again there.
-std::vector<std::string> passes() {
-  std::vector<std::string> all;
+Passes passes(bool flatten) {
+  Passes all;
   const auto add = [&](const auto& list) { all.insert(all.end(), std::begin(list), std::end(list)); };
   add(within_functions);
   add(inlining);
   add(within_functions);
+  if (flatten) add(before_flattening);
   return all;
 }
 
@@ -82,21 +99,31 @@ uint64_t inlined_instructions(std::span<const uint32_t> spirv) {
   return largest;
 }
 
-}  // namespace
-
-std::vector<uint32_t> optimise(std::span<const uint32_t> spirv) {
-  const std::vector<uint32_t> as_it_was(spirv.begin(), spirv.end());
-  if (inlined_instructions(spirv) > most_inlined) return as_it_was;
+// False if the passes cannot take the module.
+bool run(const Passes& passes, std::vector<uint32_t>& spirv) {
   spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1);
-  CHECK(optimizer.RegisterPassesFromFlags(passes()));
+  CHECK(optimizer.RegisterPassesFromFlags(passes));
   spvtools::OptimizerOptions options;
   options.set_run_validator(false);
-  std::vector<uint32_t> result;
-  return optimizer.Run(spirv.data(), spirv.size(), &result, options) ? result : as_it_was;
+  return optimizer.Run(spirv.data(), spirv.size(), &spirv, options);
 }
 
-std::string optimiser_version() {
-  return fmt::format("{} {}", spvSoftwareVersionString(), fmt::join(passes(), " "));
+}  // namespace
+
+std::vector<uint32_t> optimise(std::span<const uint32_t> spirv, bool flatten) {
+  const std::vector<uint32_t> as_it_was(spirv.begin(), spirv.end());
+  if (inlined_instructions(spirv) > most_inlined) return as_it_was;
+  std::vector<uint32_t> result = as_it_was;
+  bool taken = run(passes(flatten), result);
+  if (taken && flatten) {
+    result = flatten_selections(result);
+    taken = run({std::begin(after_flattening), std::end(after_flattening)}, result);
+  }
+  return taken ? result : as_it_was;
+}
+
+std::string optimiser_version(bool flatten) {
+  return fmt::format("{} {}", spvSoftwareVersionString(), fmt::join(passes(flatten), " "));
 }
 
 }  // namespace eyeray::gpu

@@ -15,9 +15,11 @@ namespace eyeray::gpu {
 //
 // The passes know no float modes and leave a module that declares some nearly as it is; so those come after
 // them.
-std::vector<uint32_t> optimise(std::span<const uint32_t> spirv);
+//
+// `flatten`: selections too (selection_flattener.hpp), for a driver whose compiler needs them gone.
+std::vector<uint32_t> optimise(std::span<const uint32_t> spirv, bool flatten = false);
 
 // What the result depends on besides the module.
-std::string optimiser_version();
+std::string optimiser_version(bool flatten);
 
 }  // namespace eyeray::gpu

@@ -228,7 +228,8 @@ class GpuExecutor final : public Executor {
       auto text = shaders_.read(name);
       return text ? std::optional(fault_.damage(name, std::move(*text))) : std::nullopt;
     };
-    gpu::KernelOptions how{.strict = device_.info().float_modes, .optimise = options_.optimise};
+    gpu::KernelOptions how{
+        .strict = device_.info().float_modes, .optimise = options_.optimise, .flatten = profile_.flatten};
     if (options_.fast_math || fault_.is("contraction")) how.strict = std::nullopt;
     const std::vector<uint32_t> spirv = times_.measure("shader compile", [&] {
       try {

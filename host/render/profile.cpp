@@ -45,13 +45,16 @@ Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& dev
   const bool automatic = profile.empty() || profile == "auto";
   if (!automatic && profile != "cpu" && profile != "gpu" && profile != "small")
     throw Error(ExitCode::bad_input, "--profile is cpu, gpu or small, not '{}'", profile);
-  // A stack in registers, and a scene as constants, are too much for a slow compiler (docs/lavapipe.md).
+  // A stack in registers, a scene as constants and many branches are too much for a slow compiler
+  // (docs/lavapipe.md).
   const bool small = automatic ? device.slow_compiler : profile == "small";
   const bool cpu = automatic ? device.type == gpu::DeviceType::cpu && !small : profile == "cpu";
   return {chosen("--loads", options.loads, "texels", "storage", cpu),
           chosen("--rays", options.rays, "packets", "lanes", cpu),
-          chosen("--stack", options.stack, "shift", "array", cpu), !small,
-          chosen_for_scattered(options.scattered, cpu)};
+          chosen("--stack", options.stack, "shift", "array", cpu),
+          !small,
+          chosen_for_scattered(options.scattered, cpu),
+          small};
 }
 
 Rays scattered_rays(const Profile& profile, const PackedScene& scene, bool packets, uint32_t subgroup_size) {
@@ -66,10 +69,10 @@ Rays scattered_rays(const Profile& profile, const PackedScene& scene, bool packe
 }
 
 std::string describe(const Profile& profile) {
-  return fmt::format("{} loads, {}, {} stack, scattered rays {}{}",
+  return fmt::format("{} loads, {}, {} stack, scattered rays {}{}{}",
                      profile.texel_buffers ? "texel" : "storage", profile.packets ? "packets" : "lanes",
                      profile.shift_stack ? "shifted" : "indexed", describe(profile.scattered),
-                     profile.constants ? "" : ", no constants");
+                     profile.constants ? "" : ", no constants", profile.flatten ? ", flattened" : "");
 }
 
 }  // namespace eyeray

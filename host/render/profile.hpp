@@ -23,6 +23,7 @@ struct Profile {
   bool constants = true;  // compile a small scene in, instead of loading it
   // Rays that part, where the scene allows it; by the scene it is wide in big trees, lanes in small ones.
   std::optional<Rays> scattered = Rays::lanes;
+  bool flatten = false;  // compute both sides of a branch that only chooses a value
 };
 
 // Error (bad_input) for an unknown choice.
@@ -31,8 +32,8 @@ Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& dev
 // How rays that part are traced in this scene, where `packets` says whether any can be traced together.
 Rays scattered_rays(const Profile& profile, const PackedScene& scene, bool packets, uint32_t subgroup_size);
 
-// For people: "texel loads, packets, shifted stack, scattered rays by the scene", and "no constants" where
-// there are none.
+// For people: "texel loads, packets, shifted stack, scattered rays by the scene", and "no constants" and
+// "flattened" where that is so.
 std::string describe(const Profile& profile);
 
 }  // namespace eyeray

@@ -1,0 +1,245 @@
+#include "gpu/selection_flattener.hpp"
+
+#include <glslang/SPIRV/GLSL.std.450.h>
+
+#include <algorithm>
+#include <iterator>
+#include <unordered_map>
+
+#include "core/error.hpp"
+#include "gpu/spirv_module.hpp"
+
+namespace eyeray::gpu {
+namespace {
+
+using Instruction = SpirvInstruction;
+using Block = SpirvBlock;
+
+// Of GLSL.std.450, whose only set of functions a shader has: those of values alone. Modf writes through a
+// pointer, and so does what comes later.
+bool is_function_of_values(uint32_t function) {
+  return function <= GLSLstd450FMix && function != GLSLstd450Modf;
+}
+
+// Whether it may be computed where nobody asks for it. An integer division by zero may not, and neither may a
+// load from who knows where.
+bool is_harmless(const Instruction& instruction) {
+  const spv::Op opcode = opcode_of(instruction);
+  switch (opcode) {
+    case spv::OpUndef:
+    case spv::OpVectorShuffle:
+    case spv::OpCompositeConstruct:
+    case spv::OpCompositeExtract:
+    case spv::OpCompositeInsert:
+    case spv::OpCopyObject:
+      return true;
+    case spv::OpExtInst:
+      return is_function_of_values(instruction[4]);
+    case spv::OpUDiv:
+    case spv::OpSDiv:
+    case spv::OpUMod:
+    case spv::OpSRem:
+    case spv::OpSMod:
+      return false;
+    default:
+      // Conversions and OpBitcast, arithmetic, comparisons and bits.
+      return (opcode >= spv::OpConvertFToU && opcode <= spv::OpFConvert) || opcode == spv::OpBitcast ||
+             (opcode >= spv::OpSNegate && opcode <= spv::OpDot) ||
+             (opcode >= spv::OpAny && opcode <= spv::OpFUnordGreaterThanEqual) ||
+             (opcode >= spv::OpShiftRightLogical && opcode <= spv::OpBitCount);
+  }
+}
+
+// Which types OpSelect chooses between, and the conditions it wants for them.
+class Types {
+ public:
+  explicit Types(SpirvModule& module) : module_(module) {
+    for (const Instruction& instruction : module.declarations) see(instruction);
+  }
+
+  // Of scalars and vectors; 0 of anything else.
+  uint32_t components(uint32_t type) const {
+    const auto found = components_.find(type);
+    return found == components_.end() ? 0 : found->second;
+  }
+
+  // A condition for so many components; what makes it goes to `before`.
+  uint32_t condition(uint32_t scalar, uint32_t components, std::vector<Instruction>& before) {
+    if (components == 1) return scalar;
+    const uint32_t all = module_.new_id();
+    Instruction construct = spirv_instruction(spv::OpCompositeConstruct, {vector_of_bool(components), all});
+    construct.insert(construct.end(), components, scalar);
+    construct[0] += components << spv::WordCountShift;
+    before.push_back(std::move(construct));
+    return all;
+  }
+
+ private:
+  void see(const Instruction& instruction) {
+    switch (opcode_of(instruction)) {
+      case spv::OpTypeBool:
+        bool_ = instruction[1];
+        components_[bool_] = 1;
+        break;
+      case spv::OpTypeInt:
+      case spv::OpTypeFloat:
+        components_[instruction[1]] = 1;
+        break;
+      case spv::OpTypeVector:
+        components_[instruction[1]] = instruction[3];
+        if (instruction[2] == bool_) vectors_of_bool_[instruction[3]] = instruction[1];
+        break;
+      default:
+        break;
+    }
+  }
+
+  uint32_t vector_of_bool(uint32_t components) {
+    uint32_t& type = vectors_of_bool_[components];
+    if (type == 0) {
+      type = module_.new_id();
+      module_.declarations.push_back(spirv_instruction(spv::OpTypeVector, {type, bool_, components}));
+    }
+    return type;
+  }
+
+  SpirvModule& module_;
+  uint32_t bool_ = 0;
+  std::unordered_map<uint32_t, uint32_t> components_;
+  std::unordered_map<uint32_t, uint32_t> vectors_of_bool_;
+};
+
+class Flattener {
+ public:
+  Flattener(std::vector<Block>& blocks, Types& types) : blocks_(blocks), types_(types) {
+    for (size_t i = 0; i < blocks.size(); ++i) places_[blocks[i].label] = i;
+    for (const Block& block : blocks) count(block);
+  }
+
+  void flatten() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (Block& block : blocks_)
+        while (!block.body.empty() && flatten_at(block)) changed = true;
+    }
+    for (Block& block : blocks_)
+      for (Instruction& instruction : block.body)
+        if (opcode_of(instruction) == spv::OpPhi)
+          for (size_t i = 4; i < instruction.size(); i += 2) instruction[i] = now(instruction[i]);
+    std::erase_if(blocks_, [](const Block& block) { return block.body.empty(); });
+  }
+
+ private:
+  void count(const Block& block) {
+    const Instruction& last = block.body.back();
+    switch (opcode_of(last)) {
+      case spv::OpBranch:
+        ++edges_[last[1]];
+        break;
+      case spv::OpBranchConditional:
+        ++edges_[last[2]];
+        ++edges_[last[3]];
+        break;
+      case spv::OpSwitch:
+        ++edges_[last[2]];
+        for (size_t i = 4; i < last.size(); i += 2) ++edges_[last[i]];
+        break;
+      default:
+        break;
+    }
+    if (block.body.size() < 2) return;
+    const Instruction& merge = block.body[block.body.size() - 2];
+    if (opcode_of(merge) == spv::OpSelectionMerge || opcode_of(merge) == spv::OpLoopMerge)
+      ++merges_[merge[1]];
+    if (opcode_of(merge) == spv::OpLoopMerge) ++merges_[merge[2]];
+  }
+
+  Block& at(uint32_t label) { return blocks_[places_.at(label)]; }
+
+  // The block that a label's instructions are in by now.
+  uint32_t now(uint32_t label) const {
+    for (auto found = joined_.find(label); found != joined_.end(); found = joined_.find(label))
+      label = found->second;
+    return label;
+  }
+
+  // Whether the arm is nothing but what may be computed in any case, and then the end of the selection.
+  bool is_harmless_arm(uint32_t label, uint32_t end) {
+    if (label == end) return true;
+    const std::vector<Instruction>& body = at(label).body;
+    if (edges_[label] != 1 || merges_[label] != 0 || opcode_of(body.back()) != spv::OpBranch ||
+        body.back()[1] != end)
+      return false;
+    return std::all_of(body.begin(), body.end() - 1, is_harmless);
+  }
+
+  // What a phi of two blocks chooses where the selection came by this one.
+  uint32_t value_from(const Instruction& phi, uint32_t label) const {
+    CHECK_EQ(phi.size(), 7u);
+    return now(phi[4]) == label ? phi[3] : phi[5];
+  }
+
+  // The selection that a block ends with, if it has one and both its arms are harmless.
+  bool flatten_at(Block& head) {
+    if (head.body.size() < 2) return false;
+    const Instruction branch = head.body.back(), merge = head.body[head.body.size() - 2];
+    if (opcode_of(branch) != spv::OpBranchConditional || opcode_of(merge) != spv::OpSelectionMerge)
+      return false;
+    const uint32_t condition = branch[1], yes = branch[2], no = branch[3], end = merge[1];
+    if (yes == no || edges_[end] != 2 || !is_harmless_arm(yes, end) || !is_harmless_arm(no, end))
+      return false;
+
+    // Choose what the phis choose.
+    std::vector<Instruction>& rest = at(end).body;
+    const auto phis_end =
+        std::ranges::find_if(rest, [](const auto& i) { return opcode_of(i) != spv::OpPhi; });
+    if (std::any_of(rest.begin(), phis_end, [&](const auto& phi) { return types_.components(phi[1]) == 0; }))
+      return false;
+    std::vector<Instruction> chosen;
+    for (auto phi = rest.begin(); phi != phis_end; ++phi) {
+      const uint32_t type = (*phi)[1], result = (*phi)[2];
+      const uint32_t by = types_.condition(condition, types_.components(type), chosen);
+      chosen.push_back(
+          spirv_instruction(spv::OpSelect, {type, result, by, value_from(*phi, yes == end ? head.label : yes),
+                                            value_from(*phi, no == end ? head.label : no)}));
+    }
+
+    // Into the head: both arms, what is chosen, and if no other construct ends there what follows.
+    head.body.resize(head.body.size() - 2);
+    for (const uint32_t arm : {yes, no}) {
+      if (arm == end) continue;
+      std::vector<Instruction>& body = at(arm).body;
+      std::move(body.begin(), body.end() - 1, std::back_inserter(head.body));
+      body.clear();
+    }
+    std::move(chosen.begin(), chosen.end(), std::back_inserter(head.body));
+    rest.erase(rest.begin(), phis_end);
+    edges_[end] = 1;
+    if (--merges_[end] == 0) {
+      std::move(rest.begin(), rest.end(), std::back_inserter(head.body));
+      rest.clear();
+      joined_[end] = head.label;
+    } else {
+      head.body.push_back(spirv_instruction(spv::OpBranch, {end}));
+    }
+    return true;
+  }
+
+  std::vector<Block>& blocks_;
+  Types& types_;
+  std::unordered_map<uint32_t, size_t> places_;    // of labels
+  std::unordered_map<uint32_t, int> edges_;        // into a block
+  std::unordered_map<uint32_t, int> merges_;       // how many constructs end or go on at it
+  std::unordered_map<uint32_t, uint32_t> joined_;  // what became a part of which block
+};
+
+}  // namespace
+
+std::vector<uint32_t> flatten_selections(std::span<const uint32_t> spirv) {
+  SpirvModule module = read_spirv(spirv);
+  Types types(module);
+  for (SpirvFunction& function : module.functions) Flattener(function.blocks, types).flatten();
+  return write_spirv(module);
+}
+
+}  // namespace eyeray::gpu
