@@ -20,6 +20,11 @@ void watch_for_termination(std::function<void(const Error&)> report);
 // Whether a signal has asked to stop. Safe from any thread.
 bool interrupted();
 
+// Error (interrupted) if one has. For what may compute for ever, of which nothing is worth saving: a pixel.
+inline void stop_if_interrupted() {
+  if (interrupted()) throw Error(ExitCode::interrupted, "interrupted");
+}
+
 // What the process answers to its caller: the code, and where that is `interrupted` 128 + the signal.
 int exit_status(ExitCode code);
 

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 
+#include "core/termination.hpp"
 #include "formula/execution.hpp"
 #include "formula/kernel_text.hpp"
 #include "formula/limits.hpp"
@@ -223,12 +224,14 @@ const calculus::StraightLine& Formula::straight_line() const {
 
 float Formula::value(const std::array<float, 3>& p) const {
   float value = 0;
+  stop_if_interrupted();
   if (!compiled_->value.run(p, &value)) endless();
   return value;
 }
 
 double Formula::value(const std::array<double, 3>& p, uint64_t* turns) const {
   double value = 0;
+  stop_if_interrupted();
   if (!compiled_->value.run(p, &value, turns)) endless();
   return value;
 }

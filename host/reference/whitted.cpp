@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/termination.hpp"
 #include "reference/crossings.hpp"
 #include "reference/light.hpp"
 #include "reference/rng.hpp"
@@ -116,6 +117,7 @@ Vec3 refract(const View& view, double n1, double n2) {
 }
 
 Vec3 Tree::radiance(const Path& path) {
+  stop_if_interrupted();
   ++rays;
   const auto hit = tracer_.trace(path.ray, flags);
   if (!hit) return scene_.render.background;

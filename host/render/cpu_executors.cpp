@@ -1,7 +1,6 @@
 // The twin and the reference as executors: a row of pixels is a piece of parallel work.
 #include <fmt/format.h>
 
-#include <atomic>
 #include <thread>
 
 #include "core/error.hpp"
@@ -20,15 +19,18 @@ namespace {
 template <typename Result, typename Pixel>
 bool for_each_pixel(const Rect& tile, std::span<Result> out, const Pixel& pixel) {
   CHECK_EQ(out.size(), size_t(tile.pixels()));
-  std::atomic<bool> stopped = false;
-  parallel_for(0, tile.height, [&](int row) {
-    for (int column = 0; column < tile.width; ++column) {
-      if (interrupted()) stopped = true;
-      if (stopped) return;
-      out[size_t(row) * size_t(tile.width) + size_t(column)] = pixel(tile.x + column, tile.y + row);
-    }
-  });
-  return !stopped;
+  try {
+    parallel_for(0, tile.height, [&](int row) {
+      for (int column = 0; column < tile.width; ++column) {
+        stop_if_interrupted();
+        out[size_t(row) * size_t(tile.width) + size_t(column)] = pixel(tile.x + column, tile.y + row);
+      }
+    });
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::interrupted) throw;
+    return false;
+  }
+  return true;
 }
 
 // Calls answer(ray) for every ray, in parallel; the seconds that took.

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "core/termination.hpp"
 #include "formula/formula.hpp"
 #include "records/packer.hpp"
 #include "twin/straight_line.hpp"
@@ -58,7 +59,9 @@ class Binding {
       bound_scene->formulas[number].formula->gradient(std::array{p.x, p.y, p.z});
   return {gradient[0], gradient[1], gradient[2]};
 }
+// Each ray that hits asks for one, and a pixel may have rays without end.
 [[maybe_unused]] const Material& load_material(uint i) {
+  stop_if_interrupted();
   return bound_scene->materials[i];
 }
 [[maybe_unused]] const Texture& load_texture(uint i) {

@@ -1,4 +1,6 @@
 // How eyeray ends where its streams, its files, its time or its device end before it.
+#include <fmt/format.h>
+
 #include <csignal>
 
 #include "scene.hpp"
@@ -83,6 +85,36 @@ TEST_CASE("each signal that ends a render keeps its checkpoint, and is told by t
     std::set<std::string> left = folder.names();
     left.erase("a.pfm");  // there if every pixel has a sample
     CHECK(left == std::set<std::string>{"scene.toml", "work"});
+  }
+}
+
+TEST_CASE("a pixel whose rays have no end ends by one signal, and keeps the checkpoint") {
+  // Four walls of glass in the second of two rows, a band each: each ray splits at each face, 64 times in a
+  // row.
+  std::string scene =
+      "[image]\nwidth = 32768\nheight = 2\n"
+      "[camera]\ntype = \"orthographic\"\neye = [0, 0, 9]\ntarget = [0, 0, 0]\nsize = 1\n"
+      "[render]\nmax_depth = 64\nmin_weight = 0\n"
+      "[[light]]\ntype = \"point\"\nposition = [0, 5, 9]\n"
+      "[[material]]\nname = \"glass\"\ntype = \"dielectric\"\nior = 1.5\n";
+  for (const double z : {0, 1, 2, 3})
+    scene += fmt::format("[[box]]\nmin = [-1, -1, {}]\nmax = [1, 0, {}]\nmaterial = \"glass\"\n", z, z + 0.5);
+  for (const std::string backend : {"twin", "reference"}) {
+    CAPTURE(backend);
+    const SceneFolder folder;
+    write_text(folder.scene(), scene);
+    Process render({eyeray_binary(), "render", folder.scene(), "--backend", backend, "--band-memory", "1",
+                    "--checkpoint", folder / "work", "--checkpoint-every", "0.01", "-o", folder / "a.pfm"},
+                   {});
+    const Stopwatch watch;
+    while (!std::filesystem::exists(folder / "work") && watch.seconds() < 60 && !render.wait(0.005)) {
+    }
+    render.send_signal(SIGTERM);
+    REQUIRE(render.wait(60));
+    CAPTURE(render.err());
+    CHECK(render.code() == 143);
+    CHECK(render.err().find("to go on, give the same options and --resume ") != std::string::npos);
+    CHECK(folder.names().count("work") == 1);
   }
 }
 
