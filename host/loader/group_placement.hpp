@@ -1,7 +1,6 @@
 // Groups that are kept once, and their instances, put into a scene. Private to the loader.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "loader/mesh_placement.hpp"
@@ -12,16 +11,24 @@ class GroupPlacer {
  public:
   GroupPlacer(Scene& scene, const MeshPlacer& meshes) : scene_(scene), meshes_(meshes) {}
 
-  // Takes a group into the scene; its index there.
-  int keep(Group group);
+  // Takes a group into the scene; its index there. `stretch`: the worst condition of the maps
+  // from what is in it to its space.
+  int keep(Group group, double stretch);
 
-  // Shows the group once more. Why it cannot stand there, or "".
-  std::string place(int group, const Mat4& transform, const SourcePosition& position, const NameRef& name);
+  // Whether all of it can surely stand there, shape by shape. If not, each has to be looked at.
+  bool surely_fits(int group, const Mat4& transform) const;
+  // Shows the group once more.
+  void place(int group, const Mat4& transform, const SourcePosition& position, const NameRef& name);
 
  private:
   Scene& scene_;
   const MeshPlacer& meshes_;
-  std::vector<Bounds> bounds_;  // of each group's shapes, as Scene::groups
+  struct Extent {
+    Bounds bounds;     // of the shapes
+    double thickness;  // the least margin of any shape
+    double condition;  // of the worst map
+  };
+  std::vector<Extent> extents_;  // as Scene::groups
 };
 
 }  // namespace eyeray

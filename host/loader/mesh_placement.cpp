@@ -57,12 +57,8 @@ std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
       return "the transformed vertices are out of range (coordinates up to 1e12)";
   }
 
-  // An area shrinks by |det| / σ at most, the square of an edge grows by σ² at most, σ being the greatest
-  // stretch. Only where that does not settle it, look at every triangle.
-  const Mat3& m = map.linear;
-  const double stretch = std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
-  const double shrinks = std::fabs(glm::determinant(m / stretch));
-  if (thinnest * shrinks >= least_thickness) return "";
+  // Only where the map's worst does not settle it, look at every triangle.
+  if (thinnest * thinning(map.linear) >= least_thickness) return "";
   const Mesh& mesh = scene_.meshes[index];
   for (const auto& triangle : mesh.triangles) {
     Corners moved = corners(mesh, triangle);

@@ -135,6 +135,7 @@ class Builder {
   std::optional<GroupPlan> plan_;
   GroupPlacer group_placer_{scene_, placer_};
   std::map<const toml::table*, int> kept_groups_;  // in Scene::groups
+  double worst_condition_ = 0;                     // of the maps read since the last group was begun
   Group* building_ = nullptr;                      // where shapes and meshes go; null: into the scene
   size_t media_ = 0;
   size_t lights_ = 0;
@@ -223,10 +224,15 @@ Group Builder::build_group(const toml::table& table, const Mat4& to_world) {
 void Builder::add_group(TableReader& reader, const toml::table& table, const Placing& placing) {
   if (building_ || !plan_->is_instanced(table)) return add_placed(table, placing);
   const auto [entry, fresh] = kept_groups_.try_emplace(&table);
-  if (fresh) entry->second = group_placer_.keep(build_group(table, Mat4(1.0)));
-  const std::string wrong =
-      group_placer_.place(entry->second, placing.to_world, reader.position(), placing.name);
-  if (!wrong.empty()) reader.error("transform", wrong);
+  if (fresh) {
+    worst_condition_ = 0;
+    Group group = build_group(table, Mat4(1.0));
+    entry->second = group_placer_.keep(std::move(group), worst_condition_);
+  }
+  // Whether a scene is legal does not depend on what is kept once: where it may not be, read the group as it
+  // stands there.
+  if (!group_placer_.surely_fits(entry->second, placing.to_world)) build_group(table, placing.to_world);
+  group_placer_.place(entry->second, placing.to_world, reader.position(), placing.name);
 }
 
 void Builder::add_instance(TableReader& reader, const Placing& placing) {
@@ -285,11 +291,13 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
     if (reader.has("name") && reader.valid("name") && reader.string("name").empty())
       reader.error("name", "a name must not be empty; leave `name` out instead");
     placed.to_world = group.to_world * reader.transform("transform");
-    if (const std::string why = why_singular(placed.to_world); !why.empty())
+    if (const std::string why = why_singular(placed.to_world); !why.empty()) {
       reader.error("transform",
                    fmt::format("with the transforms of its groups, the map cannot be undone: {}", why));
-    else
-      add(reader, placed);
+      continue;
+    }
+    worst_condition_ = std::max(worst_condition_, condition(Mat3(placed.to_world)));
+    add(reader, placed);
   }
   return batch.count;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -147,6 +148,9 @@ class Shape {
   // Whether shadow rays are weakened by each of its crossings, √(the material's share), as by a mesh's
   // triangles, and not once in all: of an open shape that may be part of a closed surface.
   virtual bool counts_crossings() const { return false; }
+  // How many times thicker it is than the thinnest of its kind that can be computed, if a map could make it
+  // too thin.
+  virtual double thickness_margin() const { return std::numeric_limits<double>::infinity(); }
   // How often a line crosses it at most, as far as that is known. Rounding may find more.
   virtual int most_crossings() const { return 1 << 20; }
   // Appends the shape's one Primitive (and what it refers to), or several, each with its bounds.

@@ -33,15 +33,19 @@ constexpr Key turn_keys[] = {
      .doc = "Angle, counter-clockwise when the axis points at the viewer."},
 };
 
-// How much the map stretches one direction more than another is at most this (Frobenius norms of it and its
-// inverse). Beyond, the float32 inverse that the shaders use has no correct digit left.
-constexpr double worst_condition = 1e7;
-
 double frobenius(const glm::dmat3& m) {
   return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
 }
 
 }  // namespace
+
+double condition(const Mat3& linear) {
+  return frobenius(linear) * frobenius(glm::inverse(linear));
+}
+
+double thinning(const Mat3& linear) {
+  return std::fabs(glm::determinant(linear / frobenius(linear)));
+}
 
 std::string why_singular(const Mat4& map) {
   const glm::dmat3 linear(map);
@@ -51,9 +55,8 @@ std::string why_singular(const Mat4& map) {
     return "its numbers are too large";
   if (!(size >= 1 / largest_number)) return "it shrinks everything to a point";
   if (determinant == 0) return "it flattens space (its determinant is 0)";
-  const double condition = size * frobenius(glm::inverse(linear));
-  if (!(condition <= worst_condition))
-    return fmt::format("it all but flattens space (condition number {:.1e})", condition);
+  if (const double stretch = condition(linear); !(stretch <= worst_condition))
+    return fmt::format("it all but flattens space (condition number {:.1e})", stretch);
   if (!(glm::length(Vec3(map[3])) <= largest_number)) return "it moves things too far";
   return "";
 }

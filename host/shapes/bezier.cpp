@@ -100,6 +100,8 @@ class Bezier final : public Shape {
   // The degree of its equation in x, y and z.
   int most_crossings() const override { return 2 * 3 * 3; }
 
+  double thickness_margin() const override { return thickness(net_) / least_thickness; }
+
   void pack(Packer& packer) const override {
     // What all pieces share.
     Bounds all = bounds();

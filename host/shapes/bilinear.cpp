@@ -105,6 +105,8 @@ class Bilinear final : public Shape {
     return bounds;
   }
 
+  double thickness_margin() const override { return thickness(corners_) / least_thickness; }
+
   void pack(Packer& packer) const override {
     const Vec3 last = packer.relative(p(2));
     packer.add({.head = Packer::head(shader::KIND_bilinear, material, mirrored_ ? 1 : 0),

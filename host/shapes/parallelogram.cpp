@@ -78,6 +78,10 @@ class Parallelogram final : public Shape {
     return bounds;
   }
 
+  double thickness_margin() const override {
+    return thickness({Vec3(0), unit(edge_u_), unit(edge_v_)}) / thinnest_triangle;
+  }
+
   ShapeForm form() const override {
     return PolygonForm{{{origin_, origin_ + edge_u_, origin_ + edge_u_ + edge_v_, origin_ + edge_v_}}};
   }

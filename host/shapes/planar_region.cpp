@@ -4,20 +4,33 @@
 
 namespace eyeray {
 
+namespace {
+
+// Newell's, from the first vertex: of all triangles together, in squares of the size.
+Vec3 area_of(const Outline& outer) {
+  double size = 0;
+  for (const Vec3& vertex : outer) size = std::max(size, magnitude(vertex - outer[0]));
+  Vec3 sum(0);
+  for (size_t i = 1; i + 1 < outer.size(); ++i)
+    sum += glm::cross((outer[i] - outer[0]) / size, (outer[i + 1] - outer[0]) / size);
+  return sum;
+}
+
+}  // namespace
+
 size_t PlanarRegion::size() const {
   size_t count = outer.size();
   for (const Outline& hole : holes) count += hole.size();
   return count;
 }
 
-// Newell's, from the first vertex: of all its triangles together.
+double PlanarRegion::thickness() const {
+  return magnitude(area_of(outer));
+}
+
 Vec3 PlanarRegion::normal() const {
-  double size = 0;
-  for (const Vec3& vertex : outer) size = std::max(size, magnitude(vertex - outer[0]));
-  Vec3 sum(0);
-  for (size_t i = 1; i + 1 < outer.size(); ++i)
-    sum += glm::cross((outer[i] - outer[0]) / size, (outer[i + 1] - outer[0]) / size);
-  return magnitude(sum) >= 1e-9 ? unit(sum) : Vec3(0);
+  const Vec3 area = area_of(outer);
+  return magnitude(area) >= thinnest_region ? unit(area) : Vec3(0);
 }
 
 PlanarRegion PlanarRegion::transformed(const Affine& map) const {

@@ -15,6 +15,8 @@ namespace eyeray {
 // Vertices in order, either way round; the last is joined to the first.
 using Outline = std::vector<Vec3>;
 
+inline constexpr double thinnest_region = 1e-9;
+
 struct PlanarRegion {
   Outline outer;
   std::vector<Outline> holes = {};
@@ -22,6 +24,8 @@ struct PlanarRegion {
   size_t size() const;  // how many vertices it has, all outlines together
   // Unit, to where the outer outline runs counter-clockwise; (0, 0, 0) where it has no area.
   Vec3 normal() const;
+  // About twice its area over the square of its size; below `thinnest_region` it counts as none.
+  double thickness() const;
   PlanarRegion transformed(const Affine& map) const;
 };
 

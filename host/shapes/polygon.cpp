@@ -79,6 +79,8 @@ class Polygon final : public Shape {
     return form;
   }
 
+  double thickness_margin() const override { return region_.thickness() / thinnest_region; }
+
   void pack(Packer& packer) const override {
     const Vec3 first = packer.relative(origin());
     std::vector<shader::uvec4> vertices = {to_bits(to_vec4(u_gradient_, -glm::dot(u_gradient_, first))),

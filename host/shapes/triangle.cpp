@@ -103,6 +103,8 @@ class Triangle final : public Shape {
     return bounds;
   }
 
+  double thickness_margin() const override { return thickness(vertices_) / thinnest_triangle; }
+
   ShapeForm form() const override { return TriangleForm{vertices_}; }
 
   void pack(Packer& packer) const override {

@@ -92,7 +92,7 @@ TEST_CASE("a pixel whose rays have no end ends by one signal, and keeps the chec
   // Four walls of glass in the second of two rows, a band each: each ray splits at each face, 64 times in a
   // row.
   std::string scene =
-      "[image]\nwidth = 32768\nheight = 2\n"
+      "[image]\nwidth = 32768\nheight = 2\nsamples = 16\n"
       "[camera]\ntype = \"orthographic\"\neye = [0, 0, 9]\ntarget = [0, 0, 0]\nsize = 1\n"
       "[render]\nmax_depth = 64\nmin_weight = 0\n"
       "[[light]]\ntype = \"point\"\nposition = [0, 5, 9]\n"

@@ -223,3 +223,48 @@ TEST_CASE("what stands in solids counts among what is kept") {
   CHECK_MESSAGE(says(said, "batches and groups come to 100020001 things; at most 67108864 are possible"),
                 said);
 }
+
+// What stands in a group under a map that only the world knows, too thin, too far or bent too much there.
+TEST_CASE("what a group's map makes of shapes is legal or not, however the group is kept") {
+  const struct {
+    const char* group_map;
+    const char* shape;
+    const char* wrong;
+  } cases[] = {
+      {"{ scale = [1, 1, 1e6] }", "[[group.triangle]]\nvertices = [[0, 0, 0], [0, 1e-4, 1], [0, 0, 1]]\n",
+       "the map leaves the triangle no area"},
+      {"{ scale = [1, 1, 1e5] }",
+       "[[group.parallelogram]]\norigin = [0, 0, 0]\nedge_u = [1e-6, 0, 1]\nedge_v = [-1e-6, 0, 1]\n",
+       "the map leaves the parallelogram no area"},
+      {"{ scale = [1, 1, 1e6] }", "[[group.polygon]]\nvertices = [[0, 0, 0], [0, 1e-4, 1], [0, 0, 1]]\n",
+       "the map leaves the outline no area"},
+      {"{ scale = [1, 1, 1000] }",
+       "[[group.bilinear]]\ncorners = [[0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 1, 0]]\n",
+       "the map leaves the patch flat"},
+      {"{ scale = [1, 1, 1e6] }",
+       "[[group.bezier]]\npoints = [[0,0,0],[1,0,0],[2,0,0],[3,0,0],[0,0,1],[1,0,1],[2,0,1],[3,0,1],"
+       "[0,0,2],[1,0,2],[2,0,2],[3,0,2],[0,0,3],[1,0,3],[2,0,3],[3,0,3]]\n",
+       "the map leaves the patch without area"},
+      {"{ scale = [1, 1, 1e4] }",
+       "[[group.sphere]]\ncenter = [0, 0, 0]\nradius = 1\ntransform = [{ scale = [1, 1, 1e4] }]\n",
+       "the map cannot be undone"},
+      {"{ scale = 1e6 }", "[[group.box]]\nmin = [0, 0, 0]\nmax = [1e7, 1e7, 1e7]\n", "out of range"},
+      // Near a limit that it keeps, and far from all.
+      {"{ scale = [1, 1, 90] }", "[[group.bilinear]]\ncorners = [[0,0,0],[1,0,0],[1,1,1],[0,1,0]]\n",
+       "accepted"},
+      {"{ scale = [1, 1, 2] }", "[[group.bilinear]]\ncorners = [[0,0,0],[1,0,0],[1,1,1],[0,1,0]]\n",
+       "accepted"},
+  };
+  for (const auto& [map, shape, wrong] : cases) {
+    CAPTURE(std::string(shape));
+    std::string said[2];
+    for (const bool once : {false, true}) {
+      said[once] =
+          refused(fmt::format("[render]\ngroups = \"{}\"\n[[group]]\nbatch = {{ transform = [[{}], [{}]] "
+                              "}}\n{}material = \"wall\"\n",
+                              once ? "instanced" : "flat", map, map, shape));
+    }
+    CHECK(said[0] == said[1]);
+    CHECK(says(said[1], wrong));
+  }
+}
