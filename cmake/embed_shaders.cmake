@@ -5,7 +5,7 @@ foreach(name IN LISTS FILES)
   string(APPEND rows "    {\"${name}\", R\"glsl(${text})glsl\"},\n")
 endforeach()
 file(WRITE ${OUT} "// Made by cmake/embed_shaders.cmake.
-#include \"core/embedded_shaders.hpp\"
+#include \"host/core/embedded_shaders.hpp\"
 
 namespace eyeray {
 

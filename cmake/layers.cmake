@@ -3,7 +3,7 @@ add_library(eyeray_warnings INTERFACE)
 target_compile_options(eyeray_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wdouble-promotion -Wnon-virtual-dtor
   -Werror -ffp-contract=off)
-target_include_directories(eyeray_warnings INTERFACE ${CMAKE_SOURCE_DIR}/host)
+target_include_directories(eyeray_warnings INTERFACE ${CMAKE_SOURCE_DIR})
 if(EYERAY_SANITIZE)
   add_compile_options(-fsanitize=${EYERAY_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${EYERAY_SANITIZE})

@@ -4,7 +4,7 @@ set(GENERATED ${CMAKE_BINARY_DIR}/generated)
 file(GLOB_RECURSE SHADER_FILES CONFIGURE_DEPENDS RELATIVE ${SHADER_ROOT} ${SHADER_ROOT}/*.glsl ${SHADER_ROOT}/*.h)
 list(TRANSFORM SHADER_FILES PREPEND ${SHADER_ROOT}/ OUTPUT_VARIABLE SHADER_PATHS)
 
-# The twin compiles every row of the registries; a GPU kernel, its scene's only (render/specialise.cpp).
+# The twin compiles every row of the registries; a GPU kernel, its scene's only (executors/specialise.cpp).
 foreach(registry shapes materials integrators)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${SHADER_ROOT}/${registry}/registry.h)
   file(STRINGS ${SHADER_ROOT}/${registry}/registry.h rows REGEX "X\\([a-z_]+,")

@@ -18,7 +18,7 @@ SHADER_BEGIN
 #define BINDING_OUTPUT 7
 #define BINDING_RAYS 8
 #define BINDING_NODES 9
-#define BINDING_TREES 10
+#define BINDING_BVHS 10
 #define BINDING_INSTANCES 11
 #define BINDING_PACKET_HITS 12
 #define BINDING_OCCLUSIONS 13
@@ -26,18 +26,18 @@ SHADER_BEGIN
 #define BINDING_LIST 16
 #define BINDING_NEXT_LIST 17
 #define BINDING_TEXELS 14
-#define BINDING_WIDE_NODES 15
+#define BINDING_BVH4_NODES 15
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
 #define T_NONE -3.0e38f  // the same, where no t counts that is not above 0; before every t
-#define T_RAN_OUT -3.2e38f  // "no hit found in the steps allowed"; uv.x says up to which t there is none for sure
+#define T_ITERATION_LIMIT -3.2e38f  // "no hit found in the steps allowed"; uv.x says up to which t there is none for sure
 
 // ---- Primitive: 64 bytes --------------------------------------------------------------------------------------------
 //   0 id: the scene's primitive index, or that within an instance (below)    4 material | kind << 24
-//   8 shadow density    12 extra: an index into vertices, or NONE
+//   8 optical depth    12 extra: an index into vertices, or NONE
 //  16 a (vec4)  32 b (vec4)   48 c (vec4)    what they hold is said in the shape's .glsl
-// Where a primitive stands in the buffer, its slot, follows from the tree and may change; its id does not.
+// Where a primitive stands in the buffer, its slot, follows from the BVH and may change; its id does not.
 struct Primitive {
   uvec4 head;
   vec4 a;
@@ -57,17 +57,17 @@ struct Primitive {
 #define CORNERS_UV 2u
 #define CORNERS_COLORS 4u
 
-// ---- Tree: 64 bytes; a node of it ------------------------------------------------------------------------------------
+// ---- BVH: 64 bytes; a node of it ------------------------------------------------------------------------------------
 //   0 origin.xyz  12 -    16 step.xyz  28 -    a plane at q stands at origin + q · step
 //  32 extent.xyz          the most that |q · step| is
 //  44 slack               by which share of its reach a ray's boxes are widened
 //  48 root, which may be a leaf   52 first slot of its primitives   56 end of its slots   60 -
 // A node is two children. Quantised, a child is 16 bytes, its planes integers: lower | upper << 16 for x, y and z, then what it refers
 // to; else it is 32: lower.xyz as floats, what it refers to, upper.xyz, -.
-// A node of wide.comp.glsl is four quantised children, one of packet.glsl as many as a subgroup has lanes; those that are not there
+// A node of kernels/cooperative/bvh4.comp.glsl is four quantised children, one of kernels/cooperative/packet.glsl as many as a subgroup has lanes; those that are not there
 // refer to NONE.
 // A child refers to a node, to 1 … 8 primitives, LEAF | slot << 3 | count − 1, or to an instance, INSTANCE_LEAF | index.
-struct Tree {
+struct Bvh {
   vec4 origin;
   vec4 step;
   vec4 extent;
@@ -78,9 +78,9 @@ struct Tree {
 #define MOST_SLOTS 0x8000000u
 #define MOST_INSTANCES 0x3ffffff0u
 
-// ---- Instance of a mesh or a group with a tree of its own: 112 bytes ---------------------------------------------------
-//   0 tree   4 id of its first shape, of a mesh its first triangle
-//   8 material   12 shadow density        of a mesh's triangles; or of a group, whose primitives have their own:
+// ---- Instance of a mesh or a group with a BVH of its own: 112 bytes ---------------------------------------------------
+//   0 BVH   4 id of its first shape, of a mesh its first triangle
+//   8 material   12 optical depth        of a mesh's triangles; or of a group, whose primitives have their own:
 //   8 NONE       12 id of its first triangle of a mesh
 //  16 to_local.xyz, -, three rows: the linear map into its space, of what is relative to that space's origin
 //  64 to_world, three rows: the affine map back, its w's that origin
@@ -93,7 +93,7 @@ struct Instance {
 #define ID_OF_TRIANGLE 0x80000000u
 
 // ---- Material: 64 bytes ---------------------------------------------------------------------------------------------
-//   0 kind       4 flags | emission, an index into textures, << 8      8 medium that fills the shape: 1…255, 0 for none    12 shadow density
+//   0 kind       4 flags | emission, an index into textures, << 8      8 medium that fills the shape: 1…255, 0 for none    12 optical depth
 //  16 base      20 specular  24 reflected  28 ambient    indices into textures; base, with emission, is what raycast shades
 //  32 shininess 36 -         40 -          44 -
 //  48 alpha, an index into textures        52 below which alpha there are holes, the bits of a float; 0 without      56 -   60 -
@@ -105,9 +105,9 @@ struct Material {
 };
 #define MATERIAL_BLINN 1u
 #define MATERIAL_EMISSION_SHIFT 8u
-// Shadow density: what a shadow ray loses to each primitive that it meets, in −log2(transmittance) · SHADOW_SCALE.
-#define SHADOW_OPAQUE 0x10000000u
-#define SHADOW_SCALE 1048576.0f
+// Optical depth: what a shadow ray loses to each primitive that it hits, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
+#define OPTICAL_DEPTH_OPAQUE 0x10000000u
+#define OPTICAL_DEPTH_SCALE 1048576.0f
 
 // ---- Medium: 16 bytes -----------------------------------------------------------------------------------------------
 //   0 absorption.rgb  12 ior     number 0 is the vacuum
@@ -161,9 +161,9 @@ struct Light {
 
 // ---- Frame: what is the same for all pixels, 128 bytes --------------------------------------------------------------
 //   0 width  4 height  8 seed  12 samples along a side (n of n × n)
-//  16 camera type  20 sample pattern  24 media that the eye is in (media.glsl)  28 max_depth
-//  32 light count  36 2 (loops.glsl)  40 integrator  44 triangle method
-//  48 right.xyz      60 min_weight
+//  16 camera type  20 sample pattern  24 media that the eye is in (materials/media.glsl)  28 max_depth
+//  32 light count  36 2 (kernels/loops.glsl)  40 integrator  44 triangle method
+//  48 right.xyz      60 min_throughput
 //  64 up.xyz         76 2 / width
 //  80 forward.xyz    92 2 / height
 //  96 background.rgb
@@ -206,7 +206,7 @@ struct HitResult {
   vec4 uv;
   uvec4 ids;
 };
-// query.comp.glsl: a ray, 32 bytes: origin.xyz; direction.xyz, the t up to which occlusion counts.
+// kernels/query.comp.glsl: a ray, 32 bytes: origin.xyz; direction.xyz, the t up to which occlusion counts.
 struct QueryRay {
   vec4 origin;
   vec4 direction;
@@ -217,7 +217,7 @@ struct QueryHit {
   uvec4 hit;
 };
 
-// Rays that packet.comp.glsl traces together. More share more of the work, and take longer to compile.
+// Rays that kernels/cooperative/packet.comp.glsl traces together. More share more of the work, and take longer to compile.
 #define PACKET 32
 
 // What the ray of one sample of a pixel hits, 32 bytes: the bits of t, slot, id, flags; the bits of u and v, -, -.
@@ -226,11 +226,11 @@ struct PacketHit {
   uvec4 uv;
 };
 
-// Where a pixel's path goes on, 48 bytes: origin.xyz; direction.xyz; weight.rgb.
+// Where a pixel's path goes on, 48 bytes: origin.xyz; direction.xyz; throughput.rgb.
 struct PathState {
   vec4 origin;
   vec4 direction;
-  vec4 weight;
+  vec4 throughput;
 };
 
 #define REFRACTED_SHIFT 8u
@@ -240,14 +240,14 @@ struct PathState {
 #define FLAG_MEDIA_OVERFLOW 1u
 #define FLAG_STACK_OVERFLOW 2u
 #define FLAG_LOOP_BUDGET 4u
-#define FLAG_RAN_OUT 8u
+#define FLAG_ITERATION_LIMIT 8u
 #define FLAG_ENDLESS 16u  // a formula made more than FORMULA_TURNS turns of its loops in one call
 
 SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(eyeray::shader::Primitive) == 64);
-static_assert(sizeof(eyeray::shader::Tree) == 64);
+static_assert(sizeof(eyeray::shader::Bvh) == 64);
 static_assert(sizeof(eyeray::shader::Instance) == 112);
 static_assert(sizeof(eyeray::shader::Material) == 64);
 static_assert(sizeof(eyeray::shader::Medium) == 16);

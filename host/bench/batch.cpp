@@ -1,14 +1,14 @@
-#include "bench/batch.hpp"
+#include "host/bench/batch.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
-#include "reference/camera.hpp"
-#include "reference/rng.hpp"
-#include "scene/affine.hpp"
-#include "scene/primitive_ids.hpp"
+#include "host/core/error.hpp"
+#include "host/reference/camera.hpp"
+#include "host/reference/rng.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/primitive_ids.hpp"
 
 namespace eyeray {
 namespace {
@@ -20,7 +20,7 @@ struct Point {
   Vec3 normal;  // unit, geometric
 };
 
-// Where the ray meets a triangle of an instance, by the triangle's plane.
+// Where the ray hits a triangle of an instance, by the triangle's plane.
 std::optional<Point> on_mesh(const Scene& scene, const Instance& instance, size_t triangle,
                              const Query& ray) {
   const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
@@ -36,12 +36,12 @@ std::optional<Point> on_mesh(const Scene& scene, const Instance& instance, size_
 std::optional<Point> on_shape(const Shape& shape, const Query& query) {
   const Ray ray{query.o, query.d};
   const std::optional<Intersection> hit = shape.intersect(ray);
-  if (!hit || hit->ran_out) return std::nullopt;
+  if (!hit || hit->iteration_limit) return std::nullopt;
   const SurfacePoint surface = shape.surface(ray, *hit);
   return Point{surface.position, surface.normal_geometric};
 }
 
-// Where the ray meets the primitive there.
+// Where the ray hits the primitive there.
 std::optional<Point> point_on(const Scene& scene, const PrimitiveIds::Location& at, const Query& ray) {
   if (at.group_instance < 0)
     return at.is_shape ? on_shape(*scene.shapes[at.index], ray)
@@ -84,11 +84,11 @@ Batch primary_batch(const Scene& scene, int width, int height) {
   return batch;
 }
 
-std::vector<Departure> departures(const Scene& scene, std::span<const Query> rays,
-                                  std::span<const QueryHit> hits) {
+std::vector<SurfacePosition> departures(const Scene& scene, std::span<const Query> rays,
+                                        std::span<const QueryHit> hits) {
   CHECK_EQ(rays.size(), hits.size());
   const PrimitiveIds ids(scene);
-  std::vector<Departure> found;
+  std::vector<SurfacePosition> found;
   for (size_t i = 0; i < rays.size(); ++i) {
     const int64_t primitive = hits[i].primitive;
     if (primitive < 0) continue;
@@ -101,11 +101,11 @@ std::vector<Departure> departures(const Scene& scene, std::span<const Query> ray
   return found;
 }
 
-Batch shadow_batch(const Scene& scene, std::span<const Departure> departures) {
+Batch shadow_batch(const Scene& scene, std::span<const SurfacePosition> departures) {
   Batch batch{"shadow", QueryKind::any, true, {}};
   if (scene.lights.empty()) return batch;
   const Light& light = scene.lights.front();
-  for (const Departure& from : departures) {
+  for (const SurfacePosition& from : departures) {
     Query ray{from.position, light.to_light};
     if (light.type == LightType::point) {
       ray.t_max = glm::distance(light.position, from.position);
@@ -116,10 +116,10 @@ Batch shadow_batch(const Scene& scene, std::span<const Departure> departures) {
   return batch;
 }
 
-Batch bounce_batch(std::span<const Departure> departures, uint32_t seed) {
+Batch bounce_batch(std::span<const SurfacePosition> departures, uint32_t seed) {
   Batch batch{"bounce", QueryKind::nearest, false, {}};
   batch.rays.reserve(departures.size());
-  for (const Departure& from : departures) {
+  for (const SurfacePosition& from : departures) {
     // A point on the unit sphere around the normal's tip: the directions to it have the cosine's density.
     const double z = 2 * reference::random(from.ray, 0, 0, seed) - 1;
     const double phi = 2 * std::numbers::pi * reference::random(from.ray, 0, 1, seed);

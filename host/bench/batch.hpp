@@ -1,12 +1,12 @@
-// Batches of rays as a renderer traces them: from the camera, to the light, and scattered.
+// Batches of rays as a renderer traces them: from the camera, to the light, and bounced.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
-#include "scene/query.hpp"
-#include "scene/scene.hpp"
+#include "host/scene/query.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray {
 
@@ -20,21 +20,21 @@ struct Batch {
 // The rays through the centres of the pixels of a width × height picture, in blocks of 8 × 8 pixels.
 Batch primary_batch(const Scene& scene, int width, int height);
 
-// Where rays met a scene: on the side that they came from, and off it by about 2⁻¹⁶ of the coordinates, so
-// that a float32 ray that leaves it does not meet it again.
-struct Departure {
+// Where rays hit a scene: on the side that they came from, and off it by about 2⁻¹⁶ of the coordinates, so
+// that a float32 ray that leaves it does not hit it again.
+struct SurfacePosition {
   uint32_t ray;
   Vec3 position;
   Vec3 normal;  // unit, geometric, towards where the ray came from
 };
 // `hits` are those of `rays`; a hit that float64 does not confirm is left out.
-std::vector<Departure> departures(const Scene& scene, std::span<const Query> rays,
-                                  std::span<const QueryHit> hits);
+std::vector<SurfacePosition> departures(const Scene& scene, std::span<const Query> rays,
+                                        std::span<const QueryHit> hits);
 
 // From each departure that faces the scene's first light to that light; empty without a light.
-Batch shadow_batch(const Scene& scene, std::span<const Departure> departures);
+Batch shadow_batch(const Scene& scene, std::span<const SurfacePosition> departures);
 
 // From each departure into one direction, distributed as the cosine to its normal.
-Batch bounce_batch(std::span<const Departure> departures, uint32_t seed);
+Batch bounce_batch(std::span<const SurfacePosition> departures, uint32_t seed);
 
 }  // namespace eyeray

@@ -1,22 +1,22 @@
-#include "bench/field.hpp"
+#include "host/bench/field.hpp"
 
 namespace eyeray {
 
-double rate(const BatchReport& batch, const Lap& lap) {
-  return lap.seconds.median > 0 ? double(batch.rays) / lap.seconds.median : 0;
+double rate(const BatchReport& batch, const Timing& timing) {
+  return timing.seconds.median > 0 ? double(batch.rays) / timing.seconds.median : 0;
 }
 
-const Lap* fastest(const BatchReport& batch, Side side) {
-  const Lap* best = nullptr;
-  for (const Lap& lap : batch.laps) {
-    if (lap.side == side && (!best || lap.seconds.median < best->seconds.median)) best = &lap;
+const Timing* fastest(const BatchReport& batch, ContenderKind kind) {
+  const Timing* best = nullptr;
+  for (const Timing& timing : batch.timings) {
+    if (timing.kind == kind && (!best || timing.seconds.median < best->seconds.median)) best = &timing;
   }
   return best;
 }
 
-double times_as_fast(const BatchReport& batch, const Lap& lap, Side side) {
-  const Lap* const other = fastest(batch, side);
-  return other && lap.seconds.median > 0 ? other->seconds.median / lap.seconds.median : 0;
+double times_as_fast(const BatchReport& batch, const Timing& timing, ContenderKind kind) {
+  const Timing* const other = fastest(batch, kind);
+  return other && timing.seconds.median > 0 ? other->seconds.median / timing.seconds.median : 0;
 }
 
 }  // namespace eyeray

@@ -6,21 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "bench/race.hpp"
+#include "host/bench/race.hpp"
 
 namespace eyeray {
 
 struct BatchReport {
   std::string name;  // primary, shadow, bounce
   uint64_t rays = 0;
-  std::vector<Lap> laps;
+  std::vector<Timing> timings;
 };
 
 // What a contender made of the scene before it traced it.
 struct Build {
   std::string contender;
   double seconds = 0;
-  uint64_t bytes = 0;  // geometry and tree; 0 where unknown
+  uint64_t bytes = 0;  // geometry and BVH; 0 where unknown
 };
 
 struct SceneReport {
@@ -34,11 +34,11 @@ struct SceneReport {
 using FieldReport = std::vector<SceneReport>;
 
 // Rays a second, by the median.
-double rate(const BatchReport& batch, const Lap& lap);
-// The fastest lap of a side, or nullptr.
-const Lap* fastest(const BatchReport& batch, Side side);
-// How many times as fast a lap is as the fastest of a side; 0 where that side did not run.
-double times_as_fast(const BatchReport& batch, const Lap& lap, Side side);
+double rate(const BatchReport& batch, const Timing& timing);
+// The fastest timing of a kind, or nullptr.
+const Timing* fastest(const BatchReport& batch, ContenderKind kind);
+// How many times as fast a timing is as the fastest of a kind; 0 where that side did not run.
+double times_as_fast(const BatchReport& batch, const Timing& timing, ContenderKind kind);
 
 nlohmann::ordered_json to_json(const FieldReport& report);
 // A report out of the answer of `eyeray bench --json`; Error (file_io) where it cannot be read, Error

@@ -1,33 +1,37 @@
 #include <nlohmann/json.hpp>
 
-#include "bench/field.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
+#include "host/bench/field.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-NLOHMANN_JSON_SERIALIZE_ENUM(Side, {{Side::ours, "ours"}, {Side::single, "single"}, {Side::packet, "packet"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(ContenderKind, {{ContenderKind::ours, "ours"},
+                                             {ContenderKind::single, "single"},
+                                             {ContenderKind::packet, "packet"}})
 
-Json to_json(const BatchReport& batch, const Lap& lap) {
-  Json json{{"contender", lap.contender},
-            {"side", lap.side},
-            {"seconds", {{"median", lap.seconds.median}, {"min", lap.seconds.min}, {"max", lap.seconds.max}}},
-            {"rays_per_second", rate(batch, lap)},
-            {"differing", lap.differing}};
-  if (lap.side != Side::ours) return json;
-  for (const auto& [key, side] : {std::pair{"times_single", Side::single}, {"times_packet", Side::packet}}) {
-    if (const double ratio = times_as_fast(batch, lap, side); ratio > 0) json[key] = ratio;
+Json to_json(const BatchReport& batch, const Timing& timing) {
+  Json json{{"contender", timing.contender},
+            {"kind", timing.kind},
+            {"seconds",
+             {{"median", timing.seconds.median}, {"min", timing.seconds.min}, {"max", timing.seconds.max}}},
+            {"rays_per_second", rate(batch, timing)},
+            {"differing", timing.differing}};
+  if (timing.kind != ContenderKind::ours) return json;
+  for (const auto& [key, kind] :
+       {std::pair{"times_single", ContenderKind::single}, {"times_packet", ContenderKind::packet}}) {
+    if (const double ratio = times_as_fast(batch, timing, kind); ratio > 0) json[key] = ratio;
   }
   return json;
 }
 
-Lap lap_from(const Json& json) {
+Timing timing_from(const Json& json) {
   const Json& seconds = json.at("seconds");
   return {json.at("contender"),
-          json.at("side"),
+          json.at("kind"),
           {seconds.at("median"), seconds.at("min"), seconds.at("max")},
           json.at("differing")};
 }
@@ -41,9 +45,9 @@ Json to_json(const FieldReport& report) {
     for (const Build& build : scene.builds)
       builds.push_back({{"contender", build.contender}, {"seconds", build.seconds}, {"bytes", build.bytes}});
     for (const BatchReport& batch : scene.batches) {
-      Json laps = Json::array();
-      for (const Lap& lap : batch.laps) laps.push_back(to_json(batch, lap));
-      batches.push_back({{"name", batch.name}, {"rays", batch.rays}, {"laps", laps}});
+      Json timings = Json::array();
+      for (const Timing& timing : batch.timings) timings.push_back(to_json(batch, timing));
+      batches.push_back({{"name", batch.name}, {"rays", batch.rays}, {"timings", timings}});
     }
     scenes.push_back({{"scene", scene.scene},
                       {"family", scene.family},
@@ -66,7 +70,7 @@ FieldReport read_field_report(const std::filesystem::path& file) {
         entry.builds.push_back({build.at("contender"), build.at("seconds"), build.at("bytes")});
       for (const Json& batch : scene.at("batches")) {
         BatchReport& rays = entry.batches.emplace_back(BatchReport{batch.at("name"), batch.at("rays"), {}});
-        for (const Json& lap : batch.at("laps")) rays.laps.push_back(lap_from(lap));
+        for (const Json& timing : batch.at("timings")) rays.timings.push_back(timing_from(timing));
       }
     }
     return report;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "bench/field.hpp"
-#include "bench/svg.hpp"
+#include "host/bench/field.hpp"
+#include "host/bench/svg.hpp"
 
 namespace eyeray {
 namespace {
@@ -17,14 +17,14 @@ constexpr double panel_width = 320, panel_height = 260, margin = 60, bar_height 
 constexpr std::string_view colors[] = {"#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"};
 constexpr std::string_view grid_color = "#dddddd", axis_color = "#444444";
 
-// The name under which a lap is drawn: packets and streams count as one contender, the fastest of them.
-std::string drawn_name(const Lap& lap) {
-  return lap.side == Side::packet ? "Embree packets" : lap.contender;
+// The name under which a timing is drawn: packets and streams count as one contender, the fastest of them.
+std::string drawn_name(const Timing& timing) {
+  return timing.kind == ContenderKind::packet ? "Embree packets" : timing.contender;
 }
 
-bool is_drawn(const BatchReport& batch, const Lap& lap) {
-  return lap.seconds.median > 0 && batch.rays > 0 &&
-         (lap.side != Side::packet || &lap == fastest(batch, Side::packet));
+bool is_drawn(const BatchReport& batch, const Timing& timing) {
+  return timing.seconds.median > 0 && batch.rays > 0 &&
+         (timing.kind != ContenderKind::packet || &timing == fastest(batch, ContenderKind::packet));
 }
 
 // Every drawn contender and batch of a report, in the order of first appearance.
@@ -36,8 +36,8 @@ struct Cast {
     for (const SceneReport& scene : report) {
       for (const BatchReport& batch : scene.batches) {
         add(batches, batch.name);
-        for (const Lap& lap : batch.laps) {
-          if (is_drawn(batch, lap)) add(contenders, drawn_name(lap));
+        for (const Timing& timing : batch.timings) {
+          if (is_drawn(batch, timing)) add(contenders, drawn_name(timing));
         }
       }
     }
@@ -78,10 +78,10 @@ class Plot {
       : report_(report), cast_(report), svg_(width(), 2 * margin + panel_height + bars_height()) {
     for (const SceneReport& scene : report_) {
       for (const BatchReport& batch : scene.batches) {
-        for (const Lap& lap : batch.laps) {
-          if (!is_drawn(batch, lap)) continue;
+        for (const Timing& timing : batch.timings) {
+          if (!is_drawn(batch, timing)) continue;
           sizes_.include(double(std::max<uint64_t>(1, scene.primitives)));
-          rates_.include(rate(batch, lap));
+          rates_.include(rate(batch, timing));
         }
       }
     }
@@ -109,7 +109,7 @@ class Plot {
     size_t count = 0;
     for (const SceneReport& scene : report_) {
       for (const BatchReport& batch : scene.batches)
-        count += size_t(std::ranges::count(batch.laps, Side::ours, &Lap::side));
+        count += size_t(std::ranges::count(batch.timings, ContenderKind::ours, &Timing::kind));
     }
     return count;
   }
@@ -149,10 +149,10 @@ class Plot {
     for (const SceneReport& scene : report_) {
       for (const BatchReport& batch : scene.batches) {
         if (batch.name != name) continue;
-        for (const Lap& lap : batch.laps) {
-          if (!is_drawn(batch, lap)) continue;
-          curves[{drawn_name(lap), scene.family}].push_back(
-              place(double(std::max<uint64_t>(1, scene.primitives)), rate(batch, lap)));
+        for (const Timing& timing : batch.timings) {
+          if (!is_drawn(batch, timing)) continue;
+          curves[{drawn_name(timing), scene.family}].push_back(
+              place(double(std::max<uint64_t>(1, scene.primitives)), rate(batch, timing)));
         }
       }
     }
@@ -166,16 +166,16 @@ class Plot {
   // Ours over Embree's single rays; the line is where both are as fast.
   void bars() {
     double longest = 1.5;
-    for_each_bar([&](const SceneReport&, const BatchReport&, const Lap&, double ratio) {
+    for_each_bar([&](const SceneReport&, const BatchReport&, const Timing&, double ratio) {
       longest = std::max(longest, ratio);
     });
     const double names = 330, scale = (width() - names - 2 * margin) / longest;
     double y = 2 * margin + panel_height;
     if (bar_count() > 0) svg_.text({names, y - 12}, "times as fast as Embree's single rays", "start", 13);
     const double top = y;
-    for_each_bar([&](const SceneReport& scene, const BatchReport& batch, const Lap& lap, double ratio) {
+    for_each_bar([&](const SceneReport& scene, const BatchReport& batch, const Timing& timing, double ratio) {
       svg_.text({names - 8, y + bar_height - 2}, scene.scene + ", " + batch.name, "end");
-      svg_.box({names, y}, {ratio * scale, bar_height}, cast_.color(lap.contender));
+      svg_.box({names, y}, {ratio * scale, bar_height}, cast_.color(timing.contender));
       svg_.text({names + ratio * scale + 5, y + bar_height - 2}, fmt::format("{:.2f}", ratio), "start", 11);
       y += bar_height + 6;
     });
@@ -186,10 +186,10 @@ class Plot {
   void for_each_bar(const Visit& visit) const {
     for (const SceneReport& scene : report_) {
       for (const BatchReport& batch : scene.batches) {
-        for (const Lap& lap : batch.laps) {
-          if (lap.side != Side::ours) continue;
-          if (const double ratio = times_as_fast(batch, lap, Side::single); ratio > 0)
-            visit(scene, batch, lap, ratio);
+        for (const Timing& timing : batch.timings) {
+          if (timing.kind != ContenderKind::ours) continue;
+          if (const double ratio = times_as_fast(batch, timing, ContenderKind::single); ratio > 0)
+            visit(scene, batch, timing, ratio);
         }
       }
     }

@@ -1,12 +1,13 @@
-#include "bench/field_run.hpp"
+#include "host/bench/field_run.hpp"
 
-#include "rivals/embree.hpp"
+#include "host/contenders/embree.hpp"
 
 namespace eyeray {
 namespace {
 
 Contender contender(const Embree& embree, EmbreeCalls calls) {
-  return {fmt::format("Embree {}", name(calls)), calls == EmbreeCalls::one ? Side::single : Side::packet,
+  return {fmt::format("Embree {}", name(calls)),
+          calls == EmbreeCalls::one ? ContenderKind::single : ContenderKind::packet,
           [&embree, calls](const Batch& batch, std::span<QueryHit> hits) {
             return embree.query(batch.rays, batch.kind, hits, calls, batch.coherent);
           }};
@@ -26,11 +27,11 @@ SceneReport run_field(const std::string& name, const std::string& family, const 
        {EmbreeCalls::packets_of_8, EmbreeCalls::packets_of_16, EmbreeCalls::streams})
     contenders.push_back(contender(embree, calls));
 
-  // What the eye rays meet is where the other two batches start.
+  // What the eye rays hit is where the other two batches start.
   Batch primary = primary_batch(scene, options.width, options.height);
   std::vector<QueryHit> hits(primary.rays.size());
   embree.query(primary.rays, primary.kind, hits, EmbreeCalls::packets_of_8, true);
-  const std::vector<Departure> from = departures(scene, primary.rays, hits);
+  const std::vector<SurfacePosition> from = departures(scene, primary.rays, hits);
   for (const Batch& batch :
        {std::move(primary), shadow_batch(scene, from), bounce_batch(from, options.seed)}) {
     if (!batch.rays.empty())

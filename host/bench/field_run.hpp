@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/field.hpp"
+#include "host/bench/field.hpp"
 
 namespace eyeray {
 
@@ -8,10 +8,10 @@ struct FieldOptions {
   int width = 1024;  // of the picture whose eye rays are traced
   int height = 1024;
   int runs = 5;
-  uint32_t seed = 0;  // of the scattered rays
+  uint32_t seed = 0;  // of the bounced rays
 };
 
-// Builds Embree's tree, makes the three batches, and races `ours` on them beside Embree by single rays,
+// Builds Embree's BVH, makes the three batches, and races `ours` on them beside Embree by single rays,
 // packets and streams. Embree's single rays are the first contender: the hits of all others are compared with
 // theirs.
 SceneReport run_field(const std::string& name, const std::string& family, const Scene& scene,

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bench/field.hpp"
+#include "host/bench/field.hpp"
 
 namespace eyeray {
 namespace {
@@ -16,13 +16,14 @@ std::string ratio(double value) {
   return value > 0 ? fmt::format("{:.2f}", value) : "-";
 }
 
-std::string row(const BatchReport& batch, const Lap& lap) {
-  const bool ours = lap.side == Side::ours;
-  return fmt::format("  {:<9} {:<24} {:>8}  {:>6} … {:<6} {:>8} {:>9} {:>9}\n", batch.name, lap.contender,
-                     millions(rate(batch, lap)), millions(double(batch.rays) / lap.seconds.max),
-                     millions(double(batch.rays) / lap.seconds.min),
-                     ours ? ratio(times_as_fast(batch, lap, Side::single)) : "",
-                     ours ? ratio(times_as_fast(batch, lap, Side::packet)) : "", lap.differing);
+std::string row(const BatchReport& batch, const Timing& timing) {
+  const bool ours = timing.kind == ContenderKind::ours;
+  return fmt::format("  {:<9} {:<24} {:>8}  {:>6} … {:<6} {:>8} {:>9} {:>9}\n", batch.name, timing.contender,
+                     millions(rate(batch, timing)), millions(double(batch.rays) / timing.seconds.max),
+                     millions(double(batch.rays) / timing.seconds.min),
+                     ours ? ratio(times_as_fast(batch, timing, ContenderKind::single)) : "",
+                     ours ? ratio(times_as_fast(batch, timing, ContenderKind::packet)) : "",
+                     timing.differing);
 }
 
 }  // namespace
@@ -39,8 +40,9 @@ std::string to_text(const FieldReport& report) {
     text += fmt::format("  {:<9} {:<24} {:>8}  {:<15} {:>8} {:>9} {:>9}\n", "rays", "", "Mrays/s", "  spread",
                         ": single", ": packets", "differ");
     for (const BatchReport& batch : scene.batches) {
-      for (const Lap& lap : batch.laps) {
-        if (lap.side != Side::packet || &lap == fastest(batch, Side::packet)) text += row(batch, lap);
+      for (const Timing& timing : batch.timings) {
+        if (timing.kind != ContenderKind::packet || &timing == fastest(batch, ContenderKind::packet))
+          text += row(batch, timing);
       }
     }
     text += "\n";
@@ -68,16 +70,16 @@ std::string changes(const FieldReport& old, const FieldReport& report) {
     for (const BatchReport& batch : scene.batches) {
       const BatchReport* const old_batch = find(old_scene->batches, &BatchReport::name, batch.name);
       if (!old_batch) continue;
-      for (const Lap& lap : batch.laps) {
-        const Lap* const old_lap = find(old_batch->laps, &Lap::contender, lap.contender);
+      for (const Timing& timing : batch.timings) {
+        const Timing* const old_lap = find(old_batch->timings, &Timing::contender, timing.contender);
         if (!old_lap || old_lap->seconds.median <= 0 || old_batch->rays == 0) continue;
         // Spreads that touch may be one and the same speed.
         const double scale = double(batch.rays) / double(old_batch->rays);
-        const bool apart =
-            lap.seconds.min > scale * old_lap->seconds.max || lap.seconds.max < scale * old_lap->seconds.min;
-        const double before = rate(*old_batch, *old_lap), now = rate(batch, lap);
+        const bool apart = timing.seconds.min > scale * old_lap->seconds.max ||
+                           timing.seconds.max < scale * old_lap->seconds.min;
+        const double before = rate(*old_batch, *old_lap), now = rate(batch, timing);
         text += fmt::format("{:<24} {:<9} {:<24} {:>8} -> {:<8} {:>+7.1f} %{}\n", scene.scene, batch.name,
-                            lap.contender, millions(before), millions(now), 100 * (now / before - 1),
+                            timing.contender, millions(before), millions(now), 100 * (now / before - 1),
                             apart ? "" : "  within the spread");
       }
     }

@@ -1,10 +1,10 @@
-#include "bench/race.hpp"
+#include "host/bench/race.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/termination.hpp"
+#include "host/core/error.hpp"
+#include "host/core/termination.hpp"
 
 namespace eyeray {
 
@@ -13,14 +13,14 @@ bool agree(const QueryHit& a, const QueryHit& b) {
   return std::abs(a.t - b.t) <= 1e-3 * std::max(std::abs(a.t), std::abs(b.t));
 }
 
-std::vector<Lap> race(const Batch& batch, std::span<const Contender> contenders, int runs) {
+std::vector<Timing> race(const Batch& batch, std::span<const Contender> contenders, int runs) {
   std::vector<QueryHit> first(batch.rays.size()), hits(batch.rays.size());
-  std::vector<Lap> laps;
+  std::vector<Timing> timings;
   for (const Contender& contender : contenders) {
-    Lap& lap = laps.emplace_back(Lap{contender.name, contender.side, {}, 0});
+    Timing& timing = timings.emplace_back(Timing{contender.name, contender.kind, {}, 0});
     contender.query(batch, hits);
-    if (laps.size() == 1) first = hits;
-    for (size_t i = 0; i < hits.size(); ++i) lap.differing += !agree(first[i], hits[i]);
+    if (timings.size() == 1) first = hits;
+    for (size_t i = 0; i < hits.size(); ++i) timing.differing += !agree(first[i], hits[i]);
   }
 
   std::vector<std::vector<double>> seconds(contenders.size());
@@ -30,8 +30,8 @@ std::vector<Lap> race(const Batch& batch, std::span<const Contender> contenders,
       seconds[i].push_back(contenders[i].query(batch, hits));
     }
   }
-  for (size_t i = 0; i < contenders.size(); ++i) laps[i].seconds = spread(seconds[i]);
-  return laps;
+  for (size_t i = 0; i < contenders.size(); ++i) timings[i].seconds = spread(seconds[i]);
+  return timings;
 }
 
 }  // namespace eyeray

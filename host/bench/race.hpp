@@ -1,4 +1,4 @@
-// Contenders on the same rays, in turns, so that a change of the machine's mood meets them all.
+// Contenders on the same rays, in turns, so that a change of the machine's mood hits them all.
 #pragma once
 
 #include <functional>
@@ -6,24 +6,28 @@
 #include <string>
 #include <vector>
 
-#include "bench/batch.hpp"
-#include "bench/spread.hpp"
+#include "host/bench/batch.hpp"
+#include "host/bench/spread.hpp"
 
 namespace eyeray {
 
-enum class Side { ours, single, packet };  // ours, or Embree by single rays, or by packets and streams
+enum class ContenderKind {
+  ours,
+  single,
+  packet
+};  // ours, or Embree by single rays, or by packets and streams
 
 struct Contender {
   std::string name;
-  Side side = Side::ours;
+  ContenderKind kind = ContenderKind::ours;
   // Fills the hits; returns the seconds that tracing alone took.
   std::function<double(const Batch&, std::span<QueryHit>)> query;
 };
 
 // What one contender did on one batch.
-struct Lap {
+struct Timing {
   std::string contender;
-  Side side = Side::ours;
+  ContenderKind kind = ContenderKind::ours;
   Spread seconds;
   uint64_t differing = 0;  // rays whose hit is not the first contender's
 };
@@ -33,6 +37,6 @@ bool agree(const QueryHit& a, const QueryHit& b);
 
 // One round that is not timed, whose hits are compared, then `runs` that are. Error (interrupted) after
 // Ctrl-C.
-std::vector<Lap> race(const Batch& batch, std::span<const Contender> contenders, int runs);
+std::vector<Timing> race(const Batch& batch, std::span<const Contender> contenders, int runs);
 
 }  // namespace eyeray

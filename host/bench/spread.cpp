@@ -1,4 +1,4 @@
-#include "bench/spread.hpp"
+#include "host/bench/spread.hpp"
 
 #include <algorithm>
 

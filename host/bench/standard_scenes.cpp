@@ -1,14 +1,14 @@
-#include "bench/standard_scenes.hpp"
+#include "host/bench/standard_scenes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "core/atomic_file.hpp"
-#include "generate/ply_file.hpp"
-#include "generate/sphereflake.hpp"
-#include "generate/terrain.hpp"
-#include "loader/scene_file.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/generate/ply_file.hpp"
+#include "host/generate/sphereflake.hpp"
+#include "host/generate/terrain.hpp"
+#include "host/loader/scene_file.hpp"
 
 namespace eyeray {
 

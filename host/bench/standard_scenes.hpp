@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/scene.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "bench/svg.hpp"
+#include "host/bench/svg.hpp"
 
 #include <fmt/format.h>
 

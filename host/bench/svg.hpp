@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/vec.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray {
 

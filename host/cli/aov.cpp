@@ -1,10 +1,10 @@
-#include "cli/aov.hpp"
+#include "host/cli/aov.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "core/diagnostic.hpp"
-#include "core/error.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray::cli {
 namespace {

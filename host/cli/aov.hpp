@@ -1,4 +1,4 @@
-// Arbitrary output variables: what a pixel's ray met, beside its colour, as pictures.
+// Arbitrary output variables: what a pixel's ray hit, beside its colour, as pictures.
 #pragma once
 
 #include <span>
@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/false_color.hpp"
-#include "core/image.hpp"
-#include "core/pixel.hpp"
+#include "host/core/pixel.hpp"
+#include "host/image/false_color.hpp"
+#include "host/image/image.hpp"
 
 namespace eyeray::cli {
 

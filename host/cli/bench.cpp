@@ -3,20 +3,20 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "bench/field_run.hpp"
-#include "bench/standard_scenes.hpp"
-#include "cli/bench_changes.hpp"
-#include "cli/bench_pictures.hpp"
-#include "cli/bench_runs.hpp"
-#include "cli/command.hpp"
-#include "cli/json.hpp"
-#include "cli/scratch_folder.hpp"
-#include "core/atomic_file.hpp"
-#include "core/image_file.hpp"
-#include "core/stopwatch.hpp"
-#include "importers/import.hpp"
-#include "loader/scene_file.hpp"
-#include "rivals/povray_scene.hpp"
+#include "host/bench/field_run.hpp"
+#include "host/bench/standard_scenes.hpp"
+#include "host/cli/bench_changes.hpp"
+#include "host/cli/bench_pictures.hpp"
+#include "host/cli/bench_runs.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/json.hpp"
+#include "host/cli/scratch_folder.hpp"
+#include "host/contenders/povray_scene.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/image/image_file.hpp"
+#include "host/importers/import.hpp"
+#include "host/loader/scene_file.hpp"
 
 namespace fs = std::filesystem;
 
@@ -43,7 +43,7 @@ struct Ours {
 struct Command {
   std::vector<std::string> scenes;  // files, and names of standard scenes
   PictureOptions pictures;
-  std::vector<std::string> scattered{""};  // ProfileOptions::scattered, each for a gpu executor of its own
+  std::vector<std::string> incoherent{""};  // ProfileOptions::incoherent, each for a gpu executor of its own
   bool with_rays = true;
   bool with_pictures = true;
   std::string plot;
@@ -77,18 +77,19 @@ Ours Command::executors(const Scene& scene) const {
     const Stopwatch watch;
     ExecutorOptions options;
     options.device = pictures.device;
-    options.profile.scattered = how;
+    options.profile.incoherent = how;
     ours.executors.push_back(make_executor(backend, scene, options));
     ours.seconds.push_back(watch.seconds());
     Executor* const executor = ours.executors.back().get();
-    ours.contenders.push_back({name, Side::ours, [executor](const Batch& batch, std::span<QueryHit> hits) {
-                                 return executor->query({batch.rays, batch.kind, batch.coherent}, hits);
-                               }});
+    ours.contenders.push_back(
+        {name, ContenderKind::ours, [executor](const Batch& batch, std::span<QueryHit> hits) {
+           return executor->query({batch.rays, batch.kind, batch.coherent}, hits);
+         }});
   };
   for (const std::string& name : pictures.backends) {
     const Backend backend = parse_backend(name);
     if (backend == Backend::gpu)
-      for (const std::string& how : scattered) add(how.empty() ? name : name + " " + how, backend, how);
+      for (const std::string& how : incoherent) add(how.empty() ? name : name + " " + how, backend, how);
     else
       add(name, backend, "");
   }
@@ -100,7 +101,7 @@ std::vector<Build> Ours::builds() const {
   for (size_t i = 0; i < executors.size(); ++i) {
     double packing = 0;
     for (const auto& [stage, spent] : executors[i]->times().stages())
-      if (stage == "pack" || stage == "widen") packing += spent;
+      if (stage == "pack" || stage == "collapse") packing += spent;
     builds.push_back(
         {contenders[i].name, packing > 0 ? packing : seconds[i], executors[i]->geometry_bytes()});
   }
@@ -222,11 +223,16 @@ void add_bench(CLI::App& app, Run& run) {
       ->take_all();
   command->add_option("--device", pictures.device, "As for render.")->option_text("WHICH");
   command
-      ->add_option("--scattered", options->scattered,
-                   "How gpu traces rays that part, out of wide, lanes and packets: each races by itself.")
+      ->add_option("--incoherent", options->incoherent,
+                   "How gpu traces incoherent rays, out of cooperative (four lanes a ray), lanes and "
+                   "packets: each races by itself.")
       ->option_text("LIST")
       ->delimiter(',')
       ->allow_extra_args(false);
+  command->add_option("--scattered", options->incoherent)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group("");  // until 0.2
   command->add_flag_callback(
       "--no-rays", [options] { options->with_rays = false; }, "Whole pictures only.");
   command->add_flag_callback(
@@ -242,7 +248,7 @@ void add_bench(CLI::App& app, Run& run) {
       ->option_text("OLD.json");
   command->add_flag("--json", options->json, "Answer as JSON on standard output.");
   command->footer(
-      "Rays: from the eye, to the light, and scattered once, on the same rays as Embree's, in turns.\n"
+      "Rays: from the eye, to the light, and bounced once, on the same rays as Embree's, in turns.\n"
       "Pictures: every run is a process of its own, and contenders take turns. A cold start has empty "
       "caches;\n"
       "both starts go from nothing to a written 640x480 picture. bench/whitted.pov is that scene for "

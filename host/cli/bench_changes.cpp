@@ -1,10 +1,10 @@
-#include "cli/bench_changes.hpp"
+#include "host/cli/bench_changes.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/json.hpp"
+#include "host/cli/json.hpp"
 
 namespace eyeray::cli {
 

@@ -1,12 +1,12 @@
-#include "cli/bench_pictures.hpp"
+#include "host/cli/bench_pictures.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli/bench_runs.hpp"
-#include "cli/command.hpp"
-#include "cli/scratch_folder.hpp"
+#include "host/cli/bench_runs.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/scratch_folder.hpp"
 
 namespace fs = std::filesystem;
 
@@ -48,7 +48,7 @@ std::vector<std::string> arguments(const fs::path& scene, const std::string& bac
   return words;
 }
 
-// All contenders take turns, so that a change of the machine's mood meets them all.
+// All contenders take turns, so that a change of the machine's mood hits them all.
 std::vector<Series> measure(const fs::path& scene, const PictureOptions& options) {
   const ScratchFolder scratch;
   const std::optional<fs::path> pov = povray_scene(scene, options);

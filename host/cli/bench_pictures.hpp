@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/json.hpp"
+#include "host/cli/json.hpp"
 
 namespace eyeray::cli {
 

@@ -1,11 +1,11 @@
-#include "cli/bench_runs.hpp"
+#include "host/cli/bench_runs.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "core/error.hpp"
-#include "core/termination.hpp"
+#include "host/core/error.hpp"
+#include "host/core/termination.hpp"
 
 namespace fs = std::filesystem;
 

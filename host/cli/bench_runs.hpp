@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/spread.hpp"
-#include "core/process.hpp"
+#include "host/bench/spread.hpp"
+#include "host/core/process.hpp"
 
 namespace eyeray::cli {
 

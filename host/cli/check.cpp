@@ -2,12 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.hpp"
-#include "cli/json.hpp"
-#include "loader/scene_file.hpp"
-#include "render/pack.hpp"
-#include "scene/camera_frame.hpp"
-#include "scene/things.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/json.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/pack/pack.hpp"
+#include "host/scene/camera_frame.hpp"
+#include "host/scene/objects.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -66,9 +66,9 @@ uint64_t shapes_kept_in_groups(const Scene& scene) {
 
 void list_names(const Scene& scene, Inventory& inventory) {
   constexpr size_t most = 10;
-  const Things things(scene);
+  const Objects things(scene);
   for (size_t i = 0; i < things.size(); ++i) {
-    const Thing thing = things[i];
+    const Object thing = things[i];
     if (!thing.name.own || ++inventory.named > most) continue;
     inventory.names.push_back(describe(thing, scene.names));
   }
@@ -93,7 +93,7 @@ Inventory take_inventory(const Scene& scene) {
   list_names(scene, inventory);
   for (const Mesh& mesh : scene.meshes) inventory.mesh_triangles += mesh.triangles.size();
   inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.nodes) +
-                    bytes(packed.trees) + bytes(packed.instances) + bytes(packed.materials) +
+                    bytes(packed.bvhs) + bytes(packed.instances) + bytes(packed.materials) +
                     bytes(packed.textures) + packed.texel_count * sizeof(packed.texels[0]) +
                     bytes(packed.media) + bytes(packed.lights) + sizeof(packed.frame);
   return inventory;
@@ -137,8 +137,8 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   }
   line("integrator", scene.render.integrator == IntegratorType::raycast
                          ? "raycast"
-                         : fmt::format("whitted, max_depth {}, min_weight {:g}", scene.render.max_depth,
-                                       scene.render.min_weight));
+                         : fmt::format("whitted, max_depth {}, min_throughput {:g}", scene.render.max_depth,
+                                       scene.render.min_throughput));
   line("shapes", format_counts(inventory.shapes));
   if (!scene.meshes.empty()) {
     line("meshes", fmt::format("{} of {} triangles, shown {} times", scene.meshes.size(),

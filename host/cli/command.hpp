@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/rect.hpp"
-#include "loader/scene_file.hpp"
-#include "render/render.hpp"
-#include "scene/scene.hpp"
+#include "host/core/error.hpp"
+#include "host/core/rect.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/render/render.hpp"
+#include "host/scene/scene.hpp"
 
 namespace CLI {
 class App;  // a second or more to compile: <CLI/CLI.hpp> is for the .cpp files that describe options
@@ -67,7 +67,7 @@ class SceneOptions {
 // "640x480" as {640, 480}; Error (bad_input) for anything else.
 std::pair<int, int> parse_size(const std::string& text);
 
-// "auto", "tree", "brute-force"; Error (bad_input) for another name.
+// "auto", "bvh", "brute-force"; Error (bad_input) for another name.
 Acceleration parse_acceleration(const std::string& name);
 
 // --device, --shaders, --fast-math, --validate, --timeout, --no-constants, --no-optimiser, --acceleration,

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.hpp"
-#include "cli/json.hpp"
-#include "cli/within.hpp"
-#include "compare/report.hpp"
-#include "core/false_color.hpp"
-#include "core/image_file.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/json.hpp"
+#include "host/cli/within.hpp"
+#include "host/compare/report.hpp"
+#include "host/image/false_color.hpp"
+#include "host/image/image_file.hpp"
 
 namespace eyeray::cli {
 namespace {

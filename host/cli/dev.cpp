@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cli/picture.hpp"
-#include "core/termination.hpp"
-#include "dev/file_watcher.hpp"
-#include "dev/worker.hpp"
+#include "host/cli/picture.hpp"
+#include "host/core/termination.hpp"
+#include "host/dev/file_watcher.hpp"
+#include "host/dev/worker.hpp"
 
 namespace fs = std::filesystem;
 

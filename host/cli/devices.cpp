@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.hpp"
-#include "cli/json.hpp"
-#include "gpu/device.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/json.hpp"
+#include "host/gpu/device.hpp"
 
 namespace eyeray::cli {
 namespace {

@@ -1,11 +1,11 @@
-#include "cli/evidence.hpp"
+#include "host/cli/evidence.hpp"
 
 #include <fstream>
 #include <iterator>
 
-#include "core/error.hpp"
-#include "core/false_color.hpp"
-#include "core/image_file.hpp"
+#include "host/core/error.hpp"
+#include "host/image/false_color.hpp"
+#include "host/image/image_file.hpp"
 
 namespace fs = std::filesystem;
 

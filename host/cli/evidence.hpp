@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include "compare/report.hpp"
+#include "host/compare/report.hpp"
 
 namespace eyeray::cli {
 

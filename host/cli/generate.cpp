@@ -1,9 +1,9 @@
 // eyeray generate: procedural scenes as files.
-#include "cli/command.hpp"
-#include "cli/generate_files.hpp"
-#include "cli/within.hpp"
-#include "generate/sphereflake.hpp"
-#include "generate/terrain.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/generate_files.hpp"
+#include "host/cli/within.hpp"
+#include "host/generate/sphereflake.hpp"
+#include "host/generate/terrain.hpp"
 
 namespace eyeray::cli {
 namespace {

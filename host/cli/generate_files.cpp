@@ -1,14 +1,14 @@
-#include "cli/generate_files.hpp"
+#include "host/cli/generate_files.hpp"
 
 #include <fmt/ranges.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.hpp"
-#include "cli/json.hpp"
-#include "core/stopwatch.hpp"
-#include "generate/ply_file.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/json.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/generate/ply_file.hpp"
 
 namespace fs = std::filesystem;
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "generate/classic.hpp"
+#include "host/generate/classic.hpp"
 
 namespace eyeray::cli {
 

@@ -1,4 +1,4 @@
-#include "cli/help.hpp"
+#include "host/cli/help.hpp"
 
 #include <sstream>
 

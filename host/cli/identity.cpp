@@ -1,7 +1,7 @@
-#include "cli/identity.hpp"
+#include "host/cli/identity.hpp"
 
-#include "core/atomic_file.hpp"
-#include "core/content_hash.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/content_hash.hpp"
 
 namespace fs = std::filesystem;
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "cli/picture.hpp"
-#include "render/checkpoint.hpp"
+#include "host/cli/picture.hpp"
+#include "host/render/checkpoint.hpp"
 
 namespace eyeray::cli {
 

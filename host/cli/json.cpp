@@ -1,8 +1,8 @@
-#include "cli/json.hpp"
+#include "host/cli/json.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "core/termination.hpp"
+#include "host/core/termination.hpp"
 
 namespace eyeray::cli {
 

@@ -5,9 +5,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "core/diagnostic.hpp"
-#include "core/error.hpp"
-#include "core/stopwatch.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/core/error.hpp"
+#include "host/core/stopwatch.hpp"
 
 namespace eyeray::cli {
 

@@ -1,10 +1,10 @@
-#include "cli/legend.hpp"
+#include "host/cli/legend.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "cli/json.hpp"
-#include "core/atomic_file.hpp"
-#include "core/image_file.hpp"
+#include "host/cli/json.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/image/image_file.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -21,7 +21,7 @@ std::string color_of(int64_t id) {
   return fmt::format("#{:02x}{:02x}{:02x}", code(0), code(1), code(2));
 }
 
-Json entry(const Thing& thing, const Names& names, uint64_t pixels) {
+Json entry(const Object& thing, const Names& names, uint64_t pixels) {
   Json json{{"first", thing.first}, {"last", thing.first + thing.count - 1}, {"kind", thing.kind}};
   if (const std::string name = path(thing, names); !name.empty())
     json[thing.name.own ? "name" : "group"] = name;
@@ -55,8 +55,8 @@ bool has_legend(Aov aov) {
   return aov == Aov::primitive || aov == Aov::material;
 }
 
-Legend::Legend(Aov aov, const Scene& scene) : aov_(aov), scene_(scene), things_(scene) {
-  pixels_.resize(aov == Aov::material ? scene.materials.size() : things_.size());
+Legend::Legend(Aov aov, const Scene& scene) : aov_(aov), scene_(scene), objects_(scene) {
+  pixels_.resize(aov == Aov::material ? scene.materials.size() : objects_.size());
 }
 
 void Legend::see(std::span<const FirstHit> hits) {
@@ -64,7 +64,7 @@ void Legend::see(std::span<const FirstHit> hits) {
     if (hit.primitive < 0)
       ++nothing_;
     else
-      ++pixels_.at(aov_ == Aov::material ? size_t(hit.material) : things_.of(uint64_t(hit.primitive)));
+      ++pixels_.at(aov_ == Aov::material ? size_t(hit.material) : objects_.of(uint64_t(hit.primitive)));
   }
 }
 
@@ -78,7 +78,7 @@ std::filesystem::path Legend::write(const std::filesystem::path& picture) const 
     if (pixels_[i] == 0) continue;
     text += first ? "\n  " : ",\n  ";
     text += text_of(aov_ == Aov::material ? entry(*scene_.materials[i], i, pixels_[i])
-                                          : entry(things_[i], scene_.names, pixels_[i]));
+                                          : entry(objects_[i], scene_.names, pixels_[i]));
     first = false;
     if (text.size() < piece) continue;
     file.write(text);

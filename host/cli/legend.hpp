@@ -5,15 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "cli/aov.hpp"
-#include "scene/things.hpp"
+#include "host/cli/aov.hpp"
+#include "host/scene/objects.hpp"
 
 namespace eyeray::cli {
 
 // Whether an AOV has a legend: its values are ids.
 bool has_legend(Aov aov);
 
-// Takes first hits, and lists what they met: of `primitive` the shapes and meshes, of `material` the
+// Takes first hits, and lists what they hit: of `primitive` the shapes and meshes, of `material` the
 // materials, each with its ids, its name, where the file has it, its colour in the picture, and its pixels.
 class Legend {
  public:
@@ -27,7 +27,7 @@ class Legend {
  private:
   Aov aov_;
   const Scene& scene_;
-  Things things_;
+  Objects objects_;
   std::vector<uint64_t> pixels_;  // of each thing, or of each material
   uint64_t nothing_ = 0;          // pixels where nothing is hit
 };

@@ -12,13 +12,13 @@
 #include <sstream>
 #include <system_error>
 
-#include "cli/command.hpp"
-#include "cli/help.hpp"
-#include "cli/json.hpp"
-#include "core/diagnostic.hpp"
-#include "core/memory_shortage.hpp"
-#include "core/standard_streams.hpp"
-#include "core/termination.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/help.hpp"
+#include "host/cli/json.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/core/memory_shortage.hpp"
+#include "host/core/standard_streams.hpp"
+#include "host/core/termination.hpp"
 
 namespace eyeray::cli {
 namespace {

@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 
-#include "cli/command.hpp"
-#include "loader/scene_file.hpp"
-#include "render/formula_check.hpp"
+#include "host/cli/command.hpp"
+#include "host/executors/formula_check.hpp"
+#include "host/loader/scene_file.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -103,9 +103,9 @@ Scene SceneOptions::load() const {
 
 Acceleration parse_acceleration(const std::string& name) {
   if (name == "auto") return Acceleration::automatic;
-  if (name == "tree") return Acceleration::tree;
+  if (name == "bvh" || name == "tree") return Acceleration::bvh;  // `tree` until 0.2
   if (name == "brute-force") return Acceleration::brute_force;
-  throw Error(ExitCode::bad_input, "--acceleration is auto, tree or brute-force, not '{}'", name);
+  throw Error(ExitCode::bad_input, "--acceleration is auto, bvh or brute-force, not '{}'", name);
 }
 
 void add_executor_options(CLI::App& command, ExecutorOptions& options) {
@@ -158,19 +158,18 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options) {
       .add_option_function<std::string>(
           "--acceleration",
           [&options](const std::string& name) { options.pack.acceleration = parse_acceleration(name); },
-          "A tree of boxes over the scene, brute force, or what suits the scene.")
-      ->option_text("auto|tree|brute-force")
+          "A BVH over the scene, brute force, or what suits the scene.")
+      ->option_text("auto|bvh|brute-force")
       ->group("How hits are found (not which)");
   command
       .add_flag("--splits", options.pack.split,
-                "Cut long, thin primitives for a better tree: slower to build, faster to trace.")
+                "Cut long, thin primitives for a better BVH: slower to build, faster to trace.")
       ->group("How hits are found (not which)");
   choose("--profile", options.profile.profile, "auto|cpu|gpu|small",
          "What kernels are made for; by default what the device is.");
   choose("--loads", options.profile.loads, "texels|storage",
          "Load the scene as texels or from storage buffers.");
-  choose("--rays", options.profile.rays, "packets|lanes",
-         "Trace rays that run side by side together, or each alone.");
+  choose("--rays", options.profile.rays, "packets|lanes", "Trace coherent rays together, or each alone.");
   choose("--stack", options.profile.stack, "shift|array",
          "Keep the stack in registers or in an indexed array.");
   command

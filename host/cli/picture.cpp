@@ -1,18 +1,18 @@
-#include "cli/picture.hpp"
+#include "host/cli/picture.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli/identity.hpp"
-#include "cli/picture_files.hpp"
-#include "core/atomic_file.hpp"
-#include "core/image_file.hpp"
-#include "core/peak_memory.hpp"
-#include "core/termination.hpp"
-#include "render/corners.hpp"
-#include "render/render.hpp"
+#include "host/cli/identity.hpp"
+#include "host/cli/picture_files.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/peak_memory.hpp"
+#include "host/core/termination.hpp"
+#include "host/image/image_file.hpp"
+#include "host/render/corners.hpp"
+#include "host/render/render.hpp"
 
 namespace fs = std::filesystem;
 
@@ -28,12 +28,12 @@ struct FlagText {
 constexpr FlagText flag_texts[] = {
     {media_overflow, "media_overflow", "more than four media are nested: let fewer glass shapes overlap"},
     {stack_overflow, "stack_overflow",
-     "more rays were pending than the shader keeps: lower render.max_depth or raise render.min_weight"},
+     "more rays were pending than the shader keeps: lower render.max_depth or raise render.min_throughput"},
     {loop_budget, "loop_budget",
-     "the driver's limit on loop iterations was near: lower render.max_depth or raise render.min_weight; "
+     "the driver's limit on loop iterations was near: lower render.max_depth or raise render.min_throughput; "
      "else "
      "show fewer shapes, or use --backend twin or a newer driver"},
-    {ran_out, "ran_out",
+    {iteration_limit, "iteration_limit",
      "a shape that is searched for step by step was not found in the steps allowed; --aov flags shows where"},
 };
 
@@ -45,7 +45,7 @@ double rays_per_second(const Picture& picture) {
 void make_classic(Scene& scene) {
   sample_corners(scene);
   scene.render.max_depth = 4;
-  scene.render.min_weight = 0;
+  scene.render.min_throughput = 0;
 }
 
 // Throws where what is to be written would take the place of what was read, links followed.

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/aov.hpp"
-#include "cli/command.hpp"
-#include "cli/json.hpp"
-#include "core/ray_counts.hpp"
+#include "host/cli/aov.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/json.hpp"
+#include "host/core/ray_counts.hpp"
 
 namespace eyeray::cli {
 

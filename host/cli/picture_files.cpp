@@ -1,9 +1,9 @@
-#include "cli/picture_files.hpp"
+#include "host/cli/picture_files.hpp"
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/pfm_file.hpp"
+#include "host/core/error.hpp"
+#include "host/image/pfm_file.hpp"
 
 namespace fs = std::filesystem;
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/aov.hpp"
-#include "cli/legend.hpp"
-#include "core/false_color.hpp"
-#include "core/image_writer.hpp"
-#include "render/sums.hpp"
+#include "host/cli/aov.hpp"
+#include "host/cli/legend.hpp"
+#include "host/image/false_color.hpp"
+#include "host/image/image_writer.hpp"
+#include "host/render/sums.hpp"
 
 namespace eyeray::cli {
 

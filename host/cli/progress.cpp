@@ -7,7 +7,7 @@
 #include <cstring>
 #include <memory>
 
-#include "cli/command.hpp"
+#include "host/cli/command.hpp"
 
 namespace eyeray::cli {
 namespace {

@@ -1,8 +1,8 @@
 // eyeray render: a scene becomes picture files.
 #include <nlohmann/json.hpp>
 
-#include "cli/picture.hpp"
-#include "cli/within.hpp"
+#include "host/cli/picture.hpp"
+#include "host/cli/within.hpp"
 
 namespace eyeray::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/unfinished_files.hpp"
+#include "host/core/error.hpp"
+#include "host/core/unfinished_files.hpp"
 
 namespace eyeray::cli {
 

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.hpp"
-#include "cli/json.hpp"
-#include "core/atomic_file.hpp"
-#include "core/diagnostic.hpp"
-#include "core/embedded_shaders.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/json.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/core/embedded_shaders.hpp"
 
 namespace fs = std::filesystem;
 

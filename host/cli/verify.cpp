@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <bit>
 
-#include "cli/command.hpp"
-#include "cli/evidence.hpp"
-#include "cli/within.hpp"
-#include "compare/report.hpp"
-#include "reference/renderer.hpp"
-#include "render/executors.hpp"
-#include "scene/things.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/evidence.hpp"
+#include "host/cli/within.hpp"
+#include "host/compare/report.hpp"
+#include "host/executors/executors.hpp"
+#include "host/reference/renderer.hpp"
+#include "host/scene/objects.hpp"
 
 namespace fs = std::filesystem;
 
@@ -53,7 +53,7 @@ uint64_t mix(uint64_t hash, uint64_t value) {
   return (hash ^ value) * 0x9e3779b97f4a7c15u + std::rotl(hash, 23);
 }
 
-// Adds to a probe's fingerprints what one sample's eye ray meets.
+// Adds to a probe's fingerprints what one sample's eye ray hits.
 void add_first_hit(Probe& probe, const Scene& scene, const FirstHit& hit) {
   probe.first_surfaces = mix(probe.first_surfaces, uint64_t(hit.primitive));
   if (hit.primitive < 0) return;
@@ -63,7 +63,7 @@ void add_first_hit(Probe& probe, const Scene& scene, const FirstHit& hit) {
 
 // How far off surfaces, and at most aside, float32 rays start: of a triangle, 8 ε for each of its three
 // vertices (docs/numerics.md).
-constexpr double float32_clearance = 24 * 0x1p-24;
+constexpr double float32_ray_offset = 24 * 0x1p-24;
 
 // All samples of pixel (x, y), every ray moved by `shift`.
 Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int y, const Vec2& shift) {
@@ -75,8 +75,8 @@ Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int 
     result.sample_colors.push_back(sample.color);
     using reference::TextureChoice;
     const auto add_rounded = [&](bool along_normal, TextureChoice textures) {
-      const reference::Clearance clearance{float32_clearance, along_normal, seed, textures};
-      result.rounded_colors.push_back(renderer.sample(x, y, uint32_t(i), shift, clearance).color);
+      const reference::RayOffset ray_offset{float32_ray_offset, along_normal, seed, textures};
+      result.rounded_colors.push_back(renderer.sample(x, y, uint32_t(i), shift, ray_offset).color);
     };
     for (const bool along_normal : {false, true}) add_rounded(along_normal, TextureChoice::at_hit);
     if (shift == Vec2(0.0))
@@ -84,7 +84,7 @@ Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int 
         add_rounded(false, textures);
     result.hits += sample.hits;
     result.direct = result.direct && sample.hits <= 1;
-    const Vec2 place = reference::sample_place(scene.image, scene.render.seed, x, y, uint32_t(i));
+    const Vec2 place = reference::sample_position(scene.image, scene.render.seed, x, y, uint32_t(i));
     add_first_hit(result, scene, renderer.first_hit(x, y, place - 0.5 + shift));
   }
   result.hits_per_sample = double(result.hits) / scene.image.samples;
@@ -93,9 +93,9 @@ Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int 
   return result;
 }
 
-// Says what the report's first hits meet, in the words of the scene.
+// Says what the report's first hits hit, in the words of the scene.
 void name_hits(const Scene& scene, Report& report) {
-  const Things things(scene);
+  const Objects things(scene);
   for (const FirstHit& hit : report.shown_hits()) {
     // An executor that fails may say anything.
     if (hit.primitive >= 0 && uint64_t(hit.primitive) < scene.primitive_count())

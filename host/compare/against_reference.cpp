@@ -1,10 +1,10 @@
-#include "compare/against_reference.hpp"
+#include "host/compare/against_reference.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "core/parallel_for.hpp"
+#include "host/core/parallel_for.hpp"
 
 namespace eyeray {
 
@@ -58,8 +58,8 @@ class Judge {
     });
   }
 
-  // Looks into the pixels that differ, of each gate all of them, or an even choice when they are too many to
-  // pass.
+  // ShadingData into the pixels that differ, of each gate all of them, or an even choice when they are too
+  // many to pass.
   void explain(const Reference& probe) {
     look_at(together(choose(colors_), choose(first_hits_)), probe, usual_angles, false);
     const std::vector<size_t> left = together(unexplained(colors_), unexplained(first_hits_));

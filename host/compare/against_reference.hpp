@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "compare/explain.hpp"
+#include "host/compare/explain.hpp"
 
 namespace eyeray {
 

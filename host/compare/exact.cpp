@@ -1,11 +1,11 @@
-#include "compare/exact.hpp"
+#include "host/compare/exact.hpp"
 
 #include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray {
 

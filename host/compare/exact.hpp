@@ -1,8 +1,8 @@
 // Gate A: two executors of the same float32 source agree to the last bit.
 #pragma once
 
-#include "compare/frame.hpp"
-#include "compare/seam.hpp"
+#include "host/compare/frame.hpp"
+#include "host/compare/seam.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "compare/explain.hpp"
+#include "host/compare/explain.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "compare/tolerance.hpp"
+#include "host/compare/tolerance.hpp"
 
 namespace eyeray {
 
@@ -19,8 +19,8 @@ struct Probe {
   std::vector<Vec3> rounded_colors;
   uint64_t hits = 0;  // surfaces struck, all samples together
   double hits_per_sample = 0;
-  uint64_t first_surfaces = 0;  // a fingerprint of which primitive each sample's eye ray meets
-  uint64_t first_colors = 0;    // a fingerprint of the surface's own colour where each meets it
+  uint64_t first_surfaces = 0;  // a fingerprint of which primitive each sample's eye ray hits
+  uint64_t first_colors = 0;    // a fingerprint of the surface's own colour where each hits it
   bool direct = true;           // nothing is seen by reflection or refraction
   FirstHit first_hit;           // of the pixel's centre
   double rounding = 0;          // as many pixels as float32's arithmetic may move the eye ray; 0 if unknown
@@ -30,12 +30,12 @@ struct Probe {
 using Reference = std::function<Probe(int x, int y, const Vec2& shift)>;
 
 enum class Cause {
-  silhouette,         // another primitive is met first
+  silhouette,         // another primitive is hit first
   texture_edge,       // the surface's own colour jumps
-  refraction_branch,  // rays reflected or refracted on the way meet something else
+  refraction_branch,  // rays reflected or refracted on the way hit something else
   shadow_edge,        // none of these: it is the light that changes
   rounding,     // a ray that leaves a surface starts as close to another, or to an edge, as it is rounded
-  grazing,      // of a first hit alone: the same surface, met at so small an angle that t or the normal races
+  grazing,      // of a first hit alone: the same surface, hit at so small an angle that t or the normal races
   undecidable,  // the jump is as near to the eye ray as float32 rounds that: no float32 renderer can tell
 };
 inline constexpr int cause_count = 7;
@@ -50,7 +50,7 @@ class Neighbourhood {
 
   // Whether `value` lies within [min, max] of the neighbourhood, each bound widened by the tolerance.
   bool explains(const Vec3& value, const Tolerances& tolerances) const;
-  // Whether `value` is a hit of a primitive that the neighbourhood meets, with t and normal within the bounds
+  // Whether `value` is a hit of a primitive that the neighbourhood hits, with t and normal within the bounds
   // found there.
   bool explains(const FirstHit& value, const Tolerances& tolerances) const;
   // The same, of a neighbourhood in which rays also start as far off surfaces and aside as float32 may put

@@ -1,12 +1,12 @@
-#include "compare/flip.hpp"
+#include "host/compare/flip.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "compare/frame.hpp"
-#include "compare/plane.hpp"
-#include "core/error.hpp"
+#include "host/compare/frame.hpp"
+#include "host/compare/plane.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray {
 

@@ -2,7 +2,7 @@
 // for Alternating Images", HPG 2020): the difference that a person sees who flips between two pictures.
 #pragma once
 
-#include "core/image.hpp"
+#include "host/image/image.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "compare/frame.hpp"
+#include "host/compare/frame.hpp"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/image.hpp"
-#include "core/pixel.hpp"
-#include "core/rect.hpp"
+#include "host/core/pixel.hpp"
+#include "host/core/rect.hpp"
+#include "host/image/image.hpp"
 
 namespace eyeray {
 

@@ -1,14 +1,14 @@
-#include "compare/metrics.hpp"
+#include "host/compare/metrics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "compare/flip.hpp"
-#include "compare/plane.hpp"
-#include "compare/tolerance.hpp"
-#include "core/error.hpp"
-#include "core/srgb.hpp"
+#include "host/compare/flip.hpp"
+#include "host/compare/plane.hpp"
+#include "host/compare/tolerance.hpp"
+#include "host/core/error.hpp"
+#include "host/image/srgb.hpp"
 
 namespace eyeray {
 

@@ -1,7 +1,7 @@
 // How far two pictures are apart, in the numbers that people quote. They are reported; they are not the gate.
 #pragma once
 
-#include "compare/frame.hpp"
+#include "host/compare/frame.hpp"
 
 namespace eyeray {
 

@@ -1,10 +1,10 @@
-#include "compare/plane.hpp"
+#include "host/compare/plane.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "core/parallel_for.hpp"
+#include "host/core/parallel_for.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "compare/report.hpp"
+#include "host/compare/report.hpp"
 
 #include <fmt/format.h>
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "compare/against_reference.hpp"
-#include "compare/exact.hpp"
-#include "compare/metrics.hpp"
-#include "compare/soundness.hpp"
+#include "host/compare/against_reference.hpp"
+#include "host/compare/exact.hpp"
+#include "host/compare/metrics.hpp"
+#include "host/compare/soundness.hpp"
 
 namespace eyeray {
 

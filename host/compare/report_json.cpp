@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "compare/report.hpp"
+#include "host/compare/report.hpp"
 
 namespace eyeray {
 

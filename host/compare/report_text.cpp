@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "compare/report.hpp"
+#include "host/compare/report.hpp"
 
 namespace eyeray {
 
@@ -27,7 +27,7 @@ std::string in_words(const std::map<int32_t, std::string>& words, int32_t index)
 }
 
 std::string describe(const FirstHit& hit, const Report& report) {
-  if (hit.primitive < 0) return "meets nothing";
+  if (hit.primitive < 0) return "hits nothing";
   return fmt::format("primitive {}{}, material {}{}, t {:.9g}, normal {}", hit.primitive,
                      in_words(report.primitives, hit.primitive), hit.material,
                      in_words(report.materials, hit.material), hit.t, numbers(hit.normal));

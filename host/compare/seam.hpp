@@ -1,7 +1,7 @@
 // Where two executors part: the first value along the life of a ray that differs.
 #pragma once
 
-#include "compare/frame.hpp"
+#include "host/compare/frame.hpp"
 
 namespace eyeray {
 

@@ -1,7 +1,7 @@
 // What is wrong whatever it is compared with: looked at on the raw floats, before anything else.
 #pragma once
 
-#include "compare/frame.hpp"
+#include "host/compare/frame.hpp"
 
 namespace eyeray {
 

@@ -1,10 +1,10 @@
-#include "compare/tolerance.hpp"
+#include "host/compare/tolerance.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray {
 

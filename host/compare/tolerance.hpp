@@ -1,7 +1,7 @@
 // What "agrees with the reference" means, for one pixel. Every test is written so that a NaN fails it.
 #pragma once
 
-#include "compare/seam.hpp"
+#include "host/compare/seam.hpp"
 
 namespace eyeray {
 

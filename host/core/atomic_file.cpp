@@ -1,4 +1,4 @@
-#include "core/atomic_file.hpp"
+#include "host/core/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/unfinished_files.hpp"
+#include "host/core/error.hpp"
+#include "host/core/unfinished_files.hpp"
 
 namespace eyeray {
 

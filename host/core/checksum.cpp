@@ -1,4 +1,4 @@
-#include "core/checksum.hpp"
+#include "host/core/checksum.hpp"
 
 #include <zlib.h>
 

@@ -1,4 +1,4 @@
-#include "core/content_hash.hpp"
+#include "host/core/content_hash.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "core/diagnostic.hpp"
+#include "host/core/diagnostic.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray {
 

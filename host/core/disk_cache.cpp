@@ -1,13 +1,13 @@
-#include "core/disk_cache.hpp"
+#include "host/core/disk_cache.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <vector>
 
-#include "core/atomic_file.hpp"
-#include "core/content_hash.hpp"
-#include "core/error.hpp"
-#include "core/input_file.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/content_hash.hpp"
+#include "host/core/error.hpp"
+#include "host/core/input_file.hpp"
 
 namespace eyeray {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 #include <csignal>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "core/folder_trees.hpp"
+#include "host/core/folder_trees.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "core/input_file.hpp"
+#include "host/core/input_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "core/diagnostic.hpp"
+#include "host/core/diagnostic.hpp"
 
 namespace eyeray {
 

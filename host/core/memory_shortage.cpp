@@ -1,4 +1,4 @@
-#include "core/memory_shortage.hpp"
+#include "host/core/memory_shortage.hpp"
 
 #include <signal.h>
 #include <sys/mman.h>
@@ -6,8 +6,8 @@
 #include <exception>
 #include <new>
 
-#include "core/error.hpp"
-#include "core/termination.hpp"
+#include "host/core/error.hpp"
+#include "host/core/termination.hpp"
 
 namespace eyeray {
 namespace {

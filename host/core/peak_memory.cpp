@@ -1,4 +1,4 @@
-#include "core/peak_memory.hpp"
+#include "host/core/peak_memory.hpp"
 
 #include <fstream>
 #include <limits>

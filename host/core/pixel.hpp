@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/vec.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray {
 
@@ -23,14 +23,14 @@ struct PixelSample {
 // Why a sample's colour may be incomplete. A flag is shown to the user and fails `verify`; it is never
 // silent.
 enum SampleFlag : uint32_t {
-  media_overflow = 1u << 0,  // more than four media nested
-  stack_overflow = 1u << 1,  // more rays pending than the shader's stack holds
-  loop_budget = 1u << 2,     // the driver's cap on loop iterations was near (docs/lavapipe.md)
-  ran_out = 1u << 3,         // a shape that is searched for step by step was not found in the steps allowed
-  endless = 1u << 4,  // a formula's loops did not end: whoever reads samples fails (render/samples.hpp)
+  media_overflow = 1u << 0,   // more than four media nested
+  stack_overflow = 1u << 1,   // more rays pending than the shader's stack holds
+  loop_budget = 1u << 2,      // the driver's cap on loop iterations was near (docs/lavapipe.md)
+  iteration_limit = 1u << 3,  // a shape that is searched for step by step was not found in the steps allowed
+  endless = 1u << 4,  // a formula's loops did not end: whoever reads samples fails (executors/samples.hpp)
 };
 
-// What the eye ray through the centre of a pixel meets first.
+// What the eye ray through the centre of a pixel hits first.
 struct FirstHit {
   double t = std::numeric_limits<double>::infinity();  // infinity where nothing is hit
   Vec3 position{0.0};                                  // world

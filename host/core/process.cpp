@@ -1,4 +1,4 @@
-#include "core/process.hpp"
+#include "host/core/process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -11,7 +11,7 @@
 #include <csignal>
 #include <cstring>
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray {
 namespace {

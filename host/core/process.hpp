@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/stopwatch.hpp"
+#include "host/core/stopwatch.hpp"
 
 namespace eyeray {
 

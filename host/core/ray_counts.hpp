@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/pixel.hpp"
+#include "host/core/pixel.hpp"
 
 namespace eyeray {
 

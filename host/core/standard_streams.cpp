@@ -1,4 +1,4 @@
-#include "core/standard_streams.hpp"
+#include "host/core/standard_streams.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "core/termination.hpp"
+#include "host/core/termination.hpp"
 
 #include <poll.h>
 #include <pthread.h>
@@ -17,8 +17,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/stopwatch.hpp"
-#include "core/unfinished_files.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/core/unfinished_files.hpp"
 
 namespace eyeray {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray {
 

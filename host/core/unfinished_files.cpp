@@ -1,4 +1,4 @@
-#include "core/unfinished_files.hpp"
+#include "host/core/unfinished_files.hpp"
 
 #include <chrono>
 #include <system_error>

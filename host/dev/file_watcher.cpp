@@ -1,4 +1,4 @@
-#include "dev/file_watcher.hpp"
+#include "host/dev/file_watcher.hpp"
 
 #include <poll.h>
 #include <sys/inotify.h>
@@ -9,8 +9,8 @@
 #include <cstring>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/termination.hpp"
+#include "host/core/error.hpp"
+#include "host/core/termination.hpp"
 
 namespace fs = std::filesystem;
 

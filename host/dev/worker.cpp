@@ -1,4 +1,4 @@
-#include "dev/worker.hpp"
+#include "host/dev/worker.hpp"
 
 #include <poll.h>
 #include <sys/prctl.h>
@@ -13,9 +13,9 @@
 #include <cstring>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/stopwatch.hpp"
-#include "core/termination.hpp"
+#include "host/core/error.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/core/termination.hpp"
 
 namespace eyeray {
 namespace {

@@ -1,4 +1,4 @@
-#include "formula/arithmetic.hpp"
+#include "host/formula/arithmetic.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,40 +7,40 @@ namespace eyeray::formula {
 namespace {
 
 // Op by Op on each component; y may be missing.
-Value each(Tape& tape, Op op, const Value& x, const Value& y = {}) {
+Value each(Expression& expression, Op op, const Value& x, const Value& y = {}) {
   Value result(x.size());
-  for (size_t i = 0; i < x.size(); ++i) result[i] = tape.apply(op, x[i], y.empty() ? no_term : y[i]);
+  for (size_t i = 0; i < x.size(); ++i) result[i] = expression.apply(op, x[i], y.empty() ? no_term : y[i]);
   return result;
 }
 
-Value times(Tape& tape, const Value& x, Term factor) {
-  return each(tape, Op::multiply, x, Value(x.size(), factor));
+Value times(Expression& expression, const Value& x, Term factor) {
+  return each(expression, Op::multiply, x, Value(x.size(), factor));
 }
 
-Value opposite(Tape& tape, const Value& x) {
-  return each(tape, Op::opposite, x);
+Value opposite(Expression& expression, const Value& x) {
+  return each(expression, Op::opposite, x);
 }
 
-Value select(Tape& tape, const Value& condition, const Value& x, const Value& y) {
+Value select(Expression& expression, const Value& condition, const Value& x, const Value& y) {
   Value result(x.size());
   for (size_t i = 0; i < x.size(); ++i)
-    result[i] = tape.apply(Op::choose, condition.size() == 1 ? condition[0] : condition[i], x[i], y[i]);
+    result[i] = expression.apply(Op::choose, condition.size() == 1 ? condition[0] : condition[i], x[i], y[i]);
   return result;
 }
 
 // x − y·⌊x / y⌋, as GLSL's mod.
-Value remainder(Tape& tape, const Value& x, const Value& y) {
+Value remainder(Expression& expression, const Value& x, const Value& y) {
   Value result(x.size());
   for (size_t i = 0; i < x.size(); ++i) {
-    const Term quotient = tape.apply(Op::multiply, x[i], tape.apply(Op::reciprocal, y[i]));
-    result[i] =
-        tape.apply(Op::subtract, x[i], tape.apply(Op::multiply, y[i], tape.apply(Op::floor, quotient)));
+    const Term quotient = expression.apply(Op::multiply, x[i], expression.apply(Op::reciprocal, y[i]));
+    result[i] = expression.apply(Op::subtract, x[i],
+                                 expression.apply(Op::multiply, y[i], expression.apply(Op::floor, quotient)));
   }
   return result;
 }
 
 // a: rows × inner, b: inner × columns, both by columns.
-Value matrix_product(Tape& tape, const Value& a, const Value& b, size_t inner) {
+Value matrix_product(Expression& expression, const Value& a, const Value& b, size_t inner) {
   const size_t rows = a.size() / inner, columns = b.size() / inner;
   Value result;
   for (size_t column = 0; column < columns; ++column) {
@@ -50,7 +50,7 @@ Value matrix_product(Tape& tape, const Value& a, const Value& b, size_t inner) {
         left.push_back(a[i * rows + row]);
         right.push_back(b[column * inner + i]);
       }
-      result.push_back(dot(tape, left, right));
+      result.push_back(dot(expression, left, right));
     }
   }
   return result;
@@ -63,88 +63,91 @@ Value transpose(const Value& matrix, size_t rows) {
   return result;
 }
 
-Value all_of(Tape& tape, Op op, const Value& x) {
+Value all_of(Expression& expression, Op op, const Value& x) {
   Term result = x[0];
-  for (size_t i = 1; i < x.size(); ++i) result = tape.apply(op, result, x[i]);
+  for (size_t i = 1; i < x.size(); ++i) result = expression.apply(op, result, x[i]);
   return {result};
 }
 
 }  // namespace
 
-Term dot(Tape& tape, const Value& a, const Value& b) {
-  Term sum = tape.apply(Op::multiply, a[0], b[0]);
-  for (size_t i = 1; i < a.size(); ++i) sum = tape.apply(Op::add, sum, tape.apply(Op::multiply, a[i], b[i]));
+Term dot(Expression& expression, const Value& a, const Value& b) {
+  Term sum = expression.apply(Op::multiply, a[0], b[0]);
+  for (size_t i = 1; i < a.size(); ++i)
+    sum = expression.apply(Op::add, sum, expression.apply(Op::multiply, a[i], b[i]));
   return sum;
 }
 
-Term truncate(Tape& tape, Term x) {
-  const Term up = tape.apply(Op::negate, tape.apply(Op::floor, tape.apply(Op::negate, x)));
-  return tape.apply(Op::choose, tape.apply(Op::less, x, tape.constant(0)), up, tape.apply(Op::floor, x));
+Term truncate(Expression& expression, Term x) {
+  const Term up = expression.apply(Op::negate, expression.apply(Op::floor, expression.apply(Op::negate, x)));
+  return expression.apply(Op::choose, expression.apply(Op::less, x, expression.constant(0)), up,
+                          expression.apply(Op::floor, x));
 }
 
-std::optional<Value> arithmetic(Tape& tape, spv::Op op, const std::vector<Value>& from, size_t size) {
+std::optional<Value> arithmetic(Expression& expression, spv::Op op, const std::vector<Value>& from,
+                                size_t size) {
   const auto at = [&](size_t i) -> const Value& { return from.at(i); };
   switch (op) {
     case spv::OpFNegate:
-      return each(tape, Op::negate, at(0));
+      return each(expression, Op::negate, at(0));
     case spv::OpFAdd:
-      return each(tape, Op::add, at(0), at(1));
+      return each(expression, Op::add, at(0), at(1));
     case spv::OpFSub:
-      return each(tape, Op::subtract, at(0), at(1));
+      return each(expression, Op::subtract, at(0), at(1));
     case spv::OpFMul:
-      return each(tape, Op::multiply, at(0), at(1));
+      return each(expression, Op::multiply, at(0), at(1));
     case spv::OpFDiv:
-      return each(tape, Op::multiply, at(0), each(tape, Op::reciprocal, at(1)));
+      return each(expression, Op::multiply, at(0), each(expression, Op::reciprocal, at(1)));
     case spv::OpFMod:
-      return remainder(tape, at(0), at(1));
+      return remainder(expression, at(0), at(1));
     case spv::OpDot:
-      return Value{dot(tape, at(0), at(1))};
+      return Value{dot(expression, at(0), at(1))};
     case spv::OpVectorTimesScalar:
     case spv::OpMatrixTimesScalar:
-      return times(tape, at(0), at(1)[0]);
+      return times(expression, at(0), at(1)[0]);
     case spv::OpMatrixTimesVector:
-      return matrix_product(tape, at(0), at(1), at(1).size());
+      return matrix_product(expression, at(0), at(1), at(1).size());
     case spv::OpVectorTimesMatrix:
-      return matrix_product(tape, at(0), at(1), at(0).size());
+      return matrix_product(expression, at(0), at(1), at(0).size());
     case spv::OpMatrixTimesMatrix:
-      return matrix_product(tape, at(0), at(1),
+      return matrix_product(expression, at(0), at(1),
                             size_t(std::lround(std::sqrt(double(at(0).size() * at(1).size() / size)))));
     case spv::OpOuterProduct:
-      return matrix_product(tape, at(0), at(1), 1);
+      return matrix_product(expression, at(0), at(1), 1);
     case spv::OpSelect:
-      return select(tape, at(0), at(1), at(2));
+      return select(expression, at(0), at(1), at(2));
     case spv::OpFOrdLessThan:
     case spv::OpFUnordLessThan:
-      return each(tape, Op::less, at(0), at(1));
+      return each(expression, Op::less, at(0), at(1));
     case spv::OpFOrdGreaterThan:
     case spv::OpFUnordGreaterThan:
-      return each(tape, Op::less, at(1), at(0));
+      return each(expression, Op::less, at(1), at(0));
     case spv::OpFOrdLessThanEqual:
     case spv::OpFUnordLessThanEqual:
-      return each(tape, Op::less_equal, at(0), at(1));
+      return each(expression, Op::less_equal, at(0), at(1));
     case spv::OpFOrdGreaterThanEqual:
     case spv::OpFUnordGreaterThanEqual:
-      return each(tape, Op::less_equal, at(1), at(0));
+      return each(expression, Op::less_equal, at(1), at(0));
     case spv::OpFOrdEqual:
     case spv::OpFUnordEqual:
-      return each(tape, Op::equal, at(0), at(1));
+      return each(expression, Op::equal, at(0), at(1));
     case spv::OpFOrdNotEqual:
     case spv::OpFUnordNotEqual:
-      return opposite(tape, each(tape, Op::equal, at(0), at(1)));
+      return opposite(expression, each(expression, Op::equal, at(0), at(1)));
     case spv::OpLogicalAnd:
-      return each(tape, Op::both, at(0), at(1));
+      return each(expression, Op::both, at(0), at(1));
     case spv::OpLogicalOr:
-      return each(tape, Op::either, at(0), at(1));
+      return each(expression, Op::either, at(0), at(1));
     case spv::OpLogicalNot:
-      return opposite(tape, at(0));
+      return opposite(expression, at(0));
     case spv::OpLogicalEqual:
-      return select(tape, at(0), at(1), opposite(tape, at(1)));
+      return select(expression, at(0), at(1), opposite(expression, at(1)));
     case spv::OpLogicalNotEqual:
-      return select(tape, at(0), opposite(tape, at(1)), at(1));
+      return select(expression, at(0), opposite(expression, at(1)), at(1));
     case spv::OpAll:
-      return all_of(tape, Op::both, at(0));
+      return all_of(expression, Op::both, at(0));
     case spv::OpAny:
-      return all_of(tape, Op::either, at(0));
+      return all_of(expression, Op::either, at(0));
     case spv::OpConvertSToF:
     case spv::OpConvertUToF:
       return at(0);
@@ -158,25 +161,25 @@ std::optional<Value> arithmetic(Tape& tape, spv::Op op, const std::vector<Value>
   }
 }
 
-std::optional<Value> whole_arithmetic(Tape& tape, spv::Op op, const std::vector<Value>& from,
+std::optional<Value> whole_arithmetic(Expression& expression, spv::Op op, const std::vector<Value>& from,
                                       bool is_signed) {
   switch (op) {
     case spv::OpIEqual:
-      return each(tape, Op::equal, from.at(0), from.at(1));
+      return each(expression, Op::equal, from.at(0), from.at(1));
     case spv::OpINotEqual:
-      return opposite(tape, each(tape, Op::equal, from.at(0), from.at(1)));
+      return opposite(expression, each(expression, Op::equal, from.at(0), from.at(1)));
     case spv::OpSLessThan:
     case spv::OpULessThan:
-      return each(tape, Op::less, from.at(0), from.at(1));
+      return each(expression, Op::less, from.at(0), from.at(1));
     case spv::OpSGreaterThan:
     case spv::OpUGreaterThan:
-      return each(tape, Op::less, from.at(1), from.at(0));
+      return each(expression, Op::less, from.at(1), from.at(0));
     case spv::OpSLessThanEqual:
     case spv::OpULessThanEqual:
-      return each(tape, Op::less_equal, from.at(0), from.at(1));
+      return each(expression, Op::less_equal, from.at(0), from.at(1));
     case spv::OpSGreaterThanEqual:
     case spv::OpUGreaterThanEqual:
-      return each(tape, Op::less_equal, from.at(1), from.at(0));
+      return each(expression, Op::less_equal, from.at(1), from.at(0));
     default:
       break;
   }
@@ -226,10 +229,13 @@ std::optional<Value> whole_arithmetic(Tape& tape, spv::Op op, const std::vector<
   Value result;
   for (size_t i = 0; i < from.at(0).size(); ++i) {
     const Term x = from[0][i], y = from.size() > 1 ? from[1][i] : x;
-    if (!tape.known(x) || !tape.known(y) || !(std::abs(tape.value(x)) < 0x1p62)) return std::nullopt;
-    const std::optional<int64_t> whole = compute_one(int64_t(tape.value(x)), int64_t(tape.value(y)));
+    if (!expression.known(x) || !expression.known(y) || !(std::abs(expression.value(x)) < 0x1p62))
+      return std::nullopt;
+    const std::optional<int64_t> whole =
+        compute_one(int64_t(expression.value(x)), int64_t(expression.value(y)));
     if (!whole) return std::nullopt;
-    result.push_back(tape.constant(is_signed ? double(int32_t(uint32_t(*whole))) : double(uint32_t(*whole))));
+    result.push_back(
+        expression.constant(is_signed ? double(int32_t(uint32_t(*whole))) : double(uint32_t(*whole))));
   }
   return result;
 }

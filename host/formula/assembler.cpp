@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <atomic>
 
-#include "core/error.hpp"
-#include "formula/machine.hpp"
+#include "host/core/error.hpp"
+#include "host/formula/machine.hpp"
 
 namespace eyeray::formula {
 

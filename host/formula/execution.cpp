@@ -1,4 +1,4 @@
-#include "formula/execution.hpp"
+#include "host/formula/execution.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,8 @@ constexpr int most_turns = 1'000;      // of one loop
 
 }  // namespace
 
-Execution::Execution(const Module& module, Tape& tape) : module_(module), tape_(tape) {
+Execution::Execution(const Module& module, Expression& expression)
+    : module_(module), expression_(expression) {
   for (const Instruction& instruction : module.constants) define_constant(instruction);
 }
 
@@ -24,14 +25,14 @@ void Execution::define_constant(const Instruction& instruction) {
   switch (instruction.op) {
     case spv::OpConstantTrue:
     case spv::OpConstantFalse:
-      value = {tape_.truth(instruction.op == spv::OpConstantTrue)};
+      value = {expression_.truth(instruction.op == spv::OpConstantTrue)};
       break;
     case spv::OpConstant: {
       const uint32_t bits = instruction.words[0];
       if (type.op == spv::OpTypeFloat) {
-        value = {tape_.constant(double(__builtin_bit_cast(float, bits)))};
+        value = {expression_.constant(double(__builtin_bit_cast(float, bits)))};
       } else {
-        value = {tape_.constant(type.is_signed ? double(int32_t(bits)) : double(bits))};
+        value = {expression_.constant(type.is_signed ? double(int32_t(bits)) : double(bits))};
       }
       break;
     }
@@ -47,13 +48,14 @@ void Execution::define_constant(const Instruction& instruction) {
       break;
     }
     default:  // OpConstantNull, OpUndef
-      value.assign(type.size, type.op == spv::OpTypeBool ? tape_.truth(false) : tape_.constant(0));
+      value.assign(type.size,
+                   type.op == spv::OpTypeBool ? expression_.truth(false) : expression_.constant(0));
   }
 }
 
 Term Execution::run(std::string_view name) {
   const Function& function = *module_.named(name);
-  const Value p{tape_.input(0), tape_.input(1), tape_.input(2)};
+  const Value p{expression_.input(0), expression_.input(1), expression_.input(2)};
   Call caller{.function = function};
   constexpr uint32_t argument = 0;  // no id of the module's
   if (module_.type_of(function.parameters[0]).op == spv::OpTypePointer) {
@@ -74,7 +76,7 @@ Value Execution::call(const Function& function, const std::vector<uint32_t>& arg
       call.values[function.parameters[i]] = value(caller, arguments[i]);
   }
   const uint32_t outer = variables_;
-  call.condition = tape_.truth(true);
+  call.condition = expression_.truth(true);
   go(call, function.blocks[0].label, call.condition);
   run_blocks(call, 0, function.blocks.size());
   Value returned;
@@ -127,12 +129,12 @@ void Execution::run_block(Call& call, const Block& block) {
 
 Value Execution::choose(Term condition, const Value& x, const Value& y) {
   Value result(x.size());
-  for (size_t i = 0; i < x.size(); ++i) result[i] = tape_.apply(Op::choose, condition, x[i], y[i]);
+  for (size_t i = 0; i < x.size(); ++i) result[i] = expression_.apply(Op::choose, condition, x[i], y[i]);
   return result;
 }
 
 Term Execution::join(const std::vector<Way>& ways, Value& returned) {
-  if (ways.empty()) return tape_.truth(false);
+  if (ways.empty()) return expression_.truth(false);
   memory_ = ways.back().memory;
   returned = ways.back().returned;
   Term condition = ways.back().condition;
@@ -142,19 +144,19 @@ Term Execution::join(const std::vector<Way>& ways, Value& returned) {
       if (const auto other = way.memory.find(variable); other != way.memory.end())
         value = choose(way.condition, other->second, value);
     returned = choose(way.condition, way.returned, returned);
-    condition = tape_.apply(Op::either, way.condition, condition);
+    condition = expression_.apply(Op::either, way.condition, condition);
   }
   return condition;
 }
 
 void Execution::go(Call& call, uint32_t to, Term condition) {
-  if (tape_.is(condition, 0)) return;
+  if (expression_.is(condition, 0)) return;
   effort_ += memory_size_ / effortless;
   call.ways[to].push_back({call.block, condition, memory_, {}});
 }
 
 void Execution::run_instruction(Call& call, const Instruction& instruction) {
-  if (++effort_ > most_effort || tape_.steps().size() > most_steps)
+  if (++effort_ > most_effort || expression_.steps().size() > most_steps)
     refuse(instruction, "with all turns of its loops the function is too long");
   if (run_memory(call, instruction) || run_composite(call, instruction) || run_branch(call, instruction))
     return;
@@ -169,14 +171,14 @@ void Execution::run_instruction(Call& call, const Instruction& instruction) {
         refuse(instruction, "this function is not known here: modf and the like");
       from.push_back(value(call, instruction.words[i]));
     }
-    result = glsl_function(tape_, instruction.words[1], from);
+    result = glsl_function(expression_, instruction.words[1], from);
     if (!result) refuse(instruction, "this function is not known here");
   } else {
     std::vector<Value> from;
     for (const uint32_t id : instruction.words) from.push_back(value(call, id));
     const Type& component = type.members.empty() ? type : module_.type(type.members[0]);
-    result = arithmetic(tape_, instruction.op, from, type.size);
-    if (!result) result = whole_arithmetic(tape_, instruction.op, from, component.is_signed);
+    result = arithmetic(expression_, instruction.op, from, type.size);
+    if (!result) result = whole_arithmetic(expression_, instruction.op, from, component.is_signed);
     if (!result)
       refuse(instruction,
              component.op == spv::OpTypeInt
@@ -196,8 +198,8 @@ const Execution::Pointer& Execution::pointer(const Call& call, uint32_t id) cons
 }
 
 uint32_t Execution::new_variable(const Type& type) {
-  Value value(type.size, tape_.constant(0));
-  if (type.op == spv::OpTypeBool) value[0] = tape_.truth(false);
+  Value value(type.size, expression_.constant(0));
+  if (type.op == spv::OpTypeBool) value[0] = expression_.truth(false);
   memory_[++variables_] = value;
   memory_size_ += value.size();
   return variables_;
@@ -205,8 +207,8 @@ uint32_t Execution::new_variable(const Type& type) {
 
 uint32_t Execution::index(const Call& call, uint32_t id, const Instruction& instruction) const {
   const Term term = value(call, id)[0];
-  if (!tape_.known(term)) refuse(instruction, "an array's or vector's index is computed from p");
-  return uint32_t(int64_t(tape_.value(term)));
+  if (!expression_.known(term)) refuse(instruction, "an array's or vector's index is computed from p");
+  return uint32_t(int64_t(expression_.value(term)));
 }
 
 void Execution::refuse(const Instruction& instruction, const std::string& what) const {

@@ -1,18 +1,18 @@
 // Runs a function on terms instead of numbers. Loops are followed as often as they go round, both sides of an
-// if where its condition is no constant, and where paths meet again each variable is chosen by the condition.
+// if where its condition is no constant, and where paths join again each variable is chosen by the condition.
 // Private to this layer.
 #pragma once
 
 #include <map>
 
-#include "formula/arithmetic.hpp"
-#include "formula/module.hpp"
+#include "host/formula/arithmetic.hpp"
+#include "host/formula/module.hpp"
 
 namespace eyeray::formula {
 
 class Execution {
  public:
-  Execution(const Module& module, Tape& tape);
+  Execution(const Module& module, Expression& expression);
 
   // What the function of this name gives for a point of which the inputs 0, 1, 2 are the coordinates.
   // InputError with the line for what cannot be followed.
@@ -66,7 +66,7 @@ class Execution {
   [[noreturn]] void refuse(const Instruction& instruction, const std::string& what) const;
 
   const Module& module_;
-  Tape& tape_;
+  Expression& expression_;
   Memory memory_;
   std::map<uint32_t, Value> constants_;
   std::map<uint32_t, Pointer> globals_;

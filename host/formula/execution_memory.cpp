@@ -1,7 +1,7 @@
 // The instructions that move numbers, and those that lead from block to block.
 #include <algorithm>
 
-#include "formula/execution.hpp"
+#include "host/formula/execution.hpp"
 
 namespace eyeray::formula {
 
@@ -105,7 +105,7 @@ bool Execution::run_composite(Call& call, const Instruction& instruction) {
       result = value(call, words[0]);
       break;
     case spv::OpUndef:
-      result.assign(module_.type(instruction.type).size, tape_.constant(0));
+      result.assign(module_.type(instruction.type).size, expression_.constant(0));
       break;
     case spv::OpPhi: {
       // Value and block by turns, a pair for each way.
@@ -128,7 +128,7 @@ bool Execution::run_composite(Call& call, const Instruction& instruction) {
 
 bool Execution::run_branch(Call& call, const Instruction& instruction) {
   const std::vector<uint32_t>& words = instruction.words;
-  const auto under = [&](Term condition) { return tape_.apply(Op::both, call.condition, condition); };
+  const auto under = [&](Term condition) { return expression_.apply(Op::both, call.condition, condition); };
   switch (instruction.op) {
     case spv::OpBranch:
       go(call, words[0], call.condition);
@@ -136,16 +136,17 @@ bool Execution::run_branch(Call& call, const Instruction& instruction) {
     case spv::OpBranchConditional: {
       const Term condition = value(call, words[0])[0];
       go(call, words[1], under(condition));
-      go(call, words[2], under(tape_.apply(Op::opposite, condition)));
+      go(call, words[2], under(expression_.apply(Op::opposite, condition)));
       return true;
     }
     case spv::OpSwitch: {
       const Term selector = value(call, words[0])[0];
-      Term other = tape_.truth(true);
+      Term other = expression_.truth(true);
       for (size_t i = 2; i + 1 < words.size(); i += 2) {
-        const Term equal = tape_.apply(Op::equal, selector, tape_.constant(double(int32_t(words[i]))));
+        const Term equal =
+            expression_.apply(Op::equal, selector, expression_.constant(double(int32_t(words[i]))));
         go(call, words[i + 1], under(equal));
-        other = tape_.apply(Op::both, other, tape_.apply(Op::opposite, equal));
+        other = expression_.apply(Op::both, other, expression_.apply(Op::opposite, equal));
       }
       go(call, words[1], under(other));
       return true;

@@ -1,4 +1,4 @@
-#include "formula/formula.hpp"
+#include "host/formula/formula.hpp"
 
 #include <fmt/format.h>
 
@@ -8,15 +8,15 @@
 #include <mutex>
 #include <optional>
 
-#include "core/termination.hpp"
-#include "formula/execution.hpp"
-#include "formula/kernel_text.hpp"
-#include "formula/limits.hpp"
-#include "formula/lowering.hpp"
-#include "formula/machine.hpp"
-#include "formula/text.hpp"
-#include "formula/vocabulary.hpp"
-#include "gpu/shader_compiler.hpp"
+#include "host/core/termination.hpp"
+#include "host/formula/execution.hpp"
+#include "host/formula/kernel_text.hpp"
+#include "host/formula/limits.hpp"
+#include "host/formula/lowering.hpp"
+#include "host/formula/machine.hpp"
+#include "host/formula/text.hpp"
+#include "host/formula/vocabulary.hpp"
+#include "host/gpu/shader_compiler.hpp"
 
 namespace eyeray {
 
@@ -199,12 +199,12 @@ bool Formula::loops() const {
   return compiled_->program.counts_turns;
 }
 
-const calculus::StraightLine& Formula::straight_line() const {
+const expression::StraightLine& Formula::straight_line() const {
   std::call_once(straightened_, [&] {
     try {
-      calculus::Tape tape;
-      formula::Execution execution(compiled_->module, tape);
-      straight_line_ = calculus::straight_line(tape, execution.run(value_name));
+      expression::Expression expression;
+      formula::Execution execution(compiled_->module, expression);
+      straight_line_ = expression::straight_line(expression, execution.run(value_name));
       if (straight_line_.size() > most_steps)
         throw InputError(
             {{Severity::error,

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "calculus/tape.hpp"
-#include "core/diagnostic.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/expression/expression.hpp"
 
 namespace eyeray {
 
@@ -53,18 +53,19 @@ class Formula {
   double instructions() const;
 
   // `float NAMEf(vec3 p)`, `vec3 NAMEgradient(vec3 p)` if it has one, and what they need, as GLSL for
-  // kernels, beside shaders/formula.glsl. Loops ask `bool formula_turn(uint turns)`, if there are any that
-  // must (loops()).
+  // kernels, beside shaders/math/formula.glsl. Loops ask `bool formula_turn(uint turns)`, if there are any
+  // that must (loops()).
   std::string kernel(const std::string& name) const;
   bool loops() const;
 
   // f as straight-line code, of which bounds and derivatives are made. InputError, at the place in the text,
   // for what cannot be written so: loops whose number of turns depends on p without a bound, indices and
   // whole numbers computed from p.
-  const calculus::StraightLine& straight_line() const;
+  const expression::StraightLine& straight_line() const;
 
   // In float32, to the bit what kernels compute, and in float64. Error (timed_out) where the loops make more
-  // turns than FORMULA_TURNS of formula.glsl. Thread-safe. `turns`, if given, grows by those that were made.
+  // turns than FORMULA_TURNS of math/formula.glsl. Thread-safe. `turns`, if given, grows by those that were
+  // made.
   float value(const std::array<float, 3>& p) const;
   double value(const std::array<double, 3>& p, uint64_t* turns = nullptr) const;
   // The text's own, if it has one.
@@ -79,7 +80,7 @@ class Formula {
   std::string title_;
   std::shared_ptr<const formula::Compiled> compiled_;
   mutable std::once_flag straightened_;
-  mutable calculus::StraightLine straight_line_;
+  mutable expression::StraightLine straight_line_;
 };
 
 // Whether a constant may be called so.

@@ -3,32 +3,32 @@
 #include <cmath>
 #include <numbers>
 
-#include "formula/arithmetic.hpp"
+#include "host/formula/arithmetic.hpp"
 
 namespace eyeray::formula {
 namespace {
 
-// Writes down formulas; everything GLSL has, made of the few operations of a tape.
+// Writes down formulas; everything GLSL has, made of the few operations of a expression.
 class Formulas {
  public:
-  explicit Formulas(Tape& tape) : tape_(tape) {}
+  explicit Formulas(Expression& expression) : expression_(expression) {}
 
-  Term number(double x) { return tape_.constant(x); }
+  Term number(double x) { return expression_.constant(x); }
   // A number that no float is.
-  Term fraction(double x) { return tape_.constant(x, 1e-15 * std::abs(x)); }
-  Term add(Term x, Term y) { return tape_.apply(Op::add, x, y); }
-  Term subtract(Term x, Term y) { return tape_.apply(Op::subtract, x, y); }
-  Term multiply(Term x, Term y) { return tape_.apply(Op::multiply, x, y); }
-  Term divide(Term x, Term y) { return multiply(x, tape_.apply(Op::reciprocal, y)); }
-  Term of(Op op, Term x) { return tape_.apply(op, x); }
+  Term fraction(double x) { return expression_.constant(x, 1e-15 * std::abs(x)); }
+  Term add(Term x, Term y) { return expression_.apply(Op::add, x, y); }
+  Term subtract(Term x, Term y) { return expression_.apply(Op::subtract, x, y); }
+  Term multiply(Term x, Term y) { return expression_.apply(Op::multiply, x, y); }
+  Term divide(Term x, Term y) { return multiply(x, expression_.apply(Op::reciprocal, y)); }
+  Term of(Op op, Term x) { return expression_.apply(op, x); }
   Term half(Term x) { return multiply(number(0.5), x); }
   Term length(const Value& v) {
-    return v.size() == 1 ? of(Op::absolute, v[0]) : of(Op::square_root, dot(tape_, v, v));
+    return v.size() == 1 ? of(Op::absolute, v[0]) : of(Op::square_root, dot(expression_, v, v));
   }
-  Term choose(Term condition, Term x, Term y) { return tape_.apply(Op::choose, condition, x, y); }
-  Term less(Term x, Term y) { return tape_.apply(Op::less, x, y); }
+  Term choose(Term condition, Term x, Term y) { return expression_.apply(Op::choose, condition, x, y); }
+  Term less(Term x, Term y) { return expression_.apply(Op::less, x, y); }
   Term clamp(Term x, Term lower, Term upper) {
-    return tape_.apply(Op::minimum, tape_.apply(Op::maximum, x, lower), upper);
+    return expression_.apply(Op::minimum, expression_.apply(Op::maximum, x, lower), upper);
   }
 
   Term sign(Term x) {
@@ -40,7 +40,7 @@ class Formulas {
   }
   Term hyperbolic(Term x, Op op) {
     const Term up = of(Op::exponential, x), down = of(Op::exponential, of(Op::negate, x));
-    return half(tape_.apply(op, up, down));
+    return half(expression_.apply(op, up, down));
   }
   Term hyperbolic_tangent(Term x) {
     const Term e = of(Op::exponential, multiply(number(2), x));
@@ -56,22 +56,22 @@ class Formulas {
   }
   // Whole exponents mean a product, for negative x too, as in C++.
   Term power(Term x, Term y) {
-    if (!tape_.known(y)) return of(Op::exponential, multiply(y, of(Op::logarithm, x)));
-    const double n = tape_.value(y);
+    if (!expression_.known(y)) return of(Op::exponential, multiply(y, of(Op::logarithm, x)));
+    const double n = expression_.value(y);
     if (n == 0) return number(1);
     const bool whole = n == std::round(n) && std::abs(n) <= 64;
     const Term positive = whole                ? whole_power(x, int(std::abs(n)))
                           : std::abs(n) == 0.5 ? of(Op::square_root, x)
-                                               : tape_.power(x, std::abs(n));
+                                               : expression_.power(x, std::abs(n));
     return n < 0 ? of(Op::reciprocal, positive) : positive;
   }
 
  private:
-  Tape& tape_;
+  Expression& expression_;
 };
 
 // Those of one number.
-std::optional<Term> of_one(Formulas& f, Tape& tape, uint32_t function, Term x) {
+std::optional<Term> of_one(Formulas& f, Expression& expression, uint32_t function, Term x) {
   switch (function) {
     case GLSLstd450FAbs:
       return f.of(Op::absolute, x);
@@ -82,7 +82,7 @@ std::optional<Term> of_one(Formulas& f, Tape& tape, uint32_t function, Term x) {
     case GLSLstd450Ceil:
       return f.of(Op::negate, f.of(Op::floor, f.of(Op::negate, x)));
     case GLSLstd450Trunc:
-      return truncate(tape, x);
+      return truncate(expression, x);
     case GLSLstd450Round:
     case GLSLstd450RoundEven:
       return f.of(Op::floor, f.add(x, f.number(0.5)));
@@ -99,11 +99,11 @@ std::optional<Term> of_one(Formulas& f, Tape& tape, uint32_t function, Term x) {
     case GLSLstd450Tan:
       return f.divide(f.of(Op::sine, x), f.of(Op::cosine, x));
     case GLSLstd450Asin:
-      return tape.apply(Op::angle, x, f.complement(x));
+      return expression.apply(Op::angle, x, f.complement(x));
     case GLSLstd450Acos:
-      return tape.apply(Op::angle, f.complement(x), x);
+      return expression.apply(Op::angle, f.complement(x), x);
     case GLSLstd450Atan:
-      return tape.apply(Op::angle, x, f.number(1));
+      return expression.apply(Op::angle, x, f.number(1));
     case GLSLstd450Sinh:
       return f.hyperbolic(x, Op::subtract);
     case GLSLstd450Cosh:
@@ -128,22 +128,22 @@ std::optional<Term> of_one(Formulas& f, Tape& tape, uint32_t function, Term x) {
 }
 
 // Those of two or three, component by component.
-std::optional<Term> of_more(Formulas& f, Tape& tape, uint32_t function, Term x, Term y, Term z) {
+std::optional<Term> of_more(Formulas& f, Expression& expression, uint32_t function, Term x, Term y, Term z) {
   switch (function) {
     case GLSLstd450Atan2:
-      return tape.apply(Op::angle, x, y);
+      return expression.apply(Op::angle, x, y);
     case GLSLstd450Pow:
       return f.power(x, y);
     case GLSLstd450FMin:
     case GLSLstd450NMin:
     case GLSLstd450SMin:
     case GLSLstd450UMin:
-      return tape.apply(Op::minimum, x, y);
+      return expression.apply(Op::minimum, x, y);
     case GLSLstd450FMax:
     case GLSLstd450NMax:
     case GLSLstd450SMax:
     case GLSLstd450UMax:
-      return tape.apply(Op::maximum, x, y);
+      return expression.apply(Op::maximum, x, y);
     case GLSLstd450FClamp:
     case GLSLstd450NClamp:
     case GLSLstd450SClamp:
@@ -163,7 +163,8 @@ std::optional<Term> of_more(Formulas& f, Tape& tape, uint32_t function, Term x, 
 }
 
 // Those of whole vectors.
-std::optional<Value> of_vectors(Formulas& f, Tape& tape, uint32_t function, const std::vector<Value>& from) {
+std::optional<Value> of_vectors(Formulas& f, Expression& expression, uint32_t function,
+                                const std::vector<Value>& from) {
   const Value& a = from[0];
   const auto along = [&](Term factor, const Value& v) {
     Value result;
@@ -181,7 +182,7 @@ std::optional<Value> of_vectors(Formulas& f, Tape& tape, uint32_t function, cons
     case GLSLstd450Distance:
       return Value{f.length(minus(a, from[1]))};
     case GLSLstd450Normalize:
-      return along(tape.apply(Op::reciprocal, f.length(a)), a);
+      return along(expression.apply(Op::reciprocal, f.length(a)), a);
     case GLSLstd450Cross: {
       const Value& b = from[1];
       const auto component = [&](size_t i, size_t j) {
@@ -190,7 +191,7 @@ std::optional<Value> of_vectors(Formulas& f, Tape& tape, uint32_t function, cons
       return Value{component(1, 2), component(2, 0), component(0, 1)};
     }
     case GLSLstd450Reflect:
-      return minus(a, along(f.multiply(f.number(2), dot(tape, from[1], a)), from[1]));
+      return minus(a, along(f.multiply(f.number(2), dot(expression, from[1], a)), from[1]));
     default:
       return std::nullopt;
   }
@@ -198,15 +199,16 @@ std::optional<Value> of_vectors(Formulas& f, Tape& tape, uint32_t function, cons
 
 }  // namespace
 
-std::optional<Value> glsl_function(Tape& tape, uint32_t function, const std::vector<Value>& from) {
-  Formulas formulas(tape);
-  if (std::optional<Value> whole = of_vectors(formulas, tape, function, from)) return whole;
+std::optional<Value> glsl_function(Expression& expression, uint32_t function,
+                                   const std::vector<Value>& from) {
+  Formulas formulas(expression);
+  if (std::optional<Value> whole = of_vectors(formulas, expression, function, from)) return whole;
   Value result;
   for (size_t i = 0; i < from[0].size(); ++i) {
     const auto at = [&](size_t k) { return k < from.size() ? from[k][i] : no_term; };
     const std::optional<Term> term = from.size() == 1
-                                         ? of_one(formulas, tape, function, at(0))
-                                         : of_more(formulas, tape, function, at(0), at(1), at(2));
+                                         ? of_one(formulas, expression, function, at(0))
+                                         : of_more(formulas, expression, function, at(0), at(1), at(2));
     if (!term) return std::nullopt;
     result.push_back(*term);
   }

@@ -20,7 +20,7 @@ enum class Type : uint8_t { real, whole, truth };
 
 enum class Op : uint8_t {
   move,  // of any type
-  // Of floats: C's operators, then the functions fn_… of shaders/formula.glsl.
+  // Of floats: C's operators, then the functions fn_… of shaders/math/formula.glsl.
   negate,
   add,
   subtract,

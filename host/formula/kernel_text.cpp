@@ -1,8 +1,8 @@
-#include "formula/kernel_text.hpp"
+#include "host/formula/kernel_text.hpp"
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray::formula {
 

@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "formula/ir.hpp"
+#include "host/formula/ir.hpp"
 
 namespace eyeray::formula {
 
 // `float NAMEf(vec3 p)`, `vec3 NAMEgradient(vec3 p)` if there is one, and what they call; needs
-// shaders/formula.glsl and, where loops are counted, `bool formula_turn(uint)`. One operation a statement, on
-// numbers alone: nothing of the user's text is left, and nothing for a compiler to fold.
+// shaders/math/formula.glsl and, where loops are counted, `bool formula_turn(uint)`. One operation a
+// statement, on numbers alone: nothing of the user's text is left, and nothing for a compiler to fold.
 std::string kernel_text(const ir::Program& program, const std::string& name);
 
 }  // namespace eyeray::formula

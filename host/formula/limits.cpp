@@ -1,4 +1,4 @@
-#include "formula/limits.hpp"
+#include "host/formula/limits.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "formula/ir.hpp"
+#include "host/formula/ir.hpp"
 
 namespace eyeray::formula {
 

@@ -1,5 +1,5 @@
 // Functions as a whole: what is known of their values beforehand, and the ways from block to block.
-#include "formula/lowering.hpp"
+#include "host/formula/lowering.hpp"
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 #include <set>
 #include <string_view>
 
-#include "formula/ir.hpp"
-#include "formula/module.hpp"
+#include "host/formula/ir.hpp"
+#include "host/formula/module.hpp"
 
 namespace eyeray::formula {
 

@@ -1,7 +1,7 @@
 // Variables, their parts, and calls.
 #include <algorithm>
 
-#include "formula/lowering.hpp"
+#include "host/formula/lowering.hpp"
 
 namespace eyeray::formula {
 

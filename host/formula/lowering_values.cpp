@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "formula/lowering.hpp"
+#include "host/formula/lowering.hpp"
 
 namespace eyeray::formula {
 

@@ -1,16 +1,16 @@
-#include "formula/machine.hpp"
+#include "host/formula/machine.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "language.h"
+#include "host/core/error.hpp"
+#include "shaders/language.h"
 //
-#include "core/local_shaders.hpp"
+#include "host/core/local_shaders.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
-#include "formula.glsl"
+#include "shaders/math/formula.glsl"
 #pragma GCC diagnostic pop
 
 namespace eyeray::formula {

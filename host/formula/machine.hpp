@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "formula/ir.hpp"
+#include "host/formula/ir.hpp"
 
 namespace eyeray::formula {
 
@@ -18,8 +18,9 @@ class Machine {
   Machine(const ir::Program& program, uint32_t function);
 
   // The numbers that the function gives: one, or three. In float32 by the shaders' own functions
-  // (formula.glsl), so that the bits are a kernel's; in float64 by those of C's library. False where loops
-  // that are counted make more turns than FORMULA_TURNS; `turns`, if given, grows by those made. Thread-safe.
+  // (math/formula.glsl), so that the bits are a kernel's; in float64 by those of C's library. False where
+  // loops that are counted make more turns than FORMULA_TURNS; `turns`, if given, grows by those made.
+  // Thread-safe.
   bool run(const std::array<float, 3>& p, float* result, uint64_t* turns = nullptr) const;
   bool run(const std::array<double, 3>& p, double* result, uint64_t* turns = nullptr) const;
 

@@ -1,9 +1,9 @@
 #define SPV_ENABLE_UTILITY_CODE
-#include "formula/module.hpp"
+#include "host/formula/module.hpp"
 
 #include <algorithm>
 
-#include "gpu/spirv.hpp"
+#include "host/gpu/spirv.hpp"
 
 namespace eyeray::formula {
 

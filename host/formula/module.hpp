@@ -10,7 +10,7 @@
 
 #include <glslang/SPIRV/spirv.hpp>
 
-#include "core/diagnostic.hpp"
+#include "host/core/diagnostic.hpp"
 
 namespace eyeray::formula {
 
@@ -35,7 +35,7 @@ struct Block {
   uint32_t label = 0;
   uint32_t merge = 0;  // of a loop's header, else 0
   uint32_t next = 0;   // of a loop's header: its continue target
-  uint32_t join = 0;   // where a selection's ways meet again, else 0
+  uint32_t join = 0;   // where a selection's ways join again, else 0
   std::vector<Instruction> instructions{};
 };
 

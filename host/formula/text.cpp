@@ -1,4 +1,4 @@
-#include "formula/text.hpp"
+#include "host/formula/text.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <optional>
 #include <set>
 
-#include "core/diagnostic.hpp"
-#include "formula/vocabulary.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/formula/vocabulary.hpp"
 
 namespace eyeray::formula {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "formula/fault.hpp"
-#include "formula/token.hpp"
+#include "host/formula/fault.hpp"
+#include "host/formula/token.hpp"
 
 namespace eyeray::formula {
 

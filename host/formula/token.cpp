@@ -1,4 +1,4 @@
-#include "formula/token.hpp"
+#include "host/formula/token.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formula/fault.hpp"
+#include "host/formula/fault.hpp"
 
 namespace eyeray::formula {
 

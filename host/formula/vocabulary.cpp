@@ -1,4 +1,4 @@
-#include "formula/vocabulary.hpp"
+#include "host/formula/vocabulary.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "generate/batch_text.hpp"
+#include "host/generate/batch_text.hpp"
 
 #include <fmt/format.h>
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/vec.hpp"
+#include "host/core/error.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray {
 

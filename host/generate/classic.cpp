@@ -1,10 +1,10 @@
-#include "generate/classic.hpp"
+#include "host/generate/classic.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "generate/batch_text.hpp"
+#include "host/generate/batch_text.hpp"
 
 namespace eyeray {
 namespace {
@@ -35,7 +35,7 @@ fov = 45.07926149
 
 [render]
 max_depth = 4
-min_weight = 0
+min_throughput = 0
 background = [0.078, 0.361, 0.753]
 ambient = {:.10g}
 )",

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "generate/mesh_sink.hpp"
+#include "host/generate/mesh_sink.hpp"
 
 namespace eyeray {
 

@@ -1,11 +1,11 @@
 #include <iterator>
 
-#include "generate/gears.hpp"
-#include "generate/mount.hpp"
-#include "generate/rings.hpp"
-#include "generate/teapot.hpp"
-#include "generate/tetra.hpp"
-#include "generate/tree.hpp"
+#include "host/generate/gears.hpp"
+#include "host/generate/mount.hpp"
+#include "host/generate/rings.hpp"
+#include "host/generate/teapot.hpp"
+#include "host/generate/tetra.hpp"
+#include "host/generate/tree.hpp"
 
 namespace eyeray {
 

@@ -1,12 +1,12 @@
-#include "generate/gears.hpp"
+#include "host/generate/gears.hpp"
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 
-#include "generate/batch_text.hpp"
-#include "generate/portable_math.hpp"
+#include "host/generate/batch_text.hpp"
+#include "host/generate/portable_math.hpp"
 
 namespace eyeray {
 namespace {

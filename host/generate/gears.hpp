@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "generate/classic.hpp"
+#include "host/generate/classic.hpp"
 
 namespace eyeray {
 

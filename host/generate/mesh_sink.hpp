@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scene/mesh.hpp"
+#include "host/scene/mesh.hpp"
 
 namespace eyeray {
 

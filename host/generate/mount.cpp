@@ -1,10 +1,10 @@
-#include "generate/mount.hpp"
+#include "host/generate/mount.hpp"
 
 #include <cmath>
 
-#include "core/parallel_for.hpp"
-#include "generate/batch_text.hpp"
-#include "generate/portable_math.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/generate/batch_text.hpp"
+#include "host/generate/portable_math.hpp"
 
 namespace eyeray {
 namespace {

@@ -1,7 +1,7 @@
 // "mount" of Haines' databases: a fractal mountain below four balls of glass.
 #pragma once
 
-#include "generate/classic.hpp"
+#include "host/generate/classic.hpp"
 
 namespace eyeray {
 

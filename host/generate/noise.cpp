@@ -1,4 +1,4 @@
-#include "generate/noise.hpp"
+#include "host/generate/noise.hpp"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
-#include "generate/octasphere.hpp"
+#include "host/generate/octasphere.hpp"
 
 #include <algorithm>
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray {
 namespace {

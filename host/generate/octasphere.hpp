@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/mesh.hpp"
+#include "host/scene/mesh.hpp"
 
 namespace eyeray {
 

@@ -1,10 +1,10 @@
-#include "generate/ply_file.hpp"
+#include "host/generate/ply_file.hpp"
 
 #include <bit>
 #include <cstring>
 
-#include "core/error.hpp"
-#include "core/termination.hpp"
+#include "host/core/error.hpp"
+#include "host/core/termination.hpp"
 
 namespace eyeray {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/atomic_file.hpp"
-#include "generate/mesh_sink.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/generate/mesh_sink.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "generate/portable_math.hpp"
+#include "host/generate/portable_math.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,7 @@
 // to machine, those of these do not. Errors are below 3e-16 of the result's size.
 #pragma once
 
-#include "core/vec.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray {
 

@@ -1,10 +1,10 @@
-#include "generate/rings.hpp"
+#include "host/generate/rings.hpp"
 
 #include <array>
 #include <cmath>
 
-#include "generate/batch_text.hpp"
-#include "generate/portable_math.hpp"
+#include "host/generate/batch_text.hpp"
+#include "host/generate/portable_math.hpp"
 
 namespace eyeray {
 namespace {

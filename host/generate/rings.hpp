@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "generate/classic.hpp"
+#include "host/generate/classic.hpp"
 
 namespace eyeray {
 

@@ -1,12 +1,12 @@
-#include "generate/sphereflake.hpp"
+#include "host/generate/sphereflake.hpp"
 
 #include <array>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "generate/batch_text.hpp"
-#include "generate/classic.hpp"
-#include "generate/octasphere.hpp"
+#include "host/core/error.hpp"
+#include "host/generate/batch_text.hpp"
+#include "host/generate/classic.hpp"
+#include "host/generate/octasphere.hpp"
 
 namespace eyeray {
 namespace {

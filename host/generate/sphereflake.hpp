@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "generate/mesh_sink.hpp"
+#include "host/generate/mesh_sink.hpp"
 
 namespace eyeray {
 

@@ -1,9 +1,9 @@
-#include "generate/teapot.hpp"
+#include "host/generate/teapot.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "generate/batch_text.hpp"
+#include "host/generate/batch_text.hpp"
 
 namespace eyeray {
 namespace {

@@ -1,7 +1,7 @@
 // "teapot" of Haines' databases: Newell's, of 32 Bézier patches cut into triangles, on a chessboard.
 #pragma once
 
-#include "generate/classic.hpp"
+#include "host/generate/classic.hpp"
 
 namespace eyeray {
 

@@ -1,5 +1,5 @@
 // Newell's numbers.
-#include "generate/teapot.hpp"
+#include "host/generate/teapot.hpp"
 
 namespace eyeray {
 namespace {

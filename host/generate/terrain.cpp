@@ -1,12 +1,12 @@
-#include "generate/terrain.hpp"
+#include "host/generate/terrain.hpp"
 
 #include <bit>
 #include <cmath>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/parallel_for.hpp"
-#include "generate/noise.hpp"
+#include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/generate/noise.hpp"
 
 namespace eyeray {
 namespace {

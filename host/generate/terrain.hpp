@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "generate/mesh_sink.hpp"
+#include "host/generate/mesh_sink.hpp"
 
 namespace eyeray {
 

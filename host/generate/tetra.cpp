@@ -1,4 +1,4 @@
-#include "generate/tetra.hpp"
+#include "host/generate/tetra.hpp"
 
 namespace eyeray {
 namespace {

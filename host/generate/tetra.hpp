@@ -1,7 +1,7 @@
 // "tetra" of Haines' databases: a tetrahedron of tetrahedra, Sierpiński's.
 #pragma once
 
-#include "generate/classic.hpp"
+#include "host/generate/classic.hpp"
 
 namespace eyeray {
 

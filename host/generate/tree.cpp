@@ -1,7 +1,7 @@
-#include "generate/tree.hpp"
+#include "host/generate/tree.hpp"
 
-#include "generate/batch_text.hpp"
-#include "generate/portable_math.hpp"
+#include "host/generate/batch_text.hpp"
+#include "host/generate/portable_math.hpp"
 
 namespace eyeray {
 namespace {

@@ -1,10 +1,10 @@
-#include "gpu/buffer.hpp"
+#include "host/gpu/buffer.hpp"
 
 #include <algorithm>
 #include <cstring>
 
-#include "core/error.hpp"
-#include "gpu/raw_buffer.hpp"
+#include "host/core/error.hpp"
+#include "host/gpu/raw_buffer.hpp"
 
 namespace eyeray::gpu {
 namespace {

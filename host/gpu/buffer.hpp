@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "gpu/device.hpp"
-#include "gpu/reflect.hpp"
+#include "host/gpu/device.hpp"
+#include "host/gpu/reflect.hpp"
 
 namespace eyeray::gpu {
 

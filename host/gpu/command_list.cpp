@@ -1,8 +1,8 @@
-#include "gpu/command_list.hpp"
+#include "host/gpu/command_list.hpp"
 
-#include "core/error.hpp"
-#include "core/stopwatch.hpp"
-#include "gpu/kernel_objects.hpp"
+#include "host/core/error.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/gpu/kernel_objects.hpp"
 
 namespace eyeray::gpu {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "gpu/kernel.hpp"
+#include "host/gpu/kernel.hpp"
 
 namespace eyeray::gpu {
 

@@ -1,4 +1,4 @@
-#include "gpu/compiler_messages.hpp"
+#include "host/gpu/compiler_messages.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "gpu/context.hpp"
+#include "host/gpu/context.hpp"
 
 #include <unistd.h>
 
@@ -6,11 +6,11 @@
 #include <cstdlib>
 #include <optional>
 
-#include "core/error.hpp"
-#include "core/stopwatch.hpp"
-#include "core/termination.hpp"
-#include "gpu/device_choice.hpp"
-#include "gpu/physical_device.hpp"
+#include "host/core/error.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/core/termination.hpp"
+#include "host/gpu/device_choice.hpp"
+#include "host/gpu/physical_device.hpp"
 
 namespace eyeray::gpu {
 

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-#include "core/error.hpp"
-#include "gpu/device.hpp"
-#include "gpu/instance.hpp"
+#include "host/core/error.hpp"
+#include "host/gpu/device.hpp"
+#include "host/gpu/instance.hpp"
 
 namespace eyeray::gpu {
 

@@ -1,7 +1,7 @@
-#include "gpu/device.hpp"
+#include "host/gpu/device.hpp"
 
-#include "gpu/context.hpp"
-#include "gpu/physical_device.hpp"
+#include "host/gpu/context.hpp"
+#include "host/gpu/physical_device.hpp"
 
 namespace eyeray::gpu {
 

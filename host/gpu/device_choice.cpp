@@ -1,9 +1,9 @@
-#include "gpu/device_choice.hpp"
+#include "host/gpu/device_choice.hpp"
 
 #include <algorithm>
 #include <charconv>
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray::gpu {
 namespace {

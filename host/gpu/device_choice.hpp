@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "gpu/device.hpp"
+#include "host/gpu/device.hpp"
 
 namespace eyeray::gpu {
 

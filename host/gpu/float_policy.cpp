@@ -1,11 +1,11 @@
-#include "gpu/float_policy.hpp"
+#include "host/gpu/float_policy.hpp"
 
 #include <glslang/SPIRV/spirv.hpp>
 
 #include <set>
 #include <string_view>
 
-#include "gpu/spirv.hpp"
+#include "host/gpu/spirv.hpp"
 
 namespace eyeray::gpu {
 namespace {

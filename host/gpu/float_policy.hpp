@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "gpu/device.hpp"
+#include "host/gpu/device.hpp"
 
 namespace eyeray::gpu {
 

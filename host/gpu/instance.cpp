@@ -1,4 +1,4 @@
-#include "gpu/instance.hpp"
+#include "host/gpu/instance.hpp"
 
 #include <dlfcn.h>
 
@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "core/error.hpp"
-#include "core/memory_shortage.hpp"
-#include "core/termination.hpp"
+#include "host/core/error.hpp"
+#include "host/core/memory_shortage.hpp"
+#include "host/core/termination.hpp"
 
 namespace eyeray::gpu {
 namespace {

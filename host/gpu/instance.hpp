@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "gpu/device.hpp"
-#include "gpu/vulkan.hpp"
+#include "host/gpu/device.hpp"
+#include "host/gpu/vulkan.hpp"
 
 namespace eyeray::gpu {
 

@@ -1,12 +1,12 @@
-#include "gpu/kernel.hpp"
+#include "host/gpu/kernel.hpp"
 
 #include <algorithm>
 
-#include "core/content_hash.hpp"
-#include "core/error.hpp"
-#include "core/termination.hpp"
-#include "gpu/kernel_objects.hpp"
-#include "gpu/raw_buffer.hpp"
+#include "host/core/content_hash.hpp"
+#include "host/core/error.hpp"
+#include "host/core/termination.hpp"
+#include "host/gpu/kernel_objects.hpp"
+#include "host/gpu/raw_buffer.hpp"
 
 namespace eyeray::gpu {
 namespace {
@@ -190,7 +190,7 @@ void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t 
   if (buffer.kind() != kind)
     throw Error(ExitCode::bad_input,
                 "kernel '{}' declares binding {} as a {} buffer; here it is the other kind: declare it by "
-                "eyeray's own bindings.glsl",
+                "eyeray's own kernels/bindings.glsl",
                 name_, binding, kind == BindingKind::texels ? "texel" : "storage");
   const VkDescriptorBufferInfo info{buffer.raw().handle(), offset, bytes};
   VkBufferView view = VK_NULL_HANDLE;

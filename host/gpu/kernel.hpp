@@ -6,9 +6,9 @@
 #include <span>
 #include <string>
 
-#include "core/disk_cache.hpp"
-#include "gpu/buffer.hpp"
-#include "gpu/reflect.hpp"
+#include "host/core/disk_cache.hpp"
+#include "host/gpu/buffer.hpp"
+#include "host/gpu/reflect.hpp"
 
 namespace eyeray::gpu {
 

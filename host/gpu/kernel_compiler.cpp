@@ -1,10 +1,10 @@
-#include "gpu/kernel_compiler.hpp"
+#include "host/gpu/kernel_compiler.hpp"
 
 #include <cstring>
 
-#include "core/content_hash.hpp"
-#include "gpu/float_policy.hpp"
-#include "gpu/spirv_optimiser.hpp"
+#include "host/core/content_hash.hpp"
+#include "host/gpu/float_policy.hpp"
+#include "host/gpu/spirv_optimiser.hpp"
 
 namespace eyeray::gpu {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string_view>
 
-#include "core/disk_cache.hpp"
-#include "gpu/device.hpp"
-#include "gpu/shader_compiler.hpp"
+#include "host/core/disk_cache.hpp"
+#include "host/gpu/device.hpp"
+#include "host/gpu/shader_compiler.hpp"
 
 namespace eyeray::gpu {
 

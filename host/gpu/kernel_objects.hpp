@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "gpu/context.hpp"
-#include "gpu/kernel.hpp"
+#include "host/gpu/context.hpp"
+#include "host/gpu/kernel.hpp"
 
 namespace eyeray::gpu {
 

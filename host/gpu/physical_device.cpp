@@ -1,4 +1,4 @@
-#include "gpu/physical_device.hpp"
+#include "host/gpu/physical_device.hpp"
 
 #include <fmt/format.h>
 

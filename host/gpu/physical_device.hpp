@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "gpu/device.hpp"
-#include "gpu/vulkan.hpp"
+#include "host/gpu/device.hpp"
+#include "host/gpu/vulkan.hpp"
 
 namespace eyeray::gpu {
 

@@ -1,8 +1,8 @@
-#include "gpu/raw_buffer.hpp"
+#include "host/gpu/raw_buffer.hpp"
 
 #include <optional>
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray::gpu {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "gpu/context.hpp"
+#include "host/gpu/context.hpp"
 
 namespace eyeray::gpu {
 

@@ -1,4 +1,4 @@
-#include "gpu/reflect.hpp"
+#include "host/gpu/reflect.hpp"
 
 #include <glslang/SPIRV/spirv.hpp>
 
@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "gpu/spirv.hpp"
+#include "host/gpu/spirv.hpp"
 
 namespace eyeray::gpu {
 namespace {

@@ -1,4 +1,4 @@
-#include "gpu/selection_flattener.hpp"
+#include "host/gpu/selection_flattener.hpp"
 
 #include <glslang/SPIRV/GLSL.std.450.h>
 
@@ -6,8 +6,8 @@
 #include <iterator>
 #include <unordered_map>
 
-#include "core/error.hpp"
-#include "gpu/spirv_module.hpp"
+#include "host/core/error.hpp"
+#include "host/gpu/spirv_module.hpp"
 
 namespace eyeray::gpu {
 namespace {

@@ -1,17 +1,17 @@
-#include "gpu/self_test.hpp"
+#include "host/gpu/self_test.hpp"
 
 #include <bit>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/stopwatch.hpp"
-#include "gpu/command_list.hpp"
-#include "gpu/kernel_compiler.hpp"
+#include "host/core/error.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/gpu/command_list.hpp"
+#include "host/gpu/kernel_compiler.hpp"
 
 namespace eyeray::gpu {
 namespace {
 
-// As in selftest.comp.glsl.
+// As in kernels/selftest.comp.glsl.
 constexpr uint32_t count = 256;
 constexpr uint32_t words_an_invocation = 8;
 constexpr uint32_t loop_iterations = 100000;
@@ -99,7 +99,7 @@ DeviceFacts judge(const Device& device, const Inputs& inputs, std::span<const ui
 
 DeviceFacts self_test(Device& device, const SourceProvider& shaders, const DiskCache& cache) {
   const Stopwatch watch;
-  const ShaderSource source = read_shader(shaders, "selftest.comp.glsl");
+  const ShaderSource source = read_shader(shaders, "kernels/selftest.comp.glsl");
   const std::vector<uint32_t> spirv = compile_kernel(source, "", {device.info().float_modes}, cache).spirv;
   Kernel kernel(device, spirv, "selftest", cache);
 

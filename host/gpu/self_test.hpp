@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "core/disk_cache.hpp"
-#include "gpu/device.hpp"
-#include "gpu/shader_source.hpp"
+#include "host/core/disk_cache.hpp"
+#include "host/gpu/device.hpp"
+#include "host/gpu/shader_source.hpp"
 
 namespace eyeray::gpu {
 
@@ -19,8 +19,8 @@ struct DeviceFacts {
   double seconds = 0;             // that all this took
 };
 
-// Runs "selftest.comp.glsl" of `shaders`. Error (no_device) when integers, indices or the bits of a float
-// come out wrong.
+// Runs "kernels/selftest.comp.glsl" of `shaders`. Error (no_device) when integers, indices or the bits of a
+// float come out wrong.
 DeviceFacts self_test(Device& device, const SourceProvider& shaders, const DiskCache& cache);
 
 }  // namespace eyeray::gpu

@@ -1,4 +1,4 @@
-#include "gpu/shader_compiler.hpp"
+#include "host/gpu/shader_compiler.hpp"
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "gpu/compiler_messages.hpp"
+#include "host/gpu/compiler_messages.hpp"
 
 namespace eyeray::gpu {
 namespace {

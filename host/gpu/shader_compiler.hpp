@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/diagnostic.hpp"
-#include "gpu/shader_source.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/gpu/shader_source.hpp"
 
 namespace eyeray::gpu {
 

@@ -1,8 +1,8 @@
-#include "gpu/shader_source.hpp"
+#include "host/gpu/shader_source.hpp"
 
 #include <sstream>
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray::gpu {
 namespace {

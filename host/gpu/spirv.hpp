@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray::gpu {
 

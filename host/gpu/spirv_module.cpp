@@ -1,6 +1,6 @@
-#include "gpu/spirv_module.hpp"
+#include "host/gpu/spirv_module.hpp"
 
-#include "gpu/spirv.hpp"
+#include "host/gpu/spirv.hpp"
 
 namespace eyeray::gpu {
 

@@ -1,4 +1,4 @@
-#include "gpu/spirv_optimiser.hpp"
+#include "host/gpu/spirv_optimiser.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,8 @@
 #include <map>
 #include <spirv-tools/optimizer.hpp>
 
-#include "gpu/selection_flattener.hpp"
-#include "gpu/spirv.hpp"
+#include "host/gpu/selection_flattener.hpp"
+#include "host/gpu/spirv.hpp"
 
 namespace eyeray::gpu {
 namespace {

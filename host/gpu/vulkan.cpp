@@ -1,4 +1,4 @@
-#include "gpu/vulkan.hpp"
+#include "host/gpu/vulkan.hpp"
 
 namespace eyeray::gpu {
 

@@ -1,9 +1,9 @@
-#include "importers/asset_files.hpp"
+#include "host/importers/asset_files.hpp"
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/input_file.hpp"
+#include "host/core/error.hpp"
+#include "host/core/input_file.hpp"
 
 namespace eyeray {
 

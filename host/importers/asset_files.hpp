@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/folder_trees.hpp"
+#include "host/core/folder_trees.hpp"
 
 namespace eyeray {
 

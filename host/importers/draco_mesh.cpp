@@ -1,4 +1,4 @@
-#include "importers/draco_mesh.hpp"
+#include "host/importers/draco_mesh.hpp"
 
 #include <draco/compression/entropy/symbol_decoding.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "importers/asset_files.hpp"
-#include "importers/import.hpp"
+#include "host/importers/asset_files.hpp"
+#include "host/importers/import.hpp"
 
 namespace eyeray {
 

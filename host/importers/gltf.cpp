@@ -10,11 +10,11 @@
 #include <optional>
 #include <set>
 
-#include "importers/formats.hpp"
-#include "importers/gltf_materials.hpp"
-#include "importers/gltf_meshes.hpp"
-#include "importers/malformed.hpp"
-#include "scene/affine.hpp"
+#include "host/importers/formats.hpp"
+#include "host/importers/gltf_materials.hpp"
+#include "host/importers/gltf_meshes.hpp"
+#include "host/importers/malformed.hpp"
+#include "host/scene/affine.hpp"
 
 namespace eyeray {
 
@@ -149,7 +149,7 @@ void GltfReader::read_nodes() {
     const Visit visit = pending.back();
     pending.pop_back();
     const GltfObject node = document_.element("nodes", visit.node);
-    if (seen[visit.node]) node.fail("is met twice: a node has one parent, and is not below itself");
+    if (seen[visit.node]) node.fail("is reached twice: a node has one parent, and is not below itself");
     seen[visit.node] = true;
     const Mat4 world = visit.parent * transform(node);
     worlds_[visit.node] = world;

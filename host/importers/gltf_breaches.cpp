@@ -1,10 +1,10 @@
-#include "importers/gltf_breaches.hpp"
+#include "host/importers/gltf_breaches.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "importers/gltf_components.hpp"
+#include "host/importers/gltf_components.hpp"
 
 namespace eyeray {
 

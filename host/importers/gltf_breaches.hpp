@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "importers/gltf_json.hpp"
+#include "host/importers/gltf_json.hpp"
 
 namespace eyeray {
 

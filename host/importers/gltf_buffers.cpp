@@ -1,4 +1,4 @@
-#include "importers/gltf_buffers.hpp"
+#include "host/importers/gltf_buffers.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -7,9 +7,9 @@
 #include <limits>
 #include <type_traits>
 
-#include "importers/gltf_components.hpp"
-#include "importers/gltf_meshopt.hpp"
-#include "importers/malformed.hpp"
+#include "host/importers/gltf_components.hpp"
+#include "host/importers/gltf_meshopt.hpp"
+#include "host/importers/malformed.hpp"
 
 namespace eyeray {
 

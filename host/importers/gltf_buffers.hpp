@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/vec.hpp"
-#include "importers/asset_files.hpp"
-#include "importers/gltf_breaches.hpp"
-#include "importers/gltf_json.hpp"
+#include "host/core/vec.hpp"
+#include "host/importers/asset_files.hpp"
+#include "host/importers/gltf_breaches.hpp"
+#include "host/importers/gltf_json.hpp"
 
 namespace eyeray {
 

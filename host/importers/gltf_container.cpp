@@ -2,8 +2,8 @@
 #include <array>
 #include <cstring>
 
-#include "importers/gltf_buffers.hpp"
-#include "importers/malformed.hpp"
+#include "host/importers/gltf_buffers.hpp"
+#include "host/importers/malformed.hpp"
 
 namespace eyeray {
 

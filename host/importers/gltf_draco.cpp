@@ -1,12 +1,12 @@
-#include "importers/gltf_draco.hpp"
+#include "host/importers/gltf_draco.hpp"
 
 #include <draco/mesh/mesh.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "importers/draco_mesh.hpp"
-#include "importers/gltf_components.hpp"
+#include "host/importers/draco_mesh.hpp"
+#include "host/importers/gltf_components.hpp"
 
 namespace eyeray {
 

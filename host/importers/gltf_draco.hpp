@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "importers/gltf_buffers.hpp"
+#include "host/importers/gltf_buffers.hpp"
 
 namespace draco {
 class Mesh;

@@ -1,10 +1,10 @@
-#include "importers/gltf_json.hpp"
+#include "host/importers/gltf_json.hpp"
 
 #include <cmath>
 
-#include "importers/json_text.hpp"
-#include "importers/malformed.hpp"
-#include "scene/diagnostic_log.hpp"
+#include "host/importers/json_text.hpp"
+#include "host/importers/malformed.hpp"
+#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray {
 

@@ -2,15 +2,15 @@
 // (0.04, or the base colour of a metal) and r its roughness: what is smooth mirrors F0 · (1 − r)², the lights
 // show a Blinn highlight of exponent 2 / r⁴ − 2 (Karis: Specular BRDF Reference, 2013), and what a rough
 // metal does not mirror it scatters. What is unlit shows its base colour as light of its own.
-#include "importers/gltf_materials.hpp"
+#include "host/importers/gltf_materials.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "materials/make.hpp"
-#include "scene/diagnostic_log.hpp"
-#include "scene/image_texture_file.hpp"
+#include "host/core/error.hpp"
+#include "host/materials/make.hpp"
+#include "host/scene/diagnostic_log.hpp"
+#include "host/scene/image_texture_file.hpp"
 
 namespace eyeray {
 

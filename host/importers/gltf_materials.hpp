@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "importers/gltf_buffers.hpp"
-#include "importers/texture_files.hpp"
-#include "scene/material.hpp"
+#include "host/importers/gltf_buffers.hpp"
+#include "host/importers/texture_files.hpp"
+#include "host/scene/material.hpp"
 
 namespace eyeray {
 

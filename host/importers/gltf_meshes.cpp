@@ -1,4 +1,4 @@
-#include "importers/gltf_meshes.hpp"
+#include "host/importers/gltf_meshes.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "scene/diagnostic_log.hpp"
+#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray {
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "importers/gltf_buffers.hpp"
-#include "importers/gltf_draco.hpp"
-#include "importers/gltf_materials.hpp"
-#include "importers/gltf_skins.hpp"
-#include "importers/mesh_builder.hpp"
+#include "host/importers/gltf_buffers.hpp"
+#include "host/importers/gltf_draco.hpp"
+#include "host/importers/gltf_materials.hpp"
+#include "host/importers/gltf_skins.hpp"
+#include "host/importers/mesh_builder.hpp"
 
 namespace eyeray {
 

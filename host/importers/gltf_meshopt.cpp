@@ -1,4 +1,4 @@
-#include "importers/gltf_meshopt.hpp"
+#include "host/importers/gltf_meshopt.hpp"
 
 #include <fmt/format.h>
 #include <meshoptimizer.h>

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "importers/gltf_json.hpp"
+#include "host/importers/gltf_json.hpp"
 
 namespace eyeray {
 

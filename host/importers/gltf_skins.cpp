@@ -1,12 +1,12 @@
-#include "importers/gltf_skins.hpp"
+#include "host/importers/gltf_skins.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "importers/gltf_components.hpp"
-#include "scene/affine.hpp"
+#include "host/importers/gltf_components.hpp"
+#include "host/scene/affine.hpp"
 
 namespace eyeray {
 

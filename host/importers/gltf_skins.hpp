@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "importers/gltf_buffers.hpp"
-#include "importers/mesh_builder.hpp"
+#include "host/importers/gltf_buffers.hpp"
+#include "host/importers/mesh_builder.hpp"
 
 namespace eyeray {
 

@@ -1,12 +1,12 @@
-#include "importers/import.hpp"
+#include "host/importers/import.hpp"
 
 #include <algorithm>
 
-#include "core/coded_image.hpp"
-#include "core/input_file.hpp"
-#include "importers/formats.hpp"
-#include "importers/malformed.hpp"
-#include "materials/make.hpp"
+#include "host/core/input_file.hpp"
+#include "host/image/coded_image.hpp"
+#include "host/importers/formats.hpp"
+#include "host/importers/malformed.hpp"
+#include "host/materials/make.hpp"
 
 namespace eyeray {
 

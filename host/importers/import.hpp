@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "importers/json_text.hpp"
+#include "host/importers/json_text.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "importers/malformed.hpp"
+#include "host/importers/malformed.hpp"
 
 namespace eyeray {
 

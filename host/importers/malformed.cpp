@@ -1,8 +1,8 @@
-#include "importers/malformed.hpp"
+#include "host/importers/malformed.hpp"
 
 #include <algorithm>
 
-#include "scene/diagnostic_log.hpp"
+#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/diagnostic.hpp"
+#include "host/core/diagnostic.hpp"
 
 namespace eyeray {
 

@@ -1,15 +1,15 @@
-#include "importers/mesh_builder.hpp"
+#include "host/importers/mesh_builder.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/parallel_for.hpp"
-#include "core/srgb.hpp"
-#include "importers/smooth.hpp"
-#include "scene/affine.hpp"
-#include "scene/triangle.hpp"
+#include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/image/srgb.hpp"
+#include "host/importers/smooth.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/triangle.hpp"
 
 namespace eyeray {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/mesh.hpp"
+#include "host/scene/mesh.hpp"
 
 namespace eyeray {
 
@@ -58,7 +58,7 @@ class MeshBuilder {
   // `pool` is changed: its normals are made unit, those that have no direction 0.
   MeshBuilder(VertexPool& pool, MeshCounts& counts);
 
-  // Leaves out what no ray can meet; gives each corner whose normal is wrong that of its face. Where there
+  // Leaves out what no ray can hit; gives each corner whose normal is wrong that of its face. Where there
   // are no normals and `smooth` (degrees) is above 0, makes them. Vertices that no face has are dropped.
   Mesh build(const RawTriangles& raw, double smooth);
 

@@ -7,11 +7,11 @@
 #include <limits>
 #include <map>
 
-#include "importers/formats.hpp"
-#include "importers/malformed.hpp"
-#include "importers/mesh_builder.hpp"
-#include "importers/obj_materials.hpp"
-#include "importers/polygon.hpp"
+#include "host/importers/formats.hpp"
+#include "host/importers/malformed.hpp"
+#include "host/importers/mesh_builder.hpp"
+#include "host/importers/obj_materials.hpp"
+#include "host/importers/polygon.hpp"
 
 namespace eyeray {
 

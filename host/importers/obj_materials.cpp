@@ -1,4 +1,4 @@
-#include "importers/obj_materials.hpp"
+#include "host/importers/obj_materials.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #define TINYOBJLOADER_USE_DOUBLE
 #include <tiny_obj_loader.h>
 
-#include "core/error.hpp"
-#include "materials/make.hpp"
-#include "scene/diagnostic_log.hpp"
+#include "host/core/error.hpp"
+#include "host/materials/make.hpp"
+#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray {
 

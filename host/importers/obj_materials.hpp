@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "importers/texture_files.hpp"
-#include "scene/material.hpp"
+#include "host/importers/texture_files.hpp"
+#include "host/scene/material.hpp"
 
 namespace eyeray {
 

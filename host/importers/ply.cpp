@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "importers/formats.hpp"
-#include "importers/mesh_builder.hpp"
-#include "importers/ply_header.hpp"
-#include "importers/ply_values.hpp"
-#include "importers/polygon.hpp"
+#include "host/importers/formats.hpp"
+#include "host/importers/mesh_builder.hpp"
+#include "host/importers/ply_header.hpp"
+#include "host/importers/ply_values.hpp"
+#include "host/importers/polygon.hpp"
 
 namespace eyeray {
 

@@ -1,8 +1,8 @@
-#include "importers/ply_header.hpp"
+#include "host/importers/ply_header.hpp"
 
 #include <charconv>
 
-#include "importers/malformed.hpp"
+#include "host/importers/malformed.hpp"
 
 namespace eyeray {
 

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "importers/malformed.hpp"
-#include "importers/ply_header.hpp"
+#include "host/importers/malformed.hpp"
+#include "host/importers/ply_header.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "importers/polygon.hpp"
+#include "host/importers/polygon.hpp"
 
 #include <cmath>
 

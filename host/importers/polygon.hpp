@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/vec.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray {
 

@@ -1,13 +1,13 @@
-#include "importers/smooth.hpp"
+#include "host/importers/smooth.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
 
-#include "core/parallel_for.hpp"
-#include "scene/affine.hpp"
-#include "scene/triangle.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/triangle.hpp"
 
 namespace eyeray {
 
@@ -141,7 +141,7 @@ uint32_t Smoother::join(uint32_t point) {
   }
   std::ranges::sort(edges, {}, [](const Edge& edge) { return std::pair(edge.end, edge.corner); });
 
-  // Join what meets under a small angle.
+  // Join what hits under a small angle.
   const auto root = [&](uint32_t i) {
     while (parents[i] != i) i = parents[i] = parents[parents[i]];
     return i;

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "scene/mesh.hpp"
+#include "host/scene/mesh.hpp"
 
 namespace eyeray {
 

@@ -1,7 +1,7 @@
-#include "importers/texture_files.hpp"
+#include "host/importers/texture_files.hpp"
 
-#include "core/error.hpp"
-#include "scene/image_texture_file.hpp"
+#include "host/core/error.hpp"
+#include "host/scene/image_texture_file.hpp"
 
 namespace eyeray {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/coded_image.hpp"
-#include "importers/asset_files.hpp"
-#include "scene/texture.hpp"
+#include "host/image/coded_image.hpp"
+#include "host/importers/asset_files.hpp"
+#include "host/scene/texture.hpp"
 
 namespace eyeray {
 

@@ -1,6 +1,6 @@
-#include "loader/allowed_folders.hpp"
+#include "host/loader/allowed_folders.hpp"
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray {
 

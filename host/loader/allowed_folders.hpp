@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/folder_trees.hpp"
+#include "host/core/folder_trees.hpp"
 
 namespace eyeray {
 

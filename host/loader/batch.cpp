@@ -1,4 +1,4 @@
-#include "loader/batch.hpp"
+#include "host/loader/batch.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/foreign_words.hpp"
-#include "scene/table.hpp"
-#include "scene/value.hpp"
+#include "host/scene/foreign_words.hpp"
+#include "host/scene/table.hpp"
+#include "host/scene/value.hpp"
 
 namespace eyeray {
 

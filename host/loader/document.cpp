@@ -1,10 +1,11 @@
-#include "loader/document.hpp"
+#include "host/loader/document.hpp"
 
 #include <algorithm>
 
-#include "loader/sections.hpp"
-#include "loader/toml_file.hpp"
-#include "scene/value.hpp"
+#include "host/loader/former_names.hpp"
+#include "host/loader/sections.hpp"
+#include "host/loader/toml_file.hpp"
+#include "host/scene/value.hpp"
 
 namespace eyeray {
 
@@ -84,6 +85,7 @@ class Includer {
 
     const std::string name = file.string();
     toml::table tree = parse_toml(log_.add_source(name, std::move(text)), name, budget_, log_);
+    rename_former(tree);
     if (const toml::node* include = tree.get(include_key)) include_all(*include, file);
     merge(document_.root, tree, log_);
     chain_.pop_back();
@@ -144,6 +146,7 @@ Document parse_document(std::string_view text, const std::string& name, Diagnost
   Document document;
   TreeBudget budget;
   toml::table tree = parse_toml(log.add_source(name, std::string(text)), name, budget, log);
+  rename_former(tree);
   if (const toml::node* include = tree.get(include_key)) {
     log.error(position_of(include->source()), "only a scene in a file can include others");
   }

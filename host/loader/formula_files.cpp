@@ -1,9 +1,9 @@
-#include "loader/formula_files.hpp"
+#include "host/loader/formula_files.hpp"
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/input_file.hpp"
+#include "host/core/error.hpp"
+#include "host/core/input_file.hpp"
 
 namespace eyeray {
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "loader/allowed_folders.hpp"
-#include "scene/diagnostic_log.hpp"
-#include "scene/formula_source.hpp"
+#include "host/loader/allowed_folders.hpp"
+#include "host/scene/diagnostic_log.hpp"
+#include "host/scene/formula_source.hpp"
 
 namespace eyeray {
 

@@ -1,8 +1,8 @@
-#include "loader/formula_refusal.hpp"
+#include "host/loader/formula_refusal.hpp"
 
 #include <fmt/format.h>
 
-#include "scene/value.hpp"
+#include "host/scene/value.hpp"
 
 namespace eyeray {
 

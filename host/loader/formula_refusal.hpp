@@ -3,7 +3,7 @@
 
 #include <toml++/toml.h>
 
-#include "scene/diagnostic_log.hpp"
+#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray {
 

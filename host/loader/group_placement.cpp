@@ -1,10 +1,10 @@
-#include "loader/group_placement.hpp"
+#include "host/loader/group_placement.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "scene/affine.hpp"
+#include "host/scene/affine.hpp"
 
 namespace eyeray {
 

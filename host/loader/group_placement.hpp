@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "loader/mesh_placement.hpp"
+#include "host/loader/mesh_placement.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "loader/group_plan.hpp"
+#include "host/loader/group_plan.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "loader/sections.hpp"
-#include "scene/value.hpp"
+#include "host/loader/sections.hpp"
+#include "host/scene/value.hpp"
 
 namespace eyeray {
 
@@ -42,7 +42,8 @@ std::vector<const toml::table*> tables(const toml::table& holder, std::string_vi
   return found;
 }
 
-// How many shapes and solids there are in a shape's table, itself, those of a solid and its batch included.
+// How many shapes and CSG objects there are in a shape's table, itself, those of a CSG object and its batch
+// included.
 double count_shapes(const toml::table& table) {
   double count = 1;
   for (const toml::table* held : {&table, table[minus_key].as_table()}) {

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/diagnostic_log.hpp"
-#include "scene/scene.hpp"
+#include "host/scene/diagnostic_log.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray {
 

@@ -1,9 +1,9 @@
-#include "loader/image_files.hpp"
+#include "host/loader/image_files.hpp"
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "scene/image_texture_file.hpp"
+#include "host/core/error.hpp"
+#include "host/scene/image_texture_file.hpp"
 
 namespace eyeray {
 

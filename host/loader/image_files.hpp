@@ -5,10 +5,10 @@
 #include <map>
 #include <vector>
 
-#include "core/coded_image.hpp"
-#include "loader/allowed_folders.hpp"
-#include "scene/diagnostic_log.hpp"
-#include "scene/image_source.hpp"
+#include "host/image/coded_image.hpp"
+#include "host/loader/allowed_folders.hpp"
+#include "host/scene/diagnostic_log.hpp"
+#include "host/scene/image_source.hpp"
 
 namespace eyeray {
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "loader/scene_file.hpp"
-#include "loader/sections.hpp"
-#include "scene/table.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/loader/sections.hpp"
+#include "host/scene/table.hpp"
 
 namespace eyeray {
 

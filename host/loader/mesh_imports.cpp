@@ -1,8 +1,8 @@
-#include "loader/mesh_imports.hpp"
+#include "host/loader/mesh_imports.hpp"
 
 #include <algorithm>
 
-#include "core/diagnostic.hpp"
+#include "host/core/diagnostic.hpp"
 
 namespace eyeray {
 

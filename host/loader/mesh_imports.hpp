@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "importers/import.hpp"
-#include "loader/allowed_folders.hpp"
+#include "host/importers/import.hpp"
+#include "host/loader/allowed_folders.hpp"
 
 namespace eyeray {
 

@@ -1,10 +1,10 @@
-#include "loader/mesh_placement.hpp"
+#include "host/loader/mesh_placement.hpp"
 
 #include <algorithm>
 #include <iterator>
 
-#include "scene/affine.hpp"
-#include "scene/triangle.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/triangle.hpp"
 
 namespace eyeray {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "importers/import.hpp"
-#include "scene/scene.hpp"
+#include "host/importers/import.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray {
 

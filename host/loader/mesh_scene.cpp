@@ -1,10 +1,10 @@
-#include "loader/mesh_scene.hpp"
+#include "host/loader/mesh_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "scene/affine.hpp"
+#include "host/scene/affine.hpp"
 
 namespace eyeray {
 

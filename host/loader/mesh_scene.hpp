@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "importers/import.hpp"
+#include "host/importers/import.hpp"
 
 namespace eyeray {
 

@@ -1,13 +1,14 @@
-#include "loader/overrides.hpp"
+#include "host/loader/overrides.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
-#include "loader/sections.hpp"
-#include "loader/statements.hpp"
-#include "loader/toml_file.hpp"
-#include "scene/value.hpp"
+#include "host/loader/former_names.hpp"
+#include "host/loader/sections.hpp"
+#include "host/loader/statements.hpp"
+#include "host/loader/toml_file.hpp"
+#include "host/scene/value.hpp"
 
 namespace eyeray {
 
@@ -61,7 +62,9 @@ class Assignment {
       }
     }
 
-    // Walk down the parts of the key to the value.
+    rename_former(tree_);
+
+    // Go down the parts of the key to the value.
     toml::node* node = &tree_;
     while (node->is_table() && !node->as_table()->is_inline()) {
       if (node->as_table()->size() != 1) return fail("write KEY=VALUE, such as render.max_depth=3"), false;

@@ -5,8 +5,8 @@
 
 #include <span>
 
-#include "loader/scene_file.hpp"
-#include "scene/diagnostic_log.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray {
 

@@ -1,17 +1,17 @@
-#include "loader/scene_builder.hpp"
+#include "host/loader/scene_builder.hpp"
 
 #include <algorithm>
 #include <map>
 
-#include "loader/batch.hpp"
-#include "loader/group_placement.hpp"
-#include "loader/group_plan.hpp"
-#include "loader/mesh_placement.hpp"
-#include "loader/sections.hpp"
-#include "loader/settings.hpp"
-#include "loader/solid_reader.hpp"
-#include "scene/affine.hpp"
-#include "scene/table.hpp"
+#include "host/loader/batch.hpp"
+#include "host/loader/csg_reader.hpp"
+#include "host/loader/group_placement.hpp"
+#include "host/loader/group_plan.hpp"
+#include "host/loader/mesh_placement.hpp"
+#include "host/loader/sections.hpp"
+#include "host/loader/settings.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/table.hpp"
 
 namespace eyeray {
 
@@ -67,7 +67,7 @@ class Builder {
   }
 
  private:
-  friend class eyeray::SolidReader<Builder>;
+  friend class eyeray::CsgReader<Builder>;
 
   struct NamedMaterial {
     int index;  // in Scene::materials; -1 after an error
@@ -305,7 +305,7 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
 std::unique_ptr<Shape> Builder::read_shape(const Section& section, const toml::table& table,
                                            TableReader& reader, const Placing& placing) {
   if (section.is_combined())
-    return SolidReader(*this, log_).read(section, table, reader, placing, std::nullopt);
+    return CsgReader(*this, log_).read(section, table, reader, placing, std::nullopt);
   return parse_shape(section, reader, placing, find_material(reader));
 }
 
@@ -318,7 +318,7 @@ std::unique_ptr<Shape> Builder::parse_shape(const Section& section, TableReader&
     reader.error(
         "material",
         fmt::format(
-            "a material with `alpha` has holes, and a ray may meet a {} again behind one; only planes, "
+            "a material with `alpha` has holes, and a ray may hit a {} again behind one; only planes, "
             "triangles, polygons, parallelograms, disks and meshes can be of it",
             section.shape->name));
   shape->material = material;

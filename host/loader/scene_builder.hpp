@@ -3,11 +3,11 @@
 
 #include <toml++/toml.h>
 
-#include "loader/mesh_imports.hpp"
-#include "scene/diagnostic_log.hpp"
-#include "scene/formula_source.hpp"
-#include "scene/image_source.hpp"
-#include "scene/scene.hpp"
+#include "host/loader/mesh_imports.hpp"
+#include "host/scene/diagnostic_log.hpp"
+#include "host/scene/formula_source.hpp"
+#include "host/scene/image_source.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray {
 

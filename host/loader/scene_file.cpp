@@ -1,13 +1,13 @@
-#include "loader/scene_file.hpp"
+#include "host/loader/scene_file.hpp"
 
-#include "loader/document.hpp"
-#include "loader/formula_files.hpp"
-#include "loader/formula_refusal.hpp"
-#include "loader/image_files.hpp"
-#include "loader/mesh_imports.hpp"
-#include "loader/mesh_scene.hpp"
-#include "loader/overrides.hpp"
-#include "loader/scene_builder.hpp"
+#include "host/loader/document.hpp"
+#include "host/loader/formula_files.hpp"
+#include "host/loader/formula_refusal.hpp"
+#include "host/loader/image_files.hpp"
+#include "host/loader/mesh_imports.hpp"
+#include "host/loader/mesh_scene.hpp"
+#include "host/loader/overrides.hpp"
+#include "host/loader/scene_builder.hpp"
 
 namespace eyeray {
 

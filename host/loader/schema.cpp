@@ -3,9 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "loader/scene_file.hpp"
-#include "loader/sections.hpp"
-#include "scene/table.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/loader/sections.hpp"
+#include "host/scene/table.hpp"
 
 namespace eyeray {
 
@@ -159,16 +159,16 @@ std::string reference_to(const Section& section) {
   return fmt::format("#/$defs/{}", section.name);
 }
 
-// Of a shape or mesh in the world, or in a group: unlike a solid's part it needs what its table requires
+// Of a shape or mesh in the world, or in a group: unlike a CSG object's part it needs what its table requires
 // beside the definition.
-Json in_world(const Section& section) {
+Json world_ray(const Section& section) {
   Json schema = {{"$ref", reference_to(section)}};
   if (section.shape && !section.is_combined())
     schema["anyOf"] = {{{"required", {"material"}}}, {{"required", {batch_key}}}};
   return schema;
 }
 
-Json shapes_of_solid() {
+Json shapes_of_csg() {
   Json shapes = Json::object();
   for (const std::string_view name : placed_names()) {
     const Section& section = *find_section(name);
@@ -201,20 +201,20 @@ Json placed_schema(const Section& section) {
   }
   if (section.kind == Section::Kind::group) {
     for (const std::string_view name : placed_names())
-      schema["properties"][std::string(name)] = list_schema(in_world(*find_section(name)));
+      schema["properties"][std::string(name)] = list_schema(world_ray(*find_section(name)));
   }
   if (section.is_combined()) {
-    schema["properties"].update(shapes_of_solid());
+    schema["properties"].update(shapes_of_csg());
     schema["properties"][std::string(minus_key)] = {{"description", "The shapes that are taken away."},
                                                     {"type", "object"},
-                                                    {"properties", shapes_of_solid()},
+                                                    {"properties", shapes_of_csg()},
                                                     {"additionalProperties", false}};
   }
   return schema;
 }
 
 Json section_schema(const Section& section) {
-  if (section.is_placed()) return list_schema(in_world(section));
+  if (section.is_placed()) return list_schema(world_ray(section));
   if (section.kind == Section::Kind::material) return list_schema(material_schema(section));
   return section.many() ? list_schema(table_schema(section.keys)) : table_schema(section.keys);
 }

@@ -1,11 +1,11 @@
-#include "loader/sections.hpp"
+#include "host/loader/sections.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/diagnostic.hpp"
-#include "loader/settings.hpp"
-#include "scene/foreign_words.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/loader/settings.hpp"
+#include "host/scene/foreign_words.hpp"
 
 namespace eyeray {
 
@@ -30,7 +30,7 @@ std::span<const Key> material_keys() {
        .type = KeyType::texture,
        .doc = "Where it is below `alpha_cutoff`, there is no surface. Of a color the first component counts, "
               "of an "
-              "image its alpha. Only on shapes that a ray meets once.",
+              "image its alpha. Only on shapes that a ray hits once.",
        .max = 1,
        .optional = true},
       {.name = "alpha_cutoff",
@@ -62,7 +62,7 @@ constexpr Key keys_of_parts[] = {
     name_key,
     {.name = "material",
      .type = KeyType::string,
-     .doc = "The `name` of a [[material]]; in a solid, that of the solid when absent.",
+     .doc = "The `name` of a [[material]]; in a CSG object, that of the CSG object when absent.",
      .optional = true},
     shape_keys[2],
 };

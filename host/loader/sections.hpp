@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/material.hpp"
-#include "scene/shape.hpp"
+#include "host/scene/material.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray {
 
@@ -41,10 +41,10 @@ std::string suggest_section(std::string_view name);
 // The names of those that may stand in a group.
 std::span<const std::string_view> placed_names();
 
-// The keys that all shapes in a solid share, as solids do: what is of no material of its own is of that
-// around it.
+// The keys that all shapes in a CSG object share, as CSG objects do: what is of no material of its own is of
+// that around it.
 std::span<const Key> part_keys();
-// The table in a solid's of what is taken away.
+// The table in a CSG object's of what is taken away.
 inline constexpr std::string_view minus_key = "minus";
 
 // The key that lists the files to include, and the one that holds the batch of what is placed.

@@ -1,4 +1,4 @@
-#include "loader/settings.hpp"
+#include "host/loader/settings.hpp"
 
 #include <cmath>
 
@@ -91,7 +91,7 @@ constexpr Key render_table[] = {
      .fallback = "8",
      .min = 0,
      .max = 64},
-    {.name = "min_weight",
+    {.name = "min_throughput",
      .type = KeyType::number,
      .doc = "A reflected or refracted ray that would count for less is not traced.",
      .fallback = "0.001",
@@ -117,7 +117,7 @@ constexpr Key render_table[] = {
      .choices = group_storages},
     {.name = "background",
      .type = KeyType::color,
-     .doc = "What a ray that meets nothing sees.",
+     .doc = "What a ray that hits nothing sees.",
      .fallback = "0"},
     {.name = "ambient",
      .type = KeyType::color,
@@ -238,7 +238,7 @@ RenderSettings read_render(TableReader& table) {
   RenderSettings render;
   render.integrator = static_cast<IntegratorType>(table.choice("integrator"));
   render.max_depth = static_cast<int>(table.integer("max_depth"));
-  render.min_weight = table.number("min_weight");
+  render.min_throughput = table.number("min_throughput");
   render.seed = static_cast<uint32_t>(table.integer("seed"));
   render.triangle_method = static_cast<TriangleMethod>(table.choice("triangle"));
   render.groups = static_cast<GroupStorage>(table.choice("groups"));

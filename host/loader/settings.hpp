@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "scene/scene.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray {
 

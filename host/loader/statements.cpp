@@ -1,4 +1,4 @@
-#include "loader/statements.hpp"
+#include "host/loader/statements.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "loader/toml_file.hpp"
+#include "host/loader/toml_file.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "core/input_file.hpp"
-#include "loader/statements.hpp"
-#include "scene/value.hpp"
+#include "host/core/input_file.hpp"
+#include "host/loader/statements.hpp"
+#include "host/scene/value.hpp"
 
 namespace eyeray {
 

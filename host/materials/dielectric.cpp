@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "materials/highlight.hpp"
-#include "materials/make.hpp"
+#include "host/materials/highlight.hpp"
+#include "host/materials/make.hpp"
 
 namespace eyeray {
 
@@ -24,7 +24,7 @@ sphere of `ior = 1` inside it. From ior n₁ to n₂, sin²θ₂ = (n₁/n₂)²
 no root is taken. The reflected share is ½ (rₛ² + rₚ²), rₛ = (n₁cosθ₁ − n₂cosθ₂) / (n₁cosθ₁ + n₂cosθ₂),
 rₚ = (n₁cosθ₂ − n₂cosθ₁) / (n₁cosθ₂ + n₂cosθ₁); equal media do not mirror at all.
 
-Shadow rays go straight through and keep the share `shadow` for each shape that they meet, however often they cross it
+Shadow rays go straight through and keep the share `shadow` for each shape that they hit, however often they cross it
 (a triangle is a shape). By default it is what a surface with air lets through at right angles,
 1 − ((ior − 1) / (ior + 1))². Bent light (caustics) and its absorption are not modelled.
 
@@ -44,7 +44,7 @@ constexpr Key keys[] = {
      .fallback = "0"},
     {.name = "shadow",
      .type = KeyType::number,
-     .doc = "Share of light that a shadow ray keeps for each shape it meets; from ior when absent.",
+     .doc = "Share of light that a shadow ray keeps for each shape it hits; from ior when absent.",
      .min = 0,
      .max = 1,
      .optional = true},

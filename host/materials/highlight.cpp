@@ -1,4 +1,4 @@
-#include "materials/highlight.hpp"
+#include "host/materials/highlight.hpp"
 
 #include <cmath>
 
@@ -14,18 +14,18 @@ Highlight read_highlight(const TableReader& table) {
   return {table.texture("specular"), table.number("shininess"), table.choice("highlight") == 1};
 }
 
-// −log2 of the share, in SHADOW_SCALE-ths: an integer, so that the sum over surfaces does not depend on their
-// order.
-static uint32_t shadow_density(double transmittance) {
-  const double density = std::round(-std::log2(transmittance) * double(SHADOW_SCALE));
-  return density < double(SHADOW_OPAQUE) ? uint32_t(density) : SHADOW_OPAQUE;
+// −log2 of the share, in OPTICAL_DEPTH_SCALE-ths: an integer, so that the sum over surfaces does not depend
+// on their order.
+static uint32_t optical_depth_of(double transmittance) {
+  const double optical_depth = std::round(-std::log2(transmittance) * double(OPTICAL_DEPTH_SCALE));
+  return optical_depth < double(OPTICAL_DEPTH_OPAQUE) ? uint32_t(optical_depth) : OPTICAL_DEPTH_OPAQUE;
 }
 
 shader::Material make_record(uint32_t kind, const Highlight& highlight, double shadow_transmittance,
                              Packer& packer) {
   const uint32_t black = packer.add_texture({});
   const uint32_t flags = (highlight.blinn ? MATERIAL_BLINN : 0u) | black << MATERIAL_EMISSION_SHIFT;
-  return {.head = {kind, flags, 0u, shadow_density(shadow_transmittance)},
+  return {.head = {kind, flags, 0u, optical_depth_of(shadow_transmittance)},
           .textures = {black, packer.add_texture(highlight.specular), black, black},
           .parameters = shader::vec4(float(highlight.shininess), 0.0f, 0.0f, 0.0f),
           .mask = {}};

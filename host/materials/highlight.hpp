@@ -1,9 +1,9 @@
 // The highlight that every material may show of a light, and the parts of its record that all share.
 #pragma once
 
-#include "records/packer.hpp"
-#include "scene/material.hpp"
-#include "scene/table_reader.hpp"
+#include "host/records/packer.hpp"
+#include "host/scene/material.hpp"
+#include "host/scene/table_reader.hpp"
 
 namespace eyeray {
 
@@ -34,7 +34,7 @@ inline constexpr Key highlight_key{
     .choices = highlight_models};
 Highlight read_highlight(const TableReader& table);
 
-// The record of a material of `kind`, with its highlight and its shadow density; base, reflected, ambient
+// The record of a material of `kind`, with its highlight and its optical depth; base, reflected, ambient
 // and emission are black, and it has no medium.
 shader::Material make_record(uint32_t kind, const Highlight& highlight, double shadow_transmittance,
                              Packer& packer);

@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "materials/highlight.hpp"
-#include "scene/material.hpp"
+#include "host/materials/highlight.hpp"
+#include "host/scene/material.hpp"
 
 namespace eyeray {
 

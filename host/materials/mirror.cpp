@@ -1,12 +1,12 @@
-#include "materials/highlight.hpp"
-#include "materials/make.hpp"
+#include "host/materials/highlight.hpp"
+#include "host/materials/make.hpp"
 
 namespace eyeray {
 
 namespace {
 
 constexpr std::string_view manual =
-    R"(A polished metal: `reflectance` times what the mirror direction sees, and, since a point light is too small to be met by
+    R"(A polished metal: `reflectance` times what the mirror direction sees, and, since a point light is too small to be hit by
 a mirrored ray, a highlight in its stead.
 
 ```toml

@@ -1,5 +1,5 @@
-#include "materials/highlight.hpp"
-#include "materials/make.hpp"
+#include "host/materials/highlight.hpp"
+#include "host/materials/make.hpp"
 
 namespace eyeray {
 

@@ -1,6 +1,6 @@
-#include "materials/registry.h"
+#include "shaders/materials/registry.h"
 
-#include "scene/material.hpp"
+#include "host/scene/material.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "records/packer.hpp"
+#include "host/records/packer.hpp"
 
 #include <bit>
 #include <cstring>
@@ -6,9 +6,9 @@
 #include <limits>
 #include <string_view>
 
-#include "core/error.hpp"
-#include "core/srgb.hpp"
-#include "formula/formula.hpp"
+#include "host/core/error.hpp"
+#include "host/formula/formula.hpp"
+#include "host/image/srgb.hpp"
 
 namespace eyeray {
 
@@ -43,11 +43,11 @@ uint32_t Packer::add_vertices(std::span<const shader::uvec4> data) {
   return first;
 }
 
-uint32_t Packer::add_formula(const std::shared_ptr<const Formula>& formula, bool enclosed) {
+uint32_t Packer::add_formula(const std::shared_ptr<const Formula>& formula, bool by_bounds) {
   auto& all = scene.formulas;
   for (size_t i = 0; i < all.size(); ++i)
-    if (formula->same(*all[i].formula) && all[i].enclosed == enclosed) return uint32_t(i);
-  all.push_back({formula, enclosed});
+    if (formula->same(*all[i].formula) && all[i].by_bounds == by_bounds) return uint32_t(i);
+  all.push_back({formula, by_bounds});
   return uint32_t(all.size() - 1);
 }
 

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "calculus/tape.hpp"
-#include "records/records.hpp"
-#include "scene/bounds.hpp"
-#include "scene/texture.hpp"
+#include "host/expression/expression.hpp"
+#include "host/records/records.hpp"
+#include "host/scene/bounds.hpp"
+#include "host/scene/texture.hpp"
 
 namespace eyeray {
 
@@ -21,36 +21,36 @@ class Formula;  // formula/formula.hpp
 
 struct PackedFormula {
   std::shared_ptr<const Formula> formula;
-  bool enclosed;  // instead of stepped along by a Lipschitz constant
+  bool by_bounds;  // instead of stepped along by a Lipschitz constant
 };
 
 // A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
-  // By slot: of the world's own those in no tree, by kind in registry order, then the others as leaves hold
-  // them; then those of each mesh or group with a tree of its own.
+  // By slot: of the world's own those in no BVH, by kind in registry order, then the others as leaves hold
+  // them; then those of each mesh or group with a BVH of its own.
   std::vector<shader::Primitive> primitives;
-  std::vector<uint32_t> loose_ends;  // by kind, the end of those in no tree
-  // Of those of `kind` in no tree.
-  uint32_t first_loose(uint32_t kind) const { return kind == 0 ? 0 : loose_ends[kind - 1]; }
-  std::set<uint32_t> tree_kinds;                      // of the shapes in trees
+  std::vector<uint32_t> linear_ends;  // by kind, the end of those in no BVH
+  // Of those of `kind` in no BVH.
+  uint32_t first_linear(uint32_t kind) const { return kind == 0 ? 0 : linear_ends[kind - 1]; }
+  std::set<uint32_t> bvh_kinds;                       // of the shapes in BVHs
   std::set<std::pair<uint32_t, uint32_t>> uses;       // kinds of shape, and materials that they are made of
-  std::set<std::pair<uint32_t, uint32_t>> leaf_uses;  // the same of the shapes that solids are made of
-  uint32_t solid_leaves = 0;                          // how many of these there are
-  bool mixed_solids = false;  // whether a solid's surfaces differ in what they take from a shadow ray
+  std::set<std::pair<uint32_t, uint32_t>> leaf_uses;  // the same of the shapes that CSG objects are made of
+  uint32_t csg_leaves = 0;                            // how many of these there are
+  bool mixed_csg = false;  // whether a CSG object's surfaces differ in what they take from a shadow ray
   std::vector<shader::uvec4> nodes;
-  std::vector<shader::Tree> trees;  // the world's, then one a mesh or group of `instances`
+  std::vector<shader::Bvh> bvhs;  // the world's, then one a mesh or group of `instances`
   std::vector<shader::Instance> instances;
-  bool has_tree = false;         // whether `nodes` are to be used; else all is tested one by one
+  bool has_bvh = false;          // whether `nodes` are to be used; else all is tested one by one
   bool quantised_nodes = false;  // how `nodes` are coded
-  uint32_t stack_size = 1;       // what a walk through the trees may have waiting
+  uint32_t stack_size = 1;       // what a traversal may have waiting
   std::vector<shader::uvec4> vertices;
   bool vertex_colors = false;  // whether any of `vertices` have colours
   // How much larger, seen from the world, rounding is in a shape's own space: |linear| · |inverse|, the
   // largest of all shapes.
   float map_growth = 1;
-  std::vector<PackedFormula> formulas;  // of implicit shapes, by number
-  uint64_t shape_iterations = 0;        // that shapes' own loops take, all shapes together
-  bool steps_may_run_out = false;       // whether any shape may return T_RAN_OUT
+  std::vector<PackedFormula> formulas;     // of implicit shapes, by number
+  uint64_t shape_iterations = 0;           // that shapes' own loops take, all shapes together
+  bool may_reach_iteration_limit = false;  // whether any shape may return T_ITERATION_LIMIT
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
   size_t texel_count = 0;        // of `texels`, written or not; 0 without images
@@ -76,7 +76,7 @@ class Packer {
     add(primitive);
     pieces.push_back(bounds);
   }
-  // The head of a primitive; its id and shadow density are filled in later. `extra`: an index into vertices.
+  // The head of a primitive; its id and optical depth are filled in later. `extra`: an index into vertices.
   static shader::uvec4 head(uint32_t kind, int material, uint32_t extra = NONE) {
     return {0u, uint32_t(material) | kind << 24, 0u, extra};
   }
@@ -87,8 +87,8 @@ class Packer {
   // Every shape that loops says how often it may.
   void add_map_growth(double growth) { scene.map_growth = std::max(scene.map_growth, float(growth)); }
   void add_iterations(size_t count) { scene.shape_iterations += count; }
-  // Every shape whose `intersect` may return T_RAN_OUT says so.
-  void add_steps() { scene.steps_may_run_out = true; }
+  // Every shape whose `intersect` may return T_ITERATION_LIMIT says so.
+  void add_iteration_limit() { scene.may_reach_iteration_limit = true; }
   // The index of a texture; equal textures share one.
   uint32_t add_texture(const Texture& texture);
   // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there
@@ -96,8 +96,8 @@ class Packer {
   uint32_t add_image(const std::shared_ptr<const ImageTexture>& image);
   // Writes the texels of all images: a second copy of them, which only executors need.
   void write_texels();
-  // The number of a formula; equal formulas share one. `enclosed`: rays find its surface by enclosures.
-  uint32_t add_formula(const std::shared_ptr<const Formula>& formula, bool enclosed);
+  // The number of a formula; equal formulas share one. `enclosed`: rays find its surface by affine bounds.
+  uint32_t add_formula(const std::shared_ptr<const Formula>& formula, bool by_bounds);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
   uint32_t add_medium(double ior, const Vec3& absorption);
 

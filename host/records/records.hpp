@@ -3,11 +3,11 @@
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpedantic"
-#include "records.h"
+#include "shaders/records.h"
 #pragma GCC diagnostic pop
-#include "integrators/registry.h"
-#include "materials/registry.h"
-#include "shapes/registry.h"
+#include "shaders/integrators/registry.h"
+#include "shaders/materials/registry.h"
+#include "shaders/shapes/registry.h"
 
 namespace eyeray::shader {
 

@@ -1,9 +1,9 @@
-#include "reference/camera.hpp"
+#include "host/reference/camera.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "reference/rng.hpp"
+#include "host/reference/rng.hpp"
 
 namespace eyeray::reference {
 
@@ -43,7 +43,7 @@ Ray CameraRays::ray(const Vec2& place) const {
   return {eye_, glm::normalize(across + distance_ * w_)};
 }
 
-Vec2 sample_place(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index) {
+Vec2 sample_position(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index) {
   // Take the sample's cell of the n × n that the pixel is cut into, and a place in it.
   const auto n = uint32_t(std::lround(std::sqrt(image.samples)));
   const Vec2 cell(index % n, index / n);

@@ -1,7 +1,7 @@
 // From a place in the picture to a ray, by the formulas of docs/conventions.md.
 #pragma once
 
-#include "scene/scene.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray::reference {
 
@@ -22,6 +22,6 @@ class CameraRays {
 };
 
 // Where in pixel (x, y) its sample `index` lies, in pixels from the pixel's top left corner.
-Vec2 sample_place(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index);
+Vec2 sample_position(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index);
 
 }  // namespace eyeray::reference

@@ -3,15 +3,15 @@
 
 #include <cmath>
 
-#include "scene/shape.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray::reference {
 
 // Where a ray into direction `d` leaves from a surface point: off the surface by a few error bounds, and by
-// `least`, on the side of `d`, so that the ray does not meet the surface that it leaves. As the shaders do
-// (ray.glsl), it stays on its line where that is steep: near an edge it then starts beyond the same other
-// face. With `along_normal` it never does.
-Vec3 departure(const SurfacePoint& point, const Vec3& d, double least = 0, bool along_normal = false);
+// `least`, on the side of `d`, so that the ray does not hit the surface that it leaves. As the shaders do
+// (geometry/ray.glsl), it stays on its line where that is steep: near an edge it then starts beyond the same
+// other face. With `along_normal` it never does.
+Vec3 spawn_origin(const SurfacePoint& point, const Vec3& d, double least = 0, bool along_normal = false);
 
 // Many more than the surfaces of a mesh that a ray can sensibly cross.
 inline constexpr int most_crossings = 1 << 20;
@@ -30,10 +30,10 @@ double for_each_crossing(const Body& body, const Ray& ray, const Visit& visit) {
   for (int crossings = 0; crossings < most; ++crossings) {
     const auto hit = body.intersect(rest);
     if (!hit) break;
-    if (hit->ran_out) return passed + hit->t;
+    if (hit->iteration_limit) return passed + hit->t;
     const SurfacePoint surface = body.surface(rest, *hit);
     if (!visit(passed + hit->t, *hit, surface)) break;
-    rest.o = departure(surface, ray.d);
+    rest.o = spawn_origin(surface, ray.d);
     const double before = passed;
     passed = glm::dot(rest.o - ray.o, ray.d) / glm::dot(ray.d, ray.d);
     if (!(passed > before)) break;

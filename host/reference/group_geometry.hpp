@@ -1,44 +1,44 @@
-// A group in the world: what a ray meets of it, and the surface there.
+// A group in the world: what a ray hits of it, and the surface there.
 #pragma once
 
-#include "reference/bodies.hpp"
+#include "host/reference/objects.hpp"
 
 namespace eyeray::reference {
 
 class GroupGeometry {
  public:
   // `bodies`, the group's, must outlive it.
-  GroupGeometry(const GroupInstance& instance, const Bodies& bodies)
+  GroupGeometry(const GroupInstance& instance, const Objects& bodies)
       : bodies_(&bodies), map_(instance.transform), box_(map_.bounds(bodies.bounds())) {}
 
-  const Bodies& bodies() const { return *bodies_; }
+  const Objects& bodies() const { return *bodies_; }
   // In the world: around the group's own box.
   const Bounds& bounds() const { return box_; }
   double reach() const { return map_.reach(bodies_->bounds()); }
   double growth() const { return map_.growth() * bodies_->growth(); }
 
   // As its bodies', for rays of the world; t is the same in both spaces.
-  std::optional<Bodies::Hit> trace(const Ray& ray, double limit, double& sure_until) const {
+  std::optional<Objects::Hit> trace(const Ray& ray, double limit, double& sure_until) const {
     return bodies_->trace(map_.into(ray), limit, sure_until);
   }
-  std::optional<Bodies::Hit> intersect(size_t body, const Ray& ray) const {
+  std::optional<Objects::Hit> intersect(size_t body, const Ray& ray) const {
     return bodies_->intersect(body, map_.into(ray));
   }
-  SurfacePoint surface(const Ray& ray, const Bodies::Hit& hit) const {
+  SurfacePoint surface(const Ray& ray, const Objects::Hit& hit) const {
     return map_.out(bodies_->surface(map_.into(ray), hit));
   }
-  bool add_shares(const Ray& ray, double t_end, size_t space, std::vector<Bodies::Share>& shares,
+  bool add_shares(const Ray& ray, double t_end, size_t space, std::vector<Objects::Share>& shares,
                   bool& gave_up) const {
     return bodies_->add_shares(map_.into(ray), t_end, space, shares, gave_up);
   }
-  double reach(const Bodies::Hit& hit, const Vec3& eye) const {
+  double reach(const Objects::Hit& hit, const Vec3& eye) const {
     const double in_group = bodies_->reach(hit, Vec3(0));
     return map_.reach({Vec3(-in_group), Vec3(in_group)}, eye);
   }
 
  private:
-  const Bodies* bodies_;
-  SpaceMap map_;
+  const Objects* bodies_;
+  InstanceMap map_;
   Bounds box_;
 };
 

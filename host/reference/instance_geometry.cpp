@@ -1,4 +1,4 @@
-#include "reference/instance_geometry.hpp"
+#include "host/reference/instance_geometry.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
-// An instance of a mesh: what a ray of the world, or of its group, meets of it, and the surface there.
+// An instance of a mesh: what a ray of the world, or of its group, hits of it, and the surface there.
 #pragma once
 
-#include "reference/mesh_geometry.hpp"
-#include "reference/space_map.hpp"
+#include "host/reference/instance_map.hpp"
+#include "host/reference/mesh_geometry.hpp"
 
 namespace eyeray::reference {
 
@@ -37,7 +37,7 @@ class InstanceGeometry {
  private:
   const MeshGeometry* mesh_;
   const AlphaMask* mask_;
-  SpaceMap map_;
+  InstanceMap map_;
   int material_;
 };
 

@@ -1,4 +1,4 @@
-#include "reference/light.hpp"
+#include "host/reference/light.hpp"
 
 #include <limits>
 

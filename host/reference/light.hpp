@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/scene.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray::reference {
 

@@ -1,8 +1,8 @@
-#include "reference/media.hpp"
+#include "host/reference/media.hpp"
 
 #include <algorithm>
 
-#include "reference/crossings.hpp"
+#include "host/reference/crossings.hpp"
 
 namespace eyeray::reference {
 
@@ -18,7 +18,7 @@ struct Crossing {
 template <typename Holder>
 struct Body {
   const Holder& holder;
-  const Bodies& bodies;
+  const Objects& bodies;
   size_t index;
 
   std::optional<TriangleHit> intersect(const Ray& ray) const {
@@ -45,7 +45,7 @@ std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
       return true;
     });
   };
-  const auto collect_all = [&]<typename Holder>(const Holder& holder, const Bodies& bodies) {
+  const auto collect_all = [&]<typename Holder>(const Holder& holder, const Objects& bodies) {
     for (size_t i = 0; i < bodies.size(); ++i) {
       bool any_medium = false;
       bodies.for_each_material(i, [&](int material) { any_medium = any_medium || has_medium(material); });

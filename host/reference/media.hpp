@@ -3,14 +3,14 @@
 
 #include <array>
 
-#include "reference/tracer.hpp"
+#include "host/reference/tracer.hpp"
 
 namespace eyeray::reference {
 
 // The materials whose media surround a point, outermost first: indices in Scene::materials. More than four
 // may come back, though no ray keeps more.
 std::vector<int> media_at(const Tracer& tracer, const Vec3& point);
-// The same for one point alone, for which a tree is not worth its building.
+// The same for one point alone, for which a BVH is not worth its building.
 std::vector<int> media_at(const Scene& scene, const Vec3& point);
 
 // The media that a ray is in, the last entered on top; four at most.

@@ -1,8 +1,8 @@
-#include "reference/mesh_geometry.hpp"
+#include "host/reference/mesh_geometry.hpp"
 
 #include <algorithm>
 
-#include "scene/affine.hpp"
+#include "host/scene/affine.hpp"
 
 namespace eyeray::reference {
 
@@ -19,7 +19,7 @@ Bounds bounds_of(const Corners& corners) {
 MeshGeometry::MeshGeometry(const Mesh& mesh, Acceleration acceleration)
     : mesh_(mesh),
       bounds_(eyeray::bounds(mesh)),
-      tree_(
+      bvh_(
           uint32_t(mesh.triangles.size()), [this](uint32_t i) { return bounds_of(corners(i)); },
           acceleration) {}
 
@@ -66,7 +66,7 @@ std::optional<TriangleHit> MeshGeometry::intersect(const Ray& ray, double limit,
                                                    const AlphaMask* mask) const {
   std::optional<TriangleHit> nearest;
   const BoxRay boxes = box_ray(ray);
-  tree_.search(boxes, limit, [&](uint32_t i, double so_far) {
+  bvh_.search(boxes, limit, [&](uint32_t i, double so_far) {
     const auto hit = intersect_one(i, ray, boxes, mask);
     if (!hit || (nearest && !(hit->t < nearest->t || (hit->t == nearest->t && i < nearest->triangle))))
       return so_far;
@@ -80,7 +80,7 @@ uint32_t MeshGeometry::count_crossed(const Ray& ray, double t_end, uint32_t most
                                      const AlphaMask* mask) const {
   uint32_t count = 0;
   const BoxRay boxes = box_ray(ray);
-  tree_.search(boxes, t_end, [&](uint32_t i, double limit) {
+  bvh_.search(boxes, t_end, [&](uint32_t i, double limit) {
     const auto hit = intersect_one(i, ray, boxes, mask);
     if (!hit || !(hit->t < t_end)) return limit;
     return ++count < most ? limit : -1.0;

@@ -1,12 +1,12 @@
-// What a ray meets of a mesh, in the mesh's own space.
+// What a ray hits of a mesh, in the mesh's own space.
 #pragma once
 
 #include <optional>
 
-#include "reference/box_tree.hpp"
-#include "scene/material.hpp"
-#include "scene/mesh.hpp"
-#include "scene/triangle.hpp"
+#include "host/reference/bvh.hpp"
+#include "host/scene/material.hpp"
+#include "host/scene/mesh.hpp"
+#include "host/scene/triangle.hpp"
 
 namespace eyeray::reference {
 
@@ -21,9 +21,9 @@ class MeshGeometry {
 
   // The nearest hit with t > 0; of exactly equal ones that of the lowest triangle. Beyond `limit` it may be
   // missing.
-  // With a mask, holes are not met.
+  // With a mask, holes are not hit.
   std::optional<TriangleHit> intersect(const Ray& ray, double limit, const AlphaMask* mask = nullptr) const;
-  // How many triangles the ray meets at 0 < t < t_end; counting ends at `most`.
+  // How many triangles the ray hits at 0 < t < t_end; counting ends at `most`.
   uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most, const AlphaMask* mask = nullptr) const;
 
   // Texture coordinates at a hit.
@@ -41,7 +41,7 @@ class MeshGeometry {
 
   const Mesh& mesh_;
   Bounds bounds_;
-  BoxTree tree_;
+  Bvh bvh_;
 };
 
 }  // namespace eyeray::reference

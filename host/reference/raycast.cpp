@@ -1,6 +1,6 @@
-#include "reference/raycast.hpp"
+#include "host/reference/raycast.hpp"
 
-#include "reference/light.hpp"
+#include "host/reference/light.hpp"
 
 namespace eyeray::reference {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/pixel.hpp"
-#include "reference/tracer.hpp"
+#include "host/core/pixel.hpp"
+#include "host/reference/tracer.hpp"
 
 namespace eyeray::reference {
 

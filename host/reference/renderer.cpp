@@ -1,10 +1,10 @@
-#include "reference/renderer.hpp"
+#include "host/reference/renderer.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "reference/raycast.hpp"
-#include "reference/whitted.hpp"
+#include "host/reference/raycast.hpp"
+#include "host/reference/whitted.hpp"
 
 namespace eyeray::reference {
 
@@ -14,11 +14,11 @@ Renderer::Renderer(const Scene& scene, Acceleration acceleration)
     if (!media_.push(material)) flags_ |= media_overflow;
 }
 
-PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const Clearance& clearance) const {
-  const Vec2 place = sample_place(scene_.image, scene_.render.seed, x, y, index);
+PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset) const {
+  const Vec2 place = sample_position(scene_.image, scene_.render.seed, x, y, index);
   const Ray ray = camera_.ray(Vec2(x, y) + place + shift);
   if (scene_.render.integrator == IntegratorType::raycast) return raycast(tracer_, ray);
-  PixelSample sample = whitted(tracer_, ray, media_, clearance);
+  PixelSample sample = whitted(tracer_, ray, media_, ray_offset);
   sample.flags |= flags_;
   return sample;
 }
@@ -37,7 +37,7 @@ FirstHit Renderer::first_hit(int x, int y, Vec2 shift) const {
 }
 
 double Renderer::rounding(int x, int y, double t) const {
-  // A direction takes some five roundings, and where it meets a surface a few more.
+  // A direction takes some five roundings, and where it hits a surface a few more.
   constexpr double roundings = 8 * 0x1p-24;
   const Ray ray = camera_.ray(Vec2(x, y) + Vec2(0.5)), next = camera_.ray(Vec2(x, y) + Vec2(1.5, 0.5));
   const double distance = std::isfinite(t) ? t : 1;

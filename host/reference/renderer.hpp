@@ -2,24 +2,24 @@
 // shares the scene with them, and nothing else.
 #pragma once
 
-#include "core/pixel.hpp"
-#include "reference/camera.hpp"
-#include "reference/media.hpp"
-#include "reference/tracer.hpp"
-#include "reference/whitted.hpp"
+#include "host/core/pixel.hpp"
+#include "host/reference/camera.hpp"
+#include "host/reference/media.hpp"
+#include "host/reference/tracer.hpp"
+#include "host/reference/whitted.hpp"
 
 namespace eyeray::reference {
 
 class Renderer {
  public:
   // `scene` must outlive the renderer. The pixels do not depend on `acceleration`.
-  explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::tree);
+  explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
 
   // Sample `index` of pixel (x, y), by the scene's integrator. `shift`, in pixels, is added to the sample's
   // place; `clearance`: see whitted.hpp.
   PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0},
-                     const Clearance& clearance = {}) const;
-  // What the ray through the pixel's centre + `shift` meets.
+                     const RayOffset& ray_offset = {}) const;
+  // What the ray through the pixel's centre + `shift` hits.
   FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}) const;
   // How many pixels aside float32 may take the ray through the pixel's centre, where it has come to `t`.
   double rounding(int x, int y, double t) const;

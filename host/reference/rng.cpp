@@ -1,4 +1,4 @@
-#include "reference/rng.hpp"
+#include "host/reference/rng.hpp"
 
 namespace eyeray::reference {
 

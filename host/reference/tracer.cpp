@@ -1,4 +1,4 @@
-#include "reference/tracer.hpp"
+#include "host/reference/tracer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene), i
     groups_reach_ = std::max(groups_reach_, groups_.back().reach());
     groups_growth_ = std::max(groups_growth_, groups_.back().growth());
   }
-  group_tree_ = BoxTree(
+  group_bvh_ = Bvh(
       uint32_t(groups_.size()), [this](uint32_t i) { return groups_[i].bounds(); }, acceleration);
 }
 
@@ -29,7 +29,7 @@ BoxRay Tracer::group_box_ray(const Ray& ray) const {
   return {ray, rounding * groups_growth_ * (magnitude(ray.o) + groups_reach_)};
 }
 
-uint64_t Tracer::primitive(const Bodies& bodies, const Bodies::Hit& hit, int group) const {
+uint64_t Tracer::primitive(const Objects& bodies, const Objects::Hit& hit, int group) const {
   if (bodies.is_shape(hit.body))
     return group < 0 ? ids_.of_shape(hit.body) : ids_.of_group(size_t(group)).shape + hit.body;
   const uint64_t triangle = bodies.triangles_before(hit.body) + hit.at.triangle;
@@ -37,7 +37,7 @@ uint64_t Tracer::primitive(const Bodies& bodies, const Bodies::Hit& hit, int gro
   return ids_.of_instance(hit.body - scene_.shapes.size()) + hit.at.triangle;
 }
 
-Hit Tracer::complete(const Bodies& bodies, const Bodies::Hit& hit, int group) const {
+Hit Tracer::complete(const Objects& bodies, const Objects::Hit& hit, int group) const {
   return {hit.at, hit.body, primitive(bodies, hit, group), bodies.material(hit), group};
 }
 
@@ -51,13 +51,13 @@ std::optional<Hit> Tracer::trace(const Ray& ray, uint32_t& flags) const {
   double sure_until = infinity;
   if (const auto hit = world_->trace(ray, infinity, sure_until)) nearest = complete(*world_, *hit, -1);
   if (!groups_.empty()) search_groups(ray, nearest, sure_until);
-  if (sure_until < (nearest ? nearest->at.t : infinity)) flags |= ran_out;
+  if (sure_until < (nearest ? nearest->at.t : infinity)) flags |= iteration_limit;
   return nearest;
 }
 
 void Tracer::search_groups(const Ray& ray, std::optional<Hit>& nearest, double& sure_until) const {
   const BoxRay box_ray = group_box_ray(ray);
-  group_tree_.search(box_ray, nearest ? nearest->at.t : infinity, [&](uint32_t i, double limit) {
+  group_bvh_.search(box_ray, nearest ? nearest->at.t : infinity, [&](uint32_t i, double limit) {
     const double entry = box_ray.entry(groups_[i].bounds());
     if (entry == infinity) return limit;
     auto hit = groups_[i].trace(ray, limit, sure_until);
@@ -73,7 +73,7 @@ void Tracer::search_groups(const Ray& ray, std::optional<Hit>& nearest, double& 
 }
 
 SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
-  const Bodies::Hit body{hit.at, hit.body};
+  const Objects::Hit body{hit.at, hit.body};
   SurfacePoint point =
       hit.group < 0 ? world_->surface(ray, body) : groups_[size_t(hit.group)].surface(ray, body);
   // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
@@ -82,31 +82,31 @@ SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
 }
 
 double Tracer::reach(const Hit& hit, const Vec3& eye) const {
-  const Bodies::Hit body{hit.at, hit.body};
+  const Objects::Hit body{hit.at, hit.body};
   return hit.group < 0 ? world_->reach(body, eye) : groups_[size_t(hit.group)].reach(body, eye);
 }
 
 double Tracer::transmittance(const Ray& ray, double t_end, uint32_t& flags) const {
   // Collect the shares first: a product depends on the order of its factors.
-  std::vector<Bodies::Share> shares;
+  std::vector<Objects::Share> shares;
   bool gave_up = false;
   if (world_->add_shares(ray, t_end, 0, shares, gave_up)) return 0;
   bool lost = false;
   if (!groups_.empty()) {
     const BoxRay box_ray = group_box_ray(ray);
-    group_tree_.search(box_ray, t_end, [&](uint32_t i, double limit) {
+    group_bvh_.search(box_ray, t_end, [&](uint32_t i, double limit) {
       if (!(box_ray.entry(groups_[i].bounds()) < t_end)) return limit;
       lost = groups_[i].add_shares(ray, t_end, i + 1, shares, gave_up);
       return lost ? -1.0 : limit;
     });
   }
   if (lost) return 0;
-  std::sort(shares.begin(), shares.end(), [](const Bodies::Share& a, const Bodies::Share& b) {
+  std::sort(shares.begin(), shares.end(), [](const Objects::Share& a, const Objects::Share& b) {
     return std::pair(a.space, a.body) < std::pair(b.space, b.body);
   });
   double product = 1;
-  for (const Bodies::Share& each : shares) product *= each.share;
-  if (gave_up && product > 0) flags |= ran_out;
+  for (const Objects::Share& each : shares) product *= each.share;
+  if (gave_up && product > 0) flags |= iteration_limit;
   return product;
 }
 

@@ -1,29 +1,29 @@
-// What a ray meets: a shape, or a triangle of an instance, perhaps of a group.
+// What a ray hits: a shape, or a triangle of an instance, perhaps of a group.
 #pragma once
 
 #include <deque>
 
-#include "core/pixel.hpp"
-#include "reference/group_geometry.hpp"
-#include "scene/primitive_ids.hpp"
-#include "scene/scene.hpp"
+#include "host/core/pixel.hpp"
+#include "host/reference/group_geometry.hpp"
+#include "host/scene/primitive_ids.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray::reference {
 
 struct Hit {
   TriangleHit at;      // of a shape: its intersection
-  size_t body;         // see Bodies::Hit; of its group
+  size_t body;         // see Objects::Hit; of its group
   uint64_t primitive;  // see scene/primitive_ids.hpp
   int material;        // index in Scene::materials
   int group = -1;      // index in Scene::group_instances; −1 for the scene's own
 };
 
-// A scene made ready for rays. Hits are the same to the last bit with every Acceleration (box_tree.hpp says
+// A scene made ready for rays. Hits are the same to the last bit with every Acceleration (bvh.hpp says
 // why).
 class Tracer {
  public:
-  // `scene` must outlive it. Under Acceleration::tree, a second for a million triangles or less.
-  explicit Tracer(const Scene& scene, Acceleration acceleration = Acceleration::tree);
+  // `scene` must outlive it. Under Acceleration::bvh, a second for a million triangles or less.
+  explicit Tracer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
 
   // The nearest hit with t > 0; of exactly equal ones that of the lowest primitive. Adds to `flags`, of
   // SampleFlags, what may be wrong with it.
@@ -36,30 +36,30 @@ class Tracer {
   // shapes.
   double reach(const Hit& hit, const Vec3& eye) const;
 
-  // The share of light that comes through all that the ray meets at 0 < t < t_end. `flags` as for trace.
+  // The share of light that comes through all that the ray hits at 0 < t < t_end. `flags` as for trace.
   double transmittance(const Ray& ray, double t_end, uint32_t& flags) const;
 
   const Scene& scene() const { return scene_; }
   // The scene's own bodies, and as Scene::group_instances those of groups.
-  const Bodies& world() const { return *world_; }
+  const Objects& world() const { return *world_; }
   const std::vector<GroupGeometry>& groups() const { return groups_; }
   // The ray as the boxes of groups() see it.
   BoxRay group_box_ray(const Ray& ray) const;
 
  private:
   void search_groups(const Ray& ray, std::optional<Hit>& nearest, double& sure_until) const;
-  uint64_t primitive(const Bodies& bodies, const Bodies::Hit& hit, int group) const;
-  Hit complete(const Bodies& bodies, const Bodies::Hit& hit, int group) const;
+  uint64_t primitive(const Objects& bodies, const Objects::Hit& hit, int group) const;
+  Hit complete(const Objects& bodies, const Objects::Hit& hit, int group) const;
 
   const Scene& scene_;
   PrimitiveIds ids_;
   std::deque<MeshGeometry> meshes_;  // as Scene::meshes; a deque, since instances point into it
-  std::optional<Bodies> world_;
-  std::deque<Bodies> group_bodies_;  // as Scene::groups
+  std::optional<Objects> world_;
+  std::deque<Objects> group_bodies_;  // as Scene::groups
   std::vector<GroupGeometry> groups_;
   double groups_reach_ = 0;   // the largest coordinate in any computation that yields a group's box
   double groups_growth_ = 1;  // the largest of all groups
-  BoxTree group_tree_;        // of their boxes
+  Bvh group_bvh_;             // of their boxes
 };
 
 }  // namespace eyeray::reference

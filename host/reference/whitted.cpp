@@ -1,12 +1,12 @@
-#include "reference/whitted.hpp"
+#include "host/reference/whitted.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/termination.hpp"
-#include "reference/crossings.hpp"
-#include "reference/light.hpp"
-#include "reference/rng.hpp"
+#include "host/core/termination.hpp"
+#include "host/reference/crossings.hpp"
+#include "host/reference/light.hpp"
+#include "host/reference/rng.hpp"
 
 namespace eyeray::reference {
 
@@ -16,8 +16,8 @@ namespace {
 struct Path {
   Ray ray;
   MediaStack media;
-  int depth;    // reflections and refractions so far
-  Vec3 weight;  // what its colour will be multiplied by in the pixel
+  int depth;        // reflections and refractions so far
+  Vec3 throughput;  // what its colour will be multiplied by in the pixel
 };
 
 // A hit, seen from the viewer's side: both normals towards where the ray came from.
@@ -27,10 +27,10 @@ struct View {
   double cos_view;  // between the shading normal and the way back, in [0, 1]
 };
 
-class Tree {
+class Recursion {
  public:
-  Tree(const Tracer& tracer, const Clearance& clearance)
-      : tracer_(tracer), scene_(tracer.scene()), clearance_(clearance) {}
+  Recursion(const Tracer& tracer, const RayOffset& ray_offset)
+      : tracer_(tracer), scene_(tracer.scene()), ray_offset_(ray_offset) {}
 
   Vec3 radiance(const Path& path);
 
@@ -48,49 +48,49 @@ class Tree {
   Scattering scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
                         ScatteringContext context) const;
   Medium medium(const MediaStack& media) const;
-  Ray leave(const SurfacePoint& point, const Vec3& d);
+  Ray spawn_ray(const SurfacePoint& point, const Vec3& d);
 
   const Tracer& tracer_;
   const Scene& scene_;
-  Clearance clearance_;
+  RayOffset ray_offset_;
   uint32_t departures_ = 0;
 };
 
 // The vacuum where no medium is.
-Medium Tree::medium(const MediaStack& media) const {
+Medium Recursion::medium(const MediaStack& media) const {
   return media.top() < 0 ? Medium{} : *scene_.materials[size_t(media.top())]->medium();
 }
 
-Ray Tree::leave(const SurfacePoint& point, const Vec3& d) {
-  if (clearance_.textures != TextureChoice::at_hit) return {departure(point, d), d};
+Ray Recursion::spawn_ray(const SurfacePoint& point, const Vec3& d) {
+  if (ray_offset_.textures != TextureChoice::at_hit) return {spawn_origin(point, d), d};
   const Vec3 from_eye = glm::abs(point.position - scene_.camera.eye);
-  const double least = clearance_.share * glm::dot(glm::abs(point.normal_geometric), from_eye);
-  Ray ray{departure(point, d, least, clearance_.along_normal), d};
-  if (clearance_.share == 0) return ray;
+  const double least = ray_offset_.share * glm::dot(glm::abs(point.normal_geometric), from_eye);
+  Ray ray{spawn_origin(point, d, least, ray_offset_.along_normal), d};
+  if (ray_offset_.share == 0) return ray;
 
   Vec3 aside;
-  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(clearance_.seed, departures_, i, 0) - 1;
+  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(ray_offset_.seed, departures_, i, 0) - 1;
   ++departures_;
   aside -= glm::dot(aside, point.normal_geometric) * point.normal_geometric;
-  ray.o += clearance_.share * glm::length(from_eye) * aside;
+  ray.o += ray_offset_.share * glm::length(from_eye) * aside;
   return ray;
 }
 
 // A ray may run along the border of two checks through many walls of glass, and be rounded to either side at
 // each: of so many ways the bounds are known without trying them, since no colour falls where a texture's
 // rises.
-Scattering Tree::scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
-                            ScatteringContext context) const {
+Scattering Recursion::scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
+                                 ScatteringContext context) const {
   const Material& material = *scene_.materials[size_t(hit.material)];
   Scattering result = material.scattering(context);
-  if (clearance_.textures == TextureChoice::at_hit) return result;
+  if (ray_offset_.textures == TextureChoice::at_hit) return result;
 
   const auto choose = [&](Vec3& value, const Vec3& other) {
-    value = clearance_.textures == TextureChoice::darkest ? glm::min(value, other) : glm::max(value, other);
+    value = ray_offset_.textures == TextureChoice::darkest ? glm::min(value, other) : glm::max(value, other);
   };
   const Vec3 u = glm::normalize(glm::cross(ray.d, std::abs(ray.d.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
   const Vec3 v = glm::cross(ray.d, u);
-  const double aside = clearance_.share * glm::length(point.position - scene_.camera.eye);
+  const double aside = ray_offset_.share * glm::length(point.position - scene_.camera.eye);
   for (int i = 0; i < 8; ++i) {
     const Ray moved{ray.o + aside * (std::cos(i * M_PI / 4) * u + std::sin(i * M_PI / 4) * v), ray.d};
     const auto other_hit = tracer_.trace(moved);
@@ -116,7 +116,7 @@ Vec3 refract(const View& view, double n1, double n2) {
                         (eta * view.cos_view - std::sqrt(std::max(0.0, cos2_squared))) * view.surface.normal);
 }
 
-Vec3 Tree::radiance(const Path& path) {
+Vec3 Recursion::radiance(const Path& path) {
   stop_if_interrupted();
   ++rays;
   const auto hit = tracer_.trace(path.ray, flags);
@@ -132,7 +132,7 @@ Vec3 Tree::radiance(const Path& path) {
   }
   view.cos_view = std::clamp(-glm::dot(view.d, view.surface.normal), 0.0, 1.0);
 
-  // Say which media meet here.
+  // Say which media hit here.
   const Material& material = *scene_.materials[size_t(hit->material)];
   const Medium before = medium(path.media);
   MediaStack beyond = path.media;
@@ -151,7 +151,7 @@ Vec3 Tree::radiance(const Path& path) {
   // Add up the light that the point scatters, mirrors and lets through, and dim it on its way here.
   Path arrived = path;
   const Vec3 dimming = glm::exp(-before.absorption * hit->at.t);
-  arrived.weight *= dimming;
+  arrived.throughput *= dimming;
   Vec3 color = direct(view, scattering);
   const Vec3 mirrored = view.d + 2 * view.cos_view * view.surface.normal;
   color += child(arrived, view, glm::normalize(mirrored), path.media, scattering.reflected, reflected);
@@ -165,18 +165,18 @@ Vec3 Tree::radiance(const Path& path) {
 
 // The part of a surface's colour that comes from the ray's child into direction d; black when it is cut off.
 // `count`: of the rays of its kind.
-Vec3 Tree::child(const Path& path, const View& view, const Vec3& d, const MediaStack& media,
-                 const Vec3& share, uint32_t& count) {
-  const Vec3 weight = path.weight * share;
-  const double most = std::max({weight.x, weight.y, weight.z});
-  if (path.depth >= scene_.render.max_depth || !(most > scene_.render.min_weight)) return Vec3(0);
+Vec3 Recursion::child(const Path& path, const View& view, const Vec3& d, const MediaStack& media,
+                      const Vec3& share, uint32_t& count) {
+  const Vec3 throughput = path.throughput * share;
+  const double most = std::max({throughput.x, throughput.y, throughput.z});
+  if (path.depth >= scene_.render.max_depth || !(most > scene_.render.min_throughput)) return Vec3(0);
   ++count;
-  return share * radiance({leave(view.surface, d), media, path.depth + 1, weight});
+  return share * radiance({spawn_ray(view.surface, d), media, path.depth + 1, throughput});
 }
 
 // Its own light, the scene's ambient one, and that of each light which stands before the surface and is seen
 // from it.
-Vec3 Tree::direct(const View& view, const Scattering& scattering) {
+Vec3 Recursion::direct(const View& view, const Scattering& scattering) {
   const Vec3 n = view.surface.normal;
   Vec3 color = scattering.emitted + scattering.ambient * scene_.render.ambient;
   for (const Light& light : scene_.lights) {
@@ -184,7 +184,7 @@ Vec3 Tree::direct(const View& view, const Scattering& scattering) {
     const double cosine = glm::dot(n, l);
     if (!(cosine > 0 && glm::dot(view.surface.normal_geometric, l) > 0)) continue;
     ++rays;
-    const double seen = tracer_.transmittance(leave(view.surface, l), distance, flags);
+    const double seen = tracer_.transmittance(spawn_ray(view.surface, l), distance, flags);
     if (seen == 0) continue;
 
     const double lobe =
@@ -198,10 +198,16 @@ Vec3 Tree::direct(const View& view, const Scattering& scattering) {
 }  // namespace
 
 PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media,
-                    const Clearance& clearance) {
-  Tree tree(tracer, clearance);
-  const Vec3 color = tree.radiance({ray, media, 0, Vec3(1)});
-  return {color, tree.rays, tree.hits, tree.flags, tree.reflected, tree.refracted, tree.total_reflections};
+                    const RayOffset& ray_offset) {
+  Recursion recursion(tracer, ray_offset);
+  const Vec3 color = recursion.radiance({ray, media, 0, Vec3(1)});
+  return {color,
+          recursion.rays,
+          recursion.hits,
+          recursion.flags,
+          recursion.reflected,
+          recursion.refracted,
+          recursion.total_reflections};
 }
 
 }  // namespace eyeray::reference

@@ -2,9 +2,9 @@
 // it.
 #pragma once
 
-#include "core/pixel.hpp"
-#include "reference/media.hpp"
-#include "reference/tracer.hpp"
+#include "host/core/pixel.hpp"
+#include "host/reference/media.hpp"
+#include "host/reference/tracer.hpp"
 
 namespace eyeray::reference {
 
@@ -13,7 +13,7 @@ namespace eyeray::reference {
 enum class TextureChoice { at_hit, darkest, brightest };
 
 // How rays leave surfaces (crossings.hpp, departure): at least this far off, and up to this far aside.
-struct Clearance {
+struct RayOffset {
   double share = 0;  // off, of |n|·|position − eye|; aside, of |position − eye|
   bool along_normal = false;
   uint32_t seed = 0;  // of where aside
@@ -22,6 +22,6 @@ struct Clearance {
 
 // What `ray` (with a unit direction) sees, starting in `media`.
 PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media,
-                    const Clearance& clearance = {});
+                    const RayOffset& ray_offset = {});
 
 }  // namespace eyeray::reference

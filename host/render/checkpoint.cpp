@@ -1,11 +1,11 @@
-#include "render/checkpoint.hpp"
+#include "host/render/checkpoint.hpp"
 
 #include <array>
 #include <bit>
 
-#include "core/atomic_file.hpp"
-#include "core/checksum.hpp"
-#include "core/error.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/checksum.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray {
 namespace {

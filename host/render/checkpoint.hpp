@@ -22,9 +22,9 @@
 #include <string>
 #include <vector>
 
-#include "core/stopwatch.hpp"
-#include "render/row_store.hpp"
-#include "render/sums.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/render/row_store.hpp"
+#include "host/render/sums.hpp"
 
 namespace eyeray {
 

@@ -1,10 +1,10 @@
-#include "render/corners.hpp"
+#include "host/render/corners.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "scene/camera_frame.hpp"
+#include "host/scene/camera_frame.hpp"
 
 namespace eyeray {
 namespace {

@@ -2,9 +2,9 @@
 // published statistics (A Proposal for Standard Graphics Environments, IEEE CG&A 7(11), 1987).
 #pragma once
 
-#include "core/rect.hpp"
-#include "render/sums.hpp"
-#include "scene/scene.hpp"
+#include "host/core/rect.hpp"
+#include "host/render/sums.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray {
 

@@ -1,12 +1,12 @@
-#include "render/render.hpp"
+#include "host/render/render.hpp"
 
 #include <algorithm>
 #include <optional>
 
-#include "core/error.hpp"
-#include "core/parallel_for.hpp"
-#include "core/termination.hpp"
-#include "render/checkpoint.hpp"
+#include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/core/termination.hpp"
+#include "host/render/checkpoint.hpp"
 
 namespace eyeray {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "core/ray_counts.hpp"
-#include "render/executor.hpp"
-#include "render/sums.hpp"
+#include "host/core/ray_counts.hpp"
+#include "host/executors/executor.hpp"
+#include "host/render/sums.hpp"
 
 namespace eyeray {
 
@@ -65,7 +65,7 @@ RenderTotals render_rows(const Scene& scene, Executor& executor, const RenderOpt
 
 using FirstHitSink = std::function<void(int first_row, std::span<const FirstHit>)>;
 
-// What the rays through the centres of the crop's pixels meet, some rows at a time. Returns false when
+// What the rays through the centres of the crop's pixels hit, some rows at a time. Returns false when
 // interrupted: `sink` has not got all then.
 bool trace_first_hits(Executor& executor, const Rect& crop, const FirstHitSink& sink);
 

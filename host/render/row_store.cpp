@@ -1,4 +1,4 @@
-#include "render/row_store.hpp"
+#include "host/render/row_store.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "core/checksum.hpp"
-#include "core/error.hpp"
+#include "host/core/checksum.hpp"
+#include "host/core/error.hpp"
 
 namespace eyeray {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "render/sums.hpp"
+#include "host/render/sums.hpp"
 
 namespace eyeray {
 

@@ -1,7 +1,7 @@
-#include "render/sums.hpp"
+#include "host/render/sums.hpp"
 
-#include "core/error.hpp"
-#include "core/parallel_for.hpp"
+#include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
 
 namespace eyeray {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/image.hpp"
-#include "core/pixel.hpp"
+#include "host/core/pixel.hpp"
+#include "host/image/image.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "scene/affine.hpp"
+#include "host/scene/affine.hpp"
 
 #include <algorithm>
 #include <cmath>

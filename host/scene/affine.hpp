@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/vec.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray {
 

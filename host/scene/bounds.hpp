@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/vec.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray {
 

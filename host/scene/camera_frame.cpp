@@ -1,4 +1,4 @@
-#include "scene/camera_frame.hpp"
+#include "host/scene/camera_frame.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // The numbers that follow from a camera and a picture's size (docs/conventions.md).
 #pragma once
 
-#include "scene/scene.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray {
 

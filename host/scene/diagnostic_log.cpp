@@ -1,4 +1,4 @@
-#include "scene/diagnostic_log.hpp"
+#include "host/scene/diagnostic_log.hpp"
 
 #include <algorithm>
 #include <utility>

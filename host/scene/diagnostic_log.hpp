@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/diagnostic.hpp"
+#include "host/core/diagnostic.hpp"
 
 namespace eyeray {
 

@@ -1,9 +1,9 @@
-#include "scene/foreign_words.hpp"
+#include "host/scene/foreign_words.hpp"
 
 #include <algorithm>
 #include <cctype>
 
-#include "core/diagnostic.hpp"
+#include "host/core/diagnostic.hpp"
 
 namespace eyeray {
 
@@ -29,7 +29,7 @@ constexpr Word words[] = {
     {"samples", " spp samplecount pixelsamples samplesperpixel aa antialias antialiasing "},
     {"pattern", " sampler jitter "},
     {"max_depth", " maxtracelevel recursionlimit depth bounces maxbounces maxraydepth "},
-    {"min_weight", " adcbailout threshold cutoff "},
+    {"min_throughput", " adcbailout threshold cutoff "},
     {"background", " backgroundcolor backgroundcolour sky skycolor world environment "},
     {"ambient", " ambientlight ambientcolor ka "},
     {"integrator", " method engine renderer tracer algorithm "},
@@ -106,7 +106,7 @@ constexpr Word words[] = {
     {"parallelogram", " quad rectangle rect square "},
     {"polygon", " ngon "},
     {"mesh", " object obj model trimesh trianglemesh plymesh mesh2 gltf "},
-    {"solid", " csg difference intersection union merge boolean "},
+    {"csg", " csg difference intersection union merge boolean "},
     {"implicit", " isosurface blob metaball metaballs sdf poly quartic cubic function gyroid "},
     {"bezier", " bicubicpatch patch "},
     {"superellipsoid", " superquadric "},

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "core/diagnostic.hpp"
-#include "formula/formula.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/formula/formula.hpp"
 
 namespace eyeray {
 

@@ -1,6 +1,6 @@
-#include "scene/group.hpp"
+#include "host/scene/group.hpp"
 
-#include "scene/affine.hpp"
+#include "host/scene/affine.hpp"
 
 namespace eyeray {
 

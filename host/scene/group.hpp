@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostic.hpp"
-#include "core/vec.hpp"
-#include "scene/mesh.hpp"
-#include "scene/shape.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/core/vec.hpp"
+#include "host/scene/mesh.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray {
 

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "core/diagnostic.hpp"
-#include "scene/texture.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/scene/texture.hpp"
 
 namespace eyeray {
 

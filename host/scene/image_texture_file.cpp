@@ -1,10 +1,10 @@
-#include "scene/image_texture_file.hpp"
+#include "host/scene/image_texture_file.hpp"
 
 #include <system_error>
 
-#include "core/atomic_file.hpp"
-#include "core/coded_image.hpp"
-#include "core/error.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/error.hpp"
+#include "host/image/coded_image.hpp"
 
 namespace eyeray {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "core/coded_image.hpp"
-#include "scene/texture.hpp"
+#include "host/image/coded_image.hpp"
+#include "host/scene/texture.hpp"
 
 namespace eyeray {
 

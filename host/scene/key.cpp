@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/table_reader.hpp"
+#include "host/scene/table_reader.hpp"
 
 namespace eyeray {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/vec.hpp"
-#include "scene/table_reader.hpp"
-#include "scene/texture.hpp"
+#include "host/core/vec.hpp"
+#include "host/scene/table_reader.hpp"
+#include "host/scene/texture.hpp"
 
 namespace eyeray {
 

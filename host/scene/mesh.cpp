@@ -1,4 +1,4 @@
-#include "scene/mesh.hpp"
+#include "host/scene/mesh.hpp"
 
 namespace eyeray {
 

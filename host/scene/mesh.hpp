@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostic.hpp"
-#include "core/vec.hpp"
-#include "scene/bounds.hpp"
-#include "scene/names.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/core/vec.hpp"
+#include "host/scene/bounds.hpp"
+#include "host/scene/names.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "scene/names.hpp"
+#include "host/scene/names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,9 +1,9 @@
-#include "scene/primitive_ids.hpp"
+#include "host/scene/primitive_ids.hpp"
 
 #include <algorithm>
 #include <span>
 
-#include "scene/scene.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/vec.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "core/vec.hpp"
-#include "scene/group.hpp"
-#include "scene/material.hpp"
-#include "scene/mesh.hpp"
-#include "scene/shape.hpp"
+#include "host/core/vec.hpp"
+#include "host/scene/group.hpp"
+#include "host/scene/material.hpp"
+#include "host/scene/mesh.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray {
 
@@ -42,12 +42,12 @@ enum class GroupStorage { automatic, instanced, flat };
 
 struct RenderSettings {
   IntegratorType integrator = IntegratorType::whitted;
-  int max_depth = 8;          // reflections and refractions in a row; 0: eye and shadow rays only
-  double min_weight = 0.001;  // a reflected or refracted ray that would count for less is not traced
+  int max_depth = 8;              // reflections and refractions in a row; 0: eye and shadow rays only
+  double min_throughput = 0.001;  // a reflected or refracted ray that would count for less is not traced
   uint32_t seed = 0;
   TriangleMethod triangle_method = TriangleMethod::woop;
   GroupStorage groups = GroupStorage::automatic;  // whether groups that stand often are kept once
-  Vec3 background{0.0};                           // what a ray that meets nothing sees
+  Vec3 background{0.0};                           // what a ray that hits nothing sees
   Vec3 ambient{0.0};                              // light that reaches every point from everywhere
 };
 
@@ -94,7 +94,7 @@ void for_each_shape(const Scene& scene, const Visit& visit) {
     for (const auto& shape : group.shapes) visit(*shape);
 }
 
-// The same, with what solids are made of in their place.
+// The same, with what CSG objects are made of in their place.
 template <typename Visit>
 void for_each_leaf(const Scene& scene, const Visit& visit) {
   for_each_shape(scene, [&](const Shape& shape) { for_each_leaf(shape, visit); });

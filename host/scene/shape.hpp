@@ -12,11 +12,11 @@
 #include <variant>
 #include <vector>
 
-#include "core/diagnostic.hpp"
-#include "core/vec.hpp"
-#include "scene/bounds.hpp"
-#include "scene/names.hpp"
-#include "scene/table_reader.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/core/vec.hpp"
+#include "host/scene/bounds.hpp"
+#include "host/scene/names.hpp"
+#include "host/scene/table_reader.hpp"
 
 namespace eyeray {
 
@@ -24,14 +24,14 @@ class Formula;  // formula/formula.hpp
 class Packer;   // records/packer.hpp
 struct ShapeType;
 
-// Where a ray meets a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
+// Where a ray hits a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
 // …).
 struct Intersection {
   double t = 0;
   double u = 0;
   double v = 0;
-  uint32_t part = 0;     // of a solid, whose surface it is
-  bool ran_out = false;  // it meets nothing up to t; beyond, the steps allowed did not suffice to tell
+  uint32_t part = 0;             // of a CSG object, whose surface it is
+  bool iteration_limit = false;  // it hits nothing up to t; beyond, the steps allowed did not suffice to tell
 };
 
 // A stretch of a ray's line, from where it enters a closed shape to where it leaves it.
@@ -109,14 +109,14 @@ struct BezierForm {  // rows of four control points
 };
 class Shape;
 // What is within any of `operands`, or where `all` within all of them, and within none of `removed`.
-struct SolidForm {
+struct CsgForm {
   bool all;
   std::vector<const Shape*> operands;
   std::vector<const Shape*> removed;
 };
-using ShapeForm = std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm,
-                               CapsuleForm, QuadricForm, TorusForm, SuperellipsoidForm, PolygonForm,
-                               ExtrusionForm, BezierForm, SolidForm>;
+using ShapeForm =
+    std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm, CapsuleForm,
+                 QuadricForm, TorusForm, SuperellipsoidForm, PolygonForm, ExtrusionForm, BezierForm, CsgForm>;
 
 // A formula that bounds a shape: negative within, on one side of a box of its own space.
 struct FormulaUse {
@@ -130,16 +130,16 @@ class Shape {
  public:
   virtual ~Shape() = default;
 
-  // The nearest intersection with t > 0, if there is one; with `ran_out` there need be none.
+  // The nearest intersection with t > 0, if there is one; with `iteration_limit` there need be none.
   virtual std::optional<Intersection> intersect(const Ray& ray) const = 0;
   virtual SurfacePoint surface(const Ray& ray, const Intersection& hit) const = 0;
   virtual Bounds bounds() const = 0;
-  // The shape that has the surface there, and whose material it is of: itself, or a solid's part.
+  // The shape that has the surface there, and whose material it is of: itself, or a CSG object's part.
   virtual const Shape& part(const Intersection&) const { return *this; }
-  // Whether it encloses a volume, so that solids can be made of it.
+  // Whether it encloses a volume, so that CSG objects can be made of it.
   virtual bool is_closed() const { return false; }
   // Of a closed shape, where the ray's whole line is within it, t < 0 included: in order, none touches
-  // another. Beyond an end that is `ran_out` there is none known.
+  // another. Beyond an end that is `iteration_limit` there is none known.
   virtual std::vector<Span> spans(const Ray&) const { return {}; }
   // For exporters and for comparing with other renderers; monostate for what they do not have.
   virtual ShapeForm form() const { return {}; }
@@ -162,14 +162,14 @@ class Shape {
   SourcePosition position;          // of its table in the scene file
 };
 
-// Calls visit(leaf) for each shape that a solid and the solids in it are made of, in the order of its table;
-// for any other shape, once with that.
+// Calls visit(leaf) for each shape that a CSG object and the CSG objects in it are made of, in the order of
+// its table; for any other shape, once with that.
 template <typename Visit>
 void for_each_leaf(const Shape& shape, const Visit& visit) {
   const ShapeForm form = shape.form();
-  const auto* solid = std::get_if<SolidForm>(&form);
-  if (!solid) return visit(shape);
-  for (const auto* list : {&solid->operands, &solid->removed})
+  const auto* csg = std::get_if<CsgForm>(&form);
+  if (!csg) return visit(shape);
+  for (const auto* list : {&csg->operands, &csg->removed})
     for (const Shape* each : *list) for_each_leaf(*each, visit);
 }
 
@@ -185,7 +185,7 @@ struct ShapeType {
   using Shapes = std::vector<std::unique_ptr<Shape>>;
   std::unique_ptr<Shape> (*combine)(TableReader& table, Shapes operands, Shapes removed) = nullptr;
   bool bounded = true;  // whether every such shape has an end in all directions
-  // Whether a ray meets it once at most, so that it may be of a material with holes.
+  // Whether a ray hits it once at most, so that it may be of a material with holes.
   bool flat = false;
 };
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "scene/value.hpp"
+#include "host/scene/value.hpp"
 
 namespace eyeray {
 

@@ -6,9 +6,9 @@
 
 #include <array>
 
-#include "scene/formula_source.hpp"
-#include "scene/image_source.hpp"
-#include "scene/value.hpp"
+#include "host/scene/formula_source.hpp"
+#include "host/scene/image_source.hpp"
+#include "host/scene/value.hpp"
 
 namespace eyeray {
 

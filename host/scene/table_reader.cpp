@@ -1,12 +1,12 @@
-#include "scene/table_reader.hpp"
+#include "host/scene/table_reader.hpp"
 
 #include <algorithm>
 #include <map>
 
-#include "core/error.hpp"
-#include "formula/formula.hpp"
-#include "scene/foreign_words.hpp"
-#include "scene/table.hpp"
+#include "host/core/error.hpp"
+#include "host/formula/formula.hpp"
+#include "host/scene/foreign_words.hpp"
+#include "host/scene/table.hpp"
 
 namespace eyeray {
 
@@ -50,7 +50,7 @@ struct TableReader::Table {
   void check_names();
 };
 
-// Looks a key up in the batch, then in the table.
+// ShadingData a key up in the batch, then in the table.
 const toml::node* TableReader::Table::find(std::string_view name) const {
   if (source.batch) {
     const toml::node* list = source.batch->get(name);

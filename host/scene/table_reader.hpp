@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/diagnostic.hpp"
-#include "core/vec.hpp"
-#include "scene/texture.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/core/vec.hpp"
+#include "host/scene/texture.hpp"
 
 namespace eyeray {
 

@@ -1,9 +1,9 @@
-#include "scene/texture.hpp"
+#include "host/scene/texture.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/srgb.hpp"
+#include "host/image/srgb.hpp"
 
 namespace eyeray {
 

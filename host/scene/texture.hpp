@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/vec.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray {
 

@@ -1,10 +1,10 @@
-#include "scene/transform.hpp"
+#include "host/scene/transform.hpp"
 
 #include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 
-#include "scene/affine.hpp"
-#include "scene/table.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/table.hpp"
 
 namespace eyeray {
 

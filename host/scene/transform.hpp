@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "core/vec.hpp"
-#include "scene/diagnostic_log.hpp"
+#include "host/core/vec.hpp"
+#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray {
 

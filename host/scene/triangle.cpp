@@ -1,4 +1,4 @@
-#include "scene/triangle.hpp"
+#include "host/scene/triangle.hpp"
 
 #include <algorithm>
 #include <cmath>

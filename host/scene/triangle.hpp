@@ -4,9 +4,9 @@
 #include <array>
 #include <optional>
 
-#include "core/vec.hpp"
-#include "scene/affine.hpp"
-#include "scene/shape.hpp"
+#include "host/core/vec.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray {
 
@@ -42,7 +42,7 @@ class CornerNormals {
   Mat3 linear_;  // the map's inverse transpose, its largest component 1 unless it keeps angles
 };
 
-// Where the ray meets the triangle, edges included, with the weights of the second and third corner. `normal`
+// Where the ray hits the triangle, edges included, with the weights of the second and third corner. `normal`
 // is perpendicular to the triangle, of any length but 0. Watertight: a ray never passes between two triangles
 // that share an edge. Woop, Benthin and Wald: Watertight Ray/Triangle Intersection, JCGT 2(1), 2013.
 std::optional<Intersection> intersect_triangle(const Corners& corners, const Vec3& normal, const Ray& ray);

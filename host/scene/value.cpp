@@ -1,12 +1,12 @@
-#include "scene/value.hpp"
+#include "host/scene/value.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "scene/foreign_words.hpp"
-#include "scene/table.hpp"
-#include "scene/transform.hpp"
+#include "host/scene/foreign_words.hpp"
+#include "host/scene/table.hpp"
+#include "host/scene/transform.hpp"
 
 namespace eyeray {
 

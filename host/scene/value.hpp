@@ -7,10 +7,10 @@
 #include <optional>
 #include <variant>
 
-#include "scene/diagnostic_log.hpp"
-#include "scene/formula_source.hpp"
-#include "scene/image_source.hpp"
-#include "scene/table_reader.hpp"
+#include "host/scene/diagnostic_log.hpp"
+#include "host/scene/formula_source.hpp"
+#include "host/scene/image_source.hpp"
+#include "host/scene/table_reader.hpp"
 
 namespace eyeray {
 

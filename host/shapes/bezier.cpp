@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "records/packer.hpp"
-#include "scene/affine.hpp"
-#include "shapes/bezier_clipping.hpp"
-#include "shapes/make.hpp"
+#include "host/records/packer.hpp"
+#include "host/scene/affine.hpp"
+#include "host/shapes/bezier_clipping.hpp"
+#include "host/shapes/make.hpp"
 
 namespace eyeray {
 
@@ -36,7 +36,7 @@ shadow ray, as of a mesh, since closed surfaces are made of many patches.
 begins at 1, as the next check of a texture may, is not to be seen.
 
 **Numeric trap.** Newton's method for u and v fails where a ray grazes: there the two equations are singular, and there may be several roots or none. So a patch is laid out in
-pieces over which its derivatives vary little, each tested as one shape in the tree. A plane through the ray and across a piece cuts it in a curve with u and v that
+pieces over which its derivatives vary little, each tested as one shape in the BVH. A plane through the ray and across a piece cuts it in a curve with u and v that
 are never singular, whose distance from the ray is followed in arcs so short that a cubic is sure to tell how often it is zero.
 
 **Source.** Martin, Cohen, Fish and Shirley: Practical Ray Tracing of Trimmed NURBS Surfaces, Journal of Graphics Tools 5(1), 2000, for the pieces. The float64 half is
@@ -125,7 +125,7 @@ class Bezier final : public Shape {
       const auto& [from, to] = piece.range;
       // Both ends; of 24 arcs, each with its middle and its next end; of 4 roots.
       packer.add_iterations(2 * 4 + 24 * (1 + 4 + 4) + 4 * 40);
-      packer.add_steps();
+      packer.add_iteration_limit();
       packer.add_piece({.head = Packer::head(shader::KIND_bezier, material, extra),
                         .a = shader::vec4(float(from.x), float(to.x), float(from.y), float(to.y)),
                         .b = to_vec4(packer.relative(piece.middle), piece.radius + room),

@@ -1,9 +1,9 @@
-#include "shapes/bezier_clipping.hpp"
+#include "host/shapes/bezier_clipping.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "scene/affine.hpp"
+#include "host/scene/affine.hpp"
 
 namespace eyeray {
 namespace {
@@ -22,7 +22,7 @@ struct Interval {
   double from, to;
 };
 
-// For which parameters 0 … 1 the hull of a polynomial's bounds, four by four at 0, 1/3, 2/3 and 1, meets 0 ±
+// For which parameters 0 … 1 the hull of a polynomial's bounds, four by four at 0, 1/3, 2/3 and 1, hits 0 ±
 // `room`; from > to if for none.
 Interval hull_at_zero(const std::array<double, 4>& low, const std::array<double, 4>& high, double room) {
   Interval found{2, -1};
@@ -79,7 +79,7 @@ class Search {
       // What takes so long grazes, and is as sharp as that allows.
       const double blur = cuts < many_cuts ? 1 : 1e4;
       if (std::max(size.x, size.y) > small * blur && extent(part) > room_ * blur) {
-        // Where clipping gains little, the ray may meet it several times.
+        // Where clipping gains little, the ray may hit it several times.
         if (std::max(size.x / before.x, size.y / before.y) > 0.7)
           split(part);
         else
@@ -90,11 +90,11 @@ class Search {
       const double t = t_of(bezier_point(part.net, 0.5, 0.5).position.z);
       if (t > 0 && (!best || t < best->t)) best = Intersection{.t = t, .u = at.x, .v = at.y};
     }
-    // What is left is sure to be met no earlier than its control points are.
+    // What is left is sure to be hit no earlier than its control points are.
     double sure_until = best ? best->t : HUGE_VAL;
     for (const Part& part : parts_) sure_until = std::min(sure_until, t_of(least_z(part)));
     if (sure_until < (best ? best->t : HUGE_VAL))
-      return Intersection{.t = std::max(sure_until, 0.0), .ran_out = true};
+      return Intersection{.t = std::max(sure_until, 0.0), .iteration_limit = true};
     return best;
   }
 
@@ -119,7 +119,7 @@ class Search {
     return magnitude(high - low);
   }
 
-  // Cuts off, on either side along `axis`, what the ray cannot meet. Returns whether anything is left.
+  // Cuts off, on either side along `axis`, what the ray cannot hit. Returns whether anything is left.
   bool clip(Part& part, int axis) const {
     // Distances from a line through the ray, along which the other parameter grows.
     const BezierNet& p = part.net;

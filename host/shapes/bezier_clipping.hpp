@@ -1,11 +1,11 @@
-// Where a ray meets a Bézier patch, in float64. Nishita, Sederberg and Kakimoto: Ray Tracing Trimmed Rational
+// Where a ray hits a Bézier patch, in float64. Nishita, Sederberg and Kakimoto: Ray Tracing Trimmed Rational
 // Surface Patches, SIGGRAPH 1990.
 #pragma once
 
 #include <optional>
 
-#include "scene/shape.hpp"
-#include "shapes/bezier_net.hpp"
+#include "host/scene/shape.hpp"
+#include "host/shapes/bezier_net.hpp"
 
 namespace eyeray {
 

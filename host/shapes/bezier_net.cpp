@@ -1,10 +1,10 @@
-#include "shapes/bezier_net.hpp"
+#include "host/shapes/bezier_net.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
 
-#include "scene/affine.hpp"
+#include "host/scene/affine.hpp"
 
 namespace eyeray {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "core/vec.hpp"
-#include "scene/bounds.hpp"
+#include "host/core/vec.hpp"
+#include "host/scene/bounds.hpp"
 
 namespace eyeray {
 

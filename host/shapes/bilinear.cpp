@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "records/packer.hpp"
-#include "scene/affine.hpp"
-#include "shapes/make.hpp"
-#include "shapes/object_shape.hpp"
+#include "host/records/packer.hpp"
+#include "host/scene/affine.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/object_shape.hpp"
 
 namespace eyeray {
 

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "records/records.hpp"
-#include "shapes/keys.hpp"
-#include "shapes/make.hpp"
-#include "shapes/object_shape.hpp"
+#include "host/records/records.hpp"
+#include "host/shapes/keys.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/object_shape.hpp"
 
 namespace eyeray {
 
@@ -28,7 +28,7 @@ material = "wall"
 +z). v runs from 0 at the pole below `from` to 1 at the pole beyond `to`, as the way along the surface is long, so that a texture is stretched alike on the side and at
 the poles' feet.
 
-**Numeric trap.** A cylinder and two balls, each tested apart, show cracks and inner walls where they meet. Here the ray enters once and leaves once: where it passes the
+**Numeric trap.** A cylinder and two balls, each tested apart, show cracks and inner walls where they hit. Here the ray enters once and leaves once: where it passes the
 endless cylinder beyond an end, it is the ball there that counts.
 
 **Source.** Haines, Günther, Akenine-Möller: Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, chapter 7, 2019, for its

@@ -19,7 +19,7 @@ class ChebyshevSeries {
   // terms tell.
   bool ends(double tolerance) const;
   // How far from zero it stays; negative where it may not.
-  double clearance() const;
+  double ray_offset() const;
   bool monotone() const;
 
  private:

@@ -1,4 +1,4 @@
-#include "shapes/cube.hpp"
+#include "host/shapes/cube.hpp"
 
 #include <cmath>
 

@@ -1,9 +1,10 @@
-// The cube from −1 to 1 in object space: a box, or what cuts another shape. In the shaders it is cube.glsl.
+// The cube from −1 to 1 in object space: a box, or what cuts another shape. In the shaders it is
+// geometry/cube.glsl.
 #pragma once
 
 #include <optional>
 
-#include "scene/shape.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray::cube {
 

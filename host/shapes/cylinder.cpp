@@ -1,7 +1,7 @@
-#include "records/records.hpp"
-#include "shapes/keys.hpp"
-#include "shapes/make.hpp"
-#include "shapes/revolution.hpp"
+#include "host/records/records.hpp"
+#include "host/shapes/keys.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/revolution.hpp"
 
 namespace eyeray {
 

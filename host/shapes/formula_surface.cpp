@@ -1,11 +1,11 @@
-#include "shapes/formula_surface.hpp"
+#include "host/shapes/formula_surface.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "formula/formula.hpp"
-#include "shapes/chebyshev.hpp"
+#include "host/formula/formula.hpp"
+#include "host/shapes/chebyshev.hpp"
 
 namespace eyeray {
 
@@ -18,7 +18,7 @@ constexpr double least_width = 1e-14;
 // The search gives up after so many values: along a surface that is flat on the ray, none ends.
 constexpr int most_values = 400000;
 
-// Looks through a segment, from its start on.
+// ShadingData through a segment, from its start on.
 class Search {
  public:
   // `rate`: how fast f can change along the ray; `unit`: by how much a length of 1 changes the ray's
@@ -80,7 +80,7 @@ class SeriesSearch {
     const ChebyshevSeries series(values);
     const bool ends = series.ends(1e-10 * size + 1e-14 * largest_);
     const bool narrow = (to - from) / unit_ < least_gap;
-    if (series.clearance() > (ends ? 1e-9 : 0.8) * size && (values[0] < 0) == inside) return std::nullopt;
+    if (series.ray_offset() > (ends ? 1e-9 : 0.8) * size && (values[0] < 0) == inside) return std::nullopt;
     if (narrow || (ends && series.monotone())) {
       if ((values[0] < 0) == inside) return std::nullopt;
       return narrowed(from, to, inside);

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "scene/shape.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray {
 
@@ -18,12 +18,12 @@ class FormulaSurface {
   // The first place from `start` to `end` at which the sign is another than at `start`. Between two places no
   // more than what the values there clear of roots, by the Lipschitz constant, is left out; so none is passed
   // by, but pairs of roots closer than 1e-8. Where there is no such constant, Chebyshev series take its
-  // place. So that the search ends for any function, so do its steps: then `ran_out`, and there is no change
-  // up to s.
+  // place. So that the search ends for any function, so do its steps: then `iteration_limit`, and there is no
+  // change up to s.
   struct Change {
     double s;
     double beyond;  // a place past it that has the other sign
-    bool ran_out = false;
+    bool iteration_limit = false;
   };
   std::optional<Change> first_change(const Ray& ray, double start, double end) const;
 

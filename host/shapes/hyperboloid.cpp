@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "records/records.hpp"
-#include "shapes/keys.hpp"
-#include "shapes/make.hpp"
-#include "shapes/revolution.hpp"
+#include "host/records/records.hpp"
+#include "host/shapes/keys.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/revolution.hpp"
 
 namespace eyeray {
 

@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formula/formula.hpp"
-#include "records/packer.hpp"
-#include "shapes/cube.hpp"
-#include "shapes/formula_surface.hpp"
-#include "shapes/keys.hpp"
-#include "shapes/make.hpp"
-#include "shapes/object_shape.hpp"
-#include "shapes/ready_formulas.hpp"
+#include "host/formula/formula.hpp"
+#include "host/records/packer.hpp"
+#include "host/shapes/cube.hpp"
+#include "host/shapes/formula_surface.hpp"
+#include "host/shapes/keys.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/object_shape.hpp"
+#include "host/shapes/ready_formulas.hpp"
 
 namespace eyeray {
 
@@ -77,7 +77,7 @@ if the box were stretched to a cube, onto which the texture is projected straigh
 box: walls thinner than that are passed through. Normals are those of `vec3 gradient(vec3 p)`, if the text has that too; else differences over 1/256 of half the box, to the
 fourth order: waves that are much shorter, and edges, look smoother than they are.
 A ray that takes 4096 steps and has not come to an end has run out: its pixel is told (without `lipschitz`, 4096 pieces). Without `lipschitz` none of this is so but the last: no change of sign is overlooked but where f is zero up to
-rounding ([numerics](numerics.md#implicit-surfaces-by-enclosures)), and a touch without a change of sign is no surface.
+rounding ([numerics](numerics.md#implicit-surfaces-by-affine-bounds)), and a touch without a change of sign is no surface.
 
 **Source.** Hart: Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit Surfaces, The Visual Computer 12, 1996. Comba, Stolfi: Affine Arithmetic and its Applications to Computer Graphics, SIBGRAPI 1993. Bálint, Valasek: Accelerating Sphere Tracing, Eurographics Short Papers 2018.
 )";
@@ -137,17 +137,18 @@ class Implicit final : public ObjectShape {
     const auto span = cube::span(ray);
     if (!span) return all;
     const FormulaSurface surface(use_);
-    bool inside = surface.value(ray.o + ray.d * span->in.t) < 0, ran_out = false;
+    bool inside = surface.value(ray.o + ray.d * span->in.t) < 0, iteration_limit = false;
     if (inside) all.add({span->in.t, double(span->in.face), 1});
     double from = span->in.t;
     int count = 0;
-    while (const auto change = ran_out ? std::nullopt : surface.first_change(ray, from, span->out.t)) {
+    while (const auto change =
+               iteration_limit ? std::nullopt : surface.first_change(ray, from, span->out.t)) {
       inside = !inside;
-      ran_out = change->ran_out || ++count > most_crossed;
-      all.add({change->s, itself, inside ? 1.0 : 0.0, 0, ran_out});
+      iteration_limit = change->iteration_limit || ++count > most_crossed;
+      all.add({change->s, itself, inside ? 1.0 : 0.0, 0, iteration_limit});
       from = change->beyond;
     }
-    if (inside) all.add({span->out.t, double(span->out.face), 0, 0, ran_out});
+    if (inside) all.add({span->out.t, double(span->out.face), 0, 0, iteration_limit});
     return all;
   }
   bool enters(const Ray&, const Intersection& crossing) const override { return crossing.v != 0; }
@@ -161,7 +162,7 @@ class Implicit final : public ObjectShape {
     const bool inside = surface.value(ray.o + ray.d * start) < 0;
     if (enters && inside && !open_) return Intersection{span->in.t, double(span->in.face), 0};
     if (const auto root = surface.first_change(ray, start, span->out.t))
-      return Intersection{root->s, itself, 0, root->ran_out};
+      return Intersection{root->s, itself, 0, root->iteration_limit};
     const bool ends_inside = surface.value(ray.o + ray.d * span->out.t) < 0;
     if (ends_inside && inside && !open_) return Intersection{span->out.t, double(span->out.face), 0};
     return std::nullopt;

@@ -1,8 +1,8 @@
 // Keys that several shapes have.
 #pragma once
 
-#include "scene/affine.hpp"
-#include "scene/table_reader.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/table_reader.hpp"
 
 namespace eyeray {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
-#include "scene/shape.hpp"
-#include "shapes/planar_region.hpp"
+#include "host/scene/shape.hpp"
+#include "host/shapes/planar_region.hpp"
 
 namespace eyeray {
 
@@ -73,7 +73,7 @@ std::unique_ptr<Shape> make_implicit(FormulaUse use, bool open, const Mat4& tran
 
 // What is within any of `operands`, or where `all` within all of them, and within none of `removed`. All are
 // closed, 32 together at most, and have their materials.
-std::unique_ptr<Shape> make_solid(bool all, std::vector<std::unique_ptr<Shape>> operands,
-                                  std::vector<std::unique_ptr<Shape>> removed = {});
+std::unique_ptr<Shape> make_csg(bool all, std::vector<std::unique_ptr<Shape>> operands,
+                                std::vector<std::unique_ptr<Shape>> removed = {});
 
 }  // namespace eyeray

@@ -1,11 +1,11 @@
-#include "shapes/object_shape.hpp"
+#include "host/shapes/object_shape.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "records/packer.hpp"
+#include "host/records/packer.hpp"
 
 namespace eyeray {
 
@@ -37,7 +37,7 @@ std::optional<Intersection> ObjectShape::intersect(const Ray& ray) const {
   const auto& [local, start] = to_nearest(ray);
   std::optional<Intersection> nearest = first(local, -start);
   if (nearest) nearest->t += start;
-  return nearest && (nearest->t > 0 || nearest->ran_out) ? nearest : std::nullopt;
+  return nearest && (nearest->t > 0 || nearest->iteration_limit) ? nearest : std::nullopt;
 }
 
 std::optional<Intersection> ObjectShape::first(const Ray& ray, double from) const {
@@ -128,7 +128,7 @@ void ObjectShape::pack_with(Packer& packer, const std::vector<float>& parameters
     packer.add_vertices({to_bits(some)});
   }
   packer.add_iterations(steps_);
-  if (steps_ > 0) packer.add_steps();
+  if (steps_ > 0) packer.add_iteration_limit();
   packer.add_map_growth(growth(to_world_, to_object_));
   packer.add({.head = Packer::head(kind_, material, extra),
               .a = row(to_object_, 0, center),

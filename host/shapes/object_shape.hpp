@@ -1,11 +1,11 @@
 // Shapes that are a plain one, such as the unit sphere, in a space of their own under any affine map: what
-// they have in common. In the shaders it is object_space.glsl.
+// they have in common. In the shaders it is geometry/object_space.glsl.
 #pragma once
 
 #include <vector>
 
-#include "scene/affine.hpp"
-#include "scene/shape.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray {
 
@@ -18,7 +18,7 @@ class ObjectShape : public Shape {
   void pack(Packer& packer) const override;
 
  protected:
-  // Where a line meets the shape, in any order. u and v are the shape's own.
+  // Where a line hits the shape, in any order. u and v are the shape's own.
   class Crossings {
    public:
     void add(const Intersection& crossing) { all_.push_back(crossing); }
@@ -35,7 +35,7 @@ class ObjectShape : public Shape {
   };
 
   // `kind` is the shape's number in the registry; `parameters` are what the shaders find after the maps;
-  // `steps` is how often its loops may go round there, after which it gives up (T_RAN_OUT).
+  // `steps` is how often its loops may go round there, after which it gives up (T_ITERATION_LIMIT).
   ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters = {},
               size_t steps = 0);
 

@@ -1,6 +1,6 @@
-#include "records/records.hpp"
-#include "shapes/make.hpp"
-#include "shapes/revolution.hpp"
+#include "host/records/records.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/revolution.hpp"
 
 namespace eyeray {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "records/packer.hpp"
-#include "scene/triangle.hpp"
-#include "shapes/make.hpp"
+#include "host/records/packer.hpp"
+#include "host/scene/triangle.hpp"
+#include "host/shapes/make.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "shapes/planar_region.hpp"
+#include "host/shapes/planar_region.hpp"
 
 #include <cmath>
 

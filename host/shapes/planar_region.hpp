@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/vec.hpp"
-#include "scene/affine.hpp"
-#include "scene/table_reader.hpp"
+#include "host/core/vec.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/table_reader.hpp"
 
 namespace eyeray {
 

@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "records/packer.hpp"
-#include "scene/affine.hpp"
-#include "shapes/make.hpp"
-#include "shapes/plane_axes.hpp"
+#include "host/records/packer.hpp"
+#include "host/scene/affine.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/plane_axes.hpp"
 
 namespace eyeray {
 
@@ -28,7 +28,7 @@ right and v up; where the normal is vertical (its x and z below 1e-6 of its leng
 A `transform` stretches and turns the pattern with the plane: uv count in the plane's own units, as before it.
 
 **Numeric trap.** Far away, o + t·d misses the plane by the rounding of t: the hit is put back onto it. A parallel ray is one
-with normal · d = 0 exactly; no epsilon decides, since a ray that is nearly parallel does meet the plane far off.
+with normal · d = 0 exactly; no epsilon decides, since a ray that is nearly parallel does hit the plane far off.
 
 **Source.** Any textbook; the projection after Wächter, Binder: A Fast and Robust Method for Avoiding Self-Intersection,
 Ray Tracing Gems, chapter 6, 2019.

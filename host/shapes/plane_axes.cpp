@@ -1,8 +1,8 @@
-#include "shapes/plane_axes.hpp"
+#include "host/shapes/plane_axes.hpp"
 
 #include <cmath>
 
-#include "scene/affine.hpp"
+#include "host/scene/affine.hpp"
 
 namespace eyeray {
 

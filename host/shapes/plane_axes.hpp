@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/vec.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray {
 

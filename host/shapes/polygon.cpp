@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "records/packer.hpp"
-#include "shapes/make.hpp"
-#include "shapes/plane_axes.hpp"
+#include "host/records/packer.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/plane_axes.hpp"
 
 namespace eyeray {
 
@@ -27,7 +27,7 @@ vertices. Closed bodies of polygons, and polygons beside triangles and parallelo
 **uv.** Distances from the first vertex along two axes U and V in the plane, with (U, V, normal) right-handed. U is `u_axis` projected onto the plane;
 without it, it is that of a plane. uv count in the polygon's own units, as before `transform`.
 
-**Numeric trap.** Which edges a half line crosses is undecided where it meets a vertex, and two neighbours that compute the same edge each in its own way
+**Numeric trap.** Which edges a half line crosses is undecided where it hits a vertex, and two neighbours that compute the same edge each in its own way
 may both decide against a point on it. Here the vertices are sheared into the plane across the ray, alike for all shapes; of each vertex it is asked once
 whether it is above the ray, where 0 is below; and an edge's side is the sign of a·d − b·c, which for its other direction is the exact negative. So
 neighbours answer alike to the last bit, and a point within both together is within exactly one of them.

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "records/records.hpp"
-#include "shapes/make.hpp"
-#include "shapes/object_shape.hpp"
-#include "shapes/plane_axes.hpp"
+#include "host/records/records.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/object_shape.hpp"
+#include "host/shapes/plane_axes.hpp"
 
 namespace eyeray {
 
@@ -29,7 +29,7 @@ is said at the polygon.
 outside, and v the share of the extrusion times its length. On the cap at the tip of the extrusion uv are distances from the first vertex along two axes, as on a
 polygon that faces that way; on the other cap u is the negative of that, so that seen from outside nothing is mirrored.
 
-**Numeric trap.** Walls and caps that are tested apart let rays through where they meet. Here, seen along the extrusion, the ray is a line that passes the
+**Numeric trap.** Walls and caps that are tested apart let rays through where they hit. Here, seen along the extrusion, the ray is a line that passes the
 outline's edges at certain distances, an even number of them; a cap is hit where an odd number of these are less than its own.
 
 **Source.** Kajiya: New Techniques for Ray Tracing Procedurally Defined Objects, SIGGRAPH 1983, section 4 (prisms).
@@ -133,7 +133,7 @@ class Prism final : public ObjectShape {
   ShapeForm form() const override { return ExtrusionForm{to_world().matrix(), form_.outlines}; }
 
  private:
-  // Each face by itself: a wall where the line meets its plane between its ends, a cap where the outlines
+  // Each face by itself: a wall where the line hits its plane between its ends, a cap where the outlines
   // wind round the point.
   Crossings crossings(const Ray& ray) const override {
     constexpr double room = 1e-14;  // for edges, where faces meet

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "records/records.hpp"
-#include "shapes/cube.hpp"
-#include "shapes/keys.hpp"
-#include "shapes/make.hpp"
-#include "shapes/object_shape.hpp"
+#include "host/records/records.hpp"
+#include "host/shapes/cube.hpp"
+#include "host/shapes/keys.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/object_shape.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "shapes/ready_formulas.hpp"
+#include "host/shapes/ready_formulas.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formula/formula.hpp"
+#include "host/formula/formula.hpp"
 
 namespace eyeray {
 

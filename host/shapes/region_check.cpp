@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "shapes/planar_region.hpp"
-#include "shapes/plane_axes.hpp"
+#include "host/shapes/planar_region.hpp"
+#include "host/shapes/plane_axes.hpp"
 
 namespace eyeray {
 
@@ -162,7 +162,7 @@ class RegionCheck {
       for (size_t i = 0; i < flat_[k].size(); ++i)
         edges.push_back({{k, i}, flat_[k][i], flat_[k][(i + 1) % flat_[k].size()]});
 
-    // Edges that do not overlap in x cannot meet.
+    // Edges that do not overlap in x cannot hit.
     const auto low = [](const Edge& edge) { return std::min(edge.from.x, edge.to.x); };
     const auto high = [](const Edge& edge) { return std::max(edge.from.x, edge.to.x); };
     std::stable_sort(edges.begin(), edges.end(),

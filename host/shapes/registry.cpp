@@ -1,6 +1,6 @@
-#include "shapes/registry.h"
+#include "shaders/shapes/registry.h"
 
-#include "scene/shape.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray {
 

@@ -1,4 +1,4 @@
-#include "shapes/revolution.hpp"
+#include "host/shapes/revolution.hpp"
 
 #include <algorithm>
 #include <cmath>

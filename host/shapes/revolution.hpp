@@ -1,8 +1,8 @@
 // Quadrics that are round about the y axis of object space, between two planes across it: what cylinders,
-// cones and their like share. In the shaders it is revolution.glsl.
+// cones and their like share. In the shaders it is geometry/revolution.glsl.
 #pragma once
 
-#include "shapes/object_shape.hpp"
+#include "host/shapes/object_shape.hpp"
 
 namespace eyeray {
 

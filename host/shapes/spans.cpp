@@ -1,4 +1,4 @@
-#include "shapes/spans.hpp"
+#include "host/shapes/spans.hpp"
 
 #include <algorithm>
 #include <iterator>

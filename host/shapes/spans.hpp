@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/shape.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray {
 

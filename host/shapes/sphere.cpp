@@ -2,11 +2,11 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <numbers>
 
-#include "records/packer.hpp"
-#include "scene/affine.hpp"
-#include "shapes/keys.hpp"
-#include "shapes/make.hpp"
-#include "shapes/object_shape.hpp"
+#include "host/records/packer.hpp"
+#include "host/scene/affine.hpp"
+#include "host/shapes/keys.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/object_shape.hpp"
 
 namespace eyeray {
 

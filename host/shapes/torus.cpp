@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "records/records.hpp"
-#include "shapes/make.hpp"
-#include "shapes/object_shape.hpp"
+#include "host/records/records.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/object_shape.hpp"
 
 namespace eyeray {
 
@@ -34,7 +34,7 @@ any affine map that can be undone.
 **uv.** u runs from 0 to 1 about the axis, counter-clockwise seen from its tip, with ½ towards the world's +x (where the axis is parallel to that,
 towards +z). v runs around the tube: ½ on the outer rim, ¾ on top, 0 at the hole.
 
-**Numeric trap.** A ray may meet it four times, and the quartic equation's closed form loses or invents roots in float32, many of them from a distance. Here a ray is
+**Numeric trap.** A ray may hit it four times, and the quartic equation's closed form loses or invents roots in float32, many of them from a distance. Here a ray is
 followed to its point nearest to the centre first. Between the points where the quartic turns, which its derivative gives, and the derivative's in turn, it has one root
 at most: a change of sign tells, and Newton's method with bisection finds it, on the distance from the circle, which does not cancel.
 

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <utility>
 
-#include "records/packer.hpp"
-#include "scene/affine.hpp"
-#include "scene/triangle.hpp"
-#include "shapes/make.hpp"
+#include "host/records/packer.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/triangle.hpp"
+#include "host/shapes/make.hpp"
 
 namespace eyeray {
 

@@ -1,23 +1,23 @@
-#include "twin/straight_line.hpp"
+#include "host/twin/straight_line.hpp"
 
 #include <vector>
 
-#include "calculus/emit.hpp"
+#include "host/expression/emit.hpp"
 
-#include "core/local_shaders.hpp"
+#include "host/core/local_shaders.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
-#include "dual.glsl"
-#include "enclosure.glsl"
+#include "shaders/math/affine_bound.glsl"
+#include "shaders/math/dual.glsl"
 #pragma GCC diagnostic pop
 
 namespace eyeray {
 namespace {
 
-using calculus::Op;
-using calculus::Step;
-using calculus::StraightLine;
+using expression::Op;
+using expression::Step;
+using expression::StraightLine;
 
 // A number or a truth; which of them it is the step knows.
 template <typename Number, typename Truth>
@@ -69,19 +69,19 @@ std::vector<T>& values(size_t count) {
 
 template <typename T>
 const T& operand(const std::vector<T>& all, const Step& step, size_t k) {
-  return all[step.from[k] == calculus::no_term ? 0 : size_t(step.from[k])];
+  return all[step.from[k] == expression::no_term ? 0 : size_t(step.from[k])];
 }
 
 }  // namespace
 
-shader::vec3 enclose(const StraightLine& line, const shader::vec3& x, const shader::vec3& y,
-                     const shader::vec3& z) {
+shader::vec3 affine_bound(const StraightLine& line, const shader::vec3& x, const shader::vec3& y,
+                          const shader::vec3& z) {
   auto& all = values<Value<shader::vec3, shader::uint>>(line.size());
   for (size_t i = 0; i < line.size(); ++i) {
     const Step& step = line[i];
     auto& result = all[i];
-    STEP(shader::enclosure, step, operand(all, step, 0), operand(all, step, 1), operand(all, step, 2), result)
-    if (step.op == Op::constant) result.number = {float(step.value), 0, calculus::constant_error(step)};
+    STEP(shader::bound, step, operand(all, step, 0), operand(all, step, 1), operand(all, step, 2), result)
+    if (step.op == Op::constant) result.number = {float(step.value), 0, expression::constant_error(step)};
     if (step.op == Op::input) result.number = step.value == 0 ? x : step.value == 1 ? y : z;
     if (step.op == Op::truth) result.truth = step.value != 0 ? TRUTH_YES : TRUTH_NO;
   }

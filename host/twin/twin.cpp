@@ -1,6 +1,6 @@
-#include "twin/twin.hpp"
+#include "host/twin/twin.hpp"
 
-#include "twin/shader_functions.hpp"
+#include "host/twin/shader_functions.hpp"
 
 namespace eyeray::twin {
 

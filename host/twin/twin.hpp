@@ -3,14 +3,14 @@
 // its numerics.
 #pragma once
 
-#include "records/packer.hpp"
+#include "host/records/packer.hpp"
 
 namespace eyeray::twin {
 
-// What render.comp.glsl computes for one pixel of the whole picture. Thread-safe.
+// What kernels/render.comp.glsl computes for one pixel of the whole picture. Thread-safe.
 shader::SampleResult sample(const PackedScene& scene, uint32_t x, uint32_t y, uint32_t index);
 shader::HitResult first_hit(const PackedScene& scene, uint32_t x, uint32_t y);
-// What query.comp.glsl computes for one ray.
+// What kernels/query.comp.glsl computes for one ray.
 shader::QueryHit query(const PackedScene& scene, const shader::QueryRay& ray, bool any);
 
 }  // namespace eyeray::twin

@@ -1,10 +1,10 @@
 // Eye rays only: the base colour, shaded by light and normal, without shadows.
 #ifndef RAYCAST_GLSL
 #define RAYCAST_GLSL
-#include "light.glsl"
-#include "surface.glsl"
-#include "texture.glsl"
-#include "traverse.glsl"
+#include "lights/light.glsl"
+#include "geometry/surface.glsl"
+#include "materials/texture.glsl"
+#include "bvh/traverse.glsl"
 
 SHADER_BEGIN
 

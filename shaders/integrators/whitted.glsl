@@ -1,18 +1,18 @@
 // Whitted's recursion as a loop: a ray's weight travels with it, and of two children one waits on a stack.
 #ifndef WHITTED_GLSL
 #define WHITTED_GLSL
-#include "light.glsl"
-#include "material.glsl"
-#include "media.glsl"
-#include "surface.glsl"
-#include "traverse.glsl"
+#include "lights/light.glsl"
+#include "materials/material.glsl"
+#include "materials/media.glsl"
+#include "geometry/surface.glsl"
+#include "bvh/traverse.glsl"
 
 SHADER_BEGIN
 
 struct PathRay {
   vec3 o;
   vec3 d;
-  vec3 weight;  // what its radiance counts for in the pixel
+  vec3 throughput;  // what its radiance counts for in the pixel
   uint depth;   // reflections and refractions so far
   uint media;
 };
@@ -35,7 +35,7 @@ vec3 direct_light(Frame frame, Material material, Scattering scattering, Surface
 #if STORED_HITS
       uint occluded = load_occlusion(i);
 #else
-      uint occluded = occlusion(leave(seen, light.direction), light.distance, counts.z);
+      uint occluded = occlusion(spawn_ray(seen, light.direction), light.distance, counts.z);
 #endif
       float visible = visibility(occluded);
       float lobe = highlight(material, seen.normal, light.direction, to_viewer);
@@ -78,16 +78,16 @@ Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, 
   counts.y += struck ? 1u : 0u;
   counts.w += TRACE_ITERATIONS + 1u;
   if (!struck) {
-    color = color + path.weight * vec3(frame.background);
+    color = color + path.throughput * vec3(frame.background);
   } else {
     // Weaken by the medium that the ray came through.
     Primitive primitive = primitive_at(hit);
     Material material = load_material(material_of(primitive));
-    vec3 weight = path.weight;
+    vec3 throughput = path.throughput;
 #if HAS_MEDIA
     Medium from = load_medium(innermost_medium(path.media));
 #if HAS_ABSORPTION
-    weight = weight * vec3(exp_negative(-from.absorption_ior.x * hit.t), exp_negative(-from.absorption_ior.y * hit.t),
+    throughput = throughput * vec3(exp_negative(-from.absorption_ior.x * hit.t), exp_negative(-from.absorption_ior.y * hit.t),
                            exp_negative(-from.absorption_ior.z * hit.t));
 #endif
 #endif
@@ -117,23 +117,23 @@ Children follow(Frame frame, PathRay path, Ray ray, Hit hit, INOUT(vec3) color, 
 
     // Shade.
     Scattering scattering = scattering_of(material_of(primitive), material, context);
-    color = color + weight * direct_light(frame, material, scattering, seen, -ray.d, counts);
+    color = color + throughput * direct_light(frame, material, scattering, seen, -ray.d, counts);
 
 #if HAS_SECONDARY
     // Send out the children that count for enough.
     bool deeper = path.depth < frame.camera.w;
     children.reflected.d = normalize3(ray.d + seen.normal * (2.0f * cos_view));
-    children.reflected.o = leave(surface, children.reflected.d).o;
-    children.reflected.weight = weight * scattering.reflected;
+    children.reflected.o = spawn_ray(surface, children.reflected.d).o;
+    children.reflected.throughput = throughput * scattering.reflected;
     children.reflected.depth = path.depth + 1u;
-    children.reflects = deeper && max_component(children.reflected.weight) > frame.right.w;
+    children.reflects = deeper && max_component(children.reflected.throughput) > frame.right.w;
 #if HAS_MEDIA
     children.transmitted.d = refracted(ray.d, seen.normal, cos_view, context.ior_from / context.ior_to);
-    children.transmitted.o = leave(surface, children.transmitted.d).o;
-    children.transmitted.weight = weight * scattering.transmitted;
+    children.transmitted.o = spawn_ray(surface, children.transmitted.d).o;
+    children.transmitted.throughput = throughput * scattering.transmitted;
     children.transmitted.depth = path.depth + 1u;
     children.transmitted.media = media_behind;
-    children.transmits = deeper && max_component(children.transmitted.weight) > frame.right.w;
+    children.transmits = deeper && max_component(children.transmitted.throughput) > frame.right.w;
 #if RAY_KINDS
     children.totally = deeper && material.head.z != 0u && max_component(scattering.transmitted) == 0.0f;
 #endif
@@ -157,7 +157,7 @@ PathRay eye_path(Frame frame, Ray eye_ray) {
   PathRay path;
   path.o = eye_ray.o;
   path.d = eye_ray.d;
-  path.weight = vec3(1.0f, 1.0f, 1.0f);
+  path.throughput = vec3(1.0f, 1.0f, 1.0f);
   path.depth = 0u;
   path.media = frame.camera.z;
   return path;

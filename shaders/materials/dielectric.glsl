@@ -1,7 +1,7 @@
 // Glass and liquids: a smooth surface between two media, unpolarised Fresnel reflectance.
 #ifndef DIELECTRIC_GLSL
 #define DIELECTRIC_GLSL
-#include "scattering.glsl"
+#include "materials/scattering.glsl"
 
 SHADER_BEGIN
 

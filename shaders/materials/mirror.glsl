@@ -1,7 +1,7 @@
 // A perfect mirror, with a highlight where a light would be seen in it.
 #ifndef MIRROR_GLSL
 #define MIRROR_GLSL
-#include "scattering.glsl"
+#include "materials/scattering.glsl"
 
 SHADER_BEGIN
 

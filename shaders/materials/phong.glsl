@@ -1,7 +1,7 @@
 // Ambient, diffuse and a highlight, with an optional mirror on top.
 #ifndef PHONG_GLSL
 #define PHONG_GLSL
-#include "scattering.glsl"
+#include "materials/scattering.glsl"
 
 SHADER_BEGIN
 

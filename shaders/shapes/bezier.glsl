@@ -6,8 +6,8 @@
 //   extra = the first of 13 vertices: p_00 … p_33, three floats each, u running faster; then the patch's middle, the radius of a ball around it
 #ifndef BEZIER_GLSL
 #define BEZIER_GLSL
-#include "bezier_section.glsl"
-#include "ray.glsl"
+#include "shapes/bezier/section.glsl"
+#include "geometry/ray.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -47,11 +47,11 @@ BezierRow bezier_row_along(BezierRow r, vec3 o, vec3 x, vec3 y, vec3 z) {
 }
 
 // Whether the ray comes near the piece.
-bool bezier_may_hit(Primitive s, Ray ray) {
+bool bezier_reject(Primitive s, Ray ray) {
   vec3 to_middle = vec3(s.b) - ray.o;
   vec3 off = to_middle - ray.d * (dot3(to_middle, ray.d) / dot3(ray.d, ray.d));
   float reach = 1.001f * s.b.w + 16.0f * EPSILON * (max_component(abs3(to_middle)) + max_component(abs3(ray.o)));
-  return dot3(off, off) <= reach * reach;
+  return !(dot3(off, off) <= reach * reach);
 }
 
 void bezier_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
@@ -68,7 +68,7 @@ float bezier_confirm(Primitive s, BezierNet net, BezierRoot root, float hair, OU
 }
 
 float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
-  // From afar start near the patch, so that nothing cancels (object_space.glsl).
+  // From afar start near the patch, so that nothing cancels (geometry/object_space.glsl).
   uv = vec2(0.0f, 0.0f);
   vec4 patch_ball = bezier_patch(s);
   float speed = sqrt(dot3(ray.d, ray.d));
@@ -110,7 +110,7 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
 
   // Go along it in arcs as short as it takes for their cubics to tell where z has roots, up to the first root that is of this piece and not behind the
   // ray's start.
-  bool search = from <= to && !speck && bezier_may_hit(s, ray);
+  bool search = from <= to && !speck && !bezier_reject(s, ray);
   float fine = grain * s.b.w;
   BezierSection near = bezier_settle(net, s.a, tilt, from, at.uv + at.uv_slope * from, fine, search);
   BezierSection end = bezier_settle(net, s.a, tilt, to, at.uv + at.uv_slope * to, fine, search);
@@ -174,7 +174,7 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   }
 
   if (gave_up && !(t > 0.0f)) uv = vec2(maximum(start + p.x - s.b.w, 0.0f) / speed, 0.0f);
-  return t > 0.0f ? t / speed : gave_up ? T_RAN_OUT : -1.0f;
+  return t > 0.0f ? t / speed : gave_up ? T_ITERATION_LIMIT : -1.0f;
 }
 
 Surface bezier_surface(Primitive s, Ray ray, Hit hit) {

@@ -2,7 +2,7 @@
 // normal is the other one
 #ifndef BILINEAR_GLSL
 #define BILINEAR_GLSL
-#include "ray.glsl"
+#include "geometry/ray.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -23,7 +23,7 @@ float bilinear_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   vec3 p10 = vec3(s.b);
   vec3 p01 = vec3(s.c);
 
-  // From afar start near the middle, so that nothing cancels (object_space.glsl).
+  // From afar start near the middle, so that nothing cancels (geometry/object_space.glsl).
   vec3 middle = ((p00 + p11) + (p10 + p01)) * 0.25f;
   vec3 reach = (abs3(p00 - middle) + abs3(p11 - middle)) + (abs3(p10 - middle) + abs3(p01 - middle));
   vec3 to_middle = middle - ray.o;
@@ -59,7 +59,7 @@ float bilinear_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return take_first ? t0 : t1;
 }
 
-bool bilinear_may_hit(Primitive s, Ray ray) { return true; }
+bool bilinear_reject(Primitive s, Ray ray) { return false; }
 
 void bilinear_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   lower = vec3(minimum(minimum(s.a.x, s.b.x), minimum(s.c.x, s.a.w)), minimum(minimum(s.a.y, s.b.y), minimum(s.c.y, s.b.w)),

@@ -1,7 +1,7 @@
-// |x|, |y|, |z| ≤ 1 in object space (object_space.glsl).
+// |x|, |y|, |z| ≤ 1 in object space (geometry/object_space.glsl).
 #ifndef BOX_GLSL
 #define BOX_GLSL
-#include "cube.glsl"
+#include "geometry/cube.glsl"
 
 SHADER_BEGIN
 
@@ -16,7 +16,7 @@ float box_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return span.enter <= span.leave ? r.t + (enters ? span.enter : span.leave) : T_NONE;
 }
 
-bool box_may_hit(Primitive s, Ray ray) { return true; }
+bool box_reject(Primitive s, Ray ray) { return false; }
 
 void box_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 

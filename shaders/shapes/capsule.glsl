@@ -1,7 +1,7 @@
-// Within 1 of the y axis between −half and half, in object space (object_space.glsl).   parameters: half
+// Within 1 of the y axis between −half and half, in object space (geometry/object_space.glsl).   parameters: half
 #ifndef CAPSULE_GLSL
 #define CAPSULE_GLSL
-#include "object_space.glsl"
+#include "geometry/object_space.glsl"
 
 SHADER_BEGIN
 
@@ -36,7 +36,7 @@ float capsule_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return discriminant >= 0.0f && t < T_MISS ? r.t + t : T_NONE;
 }
 
-bool capsule_may_hit(Primitive s, Ray ray) { return true; }
+bool capsule_reject(Primitive s, Ray ray) { return false; }
 
 void capsule_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, object_parameters(s).x + 1.0f, 1.0f), lower, upper); }
 

@@ -1,7 +1,7 @@
-// x² + z² ≤ w², w = 1 − taper·y, 0 ≤ y ≤ 1 in object space (object_space.glsl), 0 < taper ≤ 1.   parameters: 1 where there are no caps; taper
+// x² + z² ≤ w², w = 1 − taper·y, 0 ≤ y ≤ 1 in object space (geometry/object_space.glsl), 0 < taper ≤ 1.   parameters: 1 where there are no caps; taper
 #ifndef CONE_GLSL
 #define CONE_GLSL
-#include "revolution.glsl"
+#include "geometry/revolution.glsl"
 
 SHADER_BEGIN
 
@@ -20,7 +20,7 @@ float cone_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
                               parameters.x != 0.0f, uv.x);
 }
 
-bool cone_may_hit(Primitive s, Ray ray) { return true; }
+bool cone_reject(Primitive s, Ray ray) { return false; }
 
 void cone_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 

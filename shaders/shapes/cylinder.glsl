@@ -1,7 +1,7 @@
-// x² + z² ≤ 1, |y| ≤ 1 in object space (object_space.glsl).   parameters: 1 where there are no caps
+// x² + z² ≤ 1, |y| ≤ 1 in object space (geometry/object_space.glsl).   parameters: 1 where there are no caps
 #ifndef CYLINDER_GLSL
 #define CYLINDER_GLSL
-#include "revolution.glsl"
+#include "geometry/revolution.glsl"
 
 SHADER_BEGIN
 
@@ -16,7 +16,7 @@ float cylinder_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
                               object_parameters(s).x != 0.0f, uv.x);
 }
 
-bool cylinder_may_hit(Primitive s, Ray ray) { return true; }
+bool cylinder_reject(Primitive s, Ray ray) { return false; }
 
 void cylinder_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 

@@ -1,7 +1,7 @@
-// y = 0, inner² ≤ x² + z² ≤ 1 in object space (object_space.glsl).   parameters: inner²
+// y = 0, inner² ≤ x² + z² ≤ 1 in object space (geometry/object_space.glsl).   parameters: inner²
 #ifndef DISK_GLSL
 #define DISK_GLSL
-#include "object_space.glsl"
+#include "geometry/object_space.glsl"
 
 SHADER_BEGIN
 
@@ -16,7 +16,7 @@ float disk_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return squared >= object_parameters(s).x && squared <= 1.0f ? r.t + t : -1.0f;
 }
 
-bool disk_may_hit(Primitive s, Ray ray) { return true; }
+bool disk_reject(Primitive s, Ray ray) { return false; }
 
 void disk_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 0.0f, 1.0f), lower, upper); }
 

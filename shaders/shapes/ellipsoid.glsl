@@ -1,7 +1,7 @@
-// |x| = 1 in object space (object_space.glsl).
+// |x| = 1 in object space (geometry/object_space.glsl).
 #ifndef ELLIPSOID_GLSL
 #define ELLIPSOID_GLSL
-#include "object_space.glsl"
+#include "geometry/object_space.glsl"
 
 SHADER_BEGIN
 
@@ -23,7 +23,7 @@ float ellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return discriminant >= 0.0f ? (ENTERS(ray, low) ? low : high) : T_NONE;
 }
 
-bool ellipsoid_may_hit(Primitive s, Ray ray) { return true; }
+bool ellipsoid_reject(Primitive s, Ray ray) { return false; }
 
 void ellipsoid_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 

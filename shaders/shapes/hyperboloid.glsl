@@ -1,8 +1,8 @@
-// x² + z² ≤ square·y² + waist², bottom ≤ y ≤ bottom + 2 in object space (object_space.glsl), the widest radius 1, the waist at y = 0.
+// x² + z² ≤ square·y² + waist², bottom ≤ y ≤ bottom + 2 in object space (geometry/object_space.glsl), the widest radius 1, the waist at y = 0.
 //   parameters: 1 where there are no caps; square; waist²; bottom
 #ifndef HYPERBOLOID_GLSL
 #define HYPERBOLOID_GLSL
-#include "revolution.glsl"
+#include "geometry/revolution.glsl"
 
 SHADER_BEGIN
 
@@ -23,7 +23,7 @@ float hyperboloid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return revolution_intersect(ray, r, equation, nearest, parameters.w, parameters.w + 2.0f, parameters.x != 0.0f, uv.x);
 }
 
-bool hyperboloid_may_hit(Primitive s, Ray ray) { return true; }
+bool hyperboloid_reject(Primitive s, Ray ray) { return false; }
 
 void hyperboloid_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 2.0f, 1.0f), lower, upper); }
 

@@ -1,8 +1,8 @@
-// f ≤ 0 within the cube from −1 to 1 of object space (object_space.glsl), where f is a formula of the scene.
+// f ≤ 0 within the cube from −1 to 1 of object space (geometry/object_space.glsl), where f is a formula of the scene.
 //   parameters: centre of the box, number of the formula; half its sides, Lipschitz constant; 1 where the cube is no cap
 #ifndef SHAPES_IMPLICIT_GLSL
 #define SHAPES_IMPLICIT_GLSL
-#include "implicit.glsl"
+#include "shapes/implicit/search.glsl"
 
 SHADER_BEGIN
 
@@ -40,7 +40,7 @@ float implicit_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     found = wanted ? end : found;                                                                                        \
   }
   float t = T_NONE;
-#if HAS_SOLIDS
+#if HAS_CSG
   for (uint crossings = 0u; going; crossings++) {
     FORMULAS(MARCH_ALONG)
 
@@ -54,7 +54,7 @@ float implicit_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     side = found.w;
     at_entry = false;
     going = (found.y == IMPLICIT_ITSELF || found.y == IMPLICIT_ENTRY) && (lost || PASSED(ray, t));
-    found.y = going && crossings == IMPLICIT_CROSSINGS ? IMPLICIT_RAN_OUT : found.y;
+    found.y = going && crossings == IMPLICIT_CROSSINGS ? IMPLICIT_ITERATION_LIMIT : found.y;
     going = going && crossings < IMPLICIT_CROSSINGS;
   }
 #else
@@ -63,12 +63,12 @@ float implicit_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
 #endif
 
   // Where the steps ran out there is nothing up to there.
-  bool ran_out = found.y == IMPLICIT_RAN_OUT;
-  uv = ran_out ? vec2(t, 0.0f) : found.y == IMPLICIT_ITSELF ? vec2(IMPLICIT_ITSELF, 0.0f) : cube_face(span, r, found.y == IMPLICIT_ENTRY);
-  return ran_out ? T_RAN_OUT : found.y == IMPLICIT_NOTHING ? T_NONE : t;
+  bool iteration_limit = found.y == IMPLICIT_ITERATION_LIMIT;
+  uv = iteration_limit ? vec2(t, 0.0f) : found.y == IMPLICIT_ITSELF ? vec2(IMPLICIT_ITSELF, 0.0f) : cube_face(span, r, found.y == IMPLICIT_ENTRY);
+  return iteration_limit ? T_ITERATION_LIMIT : found.y == IMPLICIT_NOTHING ? T_NONE : t;
 }
 
-bool implicit_may_hit(Primitive s, Ray ray) { return true; }
+bool implicit_reject(Primitive s, Ray ray) { return false; }
 
 void implicit_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 
@@ -107,13 +107,13 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
   // How far f's own rounding reaches nobody knows: try where rays will start.
   vec3 out_step = into_object(s, surface.normal_geometric) * surface.offset;
   float factor = 1.0f;
-#define CLEARANCE_OF(number, name)                                       \
+#define RAY_OFFSET_OF(number, name)                                       \
   {                                                                      \
     bool wanted = itself && it.formula == number;                        \
-    float found = name##_clearance(it, p, out_step, wanted);             \
+    float found = name##_ray_offset(it, p, out_step, wanted);             \
     factor = wanted ? found : factor;                                    \
   }
-  FORMULAS(CLEARANCE_OF)
+  FORMULAS(RAY_OFFSET_OF)
   surface.offset = itself ? surface.offset * (2.0f * factor + 1.0f) : surface.offset;
   return surface;
 }

@@ -1,7 +1,7 @@
-// x² + z² ≤ y ≤ 1 in object space (object_space.glsl).   parameters: 1 where there is no cap
+// x² + z² ≤ y ≤ 1 in object space (geometry/object_space.glsl).   parameters: 1 where there is no cap
 #ifndef PARABOLOID_GLSL
 #define PARABOLOID_GLSL
-#include "revolution.glsl"
+#include "geometry/revolution.glsl"
 
 SHADER_BEGIN
 
@@ -20,7 +20,7 @@ float paraboloid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
                               object_parameters(s).x != 0.0f, uv.x);
 }
 
-bool paraboloid_may_hit(Primitive s, Ray ray) { return true; }
+bool paraboloid_reject(Primitive s, Ray ray) { return false; }
 
 void paraboloid_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 

@@ -1,7 +1,7 @@
 // a, b, c = the origin and the ends of the edges along u and v; their w's are the unit geometric normal.   extra: the fourth corner
 #ifndef PARALLELOGRAM_GLSL
 #define PARALLELOGRAM_GLSL
-#include "outline.glsl"
+#include "geometry/outline.glsl"
 
 SHADER_BEGIN
 
@@ -25,7 +25,7 @@ float parallelogram_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return inside ? t : -1.0f;
 }
 
-bool parallelogram_may_hit(Primitive s, Ray ray) { return true; }
+bool parallelogram_reject(Primitive s, Ray ray) { return false; }
 
 void parallelogram_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   vec3 d = vec3(bits_to_floats(load_vertex(s.head.w)));

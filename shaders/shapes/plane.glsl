@@ -1,7 +1,7 @@
 // n·x = d.   a = n, d    b = U, U0    c = V, V0: u = U·x + U0, v = V·x + V0
 #ifndef PLANE_GLSL
 #define PLANE_GLSL
-#include "ray.glsl"
+#include "geometry/ray.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -13,8 +13,8 @@ float plane_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return (s.a.w - dot3(n, ray.o)) / dot3(n, ray.d);
 }
 
-// Never asked: what is unbounded is in no tree.
-bool plane_may_hit(Primitive s, Ray ray) { return true; }
+// Never asked: what is unbounded is in no BVH.
+bool plane_reject(Primitive s, Ray ray) { return false; }
 void plane_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   lower = vec3(-T_MISS, -T_MISS, -T_MISS);
   upper = vec3(T_MISS, T_MISS, T_MISS);

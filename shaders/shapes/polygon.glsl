@@ -4,7 +4,7 @@
 // that the two cancel to the last bit. Where it is done it stays.
 #ifndef POLYGON_GLSL
 #define POLYGON_GLSL
-#include "outline.glsl"
+#include "geometry/outline.glsl"
 
 SHADER_BEGIN
 
@@ -31,7 +31,7 @@ float polygon_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return inside ? t : -1.0f;
 }
 
-bool polygon_may_hit(Primitive s, Ray ray) { return true; }
+bool polygon_reject(Primitive s, Ray ray) { return false; }
 
 void polygon_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   lower = vec3(s.b) - vec3(s.c);

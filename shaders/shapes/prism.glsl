@@ -1,9 +1,9 @@
-// A polygon of the xz plane from y = −1 to y = 1 in object space (object_space.glsl), |x|, |z| ≤ 1.
+// A polygon of the xz plane from y = −1 to y = 1 in object space (geometry/object_space.glsl), |x|, |z| ≤ 1.
 //   parameters: number of walls, height; U, u0 and V, v0 (u = U·(x, z) + u0, v = V·(x, z) + v0 on the caps); x, z of both ends of each wall; then
 //   of each wall u at both ends and the x, z of its unit normal.
 #ifndef PRISM_GLSL
 #define PRISM_GLSL
-#include "object_space.glsl"
+#include "geometry/object_space.glsl"
 
 SHADER_BEGIN
 
@@ -41,7 +41,7 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
 
   bool enters = false;
   bool leaves = false;
-#if HAS_SOLIDS
+#if HAS_CSG
   bool inside = false;  // having crossed what is not beyond AFTER(ray)
 #endif
   float nearest = T_MISS;
@@ -63,7 +63,7 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     nearest = nearer ? distance : nearest;
     uv.x = nearer ? wall : uv.x;
     wall += 1.0f;
-#if HAS_SOLIDS
+#if HAS_CSG
     inside = inside != (passed && distance >= enter && distance < leave && r.t + distance <= AFTER(ray));
 #endif
   }
@@ -75,7 +75,7 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   bool last = leaves && r.t + leave > AFTER(ray) && leave < nearest;
   nearest = last ? leave : nearest;
   uv.x = last ? (upwards ? PRISM_TOP : PRISM_BOTTOM) : uv.x;
-#if HAS_SOLIDS
+#if HAS_CSG
   // Where it crosses two walls at the same t, at a vertex or where the prism is thin, the second is still to come: at the next t there is.
   inside = inside != (enters && r.t + enter <= AFTER(ray));
   inside = inside != (leaves && r.t + leave <= AFTER(ray));
@@ -85,7 +85,7 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return nearest < T_MISS ? r.t + nearest : T_NONE;
 }
 
-bool prism_may_hit(Primitive s, Ray ray) { return true; }
+bool prism_reject(Primitive s, Ray ray) { return false; }
 
 void prism_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 

@@ -1,9 +1,9 @@
 // f(x, y, z) = A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + J z + K ≤ 0 within the cube from −1 to 1 of object space
-// (object_space.glsl), the largest of the coefficients ±1.   parameters: A, B, C, 1 where the cube is no cap; D, E, F, K; G, H, J
+// (geometry/object_space.glsl), the largest of the coefficients ±1.   parameters: A, B, C, 1 where the cube is no cap; D, E, F, K; G, H, J
 #ifndef QUADRIC_GLSL
 #define QUADRIC_GLSL
-#include "clipped_quadric.glsl"
-#include "cube.glsl"
+#include "geometry/clipped_quadric.glsl"
+#include "geometry/cube.glsl"
 
 SHADER_BEGIN
 
@@ -51,7 +51,7 @@ float quadric_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return nearest < T_MISS ? r.t + nearest : T_NONE;
 }
 
-bool quadric_may_hit(Primitive s, Ray ray) { return true; }
+bool quadric_reject(Primitive s, Ray ray) { return false; }
 
 void quadric_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 

@@ -21,23 +21,23 @@
   X(superellipsoid, 16u) \
   X(bilinear, 17u) \
   X(implicit, 18u) \
-  X(solid, 19u) \
+  X(csg, 19u) \
   X(bezier, 20u)
 #endif
 
-// Those that take long: in a tree that holds others too, rays wait with them for each other (traverse.glsl). A specialised kernel overrides this
-// list too, and has the others of its trees as QUICK_SHAPES.
-#ifndef SLOW_SHAPES
-#define SLOW_SHAPES(X) \
+// Those that take long: in a BVH that holds others too, rays wait with them for each other (bvh/traverse.glsl). A specialised kernel overrides this
+// list too, and has the others of its BVHs as IMMEDIATE_SHAPES.
+#ifndef DEFERRED_SHAPES
+#define DEFERRED_SHAPES(X) \
   X(torus, 15u) \
   X(superellipsoid, 16u) \
   X(implicit, 18u) \
-  X(solid, 19u) \
+  X(csg, 19u) \
   X(bezier, 20u)
 #endif
 
-// Those that enclose a volume, where they have no `open`: what solids are made of. Their rows stand before that of solid, which asks them.
-// A specialised kernel overrides this list too, with those that its scene's solids are made of.
+// Those that enclose a volume, where they have no `open`: what CSG objects are made of. Their rows stand before that of CSG object, which asks them.
+// A specialised kernel overrides this list too, with those that its scene's CSG objects are made of.
 #ifndef CLOSED_SHAPES
 #define CLOSED_SHAPES(X) \
   X(sphere, 0u) \

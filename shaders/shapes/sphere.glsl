@@ -2,7 +2,7 @@
 // Roots after Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection" (Ray Tracing Gems, 7).
 #ifndef SPHERE_GLSL
 #define SPHERE_GLSL
-#include "ray.glsl"
+#include "geometry/ray.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -45,7 +45,7 @@ vec2 sphere_uv(Primitive s, vec3 n) {
   return vec2(u < 1.0f ? u : 0.0f, atan_yx(sqrt(x * x + z * z), -y) / PI);
 }
 
-bool sphere_may_hit(Primitive s, Ray ray) { return sphere_discriminant(s, ray) >= 0.0f; }
+bool sphere_reject(Primitive s, Ray ray) { return !(sphere_discriminant(s, ray) >= 0.0f); }
 
 void sphere_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   vec3 r = vec3(s.a.w, s.a.w, s.a.w);
@@ -55,7 +55,7 @@ void sphere_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
 
 Surface sphere_surface(Primitive s, Ray ray, Hit hit) {
   vec3 centre = vec3(s.a);
-  // A sphere smaller than the rounding of its distance may be met at its very centre.
+  // A sphere smaller than the rounding of its distance may be hit at its very centre.
   vec3 from_centre = (ray.o - centre) + ray.d * hit.t;
   vec3 n = dot3(from_centre, from_centre) > 0.0f ? normalize3(from_centre) : -ray.d;
 

@@ -1,7 +1,7 @@
-// ‖‖x, z‖_p, y‖_q ≤ 1 in object space (object_space.glsl), where ‖a, b‖_n = (|a|^n + |b|^n)^(1/n), p, q ≥ 1.   parameters: p, q
+// ‖‖x, z‖_p, y‖_q ≤ 1 in object space (geometry/object_space.glsl), where ‖a, b‖_n = (|a|^n + |b|^n)^(1/n), p, q ≥ 1.   parameters: p, q
 #ifndef SUPERELLIPSOID_GLSL
 #define SUPERELLIPSOID_GLSL
-#include "object_space.glsl"
+#include "geometry/object_space.glsl"
 
 SHADER_BEGIN
 
@@ -28,9 +28,9 @@ vec4 superellipsoid_norm(vec3 p, vec4 parameters) {
   return vec4(p.x < 0.0f ? -x : x, p.y < 0.0f ? -whole.z : whole.z, p.z < 0.0f ? -z : z, whole.x);
 }
 
-// A norm is convex along a ray. From where the ray meets the cube around the shape, on the way in or if it starts inside on the way out, Newton's
+// A norm is convex along a ray. From where the ray hits the cube around the shape, on the way in or if it starts inside on the way out, Newton's
 // steps come towards the surface and never past it; where there is none they pass the least value, and the slope turns. Where they run out
-// the ray has met nothing yet.
+// the ray has hit nothing yet.
 float superellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uv = vec2(0.0f, 0.0f);
   vec4 parameters = object_parameters(s);
@@ -43,30 +43,30 @@ float superellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float far = minimum(minimum(maximum(a.x, b.x), maximum(a.y, b.y)), maximum(a.z, b.z));
   float start = -r.t;
   bool inside = near < start && start < far && superellipsoid_norm(r.o, parameters).w < 1.0f;
-#if HAS_SOLIDS
+#if HAS_CSG
   start = ray.side == SIDE_UNKNOWN ? start : T_NONE;
   inside = ray.side == SIDE_UNKNOWN ? inside : ray.side == SIDE_INSIDE;
 #endif
 
   float x = inside ? far : maximum(near, start);
-  bool meets = x <= far;
+  bool hits = x <= far;
   float excess = 1.0f;
-  for (uint i = 0u; i < SUPERELLIPSOID_STEPS && meets && excess > 4.0f * EPSILON; i++) {
+  for (uint i = 0u; i < SUPERELLIPSOID_STEPS && hits && excess > 4.0f * EPSILON; i++) {
     vec4 norm = superellipsoid_norm(r.o + r.d * x, parameters);
     float slope = dot3(vec3(norm), r.d);
     excess = norm.w - 1.0f;
     bool towards = inside ? slope > 0.0f : slope < 0.0f;
-    meets = inside || towards || excess <= 4.0f * EPSILON;
+    hits = inside || towards || excess <= 4.0f * EPSILON;
     x = towards ? x - excess / slope : x;
     excess = inside && !towards ? 0.0f : excess;
-    meets = meets && (inside || x <= far);
+    hits = hits && (inside || x <= far);
   }
   uv.x = inside ? 0.0f : r.t + x;
   // Not as !(…) in front: Mesa 22.3.6 takes the opposite comparison then, which NaN passes.
-  return meets && x > start ? (excess > 4.0f * EPSILON ? T_RAN_OUT : r.t + x) : T_NONE;
+  return hits && x > start ? (excess > 4.0f * EPSILON ? T_ITERATION_LIMIT : r.t + x) : T_NONE;
 }
 
-bool superellipsoid_may_hit(Primitive s, Ray ray) { return true; }
+bool superellipsoid_reject(Primitive s, Ray ray) { return false; }
 
 void superellipsoid_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper);

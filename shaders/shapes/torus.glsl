@@ -1,7 +1,7 @@
-// (√(x² + z²) − 1)² + y² = minor² in object space (object_space.glsl), minor < 1.   parameters: minor
+// (√(x² + z²) − 1)² + y² = minor² in object space (geometry/object_space.glsl), minor < 1.   parameters: minor
 #ifndef TORUS_GLSL
 #define TORUS_GLSL
-#include "object_space.glsl"
+#include "geometry/object_space.glsl"
 
 SHADER_BEGIN
 
@@ -51,7 +51,7 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float begin = maximum(from, -end);
   bool inside = from > -end && torus_depth(r.o, minor) < 0.0f;
   float since = begin;  // what turns before it has been passed
-#if HAS_SOLIDS
+#if HAS_CSG
   // Whoever asks, the stretches are those of the whole line.
   begin = ray.side == SIDE_UNKNOWN ? begin : -end;
   inside = ray.side == SIDE_UNKNOWN ? inside : ray.side == SIDE_INSIDE;
@@ -76,12 +76,12 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   bool past2 = c2 > since && (torus_depth(o + d * c2, minor) < 0.0f) != inside;
   float low = past0 ? begin : past1 ? c0 : past2 ? c1 : c2;
   float high = past0 ? c0 : past1 ? c1 : past2 ? c2 : end;
-  bool meets = half_chord >= 0.0f && begin < end && (past0 || past1 || past2 || inside);
+  bool hits = half_chord >= 0.0f && begin < end && (past0 || past1 || past2 || inside);
 
   // Newton's method on the depth, or bisection where that leaves the stretch or gains too little.
   float x = 0.5f * (low + high);
   float before = high - low;
-  float step = meets ? before : 0.0f;
+  float step = hits ? before : 0.0f;
   for (uint i = 0u; i < TORUS_STEPS && abs(step) > 4.0f * EPSILON; i++) {
     vec3 at = o + d * x;
     float distance = sqrt(at.x * at.x + at.z * at.z);
@@ -99,13 +99,13 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     step = next - x;
     x = next;
   }
-  bool found = abs(step) <= 4.0f * EPSILON;
-  float t = ((found ? x : low) - start) * slowness;
-  uv.x = found ? t : r.t + t;
-  return !meets ? T_NONE : found ? r.t + t : T_RAN_OUT;
+  bool state = abs(step) <= 4.0f * EPSILON;
+  float t = ((state ? x : low) - start) * slowness;
+  uv.x = state ? t : r.t + t;
+  return !hits ? T_NONE : state ? r.t + t : T_ITERATION_LIMIT;
 }
 
-bool torus_may_hit(Primitive s, Ray ray) { return true; }
+bool torus_reject(Primitive s, Ray ray) { return false; }
 
 void torus_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   float minor = object_parameters(s).x;

@@ -2,7 +2,7 @@
 // Parameters of a hit: the weights of the second and third vertex.
 #ifndef TRIANGLE_GLSL
 #define TRIANGLE_GLSL
-#include "ray.glsl"
+#include "geometry/ray.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -41,7 +41,7 @@ bool triangle_inside(TriangleEdges edges) {
 // How far along the ray, where the edge functions say "inside".
 // There, the triangle is its plane: near the plane, and for slivers, this is far more exact than the weighted mean of the vertices'
 // distances, and a ray that starts off the plane on the far side has t ≤ 0 for certain. But along a ray that grazes the plane, t may
-// come out anywhere, and where products round to the same, edges reach far past their ends. A tree would miss what brute force finds
+// come out anywhere, and where products round to the same, edges reach far past their ends. A BVH would miss what brute force finds
 // there. So the triangle is cut by a plane through the ray and the x or y axis: a ray that has all vertices on one side of it misses,
 // for a product never rounds past another, and else t is brought to between the two points where edges cross it. Every hit then lies
 // on the triangle, up to a few roundings of what is farthest along the ray: within the box of any part that the triangle may be cut
@@ -98,8 +98,8 @@ float triangle_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return triangle_intersect_woop(s, ray, uv);
 }
 
-bool triangle_may_hit(Primitive s, Ray ray) {
-  return TRIANGLE_METHOD == TRIANGLE_MOLLER_TRUMBORE || triangle_inside(triangle_edges(s, ray));
+bool triangle_reject(Primitive s, Ray ray) {
+  return TRIANGLE_METHOD != TRIANGLE_MOLLER_TRUMBORE && !triangle_inside(triangle_edges(s, ray));
 }
 
 void triangle_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {

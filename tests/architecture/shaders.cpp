@@ -1,6 +1,6 @@
 // What shader files may hold, so that they mean the same as GLSL and as C++, on every driver.
 #include "sources.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray::test;
 
@@ -12,7 +12,7 @@ bool entry(const SourceFile& file) {
 
 // The self-test is no shader of pictures: it asks the driver about its arithmetic.
 bool self_test(const SourceFile& file) {
-  return file.path == "shaders/selftest.comp.glsl";
+  return file.path == "shaders/kernels/selftest.comp.glsl";
 }
 
 // The lines of code that have `pattern` in them, of the files that `filter` picks.
@@ -30,9 +30,9 @@ std::string find_code(const std::regex& pattern, const Filter& filter) {
 
 }  // namespace
 
-TEST_CASE("only entries and bindings.glsl are GLSL alone: version, extensions, layouts, main") {
+TEST_CASE("only entries and kernels/bindings.glsl are GLSL alone: version, extensions, layouts, main") {
   const auto common = [](const SourceFile& file) {
-    return !entry(file) && file.path != "shaders/bindings.glsl";
+    return !entry(file) && file.path != "shaders/kernels/bindings.glsl";
   };
   CHECK(find_code(std::regex(R"(#\s*(version|extension)\b)"), common) == "");
   CHECK(find_code(std::regex(R"(\blayout\s*\()"), common) == "");
@@ -51,11 +51,14 @@ TEST_CASE("nothing is left to the driver's built-in functions but abs, floor, sq
       R"(texture|packHalf\w+|packUnorm\w+|packSnorm\w+|unpack\w+)\s*\()");
   CHECK(find_code(loose, [](const SourceFile& file) { return !self_test(file); }) == "");
   // Lanes talk to each other, and paths enter themselves in lists, in the entries that are about it.
-  const auto no_wave = [](const SourceFile& file) { return file.path != "shaders/wave.comp.glsl"; };
-  CHECK(find_code(std::regex(R"(\batomic\w+\s*\()"), no_wave) == "");
+  const auto no_wavefront = [](const SourceFile& file) {
+    return file.path != "shaders/kernels/wavefront.comp.glsl";
+  };
+  CHECK(find_code(std::regex(R"(\batomic\w+\s*\()"), no_wavefront) == "");
   const auto alone = [](const SourceFile& file) {
-    return !self_test(file) && file.path != "shaders/subgroup.glsl" && file.path != "shaders/packet.glsl" &&
-           file.path != "shaders/wide.comp.glsl";
+    return !self_test(file) && file.path != "shaders/kernels/cooperative/subgroup.glsl" &&
+           file.path != "shaders/kernels/cooperative/packet.glsl" &&
+           file.path != "shaders/kernels/cooperative/bvh4.comp.glsl";
   };
   CHECK(find_code(std::regex(R"(\bsubgroup\w+\s*\()"), alone) == "");
 }

@@ -1,15 +1,15 @@
-#include "bench/batch.hpp"
+#include "host/bench/batch.hpp"
 
 #include <fmt/format.h>
 
 #include <set>
 
-#include "generate/octasphere.hpp"
-#include "loader/scene_file.hpp"
-#include "reference/tracer.hpp"
-#include "rivals/embree.hpp"
+#include "host/contenders/embree.hpp"
+#include "host/generate/octasphere.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/reference/tracer.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -41,7 +41,7 @@ Scene sphere(bool as_mesh) {
   return scene;
 }
 
-std::vector<Departure> departures_of(const Scene& scene, const Batch& primary) {
+std::vector<SurfacePosition> departures_of(const Scene& scene, const Batch& primary) {
   const Embree embree(scene);
   std::vector<QueryHit> hits(primary.rays.size());
   embree.query(primary.rays, QueryKind::nearest, hits, EmbreeCalls::one, true);
@@ -129,7 +129,7 @@ material = "m"
     }
     return departures(scene, primary.rays, hits);
   };
-  const std::vector<Departure> a = leaving(once), b = leaving(flat);
+  const std::vector<SurfacePosition> a = leaving(once), b = leaving(flat);
   REQUIRE(a.size() == b.size());
   CHECK(met.size() > 150);
   double apart = 0;
@@ -144,10 +144,10 @@ TEST_CASE("rays leave surfaces outward, and shadow rays end at the light") {
   for (const bool as_mesh : {false, true}) {
     const Scene scene = sphere(as_mesh);
     const Batch primary = primary_batch(scene, 64, 64);
-    const std::vector<Departure> from = departures_of(scene, primary);
+    const std::vector<SurfacePosition> from = departures_of(scene, primary);
     CHECK(from.size() > 500);
     CHECK(from.size() < 4096);
-    for (const Departure& each : from) {
+    for (const SurfacePosition& each : from) {
       CHECK(glm::length(each.position) > (as_mesh ? 0.99 : 1.0));
       CHECK(glm::length(each.position) < 1.0001);
       CHECK(glm::dot(each.normal, each.position) > 0.9);
@@ -175,8 +175,8 @@ TEST_CASE("rays leave surfaces outward, and shadow rays end at the light") {
 }
 
 TEST_CASE("bounces are distributed as the cosine, and the same for the same seed") {
-  const std::vector<Departure> from = [] {
-    std::vector<Departure> made;
+  const std::vector<SurfacePosition> from = [] {
+    std::vector<SurfacePosition> made;
     for (uint32_t i = 0; i < 100'000; ++i) made.push_back({i, Vec3(0.0), glm::normalize(Vec3(1, 2, 3))});
     return made;
   }();

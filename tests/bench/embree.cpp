@@ -1,12 +1,12 @@
 // Embree's hits on our scenes are those that float64 finds one shape at a time.
-#include "rivals/embree.hpp"
+#include "host/contenders/embree.hpp"
 
-#include "generate/octasphere.hpp"
-#include "loader/scene_file.hpp"
-#include "scene/shape.hpp"
-#include "support/random.hpp"
+#include "host/generate/octasphere.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/scene/shape.hpp"
+#include "tests/support/random.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using eyeray::test::Random;

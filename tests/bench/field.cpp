@@ -1,11 +1,11 @@
-#include "bench/field.hpp"
+#include "host/bench/field.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "bench/svg.hpp"
-#include "support/process.hpp"
+#include "host/bench/svg.hpp"
+#include "tests/support/process.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using eyeray::test::TemporaryFolder;
@@ -14,20 +14,21 @@ using eyeray::test::write_text;
 namespace {
 
 FieldReport sample(double our_seconds) {
-  const auto lap = [](const char* name, Side side, double seconds) {
-    return Lap{name, side, {seconds, seconds * 0.9, seconds * 1.1}, side == Side::ours ? 3u : 0u};
+  const auto timing = [](const char* name, ContenderKind kind, double seconds) {
+    return Timing{name, kind, {seconds, seconds * 0.9, seconds * 1.1}, kind == ContenderKind::ours ? 3u : 0u};
   };
   FieldReport report;
   for (const uint64_t size : {1000u, 1000000u}) {
-    report.push_back(
-        {"terrain <" + std::to_string(size) + ">",
-         "terrain",
-         size,
-         {{"Embree", 0.5, size * 80}},
-         {{"primary",
-           1'000'000,
-           {lap("Embree single", Side::single, 0.1), lap("gpu", Side::ours, our_seconds),
-            lap("Embree packets of 8", Side::packet, 0.05), lap("Embree streams", Side::packet, 0.04)}}}});
+    report.push_back({"terrain <" + std::to_string(size) + ">",
+                      "terrain",
+                      size,
+                      {{"Embree", 0.5, size * 80}},
+                      {{"primary",
+                        1'000'000,
+                        {timing("Embree single", ContenderKind::single, 0.1),
+                         timing("gpu", ContenderKind::ours, our_seconds),
+                         timing("Embree packets of 8", ContenderKind::packet, 0.05),
+                         timing("Embree streams", ContenderKind::packet, 0.04)}}}});
   }
   return report;
 }
@@ -40,13 +41,13 @@ size_t count(const std::string& text, const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("ratios are with the fastest of a side") {
+TEST_CASE("ratios are with the fastest of a kind") {
   const BatchReport batch = sample(0.08)[0].batches[0];
-  CHECK(rate(batch, batch.laps[0]) == doctest::Approx(1e7));
-  CHECK(times_as_fast(batch, batch.laps[1], Side::single) == doctest::Approx(1.25));
-  CHECK(times_as_fast(batch, batch.laps[1], Side::packet) == doctest::Approx(0.5));
-  CHECK(fastest(batch, Side::packet)->contender == "Embree streams");
-  CHECK(fastest({}, Side::ours) == nullptr);
+  CHECK(rate(batch, batch.timings[0]) == doctest::Approx(1e7));
+  CHECK(times_as_fast(batch, batch.timings[1], ContenderKind::single) == doctest::Approx(1.25));
+  CHECK(times_as_fast(batch, batch.timings[1], ContenderKind::packet) == doctest::Approx(0.5));
+  CHECK(fastest(batch, ContenderKind::packet)->contender == "Embree streams");
+  CHECK(fastest({}, ContenderKind::ours) == nullptr);
 }
 
 TEST_CASE("the table has a row for each of ours and single rays, and one for the fastest packets") {
@@ -69,8 +70,8 @@ TEST_CASE("a report survives JSON, and --compare says what changed") {
   const FieldReport old = read_field_report(file);
   REQUIRE(old.size() == 2);
   CHECK(old[1].builds[0].bytes == 80'000'000);
-  CHECK(old[1].batches[0].laps[3].side == Side::packet);
-  CHECK(old[1].batches[0].laps[1].seconds.max == doctest::Approx(0.11));
+  CHECK(old[1].batches[0].timings[3].kind == ContenderKind::packet);
+  CHECK(old[1].batches[0].timings[1].seconds.max == doctest::Approx(0.11));
 
   const std::string same = changes(old, sample(0.1));
   CHECK(count(same, "+0.0 %  within the spread") == 8);

@@ -1,9 +1,9 @@
-#include "bench/standard_scenes.hpp"
-#include "generate/octasphere.hpp"
-#include "loader/scene_file.hpp"
-#include "rivals/povray_scene.hpp"
+#include "host/bench/standard_scenes.hpp"
+#include "host/contenders/povray_scene.hpp"
+#include "host/generate/octasphere.hpp"
+#include "host/loader/scene_file.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -22,7 +22,7 @@ target = [0, 0, 0]
 fov = 90
 [render]
 max_depth = 3
-min_weight = 0.01
+min_throughput = 0.01
 background = [0.1, 0.2, 0.3]
 ambient = 0.5
 [[light]]
@@ -191,7 +191,8 @@ material = "m"
 }
 
 TEST_CASE(
-    "a solid in POV-Ray's words: what it is made of, each part with its texture, less what is taken away") {
+    "a CSG object in POV-Ray's words: what it is made of, each part with its texture, less what is taken "
+    "away") {
   const std::string text = povray_scene(parse_scene(R"([camera]
 eye = [0, 0, 5]
 target = [0, 0, 0]
@@ -201,17 +202,17 @@ type = "phong"
 [[material]]
 name = "n"
 type = "phong"
-[[solid]]
+[[csg]]
 operation = "intersection"
 material = "m"
-[[solid.sphere]]
+[[csg.sphere]]
 center = [0, 0, 0]
 radius = 1
-[[solid.box]]
+[[csg.box]]
 min = [-1, -1, -1]
 max = [1, 1, 1]
-[[solid.minus.solid]]
-[[solid.minus.solid.sphere]]
+[[csg.minus.csg]]
+[[csg.minus.csg.sphere]]
 material = "n"
 radius = 0.5
 batch = { center = [[1, 0, 0], [-1, 0, 0]] }

@@ -1,19 +1,19 @@
-#include "bench/race.hpp"
+#include "host/bench/race.hpp"
 
 #include <cmath>
 
-#include "bench/field_run.hpp"
-#include "bench/standard_scenes.hpp"
-#include "loader/scene_file.hpp"
+#include "host/bench/field_run.hpp"
+#include "host/bench/standard_scenes.hpp"
+#include "host/loader/scene_file.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
 TEST_CASE("contenders take turns after a round that does not count, and are compared with the first") {
   std::string order;
   const auto contender = [&](char letter, double last_t) {
-    return Contender{std::string(1, letter), Side::ours,
+    return Contender{std::string(1, letter), ContenderKind::ours,
                      [&order, letter, last_t](const Batch&, std::span<QueryHit> hits) {
                        order += letter;
                        for (QueryHit& hit : hits) hit = {1, 0};
@@ -24,14 +24,14 @@ TEST_CASE("contenders take turns after a round that does not count, and are comp
   const Contender contenders[] = {contender('a', 2), contender('b', HUGE_VAL)};
   Batch batch;
   batch.rays.resize(5);
-  const std::vector<Lap> laps = race(batch, contenders, 3);
+  const std::vector<Timing> timings = race(batch, contenders, 3);
   CHECK(order == "abababab");
-  REQUIRE(laps.size() == 2);
-  CHECK(laps[0].seconds.median == 5);
-  CHECK(laps[0].seconds.min == 3);
-  CHECK(laps[1].seconds.max == 8);
-  CHECK(laps[0].differing == 0);
-  CHECK(laps[1].differing == 1);
+  REQUIRE(timings.size() == 2);
+  CHECK(timings[0].seconds.median == 5);
+  CHECK(timings[0].seconds.min == 3);
+  CHECK(timings[1].seconds.max == 8);
+  CHECK(timings[0].differing == 0);
+  CHECK(timings[1].differing == 1);
 }
 
 TEST_CASE("hits agree to a thousandth, and a miss with a miss alone") {
@@ -55,7 +55,7 @@ TEST_CASE("a run builds, races all batches, and lists every contender") {
   const Scene scene = find_standard_scene("terrain-51k")->make();
   CHECK(scene.primitive_count() == 51'200);
   int asked = 0;
-  const Contender ours{"ours", Side::ours, [&](const Batch& batch, std::span<QueryHit> hits) {
+  const Contender ours{"ours", ContenderKind::ours, [&](const Batch& batch, std::span<QueryHit> hits) {
                          ++asked;
                          CHECK(batch.rays.size() == hits.size());
                          for (QueryHit& hit : hits) hit = {HUGE_VAL, -1};
@@ -71,13 +71,13 @@ TEST_CASE("a run builds, races all batches, and lists every contender") {
   CHECK(report.batches[0].name == "primary");
   CHECK(report.batches[0].rays == 1200);
   for (const BatchReport& batch : report.batches) {
-    REQUIRE(batch.laps.size() == 5);
-    CHECK(batch.laps[0].side == Side::single);
-    CHECK(batch.laps[1].contender == "ours");
-    CHECK(batch.laps[1].differing > 10);  // it says that nothing is ever hit
-    CHECK(batch.laps[2].differing <= 2);
-    CHECK(fastest(batch, Side::packet) != nullptr);
-    CHECK(times_as_fast(batch, batch.laps[1], Side::single) < 0.1);
+    REQUIRE(batch.timings.size() == 5);
+    CHECK(batch.timings[0].kind == ContenderKind::single);
+    CHECK(batch.timings[1].contender == "ours");
+    CHECK(batch.timings[1].differing > 10);  // it says that nothing is ever hit
+    CHECK(batch.timings[2].differing <= 2);
+    CHECK(fastest(batch, ContenderKind::packet) != nullptr);
+    CHECK(times_as_fast(batch, batch.timings[1], ContenderKind::single) < 0.1);
   }
   // A surface without a light casts no shadow rays.
   Scene dark = find_standard_scene("terrain-51k")->make();

@@ -1,10 +1,10 @@
 // The world's faults: each has its words and its exit code, and leaves nothing behind.
 #include <nlohmann/json.hpp>
 
-#include "core/image_file.hpp"
+#include "host/image/image_file.hpp"
 #include "scene.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -239,13 +239,14 @@ TEST_CASE("a kernel of the user's that reads no push constants runs; one that wa
       "}\n");
   CAPTURE(other.err);
   CHECK(other.code == 2);
-  CHECK(other.err.find("kernel 'render.comp.glsl' declares 4 bytes of push constants, and is given 32") !=
+  CHECK(other.err.find(
+            "kernel 'kernels/render.comp.glsl' declares 4 bytes of push constants, and is given 32") !=
         std::string::npos);
   const ProcessResult unknown = render(
       "layout(std430, binding = 99) buffer More { uint more[]; };\nvoid main() { words[0] = more[0]; }\n");
   CAPTURE(unknown.err);
   CHECK(unknown.code == 2);
-  CHECK(unknown.err.find("kernel 'render.comp.glsl' reads binding 99") != std::string::npos);
+  CHECK(unknown.err.find("kernel 'kernels/render.comp.glsl' reads binding 99") != std::string::npos);
 }
 
 TEST_CASE("a shader that loops for ever is given up after --timeout") {

@@ -3,7 +3,7 @@
 
 #include "scene.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -56,11 +56,11 @@ TEST_CASE("rays are raced beside Embree, plotted, and compared with an older run
   for (const auto& scene : field) {
     for (const auto& batch : scene.at("batches")) {
       CHECK(batch.at("rays") > 100);
-      for (const auto& lap : batch.at("laps")) {
-        CHECK(lap.at("rays_per_second") > 1000);
-        CHECK(lap.at("seconds").at("min") <= lap.at("seconds").at("max"));
+      for (const auto& timing : batch.at("timings")) {
+        CHECK(timing.at("rays_per_second") > 1000);
+        CHECK(timing.at("seconds").at("min") <= timing.at("seconds").at("max"));
         // Rays to edges may go either way.
-        CHECK(lap.at("differing").get<double>() <= 0.01 * batch.at("rays").get<double>());
+        CHECK(timing.at("differing").get<double>() <= 0.01 * batch.at("rays").get<double>());
       }
     }
   }
@@ -155,22 +155,22 @@ TEST_CASE("bench as text, and a scene that is not there") {
   CHECK(run_eyeray({"bench", folder / "nope.toml"}).code == 4);
 }
 
-TEST_CASE("each way to trace rays that part races by itself; an unknown one is refused") {
+TEST_CASE("each way to trace incoherent rays races by itself; an unknown one is refused") {
   const auto race = [](const std::string& ways) {
     return run_eyeray({"bench", "terrain-51k", "-n", "1", "-s", "64x48", "--no-pictures", "--no-start",
-                       "--scattered", ways, "--json"});
+                       "--incoherent", ways, "--json"});
   };
-  const ProcessResult result = race("wide,lanes");
+  const ProcessResult result = race("cooperative,lanes");
   CAPTURE(result.err);
   REQUIRE(result.code == 0);
   const auto builds = nlohmann::json::parse(result.out).at("field").at(0).at("builds");
   REQUIRE(builds.size() == 3);
-  CHECK(builds.at(1).at("contender") == "gpu wide");
+  CHECK(builds.at(1).at("contender") == "gpu cooperative");
   CHECK(builds.at(2).at("contender") == "gpu lanes");
-  // The wide tree is counted with what it was made of.
+  // The BVH4 is counted with what it was made of.
   CHECK(builds.at(1).at("bytes") > builds.at(2).at("bytes"));
 
   const ProcessResult refused = race("wider");
   CHECK(refused.code == 2);
-  CHECK(refused.err.find("--scattered is wide, lanes or packets, not 'wider'") != std::string::npos);
+  CHECK(refused.err.find("--incoherent is cooperative, lanes or packets, not 'wider'") != std::string::npos);
 }

@@ -2,9 +2,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "support/process.hpp"
+#include "tests/support/process.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -1,10 +1,10 @@
 // eyeray dev, end to end: edits, broken and endless shaders, Ctrl-C.
 #include <csignal>
 
-#include "core/image_file.hpp"
+#include "host/image/image_file.hpp"
 #include "scene.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -109,7 +109,7 @@ TEST_CASE("dev renders on every save, and outlives what it renders") {
 
 TEST_CASE("dev stops a shader that never ends, and renders again once it is mended") {
   const SceneFolder folder;
-  const std::string pixel = folder / "shaders/pixel.glsl";
+  const std::string pixel = folder / "shaders/kernels/pixel.glsl";
   replace_in_file(folder.scene(), "width = 64\nheight = 48", "width = 256\nheight = 256");
   export_endless_shaders(folder / "shaders");
   Dev dev(folder, "4");

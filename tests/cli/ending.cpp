@@ -5,7 +5,7 @@
 
 #include "scene.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

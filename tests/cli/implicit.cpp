@@ -5,7 +5,7 @@
 
 #include "scene.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -93,15 +93,16 @@ TEST_CASE("a function that is not a number is no surface, and no NaN in the pict
 }
 
 TEST_CASE(
-    "a part of a solid that is crossed more often than is counted runs out, and the picture says where") {
+    "a part of a CSG object that is crossed more often than is counted runs out, and the picture says "
+    "where") {
   // Thousands of sheets in front of the ball that they are cut to, with a Lipschitz constant and without.
   for (const std::string lipschitz : {"lipschitz = 6000", ""}) {
     CAPTURE(lipschitz);
     const FormulaFolder folder("float f(vec3 p) { return sin(6000.0 * p.z); }\n", lipschitz);
     replace_in_file(folder.scene(), "[[implicit]]",
-                    "[[solid]]\noperation = \"intersection\"\nmaterial = \"matte\"\n[[solid.sphere]]\ncenter "
+                    "[[csg]]\noperation = \"intersection\"\nmaterial = \"matte\"\n[[csg.sphere]]\ncenter "
                     "= [0, 1, -0.5]\n"
-                    "radius = 0.4\n[[solid.implicit]]");
+                    "radius = 0.4\n[[csg.implicit]]");
     for (const std::string backend : {"gpu", "twin", "reference"}) {
       const ProcessResult result = run_eyeray(
           {"render", folder.scene(), "--backend", backend, "-o", folder / "a.pfm", "--quiet", "-s", "16x12"});
@@ -128,15 +129,15 @@ TEST_CASE("samples that disprove a Lipschitz constant are a warning with the pla
         std::string::npos);
 }
 
-TEST_CASE("a formula in a group that is kept once, and one in a solid, is checked and run as any other" *
+TEST_CASE("a formula in a group that is kept once, and one in a CSG object, is checked and run as any other" *
           doctest::test_suite("long")) {
   const std::string group =
       "[[group]]\nbatch = { transform = [[], [{ translate = [3, 0, 0] }]] }\n[[group.implicit]]";
-  const std::string solid =
-      "[[solid]]\nmaterial = \"matte\"\n[[solid.sphere]]\ncenter = [0, 1, 0]\nradius = "
-      "1\n[[solid.minus.solid]]\n"
-      "[[solid.minus.solid.implicit]]";
-  for (const std::string& holder : {group, solid}) {
+  const std::string csg =
+      "[[csg]]\nmaterial = \"matte\"\n[[csg.sphere]]\ncenter = [0, 1, 0]\nradius = "
+      "1\n[[csg.minus.csg]]\n"
+      "[[csg.minus.csg.implicit]]";
+  for (const std::string& holder : {group, csg}) {
     CAPTURE(holder);
     const auto put = [&](const FormulaFolder& folder) {
       replace_in_file(folder.scene(), "[[implicit]]", holder);

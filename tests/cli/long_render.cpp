@@ -5,11 +5,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/image_file.hpp"
+#include "host/image/image_file.hpp"
 #include "scene.hpp"
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

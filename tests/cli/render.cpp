@@ -2,10 +2,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/image_file.hpp"
+#include "host/image/image_file.hpp"
 #include "scene.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -70,7 +70,7 @@ TEST_CASE("the three backends write the same picture") {
         0);
 }
 
-TEST_CASE("AOVs hold what the eye rays met") {
+TEST_CASE("AOVs hold what the eye rays hit") {
   const SceneFolder folder;
   const ProcessResult result = run_eyeray({"render", folder.scene(), "--aov", "all", "-o", folder / "a.png"});
   CAPTURE(result.err);
@@ -108,7 +108,7 @@ TEST_CASE(
   for (const std::string rays : {"lanes", "packets"}) {
     CAPTURE(rays);
     const ProcessResult result =
-        render(rays, {"--inject-fault", "steps", "--acceleration", "tree", "--rays", rays});
+        render(rays, {"--inject-fault", "steps", "--acceleration", "bvh", "--rays", rays});
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     const Image picture = read_image(folder / (rays + ".pfm"));
@@ -132,7 +132,7 @@ TEST_CASE(
     CHECK(result.err.find(warning) != std::string::npos);
     const auto report = nlohmann::json::parse(result.out);
     CHECK(report.at("flagged_pixels") == flagged);
-    CHECK(report.at("flags") == nlohmann::json({"ran_out"}));
+    CHECK(report.at("flags") == nlohmann::json({"iteration_limit"}));
   }
 }
 
@@ -180,7 +180,7 @@ TEST_CASE("shaders: exported files render the same picture, and changed ones are
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";
   REQUIRE(run_eyeray({"shaders", "--export", shaders}).code == 0);
-  CHECK(run_eyeray({"shaders", "--print", "render.comp.glsl"}).out ==
+  CHECK(run_eyeray({"shaders", "--print", "kernels/render.comp.glsl"}).out ==
         read_text(shaders + "/render.comp.glsl"));
   CHECK(run_eyeray({"shaders", "--list"}).out.find("shapes/sphere.glsl\n") != std::string::npos);
 

@@ -1,7 +1,7 @@
 // The scene that these tests render: one sphere over a plane, small enough to take no time.
 #pragma once
 
-#include "support/process.hpp"
+#include "tests/support/process.hpp"
 
 namespace eyeray::test {
 
@@ -52,7 +52,7 @@ inline void replace_in_file(const std::string& path, const std::string& before, 
   write_text(path, replaced(read_text(path), before, after));
 }
 
-// shaders/pixel.glsl with `statements` put in where a sample's `color` is known and not yet stored.
+// shaders/kernels/pixel.glsl with `statements` put in where a sample's `color` is known and not yet stored.
 inline std::string with_pixel_code(const std::string& shader, const std::string& statements) {
   const std::string place = "  SampleResult result;\n";
   return replaced(shader, place, statements + place);

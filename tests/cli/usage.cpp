@@ -3,7 +3,7 @@
 
 #include "scene.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -107,7 +107,7 @@ TEST_CASE("under --json a failure is JSON on standard output too") {
 TEST_CASE("a reader that goes away is no error, a full disk is") {
   const std::string binary = eyeray_binary();
   const ProcessResult pipe =
-      run_process({"sh", "-c", "(" + binary + " shaders --print math.glsl; echo $? >&2) | true"});
+      run_process({"sh", "-c", "(" + binary + " shaders --print math/math.glsl; echo $? >&2) | true"});
   CHECK(pipe.err == "0\n");
   const ProcessResult full = run_process({"sh", "-c", binary + " shaders --list > /dev/full"});
   CHECK(full.code == 4);

@@ -1,11 +1,11 @@
-#include "compare/explain.hpp"
+#include "host/compare/explain.hpp"
 
 #include <cmath>
 
-#include "compare/against_reference.hpp"
-#include "support/analytic_picture.hpp"
+#include "host/compare/against_reference.hpp"
+#include "tests/support/analytic_picture.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -58,7 +58,7 @@ TEST_CASE("what float32's rounding of where rays start changes is explained as t
   CHECK_FALSE(neighbourhood(0.2, 0.0).explains_as_rounding(Vec3(0.7), {}));
 }
 
-TEST_CASE("a first hit that differs does so at a silhouette, or on a surface met at a grazing angle") {
+TEST_CASE("a first hit that differs does so at a silhouette, or on a surface hit at a grazing angle") {
   const auto cause = [](int32_t primitive) {
     const Reference reference = [&](int x, int y, const Vec2& shift) {
       Probe probe = picture_reference(x, y, shift);

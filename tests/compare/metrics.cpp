@@ -1,14 +1,14 @@
-#include "compare/metrics.hpp"
+#include "host/compare/metrics.hpp"
 
 #include <cmath>
 #include <functional>
 #include <limits>
 
-#include "compare/flip.hpp"
-#include "compare/plane.hpp"
-#include "support/random.hpp"
+#include "host/compare/flip.hpp"
+#include "host/compare/plane.hpp"
+#include "tests/support/random.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using eyeray::test::Random;

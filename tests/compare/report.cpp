@@ -1,11 +1,11 @@
-#include "compare/report.hpp"
+#include "host/compare/report.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "support/analytic_picture.hpp"
+#include "tests/support/analytic_picture.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -1,8 +1,8 @@
-#include "core/atomic_file.hpp"
+#include "host/core/atomic_file.hpp"
 
-#include "support/process.hpp"
+#include "tests/support/process.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using eyeray::test::read_text;

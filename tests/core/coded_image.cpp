@@ -1,13 +1,13 @@
-#include "core/coded_image.hpp"
+#include "host/image/coded_image.hpp"
 
 #include <cmath>
 
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
-#include "core/peak_memory.hpp"
-#include "support/random.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/error.hpp"
+#include "host/core/peak_memory.hpp"
+#include "tests/support/random.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;

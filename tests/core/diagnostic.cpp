@@ -1,8 +1,8 @@
-#include "core/diagnostic.hpp"
+#include "host/core/diagnostic.hpp"
 
 #include <array>
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

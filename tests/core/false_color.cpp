@@ -1,12 +1,12 @@
-#include "core/false_color.hpp"
+#include "host/image/false_color.hpp"
 
 #include <limits>
 #include <set>
 
-#include "core/image_file.hpp"
-#include "core/vec.hpp"
+#include "host/core/vec.hpp"
+#include "host/image/image_file.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

@@ -1,16 +1,16 @@
-#include "core/image_file.hpp"
+#include "host/image/image_file.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "core/pfm_file.hpp"
-#include "core/srgb.hpp"
-#include "support/process.hpp"
-#include "support/random.hpp"
+#include "host/image/pfm_file.hpp"
+#include "host/image/srgb.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/random.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using eyeray::test::Random;

@@ -1,15 +1,15 @@
 // Pictures that come in rows, a few at a time.
-#include "core/image_writer.hpp"
+#include "host/image/image_writer.hpp"
 
 #include <algorithm>
 #include <bit>
 
-#include "core/image_file.hpp"
-#include "core/pfm_file.hpp"
-#include "support/process.hpp"
-#include "support/random.hpp"
+#include "host/image/image_file.hpp"
+#include "host/image/pfm_file.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/random.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using eyeray::test::Random;
@@ -19,7 +19,7 @@ using eyeray::test::write_text;
 
 namespace {
 
-// Noise, flat areas and gradients, so that every filter and kind of run is met.
+// Noise, flat areas and gradients, so that every filter and kind of run is hit.
 Image mixed_image(int width, int height, int channels) {
   Random random(uint64_t(width * 1000 + height * 10 + channels));
   Image image(width, height, channels);

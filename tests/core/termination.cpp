@@ -1,4 +1,4 @@
-#include "core/termination.hpp"
+#include "host/core/termination.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -8,12 +8,12 @@
 #include <thread>
 #include <vector>
 
-#include "core/atomic_file.hpp"
-#include "core/memory_shortage.hpp"
-#include "core/stopwatch.hpp"
-#include "support/process.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/memory_shortage.hpp"
+#include "host/core/stopwatch.hpp"
+#include "tests/support/process.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

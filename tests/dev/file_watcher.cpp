@@ -1,13 +1,13 @@
 // The ways in which editors save, and the noise that is none of ours.
-#include "dev/file_watcher.hpp"
+#include "host/dev/file_watcher.hpp"
 
 #include <unistd.h>
 
 #include <thread>
 
-#include "support/process.hpp"
+#include "tests/support/process.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -1,14 +1,14 @@
 // A worker that answers, dies, hangs, and starts anew.
-#include "dev/worker.hpp"
+#include "host/dev/worker.hpp"
 
 #include <unistd.h>
 
 #include <csignal>
 
-#include "core/atomic_file.hpp"
-#include "support/process.hpp"
+#include "host/core/atomic_file.hpp"
+#include "tests/support/process.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using Outcome = Worker::Outcome;

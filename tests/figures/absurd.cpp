@@ -4,12 +4,12 @@
 
 #include <cmath>
 
-#include "loader/scene_file.hpp"
-#include "shapes/make.hpp"
-#include "support/random.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/shapes/make.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;
@@ -50,7 +50,7 @@ bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Whether what a ray from there meets, in either half, is a surface or nothing.
+// Whether what a ray from there hits, in either half, is a surface or nothing.
 bool can_be_met(const Shape& shape, const PackedScene& packed, const Vec3& from, const Vec3& target) {
   const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(glm::normalize(target - from)));
   const shader::Primitive& primitive = packed.primitives[0];

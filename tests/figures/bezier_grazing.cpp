@@ -2,11 +2,11 @@
 #include <cmath>
 #include <string>
 
-#include "shapes/bezier_net.hpp"
-#include "shapes/make.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/shapes/bezier_net.hpp"
+#include "host/shapes/make.hpp"
+#include "host/twin/shader_functions.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -105,7 +105,7 @@ TEST_CASE("Bézier patches that are all waves, or fold beyond their borders: no 
     for (const shader::Primitive& piece : scene.primitives) {
       shader::vec2 uv{};
       const float t = shader::bezier_intersect(piece, ray, uv);
-      CHECK(t != T_RAN_OUT);
+      CHECK(t != T_ITERATION_LIMIT);
       if (t > 0 && t < nearest) nearest = t;
     }
     CHECK(std::fabs(double(nearest) - each.t) <= 1e-5 * each.t);

@@ -1,17 +1,17 @@
 // A closed surface of Bézier patches, some of whose edges are points: no ray leaves it where pieces or
-// patches meet.
+// patches hit.
 #include <fmt/format.h>
 
 #include <atomic>
 #include <cmath>
 
-#include "core/parallel_for.hpp"
-#include "shapes/bezier_net.hpp"
-#include "shapes/make.hpp"
-#include "support/random.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/shapes/bezier_net.hpp"
+#include "host/shapes/make.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;
@@ -74,10 +74,10 @@ TEST_CASE(
         bool hit = false, gave_up = false;
         for (const shader::Primitive& each : packer.scene.primitives) {
           shader::vec2 ignored{};
-          if (!shader::bezier_may_hit(each, ray)) continue;
+          if (shader::bezier_reject(each, ray)) continue;
           const float t = shader::bezier_intersect(each, ray, ignored);
           hit = hit || (t > 0 && t < T_MISS);
-          gave_up = gave_up || t == T_RAN_OUT;
+          gave_up = gave_up || t == T_ITERATION_LIMIT;
         }
         ++rays;
         leaks += !hit;

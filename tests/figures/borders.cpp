@@ -1,9 +1,9 @@
 // What a hit on the border of a surface shows that is 1 wide in u and v.
-#include "records/packer.hpp"
-#include "shapes/make.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/records/packer.hpp"
+#include "host/shapes/make.hpp"
+#include "host/twin/shader_functions.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "formula/formula.hpp"
-#include "shapes/make.hpp"
-#include "shapes/ready_formulas.hpp"
+#include "host/formula/formula.hpp"
+#include "host/shapes/make.hpp"
+#include "host/shapes/ready_formulas.hpp"
 
 namespace eyeray::test {
 
@@ -59,7 +59,7 @@ FormulaUse some_formula(Random& random) {
                                                         ready.parameters, std::string(ready.name)),
                         {Vec3(-1), Vec3(1)},
                         ready.lipschitz(ready.parameters)});
-    // Two that are found by enclosures.
+    // Two that are found by affine bounds.
     const char* tanglecube = "float f(vec3 p) { vec3 q = p * p; return dot(q, q - 5.0) + 11.8; }";
     uses.push_back({std::make_shared<const Formula>(FormulaText{tanglecube, {}},
                                                     std::vector<FormulaParameter>{}, "tanglecube"),
@@ -71,10 +71,10 @@ FormulaUse some_formula(Random& random) {
   return all[size_t(random.below(int(all.size())))];
 }
 
-std::unique_ptr<Shape> some_solid(Random& random, double size);
+std::unique_ptr<Shape> some_csg(Random& random, double size);
 
 const std::map<std::string, MakeShape> makers = {
-    {"solid", some_solid},
+    {"csg", some_csg},
     {"sphere",
      [](Random& random, double size) {
        return make_sphere(random.point(3 * size), size * random.uniform(0.3, 1));
@@ -131,7 +131,7 @@ const std::map<std::string, MakeShape> makers = {
     {"quadric",
      [](Random& random, double size) {
        // One in four is a cone, its apex in the box. Where all squares have one sign, a cone may be its apex
-       // alone: which rays meet that point is a matter of rounding, and nothing to be asked.
+       // alone: which rays hit that point is a matter of rounding, and nothing to be asked.
        const bool cone = random.below(4) == 0;
        QuadricValues values{.square = random.point(1),
                             .product = random.point(1),
@@ -176,14 +176,14 @@ const std::map<std::string, MakeShape> makers = {
 std::unique_ptr<Shape> some_closed_shape(Random& random, double size) {
   for (;;) {
     const auto [name, make] = *std::next(makers.begin(), random.below(int(makers.size())));
-    if (name == "solid") continue;
+    if (name == "csg") continue;
     auto shape = make(random, size);
     if (shape->is_closed()) return shape;
   }
 }
 
 // Of all closed shapes, at most 5, nested now and then.
-std::unique_ptr<Shape> some_solid(Random& random, double size) {
+std::unique_ptr<Shape> some_csg(Random& random, double size) {
   for (;;) {
     ShapeType::Shapes operands, removed;
     for (int i = 2 + random.below(2); i > 0; --i) {
@@ -191,13 +191,13 @@ std::unique_ptr<Shape> some_solid(Random& random, double size) {
       if (random.below(4) == 0) {
         ShapeType::Shapes inner;
         for (int k = 0; k < 2; ++k) inner.push_back(some_closed_shape(random, size));
-        operands.back() = make_solid(random.below(2) == 0, std::move(inner));
+        operands.back() = make_csg(random.below(2) == 0, std::move(inner));
       }
     }
     if (random.below(2) == 0) removed.push_back(some_closed_shape(random, size));
-    auto solid = make_solid(random.below(2) == 0, std::move(operands), std::move(removed));
+    auto csg = make_csg(random.below(2) == 0, std::move(operands), std::move(removed));
     // What is within all of its parts may be next to nothing.
-    const Bounds bounds = solid->bounds();
+    const Bounds bounds = csg->bounds();
     const Vec3 extent = bounds.max - bounds.min;
     if (std::min({extent.x, extent.y, extent.z}) < 0.3 * size) continue;
     int hits = 0;
@@ -205,9 +205,9 @@ std::unique_ptr<Shape> some_solid(Random& random, double size) {
     for (int i = 0; i < 20; ++i) {
       const Vec3 target = center + random.direction() * glm::length(extent) * 0.25;
       const Vec3 from = target + random.direction() * glm::length(extent);
-      hits += solid->intersect({from, target - from}).has_value();
+      hits += csg->intersect({from, target - from}).has_value();
     }
-    if (hits > 4) return solid;
+    if (hits > 4) return csg;
   }
 }
 

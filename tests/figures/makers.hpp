@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "scene/shape.hpp"
-#include "support/random.hpp"
+#include "host/scene/shape.hpp"
+#include "tests/support/random.hpp"
 
 namespace eyeray::test {
 

@@ -9,14 +9,14 @@
 #include <mutex>
 #include <set>
 
-#include "core/parallel_for.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/reference/crossings.hpp"
+#include "host/shapes/make.hpp"
+#include "host/twin/shader_functions.hpp"
 #include "makers.hpp"
-#include "reference/crossings.hpp"
-#include "shapes/make.hpp"
-#include "support/random.hpp"
-#include "twin/shader_functions.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::MakeShape;
@@ -53,10 +53,10 @@ struct Sample {
       shader::vec2 uv{};
       float t = -1;
 #define INTERSECT(name, number)                                               \
-  if (kind_of(primitive) == number && shader::name##_may_hit(primitive, ray)) \
+  if (kind_of(primitive) == number && !shader::name##_reject(primitive, ray)) \
     t = shader::name##_intersect(primitive, ray, uv);
       SHAPES(INTERSECT)
-      gave_up += t == T_RAN_OUT;
+      gave_up += t == T_ITERATION_LIMIT;
       if (!(t > 0) || !(t < hit.t)) continue;
       hit.t = t;
       hit.slot = slot;
@@ -73,7 +73,7 @@ struct Sample {
   }
   double exact(const Vec3& o, const Vec3& d) const {
     const auto hit = shape->intersect({o, d});
-    return hit && !hit->ran_out ? hit->t : HUGE_VAL;
+    return hit && !hit->iteration_limit ? hit->t : HUGE_VAL;
   }
 
   std::unique_ptr<Shape> shape;
@@ -163,7 +163,7 @@ void check_first_hits(const std::string& name, const Make& make, double distance
     const double t = double(hit.t);
     if (exact == HUGE_VAL ? hit.t == T_MISS : std::fabs(t - exact) <= 1e-6 * exact) return;
     const double room = 32 * 0x1p-24 * (glm::length(from) + glm::length(sample.center) + sample.radius);
-    // What is seen all but edge-on is so thin that few of the probes meet it.
+    // What is seen all but edge-on is so thin that few of the probes hit it.
     if (is_grazing(sample, ray, t, room, 500) || is_grazing(sample, ray, t, room, 100'000)) {
       ++grazing;
     } else if (const double thick = first_thick(sample, ray, room); std::fabs(t - thick) <= 1e-6 * thick) {
@@ -191,11 +191,11 @@ TEST_CASE("first hits at distances 1 … 1e4: no wrong answer but where a ray gr
   }
 }
 
-TEST_CASE("every closed shape as a part of solids: first hits, no wrong answer but where a ray grazes") {
+TEST_CASE("every closed shape as a part of CSG objects: first hits, no wrong answer but where a ray grazes") {
   std::set<std::string> closed;
   for (const auto& [name, make] : shape_makers()) {
     Random random{1};
-    for (int i = 0; i < 10 && name != "solid"; ++i)
+    for (int i = 0; i < 10 && name != "csg"; ++i)
       if (make(random, 1)->is_closed()) closed.insert(name);
     if (!closed.contains(name)) continue;
     // It joined with a ball, cut to it, without it, and taken from it.
@@ -210,11 +210,11 @@ TEST_CASE("every closed shape as a part of solids: first hits, no wrong answer b
       const Vec3 half = (bounds.max - bounds.min) * 0.5;
       both.push_back(make_sphere(bounds.min + half + some.point(1) * half, 0.6 * glm::length(half)));
       const int kind = some.below(4);
-      if (kind < 2) return make_solid(kind == 0, std::move(both));
+      if (kind < 2) return make_csg(kind == 0, std::move(both));
       ShapeType::Shapes removed;
       removed.push_back(std::move(both[kind == 2 ? 0 : 1]));
       both.erase(both.begin() + (kind == 2 ? 0 : 1));
-      return make_solid(false, std::move(both), std::move(removed));
+      return make_csg(false, std::move(both), std::move(removed));
     };
     for (const double distance : {1.5, 1e2, 1e4}) check_first_hits(name + " and ball", make_pair, distance);
   }
@@ -226,7 +226,7 @@ TEST_CASE("every closed shape as a part of solids: first hits, no wrong answer b
   CHECK(closed == asked);
 }
 
-TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none meets its surface again, every hit is on it") {
+TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none hits its surface again, every hit is on it") {
   for (const auto& [name, make] : shape_makers()) {
     std::atomic<int> left = 0, rehits = 0, bent_back = 0, off = 0, along = 0;
     for_shapes(make, [&](const Sample& sample, Random& random) {
@@ -240,7 +240,7 @@ TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none meets its surface again, ev
         if (hit.t == T_MISS || !exact) continue;
         const SurfacePoint at = sample.shape->surface({Vec3(arriving.o), Vec3(arriving.d)}, *exact);
         const shader::Surface surface = sample.surface(arriving, hit);
-        // Past an edge the two may have met different sides.
+        // Past an edge the two may have hit different sides.
         if (glm::dot(at.normal_geometric, Vec3(surface.normal_geometric)) < 0.99) continue;
         if (glm::length(at.position - Vec3(surface.p)) > 1e-3 * sample.radius) continue;
         ++left;
@@ -254,11 +254,11 @@ TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none meets its surface again, ev
           ++along;
           continue;
         }
-        const double again = double(sample.shoot(shader::leave(surface, away)).t);
-        const double truly = sample.exact(reference::departure(at, Vec3(away)), Vec3(away));
-        // A sheet that is bent to both sides may be met again where it bends back, by a ray that starts a
+        const double again = double(sample.shoot(shader::spawn_ray(surface, away)).t);
+        const double truly = sample.exact(reference::spawn_origin(at, Vec3(away)), Vec3(away));
+        // A sheet that is bent to both sides may be hit again where it bends back, by a ray that starts a
         // little off it and not by one that starts on it.
-        const shader::Ray next = shader::leave(surface, away);
+        const shader::Ray next = shader::spawn_ray(surface, away);
         const bool meets_again =
             again < 0.01 * sample.radius && again < 0.5 * truly && !(truly < 1e3 * double(surface.offset));
         const bool may_bend_back = meets_again && sample.shape->counts_crossings() &&

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "shapes/make.hpp"
-#include "support/random.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/shapes/make.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;
@@ -114,7 +114,7 @@ Mat4 turned(const Place& place, double degrees) {
 }  // namespace
 
 TEST_CASE(
-    "a gear's face of 36 teeth, a ring with a hole and a hub: each ray at their seams meets one of them") {
+    "a gear's face of 36 teeth, a ring with a hole and a hub: each ray at their seams hits one of them") {
   for (const Place& place : places) {
     for (const double degrees : {0.0, 40.0}) {
       const Mat4 map = turned(place, degrees);
@@ -142,7 +142,7 @@ TEST_CASE(
         return Vec3(map * Vec4(random.point(0.7) + Vec3(0, random.below(2) == 0 ? 0.8 : -1.5, 0), 1));
       });
       MESSAGE(fmt::format(
-          "{}, turned by {}°: {} rays, {} pass, {} meet several; in float64 {} pass, {} meet several",
+          "{}, turned by {}°: {} rays, {} pass, {} hit several; in float64 {} pass, {} hit several",
           place.name, degrees, count.rays, count.leaks, count.several, count.exact_leaks,
           count.exact_several));
       CHECK(count.leaks == 0);

@@ -1,9 +1,9 @@
 // Texts that want to harm: each is refused at its place, or does what GLSL says and no more.
 #include <fmt/format.h>
 
-#include "formula/formula.hpp"
+#include "host/formula/formula.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -118,7 +118,7 @@ TEST_CASE("nobody can read two functions out of one text") {
   CHECK(refusal_of_f("return p.x; // \\\n#define p q\n;") != "");
   CHECK(refusal_of_f("ret\\\nurn p.x;") == "'\\' has no meaning in a formula");
   CHECK(refusal_of_f("/* \\\n*/ return p.x; // a \\ b") == "");
-  CHECK(refusal_of_f("return p.x; }\n#include \"math.glsl\"\nfloat g() { return 1.0;") ==
+  CHECK(refusal_of_f("return p.x; }\n#include \"math/math.glsl\"\nfloat g() { return 1.0;") ==
         "a formula has no preprocessor: write a const or a function");
 }
 

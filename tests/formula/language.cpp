@@ -1,7 +1,7 @@
 // What a formula may say, and what is said of one that says anything else.
-#include "formula/formula.hpp"
+#include "host/formula/formula.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <random>
 
-#include "formula/formula.hpp"
-#include "shapes/ready_formulas.hpp"
+#include "host/formula/formula.hpp"
+#include "host/shapes/ready_formulas.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

@@ -3,10 +3,10 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "formula/formula.hpp"
-#include "support/random_formula.hpp"
+#include "host/formula/formula.hpp"
+#include "tests/support/random_formula.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

@@ -2,8 +2,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "core/error.hpp"
-#include "scene/image_texture_file.hpp"
+#include "host/core/error.hpp"
+#include "host/scene/image_texture_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {

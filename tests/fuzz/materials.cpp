@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "importers/obj_materials.hpp"
+#include "host/importers/obj_materials.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   eyeray::AssetFiles none;

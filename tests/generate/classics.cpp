@@ -4,16 +4,16 @@
 #include <map>
 #include <set>
 
-#include "generate/gears.hpp"
-#include "generate/mount.hpp"
-#include "generate/rings.hpp"
-#include "generate/teapot.hpp"
-#include "generate/tetra.hpp"
-#include "generate/tree.hpp"
-#include "loader/scene_file.hpp"
+#include "host/generate/gears.hpp"
+#include "host/generate/mount.hpp"
+#include "host/generate/rings.hpp"
+#include "host/generate/teapot.hpp"
+#include "host/generate/tetra.hpp"
+#include "host/generate/tree.hpp"
+#include "host/loader/scene_file.hpp"
 //
 #include "pixel.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using eyeray::test::pixel;
@@ -49,7 +49,7 @@ TEST_CASE("teapot --patches: 32 shapes, whose corners and edges' middles are the
   const Scene scene = parse_scene(teapot_classic.scene(1) + teapot_bezier(), "teapot");
   CHECK(scene.shapes.size() == 2 + 32);
   const Mesh mesh = mesh_of(teapot_classic, 2);
-  // From outside, along the mesh's normals, each of its points is met where it is.
+  // From outside, along the mesh's normals, each of its points is hit where it is.
   int met = 0;
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     const Ray ray{mesh.positions[i] + mesh.normals[i] * 0.01, -mesh.normals[i]};

@@ -1,8 +1,8 @@
 // Where a point of the world lies in the picture of a scene.
 #pragma once
 
-#include "scene/camera_frame.hpp"
-#include "scene/scene.hpp"
+#include "host/scene/camera_frame.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray::test {
 

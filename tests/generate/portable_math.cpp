@@ -1,10 +1,10 @@
-#include "generate/portable_math.hpp"
+#include "host/generate/portable_math.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

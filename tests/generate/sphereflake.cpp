@@ -1,12 +1,12 @@
-#include "generate/sphereflake.hpp"
+#include "host/generate/sphereflake.hpp"
 
 #include <map>
 
-#include "generate/octasphere.hpp"
-#include "loader/scene_file.hpp"
+#include "host/generate/octasphere.hpp"
+#include "host/loader/scene_file.hpp"
 //
 #include "pixel.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using eyeray::test::pixel;
@@ -90,7 +90,7 @@ TEST_CASE("an octasphere is closed, outward and round") {
     const Mesh mesh = octasphere(divisions);
     CHECK(mesh.positions.size() == size_t(4 * divisions * divisions + 2));
     CHECK(mesh.triangles.size() == size_t(8 * divisions * divisions));
-    // Every edge is met once in each direction.
+    // Every edge is hit once in each direction.
     std::map<std::pair<uint32_t, uint32_t>, int> edges;
     double volume = 0;
     for (const auto& corners : mesh.triangles) {

@@ -1,9 +1,9 @@
-#include "generate/terrain.hpp"
+#include "host/generate/terrain.hpp"
 
-#include "generate/noise.hpp"
-#include "loader/scene_file.hpp"
+#include "host/generate/noise.hpp"
+#include "host/loader/scene_file.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

@@ -3,8 +3,8 @@
 #include <cstdlib>
 
 #include "child.hpp"
-#include "core/process.hpp"
-#include "core/termination.hpp"
+#include "host/core/process.hpp"
+#include "host/core/termination.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -1,8 +1,8 @@
 #include <sys/stat.h>
 
-#include "gpu/kernel_compiler.hpp"
+#include "host/gpu/kernel_compiler.hpp"
 #include "support.hpp"
-#include "support/process.hpp"
+#include "tests/support/process.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -1,4 +1,4 @@
-#include "gpu/device_choice.hpp"
+#include "host/gpu/device_choice.hpp"
 #include "support.hpp"
 
 using namespace eyeray;

@@ -10,10 +10,10 @@
 #include <cstdlib>
 
 #include "child.hpp"
-#include "core/process.hpp"
-#include "gpu/instance.hpp"
+#include "host/core/process.hpp"
+#include "host/gpu/instance.hpp"
 #include "shim/failing_vulkan.hpp"
-#include "support/process.hpp"
+#include "tests/support/process.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -5,7 +5,7 @@
 #include <set>
 #include <spirv-tools/libspirv.hpp>
 
-#include "gpu/spirv.hpp"
+#include "host/gpu/spirv.hpp"
 #include "support.hpp"
 
 using namespace eyeray;

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "child.hpp"
-#include "core/termination.hpp"
+#include "host/core/termination.hpp"
 
 // doctest's tests; or, as `test_gpu child NAME`, one piece of work in a process of its own that ends as
 // eyeray would.

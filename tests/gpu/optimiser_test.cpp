@@ -1,11 +1,11 @@
-#include "gpu/spirv_optimiser.hpp"
+#include "host/gpu/spirv_optimiser.hpp"
 
 #include <glslang/SPIRV/spirv.hpp>
 #include <spirv-tools/libspirv.hpp>
 
-#include "gpu/spirv.hpp"
+#include "host/gpu/spirv.hpp"
 #include "support.hpp"
-#include "support/process.hpp"
+#include "tests/support/process.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

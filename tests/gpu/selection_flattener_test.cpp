@@ -1,10 +1,10 @@
-#include "gpu/selection_flattener.hpp"
+#include "host/gpu/selection_flattener.hpp"
 
 #include <glslang/SPIRV/spirv.hpp>
 #include <spirv-tools/libspirv.hpp>
 
-#include "gpu/spirv.hpp"
-#include "gpu/spirv_optimiser.hpp"
+#include "host/gpu/spirv.hpp"
+#include "host/gpu/spirv_optimiser.hpp"
 #include "support.hpp"
 
 using namespace eyeray;

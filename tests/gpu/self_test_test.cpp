@@ -1,5 +1,5 @@
 #include "support.hpp"
-#include "support/process.hpp"
+#include "tests/support/process.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -8,11 +8,11 @@ namespace {
 
 // The self-test's shader with one piece of its text replaced: a driver that computes wrong.
 gpu::SourceProvider with_fault(const std::string& right, const std::string& wrong) {
-  std::string text = project_shader("selftest.comp.glsl").value();
+  std::string text = project_shader("kernels/selftest.comp.glsl").value();
   const size_t at = text.find(right);
   REQUIRE(at != std::string::npos);
   text.replace(at, right.size(), wrong);
-  return files({{"selftest.comp.glsl", text}});
+  return files({{"kernels/selftest.comp.glsl", text}});
 }
 
 }  // namespace

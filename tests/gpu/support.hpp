@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "core/atomic_file.hpp"
-#include "gpu/command_list.hpp"
-#include "gpu/float_policy.hpp"
-#include "gpu/kernel_compiler.hpp"
-#include "gpu/self_test.hpp"
-#include "gpu/shader_compiler.hpp"
-#include "support/doctest.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/gpu/command_list.hpp"
+#include "host/gpu/float_policy.hpp"
+#include "host/gpu/kernel_compiler.hpp"
+#include "host/gpu/self_test.hpp"
+#include "host/gpu/shader_compiler.hpp"
+#include "tests/support/doctest.hpp"
 
 namespace eyeray::test {
 

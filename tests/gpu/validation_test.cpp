@@ -1,5 +1,5 @@
 // The validation layers see nothing wrong with what this layer does, and would say so if there were.
-#include "gpu/context.hpp"
+#include "host/gpu/context.hpp"
 #include "support.hpp"
 
 using namespace eyeray;

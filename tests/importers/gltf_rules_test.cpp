@@ -3,8 +3,8 @@
 #include <ctime>
 #include <functional>
 
-#include "core/coded_image.hpp"
 #include "gltf_files.hpp"
+#include "host/image/coded_image.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -145,9 +145,9 @@ TEST_CASE("nodes that are their own ancestors, or have two parents, are refused"
   GltfFile file = square_file();
   file.json["nodes"] = {{{"children", {1}}}, {{"mesh", 0}, {"children", {0}}}};
   CHECK(refusal(file.gltf(), "a.gltf") ==
-        "a.gltf: error: nodes[0] is met twice: a node has one parent, and is not below itself");
+        "a.gltf: error: nodes[0] is reached twice: a node has one parent, and is not below itself");
   file.json["nodes"] = {{{"children", {1, 2}}}, {{"children", {2}}}, {{"mesh", 0}}};
-  CHECK(contains(refusal(file.gltf(), "a.gltf"), "nodes[2] is met twice"));
+  CHECK(contains(refusal(file.gltf(), "a.gltf"), "nodes[2] is reached twice"));
   Json chain = Json::array();
   for (int i = 0; i < 20000; ++i) chain.push_back({{"children", {i + 1}}});
   chain.push_back({{"mesh", 0}});

@@ -1,6 +1,6 @@
 // Cutting polygons. Whatever the shape, the triangles' areas must add up to the polygon's, and none may be
 // turned over: then they cover it, once.
-#include "importers/polygon.hpp"
+#include "host/importers/polygon.hpp"
 
 #include <algorithm>
 #include <random>

@@ -3,11 +3,11 @@
 #include <fstream>
 #include <string>
 
-#include "importers/import.hpp"
-#include "support/process.hpp"
-#include "support/sound_mesh.hpp"
+#include "host/importers/import.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/sound_mesh.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 namespace eyeray::test {
 

@@ -2,11 +2,11 @@
 #include <fstream>
 #include <iterator>
 
-#include "loader/scene_file.hpp"
-#include "loader/sections.hpp"
-#include "scene/table.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/loader/sections.hpp"
+#include "host/scene/table.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "support/process.hpp"
+#include "tests/support/process.hpp"
 
 namespace eyeray::test {
 

@@ -1,11 +1,11 @@
 // What other renderers call things.
-#include "scene/foreign_words.hpp"
+#include "host/scene/foreign_words.hpp"
 
 #include <vector>
 
-#include "loader/sections.hpp"
+#include "host/loader/sections.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -33,7 +33,7 @@ TEST_CASE("a word of another renderer is answered by ours, where that is possibl
 
 TEST_CASE("a slip is still a slip, and a foreign word never stands in for one of ours") {
   CHECK(suggested("raduis", {"center", "radius"}) == "radius");
-  CHECK(suggested("maxDepth", {"max_depth", "min_weight"}) == "max_depth");
+  CHECK(suggested("maxDepth", {"max_depth", "min_throughput"}) == "max_depth");
   CHECK(suggested("", {"center"}) == "");
   CHECK(suggested(std::string(100'000, 'a'), {"center"}) == "");
   CHECK(suggested(" ", {"center", "eye"}) == "");
@@ -42,7 +42,7 @@ TEST_CASE("a slip is still a slip, and a foreign word never stands in for one of
 TEST_CASE("tables of other renderers") {
   CHECK(suggest_section("light_source") == "did you mean [[light]]?");
   CHECK(suggest_section("global_settings") == "did you mean [render]?");
-  CHECK(suggest_section("difference") == "did you mean [[solid]]?");
+  CHECK(suggest_section("difference") == "did you mean [[csg]]?");
   CHECK(suggest_section("isosurface") == "did you mean [[implicit]]?");
   CHECK(suggest_section("cuboid") == "did you mean [[box]]?");
   CHECK(suggest_section("film") == "did you mean [image]?");

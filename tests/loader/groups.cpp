@@ -1,10 +1,10 @@
 // Groups move what they hold as one, and show it once a transform of their batch.
 #include <fmt/format.h>
 
-#include "loader/walls.hpp"
-#include "scene/affine.hpp"
+#include "host/scene/affine.hpp"
+#include "tests/loader/walls.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

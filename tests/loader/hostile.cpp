@@ -5,12 +5,12 @@
 #include <iterator>
 #include <random>
 
-#include "core/input_file.hpp"
-#include "loader/scene_file.hpp"
-#include "loader/statements.hpp"
-#include "support/process.hpp"
+#include "host/core/input_file.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/loader/statements.hpp"
+#include "tests/support/process.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

@@ -1,13 +1,13 @@
 // Images that a scene names: where they may lie, what they become, and what is said when they are none.
 #include <sys/stat.h>
 
-#include "core/atomic_file.hpp"
-#include "loader/image_files.hpp"
-#include "loader/scene_file.hpp"
-#include "scene/image_texture_file.hpp"
-#include "support/process.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/loader/image_files.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/scene/image_texture_file.hpp"
+#include "tests/support/process.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 namespace fs = std::filesystem;

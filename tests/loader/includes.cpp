@@ -2,9 +2,9 @@
 #include <fstream>
 
 #include "folder.hpp"
-#include "loader/scene_file.hpp"
+#include "host/loader/scene_file.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 namespace fs = std::filesystem;

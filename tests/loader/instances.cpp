@@ -1,12 +1,12 @@
 // Groups that stand many times: named ones, where they are kept once, and what may not be.
 #include <fmt/format.h>
 
-#include "loader/walls.hpp"
-#include "scene/affine.hpp"
-#include "scene/primitive_ids.hpp"
-#include "scene/things.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/objects.hpp"
+#include "host/scene/primitive_ids.hpp"
+#include "tests/loader/walls.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -171,7 +171,7 @@ TEST_CASE("what is kept once is called as its copies are") {
   const Scene flat = parse_walls("[render]\ngroups = \"flat\"\n" + text);
   const Scene once = parse_walls("[render]\ngroups = \"instanced\"\n" + text);
   REQUIRE(once.group_instances.size() == 4);
-  const Things flat_things(flat), once_things(once);
+  const Objects flat_things(flat), once_things(once);
   REQUIRE(once_things.size() == flat_things.size());
   for (uint64_t id = 0; id < flat.primitive_count(); ++id)
     CHECK(once_things.describe(id) == flat_things.describe(id));
@@ -213,10 +213,10 @@ TEST_CASE("named groups that double each time are refused, or kept once where th
   CHECK(says(refused(doubled(40)), "things; at most 2147483647 can be told apart"));
 }
 
-TEST_CASE("what stands in solids counts among what is kept") {
+TEST_CASE("what stands in CSG objects counts among what is kept") {
   const std::string text =
       "[[group]]\n" + batch(10'000) +
-      "[[group.solid]]\nmaterial = \"wall\"\n[[group.solid.minus.sphere]]\ncenter = [0, 0, 0]\n"
+      "[[group.csg]]\nmaterial = \"wall\"\n[[group.csg.minus.sphere]]\ncenter = [0, 0, 0]\n"
       "radius = 1\n" +
       batch(10'000);
   const std::string said = refused("[render]\ngroups = \"flat\"\n" + text);

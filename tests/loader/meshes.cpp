@@ -2,10 +2,10 @@
 #include <fstream>
 
 #include "folder.hpp"
-#include "loader/scene_file.hpp"
-#include "scene/camera_frame.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/scene/camera_frame.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 namespace fs = std::filesystem;

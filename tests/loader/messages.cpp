@@ -3,9 +3,9 @@
 #include <iterator>
 #include <set>
 
-#include "loader/scene_file.hpp"
+#include "host/loader/scene_file.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

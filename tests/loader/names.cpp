@@ -1,10 +1,10 @@
 // Names of shapes, meshes and groups: who bears which, and what messages say.
 #include <fmt/format.h>
 
-#include "loader/scene_file.hpp"
-#include "scene/things.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/scene/objects.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -43,7 +43,7 @@ TEST_CASE("a shape is called by its name, after those of its groups") {
                         sphere));
   CHECK(names(scene) == std::vector<std::string>{"sphere", "sphere \"left eye\"", "sphere in \"cart\"",
                                                  "sphere \"cart/wheel\""});
-  const Things things(scene);
+  const Objects things(scene);
   CHECK(things.describe(0) == "sphere, scene.toml:4");
   CHECK(things.describe(1) == "sphere \"left eye\", scene.toml:8");
 }

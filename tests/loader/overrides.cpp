@@ -1,7 +1,7 @@
 // -D KEY=VALUE.
-#include "loader/scene_file.hpp"
+#include "host/loader/scene_file.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

@@ -1,7 +1,7 @@
 // TableReader over every KeyType, with keys of its own.
-#include "scene/table.hpp"
+#include "host/scene/table.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "loader/scene_file.hpp"
+#include "host/loader/scene_file.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -48,7 +48,7 @@ TEST_CASE("an empty scene has the defaults of the model") {
   CHECK(scene.camera.size == model.camera.size);
   CHECK(scene.render.integrator == model.render.integrator);
   CHECK(scene.render.max_depth == model.render.max_depth);
-  CHECK(scene.render.min_weight == model.render.min_weight);
+  CHECK(scene.render.min_throughput == model.render.min_throughput);
   CHECK(scene.render.seed == model.render.seed);
   CHECK(scene.render.triangle_method == model.render.triangle_method);
   CHECK(scene.render.background == model.render.background);
@@ -71,7 +71,7 @@ size = 7.25
 [render]
 integrator = "raycast"
 max_depth = 0
-min_weight = 0
+min_throughput = 0
 seed = 4294967295
 triangle = "moller-trumbore"
 background = [0.1, 0.2, 0.3]
@@ -88,7 +88,7 @@ ambient = 0.5
   CHECK(scene.camera.size == 7.25);
   CHECK(scene.render.integrator == IntegratorType::raycast);
   CHECK(scene.render.max_depth == 0);
-  CHECK(scene.render.min_weight == 0);
+  CHECK(scene.render.min_throughput == 0);
   CHECK(scene.render.seed == 4294967295u);
   CHECK(scene.render.triangle_method == TriangleMethod::moller_trumbore);
   CHECK(scene.render.background == Vec3(0.1, 0.2, 0.3));

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "loader/scene_file.hpp"
+#include "host/loader/scene_file.hpp"
 
 namespace eyeray::test {
 

@@ -1,10 +1,10 @@
 // Faults injected on the GPU side only: the program itself must notice, say why, and answer 1.
 #include <limits>
 
-#include "core/image_file.hpp"
-#include "support/process.hpp"
+#include "host/image/image_file.hpp"
+#include "tests/support/process.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -9,10 +9,10 @@
 #include <functional>
 #include <limits>
 
-#include "compare/report.hpp"
-#include "support/analytic_picture.hpp"
+#include "host/compare/report.hpp"
+#include "tests/support/analytic_picture.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -1,10 +1,10 @@
-// The reference's tree finds what asking everything finds, to the last bit.
+// The reference's BVH finds what asking everything finds, to the last bit.
 #include <fmt/format.h>
 
 #include <bit>
 
 #include "meshes.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -177,20 +177,20 @@ std::optional<Intersection> plain_search(const Scene& scene, const Ray& ray) {
 
 }  // namespace
 
-TEST_CASE("10 000 hard scenes: the tree finds what brute force finds, to the last bit" *
+TEST_CASE("10 000 hard scenes: the BVH finds what brute force finds, to the last bit" *
           doctest::test_suite("long")) {
   Dice dice;
   int rays = 0, hits = 0, different = 0, different_light = 0, dimmed = 0, beside_boxes = 0;
   for (int i = 0; i < 10000; ++i) {
     const HardScene hard = hard_scene(dice);
     const Scene& scene = hard.scene;
-    const reference::Tracer tree(scene, Acceleration::tree);
+    const reference::Tracer bvh(scene, Acceleration::bvh);
     const reference::Tracer brute(scene, Acceleration::brute_force);
     for (int k = 0; k < 24; ++k) {
       const Ray ray = some_ray(hard, dice);
       if (ray.d == Vec3(0)) continue;
       ++rays;
-      const auto hit = tree.trace(ray);
+      const auto hit = bvh.trace(ray);
       const auto expected = brute.trace(ray);
       different += !same(hit, expected);
       hits += hit.has_value();
@@ -200,7 +200,7 @@ TEST_CASE("10 000 hard scenes: the tree finds what brute force finds, to the las
 
       const double t_end = dice.between(0, 3) < 1 ? std::numeric_limits<double>::infinity() : 1.0;
       uint32_t flags = 0;
-      const double light = tree.transmittance(ray, t_end, flags);
+      const double light = bvh.transmittance(ray, t_end, flags);
       different_light += !same_bits(light, brute.transmittance(ray, t_end, flags));
       dimmed += light > 0 && light < 1;
     }

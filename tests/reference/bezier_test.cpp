@@ -1,7 +1,7 @@
-#include "reference/crossings.hpp"
-#include "reference/media.hpp"
+#include "host/reference/crossings.hpp"
+#include "host/reference/media.hpp"
 #include "scenes.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

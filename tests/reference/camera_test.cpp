@@ -1,7 +1,7 @@
-#include "reference/camera.hpp"
-#include "reference/rng.hpp"
+#include "host/reference/camera.hpp"
+#include "host/reference/rng.hpp"
 #include "scenes.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -76,16 +76,16 @@ TEST_CASE("random numbers are the published PCG hash") {
 
 TEST_CASE("samples lie in the cells of n × n, in order") {
   ImageSettings image{.width = 5, .height = 3, .samples = 9};
-  CHECK(near(reference::sample_place(image, 0, 2, 1, 0).x, 1 / 6.0, 1e-15));
-  CHECK(near(reference::sample_place(image, 0, 2, 1, 5).x, 5 / 6.0, 1e-15));
-  CHECK(near(reference::sample_place(image, 0, 2, 1, 5).y, 3 / 6.0, 1e-15));
+  CHECK(near(reference::sample_position(image, 0, 2, 1, 0).x, 1 / 6.0, 1e-15));
+  CHECK(near(reference::sample_position(image, 0, 2, 1, 5).x, 5 / 6.0, 1e-15));
+  CHECK(near(reference::sample_position(image, 0, 2, 1, 5).y, 3 / 6.0, 1e-15));
 
   image.pattern = SamplePattern::jittered;
   Vec2 mean(0);
   for (int x = 0; x < 5; ++x) {
     for (int y = 0; y < 3; ++y) {
       for (uint32_t s = 0; s < 9; ++s) {
-        const Vec2 in_cell = reference::sample_place(image, 7, x, y, s) * 3.0 - Vec2(s % 3, s / 3);
+        const Vec2 in_cell = reference::sample_position(image, 7, x, y, s) * 3.0 - Vec2(s % 3, s / 3);
         CHECK(in_cell.x >= 0);
         CHECK(in_cell.y >= 0);
         CHECK(in_cell.x < 1);
@@ -96,6 +96,6 @@ TEST_CASE("samples lie in the cells of n × n, in order") {
   }
   CHECK(near(mean.x, 0.5, 0.1));
   CHECK(near(mean.y, 0.5, 0.1));
-  CHECK(reference::sample_place(image, 7, 1, 1, 0) != reference::sample_place(image, 8, 1, 1, 0));
-  CHECK(reference::sample_place(image, 7, 1, 1, 0) != reference::sample_place(image, 7, 2, 1, 0));
+  CHECK(reference::sample_position(image, 7, 1, 1, 0) != reference::sample_position(image, 8, 1, 1, 0));
+  CHECK(reference::sample_position(image, 7, 1, 1, 0) != reference::sample_position(image, 7, 2, 1, 0));
 }

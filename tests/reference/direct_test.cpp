@@ -1,6 +1,6 @@
 // Light that comes straight from the lights, the surroundings and the background.
 #include "scenes.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -20,7 +20,7 @@ Texture gray(double value) {
 
 }  // namespace
 
-TEST_CASE("a ray that meets nothing sees the background") {
+TEST_CASE("a ray that hits nothing sees the background") {
   Scene scene = one_pixel({0, 0, 5}, {0, 0, 0});
   scene.render.background = {0.34, 0.55, 0.85};
   for (const IntegratorType integrator : {IntegratorType::whitted, IntegratorType::raycast}) {
@@ -84,7 +84,7 @@ TEST_CASE("highlights: Phong's lobe is about the mirrored light, Blinn's about t
   CHECK(highlight(false, 80, 80) == 0);  // r·v < 0
 }
 
-TEST_CASE("shadow rays lose their light to each shape that they meet") {
+TEST_CASE("shadow rays lose their light to each shape that they hit") {
   Scene scene = floor_seen_from({0, 1, 3}, make_phong({.diffuse = gray(1)}));
   add_point_light(scene, {0, 10, 0}, Vec3(1));
   const int opaque = add(scene, make_phong({}));

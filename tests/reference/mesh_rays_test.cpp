@@ -1,14 +1,14 @@
-// What rounding does to rays at meshes: none meets again what it leaves, none slips between two triangles.
-#include "core/parallel_for.hpp"
+// What rounding does to rays at meshes: none hits again what it leaves, none slips between two triangles.
+#include "host/core/parallel_for.hpp"
+#include "host/reference/crossings.hpp"
 #include "meshes.hpp"
-#include "reference/crossings.hpp"
-#include "support/doctest.hpp"
-#include "support/random.hpp"
+#include "tests/support/doctest.hpp"
+#include "tests/support/random.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
 
-TEST_CASE("a ray that leaves a triangle of an instance does not meet it again") {
+TEST_CASE("a ray that leaves a triangle of an instance does not hit it again") {
   Dice dice;
   int departures = 0, rehits = 0;
   for (int i = 0; i < 30000; ++i) {
@@ -25,7 +25,7 @@ TEST_CASE("a ray that leaves a triangle of an instance does not meet it again") 
     }
     if (thickness(corners(mesh, 0)) < thinnest_triangle) continue;
     const Mat4 map = random_map(dice, 0.8 * (i % 4), dice.scale(-4, 4));
-    const reference::MeshGeometry geometry(mesh, Acceleration::tree);
+    const reference::MeshGeometry geometry(mesh, Acceleration::bvh);
     const reference::InstanceGeometry instance({0, map, 0, {}}, geometry);
     const Vec3 middle = Affine(map).point((mesh.positions[0] + mesh.positions[1] + mesh.positions[2]) / 3.0);
     const Vec3 eye = middle + dice.direction() * size * dice.scale(-1, 3);
@@ -36,11 +36,11 @@ TEST_CASE("a ray that leaves a triangle of an instance does not meet it again") 
     for (int k = 0; k < 4; ++k) {
       const Vec3 d = dice.direction();
       ++departures;
-      rehits += instance.intersect({reference::departure(point, d), d}).has_value();
+      rehits += instance.intersect({reference::spawn_origin(point, d), d}).has_value();
     }
     const Vec3 along = glm::normalize(ray.d);
     ++departures;
-    rehits += instance.intersect({reference::departure(point, along), along}).has_value();
+    rehits += instance.intersect({reference::spawn_origin(point, along), along}).has_value();
   }
   MESSAGE(rehits << " re-hits in " << departures << " departures");
   CHECK(departures > 100000);
@@ -53,7 +53,7 @@ TEST_CASE("closed meshes: no ray leaks, whatever the instance's map") {
   for (const double strongest : {0.0, 1.0, 3.0}) {
     Mesh mesh = globe(60, 31);
     for (Vec3& p : mesh.positions) p *= Vec3(1 + strongest, 1, 0.1);
-    const reference::MeshGeometry geometry(mesh, Acceleration::tree);
+    const reference::MeshGeometry geometry(mesh, Acceleration::bvh);
     const Mat4 map = random_map(dice, strongest, 100 * strongest);
     const reference::InstanceGeometry instance({0, map, 0, {}}, geometry);
     std::array<int, parts> escaped{};

@@ -1,6 +1,6 @@
 // Meshes and their instances in the reference: what they look like, against shapes and closed forms.
 #include "meshes.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -105,7 +105,7 @@ TEST_CASE("primitives count the shapes, then each instance's triangles") {
 }
 
 TEST_CASE("of equal hits the lowest primitive wins: shapes, instances, triangles") {
-  for (const Acceleration acceleration : {Acceleration::tree, Acceleration::brute_force}) {
+  for (const Acceleration acceleration : {Acceleration::bvh, Acceleration::brute_force}) {
     // The same square many times: the sixth triangle of a mesh, instances, a shape.
     Mesh squares = make_mesh({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-3, -1, 0}, {3, -1, 0}}, {});
     for (int i = 0; i < 5; ++i) squares.triangles.push_back({1, 5, 2});
@@ -127,7 +127,7 @@ TEST_CASE("under a mirror the outside stays outside, and normals follow the surf
   Mesh mesh = make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   mesh.normals = {{0, 0, 1}, glm::normalize(Vec3(1, 0, 1)), {0, 0, 1}};
   mesh.uv = {{2, 3}, {4, 3}, {2, 7}};
-  const reference::MeshGeometry geometry(mesh, Acceleration::tree);
+  const reference::MeshGeometry geometry(mesh, Acceleration::bvh);
   const auto at = [&](const Mat4& map, const Vec3& target) {
     const reference::InstanceGeometry instance({0, map, 0, {}}, geometry);
     const Vec3 world(map * Vec4(target, 1));

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/affine.hpp"
-#include "scene/triangle.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/triangle.hpp"
 #include "scenes.hpp"
 
 namespace eyeray::test {

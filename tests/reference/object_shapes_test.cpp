@@ -1,7 +1,7 @@
 // Shapes in a space of their own against numbers worked out by hand.
 #include "scenes.hpp"
-#include "support/doctest.hpp"
-#include "support/random.hpp"
+#include "tests/support/doctest.hpp"
+#include "tests/support/random.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -1,7 +1,7 @@
 // The records that shapes and materials write for the shaders.
-#include "records/packer.hpp"
+#include "host/records/packer.hpp"
 #include "scenes.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -83,7 +83,7 @@ TEST_CASE("material records") {
   const PackedScene phong =
       packed(*make_phong({.diffuse = {Vec3(0.5), {}}, .reflectance = {Vec3(0.125), {}}, .highlight = blinn}));
   CHECK(phong.materials.at(0).head ==
-        shader::uvec4(shader::MATERIAL_phong, MATERIAL_BLINN, 0u, SHADOW_OPAQUE));
+        shader::uvec4(shader::MATERIAL_phong, MATERIAL_BLINN, 0u, OPTICAL_DEPTH_OPAQUE));
   CHECK(phong.materials.at(0).parameters.x == 50);
   CHECK(texture(phong, 0) == glm::vec3(0.5f));
   CHECK(texture(phong, 1) == glm::vec3(0.25f));
@@ -91,7 +91,7 @@ TEST_CASE("material records") {
   CHECK(texture(phong, 3) == glm::vec3(0.5f));
 
   const PackedScene mirror = packed(*make_mirror({.reflectance = {Vec3(0.75), {}}}));
-  CHECK(mirror.materials.at(0).head == shader::uvec4(shader::MATERIAL_mirror, 0u, 0u, SHADOW_OPAQUE));
+  CHECK(mirror.materials.at(0).head == shader::uvec4(shader::MATERIAL_mirror, 0u, 0u, OPTICAL_DEPTH_OPAQUE));
   CHECK(texture(mirror, 0) == glm::vec3(0.75f));
   CHECK(texture(mirror, 2) == glm::vec3(0.75f));
   CHECK(texture(mirror, 3) == glm::vec3(0));
@@ -102,5 +102,5 @@ TEST_CASE("material records") {
   CHECK(texture(glass, 0) == glm::vec3(1));
   CHECK(texture(glass, 2) == glm::vec3(1));
   CHECK(packed(*make_dielectric({.ior = 1})).materials.at(0).head.w == 0);
-  CHECK(packed(*make_dielectric({.shadow = 0.0})).materials.at(0).head.w == SHADOW_OPAQUE);
+  CHECK(packed(*make_dielectric({.shadow = 0.0})).materials.at(0).head.w == OPTICAL_DEPTH_OPAQUE);
 }

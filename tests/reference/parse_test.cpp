@@ -1,7 +1,7 @@
 // What shapes and materials make of their tables in a scene file, and what they refuse.
-#include "loader/scene_file.hpp"
+#include "host/loader/scene_file.hpp"
 #include "scenes.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

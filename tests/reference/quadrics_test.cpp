@@ -2,14 +2,14 @@
 #include <numbers>
 
 #include "scenes.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
 
 namespace {
 
-// The heights at which a ray upward through (x, z) meets the shape.
+// The heights at which a ray upward through (x, z) hits the shape.
 std::vector<double> heights(const Shape& shape, double x, double z) {
   std::vector<double> all;
   for (double y = -10; const auto hit = shape.intersect({{x, y, z}, {0, 1, 0}});) {
@@ -55,16 +55,16 @@ TEST_CASE("disk: its hole, its rims and its uv") {
 }
 
 TEST_CASE("paraboloid: y = x² + z², its cap, its tip and its focus") {
-  const auto solid = make_paraboloid({0, 0, 0}, {0, 4, 0}, 2);
+  const auto csg = make_paraboloid({0, 0, 0}, {0, 4, 0}, 2);
   const auto bowl = make_paraboloid({0, 0, 0}, {0, 4, 0}, 2, true);
-  check_heights(*solid, 1, 0, {1, 4});
+  check_heights(*csg, 1, 0, {1, 4});
   check_heights(*bowl, 1, 0, {1});
   check_heights(*bowl, 0, 0, {0});
   check_heights(*bowl, 2.001, 0, {});
-  CHECK(near(distance(*solid, {{-5, 1, 0}, {1, 0, 0}}), 4, 1e-14));
-  CHECK(near(distance(*solid, {{0, 1, 0}, {1, 0, 0}}), 1, 1e-14));
-  CHECK(struck(*solid, {{1, 10, 0}, down}).normal == Vec3(0, 1, 0));
-  CHECK(near(struck(*solid, {{0, -3, 0}, -down}).normal, Vec3(0, -1, 0), 1e-12));
+  CHECK(near(distance(*csg, {{-5, 1, 0}, {1, 0, 0}}), 4, 1e-14));
+  CHECK(near(distance(*csg, {{0, 1, 0}, {1, 0, 0}}), 1, 1e-14));
+  CHECK(struck(*csg, {{1, 10, 0}, down}).normal == Vec3(0, 1, 0));
+  CHECK(near(struck(*csg, {{0, -3, 0}, -down}).normal, Vec3(0, -1, 0), 1e-12));
 
   // What comes along the axis leaves for the focus, 2² / (4 · 4) above the tip.
   const SurfacePoint point = struck(*bowl, {{1, 10, 0}, down});
@@ -78,7 +78,7 @@ TEST_CASE("paraboloid: y = x² + z², its cap, its tip and its focus") {
   CHECK(near(struck(*hill, {{1, 10, 0}, down}).normal, Vec3(2, 1, 0) / std::sqrt(5.0), 1e-14));
 }
 
-TEST_CASE("hyperboloid: x² + z² = 9 + y², met up to four times") {
+TEST_CASE("hyperboloid: x² + z² = 9 + y², hit up to four times") {
   const auto spool = make_hyperboloid({0, -4, 0}, {0, 4, 0}, 5, 5, 3);
   const auto side = make_hyperboloid({0, -4, 0}, {0, 4, 0}, 5, 5, 3, true);
   const double bend = std::sqrt(7.0);
@@ -133,10 +133,10 @@ TEST_CASE("quadric: a saddle, two sheets, and a ball cut off by a box") {
   CHECK(near(point.normal, Vec3(0.5, -1, 0) / std::sqrt(1.25), 1e-14));
   CHECK(near(point.uv.x, 0.625, 1e-14));
   CHECK(near(point.uv.y, 0.5, 1e-14));
-  const auto solid = make_quadric(saddle, Vec3(-1), Vec3(1));
-  check_heights(*solid, 0.5, 0, {0.25, 1});
-  CHECK(struck(*solid, {{0.5, 5, 0}, down}).normal == Vec3(0, 1, 0));
-  CHECK(near(struck(*solid, {{0.5, 5, 0}, down}).uv.x, 0.75, 1e-15));
+  const auto csg = make_quadric(saddle, Vec3(-1), Vec3(1));
+  check_heights(*csg, 0.5, 0, {0.25, 1});
+  CHECK(struck(*csg, {{0.5, 5, 0}, down}).normal == Vec3(0, 1, 0));
+  CHECK(near(struck(*csg, {{0.5, 5, 0}, down}).uv.x, 0.75, 1e-15));
 
   const QuadricValues sheets{.square = {1, -1, 1}, .product = Vec3(0), .linear = Vec3(0), .constant = 0.25};
   check_heights(*make_quadric(sheets, Vec3(-1), Vec3(1)), 0, 0, {-1, -0.5, 0.5, 1});

@@ -1,9 +1,9 @@
 // Reflection, refraction and media, against closed forms.
 #include <algorithm>
 
-#include "reference/media.hpp"
+#include "host/reference/media.hpp"
 #include "scenes.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -80,15 +80,15 @@ TEST_CASE("depth and weight end the recursion") {
   const int wall = add(scene, make_phong({.diffuse = gray(0), .ambient = gray(1), .reflectance = gray(0.5)}));
   add(scene, make_plane({0, 0, -1}, {0, 0, 1}), wall);
   add(scene, make_plane({0, 0, 1}, {0, 0, -1}), wall);
-  scene.render.min_weight = 0;
+  scene.render.min_throughput = 0;
   for (int depth = 0; depth < 20; ++depth) {
     scene.render.max_depth = depth;
     CHECK(look(scene).color.x == 2 - std::pow(0.5, depth));
     CHECK(look(scene).rays == uint32_t(depth) + 1);
   }
-  scene.render.min_weight = 0.12;
+  scene.render.min_throughput = 0.12;
   CHECK(look(scene).rays == 4);
-  scene.render.min_weight = 0.125;  // a weight of exactly the least is not traced
+  scene.render.min_throughput = 0.125;  // a weight of exactly the least is not traced
   CHECK(look(scene).rays == 3);
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("rounding that takes another check at each mirror stays within the dar
     Scene scene = one_pixel({x, 0.5, 0}, {x, 0.5, -1});
     scene.render.ambient = Vec3(1);
     scene.render.max_depth = 3;
-    scene.render.min_weight = 0;
+    scene.render.min_throughput = 0;
     const Texture checks{{}, Checker{Vec3(0.25, 1, 0), Vec3(1, 0.5, 0), Vec2(1)}};
     const int wall =
         add(scene, make_phong({.diffuse = gray(0), .ambient = checks, .reflectance = gray(0.5)}));
@@ -125,13 +125,13 @@ TEST_CASE("the weight that ends the recursion counts absorption, and the greates
   add(scene, make_plane({0, 0, 0}, {0, 1, 0}),
       add(scene, make_dielectric({.ior = 1, .absorption = {1, 9, 9}})));
   add(scene, make_plane({0, -2, 0}, {0, 1, 0}), add(scene, make_mirror({.reflectance = gray(1)})));
-  scene.render.min_weight = 0.37;
+  scene.render.min_throughput = 0.37;
   CHECK(look(scene).rays == 1);
-  scene.render.min_weight = 0.36;
+  scene.render.min_throughput = 0.36;
   CHECK(look(scene).rays == 2);
 
   // Up through the surface: three units of water in all.
-  scene.render.min_weight = 0;
+  scene.render.min_throughput = 0;
   CHECK(look(scene).color.x == doctest::Approx(std::exp(-3)));
   CHECK(look(scene).color.y == doctest::Approx(std::exp(-27)));
 }
@@ -159,7 +159,7 @@ TEST_CASE("a glass sphere in a uniform world loses no light") {
   Scene scene = one_pixel({0, 0, 5}, {0, 0, 0});
   scene.render.background = {1, 0.5, 0.25};
   scene.render.max_depth = 400;
-  scene.render.min_weight = 1e-14;
+  scene.render.min_throughput = 1e-14;
   add(scene, make_sphere({0, 0, 0}, 1), add(scene, make_dielectric({.ior = 1.5})));
   Dice dice;
   for (int i = 0; i < 100; ++i) {
@@ -270,12 +270,12 @@ TEST_CASE("a fifth nested medium is not entered, and says so") {
 
 namespace {
 
-// Knows only that it is not met before `sure_until`.
+// Knows only that it is not hit before `sure_until`.
 class GivesUp final : public Shape {
  public:
   explicit GivesUp(double sure_until) : sure_until_(sure_until) {}
   std::optional<Intersection> intersect(const Ray&) const override {
-    return Intersection{.t = sure_until_, .ran_out = true};
+    return Intersection{.t = sure_until_, .iteration_limit = true};
   }
   SurfacePoint surface(const Ray&, const Intersection&) const override { return {}; }
   Bounds bounds() const override { return {Vec3(-1e3), Vec3(1e3)}; }
@@ -295,10 +295,10 @@ TEST_CASE("a shape that gives up is no hit, and flagged where it might have been
   for (const double sure_until : {3.9, 4.1}) {
     scene.shapes.resize(1);
     add(scene, std::make_unique<GivesUp>(sure_until), white);
-    for (const Acceleration acceleration : {Acceleration::tree, Acceleration::brute_force}) {
+    for (const Acceleration acceleration : {Acceleration::bvh, Acceleration::brute_force}) {
       const reference::Renderer renderer(scene, acceleration);
-      CHECK(renderer.sample(0, 0, 0).flags == (sure_until < 4 ? ran_out : 0u));
-      CHECK(renderer.first_hit(0, 0).flags == (sure_until < 4 ? ran_out : 0u));
+      CHECK(renderer.sample(0, 0, 0).flags == (sure_until < 4 ? iteration_limit : 0u));
+      CHECK(renderer.first_hit(0, 0).flags == (sure_until < 4 ? iteration_limit : 0u));
       CHECK(renderer.first_hit(0, 0).t == doctest::Approx(4));
     }
   }
@@ -312,7 +312,7 @@ TEST_CASE("a shape that gives up is no hit, and flagged where it might have been
     const reference::Tracer tracer(scene);
     uint32_t flags = 0;
     CHECK(tracer.transmittance({{0, 0, 1.001}, {0, 0, 1}}, 2, flags) == 1);
-    CHECK(flags == (sure_until < 2 ? ran_out : 0u));
+    CHECK(flags == (sure_until < 2 ? iteration_limit : 0u));
     // What is dark is dark, whatever else is on the way.
     flags = 0;
     CHECK(tracer.transmittance({{0, 0, 5}, {0, 0, -1}}, 10, flags) == 0);

@@ -4,9 +4,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "materials/make.hpp"
-#include "reference/renderer.hpp"
-#include "shapes/make.hpp"
+#include "host/materials/make.hpp"
+#include "host/reference/renderer.hpp"
+#include "host/shapes/make.hpp"
 
 namespace eyeray::test {
 
@@ -57,11 +57,11 @@ inline bool near(const Vec3& a, const Vec3& b, double tolerance) {
   return glm::length(a - b) <= tolerance;
 }
 
-// The surface that a ray meets; the test ends if it meets none.
+// The surface that a ray hits; the test ends if it hits none.
 inline SurfacePoint struck(const Shape& shape, const Ray& ray) {
   return shape.surface(ray, shape.intersect(ray).value());
 }
-// Along the ray; -1 if it meets nothing.
+// Along the ray; -1 if it hits nothing.
 inline double distance(const Shape& shape, const Ray& ray) {
   const auto hit = shape.intersect(ray);
   return hit ? hit->t : -1;

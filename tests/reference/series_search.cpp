@@ -2,12 +2,12 @@
 #include <cmath>
 #include <memory>
 
-#include "formula/formula.hpp"
-#include "shapes/chebyshev.hpp"
-#include "shapes/formula_surface.hpp"
-#include "support/random.hpp"
+#include "host/formula/formula.hpp"
+#include "host/shapes/chebyshev.hpp"
+#include "host/shapes/formula_surface.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;
@@ -20,10 +20,10 @@ TEST_CASE("a Chebyshev series knows how far it stays from zero, and whether it t
   };
   const ChebyshevSeries cubic = series([](double x) { return 3 + x * x * x; });
   CHECK(cubic.ends(1e-14));
-  CHECK(cubic.clearance() == doctest::Approx(2));
+  CHECK(cubic.ray_offset() == doctest::Approx(2));
   CHECK_FALSE(cubic.monotone());  // flat in the middle
   CHECK(series([](double x) { return 3 * x + x * x * x / 2; }).monotone());
-  CHECK(series([](double x) { return x * x - 0.5; }).clearance() < 0);
+  CHECK(series([](double x) { return x * x - 0.5; }).ray_offset() < 0);
   CHECK(series([](double x) { return std::exp(x); }).ends(1e-12));
   CHECK_FALSE(series([](double x) { return std::fabs(x - 0.1); }).ends(1e-3));
 }
@@ -52,7 +52,7 @@ TEST_CASE("with and without a Lipschitz constant the first change of sign is the
       const auto root = FormulaSurface(bare).first_change(ray, 0, 1);
       REQUIRE(root.has_value() == expected.has_value());
       if (!root) continue;
-      CHECK_FALSE(root->ran_out);
+      CHECK_FALSE(root->iteration_limit);
       CHECK(root->s == doctest::Approx(expected->s).epsilon(1e-9));
       ++found;
     }

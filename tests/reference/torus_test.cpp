@@ -1,5 +1,5 @@
 #include "scenes.hpp"
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -61,7 +61,7 @@ TEST_CASE("torus: a point aimed at is a point hit, however thin, from all distan
     const Vec3 from = around + normal * (minor * dice.between(0, 0.99));
     const double expected = glm::length(target - from);
     worst = std::max(worst, std::abs(distance(*torus, {from, normal}) - expected));
-    // The line on from there, from afar: something of the torus is met, there or before.
+    // The line on from there, from afar: something of the torus is hit, there or before.
     const double far = dice.scale(0, 4);
     const double first = distance(*torus, {target + normal * far, -normal});
     CHECK(first > 0);

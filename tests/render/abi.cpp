@@ -1,11 +1,11 @@
 // records.h means the same on both sides: the offsets that the SPIR-V was given, by name, against offsetof.
 #include <cstddef>
 
-#include "gpu/reflect.hpp"
+#include "host/gpu/reflect.hpp"
 #include "random_scene.hpp"
 #include "support.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -49,15 +49,15 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
   test::add_instance(described, cube, 0);
   test::add_instance(described, cube, 0, test::translation({3, 0, 0}));
   PackedScene scene = pack(described);
-  REQUIRE(scene.has_tree);
+  REQUIRE(scene.has_bvh);
   REQUIRE(scene.frame.counts.z == 1);  // whitted
   scene.media.push_back({});
   scene.lights.push_back({});
-  const gpu::Reflection samples = gpu::reflect(test::compile_entry("render.comp.glsl", scene, {}));
+  const gpu::Reflection samples = gpu::reflect(test::compile_entry("kernels/render.comp.glsl", scene, {}));
   check_struct(samples, "Primitive", sizeof(shader::Primitive),
                {MEMBER(Primitive, head), MEMBER(Primitive, a), MEMBER(Primitive, b), MEMBER(Primitive, c)});
-  check_struct(samples, "Tree", sizeof(shader::Tree),
-               {MEMBER(Tree, origin), MEMBER(Tree, step), MEMBER(Tree, extent), MEMBER(Tree, head)});
+  check_struct(samples, "Bvh", sizeof(shader::Bvh),
+               {MEMBER(Bvh, origin), MEMBER(Bvh, step), MEMBER(Bvh, extent), MEMBER(Bvh, head)});
   check_struct(samples, "Instance", sizeof(shader::Instance),
                {MEMBER(Instance, head), MEMBER(Instance, to_local), MEMBER(Instance, to_world)});
   check_struct(samples, "Material", sizeof(shader::Material),
@@ -80,18 +80,18 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
   CHECK(samples.push_constant_bytes == sizeof(shader::Dispatch));
 
   const gpu::Reflection waves =
-      gpu::reflect(test::compile_entry("wave.comp.glsl", scene, {}, "#define STORED_HITS 1\n"));
+      gpu::reflect(test::compile_entry("kernels/wavefront.comp.glsl", scene, {}, "#define STORED_HITS 1\n"));
   check_struct(waves, "PacketHit", sizeof(shader::PacketHit),
                {MEMBER(PacketHit, hit), MEMBER(PacketHit, uv)});
   check_struct(waves, "PathState", sizeof(shader::PathState),
-               {MEMBER(PathState, origin), MEMBER(PathState, direction), MEMBER(PathState, weight)});
+               {MEMBER(PathState, origin), MEMBER(PathState, direction), MEMBER(PathState, throughput)});
 
   const gpu::Reflection hits =
-      gpu::reflect(test::compile_entry("render.comp.glsl", scene, {}, "#define FIRST_HITS\n"));
+      gpu::reflect(test::compile_entry("kernels/render.comp.glsl", scene, {}, "#define FIRST_HITS\n"));
   check_struct(hits, "HitResult", sizeof(shader::HitResult),
                {MEMBER(HitResult, position_t), MEMBER(HitResult, normal), MEMBER(HitResult, uv),
                 MEMBER(HitResult, ids)});
-  const gpu::Reflection query = gpu::reflect(test::compile_entry("query.comp.glsl", scene, {}));
+  const gpu::Reflection query = gpu::reflect(test::compile_entry("kernels/query.comp.glsl", scene, {}));
   check_struct(query, "QueryRay", sizeof(shader::QueryRay),
                {MEMBER(QueryRay, origin), MEMBER(QueryRay, direction)});
   check_struct(query, "QueryHit", sizeof(shader::QueryHit), {MEMBER(QueryHit, hit)});

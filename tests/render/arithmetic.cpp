@@ -1,13 +1,13 @@
 // The shaders use only the arithmetic that GPU and twin agree on to the last bit.
 #include <set>
 
-#include "gpu/float_policy.hpp"
-#include "gpu/spirv.hpp"
-#include "gpu/spirv_optimiser.hpp"
+#include "host/gpu/float_policy.hpp"
+#include "host/gpu/spirv.hpp"
+#include "host/gpu/spirv_optimiser.hpp"
 #include "random_scene.hpp"
 #include "support.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -21,7 +21,7 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver")
   Scene large = test::random_scene(random, 3);
   const int cube = test::add(large, test::cube());
   for (const double x : {-3, 3}) test::add_instance(large, cube, 0, test::translation({x, 0, 0}));
-  // Compiled in, tested one by one, and in trees with each way to keep a stack.
+  // Compiled in, tested one by one, and in BVHs with each way to keep a stack.
   const struct {
     const Scene& scene;
     Specialisation specialisation;
@@ -32,7 +32,7 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver")
   for (const auto& [described, specialisation] : kernels) {
     for (const uint32_t integrator : {0u, 1u}) {
       PackedScene scene = pack(described);
-      CHECK(scene.has_tree == (&described == &large));
+      CHECK(scene.has_bvh == (&described == &large));
       scene.frame.counts.z = integrator;
       scene.frame.camera.w = 8;
       scene.media.push_back({});
@@ -42,7 +42,8 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver")
       scene.texel_count = TEXELS_FIRST;
       for (const uint32_t material : {0u, 1u, 2u}) {
         scene.materials[0].head.x = material;
-        const std::vector<uint32_t> written = test::compile_entry("render.comp.glsl", scene, specialisation);
+        const std::vector<uint32_t> written =
+            test::compile_entry("kernels/render.comp.glsl", scene, specialisation);
         for (const auto& spirv : {written, gpu::optimise(gpu::decorate_no_contraction(written))}) {
           int instructions = 0;
           gpu::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {

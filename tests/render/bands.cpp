@@ -1,9 +1,9 @@
 // Pictures that are rendered a band of rows at a time.
 #include "fake_executor.hpp"
-#include "loader/scene_file.hpp"
-#include "support/ball_over_floor.hpp"
+#include "host/loader/scene_file.hpp"
+#include "tests/support/ball_over_floor.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -1,12 +1,12 @@
 // Renders that are interrupted and taken up again; and what a checkpoint file may be instead of one.
-#include "render/checkpoint.hpp"
+#include "host/render/checkpoint.hpp"
 
-#include "core/checksum.hpp"
 #include "fake_executor.hpp"
-#include "support/process.hpp"
-#include "support/random.hpp"
+#include "host/core/checksum.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/random.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

@@ -1,11 +1,11 @@
 // Pictures sampled at the corners of their pixels.
-#include "render/corners.hpp"
+#include "host/render/corners.hpp"
 
-#include "loader/scene_file.hpp"
-#include "render/render.hpp"
-#include "scene/camera_frame.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/render/render.hpp"
+#include "host/scene/camera_frame.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

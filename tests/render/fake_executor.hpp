@@ -6,7 +6,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "render/render.hpp"
+#include "host/render/render.hpp"
 
 namespace eyeray::test {
 

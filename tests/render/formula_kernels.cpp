@@ -3,15 +3,15 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "formula/formula.hpp"
-#include "gpu/command_list.hpp"
-#include "gpu/kernel_compiler.hpp"
-#include "gpu/self_test.hpp"
-#include "render/shader_files.hpp"
+#include "host/executors/shader_files.hpp"
+#include "host/formula/formula.hpp"
+#include "host/gpu/command_list.hpp"
+#include "host/gpu/kernel_compiler.hpp"
+#include "host/gpu/self_test.hpp"
 #include "support.hpp"
-#include "support/random_formula.hpp"
+#include "tests/support/random_formula.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -28,7 +28,7 @@ uint32_t bits_of(float x) {
 std::vector<float> run(gpu::Device& device, const std::string& text,
                        const std::vector<std::string>& functions, const std::vector<glm::vec4>& places) {
   std::string main =
-      "#version 450\n#include \"formula.glsl\"\n"
+      "#version 450\n#include \"math/formula.glsl\"\n"
       "uint formula_turns = 0u;\n"
       "bool formula_turn(uint turns) { formula_turns = formula_turns + turns; return formula_turns <= "
       "FORMULA_TURNS; }\n" +

@@ -5,12 +5,12 @@
 #include <sstream>
 
 #include "hard_scene.hpp"
-#include "loader/scene_file.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/reference/tracer.hpp"
+#include "host/twin/shader_functions.hpp"
 #include "query_kernel.hpp"
-#include "reference/tracer.hpp"
-#include "twin/shader_functions.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -47,7 +47,7 @@ Scene stored(const std::string& text, std::string_view groups) {
   return parse_scene(fmt::format("[render]\ngroups = \"{}\"\n{}", groups, text), "scene.toml");
 }
 
-// What a ray meets, and the surface there, whoever says so.
+// What a ray hits, and the surface there, whoever says so.
 struct Met {
   int64_t primitive = -1;
   double t = 0;
@@ -90,7 +90,7 @@ double difference(const Met& a, const Met& b, double rounding, double size) {
 }  // namespace
 
 TEST_CASE(
-    "every kind of shape: kept once it is met where copies are, with their ids, normals and uv; by the tree "
+    "every kind of shape: kept once it is hit where copies are, with their ids, normals and uv; by the BVH "
     "as by "
     "brute force") {
   for (const ShapeType* type : shape_types()) {
@@ -108,12 +108,12 @@ TEST_CASE(
 
     const reference::Tracer flat_tracer(flat), once_tracer(once);
     const PackedScene flat_records = pack(flat);
-    const PackedScene once_records = pack(once, {.acceleration = Acceleration::tree});
+    const PackedScene once_records = pack(once, {.acceleration = Acceleration::bvh});
     const PackedScene once_brute = pack(once, {.acceleration = Acceleration::brute_force});
-    REQUIRE(once_records.has_tree);
+    REQUIRE(once_records.has_bvh);
     const Vec3 eye = once.camera.eye;
     Random random(3);
-    int hits = 0, wrong = 0, wrong_shader = 0, wrong_tree = 0;
+    int hits = 0, wrong = 0, wrong_shader = 0, wrong_bvh = 0;
     for (int i = 0; i < 4000; ++i) {
       const Bounds box = flat.shapes[size_t(random.below(int(flat.shapes.size())))]->bounds();
       const Vec3 target =
@@ -126,20 +126,20 @@ TEST_CASE(
       const double off = difference(by_reference(once_tracer, ray), expected, 1e-6, size);
       const Met met = by_twin(once_records, ray, eye);
       const double off_shader = difference(met, by_twin(flat_records, ray, eye), 1e-3, size);
-      wrong_tree += difference(met, by_twin(once_brute, ray, eye), 1, size) != 0;
+      wrong_bvh += difference(met, by_twin(once_brute, ray, eye), 1, size) != 0;
       wrong += off > 1;
       wrong_shader += off_shader > 1;
     }
     MESSAGE(fmt::format("{}: {} hits; reference {} differ, shaders {}, all where rays graze", type->name,
                         hits, wrong, wrong_shader));
     CHECK(hits > 400);
-    CHECK(wrong_tree == 0);
+    CHECK(wrong_bvh == 0);
     CHECK(wrong <= 2);
     CHECK(wrong_shader <= 40);
   }
 }
 
-TEST_CASE("a ray that leaves a convex shape of a group outward does not meet it again") {
+TEST_CASE("a ray that leaves a convex shape of a group outward does not hit it again") {
   const std::string shapes = R"(
 [[material]]
 name = "wall"
@@ -199,7 +199,7 @@ material = "wall"
       const shader::Surface surface = shader::surface_at(shader::primitive_at(hit), ray, hit);
       glm::vec3 away(random.direction());
       if (shader::dot3(away, surface.normal_geometric) < 0) away = -away;
-      const shader::Hit again = shader::trace(shader::leave(surface, away), flags);
+      const shader::Hit again = shader::trace(shader::spawn_ray(surface, away), flags);
       ++left;
       met += again.slot != NONE && again.id == hit.id;
     }

@@ -1,12 +1,12 @@
-// Scenes and rays that are hard on trees: boxes without extent, needles, duplicates, ties, and rays that only
+// Scenes and rays that are hard on BVHs: boxes without extent, needles, duplicates, ties, and rays that only
 // just touch.
 #pragma once
 
 #include <numbers>
 
+#include "host/reference/media.hpp"
 #include "random_scene.hpp"
 #include "ray_targets.hpp"
-#include "reference/media.hpp"
 
 namespace eyeray::test {
 
@@ -47,7 +47,7 @@ class HardScene {
       add_spheres(random_.below(8));
       if (chance(0.3)) add(scene_, make_plane(point(center_, size_), random_.direction()), material());
       if (chance(0.4)) add_object_shapes(1 + random_.below(4));
-      if (chance(0.25)) add_solids(1 + random_.below(4));
+      if (chance(0.25)) add_csg_objects(1 + random_.below(4));
       if (chance(0.7)) add_shapes(hard_triangles(1 + random_.below(20)));
       if (chance(0.3)) add_polygons(1 + random_.below(5));
       if (chance(0.6)) add_instances(1);
@@ -58,14 +58,14 @@ class HardScene {
     sort_shapes();
     // More media around the eye than a ray can carry: all opaque.
     if (reference::media_at(scene_, scene_.camera.eye).size() > 4) {
-      const auto erase_solids = [](auto& shapes) {
-        std::erase_if(shapes, [](const auto& shape) { return is_solid(*shape); });
+      const auto erase_csg_objects = [](auto& shapes) {
+        std::erase_if(shapes, [](const auto& shape) { return is_csg(*shape); });
       };
-      erase_solids(scene_.shapes);
+      erase_csg_objects(scene_.shapes);
       for (const auto& shape : scene_.shapes) shape->material = 0;
       for (Instance& instance : scene_.instances) instance.material = 0;
       for (Group& group : scene_.groups) {
-        erase_solids(group.shapes);
+        erase_csg_objects(group.shapes);
         for (const auto& shape : group.shapes) shape->material = 0;
         for (Instance& instance : group.instances) instance.material = 0;
       }
@@ -82,7 +82,7 @@ class HardScene {
     });
   }
 
-  static bool is_solid(const Shape& shape) { return std::holds_alternative<SolidForm>(shape.form()); }
+  static bool is_csg(const Shape& shape) { return std::holds_alternative<CsgForm>(shape.form()); }
 
   int material() { return chance(glass_) ? 1 : 0; }
 
@@ -201,7 +201,7 @@ class HardScene {
   }
 
   // Of parts that touch, that are the same, or lie beside each other; some of them within others.
-  void add_solids(int count) {
+  void add_csg_objects(int count) {
     for (int i = 0; i < count; ++i) {
       Scene parts;
       std::swap(parts.shapes, scene_.shapes);
@@ -216,19 +216,19 @@ class HardScene {
         else
           operands.push_back(std::move(part));
         if (operands.size() == 2 && chance(0.3)) {
-          auto inner = make_solid(chance(0.5), std::move(operands));
+          auto inner = make_csg(chance(0.5), std::move(operands));
           operands.clear();
           operands.push_back(std::move(inner));
         }
       }
       // Most of what is within all of them would be nothing.
       const bool all = operands.size() < 3 && chance(0.4);
-      auto solid = make_solid(all, std::move(operands), std::move(removed));
-      if (glm::all(glm::lessThan(solid->bounds().min, solid->bounds().max))) add(scene_, std::move(solid), 0);
+      auto csg = make_csg(all, std::move(operands), std::move(removed));
+      if (glm::all(glm::lessThan(csg->bounds().min, csg->bounds().max))) add(scene_, std::move(csg), 0);
     }
   }
 
-  // Each around the next, and all but alike: the deepest of trees.
+  // Each around the next, and all but alike: the deepest of BVHs.
   void add_nest() {
     const int count = 30 + random_.below(100);
     const double factor = random_.uniform(1.05, 1.5);
@@ -254,7 +254,7 @@ class HardScene {
     std::swap(own, scene_.shapes);
     add_spheres(random_.below(5));
     if (chance(0.7)) add_object_shapes(1 + random_.below(4));
-    if (chance(0.3)) add_solids(1 + random_.below(2));
+    if (chance(0.3)) add_csg_objects(1 + random_.below(2));
     if (chance(0.5)) add_shapes(hard_triangles(1 + random_.below(6)));
     if (chance(0.3)) add_polygons(1 + random_.below(3));
     Group group;

@@ -1,15 +1,15 @@
-// Closed meshes do not leak and surfaces that are left are not met again: on the kernel, through the tree,
+// Closed meshes do not leak and surfaces that are left are not hit again: on the kernel, through the BVH,
 // baked and as instances.
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <map>
 
+#include "host/twin/shader_functions.hpp"
 #include "query_kernel.hpp"
 #include "random_scene.hpp"
-#include "twin/shader_functions.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -70,7 +70,7 @@ constexpr Kept all_kept[] = {Kept::baked, Kept::instance, Kept::in_group};
 constexpr const char* kept_names[] = {"baked", "an instance", "in a group"};
 
 // The mesh in its place, turned; as an instance, or in a group, it has a second far away, so that both have a
-// tree to share.
+// BVH to share.
 struct PlacedMesh {
   PlacedMesh(Mesh mesh, const Place& place, Kept kept) {
     map = glm::scale(glm::rotate(translation(place.center), 0.7, Vec3(0.6, 0, 0.8)), place.scale);
@@ -86,7 +86,7 @@ struct PlacedMesh {
       add_instance(scene, index, 0, map);
       if (kept == Kept::instance) add_instance(scene, index, 0, second);
     }
-    packed = pack(scene, {.acceleration = Acceleration::tree});
+    packed = pack(scene, {.acceleration = Acceleration::bvh});
     REQUIRE(packed.instances.size() == (kept == Kept::baked ? 0 : 2));
   }
   Vec3 to_world(const Vec3& p) const { return Vec3(map * glm::dvec4(p, 1)); }
@@ -104,7 +104,7 @@ constexpr const char* aim_names[] = {"at random", "at edges", "at vertices"};
 }  // namespace
 
 TEST_CASE(
-    "closed meshes: no ray leaks through the tree, wherever they are, whatever their size, of needles, as "
+    "closed meshes: no ray leaks through the BVH, wherever they are, whatever their size, of needles, as "
     "instances" *
     doctest::test_suite("long")) {
   gpu::Device device({});
@@ -149,7 +149,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a ray that leaves a convex mesh outward does not meet it again, radius 1e-4 to 1e4, baked or an "
+    "a ray that leaves a convex mesh outward does not hit it again, radius 1e-4 to 1e4, baked or an "
     "instance") {
   gpu::Device device({});
   Random random(12);
@@ -178,13 +178,13 @@ TEST_CASE(
           away = glm::normalize(away -
                                 surface.normal_geometric * glm::dot(away, surface.normal_geometric) * 0.999f);
         if (shader::dot3(away, surface.normal_geometric) < 0) away = -away;
-        rays.push_back({shader::vec4(shader::leave(surface, away).o, 0.0f), shader::vec4(away, 1e30f)});
+        rays.push_back({shader::vec4(shader::spawn_ray(surface, away).o, 0.0f), shader::vec4(away, 1e30f)});
       }
       QueryKernel kernel(device, placed.packed, {});
       const std::vector<shader::QueryHit> hits = kernel.ask(rays, false);
       const auto met =
           std::ranges::count_if(hits, [&](const shader::QueryHit& hit) { return placed.is_hit(hit); });
-      MESSAGE(fmt::format("{}, {}: {} of {} met again", place.name, kept_names[int(kept)], met, count));
+      MESSAGE(fmt::format("{}, {}: {} of {} hit again", place.name, kept_names[int(kept)], met, count));
       CHECK(met == 0);
     }
   }

@@ -3,12 +3,12 @@
 
 #include <numbers>
 
-#include "loader/scene_file.hpp"
+#include "host/executors/executor.hpp"
+#include "host/loader/scene_file.hpp"
 #include "query_kernel.hpp"
 #include "random_scene.hpp"
-#include "render/executor.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -117,7 +117,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("more iterations in a tree than a capped driver grants: every pixel is the twin's, or flagged") {
+TEST_CASE("more iterations in a BVH than a capped driver grants: every pixel is the twin's, or flagged") {
   // No box tells these spheres apart: a ray tests them all, the nearest of which is the first.
   constexpr int count = 70'000;
   Scene scene;
@@ -151,7 +151,9 @@ TEST_CASE("more iterations in a tree than a capped driver grants: every pixel is
   }
 }
 
-TEST_CASE("whichever loop a driver cuts off, in a tree or beside it: what a ray loses is right, or flagged") {
+TEST_CASE(
+    "whichever loop a driver cuts off, in a BVH or in the linear list: what a ray loses is right, or "
+    "flagged") {
   // So faint that a ray goes through all of them.
   constexpr int count = 70'000;
   Scene scene;
@@ -162,11 +164,11 @@ TEST_CASE("whichever loop a driver cuts off, in a tree or beside it: what a ray 
   for (int i = 0; i < 64; ++i) rays.push_back({to_vec4(Vec3(0.02 * i, 0, 0)), to_vec4(Vec3(0, 0, -1), 1e30)});
 
   gpu::Device device({});
-  for (const Acceleration acceleration : {Acceleration::tree, Acceleration::brute_force}) {
+  for (const Acceleration acceleration : {Acceleration::bvh, Acceleration::brute_force}) {
     const PackedScene packed = pack(scene, {.acceleration = acceleration});
     const std::vector<shader::QueryHit> expected = test::ask_twin(packed, rays, true);
     CHECK(expected[0].hit.w > count);
-    CHECK(expected[0].hit.w < SHADOW_OPAQUE);
+    CHECK(expected[0].hit.w < OPTICAL_DEPTH_OPAQUE);
     for (const bool texels : {false, true}) {
       Specialisation specialisation;
       specialisation.profile = {.texel_buffers = texels, .shift_stack = texels};

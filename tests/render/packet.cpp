@@ -1,11 +1,11 @@
-// Rays side by side, in packets: they find what the twin finds, where a shaft is narrow and where it takes
+// coherent rays, in packets: they find what the twin finds, where a shaft is narrow and where it takes
 // too long and is begun again.
 #include <fmt/format.h>
 
 #include "query_kernel.hpp"
 #include "random_scene.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;
@@ -52,7 +52,7 @@ std::vector<shader::QueryRay> picture(Random& random, int size, int strays) {
 TEST_CASE("nearest and any: rays in packets find what the twin finds, bit by bit") {
   gpu::Device device({});
   Random random(17);
-  // In trees of triangles alone rays take turns in another way.
+  // In BVHs of triangles alone rays take turns in another way.
   for (const auto& [count, size, spheres, pixels, strays] :
        {std::tuple(3000, 0.1, true, 199, 0),  // narrow shafts
         {3000, 0.1, false, 199, 0},
@@ -62,9 +62,9 @@ TEST_CASE("nearest and any: rays in packets find what the twin finds, bit by bit
         {20'000, 0.05, false, 33, 0},
         {3000, 0.1, true, 101, 5},
         {3000, 0.1, false, 101, 5}}) {
-    const PackedScene scene = pack(cloud(random, count, size, spheres), {.acceleration = Acceleration::tree});
-    REQUIRE(scene.has_tree);
-    REQUIRE(scene.tree_kinds.size() == (spheres ? 2 : 1));
+    const PackedScene scene = pack(cloud(random, count, size, spheres), {.acceleration = Acceleration::bvh});
+    REQUIRE(scene.has_bvh);
+    REQUIRE(scene.bvh_kinds.size() == (spheres ? 2 : 1));
     Specialisation specialisation;
     specialisation.profile = {.texel_buffers = true, .packets = true};
     test::QueryKernel kernel(device, scene, specialisation);
@@ -75,7 +75,7 @@ TEST_CASE("nearest and any: rays in packets find what the twin finds, bit by bit
     const auto hits =
         std::ranges::count_if(nearest, [](const shader::QueryHit& hit) { return hit.hit.y != NONE; });
     const auto half = std::ranges::count_if(
-        any, [](const shader::QueryHit& hit) { return hit.hit.w > 0 && hit.hit.w < SHADOW_OPAQUE; });
+        any, [](const shader::QueryHit& hit) { return hit.hit.w > 0 && hit.hit.w < OPTICAL_DEPTH_OPAQUE; });
     const int different =
         test::differences(kernel.ask(rays, false), nearest) + test::differences(kernel.ask(rays, true), any);
     MESSAGE(fmt::format("{} primitives: {} of {} rays hit, {} half in shadow, {} differ",

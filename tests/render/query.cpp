@@ -4,7 +4,7 @@
 #include "query_kernel.hpp"
 #include "random_scene.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -13,7 +13,7 @@ TEST_CASE("nearest and any: every bit is the same on the GPU, unrolled or loopin
   test::Random random(7);
   for (int round = 0; round < 6; ++round) {
     const PackedScene scene = test::random_packed_scene(random, 1 + round);
-    REQUIRE_FALSE(scene.has_tree);
+    REQUIRE_FALSE(scene.has_bvh);
     std::vector<shader::QueryRay> rays(100'000);
     for (shader::QueryRay& ray : rays) ray = test::random_ray(random);
     const std::vector<shader::QueryHit> nearest = test::ask_twin(scene, rays, false);

@@ -8,19 +8,20 @@
 #include <optional>
 #include <vector>
 
-#include "gpu/command_list.hpp"
-#include "gpu/self_test.hpp"
-#include "render/wide_nodes.hpp"
+#include "host/gpu/command_list.hpp"
+#include "host/gpu/self_test.hpp"
+#include "host/pack/collapse.hpp"
+#include "host/twin/twin.hpp"
 #include "support.hpp"
-#include "twin/twin.hpp"
 
 namespace eyeray::test {
 
 class QueryKernel {
  public:
-  // With a `wide_tree`, by wide.comp.glsl; else in packets or each ray alone, as the profile says.
+  // With a `collapsed`, by kernels/cooperative/bvh4.comp.glsl; else in packets or each ray alone, as the
+  // profile says.
   QueryKernel(gpu::Device& device, const PackedScene& scene, const Specialisation& specialisation,
-              const WideTree* wide_tree = nullptr)
+              const CollapsedBvh* collapsed = nullptr)
       : device_(device), scene_(scene), specialisation_(specialisation) {
     specialisation_.subgroup_size = device.info().limits.subgroup_size;
     const gpu::BindingKind large =
@@ -29,9 +30,9 @@ class QueryKernel {
     add(BINDING_VERTICES, std::as_bytes(std::span(scene.vertices)), large);
     PackedScene with_packets = scene;
     if (traces_packets())
-      specialisation_.packet_tree = add_packet_tree(with_packets, specialisation_.subgroup_size);
+      specialisation_.packet_bvh = add_packet_bvh(with_packets, specialisation_.subgroup_size);
     add(BINDING_NODES, std::as_bytes(std::span(with_packets.nodes)), large);
-    add(BINDING_TREES, std::as_bytes(std::span(scene.trees)));
+    add(BINDING_BVHS, std::as_bytes(std::span(scene.bvhs)));
     add(BINDING_INSTANCES, std::as_bytes(std::span(scene.instances)));
     add(BINDING_MATERIALS, std::as_bytes(std::span(scene.materials)));
     add(BINDING_TEXTURES, std::as_bytes(std::span(scene.textures)));
@@ -39,17 +40,17 @@ class QueryKernel {
     add(BINDING_MEDIA, std::as_bytes(std::span(scene.media)));
     add(BINDING_LIGHTS, std::as_bytes(std::span(scene.lights)));
     add(BINDING_FRAME, std::as_bytes(std::span(&scene.frame, 1)), large);
-    if (traces_packets()) entry_ = "packet.comp.glsl";
-    if (wide_tree) {
-      add(BINDING_WIDE_NODES, std::as_bytes(std::span(wide_tree->nodes)), large);
-      entry_ = "wide.comp.glsl";
-      defines_ = fmt::format("#define WIDE_STACK_SIZE {}\n", wide_tree->stack_size);
+    if (traces_packets()) entry_ = "kernels/cooperative/packet.comp.glsl";
+    if (collapsed) {
+      add(BINDING_BVH4_NODES, std::as_bytes(std::span(collapsed->nodes)), large);
+      entry_ = "kernels/cooperative/bvh4.comp.glsl";
+      defines_ = fmt::format("#define BVH4_STACK_SIZE {}\n", collapsed->stack_size);
     }
   }
 
   // Whether rays are traced together, as the gpu executor would.
   bool traces_packets() const {
-    return specialisation_.profile.packets && scene_.has_tree && scene_.quantised_nodes &&
+    return specialisation_.profile.packets && scene_.has_bvh && scene_.quantised_nodes &&
            scene_.instances.empty() && scene_.leaf_uses.empty();
   }
 
@@ -89,7 +90,7 @@ class QueryKernel {
   gpu::Device& device_;
   const PackedScene& scene_;
   Specialisation specialisation_;
-  const char* entry_ = "query.comp.glsl";
+  const char* entry_ = "kernels/query.comp.glsl";
   std::string defines_;
   DiskCache cache_ = DiskCache::of_user();
   std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;

@@ -1,9 +1,9 @@
 // Scenes and rays for tests that look at kernels rather than at pictures.
 #pragma once
 
-#include "reference/meshes.hpp"
-#include "render/pack.hpp"
-#include "support/random.hpp"
+#include "host/pack/pack.hpp"
+#include "tests/reference/meshes.hpp"
+#include "tests/support/random.hpp"
 
 namespace eyeray::test {
 

@@ -1,10 +1,10 @@
 // Rays counted by what sends them out.
 #include <algorithm>
 
-#include "loader/scene_file.hpp"
-#include "render/render.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/render/render.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -41,7 +41,7 @@ normal = [0, 1, 0]
 material = "floor"
 )";
 
-// So many spheres that there is a tree, and packets; and a box, whose sides keep light in that came by its
+// So many spheres that there is a BVH, and packets; and a box, whose sides keep light in that came by its
 // front.
 std::string things(const std::string& material) {
   std::string centers;

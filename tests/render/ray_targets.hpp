@@ -1,8 +1,8 @@
 // Where hard rays go: corners, edges and insides as a scene's records have them, in float32.
 #pragma once
 
-#include "render/pack.hpp"
-#include "support/random.hpp"
+#include "host/pack/pack.hpp"
+#include "tests/support/random.hpp"
 
 namespace eyeray::test {
 
@@ -22,7 +22,7 @@ inline std::vector<RayTarget> ray_targets(const Scene& scene, Random& random) {
       pole[random.below(3)] = random.uniform() < 0.5 ? p.a.w : -p.a.w;
       target.b = target.a + pole;
       target.c = target.a + glm::vec3(random.direction()) * p.a.w;
-    } else if (kind_of(p) == shader::KIND_solid) {
+    } else if (kind_of(p) == shader::KIND_csg) {
       target.b = target.a + glm::vec3(p.b);
       target.c = target.a + glm::vec3(p.b.x, -p.b.y, 0);
     } else if (kind_of(p) == shader::KIND_plane) {
@@ -49,9 +49,9 @@ inline std::vector<RayTarget> ray_targets(const Scene& scene, Random& random) {
     }
     targets.push_back(target);
   };
-  for (uint32_t i = 0; i < packed.trees[0].head.z; ++i) take(packed.primitives[i], nullptr);
+  for (uint32_t i = 0; i < packed.bvhs[0].head.z; ++i) take(packed.primitives[i], nullptr);
   for (const shader::Instance& instance : packed.instances)
-    for (uint32_t i = packed.trees[instance.head.x].head.y; i < packed.trees[instance.head.x].head.z; ++i)
+    for (uint32_t i = packed.bvhs[instance.head.x].head.y; i < packed.bvhs[instance.head.x].head.z; ++i)
       take(packed.primitives[i], &instance);
   return targets;
 }

@@ -6,15 +6,15 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <span>
 
-#include "loader/scene_file.hpp"
-#include "reference/tracer.hpp"
-#include "render/pack.hpp"
-#include "scene/affine.hpp"
-#include "support/process.hpp"
-#include "support/random.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/pack/pack.hpp"
+#include "host/reference/tracer.hpp"
+#include "host/scene/affine.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -161,7 +161,7 @@ std::vector<std::pair<std::string, std::string>> ways_to_stand(const Case& of) {
   return ways;
 }
 
-// The shading normal where the ray meets the triangles under the map: Σ weight · normal, mapped, or the
+// The shading normal where the ray hits the triangles under the map: Σ weight · normal, mapped, or the
 // triangle's own, where that is on the other side. Nothing where rounding decides.
 std::optional<Vec3> expected_normal(const Mat4& map, const Ray& ray) {
   const Mat3 linear(map), cotangent = glm::transpose(glm::inverse(linear));
@@ -239,9 +239,9 @@ TEST_CASE("vertex normals are interpolated in the object's space, however it com
   }
 }
 
-TEST_CASE("what is left of stretched solids looks where the gradient does, however they come to stand") {
+TEST_CASE("what is left of stretched CSG objects looks where the gradient does, however they come to stand") {
   // A ball without a smaller one, as their equations have it.
-  const auto solid = [](const std::string& table) {
+  const auto csg = [](const std::string& table) {
     return fmt::format(
         "[[{0}]]\nmaterial = \"wall\"\n[[{0}.sphere]]\ncenter = [0, 0, 0]\nradius = 1\n"
         "[[{0}.minus.sphere]]\ncenter = [0, 0, 1]\nradius = 0.75\n",
@@ -251,11 +251,11 @@ TEST_CASE("what is left of stretched solids looks where the gradient does, howev
     if (of.name == "stretched much") continue;
     const Affine map(of.map());
     const std::string all = steps_text({&of.inner, &of.outer}), inner = steps_text({&of.inner});
-    std::vector<std::string> ways = {solid("solid"), solid("solid")};
+    std::vector<std::string> ways = {csg("csg"), csg("csg")};
     ways[0].insert(ways[0].find('\n') + 1, "transform = [" + all + "]\n");
     ways[1].insert(ways[1].find('\n') + 1, twice(all));
     for (const char* groups : {"flat", "instanced"}) {
-      std::string part = solid("group.solid");
+      std::string part = csg("group.csg");
       part.insert(part.find('\n') + 1, "transform = [" + inner + "]\n");
       ways.push_back(fmt::format("[render]\ngroups = \"{}\"\n[[group]]\n{}{}", groups,
                                  twice(steps_text({&of.outer})), part));

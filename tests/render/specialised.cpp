@@ -5,12 +5,12 @@
 #include <string>
 #include <string_view>
 
-#include "loader/scene_file.hpp"
-#include "render/pack.hpp"
-#include "scene/shape.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/pack/pack.hpp"
+#include "host/scene/shape.hpp"
 #include "support.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 
@@ -36,7 +36,7 @@ TEST_CASE("a kernel has the shapes of its scene, and no other's") {
     for (const auto& [kind, material] : packed.leaf_uses) used.insert(kind);
     for (const bool constants : {true, false}) {
       const std::vector<uint32_t> kernel =
-          test::compile_entry("render.comp.glsl", packed, {.constants = constants});
+          test::compile_entry("kernels/render.comp.glsl", packed, {.constants = constants});
       for (uint32_t kind = 0; kind < shape_types().size(); ++kind) {
         CAPTURE(shape_types()[kind]->name);
         const std::string function = std::string(shape_types()[kind]->name) + "_intersect";

@@ -3,18 +3,18 @@
 
 #include <atomic>
 
-#include "core/parallel_for.hpp"
+#include "host/core/parallel_for.hpp"
 #include "query_kernel.hpp"
 #include "random_scene.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
 
 namespace {
 
-// Long triangles across each other, which a tree is eager to cut: needles of any length of their short side,
+// Long triangles across each other, which a BVH is eager to cut: needles of any length of their short side,
 // thin ones with all corners far apart, wide ones.
 class LongTriangles {
  public:
@@ -95,7 +95,7 @@ TEST_CASE("triangles cut in parts: 4 million grazing rays find what brute force 
   parallel_for(0, 500, [&](int seed) {
     LongTriangles hard{uint64_t(seed)};
     const PackedScene brute = pack(hard.scene(), {.acceleration = Acceleration::brute_force});
-    const PackedScene cut = pack(hard.scene(), {.acceleration = Acceleration::tree, .split = true});
+    const PackedScene cut = pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = true});
     triangles += int64_t(brute.primitives.size());
     parts += int64_t(cut.primitives.size());
     const std::vector<shader::QueryRay> rays = hard.rays(4000);
@@ -114,10 +114,11 @@ TEST_CASE("triangles cut in parts: 4 million grazing rays find what brute force 
   CHECK(different == 0);
 }
 
-TEST_CASE("where a part of a solid lets light through, nothing is cut: in two leaves it would count twice") {
+TEST_CASE(
+    "where a part of a CSG object lets light through, nothing is cut: in two leaves it would count twice") {
   LongTriangles hard{1};
   const auto primitives = [&](bool split) {
-    return pack(hard.scene(), {.acceleration = Acceleration::tree, .split = split}).primitives.size();
+    return pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = split}).primitives.size();
   };
   REQUIRE(primitives(true) > primitives(false));
   ShapeType::Shapes lens;
@@ -125,6 +126,6 @@ TEST_CASE("where a part of a solid lets light through, nothing is cut: in two le
     lens.push_back(make_sphere(hard.scene().camera.eye + Vec3(glass, 0, 0), 2));
     lens.back()->material = glass ? add(hard.scene(), make_dielectric({.shadow = 0.7})) : 0;
   }
-  add(hard.scene(), make_solid(true, std::move(lens)), 0);
+  add(hard.scene(), make_csg(true, std::move(lens)), 0);
   CHECK(primitives(true) == primitives(false));
 }

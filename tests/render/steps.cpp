@@ -2,17 +2,17 @@
 // same, and what is flagged does not depend on how rays are traced.
 #include <fmt/format.h>
 
+#include "host/executors/executor.hpp"
 #include "random_scene.hpp"
-#include "render/executor.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;
 
 namespace {
 
-// More than a thousand, so that rays that part are traced by four lanes each; some let light through.
+// More than a thousand, so that incoherent rays are traced by four lanes each; some let light through.
 Scene crowd() {
   Random random(5);
   Scene scene;
@@ -29,7 +29,7 @@ Scene crowd() {
 
 struct Way {
   const char* name;
-  const char* scattered;
+  const char* incoherent;
   bool coherent;
 };
 
@@ -56,11 +56,12 @@ TEST_CASE("steps that run out: each way to trace flags the same rays, and all ot
     for (const QueryHit& hit : expected) CHECK(hit.flags == 0);
 
     std::vector<QueryHit> first;
-    for (const Way& way :
-         {Way{"each alone", "lanes", false}, {"by four lanes", "wide", false}, {"together", "lanes", true}}) {
+    for (const Way& way : {Way{"each alone", "lanes", false},
+                           {"by four lanes", "cooperative", false},
+                           {"together", "lanes", true}}) {
       ExecutorOptions options;
       options.fault = "steps";
-      options.profile.scattered = way.scattered;
+      options.profile.incoherent = way.incoherent;
       options.profile.profile = "cpu";
       const auto gpu = make_executor(Backend::gpu, scene, options);
       const std::vector<QueryHit> found = ask(*gpu, rays, kind, way.coherent);
@@ -68,9 +69,9 @@ TEST_CASE("steps that run out: each way to trace flags the same rays, and all ot
       int flagged = 0, wrong = 0, silent = 0, otherwise = 0;
       for (size_t i = 0; i < rays.size(); ++i) {
         const bool right = found[i].t == expected[i].t && found[i].primitive == expected[i].primitive;
-        flagged += found[i].flags == ran_out;
+        flagged += found[i].flags == iteration_limit;
         wrong += !right;
-        silent += !right && found[i].flags != ran_out;
+        silent += !right && found[i].flags != iteration_limit;
         otherwise += found[i].flags != first[i].flags || found[i].t != first[i].t;
       }
       MESSAGE(fmt::format("{}: {} of {} rays flagged, {} wrong", way.name, flagged, rays.size(), wrong));

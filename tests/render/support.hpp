@@ -1,9 +1,9 @@
 // The entries, compiled for a packed scene as the gpu executor does it.
 #pragma once
 
-#include "gpu/kernel_compiler.hpp"
-#include "render/shader_files.hpp"
-#include "render/specialise.hpp"
+#include "host/executors/shader_files.hpp"
+#include "host/executors/specialise.hpp"
+#include "host/gpu/kernel_compiler.hpp"
 
 namespace eyeray::test {
 

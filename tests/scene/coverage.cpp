@@ -1,10 +1,10 @@
 // Nothing in the registries goes without a scene.
 #include <set>
 
-#include "loader/scene_file.hpp"
-#include "render/pack.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/pack/pack.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 

@@ -36,18 +36,18 @@ endforeach()
 
 # Every mode, on small pictures. The edge scenes put whole rows of pixels where the picture jumps, for one size and one sample.
 set(small ${SCENES} -s 96x72)
-list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes|/forest|/shapes/(algebraic|bezier|implicit|mandelbulb|sculpture|solid)")
+list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes|/forest|/shapes/(algebraic|bezier|implicit|mandelbulb|sculpture|csg)")
 # Modes that no shape's code knows of need no scene for each shape.
 set(views ${small})
 list(FILTER views EXCLUDE REGEX "^scenes/shapes/")
 # Those whose kernels take seconds to make have fewer modes.
-set(slow scenes/shapes/algebraic.toml scenes/shapes/bezier.toml scenes/shapes/solid.toml -s 96x72)
+set(slow scenes/shapes/algebraic.toml scenes/shapes/bezier.toml scenes/shapes/csg.toml -s 96x72)
 eyeray_verify(mode.slow-kernels.packets mode ${slow} scenes/shapes/implicit.toml scenes/shapes/mandelbulb.toml scenes/shapes/sculpture.toml scenes/forest.toml
-  --acceleration tree --no-constants --rays packets)
+  --acceleration bvh --no-constants --rays packets)
 set(jittered --spp 4 -D image.pattern=jittered --seed 7 --max-explained 0.02)
 eyeray_verify(mode.slow-kernels.jittered mode scenes/shapes/implicit.toml scenes/shapes/sculpture.toml scenes/forest.toml -s 96x72 ${jittered})
 # A march takes up to 4096 steps a ray: 64 rays of glass in a row are more than Mesa 22.3.6 grants, and say so (docs/lavapipe.md).
-set(deep --max-depth 64 -D render.min_weight=0.01)
+set(deep --max-depth 64 -D render.min_throughput=0.01)
 eyeray_verify(mode.slow-kernels.deep-jittered mode ${slow} ${deep} ${jittered})
 # Without constants the kernels are the same for many modes, and made once.
 eyeray_verify(mode.no-constants mode ${small} --no-constants)
@@ -58,18 +58,18 @@ eyeray_verify(mode.no-optimiser mode ${searched} --no-optimiser)
 set(groups scenes/group_instances.toml scenes/group_shapes.toml)
 eyeray_verify(mode.groups-once mode QUICK scenes/groups.toml scenes/group_instances.toml -s 96x72 -D render.groups=instanced)
 eyeray_verify(mode.groups-copied mode ${groups} scenes/forest.toml -s 96x72 -D render.groups=flat)
-eyeray_verify(mode.tree mode ${small} --acceleration tree --no-constants)
+eyeray_verify(mode.bvh mode ${small} --acceleration bvh --no-constants)
 set(few scenes/cornell.toml scenes/inside_glass.toml scenes/meshes.toml scenes/group_instances.toml -s 48x36)
-eyeray_verify(mode.packets.few mode QUICK ${few} --acceleration tree --no-constants --rays packets)
+eyeray_verify(mode.packets.few mode QUICK ${few} --acceleration bvh --no-constants --rays packets)
 eyeray_verify(mode.profile-gpu.few mode QUICK ${few} --profile gpu)
-eyeray_verify(mode.tree.edges mode ${EDGES} --acceleration tree --no-constants)
+eyeray_verify(mode.bvh.edges mode ${EDGES} --acceleration bvh --no-constants)
 eyeray_verify(mode.brute-force mode ${searched} --acceleration brute-force)
-# Without a tree a ray meets each triangle as often as it is shown: more rays in a row, or patches, are more loops than Mesa 22.3.6 grants.
+# Without a BVH a ray hits each triangle as often as it is shown: more rays in a row, or patches, are more loops than Mesa 22.3.6 grants.
 eyeray_verify(mode.brute-force.groups mode scenes/group_instances.toml -s 48x36 --acceleration brute-force --max-depth 0)
-eyeray_verify(mode.splits mode ${searched} ${groups} --acceleration tree --splits)
+eyeray_verify(mode.splits mode ${searched} ${groups} --acceleration bvh --splits)
 eyeray_verify(mode.profile-gpu mode ${views} scenes/shapes/polygon.toml scenes/shapes/torus.toml --profile gpu)
-eyeray_verify(mode.packets mode ${small} --acceleration tree --no-constants --rays packets)
-eyeray_verify(mode.packets.edges mode ${EDGES} --acceleration tree --no-constants --rays packets)
+eyeray_verify(mode.packets mode ${small} --acceleration bvh --no-constants --rays packets)
+eyeray_verify(mode.packets.edges mode ${EDGES} --acceleration bvh --no-constants --rays packets)
 eyeray_verify(mode.raycast mode ${small} --integrator raycast)
 eyeray_verify(mode.raycast.edges mode ${EDGES} --integrator raycast)
 eyeray_verify(mode.eye-rays mode ${views} --max-depth 0)
@@ -97,7 +97,7 @@ eyeray_verify(mode.caustic-rim mode scenes/shapes/gallery.toml -s 96x72 --crop 7
 eyeray_verify(mode.caustic-rim-wide mode scenes/shapes/gallery.toml -s 96x54 --crop 75,29,9,9 --backends twin)
 eyeray_verify(mode.plane-of-symmetry mode scenes/whitted.toml -s 333x250 --crop 162,69,9,9)
 eyeray_verify(mode.plane-of-symmetry-walls mode scenes/whitted.toml -s 309x231 --crop 154,163,1,1 --backends twin)
-eyeray_verify(mode.empty-solids mode tests/loader/warned/empty_solids.toml)
+eyeray_verify(mode.empty-csg_objects mode tests/loader/warned/empty_csg_objects.toml)
 eyeray_verify(mode.crop mode QUICK ${some} -s 200x150 --crop 51,37,83,71)
 eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --spp 4 -D image.pattern=jittered)
 

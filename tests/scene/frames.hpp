@@ -1,11 +1,11 @@
 // Scenes rendered by an executor, and compared as `eyeray verify` compares them.
 #pragma once
 
-#include "compare/against_reference.hpp"
-#include "compare/exact.hpp"
-#include "compare/soundness.hpp"
-#include "reference/renderer.hpp"
-#include "render/render.hpp"
+#include "host/compare/against_reference.hpp"
+#include "host/compare/exact.hpp"
+#include "host/compare/soundness.hpp"
+#include "host/reference/renderer.hpp"
+#include "host/render/render.hpp"
 
 namespace eyeray::test {
 

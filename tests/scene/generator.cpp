@@ -10,8 +10,8 @@
 #include <set>
 #include <vector>
 
-#include "loader/sections.hpp"
-#include "shapes/registry.h"
+#include "host/loader/sections.hpp"
+#include "shaders/shapes/registry.h"
 
 namespace eyeray::test {
 
@@ -48,7 +48,7 @@ class Writer {
     if (mishap()) return "\"nothing\"";
     return fmt::format("\"{}\"", key.choices[size_t(random_.below(int(key.choices.size())))]);
   }
-  // What a solid may be made of, if it is not open.
+  // What a CSG object may be made of, if it is not open.
   const ShapeType& closed_shape() {
 #define NAME(name, number) number,
     constexpr uint32_t kinds[] = {CLOSED_SHAPES(NAME)};
@@ -259,7 +259,7 @@ std::string Writer::write() {
     if (!type.combine) continue;
     for (int part = 1 + random_.below(3); part > 0; --part) {
       const ShapeType& inner = closed_shape();
-      const char* holder = part > 1 && chance(0.3) ? "solid.minus" : "solid";
+      const char* holder = part > 1 && chance(0.3) ? "csg.minus" : "csg";
       table(fmt::format("[[{}.{}]]", holder, inner.name), {inner.keys, find_section("sphere")->keys}, mostly,
             given(inner));
     }

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 
 namespace eyeray::test {
 

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "frames.hpp"
-#include "loader/scene_file.hpp"
+#include "host/loader/scene_file.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -32,16 +32,16 @@ Place project(const Scene& scene, const Vec3& p) {
   return {int((x + 1) / 2 * width), int((1 - y) / 2 * height)};
 }
 
-struct Thing {
+struct Object {
   const char* material;
   Vec3 center;
   int primitive;
 };
-const Thing things[] = {{"white", {0, 0, 0}, 0},
-                        {"red", {1.8, 0, 0}, 1},
-                        {"green", {0, 1.5, 0}, 2},
-                        {"blue", {0, 0, 1.6}, 3},
-                        {"red", {-1.7, 0.75, 0}, 5}};
+const Object things[] = {{"white", {0, 0, 0}, 0},
+                         {"red", {1.8, 0, 0}, 1},
+                         {"green", {0, 1.5, 0}, 2},
+                         {"blue", {0, 0, 1.6}, 3},
+                         {"red", {-1.7, 0.75, 0}, 5}};
 
 }  // namespace
 
@@ -52,7 +52,7 @@ TEST_CASE("orientation: red is right, green is up, blue is near, by every execut
     const Frame frame = render_frame(scene, backend);
 
     // Each thing is seen where its centre projects to.
-    for (const Thing& thing : things) {
+    for (const Object& thing : things) {
       CAPTURE(thing.material);
       const Place place = project(scene, thing.center);
       const FirstHit& hit = frame.first_hit(place.x, place.y);
@@ -83,7 +83,7 @@ TEST_CASE("orientation: red is right, green is up, blue is near, by every execut
     CHECK(seen(4, bottom) > seen(4, top));
 
     // Colours have their channels in order.
-    const auto color = [&](const Thing& thing) {
+    const auto color = [&](const Object& thing) {
       const Place place = project(scene, thing.center);
       return color_at(frame.color, place.x, place.y);
     };

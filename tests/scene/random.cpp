@@ -5,12 +5,12 @@
 #include <atomic>
 #include <mutex>
 
-#include "core/parallel_for.hpp"
 #include "frames.hpp"
 #include "generator.hpp"
-#include "loader/scene_file.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/loader/scene_file.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -69,7 +69,7 @@ Scene extreme_scene(const std::string& text) {
 TEST_CASE("10 000 scenes with extreme values: a clear error or a sound picture") {
   constexpr int count = 10000;
   Failures failures;
-  std::atomic<int> refused = 0, rendered = 0, with_hits = 0, ran_out_of_steps = 0;
+  std::atomic<int> refused = 0, rendered = 0, with_hits = 0, reached_iteration_limit = 0;
   parallel_for(0, count, [&](int i) {
     const std::string text = extreme_text(i);
     try {
@@ -78,8 +78,8 @@ TEST_CASE("10 000 scenes with extreme values: a clear error or a sound picture")
         const Frame frame = render_frame(scene, backend);
         Soundness soundness = inspect(frame);
         // The scene's own doing, and said: media in media; a patch that is 1e12 wide and bent within 1.
-        ran_out_of_steps += bool(soundness.flags & ran_out);
-        soundness.flags &= ~(media_overflow | ran_out);
+        reached_iteration_limit += bool(soundness.flags & iteration_limit);
+        soundness.flags &= ~(media_overflow | iteration_limit);
         soundness.flagged_pixels = 0;
         if (!soundness.ok())
           failures.add(fmt::format("{} {}: {}", i, backend_names[int(backend)], describe(soundness)), text);
@@ -98,13 +98,13 @@ TEST_CASE("10 000 scenes with extreme values: a clear error or a sound picture")
     }
   });
   MESSAGE(fmt::format("{} refused, {} rendered, in {} of which something is seen; {} times out of steps",
-                      refused.load(), rendered.load(), with_hits.load() / 2, ran_out_of_steps.load()));
+                      refused.load(), rendered.load(), with_hits.load() / 2, reached_iteration_limit.load()));
   INFO(failures.shown());
   CHECK(failures.count() == 0);
   CHECK(refused > count / 4);
   CHECK(rendered > count / 5);
   CHECK(with_hits > count / 20);
-  CHECK(ran_out_of_steps < count / 100);
+  CHECK(reached_iteration_limit < count / 100);
 }
 
 // Its gradient in the world is so short that the squares are lost.

@@ -3,10 +3,10 @@
 #include <thread>
 
 #include "frames.hpp"
-#include "loader/scene_file.hpp"
-#include "support/ball_over_floor.hpp"
+#include "host/loader/scene_file.hpp"
+#include "tests/support/ball_over_floor.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
@@ -47,7 +47,7 @@ class StoppingExecutor final : public Executor {
 };
 
 // Wide enough that the driver asks for it in several pieces.
-Scene wide_scene() {
+Scene cooperative_scene() {
   Scene scene;
   scene.image = {.width = 1 << 18, .height = 10, .samples = 4};
   return scene;
@@ -68,7 +68,7 @@ Image render_color(const Scene& scene, Backend backend) {
 }  // namespace
 
 TEST_CASE("an interrupted picture has whole samples: what a pixel shows is the mean of those that it got") {
-  const Scene scene = wide_scene();
+  const Scene scene = cooperative_scene();
 
   // Find out how many pieces a sample takes.
   int calls = 0;
@@ -195,7 +195,7 @@ TEST_CASE("rays are counted: eye, shadow and mirrored ones") {
                   {floor({"light.0.position=[0, -1, 0]"}), 1},     // the light stands behind the floor
                   {floor({"material.floor.reflectance=0.5"}), 3},  // what is mirrored goes to the sky
                   {floor({"material.floor.reflectance=0.5", "render.max_depth=0"}), 2},
-                  {floor({"material.floor.reflectance=0.5", "render.min_weight=0.5"}), 2}};
+                  {floor({"material.floor.reflectance=0.5", "render.min_throughput=0.5"}), 2}};
   for (const Case& c : cases) {
     for (const Backend backend : backends) {
       CAPTURE(backend_names[int(backend)]);

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include "frames.hpp"
-#include "materials/make.hpp"
-#include "shapes/make.hpp"
-#include "support/random.hpp"
+#include "host/materials/make.hpp"
+#include "host/shapes/make.hpp"
+#include "tests/support/random.hpp"
 //
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

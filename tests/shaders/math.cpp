@@ -1,12 +1,12 @@
-// The written-out functions of math.glsl against float64, over their whole range.
+// The written-out functions of math/math.glsl against float64, over their whole range.
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "support/random.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;

@@ -1,14 +1,14 @@
-// plane.glsl: the hit lies on the plane, parallel rays miss, and rays that leave it do not meet it again.
+// plane.glsl: the hit lies on the plane, parallel rays miss, and rays that leave it do not hit it again.
 #include <fmt/format.h>
 
 #include <atomic>
 #include <cmath>
 
-#include "core/parallel_for.hpp"
-#include "support/random.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;
@@ -24,7 +24,7 @@ shader::Primitive make_plane(const Vec3& normal, double d) {
 }  // namespace
 
 TEST_CASE(
-    "2 million rays that leave a plane, at distances up to 1e4: none meets it again, every hit is on it") {
+    "2 million rays that leave a plane, at distances up to 1e4: none hits it again, every hit is on it") {
   std::atomic<int> rehits = 0;
   std::atomic<int> off = 0;
   std::atomic<int> left = 0;
@@ -46,7 +46,7 @@ TEST_CASE(
       const glm::vec3 away(random.direction());
       const double cosine = glm::dot(Vec3(away), Vec3(plane.a));
       if (std::fabs(cosine) < 1e-6) continue;  // the sign of n·d itself is lost in float32
-      rehits += shader::plane_intersect(plane, shader::leave(surface, away), uv) > 0;
+      rehits += shader::plane_intersect(plane, shader::spawn_ray(surface, away), uv) > 0;
     }
   });
   MESSAGE(fmt::format("{} left, {} hits off the plane, {} re-hits", left.load(), off.load(), rehits.load()));
@@ -61,7 +61,7 @@ TEST_CASE("a ray parallel to a plane, in it or beside it, is a miss in trace()")
   scene.primitives[0].head = Packer::head(shader::KIND_plane, 0);
   scene.materials.resize(1);  // without holes
   for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
-    scene.loose_ends.push_back(kind < shader::KIND_plane ? 0 : 1);
+    scene.linear_ends.push_back(kind < shader::KIND_plane ? 0 : 1);
   const shader::Binding binding(scene);
   for (const float height : {0.0f, -0.0f, 1.0f, -1.0f, 1e-30f}) {
     uint32_t flags = 0;

@@ -1,14 +1,14 @@
-// shaft.glsl: what any ray meets, the shaft around the rays meets.
+// kernels/cooperative/shaft.glsl: what any ray hits, the shaft around the rays hits.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "support/random.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;
@@ -19,7 +19,7 @@ struct Box {
   Vec3 lower, upper;
 };
 
-// Whether the ray meets the box before t_max, in float64.
+// Whether the ray hits the box before t_max, in float64.
 bool meets(const shader::Ray& ray, double t_max, const Box& box) {
   double near = 0;
   double far = t_max;
@@ -50,7 +50,7 @@ std::vector<shader::Ray> bundle(Random& random, double scale) {
   return rays;
 }
 
-// Around the rays up to t_max, as packet.glsl makes it.
+// Around the rays up to t_max, as kernels/cooperative/packet.glsl makes it.
 shader::Shaft around(const std::vector<shader::Ray>& rays, float t_max, float reach) {
   const uint32_t major = rays[0].major;
   const float forward = std::signbit(rays[0].d[int(major)]) ? -1.0f : 1.0f;
@@ -77,7 +77,7 @@ shader::Shaft around(const std::vector<shader::Ray>& rays, float t_max, float re
 
 }  // namespace
 
-TEST_CASE("a shaft around 32 rays meets every box that one of them meets, and not half of the others") {
+TEST_CASE("a shaft around 32 rays hits every box that one of them hits, and not half of the others") {
   Random random(5);
   int met = 0;
   int missed = 0;
@@ -106,7 +106,7 @@ TEST_CASE("a shaft around 32 rays meets every box that one of them meets, and no
       left_out += !any && !by_shaft;
     }
   }
-  MESSAGE(fmt::format("{} boxes are met, {} of them left out; {} are missed by all rays, {} left out", met,
+  MESSAGE(fmt::format("{} boxes are hit, {} of them left out; {} are missed by all rays, {} left out", met,
                       wrong, missed, left_out));
   CHECK(wrong == 0);
   CHECK(met > 40'000);

@@ -4,11 +4,11 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/parallel_for.hpp"
-#include "support/random.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;
@@ -28,7 +28,7 @@ shader::Primitive make_sphere(const Vec3& centre, double radius) {
 // The distance of the ray's line from the centre over the radius, and the nearest t > 0, of the float32
 // inputs in float64.
 struct Exact {
-  double clearance;
+  double ray_offset;
   double t;
 };
 Exact exact_hit(const shader::Primitive& sphere, const shader::Ray& ray) {
@@ -67,9 +67,9 @@ TEST_CASE("rays at a unit sphere: no wrong answer but at the very rim, whatever 
         shader::vec2 uv{};
         const float t = shader::sphere_intersect(sphere, ray, uv);
         const bool hit = t > 0;
-        if (hit != (exact.clearance < 1 && exact.t > 0)) {
+        if (hit != (exact.ray_offset < 1 && exact.t > 0)) {
           // The line passes at this share of the radius from the rim: how far float32 can see it there.
-          (std::fabs(exact.clearance - 1) < 4e-7 * distance ? rim : wrong) += 1;
+          (std::fabs(exact.ray_offset - 1) < 4e-7 * distance ? rim : wrong) += 1;
           continue;
         }
         if (!hit) continue;
@@ -92,7 +92,7 @@ TEST_CASE("rays at a unit sphere: no wrong answer but at the very rim, whatever 
 }
 
 TEST_CASE(
-    "2 million rays that leave a sphere, radius 1e-4 to 1e4: none meets it again, none misses its far side") {
+    "2 million rays that leave a sphere, radius 1e-4 to 1e4: none hits it again, none misses its far side") {
   std::atomic<int> first_misses = 0;
   std::atomic<int> rehits = 0;
   std::atomic<int> lost = 0;
@@ -114,7 +114,7 @@ TEST_CASE(
       }
       ++left;
       const shader::Surface surface = shader::sphere_surface(sphere, ray, hit);
-      const shader::Ray away = shader::leave(surface, glm::vec3(random.direction()));
+      const shader::Ray away = shader::spawn_ray(surface, glm::vec3(random.direction()));
       const float t = shader::sphere_intersect(sphere, away, hit.uv);
       if (shader::dot3(away.d, surface.normal_geometric) > 0) {
         rehits += t > 0;

@@ -1,12 +1,12 @@
-// texture.glsl: which texels a point sees, how they are mixed, and what their codes stand for.
+// materials/texture.glsl: which texels a point sees, how they are mixed, and what their codes stand for.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "support/random.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;
@@ -41,6 +41,7 @@ Texture textured(std::shared_ptr<const ImageTexture> image) {
 Vec3 shaded(const Texture& texture, const Vec2& uv) {
   Packer packer(Vec3(0));
   const uint32_t index = packer.add_texture(texture);
+  packer.write_texels();
   const shader::Binding binding(packer.scene);
   return Vec3(shader::texture_color(index, glm::vec2(uv)));
 }
@@ -178,6 +179,7 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
 
     Packer packer(Vec3(0));
     const uint32_t index = packer.add_texture(texture);
+  packer.write_texels();
     const shader::Binding binding(packer.scene);
     const double reach = random.log_uniform(0.5, 1000);
     for (int i = 0; i < 500; ++i) {
@@ -220,6 +222,7 @@ TEST_CASE("no uv whatever leaves the image") {
         const uint32_t index = packer.add_texture(textured(image));
         packer.add_texture(textured(linear_image(
             width, height + 2, std::vector<Texel>(count + 2 * size_t(width), {254, 0, 0, 0}), filter, wrap)));
+        packer.write_texels();
         const shader::Binding binding(packer.scene);
         for (const float u : places)
           for (const float v : places) {

@@ -1,4 +1,4 @@
-// triangle.glsl: closed meshes do not leak, and rays that leave a triangle do not meet it again.
+// triangle.glsl: closed meshes do not leak, and rays that leave a triangle do not hit it again.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/parallel_for.hpp"
-#include "support/random.hpp"
-#include "twin/shader_functions.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "tests/support/random.hpp"
 
-#include "support/doctest.hpp"
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using test::Random;
@@ -185,7 +185,7 @@ TEST_CASE("a ray along an edge of a sliver hits the sliver, or nothing, by both 
   }
 }
 
-TEST_CASE("2 million rays that leave a triangle, size 1e-4 to 1e4: none meets it again") {
+TEST_CASE("2 million rays that leave a triangle, size 1e-4 to 1e4: none hits it again") {
   for (const Intersect intersect :
        {&shader::triangle_intersect_woop, &shader::triangle_intersect_moller_trumbore}) {
     std::atomic<int> rehits = 0;
@@ -209,7 +209,7 @@ TEST_CASE("2 million rays that leave a triangle, size 1e-4 to 1e4: none meets it
         ++left;
         const shader::Surface surface = shader::triangle_surface(triangle, ray, hit);
         shader::vec2 uv{};
-        rehits += intersect(triangle, shader::leave(surface, glm::vec3(random.direction())), uv) > 0;
+        rehits += intersect(triangle, shader::spawn_ray(surface, glm::vec3(random.direction())), uv) > 0;
       }
     });
     MESSAGE(fmt::format("{}: {} left, {} re-hits",

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "compare/explain.hpp"
+#include "host/compare/explain.hpp"
 
 namespace eyeray::test {
 
@@ -18,7 +18,7 @@ inline constexpr int edge_pixels = 8;
 
 // The picture at a point in pixels from its top left corner: a ball (primitive 1) before a wall (primitive
 // 0), an opening in the wall, a shadow and a checker's edge on it, and a mirror (primitive 2) in which two
-// colours meet.
+// colours hit.
 inline Probe picture_at(double x, double y) {
   const auto between = [](double value, double low, double high) { return value >= low && value < high; };
   Probe probe;
@@ -37,7 +37,7 @@ inline Probe picture_at(double x, double y) {
     probe.color = Vec3(0.1) + light * Vec3(0.9, 0.5, 0.2);
     probe.first_hit = {900 - z, {x, -y, z}, n, {n.x, n.y}, 1, 1};
   }
-  // The opening, through which nothing is met.
+  // The opening, through which nothing is hit.
   if (between(x, 88.5 + beyond, 96) && between(y, 4, 4 + edge_pixels)) {
     probe = {};
     probe.color = Vec3(0.1, 0.2, 0.9);

@@ -2,7 +2,7 @@
 // else.
 #pragma once
 
-#include "core/error.hpp"
+#include "host/core/error.hpp"
 
 #undef CHECK
 #undef CHECK_EQ

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/process.hpp"
+#include "host/core/process.hpp"
 
 namespace eyeray::test {
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "core/vec.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray::test {
 

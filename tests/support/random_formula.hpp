@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 
 namespace eyeray::test {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "importers/import.hpp"
-#include "scene/affine.hpp"
-#include "scene/triangle.hpp"
+#include "host/importers/import.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/triangle.hpp"
 
 namespace eyeray::test {
 

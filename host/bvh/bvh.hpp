@@ -1,0 +1,52 @@
+// A binary BVH over things that have boxes, built by Embree (rtcBuildBVH) with the surface area
+// heuristic.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "host/bvh/box.hpp"
+
+namespace eyeray::bvh {
+
+inline constexpr uint32_t most_in_leaf = 4;
+
+enum class ChildType : uint8_t { node, leaf, lone_item };
+
+struct Child {
+  Box box;
+  uint32_t index = 0;  // of the node; of a leaf's first place in Bvh::order; or of the item
+  uint8_t count = 0;   // of a leaf's items, 1 … most_in_leaf
+  ChildType type = ChildType::node;
+};
+
+struct Node {
+  Child children[2];
+};
+
+struct Bvh {
+  Box box;
+  std::vector<Node> nodes;  // depth first: the root first, a node's left half, then its right; never empty
+  std::vector<uint32_t> order;  // items as leaves hold them, depth first; with splits, some more than once
+  int depth = 0;                // of nodes
+};
+
+struct BvhOptions {
+  // Items from here on are in no leaf with others, nor in Bvh::order.
+  uint32_t first_lone = std::numeric_limits<uint32_t>::max();
+  // Cuts items at a plane where that makes better boxes (spatial splits): slower to build, faster to trace
+  // where items are long and thin.
+  bool split = false;
+  // Of an item's box, what lies below and above `position` on `axis`.
+  std::function<std::pair<Box, Box>(uint32_t item, int axis, float position)> cut;
+};
+
+// Items are indices of `boxes`; those whose boxes are not finite are left out, of which at least two must be.
+// Parallel, and yet the same BVH every time.
+Bvh build_bvh(std::span<const Box> boxes, const BvhOptions& options = {});
+
+}  // namespace eyeray::bvh

@@ -1,0 +1,136 @@
+// The twin and the reference as executors: a row of pixels is a piece of parallel work.
+#include <fmt/format.h>
+
+#include <thread>
+
+#include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/core/termination.hpp"
+#include "host/executors/executors.hpp"
+#include "host/executors/samples.hpp"
+#include "host/pack/pack.hpp"
+#include "host/reference/renderer.hpp"
+#include "host/twin/twin.hpp"
+
+namespace eyeray {
+namespace {
+
+// Calls pixel(x, y, out[i]) for every pixel of the tile. Returns false when interrupted.
+template <typename Result, typename Pixel>
+bool for_each_pixel(const Rect& tile, std::span<Result> out, const Pixel& pixel) {
+  CHECK_EQ(out.size(), size_t(tile.pixels()));
+  try {
+    parallel_for(0, tile.height, [&](int row) {
+      for (int column = 0; column < tile.width; ++column) {
+        stop_if_interrupted();
+        out[size_t(row) * size_t(tile.width) + size_t(column)] = pixel(tile.x + column, tile.y + row);
+      }
+    });
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::interrupted) throw;
+    return false;
+  }
+  return true;
+}
+
+// Calls answer(ray) for every ray, in parallel; the seconds that took.
+template <typename Answer>
+double timed_queries(std::span<const Query> rays, std::span<QueryHit> hits, const Answer& answer) {
+  CHECK_EQ(rays.size(), hits.size());
+  constexpr size_t piece = 1024;
+  const Stopwatch watch;
+  parallel_for(0, int((rays.size() + piece - 1) / piece), [&](int p) {
+    const size_t end = std::min(rays.size(), (size_t(p) + 1) * piece);
+    for (size_t i = size_t(p) * piece; i < end; ++i) hits[i] = answer(rays[i]);
+  });
+  return watch.seconds();
+}
+
+class TwinExecutor final : public Executor {
+ public:
+  TwinExecutor(const Scene& scene, const PackOptions& options) : eye_(scene.camera.eye) {
+    times_.measure("pack", [&] { packed_ = pack(scene, options); });
+  }
+
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+    return times_.measure("trace", [&] {
+      return for_each_pixel(tile, out, [&](int x, int y) {
+        return to_sample(twin::sample(packed_, uint32_t(x), uint32_t(y), index), true);
+      });
+    });
+  }
+
+  void first_hits(const Rect& tile, std::span<FirstHit> out) override {
+    for_each_pixel(tile, out, [&](int x, int y) {
+      return to_first_hit(twin::first_hit(packed_, uint32_t(x), uint32_t(y)), eye_);
+    });
+  }
+
+  double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
+    return timed_queries(batch.rays, hits, [&](const Query& ray) {
+      return to_query_hit(twin::query(packed_, to_query_ray(ray, eye_), batch.kind == QueryKind::any));
+    });
+  }
+
+  std::string description() const override {
+    return fmt::format("twin: the shaders as C++, {} threads", std::thread::hardware_concurrency());
+  }
+
+ private:
+  PackedScene packed_;
+  Vec3 eye_;
+};
+
+class ReferenceExecutor final : public Executor {
+ public:
+  explicit ReferenceExecutor(std::shared_ptr<const reference::Renderer> renderer)
+      : renderer_(std::move(renderer)) {}
+
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+    return times_.measure("trace", [&] {
+      return for_each_pixel(tile, out, [&](int x, int y) { return renderer_->sample(x, y, index); });
+    });
+  }
+
+  void first_hits(const Rect& tile, std::span<FirstHit> out) override {
+    for_each_pixel(tile, out, [&](int x, int y) { return renderer_->first_hit(x, y); });
+  }
+
+  double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
+    return timed_queries(batch.rays, hits, [&](const Query& ray) -> QueryHit {
+      constexpr double none = std::numeric_limits<double>::infinity();
+      uint32_t flags = 0;
+      if (batch.kind == QueryKind::any) {
+        const double share = renderer_->tracer().transmittance({ray.o, ray.d}, ray.t_max, flags);
+        return {share == 0 ? 0 : none, -1, flags};
+      }
+      const auto hit = renderer_->tracer().trace({ray.o, ray.d}, flags);
+      if (!hit || hit->at.t >= ray.t_max) return {none, -1, flags};
+      return {hit->at.t, int64_t(hit->primitive), flags};
+    });
+  }
+
+  std::string description() const override {
+    return fmt::format("reference: float64, {} threads", std::thread::hardware_concurrency());
+  }
+
+ private:
+  std::shared_ptr<const reference::Renderer> renderer_;
+};
+
+}  // namespace
+
+std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorOptions& options) {
+  return std::make_unique<TwinExecutor>(scene, options.pack);
+}
+
+std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options) {
+  return make_reference_executor(
+      std::make_shared<const reference::Renderer>(scene, options.pack.acceleration));
+}
+
+std::unique_ptr<Executor> make_reference_executor(std::shared_ptr<const reference::Renderer> renderer) {
+  return std::make_unique<ReferenceExecutor>(std::move(renderer));
+}
+
+}  // namespace eyeray

@@ -1,0 +1,69 @@
+// One interface over the three executors.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/core/pixel.hpp"
+#include "host/core/rect.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/executors/profile_options.hpp"
+#include "host/pack/options.hpp"
+#include "host/scene/query.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray {
+
+enum class Backend { gpu, twin, reference };
+
+// Produces samples of pixels of one scene. Not thread-safe; parallel inside.
+class Executor {
+ public:
+  virtual ~Executor() = default;
+
+  // Sample `index` of every pixel of `tile`, row by row; out.size() = tile.pixels(). Returns false when
+  // interrupted, and `out` is then undefined.
+  virtual bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) = 0;
+  // What the ray through the centre of every pixel of `tile` hits; out.size() = tile.pixels().
+  virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
+
+  // What each ray hits, and the seconds that tracing alone took: by the device's clock where it has one,
+  // without the copying of rays and hits. hits.size() = batch.rays.size().
+  virtual double query(const QueryBatch& batch, std::span<QueryHit> hits) = 0;
+
+  // Bytes that the scene's geometry and the BVHs over it take; 0 where unknown.
+  virtual uint64_t geometry_bytes() const { return 0; }
+
+  // For people: "gpu: llvmpipe (LLVM 15.0.6, 256 bits), driver …", "twin: 2 threads".
+  virtual std::string description() const = 0;
+  // Shader files read from ExecutorOptions::shader_folder, for a watcher.
+  virtual std::vector<std::filesystem::path> source_files() const { return {}; }
+  // Stages spent so far, construction included.
+  const StageTimes& times() const { return times_; }
+
+ protected:
+  StageTimes times_;
+};
+
+struct ExecutorOptions {
+  std::string device = "auto";          // auto | cpu | gpu | INDEX | part of a NAME
+  std::filesystem::path shader_folder;  // laid over the embedded shaders, file by file; empty: none
+  bool fast_math = false;               // gpu: let the driver contract and re-associate
+  std::string validation;               // gpu: "", "core" or "sync"
+  double timeout_seconds = 60;          // gpu: the longest wait for one dispatch
+  PackOptions pack;                     // all: `acceleration`; gpu and twin: the rest
+  ProfileOptions profile;               // gpu
+  bool ray_kinds = false;               // gpu: count reflected and refracted rays; the others always do
+  bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
+  bool optimise = true;                 // gpu: give the driver an optimised kernel
+  std::string fault;                    // gpu, tests only: a fault to inject (docs/verification.md)
+};
+
+// Error (no_device) when `backend` is gpu and no device will do; InputError for a shader that does not
+// compile.
+std::unique_ptr<Executor> make_executor(Backend backend, const Scene& scene, const ExecutorOptions& options);
+
+}  // namespace eyeray

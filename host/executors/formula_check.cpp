@@ -1,0 +1,110 @@
+#include "host/executors/formula_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "host/formula/formula.hpp"
+
+namespace eyeray {
+namespace {
+
+// Each formula once, with the first shape that it is used by.
+std::vector<const Shape*> users(const Scene& scene) {
+  std::vector<const Shape*> all;
+  for_each_leaf(scene, [&](const Shape& shape) {
+    const FormulaUse* use = shape.formula_use();
+    if (use && std::ranges::none_of(all, [&](const Shape* other) {
+          const FormulaUse& known = *other->formula_use();
+          return known.formula->same(*use->formula) && known.lipschitz == use->lipschitz &&
+                 known.box.min == use->box.min && known.box.max == use->box.max;
+        }))
+      all.push_back(&shape);
+  });
+  return all;
+}
+
+// Together, in one kernel.
+constexpr double most_instructions = 1 << 15;
+
+struct Steepest {
+  double slope = 0;
+  Vec3 at{0.0};
+};
+
+// Differences over short steps at random points; those that are steeper than any before are looked at more
+// closely. Fewer points where each takes long.
+Steepest steepest(const FormulaUse& use) {
+  constexpr int points = 20000;
+  constexpr uint64_t most_turns = 1 << 22;
+  uint64_t turns = 0;
+  const Vec3 extent = (use.box.max - use.box.min) * 0.5, center = (use.box.max + use.box.min) * 0.5;
+  const double step = 1e-4 * std::min({extent.x, extent.y, extent.z});
+  const auto value = [&](const Vec3& p) { return use.formula->value(std::array{p.x, p.y, p.z}, &turns); };
+  const auto slope = [&](const Vec3& p) {
+    Vec3 gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 aside(0);
+      aside[axis] = step;
+      gradient[axis] = (value(p + aside) - value(p - aside)) / (2 * step);
+    }
+    const Vec3 along = glm::normalize(gradient) * step;
+    // Only a difference between two points disproves anything: at a crease the gradient is steeper than
+    // either side.
+    const double found = std::fabs(value(p + along) - value(p - along)) / (2 * step);
+    return std::isfinite(found) ? found : 0;
+  };
+  std::mt19937_64 random(1);
+  const auto uniform = [&] { return double(random() >> 11) * 0x1p-52 - 1; };
+  Steepest worst;
+  for (int i = 0; i < points && turns < most_turns; ++i) {
+    // One half anywhere, the other near the worst so far.
+    const double reach = i % 2 == 0 ? 1 : std::ldexp(1.0, -(i / 2 % 10));
+    Vec3 q = Vec3(uniform(), uniform(), uniform()) * reach;
+    if (i % 2 == 1) q += (worst.at - center) / extent;
+    const Vec3 p = center + extent * glm::clamp(q, -1.0, 1.0);
+    if (const double here = slope(p); here > worst.slope) worst = {here, p};
+  }
+  return worst;
+}
+
+}  // namespace
+
+void check_formulas(const Scene& scene) {
+  double instructions = 0;
+  for (const Shape* shape : users(scene)) {
+    const FormulaUse& use = *shape->formula_use();
+    if (use.lipschitz == 0) (void)use.formula->straight_line();
+    if (instructions += use.formula->instructions(); instructions > most_instructions)
+      throw InputError(
+          {{Severity::error, shape->position,
+            fmt::format("the functions of all [[implicit]] up to this one have {} instructions, and "
+                        "may have {}: fewer of them, or shorter ones",
+                        instructions, most_instructions),
+            ""}});
+  }
+}
+
+std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene) {
+  std::vector<Diagnostic> warnings;
+  for (const Shape* shape : users(scene)) {
+    const FormulaUse& use = *shape->formula_use();
+    if (!use.declared) continue;
+    const Steepest found = steepest(use);
+    if (found.slope <= use.lipschitz * (1 + 1e-3)) continue;
+    Diagnostic& warning = warnings.emplace_back();
+    warning.severity = Severity::warning;
+    warning.position = shape->position;
+    warning.message = fmt::format(
+        "`lipschitz` is {:.4g}, but the function is as steep as {:.4g} at [{:.4g}, {:.4g}, {:.4g}] in its "
+        "own space: rays may "
+        "pass through the surface",
+        use.lipschitz, found.slope, found.at.x, found.at.y, found.at.z);
+  }
+  return warnings;
+}
+
+}  // namespace eyeray

@@ -1,0 +1,20 @@
+// What can be found wrong with the formulas of a scene before anything is rendered.
+#pragma once
+
+#include <vector>
+
+#include "host/core/diagnostic.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray {
+
+// InputError, at the place in the user's text, where a formula has no Lipschitz constant and cannot be
+// bounded by affine forms; at the shape, where all formulas together are too much for a kernel. No device is
+// needed.
+void check_formulas(const Scene& scene);
+
+// Warnings, at the shapes, where samples say that a formula is steeper than its Lipschitz constant; always
+// the same samples. Error (timed_out) where one does not end.
+std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene);
+
+}  // namespace eyeray

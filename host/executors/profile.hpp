@@ -1,0 +1,39 @@
+// How kernels are made for a device: none of it changes a hit, all of it how fast hits are found
+// (docs/performance.md).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "host/executors/profile_options.hpp"
+#include "host/gpu/device.hpp"
+#include "host/records/packer.hpp"
+
+namespace eyeray {
+
+// How rays are traced: each alone on its lane (kernels/query.comp.glsl), many together
+// (kernels/cooperative/packet.comp.glsl), or each by four lanes (kernels/cooperative/bvh4.comp.glsl).
+enum class Rays { lanes, packets, cooperative };
+
+struct Profile {
+  bool texel_buffers = false;  // load the scene as texels of 16 bytes instead of from storage buffers
+  bool packets = false;        // trace coherent rays together
+  bool shift_stack =
+      false;              // keep the stack in registers, shifted as a whole, instead of in an indexed array
+  bool constants = true;  // compile a small scene in, instead of loading it
+  // Incoherent rays, where the scene allows it; by the scene cooperative in big BVHs, lanes in small ones.
+  std::optional<Rays> incoherent = Rays::lanes;
+  bool flatten = false;  // compute both sides of a branch that only chooses a value
+};
+
+// Error (bad_input) for an unknown choice.
+Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& device);
+
+// How incoherent rays are traced in this scene, where `packets` says whether any can be traced together.
+Rays incoherent_rays(const Profile& profile, const PackedScene& scene, bool packets, uint32_t subgroup_size);
+
+// For people: "texel loads, packets, shifted stack, incoherent rays by the scene", and "no constants" and
+// "flattened" where that is so.
+std::string describe(const Profile& profile);
+
+}  // namespace eyeray

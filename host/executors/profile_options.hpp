@@ -1,0 +1,17 @@
+// What may be chosen about how hits are found; which hits are found does not depend on any of it.
+#pragma once
+
+#include <string>
+
+namespace eyeray {
+
+// The kernels' profile (executors/profile.hpp); an empty choice is the profile's.
+struct ProfileOptions {
+  std::string profile = "auto";  // auto: by the device | cpu | gpu | small: for slow compilers
+  std::string loads;             // texels | storage
+  std::string stack;             // shift | array
+  std::string rays;              // packets: trace coherent rays together | lanes: each alone
+  std::string incoherent;        // incoherent rays: cooperative (four lanes a ray) | lanes | packets
+};
+
+}  // namespace eyeray

@@ -1,0 +1,33 @@
+// Shader results as the host's samples.
+#pragma once
+
+#include "host/core/pixel.hpp"
+#include "host/executors/executor.hpp"
+#include "host/records/packer.hpp"
+
+namespace eyeray {
+
+// Error (timed_out) where the flags say that a formula's loops did not end; so do the three below.
+void check_ended(uint32_t flags);
+
+// `ray_kinds`: whether the kernel counted them (records.h, SampleResult).
+inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds) {
+  PixelSample sample{Vec3(result.color), result.counts.x, result.counts.y, result.counts.z};
+  if (ray_kinds) {
+    sample.flags &= (1u << REFRACTED_SHIFT) - 1;
+    sample.refracted = result.counts.z >> REFRACTED_SHIFT;
+    sample.reflected = result.counts.w & ((1u << TOTAL_SHIFT) - 1);
+    sample.total_reflections = result.counts.w >> TOTAL_SHIFT;
+  }
+  check_ended(sample.flags);
+  return sample;
+}
+
+// A ray of the shaders' world, and what it hits.
+shader::QueryRay to_query_ray(const Query& ray, const Vec3& eye);
+QueryHit to_query_hit(const shader::QueryHit& result);
+
+// `eye`: the origin of the shaders' world.
+FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye);
+
+}  // namespace eyeray

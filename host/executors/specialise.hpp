@@ -1,0 +1,32 @@
+// Made for one scene: the text of scene.glsl, with which the entries compile only what the scene has.
+#pragma once
+
+#include <string>
+
+#include "host/executors/profile.hpp"
+#include "host/pack/collapse.hpp"
+#include "host/records/packer.hpp"
+
+namespace eyeray {
+
+struct Specialisation {
+  bool constants = true;  // compile a small scene in, instead of loading it
+  uint32_t loop_budget =
+      0;  // iterations an invocation may make before it gives up with FLAG_LOOP_BUDGET; 0: no cap
+  Profile profile = {};
+  uint32_t subgroup_size = 8;  // of kernels/cooperative/packet.comp.glsl
+  PacketBvh packet_bvh = {};
+  uint32_t group_stride = 1;  // kernels/render.comp.glsl: runs of workgroups
+  bool ray_kinds = false;     // count reflected and refracted rays
+};
+
+// Whether any material may send rays on.
+bool any_reflects(const PackedScene& scene);
+
+// How many loop iterations a ray takes at most through what is in no BVH. Through a BVH it takes far fewer
+// than there are primitives, nobody knows how many.
+uint64_t trace_iterations(const PackedScene& scene, bool unrolled);
+
+std::string specialise(const PackedScene& scene, const Specialisation& options);
+
+}  // namespace eyeray

@@ -1,0 +1,85 @@
+#include "host/expression/emit.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace eyeray::expression {
+namespace {
+
+// A kind of number that every step is computed in.
+struct Kind {
+  std::string_view prefix;  // of the functions
+  std::string_view number;
+  std::string_view truth;
+};
+constexpr Kind bounds{"bound", "vec3", "uint"};
+constexpr Kind duals{"dual", "vec4", "bool"};
+
+std::string literal(double x) {
+  return fmt::format("{:.9e}f", x);
+}
+
+std::string constant(const Kind& kind, const Step& step) {
+  const std::string value = literal(double(float(step.value)));
+  return kind.number == "vec3"
+             ? fmt::format("vec3({}, 0.0f, {})", value, literal(double(constant_error(step))))
+             : fmt::format("vec4(0.0f, 0.0f, 0.0f, {})", value);
+}
+
+std::string truth(const Kind& kind, bool yes) {
+  return kind.truth == "bool" ? (yes ? "true" : "false") : (yes ? "TRUTH_YES" : "TRUTH_NO");
+}
+
+std::string lines(const StraightLine& line, const Kind& kind, const char* const (&inputs)[3]) {
+  std::string text;
+  for (size_t i = 0; i < line.size(); ++i) {
+    const Step& step = line[i];
+    const auto from = [&](size_t k) { return fmt::format("v{}", step.from[k]); };
+    std::string value;
+    switch (step.op) {
+      case Op::constant:
+        value = constant(kind, step);
+        break;
+      case Op::truth:
+        value = truth(kind, step.value != 0);
+        break;
+      case Op::input:
+        value = inputs[size_t(step.value)];
+        break;
+      case Op::scale:
+      case Op::power:
+        value = fmt::format("{}_{}({}, {})", kind.prefix, name(step.op), from(0), literal(step.value));
+        break;
+      default: {
+        std::string arguments;
+        for (size_t k = 0; k < size_t(operands(step.op)); ++k) arguments += (k == 0 ? "" : ", ") + from(k);
+        value = fmt::format("{}_{}({})", kind.prefix, name(step.op), arguments);
+      }
+    }
+    text += fmt::format("  {} v{} = {};\n", is_truth(step.op) ? kind.truth : kind.number, i, value);
+  }
+  return text + fmt::format("  return v{};\n", line.size() - 1);
+}
+
+}  // namespace
+
+// Rounded up, so that the interval is no smaller than the constant's.
+float constant_error(const Step& step) {
+  const double error = step.error + std::abs(step.value - double(float(step.value)));
+  return error == 0 ? 0.0f : std::nextafter(float(error * (1 + 1e-6)), 1e38f);
+}
+
+std::string bound_text(const StraightLine& line, std::string_view name) {
+  return fmt::format("vec3 {}(vec3 x, vec3 y, vec3 z) {{\n{}}}\n", name,
+                     lines(line, bounds, {"x", "y", "z"}));
+}
+
+std::string gradient_text(const StraightLine& line, std::string_view name) {
+  return fmt::format(
+      "vec4 {}(vec3 p) {{\n{}}}\n", name,
+      lines(line, duals,
+            {"vec4(1.0f, 0.0f, 0.0f, p.x)", "vec4(0.0f, 1.0f, 0.0f, p.y)", "vec4(0.0f, 0.0f, 1.0f, p.z)"}));
+}
+
+}  // namespace eyeray::expression

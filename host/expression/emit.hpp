@@ -1,0 +1,19 @@
+// What straight-line code computes, as text in the common subset of GLSL and C++.
+#pragma once
+
+#include <string>
+
+#include "host/expression/expression.hpp"
+
+namespace eyeray::expression {
+
+// vec3 NAME(vec3 x, vec3 y, vec3 z): encloses the function along a ray; needs shaders/math/affine_bound.glsl.
+std::string bound_text(const StraightLine& line, std::string_view name);
+
+// vec4 NAME(vec3 p): the function's gradient and, in w, its value; needs shaders/math/dual.glsl.
+std::string gradient_text(const StraightLine& line, std::string_view name);
+
+// How far the constant, as a float, may be from what was meant.
+float constant_error(const Step& step);
+
+}  // namespace eyeray::expression

@@ -1,0 +1,44 @@
+// Pictures as the 8-bit codes that their files hold: what textures are made of.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/core/error.hpp"
+
+namespace eyeray {
+
+struct CodedImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::array<uint8_t, 4>> pixels;  // red, green, blue, alpha; the top row first
+};
+
+inline constexpr int most_coded_side = 16384;                // pixels; hence at most 2^28 of them
+inline constexpr size_t most_coded_bytes = size_t{1} << 30;  // of a file
+
+// That a scene's images have too many pixels.
+class TooManyPixels : public Error {
+  using Error::Error;
+};
+
+// How many pixels the images of one scene may have together; they are counted where they are decoded or
+// copied.
+struct PixelBudget {
+  int64_t left = int64_t{1} << 28;  // 1 GiB
+  // TooManyPixels (file_io) where fewer are left.
+  void take(int width, int height, const std::string& name);
+};
+
+// Decodes a PNG or a JPEG, told apart by their first bytes. Grey becomes equal red, green and blue, of 16
+// bits the upper 8 are kept, and what has no alpha gets 255; colour profiles and gamma chunks are not looked
+// at. Error (file_io) that says "cannot read NAME: why" for all else, a file that ends early included. The
+// header is believed only as far as a file of that length can go, so that memory is bounded by the file's
+// size; and no more is decoded than is taken from the budget.
+CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name, PixelBudget& budget);
+
+}  // namespace eyeray

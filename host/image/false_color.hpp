@@ -1,0 +1,49 @@
+// Pictures of data, for people: what an AOV's .png shows.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "host/core/vec.hpp"
+#include "host/image/image.hpp"
+
+namespace eyeray {
+
+enum class FalseColor {
+  scalar,     // 1 channel: viridis from the least to the greatest finite value
+  depth,      // 1 channel: viridis, near is bright; logarithmic, since depths span decades
+  ids,        // 1 channel: a colour of its own for every number ≥ 0
+  direction,  // 3 channels: (n + 1) / 2
+  position,   // 2 or 3 channels: each from its least to its greatest finite value
+};
+
+// A 3-channel picture whose .png shows the colours named above. What has no value (a miss: not finite, an id
+// below 0, a direction of length 0) is grey.
+Image false_color(const Image& data, FalseColor kind);
+
+// The same for a picture that is seen a few rows at a time: all of them to see(), then all of them to
+// paint().
+class FalseColorPainter {
+ public:
+  // `channels` as the kind wants them.
+  FalseColorPainter(FalseColor kind, int channels);
+
+  void see(const Image& data);
+  Image paint(const Image& data) const;
+
+ private:
+  // The least and greatest finite value of one channel.
+  struct Range {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    double position(double value) const;  // 0 at the least, 1 at the greatest
+  };
+  double nearness(double depth) const;
+  Vec3 color(const float* value) const;
+
+  FalseColor kind_;
+  std::vector<Range> ranges_;  // one a channel
+};
+
+}  // namespace eyeray

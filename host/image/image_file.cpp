@@ -1,0 +1,116 @@
+#include "host/image/image_file.hpp"
+
+#include <stb_image.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "host/core/error.hpp"
+#include "host/image/image_writer.hpp"
+#include "host/image/pfm_file.hpp"
+#include "host/image/radiance_file.hpp"
+#include "host/image/srgb.hpp"
+
+namespace eyeray {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Free {
+  void operator()(void* pixels) const { stbi_image_free(pixels); }
+};
+
+[[noreturn]] void malformed(const std::string& name, const std::string& why) {
+  throw Error(ExitCode::file_io, "cannot read {} as PNG: {}", name, why);
+}
+
+// Decodes with one of stb_image's loaders, and takes each sample through `convert`.
+template <typename Load, typename Convert>
+Image decode(std::string_view bytes, const std::string& name, Load load, Convert convert) {
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = int(bytes.size());
+
+  // Look at the size before memory is taken for it.
+  int width = 0, height = 0, channels = 0;
+  if (!stbi_info_from_memory(data, size, &width, &height, &channels)) malformed(name, stbi_failure_reason());
+  if (!image_size_allowed(width, height)) malformed(name, "its size is out of range");
+
+  const int wanted = channels <= 2 ? 1 : 3;
+  using Sample = std::remove_pointer_t<decltype(load(data, size, &width, &height, &channels, wanted))>;
+  const std::unique_ptr<Sample, Free> samples(load(data, size, &width, &height, &channels, wanted));
+  if (!samples) malformed(name, stbi_failure_reason());
+  Image image(width, height, wanted);
+  std::transform(samples.get(), samples.get() + image.sample_count(), image.samples().begin(), convert);
+  return image;
+}
+
+Image decode_png(std::string_view bytes, const std::string& name) {
+  if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) malformed(name, "it is not one");
+  if (bytes.size() > size_t(std::numeric_limits<int>::max())) malformed(name, "it is too long");
+  if (stbi_is_16_bit_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), int(bytes.size()))) {
+    return decode(bytes, name, stbi_load_16_from_memory,
+                  [](stbi_us code) { return float(linear_from_srgb(code / 65535.0)); });
+  }
+  return decode(bytes, name, stbi_load_from_memory,
+                [](stbi_uc code) { return float(linear_from_srgb(code / 255.0)); });
+}
+
+// The least linear value that a code stands for, for codes 1 … 255: where srgb · 255 rounds up to it.
+std::array<float, 256> code_thresholds() {
+  std::array<float, 256> thresholds{};
+  for (int code = 1; code < 256; ++code)
+    thresholds[size_t(code)] = float(linear_from_srgb((code - 0.5) / 255));
+  return thresholds;
+}
+
+}  // namespace
+
+bool image_size_allowed(int64_t width, int64_t height) {
+  return width >= 1 && height >= 1 && width <= 65536 && height <= 65536 &&
+         width * height <= (int64_t{1} << 28);
+}
+
+unsigned char srgb8(float linear) {
+  // A search in 255 thresholds is exact at every rounding boundary, and needs no pow a pixel.
+  static const std::array<float, 256> thresholds = code_thresholds();
+  if (!(linear > 0)) return 0;
+  return (unsigned char)(std::upper_bound(thresholds.begin() + 1, thresholds.end(), linear) -
+                         thresholds.begin() - 1);
+}
+
+ImageFormat image_format(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  if (ending == ".png") return ImageFormat::png;
+  if (ending == ".pfm") return ImageFormat::pfm;
+  if (ending == ".hdr") return ImageFormat::hdr;
+  throw Error(ExitCode::bad_input, "{}: a picture's name must end in .png, .pfm or .hdr", path.string());
+}
+
+void write_image(const fs::path& path, const Image& image) {
+  ImageWriter writer(path, image.width(), image.height(), image.channels());
+  writer.write(image);
+  writer.finish();
+}
+
+Image read_image(const fs::path& path) {
+  const ImageFormat format = image_format(path);
+  const std::string bytes = read_file(path);
+  switch (format) {
+    case ImageFormat::png:
+      return decode_png(bytes, path.string());
+    case ImageFormat::pfm:
+      return decode_pfm(bytes, path.string());
+    case ImageFormat::hdr:
+      return decode_radiance(bytes, path.string());
+  }
+  CHECK(false);
+}
+
+}  // namespace eyeray

@@ -1,0 +1,33 @@
+// Pictures on disk. The format follows the file name's ending.
+//   .png  8-bit sRGB, the true curve, round half up; clipped to [0, 1]; NaN and negatives become 0
+//   .pfm  float32, linear, unclipped, 1 or 3 channels, little-endian
+//   .hdr  Radiance RGBE, linear; NaN and negatives become 0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "host/core/atomic_file.hpp"
+#include "host/image/image.hpp"
+
+namespace eyeray {
+
+enum class ImageFormat { png, pfm, hdr };
+
+// The format that a file name's ending asks for; Error (bad_input) that lists the known endings otherwise.
+ImageFormat image_format(const std::filesystem::path& path);
+
+// Whether a picture may be this large: 1 … 65536 pixels each way, 2^28 in all.
+bool image_size_allowed(int64_t width, int64_t height);
+
+// Writes a 1- or 3-channel image atomically.
+void write_image(const std::filesystem::path& path, const Image& image);
+
+// Reads a picture as linear float32 (a PNG through the inverse sRGB curve). Sizes up to 65536 × 65536 and
+// 2^28 pixels; Error (file_io) for anything unreadable or malformed.
+Image read_image(const std::filesystem::path& path);
+
+// Linear [0, 1] to an 8-bit sRGB code (IEC 61966-2-1), round half up.
+unsigned char srgb8(float linear);
+
+}  // namespace eyeray

@@ -1,0 +1,119 @@
+// PNG by libpng, 8 bits a channel.
+#include <png.h>
+
+#include <csetjmp>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/image/image_file.hpp"
+#include "host/image/row_encoder.hpp"
+
+namespace eyeray {
+
+namespace {
+
+// Measured on 2048 × 2048 pictures: all filters and level 6 take twice the time for files a tenth smaller.
+constexpr int filters = PNG_FILTER_SUB | PNG_FILTER_UP;
+constexpr int compression_level = 4;
+constexpr size_t flushed_bytes = 1 << 20;
+
+// libpng is C and may not be unwound through: its callbacks keep what is written in memory, and whatever goes
+// wrong comes back as false.
+class PngStream {
+ public:
+  PngStream() : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, nullptr)) {
+    if (png_) info_ = png_create_info_struct(png_);
+    if (!info_) throw std::bad_alloc();
+    png_set_write_fn(png_, this, append, nullptr);
+  }
+  ~PngStream() { png_destroy_write_struct(&png_, &info_); }
+  PngStream(const PngStream&) = delete;
+  PngStream& operator=(const PngStream&) = delete;
+
+  bool begin(int width, int height, int channels) {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    png_set_filter(png_, PNG_FILTER_TYPE_BASE, filters);
+    png_set_compression_level(png_, compression_level);
+    png_set_IHDR(png_, info_, png_uint_32(width), png_uint_32(height), 8,
+                 channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(png_, info_);
+    return true;
+  }
+  bool row(const unsigned char* codes) {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    png_write_row(png_, codes);
+    return true;
+  }
+  bool end() {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    png_write_end(png_, nullptr);
+    return true;
+  }
+
+  std::string bytes;  // written and not yet taken
+
+ private:
+  static void append(png_structp png, png_bytep data, size_t size) {
+    bool done = false;
+    try {
+      static_cast<PngStream*>(png_get_io_ptr(png))->bytes.append(reinterpret_cast<const char*>(data), size);
+      done = true;
+    } catch (const std::bad_alloc&) {
+    }
+    if (!done) png_error(png, "out of memory");
+  }
+  [[noreturn]] static void fail(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+
+  png_structp png_;
+  png_infop info_ = nullptr;
+};
+
+class PngEncoder final : public RowEncoder {
+ public:
+  PngEncoder(AtomicFile& file, int width, int height, int channels) : file_(file) {
+    check(png_.begin(width, height, channels));
+  }
+
+  void write(const Image& rows) override {
+    const size_t row_codes = size_t(rows.width()) * size_t(rows.channels());
+    codes_.resize(rows.sample_count());
+    parallel_for(0, rows.height(), [&](int y) {
+      std::transform(rows.pixel(0, y), rows.pixel(0, y) + row_codes, &codes_[size_t(y) * row_codes], srgb8);
+    });
+    for (int y = 0; y < rows.height(); ++y) {
+      check(png_.row(&codes_[size_t(y) * row_codes]));
+      if (png_.bytes.size() >= flushed_bytes) flush();
+    }
+  }
+  void finish() override {
+    check(png_.end());
+    flush();
+  }
+
+ private:
+  // What libpng can still complain of is that it got no memory.
+  static void check(bool done) {
+    if (!done) throw std::bad_alloc();
+  }
+  void flush() {
+    file_.write(png_.bytes);
+    png_.bytes.clear();
+  }
+
+  AtomicFile& file_;
+  PngStream png_;
+  std::vector<unsigned char> codes_;
+};
+
+}  // namespace
+
+std::unique_ptr<RowEncoder> png_encoder(AtomicFile& file, int width, int height, int channels) {
+  return std::make_unique<PngEncoder>(file, width, height, channels);
+}
+
+}  // namespace eyeray

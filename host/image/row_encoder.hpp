@@ -1,0 +1,26 @@
+// The formats behind ImageWriter: each turns rows of a picture, as they come, into a file. Private to core.
+#pragma once
+
+#include <memory>
+
+#include "host/core/atomic_file.hpp"
+#include "host/image/image.hpp"
+
+namespace eyeray {
+
+class RowEncoder {
+ public:
+  virtual ~RowEncoder() = default;
+
+  // The next rows, from the top down.
+  virtual void write(const Image& rows) = 0;
+  // What stands behind the last row.
+  virtual void finish() {}
+};
+
+// Each writes to `file`, which outlives it, a picture of 1 or 3 channels, from its header on.
+std::unique_ptr<RowEncoder> png_encoder(AtomicFile& file, int width, int height, int channels);
+std::unique_ptr<RowEncoder> pfm_encoder(AtomicFile& file, int width, int height, int channels);
+std::unique_ptr<RowEncoder> radiance_encoder(AtomicFile& file, int width, int height, int channels);
+
+}  // namespace eyeray

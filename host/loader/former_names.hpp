@@ -1,0 +1,16 @@
+// Names that scene files had before, for one more release. Private to the loader.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string_view>
+
+namespace eyeray {
+
+// What `key` of a table is called today: `key` itself, but for a former name.
+std::string_view name_today(std::string_view key);
+
+// Gives each table in `root` that has a former name the one it has today.
+void rename_former(toml::table& root);
+
+}  // namespace eyeray

@@ -1,0 +1,40 @@
+// The records of all that stands in one space, the world's or one of its own: shapes, then the triangles of
+// meshes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/bvh/box.hpp"
+#include "host/pack/mesh_records.hpp"
+
+namespace eyeray {
+
+class BlasRecords {
+ public:
+  void add_shape(const shader::Primitive& record, const bvh::Box& box);
+  // The triangles follow those of the meshes before.
+  void add_mesh(const MeshRecords& mesh);
+
+  // Items by number: shapes as they were added, then triangles.
+  uint32_t size() const {
+    return meshes_.empty() ? uint32_t(shapes_.size()) : meshes_.back().first + meshes_.back().records.size();
+  }
+  uint32_t kind(uint32_t item) const {
+    return item < shapes_.size() ? kind_of(shapes_[item]) : uint32_t{shader::KIND_triangle};
+  }
+  shader::Primitive record(uint32_t item) const;
+
+  // Of the items, and of what else the space's BVH holds; what has no bounds is in no BVH.
+  std::vector<bvh::Box> boxes;
+
+ private:
+  struct Triangles {
+    uint32_t first;  // item
+    MeshRecords records;
+  };
+  std::vector<shader::Primitive> shapes_;
+  std::vector<Triangles> meshes_;
+};
+
+}  // namespace eyeray

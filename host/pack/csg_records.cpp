@@ -1,0 +1,25 @@
+#include "host/pack/csg_records.hpp"
+
+namespace eyeray {
+
+void finish_csg(shader::Primitive& csg, PackedScene& packed) {
+  const shader::uvec4 head = packed.vertices[csg.head.w];
+  const uint32_t first = csg.head.w + 1 + head.x;
+  constexpr uint32_t leaf_words = 6;
+  const uint32_t leaves = head.z;
+  uint32_t deepest = 0, least = OPTICAL_DEPTH_OPAQUE;
+  for (uint32_t i = 0; i < leaves; ++i) {
+    shader::Primitive leaf{};
+    leaf.head = packed.vertices[first + leaf_words * i];
+    const uint32_t optical_depth = packed.materials[material_of(leaf)].head.w;
+    packed.vertices[first + leaf_words * i].z = optical_depth;
+    packed.leaf_uses.emplace(kind_of(leaf), material_of(leaf));
+    if (i == 0 || optical_depth > deepest) csg.head.y = material_of(leaf) | kind_of(csg) << 24;
+    deepest = std::max(deepest, optical_depth);
+    least = std::min(least, optical_depth);
+  }
+  packed.csg_leaves += leaves;
+  packed.mixed_csg = packed.mixed_csg || least < deepest;
+}
+
+}  // namespace eyeray

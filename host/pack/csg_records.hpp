@@ -1,0 +1,13 @@
+// Records of CSG objects, whose leaves are records of their own that stand with the vertices
+// (shaders/shapes/csg.glsl).
+#pragma once
+
+#include "host/records/packer.hpp"
+
+namespace eyeray {
+
+// Fills in what the leaves weaken a shadow ray by, takes note of their kinds and materials, and gives the
+// CSG object the material of the densest.
+void finish_csg(shader::Primitive& csg, PackedScene& packed);
+
+}  // namespace eyeray

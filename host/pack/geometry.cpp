@@ -1,0 +1,356 @@
+#include "host/pack/geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/pack/blas_records.hpp"
+#include "host/pack/csg_records.hpp"
+#include "host/pack/node_coding.hpp"
+#include "host/pack/record_boxes.hpp"
+#include "host/scene/primitive_ids.hpp"
+
+namespace eyeray {
+namespace {
+
+// Up to here testing everything is as fast as a BVH.
+constexpr size_t few_primitives = 24;
+// A box that takes this part of the scene's own is hit by nearly every ray that hits the scene. To test what
+// is in it straight away is cheaper than steps that lead there, while such primitives are few.
+constexpr double most_of_scene = 0.5;
+constexpr size_t most_in_linear_list = 4;
+
+Vec3 middle(const Bounds& bounds) {
+  return (bounds.min + bounds.max) * 0.5;
+}
+
+class GeometryPacker {
+ public:
+  GeometryPacker(const Scene& scene, const PackOptions& options, Packer& packer)
+      : scene_(scene), options_(options), packer_(packer), packed_(packer.scene) {}
+
+  void run() {
+    check_counts();
+    count_uses();
+    world_ = shape_records(scene_.shapes, scene_.camera.eye, [this](size_t i) { return ids_.of_shape(i); });
+    add_meshes();
+    add_groups();
+    use_bvh_ = options_.acceleration == Acceleration::bvh ||
+               (options_.acceleration == Acceleration::automatic &&
+                (world_.size() + packed_.csg_leaves > few_primitives || !scene_.instances.empty() ||
+                 !packed_.instances.empty()));
+    if (world_.size() > few_primitives && packed_.instances.empty()) unbind_largest();
+    packed_.has_bvh = use_bvh_ && has_bounded(2);
+    if (packed_.has_bvh) build_bvhs();
+    lay_out_world();
+    lay_out_spaces();
+    packed_.stack_size = packed_.has_bvh ? uint32_t(world_bvh_.depth + 2 + deepest_space()) : 1;
+  }
+
+ private:
+  // A mesh or a group that instances show, with a BVH of its own.
+  struct Space {
+    Vec3 origin;  // that its records are relative to
+    BlasRecords items;
+    float map_growth = 1;  // as PackedScene's, of its shapes
+    bvh::Box box = {};     // around all
+    bvh::Bvh bvh = {};
+  };
+
+  void check_counts() const {
+    if (ids_.count() > uint64_t{std::numeric_limits<int32_t>::max()})
+      throw Error(ExitCode::bad_input, "the scene has {} primitives; ids go up to {}", ids_.count(),
+                  std::numeric_limits<int32_t>::max());
+    if (scene_.materials.size() > MOST_MATERIALS)
+      throw Error(ExitCode::bad_input, "the scene has {} materials; at most {} are possible",
+                  scene_.materials.size(), MOST_MATERIALS);
+  }
+
+  void count_uses() {
+    uses_.resize(scene_.meshes.size());
+    for (const Instance& instance : scene_.instances) ++uses_[size_t(instance.mesh)];
+  }
+
+  // Of shapes that are packed relative to `origin`; id(i) says what index the i-th has.
+  template <typename Id>
+  BlasRecords shape_records(std::span<const std::unique_ptr<Shape>> shapes, const Vec3& origin,
+                            const Id& id) {
+    BlasRecords records;
+    packer_.set_origin(origin);
+    for (size_t i = 0; i < shapes.size(); ++i) {
+      const Shape& shape = *shapes[i];
+      packer_.pieces.clear();
+      shape.pack(packer_);
+      for (size_t piece = 0; piece < packed_.primitives.size(); ++piece) {
+        shader::Primitive& record = packed_.primitives[piece];
+        record.head.x = uint32_t(id(i));
+        if (kind_of(record) == shader::KIND_csg) finish_csg(record, packed_);
+        record.head.z = use_material(kind_of(record), material_of(record), shape.counts_crossings());
+        const Bounds bounds = packer_.pieces.empty() ? shape.bounds() : packer_.pieces.at(piece);
+        records.add_shape(record, kind_of(record) == shader::KIND_triangle ? triangle_box(record)
+                                                                           : shape_box(bounds, origin));
+      }
+      packed_.primitives.clear();
+    }
+    packer_.set_origin(scene_.camera.eye);
+    return records;
+  }
+
+  // The triangles of an instance, in the space that it leads into.
+  MeshRecords triangle_records(const Instance& instance, const Vec3& origin, uint32_t first_id) {
+    const Mesh& mesh = scene_.meshes[size_t(instance.mesh)];
+    packed_.vertex_colors = packed_.vertex_colors || !mesh.colors.empty();
+    return {mesh,
+            Affine(instance.transform),
+            origin,
+            instance.material,
+            use_material(shader::KIND_triangle, uint32_t(instance.material), true),
+            first_id,
+            packed_.vertices};
+  }
+
+  void add_meshes() {
+    std::vector<int> space_of(scene_.meshes.size(), -1);
+    for (size_t i = 0; i < scene_.instances.size(); ++i) {
+      const Instance& instance = scene_.instances[i];
+      const Mesh& mesh = scene_.meshes[size_t(instance.mesh)];
+      const auto id = uint32_t(ids_.of_instance(i));
+      if (mesh.triangles.empty()) continue;
+      if (uses_[size_t(instance.mesh)] == 1 || mesh.triangles.size() == 1) {
+        world_.add_mesh(triangle_records(instance, scene_.camera.eye, id));
+        continue;
+      }
+      int& space = space_of[size_t(instance.mesh)];
+      if (space < 0) {
+        // Material and optical depth are each instance's own.
+        Space added{middle(bounds(mesh)), {}};
+        added.items.add_mesh({mesh, Affine(Mat4(1.0)), added.origin, 0, 0, 0, packed_.vertices});
+        packed_.vertex_colors = packed_.vertex_colors || !mesh.colors.empty();
+        space = add_space(std::move(added));
+      }
+      add_instance(instance.transform, uint32_t(space), id, uint32_t(instance.material),
+                   use_material(shader::KIND_triangle, uint32_t(instance.material), true));
+    }
+  }
+
+  void add_groups() {
+    std::vector<int> space_of(scene_.groups.size(), -1);
+    for (size_t i = 0; i < scene_.group_instances.size(); ++i) {
+      const GroupInstance& instance = scene_.group_instances[i];
+      int& space = space_of[size_t(instance.group)];
+      if (count_primitives(scene_.groups[size_t(instance.group)], scene_.meshes) == 0) continue;
+      if (space < 0) space = add_space(group_space(scene_.groups[size_t(instance.group)]));
+      const auto [shape, triangle] = ids_.of_group(i);
+      add_instance(instance.transform, uint32_t(space), uint32_t(shape), NONE, uint32_t(triangle));
+    }
+  }
+
+  // All of a group, relative to the centre of its bounds.
+  Space group_space(const Group& group) {
+    const Vec3 centre = middle(bounds(group, scene_.meshes));
+    const float growth = std::exchange(packed_.map_growth, 1.0f);
+    Space space{centre, shape_records(group.shapes, centre, [](size_t id) { return id; })};
+    space.map_growth = std::exchange(packed_.map_growth, std::max(growth, packed_.map_growth));
+    uint32_t triangle = 0;
+    for (const Instance& instance : group.instances) {
+      space.items.add_mesh(triangle_records(instance, centre, triangle | ID_OF_TRIANGLE));
+      triangle += uint32_t(scene_.meshes[size_t(instance.mesh)].triangles.size());
+    }
+    return space;
+  }
+
+  int add_space(Space space) {
+    for (const bvh::Box& box : space.items.boxes) space.box.include(box);
+    spaces_.push_back(std::move(space));
+    return int(spaces_.size()) - 1;
+  }
+
+  // `material` and `last`: as the record's.
+  void add_instance(const Mat4& transform, uint32_t space, uint32_t first_id, uint32_t material,
+                    uint32_t last) {
+    // World is relative to the eye, and what stands there to the centre of its bounds.
+    const Affine map(transform);
+    const Mat3 inverse = glm::inverse(map.linear);
+    const Vec3 to_world_offset = map.point(spaces_[space].origin) - scene_.camera.eye;
+    shader::Instance record{};
+    record.head = {space + 1, first_id, material, last};
+    for (int row = 0; row < 3; ++row) {
+      record.to_local[row] = to_vec4({inverse[0][row], inverse[1][row], inverse[2][row]});
+      record.to_world[row] =
+          to_vec4({map.linear[0][row], map.linear[1][row], map.linear[2][row]}, to_world_offset[row]);
+    }
+    packed_.instances.push_back(record);
+  }
+
+  // Takes note that shapes of a kind are made of a material. Returns what a shadow ray loses to each: a shape
+  // weakens it once, a mesh or patch half at each crossing, for a closed body is left as it was entered.
+  uint32_t use_material(uint32_t kind, uint32_t material, bool at_each_crossing) {
+    const shader::uvec4& head = packed_.materials[material].head;
+    packed_.uses.emplace(kind, material);
+    translucent_ = translucent_ || head.w < OPTICAL_DEPTH_OPAQUE;
+    return at_each_crossing && head.w < OPTICAL_DEPTH_OPAQUE ? head.w / 2 : head.w;
+  }
+
+  // A floor under many small shapes, say: it stays in the linear list, whose boxes are then coded more
+  // finely, and whose leaves may be of one kind.
+  void unbind_largest() {
+    bvh::Box all;
+    for (const bvh::Box& box : world_.boxes)
+      if (box.is_finite()) all.include(box);
+    std::vector<size_t> large;
+    for (size_t i = 0; i < world_.boxes.size() && large.size() <= most_in_linear_list; ++i)
+      if (world_.boxes[i].is_finite() && world_.boxes[i].area() >= most_of_scene * all.area())
+        large.push_back(i);
+    if (large.size() > most_in_linear_list) return;
+    for (const size_t i : large)
+      world_.boxes[i] = {glm::vec3(-std::numeric_limits<float>::infinity()),
+                         glm::vec3(std::numeric_limits<float>::infinity())};
+  }
+
+  bool has_bounded(size_t least) const {
+    return packed_.instances.size() +
+               size_t(std::count_if(world_.boxes.begin(), world_.boxes.end(),
+                                    [](const bvh::Box& box) { return box.is_finite(); })) >=
+           least;
+  }
+
+  bvh::BvhOptions bvh_options(const BlasRecords& items) const {
+    bvh::BvhOptions options;
+    options.first_lone = items.size();
+    // An item that stands in two leaves would weaken a shadow ray twice; a CSG object of several materials
+    // may do so too.
+    options.split = options_.split && !translucent_ && !packed_.mixed_csg;
+    options.cut = [&items](uint32_t item, int axis, float position) {
+      if (item < items.size()) {
+        const shader::Primitive primitive = items.record(item);
+        if (kind_of(primitive) == shader::KIND_triangle) return cut_triangle(primitive, axis, position);
+      }
+      const bvh::Box everything{glm::vec3(-HUGE_VALF), glm::vec3(HUGE_VALF)};
+      return std::pair(everything, everything);
+    };
+    return options;
+  }
+
+  void build_bvhs() {
+    packed_.quantised_nodes = true;
+    for (Space& space : spaces_) {
+      if (space.items.size() == 1) continue;
+      space.bvh = build_bvh(space.items.boxes, bvh_options(space.items));
+      space.items.boxes = {};
+      packed_.quantised_nodes = packed_.quantised_nodes && quantising_is_harmless(space.bvh);
+    }
+    for (const shader::Instance& instance : packed_.instances)
+      world_.boxes.push_back(instance_box(instance, spaces_[instance.head.x - 1].box));
+    world_bvh_ = build_bvh(world_.boxes, bvh_options(world_));
+    packed_.quantised_nodes = packed_.quantised_nodes && quantising_is_harmless(world_bvh_);
+  }
+
+  // A ray is mapped into an instance with errors that grow with its coordinates, wherever the BVH's own
+  // origin is. Seen from the world they are |linear| · |inverse| times as large: 3 at most where axes are
+  // stretched and then turned, more under shears. So they are in a shape's own space, but from its centre.
+  static void make_room_for_maps(float growth, bool instances, shader::Bvh& bvh) {
+    constexpr float harmless = 3;  // what the boxes have room for without this
+    if (!instances && growth <= harmless) return;
+    // Twice: for the way into the space, and for what a triangle there allows for rounding.
+    const float slack = bvh.extent.w * 2 * growth;
+    bvh.extent = shader::vec4(glm::vec3(bvh.extent) + glm::abs(glm::vec3(bvh.origin)), slack);
+  }
+
+  // Of the world's own shapes, and of those in instances on their way there.
+  float world_growth() const {
+    float growth = packed_.map_growth;
+    for (const shader::Instance& instance : packed_.instances)
+      for (const shader::vec4& row : instance.to_world) {
+        float sum = 0;
+        for (int column = 0; column < 3; ++column)
+          for (int k = 0; k < 3; ++k) sum += std::fabs(row[k] * instance.to_local[k][column]);
+        growth = std::max(growth, sum * spaces_[instance.head.x - 1].map_growth);
+      }
+    return growth;
+  }
+
+  // Slots of the world: by kind, what is in no BVH, then what is, as its leaves hold it.
+  void lay_out_world() {
+    std::vector<std::vector<uint32_t>> loose(shader::SHAPE_KINDS);
+    for (uint32_t item = 0; item < world_.size(); ++item) {
+      if (!packed_.has_bvh || !world_.boxes[item].is_finite())
+        loose[world_.kind(item)].push_back(item);
+      else
+        packed_.bvh_kinds.insert(world_.kind(item));
+    }
+    world_.boxes = {};
+    for (const auto& items : loose) {
+      append_records(items, world_);
+      packed_.linear_ends.push_back(uint32_t(packed_.primitives.size()));
+    }
+    lay_out(world_bvh_, world_);
+    if (packed_.has_bvh) make_room_for_maps(world_growth(), !packed_.instances.empty(), packed_.bvhs.back());
+  }
+
+  void lay_out_spaces() {
+    for (Space& space : spaces_) {
+      for (uint32_t item = 0; item < space.items.size(); ++item)
+        packed_.bvh_kinds.insert(space.items.kind(item));
+      if (!packed_.has_bvh || space.items.size() == 1) {
+        space.bvh.order.resize(space.items.size());
+        std::iota(space.bvh.order.begin(), space.bvh.order.end(), 0u);
+      }
+      lay_out(space.bvh, space.items);
+      if (packed_.has_bvh) make_room_for_maps(space.map_growth, false, packed_.bvhs.back());
+    }
+    if (packed_.primitives.size() > MOST_SLOTS)
+      throw Error(ExitCode::bad_input, "the scene has {} primitives in memory; at most {} can be addressed",
+                  packed_.primitives.size(), MOST_SLOTS);
+  }
+
+  void lay_out(bvh::Bvh& bvh, const BlasRecords& items) {
+    const auto first_slot = uint32_t(packed_.primitives.size());
+    append_records(bvh.order, items);
+    if (packed_.has_bvh && !bvh.nodes.empty()) {
+      add_bvh(bvh, first_slot, items.size(), packed_);
+    } else {
+      // A single one is a leaf at the root.
+      packed_.bvhs.emplace_back();
+      packed_.bvhs.back().head = {LEAF | first_slot << 3, first_slot, uint32_t(packed_.primitives.size()),
+                                  0u};
+    }
+    bvh.nodes = {};
+    bvh.order = {};
+  }
+
+  void append_records(std::span<const uint32_t> order, const BlasRecords& items) {
+    const size_t first = packed_.primitives.size();
+    packed_.primitives.resize(first + order.size());
+    parallel_for(0, int(order.size()),
+                 [&](int i) { packed_.primitives[first + size_t(i)] = items.record(order[size_t(i)]); });
+  }
+
+  int deepest_space() const {
+    int depth = 0;
+    for (const Space& space : spaces_) depth = std::max(depth, space.bvh.depth);
+    return depth;
+  }
+
+  const Scene& scene_;
+  const PackOptions& options_;
+  Packer& packer_;
+  PackedScene& packed_;
+  const PrimitiveIds ids_{scene_};
+  std::vector<uint32_t> uses_;  // by mesh
+  BlasRecords world_;
+  std::vector<Space> spaces_;  // by the BVH of instances, less one
+  bvh::Bvh world_bvh_;
+  bool use_bvh_ = false;
+  bool translucent_ = false;
+};
+
+}  // namespace
+
+void pack_geometry(const Scene& scene, const PackOptions& options, Packer& packer) {
+  GeometryPacker(scene, options, packer).run();
+}
+
+}  // namespace eyeray

@@ -1,0 +1,74 @@
+#include "host/pack/mesh_records.hpp"
+
+#include "host/core/parallel_for.hpp"
+
+namespace eyeray {
+
+bvh::Box triangle_box(const shader::Primitive& triangle) {
+  bvh::Box box;
+  for (const shader::vec4& corner : {triangle.a, triangle.b, triangle.c}) box.include(glm::vec3(corner));
+  return box;
+}
+
+MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin, int material,
+                         uint32_t optical_depth, uint32_t first_id, std::vector<shader::uvec4>& vertices)
+    : mesh_(&mesh), map_(map), origin_(origin), mirrored_(map.mirrors()) {
+  const bool normals = !mesh.normals.empty();
+  const bool uv = !mesh.uv.empty();
+  const bool colors = !mesh.colors.empty();
+  head_ = Packer::head(shader::KIND_triangle, material);
+  head_.x = first_id;
+  head_.z = optical_depth;
+  if (!normals && !uv && !colors) return;
+
+  // What corners look up, and by triangle which its corners are.
+  const auto first_vertex = uint32_t(vertices.size());
+  const uint32_t vertex_records = colors ? 2 : 1;
+  const auto first_corners = uint32_t(first_vertex + mesh.positions.size() * vertex_records);
+  head_.w = first_corners;
+  corner_records_ = uv ? 2 : 1;
+  const CornerNormals map_normal(map);
+  vertices.resize(first_corners + mesh.triangles.size() * corner_records_);
+  parallel_for(0, int(mesh.positions.size()), [&](int i) {
+    const Vec3 normal = normals ? map_normal(mesh.normals[size_t(i)]) : Vec3(0);
+    shader::uvec4* vertex = &vertices[first_vertex + size_t(i) * vertex_records];
+    vertex[0] = to_bits(to_vec4(normal, uv ? mesh.uv[size_t(i)].x : 0.0));
+    if (colors)
+      vertex[1] = to_bits(to_vec4(mesh.colors[size_t(i)], mesh.alphas.empty() ? 1 : mesh.alphas[size_t(i)]));
+  });
+  parallel_for(0, int(mesh.triangles.size()), [&](int i) {
+    const auto& [v0, v1, v2] = mesh.triangles[size_t(i)];
+    shader::uvec4* corners = &vertices[first_corners + size_t(i) * corner_records_];
+    corners[0] = {first_vertex + v0 * vertex_records, first_vertex + v1 * vertex_records,
+                  first_vertex + v2 * vertex_records,
+                  (normals ? CORNERS_NORMALS : 0u) | (uv ? CORNERS_UV : 0u) | (colors ? CORNERS_COLORS : 0u)};
+    if (uv) corners[1] = to_bits(to_vec4({mesh.uv[v0].y, mesh.uv[v1].y, mesh.uv[v2].y}));
+  });
+}
+
+shader::Primitive MeshRecords::record(uint32_t triangle) const {
+  const Corners at = corners(triangle);
+  const Vec3 outward = mirrored_ ? -geometric_normal(at) : geometric_normal(at);
+  shader::Primitive record;
+  record.head = head_;
+  record.head.x += triangle;
+  record.head.w += triangle * corner_records_;
+  record.a = to_vec4(at[0] - origin_, outward.x);
+  record.b = to_vec4(at[1] - origin_, outward.y);
+  record.c = to_vec4(at[2] - origin_, outward.z);
+  return record;
+}
+
+bvh::Box MeshRecords::box(uint32_t triangle) const {
+  bvh::Box box;
+  for (const Vec3& corner : corners(triangle)) box.include(glm::vec3(corner - origin_));
+  return box;
+}
+
+Corners MeshRecords::corners(uint32_t triangle) const {
+  const auto& [v0, v1, v2] = mesh_->triangles[triangle];
+  return {map_.point(mesh_->positions[v0]), map_.point(mesh_->positions[v1]),
+          map_.point(mesh_->positions[v2])};
+}
+
+}  // namespace eyeray

@@ -1,0 +1,17 @@
+// Trees as the shaders' nodes (records.h, BVH).
+#pragma once
+
+#include "host/bvh/bvh.hpp"
+#include "host/records/packer.hpp"
+
+namespace eyeray {
+
+// Whether the boxes of `bvh` stay nearly as tight with 16 bits a plane: where a part matters that is tiny
+// against the whole they do not.
+bool quantising_is_harmless(const bvh::Bvh& bvh);
+
+// Appends the nodes of `bvh`, as scene.quantised_nodes has them, and its BVH record. Bvh::order begins at
+// `first_slot`; a lone item is an instance, of which the first is `first_instance`.
+void add_bvh(const bvh::Bvh& bvh, uint32_t first_slot, uint32_t first_instance, PackedScene& scene);
+
+}  // namespace eyeray

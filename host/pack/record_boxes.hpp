@@ -1,0 +1,21 @@
+// Boxes around what records say, whose coordinates are rounded.
+#pragma once
+
+#include <utility>
+
+#include "host/bvh/box.hpp"
+#include "host/records/records.hpp"
+#include "host/scene/bounds.hpp"
+
+namespace eyeray {
+
+// Of a shape with these bounds, packed relative to `origin`.
+bvh::Box shape_box(const Bounds& bounds, const Vec3& origin);
+
+// Of what is below and above a plane, of a triangle.
+std::pair<bvh::Box, bvh::Box> cut_triangle(const shader::Primitive& triangle, int axis, float position);
+
+// In the world, around all corners of a box of the instance's space.
+bvh::Box instance_box(const shader::Instance& instance, const bvh::Box& local);
+
+}  // namespace eyeray

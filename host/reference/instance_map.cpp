@@ -1,0 +1,54 @@
+#include "host/reference/instance_map.hpp"
+
+namespace eyeray::reference {
+
+namespace {
+
+// By component: it carries bounds of errors along.
+Mat3 size(const Mat3& m) {
+  return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
+}
+
+}  // namespace
+
+Ray InstanceMap::into(const Ray& ray) const {
+  // v · M is Mᵀ · v. The difference comes first: near the instance it is exact or nearly so.
+  return {(ray.o - to_world_.offset) * to_world_.cotangent, ray.d * to_world_.cotangent};
+}
+
+SurfacePoint InstanceMap::out(const SurfacePoint& local) const {
+  const Vec3 across = to_world_.cotangent * local.normal_geometric;
+  const Vec3 shading = to_world_.cotangent * local.normal;
+  SurfacePoint point = local;
+  point.position = to_world_.point(local.position);
+  point.normal_geometric = unit(across);
+  point.normal = unit(shading);
+
+  // The next ray starts here and goes back into the space: there it may be off by the rounding of both maps,
+  // which counts across the surface. A distance e across it is e / |across| in the world.
+  const double in_space =
+      magnitude(size(glm::transpose(to_world_.cotangent)) * glm::abs(point.position - to_world_.offset));
+  const double world_ray =
+      magnitude(size(to_world_.linear) * glm::abs(local.position)) + magnitude(to_world_.offset);
+  point.position_error = (local.position_error + 1e-13 * in_space) / glm::length(across) + 1e-13 * world_ray;
+  return point;
+}
+
+Bounds InstanceMap::bounds(const Bounds& box) const {
+  Bounds bounds;
+  for (int corner = 0; corner < 8; ++corner)
+    bounds.include(to_world_.point({(corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
+                                    (corner & 4 ? box.max : box.min).z}));
+  return bounds;
+}
+
+double InstanceMap::reach(const Bounds& box, const Vec3& eye) const {
+  const Vec3 extremes = glm::max(glm::abs(box.min), glm::abs(box.max));
+  return magnitude(size(to_world_.linear) * extremes) + magnitude(to_world_.offset - eye);
+}
+
+double InstanceMap::growth() const {
+  return magnitude(size(to_world_.linear) * (size(glm::transpose(to_world_.cotangent)) * Vec3(1)));
+}
+
+}  // namespace eyeray::reference

@@ -1,0 +1,184 @@
+#include "host/reference/objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/reference/crossings.hpp"
+
+namespace eyeray::reference {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool finite(const Bounds& bounds) {
+  return magnitude(bounds.min) < infinity && magnitude(bounds.max) < infinity;
+}
+
+}  // namespace
+
+Objects::Objects(std::span<const std::unique_ptr<Shape>> shapes, std::span<const Instance> instances,
+                 const std::deque<MeshGeometry>& meshes, std::span<const std::unique_ptr<Material>> materials,
+                 Acceleration acceleration)
+    : shapes_(shapes), materials_(materials) {
+  uint64_t triangles = 0;
+  for (const Instance& instance : instances) {
+    const auto& mask = materials[size_t(instance.material)]->mask;
+    instances_.emplace_back(instance, meshes[size_t(instance.mesh)], mask ? &*mask : nullptr);
+    triangles_before_.push_back(triangles);
+    triangles += instances_.back().triangles();
+  }
+
+  const auto add = [&](size_t body, const Bounds& box) {
+    bounded_.push_back(uint32_t(body));
+    boxes_.push_back(box);
+    bounds_.include(box.min);
+    bounds_.include(box.max);
+    reach_ = std::max({reach_, magnitude(box.min), magnitude(box.max)});
+  };
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    const Bounds box = shapes[i]->bounds();
+    if (finite(box)) {
+      add(i, box);
+    } else {
+      unbounded_.push_back(uint32_t(i));
+    }
+  }
+  for (size_t i = 0; i < instances_.size(); ++i) {
+    if (instances_[i].triangles() == 0) continue;
+    add(shapes.size() + i, instances_[i].bounds());
+    reach_ = std::max(reach_, instances_[i].reach());
+    growth_ = std::max(growth_, instances_[i].growth());
+  }
+  bvh_ = Bvh(
+      uint32_t(boxes_.size()), [this](uint32_t i) { return boxes_[i]; }, acceleration);
+}
+
+int Objects::material(const Hit& hit) const {
+  return is_shape(hit.body) ? shapes_[hit.body]->part(hit.at).material
+                            : instances_[hit.body - shapes_.size()].material();
+}
+
+int Objects::most_crossings(size_t body) const {
+  return is_shape(body) ? shapes_[body]->most_crossings() : reference::most_crossings;
+}
+
+// A hole is not hit, and behind it there is nothing more of a shape that may have one.
+std::optional<Intersection> Objects::intersect_shape(size_t index, const Ray& ray) const {
+  const Shape& shape = *shapes_[index];
+  const auto hit = shape.intersect(ray);
+  const auto& mask = materials_[size_t(shape.material)]->mask;
+  if (hit && mask && !mask->covers(shape.surface(ray, *hit).uv)) return std::nullopt;
+  return hit;
+}
+
+std::optional<Objects::Hit> Objects::intersect(size_t body, const Ray& ray, double limit) const {
+  if (is_shape(body)) {
+    const auto hit = intersect_shape(body, ray);
+    if (!hit) return std::nullopt;
+    return Hit{TriangleHit{*hit}, body};
+  }
+  const auto hit = instances_[body - shapes_.size()].intersect(ray, limit);
+  if (!hit) return std::nullopt;
+  return Hit{*hit, body};
+}
+
+// Calls visit(body, entry, limit) for the bodies that the ray enters at t = entry ≤ limit; it returns the
+// limit from there on, a negative one to end the search.
+template <typename Visit>
+void Objects::for_each_entered(const Ray& ray, double limit, const Visit& visit) const {
+  for (size_t i = 0; i < unbounded_.size() && limit >= 0; ++i) limit = visit(unbounded_[i], 0.0, limit);
+  if (boxes_.empty() || limit < 0) return;
+
+  const BoxRay box_ray(ray, rounding * growth_ * (magnitude(ray.o) + reach_));
+  bvh_.search(box_ray, limit, [&](uint32_t i, double so_far) {
+    const double entry = box_ray.entry(boxes_[i]);
+    return entry < infinity ? visit(bounded_[i], entry, so_far) : so_far;
+  });
+}
+
+std::optional<Objects::Hit> Objects::trace(const Ray& ray, double limit, double& sure_until) const {
+  std::optional<Hit> nearest;
+  for_each_entered(ray, limit, [&](size_t body, double entry, double so_far) {
+    auto hit = intersect(body, ray, so_far);
+    if (!hit) return so_far;
+    if (hit->at.iteration_limit) {
+      sure_until = std::min(sure_until, hit->at.t);
+      return so_far;
+    }
+    hit->at.t = std::max(hit->at.t, entry);
+    if (nearest && !(hit->at.t < nearest->at.t || (hit->at.t == nearest->at.t && body < nearest->body)))
+      return so_far;
+    nearest = *hit;
+    return std::min(so_far, hit->at.t);
+  });
+  return nearest;
+}
+
+SurfacePoint Objects::surface(const Ray& ray, const Hit& hit) const {
+  return is_shape(hit.body) ? shapes_[hit.body]->surface(ray, hit.at)
+                            : instances_[hit.body - shapes_.size()].surface(ray, hit.at);
+}
+
+double Objects::reach(const Hit& hit, const Vec3& eye) const {
+  if (!is_shape(hit.body)) return instances_[hit.body - shapes_.size()].reach(hit.at.triangle, eye);
+  const Bounds box = shapes_[hit.body]->part(hit.at).bounds();
+  return finite(box) ? std::max(magnitude(box.min - eye), magnitude(box.max - eye)) : 0;
+}
+
+// The share of light that comes through one shape which the ray enters at t = entry.
+double Objects::share_of_shape(size_t index, const Ray& ray, double entry, double t_end,
+                               bool& gave_up) const {
+  const Shape& shape = *shapes_[index];
+  const auto share_of = [&](int material) { return materials_[size_t(material)]->shadow_transmittance(); };
+  if (const double each = share_of(shape.material); shape.counts_crossings() && each > 0) {
+    int crossed = 0;
+    const double told =
+        for_each_crossing(shape, ray, [&](double t, const Intersection&, const SurfacePoint&) {
+          crossed += t < t_end;
+          return t < t_end;
+        });
+    gave_up = gave_up || told < t_end;
+    return std::pow(each, crossed / 2.0);
+  }
+  const auto hit = intersect_shape(index, ray);
+  if (hit && hit->iteration_limit) {
+    gave_up = gave_up || hit->t < t_end;
+    return 1;
+  }
+  if (!hit || std::max(hit->t, entry) >= t_end) return 1;
+  double share = share_of(shape.part(*hit).material);
+  if (&shape.part(*hit) == &shape) return share;
+  // A CSG object counts once, by what its densest surface on the way lets through.
+  for (const auto& [in, out] : shape.spans(ray))
+    for (const Intersection& crossing : {in, out}) {
+      if (crossing.iteration_limit)
+        gave_up = gave_up || crossing.t < t_end;
+      else if (crossing.t > 0 && crossing.t < t_end)
+        share = std::min(share, share_of(shape.part(crossing).material));
+    }
+  return share;
+}
+
+// The same of an instance of a mesh.
+double Objects::share_of_instance(const InstanceGeometry& instance, const Ray& ray, double t_end) const {
+  const double share = materials_[size_t(instance.material())]->shadow_transmittance();
+  const uint32_t crossed = instance.count_crossed(ray, t_end, share == 0 ? 1 : instance.triangles());
+  return crossed == 0 ? 1 : std::pow(share, crossed / 2.0);
+}
+
+bool Objects::add_shares(const Ray& ray, double t_end, size_t space, std::vector<Share>& shares,
+                         bool& gave_up) const {
+  bool lost = false;
+  for_each_entered(ray, t_end, [&](size_t body, double entry, double limit) {
+    if (!(entry < t_end)) return limit;
+    const double share = is_shape(body) ? share_of_shape(body, ray, entry, t_end, gave_up)
+                                        : share_of_instance(instances_[body - shapes_.size()], ray, t_end);
+    if (share != 1) shares.push_back({space, body, share});
+    lost = share == 0;
+    return lost ? -1.0 : limit;
+  });
+  return lost;
+}
+
+}  // namespace eyeray::reference

@@ -1,0 +1,88 @@
+// The bodies of one space, the world's or a group's: its shapes, then its instances of meshes, and a BVH
+// over them.
+#pragma once
+
+#include <deque>
+#include <span>
+
+#include "host/reference/instance_geometry.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray::reference {
+
+class Objects {
+ public:
+  // All of them must outlive it. `meshes` and `materials`: as the scene's.
+  Objects(std::span<const std::unique_ptr<Shape>> shapes, std::span<const Instance> instances,
+          const std::deque<MeshGeometry>& meshes, std::span<const std::unique_ptr<Material>> materials,
+          Acceleration acceleration);
+
+  struct Hit {
+    TriangleHit at;  // of a shape: its intersection
+    size_t body;     // a shape by index; the instances follow
+  };
+  // The nearest hit with t > 0; of exactly equal ones that of the lowest body. Beyond `limit` it may be
+  // missing. Where the steps allowed did not suffice for a shape, `sure_until` becomes no more than the t up
+  // to which there is nothing of it.
+  std::optional<Hit> trace(const Ray& ray, double limit, double& sure_until) const;
+  // The surface where `ray` has that hit.
+  SurfacePoint surface(const Ray& ray, const Hit& hit) const;
+
+  size_t size() const { return shapes_.size() + instances_.size(); }
+  // Of an instance, or of a shape's part that has the surface there.
+  int material(const Hit& hit) const;
+  std::optional<Hit> intersect(size_t body, const Ray& ray,
+                               double limit = std::numeric_limits<double>::infinity()) const;
+  // How often a line crosses the body at most, as far as that is known.
+  int most_crossings(size_t body) const;
+  // Calls visit(material) for each that the body has surfaces of.
+  template <typename Visit>
+  void for_each_material(size_t body, const Visit& visit) const {
+    if (!is_shape(body)) return visit(instances_[body - shapes_.size()].material());
+    for_each_leaf(*shapes_[body], [&](const Shape& leaf) { visit(leaf.material); });
+  }
+  // Whether it is a shape; else how many triangles of instances come before those of the body.
+  bool is_shape(size_t body) const { return body < shapes_.size(); }
+  uint64_t triangles_before(size_t body) const { return triangles_before_[body - shapes_.size()]; }
+
+  // Adds the shares of light that come through those bodies at 0 < t < t_end that keep any away, in any
+  // order; returns whether all is lost. A shape counts once; of an instance each triangle lets the square
+  // root of its material's share through, so that a closed mesh, which is crossed twice, counts once as well.
+  // Sets `gave_up` where the steps allowed did not suffice for a shape.
+  struct Share {
+    size_t space;  // as given
+    size_t body;
+    double share;
+  };
+  bool add_shares(const Ray& ray, double t_end, size_t space, std::vector<Share>& shares,
+                  bool& gave_up) const;
+
+  // Around all that has bounds.
+  const Bounds& bounds() const { return bounds_; }
+  // The largest coordinate, relative to `eye`, of the terms that what was hit is made of; 0 for unbounded
+  // shapes.
+  double reach(const Hit& hit, const Vec3& eye) const;
+  // How many times the rounding of a point grows, at most, on its way into an instance and back.
+  double growth() const { return growth_; }
+
+ private:
+  std::optional<Intersection> intersect_shape(size_t shape, const Ray& ray) const;
+  double share_of_shape(size_t shape, const Ray& ray, double entry, double t_end, bool& gave_up) const;
+  double share_of_instance(const InstanceGeometry& instance, const Ray& ray, double t_end) const;
+  template <typename Visit>
+  void for_each_entered(const Ray& ray, double limit, const Visit& visit) const;
+
+  std::span<const std::unique_ptr<Shape>> shapes_;
+  std::span<const std::unique_ptr<Material>> materials_;
+  std::vector<InstanceGeometry> instances_;
+  std::vector<uint64_t> triangles_before_;  // by instance
+  std::vector<uint32_t> unbounded_;         // bodies
+  std::vector<uint32_t> bounded_;           // bodies, …
+  std::vector<Bounds> boxes_;               // … and where they are
+  Bounds bounds_;
+  double reach_ = 0;   // the largest coordinate in any computation that yields a box
+  double growth_ = 1;  // the largest of all instances
+  Bvh bvh_;            // of boxes_
+};
+
+}  // namespace eyeray::reference

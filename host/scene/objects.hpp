@@ -1,0 +1,46 @@
+// What primitive indices stand for: which shape, or which triangle of which mesh, by the words of the file.
+#pragma once
+
+#include "host/scene/primitive_ids.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray {
+
+// A shape of the scene, or an instance of a mesh; the scene's own, or as a group instance shows it.
+struct Object {
+  std::string_view kind;  // "sphere", "mesh"
+  NameRef name;
+  NameRef group;          // of the group instance; goes before the name
+  std::string_view mesh;  // what its file calls the mesh; "" of shapes
+  const SourcePosition* position;
+  int material;
+  uint64_t first;  // primitive index
+  uint64_t count;  // of primitives: 1, or the mesh's triangles
+};
+
+class Objects {
+ public:
+  // `scene` must outlive it.
+  explicit Objects(const Scene& scene);
+
+  // The scene's own shapes and instances, then those of each group instance.
+  size_t size() const { return first_in_group_.back(); }
+  Object operator[](size_t index) const;
+  // The thing that a primitive belongs to; primitive < Scene::primitive_count().
+  size_t of(uint64_t primitive) const;
+
+  // `sphere "left eye", scene.toml:12`, and of a mesh `triangle 7 of mesh "mug", scene.toml:40`.
+  std::string describe(uint64_t primitive) const;
+
+ private:
+  const Scene& scene_;
+  PrimitiveIds ids_;
+  std::vector<size_t> first_in_group_;  // things, by group instance; one more at the end
+};
+
+// The names of its groups, then its own; "" where there are none.
+std::string path(const Object& thing, const Names& names);
+// As describe() of a name.
+std::string describe(const Object& thing, const Names& names);
+
+}  // namespace eyeray

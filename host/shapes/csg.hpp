@@ -1,0 +1,71 @@
+// Union, intersection and difference of closed shapes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "host/scene/shape.hpp"
+
+namespace eyeray {
+
+// A CSG object's leaves, those of its operands and of theirs, are bits of a word in the shaders.
+inline constexpr size_t most_csg_leaves = 32;
+
+class Solid final : public Shape {
+ public:
+  using Shapes = std::vector<std::unique_ptr<Shape>>;
+
+  // What is within any of `operands`, or where `all` within all of them, and within none of `removed`. There
+  // is an operand at least, and all shapes are closed, most_csg_leaves together at most.
+  Solid(bool all, Shapes operands, Shapes removed);
+
+  std::optional<Intersection> intersect(const Ray& ray) const override;
+  SurfacePoint surface(const Ray& ray, const Intersection& hit) const override;
+  // A point where there is nothing.
+  Bounds bounds() const override;
+  // Whether bounds alone show that nothing is within it.
+  bool is_empty() const;
+  const Shape& part(const Intersection& hit) const override { return *leaves_[hit.part].shape; }
+  bool is_closed() const override { return true; }
+  std::vector<Span> spans(const Ray& ray) const override;
+  ShapeForm form() const override;
+  void pack(Packer& packer) const override;
+
+ private:
+  // A shape that is no CSG object, of this one or of one in it; by kind in registry order, then as the
+  // operands stand. Its place is its number as a part.
+  struct Leaf {
+    const Shape* shape;
+    uint32_t kind;
+    bool removed;  // it counts by what is outside of it
+  };
+  // A set of points by its leaves, without differences: their complements are leaves.
+  struct Node {
+    bool is_leaf;
+    uint32_t leaf;
+    bool all;
+    std::vector<Node> operands;
+  };
+
+  static Node node_of(bool all, std::vector<Node> operands);
+  Node node_of_operand(size_t operand, bool complement) const;
+  Node node(bool complement) const;
+  size_t operand_count() const { return operands_.size() + removed_.size(); }
+  const Shape& operand(size_t i) const {
+    return *(i < operands_.size() ? operands_[i] : removed_[i - operands_.size()]);
+  }
+  std::vector<Span> spans_of(size_t operand, const Ray& ray) const;
+  Bounds bounds_of_operands() const;  // min above max where they do not overlap
+
+  bool all_;
+  Shapes operands_, removed_;
+  std::vector<Leaf> leaves_;
+  struct Ball {
+    Vec3 center;
+    double radius;
+  };
+  std::vector<Ball> balls_;                   // around the operands, removed ones last
+  std::vector<std::vector<uint32_t>> parts_;  // by operand, removed ones last: what their parts are here
+};
+
+}  // namespace eyeray

@@ -1,0 +1,284 @@
+// Rays against the whole scene. Everything else asks `trace` and `occlusion` and knows no traversal.
+// The entry gives the loaders and, of what is in no BVH, KIND_FIRST(name) and KIND_END(name), or SCENE_PRIMITIVES: every primitive as a
+// constant.
+#ifndef TRAVERSE_GLSL
+#define TRAVERSE_GLSL
+#include "bvh/alpha_test.glsl"
+#include "geometry/instance.glsl"
+#include "geometry/ray.glsl"
+#include "records.h"
+#include "bvh/bvh.glsl"
+
+SHADER_BEGIN
+
+// What a search has found so far: the nearest hit, or how much of a shadow ray is lost.
+struct TraversalState {
+  Hit hit;
+  uint occluded;
+#if MAY_REACH_ITERATION_LIMIT
+  float sure_until;  // the least t at which the steps of a shape's search ran out; T_MISS if none's did
+#endif
+};
+
+// Takes note of a shape that gave up.
+void note_iteration_limit(INOUT(TraversalState) state, float t, vec2 uv) {
+#if MAY_REACH_ITERATION_LIMIT
+  state.sure_until = t == T_ITERATION_LIMIT && !(uv.x >= state.sure_until) ? uv.x : state.sure_until;
+#endif
+}
+
+// FLAG_ITERATION_LIMIT if what was found may be wrong: if a shape gave up before the nearest hit, or before the light that still arrives. Of
+// what lies behind it does not matter which shapes were asked, and so this does not depend on the order either.
+uint iteration_limit(TraversalState state) {
+#if MAY_REACH_ITERATION_LIMIT
+  return !(state.sure_until >= state.hit.t) && state.occluded < OPTICAL_DEPTH_OPAQUE ? FLAG_ITERATION_LIMIT : 0u;
+#else
+  return 0u;
+#endif
+}
+
+// The nearest hit with t > 0: of exactly equal ones that of the lowest id, so that neither the order of traversal nor that of the slots
+// matters.
+void update_closest_hit(INOUT(TraversalState) state, float t, vec2 uv, uint slot, uint id, uint instance) {
+  bool nearer = t > 0.0f && (t < state.hit.t || (t == state.hit.t && id < state.hit.id));
+  state.hit.t = nearer ? t : state.hit.t;
+  state.hit.slot = nearer ? slot : state.hit.slot;
+  state.hit.id = nearer ? id : state.hit.id;
+  state.hit.instance = nearer ? instance : state.hit.instance;
+  state.hit.uv = nearer ? uv : state.hit.uv;
+}
+
+// The optical depth of all that is hit before hit.t.
+void accumulate_occlusion(INOUT(TraversalState) state, float t, uint optical_depth) {
+  uint sum = t > 0.0f && t < state.hit.t ? state.occluded + optical_depth : state.occluded;
+  state.occluded = sum < OPTICAL_DEPTH_OPAQUE ? sum : OPTICAL_DEPTH_OPAQUE;
+}
+
+// Takes an intersection into account, for any-hit or closest-hit.
+void record_intersection(INOUT(TraversalState) state, float t, vec2 uv, uint slot, uint id, uint instance, uint optical_depth, bool any) {
+  note_iteration_limit(state, t, uv);
+  if (any) accumulate_occlusion(state, t, optical_depth);
+  else update_closest_hit(state, t, uv, slot, id, instance);
+}
+
+// What a primitive, a CSG object or not, weakens a shadow ray by before t_max. A CSG object may have surfaces of several materials.
+uint optical_depth_of(Primitive primitive, bool is_csg, Ray ray, float t_max, bool any) {
+#if HAS_MIXED_CSG
+  if (any && is_csg) return csg_optical_depth(primitive, ray, t_max);
+#endif
+  return primitive.head.z;
+}
+
+#ifdef SCENE_PRIMITIVES
+// The same where ids come in ascending order: of equal ones the first stays.
+void record_in_order(INOUT(TraversalState) state, float t, vec2 uv, uint slot, uint id, uint optical_depth, bool any) {
+  if (any) {
+    record_intersection(state, t, uv, slot, id, NONE, optical_depth, true);
+  } else {
+    note_iteration_limit(state, t, uv);
+    bool nearer = t > 0.0f && t < state.hit.t;
+    state.hit.t = nearer ? t : state.hit.t;
+    state.hit.slot = nearer ? slot : state.hit.slot;
+    state.hit.id = nearer ? id : state.hit.id;
+    state.hit.uv = nearer ? uv : state.hit.uv;
+  }
+}
+#else
+// A primitive of the BVH that `local` is in, whose shape the ray hits at t_shape.
+void record_in_bvh(INOUT(TraversalState) state, float t_shape, vec2 uv, uint slot, Primitive primitive, bool is_csg, LocalRay local, bool any) {
+  float t = alpha_test(primitive, local.instance, local.ray, t_shape, uv);
+  uint optical_depth = local.optical_depth;
+  if (HAS_INSTANCES == 0 || optical_depth == NONE) optical_depth = optical_depth_of(primitive, is_csg, local.ray, state.hit.t, any);
+  record_intersection(state, t, uv, slot, id_of(local, primitive), local.instance, optical_depth, any);
+}
+
+#define INTERSECT_KIND(name, number) \
+  if (BVH_HOLDS(number, primitive)) t = name##_intersect(primitive, local.ray, uv);
+
+// One that does not wait.
+void intersect_slot(INOUT(TraversalState) state, uint slot, LocalRay local, bool any) {
+  Primitive primitive = load_primitive(slot);
+  vec2 uv = vec2(0.0f, 0.0f);
+  float t = -1.0f;
+  IMMEDIATE_SHAPES(INTERSECT_KIND)
+  record_in_bvh(state, t, uv, slot, primitive, HAS_DEFERRED_SHAPES == 0 && kind_of(primitive) == KIND_csg, local, any);
+}
+
+#if HAS_DEFERRED_SHAPES
+void intersect_deferred(INOUT(TraversalState) state, uint slot, LocalRay local, bool any) {
+  Primitive primitive = load_primitive(slot);
+  vec2 uv = vec2(0.0f, 0.0f);
+  float t = -1.0f;
+  DEFERRED_SHAPES(INTERSECT_KIND)
+  record_in_bvh(state, t, uv, slot, primitive, kind_of(primitive) == KIND_csg, local, any);
+}
+#endif
+
+bool is_deferred(uint slot) {
+  bool deferred = false;
+#if HAS_DEFERRED_SHAPES
+  uint kind = kind_of(load_primitive(slot));
+#define IS_KIND(name, number) deferred = deferred || kind == number;
+  DEFERRED_SHAPES(IS_KIND)
+#endif
+  return deferred;
+}
+
+// Traverses the TLAS, and of every instance on the way. A driver that runs both sides of every branch runs what is in a loop as often as the ray that
+// needs it most; so a ray that comes to a deferred shapes waits there until the other rays have come to one as well, or are done.
+void traverse(INOUT(TraversalState) state, LocalRay world, bool any) {
+  LocalRay local = world;
+  BoxRay boxes = box_ray(local.ray, load_bvh(0u));
+  Stack stack = empty_stack();
+  uint at = load_bvh(0u).head.x;
+  do {
+#if HAS_DEFERRED_SHAPES
+    do {
+#endif
+      // Go down to a leaf, nearer child first. Back from an instance or a deferred shapes, a leaf may be next.
+      if (HAS_INSTANCES + HAS_DEFERRED_SHAPES == 0 || at < LEAF) do {
+        Child a = load_child(at, 0u, boxes);
+        Child b = load_child(at, 1u, boxes);
+        int limit = floatBitsToInt(state.hit.t);
+        int entry_a = entry_of(a, boxes);
+        int entry_b = entry_of(b, boxes);
+        bool hits_a = entry_a <= exit_of(a, boxes, limit);
+        bool hits_b = entry_b <= exit_of(b, boxes, limit);
+        bool swap = entry_b < entry_a;
+        bool both = hits_a && hits_b;
+        at = both ? (swap ? b.refers_to : a.refers_to)
+                  : hits_a ? a.refers_to : hits_b ? b.refers_to : top_of(stack);
+        move_stack(stack, both, !hits_a && !hits_b, swap ? a.refers_to : b.refers_to);
+      } while (at < LEAF);
+
+      // Test the primitives of this leaf, and of those that wait on top of the stack. From a deferred one on, what is left of a leaf is one.
+      if (at < INSTANCE_LEAF) {
+        bool waits = false;
+        do {
+          // Tested at the top: Mesa 22.3.6 may take what such a loop's last round computed from the rounds of other rays, if it ends at
+          // the bottom (docs/lavapipe.md).
+          uint slot = (at & ~LEAF) >> 3u;
+          uint end = slot + (at & 7u) + 1u;
+          for (; slot < end && !is_deferred(slot); slot++) intersect_slot(state, slot, local, any);
+          bool lost = any && state.occluded >= OPTICAL_DEPTH_OPAQUE;
+          waits = slot < end && !lost;
+          at = lost ? TRAVERSAL_DONE : waits ? LEAF | slot << 3u | (end - slot - 1u) : top_of(stack);
+          move_stack(stack, false, !waits, 0u);
+        } while (at >= LEAF && at < INSTANCE_LEAF && !waits);
+      }
+#if HAS_DEFERRED_SHAPES
+    } while (at < LEAF);
+
+    if (at < INSTANCE_LEAF) {
+      intersect_deferred(state, (at & ~LEAF) >> 3u, local, any);
+      bool last = (at & 7u) == 0u;
+      at = any && state.occluded >= OPTICAL_DEPTH_OPAQUE ? TRAVERSAL_DONE : last ? top_of(stack) : at + 8u - 1u;
+      move_stack(stack, false, last, 0u);
+    }
+#endif
+
+#if HAS_INSTANCES
+    // Go into an instance, or come back from one.
+    if (at >= INSTANCE_LEAF && at != TRAVERSAL_DONE) {
+      bool leaving = at == LEAVE_INSTANCE;
+      uint index = at & ~INSTANCE_LEAF;
+      Instance instance = load_instance(leaving ? 0u : index);
+      Bvh bvh = load_bvh(leaving ? 0u : instance.head.x);
+      if (leaving) {
+        local = world;
+        at = top_of(stack);
+      } else {
+        local = into_instance(world.ray, instance, index);
+        at = bvh.head.x;
+      }
+      boxes = box_ray(local.ray, bvh);
+      move_stack(stack, !leaving, leaving, LEAVE_INSTANCE);
+    }
+#endif
+  } while (at != TRAVERSAL_DONE);
+}
+#endif
+
+// Before a search: only what is nearer than t_max counts.
+TraversalState traversal_state(float t_max) {
+  TraversalState state;
+  state.hit.t = t_max;
+  state.hit.slot = NONE;
+  state.hit.id = 0u;
+  state.hit.instance = NONE;
+  state.hit.uv = vec2(0.0f, 0.0f);
+  state.occluded = 0u;
+#if MAY_REACH_ITERATION_LIMIT
+  state.sure_until = T_MISS;
+#endif
+  return state;
+}
+
+// Tests one by one whatever is in no BVH: unbounded shapes, or with brute force all of the world's own.
+void intersect_linear_list(INOUT(TraversalState) state, Ray ray, bool any) {
+  vec2 uv = vec2(0.0f, 0.0f);
+#ifdef SCENE_PRIMITIVES
+#define INTERSECT_CONSTANT(name, index, constants)                                                    \
+  {                                                                                         \
+    float t = name##_intersect(constants, ray, uv);                                         \
+    t = alpha_test(constants, NONE, ray, t, uv);                                        \
+    record_in_order(state, t, uv, index, constants.head.x, constants.head.z, any);            \
+  }
+  SCENE_PRIMITIVES(INTERSECT_CONSTANT)
+#else
+  // Of a kind that has nothing here there is no code: of a loop that makes no round Mesa 22.3.6 would not leave it out.
+#define INTERSECT_LINEAR_LIST(name, number)                                                                  \
+  if (KIND_FIRST(name) < KIND_END(name))                                                         \
+    for (uint i = KIND_FIRST(name); i < KIND_END(name) && state.occluded < OPTICAL_DEPTH_OPAQUE; i++) { \
+      Primitive primitive = load_primitive(i);                                                   \
+      float t = name##_intersect(primitive, ray, uv);                                            \
+      t = alpha_test(primitive, NONE, ray, t, uv);                                           \
+      uint optical_depth = optical_depth_of(primitive, number == KIND_csg, ray, state.hit.t, any);     \
+      record_intersection(state, t, uv, i, primitive.head.x, NONE, optical_depth, any);                               \
+    }
+  SHAPES(INTERSECT_LINEAR_LIST)
+#endif
+}
+
+TraversalState search(Ray ray, float t_max, bool any) {
+  TraversalState state = traversal_state(t_max);
+  intersect_linear_list(state, ray, any);
+#ifndef SCENE_PRIMITIVES
+#if HAS_INSTANCES
+  if (!HAS_BVH) {
+    for (uint i = 0u; i < INSTANCE_COUNT; i++) {
+      Instance instance = load_instance(i);
+      Bvh bvh = load_bvh(instance.head.x);
+      LocalRay local = into_instance(ray, instance, i);
+      for (uint slot = bvh.head.y; slot < bvh.head.z && state.occluded < OPTICAL_DEPTH_OPAQUE; slot++)
+        intersect_slot(state, slot, local, any);
+    }
+  }
+#endif
+  if (HAS_BVH && state.occluded < OPTICAL_DEPTH_OPAQUE) traverse(state, world_ray(ray), any);
+#endif
+  return state;
+}
+
+// The nearest hit with t > 0. Adds to `flags` what may be wrong with it.
+Hit trace(Ray ray, INOUT(uint) flags) {
+  TraversalState state = search(ray, T_MISS, false);
+  flags = flags | iteration_limit(state);
+  return state.hit;
+}
+
+// How much of a shadow ray's light is lost on 0 < t < t_max: the sum of what every primitive on the way weakens it by, in
+// −log2 · OPTICAL_DEPTH_SCALE, at most OPTICAL_DEPTH_OPAQUE. An integer sum does not depend on the order of traversal. `flags` as for trace.
+uint occlusion(Ray ray, float t_max, INOUT(uint) flags) {
+  TraversalState state = search(ray, t_max, true);
+  flags = flags | iteration_limit(state);
+  return state.occluded;
+}
+
+// The share of light that passes, from what `occlusion` counted.
+float visibility(uint occluded) {
+  return occluded >= OPTICAL_DEPTH_OPAQUE ? 0.0f : exp_negative(float(occluded) * (-0.693147181f / OPTICAL_DEPTH_SCALE));
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,30 @@
+// Pixels to eye rays. The eye is the origin; the host has scaled the axes by field of view and aspect (docs/conventions.md).
+#ifndef CAMERA_GLSL
+#define CAMERA_GLSL
+#include "geometry/ray.glsl"
+#include "records.h"
+#include "math/rng.glsl"
+
+SHADER_BEGIN
+
+// Where in the picture sample `index` of pixel (x, y) lies, in pixels from the top left: one of n × n cells, its centre or a
+// random place in it.
+vec2 sample_position(Frame frame, uint x, uint y, uint index) {
+  uint n = frame.image.w;
+  uint pixel = y * frame.image.x + x;
+  bool jittered = frame.camera.y == PATTERN_JITTERED;
+  float dx = jittered ? random_number(pixel, index, 0u, frame.image.z) : 0.5f;
+  float dy = jittered ? random_number(pixel, index, 1u, frame.image.z) : 0.5f;
+  return vec2(float(x) + (float(index % n) + dx) / float(n), float(y) + (float(index / n) + dy) / float(n));
+}
+
+Ray camera_ray(Frame frame, vec2 place) {
+  float x = (place.x - 0.5f * float(frame.image.x)) * frame.up.w;
+  float y = (0.5f * float(frame.image.y) - place.y) * frame.forward.w;
+  vec3 across = vec3(frame.right) * x + vec3(frame.up) * y;
+  if (frame.camera.x == CAMERA_ORTHOGRAPHIC) return make_ray(across, vec3(frame.forward));
+  return make_ray(vec3(0.0f, 0.0f, 0.0f), normalize3(across + vec3(frame.forward)));
+}
+
+SHADER_END
+#endif

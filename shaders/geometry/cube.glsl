@@ -1,0 +1,61 @@
+// The cube from −1 to 1 in object space (geometry/object_space.glsl): a box, or what cuts another shape.
+#ifndef CUBE_GLSL
+#define CUBE_GLSL
+#include "geometry/object_space.glsl"
+
+SHADER_BEGIN
+
+// Where a ray is inside of the three slabs: from where it has entered the last to where it leaves the first; nowhere if enter > leave.
+struct CubeSpan {
+  vec3 in_at;
+  vec3 out_at;
+  float enter;
+  float leave;
+};
+
+CubeSpan cube_span(ObjectRay r) {
+  // A finite inverse keeps 0 · ∞ away.
+  float least = 1.0e-12f * max_component(abs3(r.d));
+  vec3 inverse = vec3(bounded_inverse(r.d.x, least), bounded_inverse(r.d.y, least), bounded_inverse(r.d.z, least));
+  vec3 a = (vec3(-1.0f, -1.0f, -1.0f) - r.o) * inverse;
+  vec3 b = (vec3(1.0f, 1.0f, 1.0f) - r.o) * inverse;
+  CubeSpan span;
+  span.in_at = vec3(minimum(a.x, b.x), minimum(a.y, b.y), minimum(a.z, b.z));
+  span.out_at = vec3(maximum(a.x, b.x), maximum(a.y, b.y), maximum(a.z, b.z));
+  span.enter = max_component(span.in_at);
+  span.leave = minimum(minimum(span.out_at.x, span.out_at.y), span.out_at.z);
+  return span;
+}
+
+// The face through which the ray enters or leaves: its axis, and its side. It is that of the slab which decides, not of the point: near an
+// edge that would be either, also one that faces away.
+vec2 cube_face(CubeSpan span, ObjectRay r, bool enters) {
+  float x = enters ? span.in_at.x - span.enter : span.leave - span.out_at.x;
+  float y = enters ? span.in_at.y - span.enter : span.leave - span.out_at.y;
+  float axis = x == 0.0f ? 0.0f : y == 0.0f ? 1.0f : 2.0f;
+  float along = axis == 0.0f ? r.d.x : axis == 1.0f ? r.d.y : r.d.z;
+  return vec2(axis, (along > 0.0f) == enters ? -1.0f : 1.0f);
+}
+
+vec3 cube_normal(vec2 face) {
+  return vec3(face.x == 0.0f ? face.y : 0.0f, face.x == 1.0f ? face.y : 0.0f, face.x == 2.0f ? face.y : 0.0f);
+}
+
+vec3 into_cube(vec3 p) {
+  return vec3(minimum(maximum(p.x, -1.0f), 1.0f), minimum(maximum(p.y, -1.0f), 1.0f), minimum(maximum(p.z, -1.0f), 1.0f));
+}
+
+vec3 onto_cube(vec3 p, vec2 face) {
+  vec3 q = into_cube(p);
+  return vec3(face.x == 0.0f ? face.y : q.x, face.x == 1.0f ? face.y : q.y, face.x == 2.0f ? face.y : q.z);
+}
+
+// Seen from outside u runs to the right and v up; what is up on top is −z, below +z.
+vec2 cube_uv(vec3 p, vec2 face) {
+  float u = face.x == 0.0f ? -p.z * face.y : face.x == 1.0f ? p.x : p.x * face.y;
+  float v = face.x == 1.0f ? -p.z * face.y : p.y;
+  return inner_uv(vec2(0.5f + 0.5f * u, 0.5f + 0.5f * v));
+}
+
+SHADER_END
+#endif

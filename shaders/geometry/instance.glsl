@@ -1,0 +1,78 @@
+// Instances of meshes and groups: into their space and back.
+#ifndef INSTANCE_GLSL
+#define INSTANCE_GLSL
+#include "geometry/ray.glsl"
+#include "records.h"
+
+SHADER_BEGIN
+
+// Where a ray is being traced: in the world, or in the space of an instance.
+struct LocalRay {
+  Ray ray;
+  uint instance;        // NONE in the world
+  uint first_id;        // to be added to the id of a primitive, …
+  uint first_triangle;  // … or this, to that of a triangle of a group's meshes
+  uint optical_depth;         // what each primitive weakens a shadow ray by; NONE where they say it themselves
+};
+
+LocalRay world_ray(Ray ray) {
+  LocalRay local;
+  local.ray = ray;
+  local.instance = NONE;
+  local.first_id = 0u;
+  local.first_triangle = 0u;
+  local.optical_depth = NONE;
+  return local;
+}
+
+uint id_of(LocalRay local, Primitive primitive) {
+#if HAS_INSTANCES
+  uint id = primitive.head.x & ~ID_OF_TRIANGLE;
+  return (primitive.head.x & ID_OF_TRIANGLE) != 0u ? local.first_triangle + id : local.first_id + id;
+#else
+  return primitive.head.x;
+#endif
+}
+
+#if HAS_INSTANCES
+vec3 map_direction(vec4 rows[3], vec3 d) { return vec3(dot3(vec3(rows[0]), d), dot3(vec3(rows[1]), d), dot3(vec3(rows[2]), d)); }
+vec3 map_offset(vec4 rows[3]) { return vec3(rows[0].w, rows[1].w, rows[2].w); }
+vec3 map_size(vec4 rows[3], vec3 size) {
+  return vec3(dot3(abs3(vec3(rows[0])), size), dot3(abs3(vec3(rows[1])), size), dot3(abs3(vec3(rows[2])), size));
+}
+// By rows as columns: what maps normals, when `rows` is the inverse map.
+vec3 transposed(vec4 rows[3], vec3 n) { return vec3(rows[0]) * n.x + vec3(rows[1]) * n.y + vec3(rows[2]) * n.z; }
+
+bool of_group(Instance instance) { return instance.head.z == NONE; }
+
+// The direction keeps its length in the instance's space, so that t stays the same. The difference comes first: near the instance it is exact
+// or nearly so.
+LocalRay into_instance(Ray ray, Instance instance, uint index) {
+  LocalRay local;
+  local.ray = make_ray(map_direction(instance.to_local, ray.o - map_offset(instance.to_world)),
+                       map_direction(instance.to_local, ray.d));
+  local.instance = index;
+  local.first_id = instance.head.y;
+  local.first_triangle = instance.head.w;
+  local.optical_depth = of_group(instance) ? NONE : instance.head.w;
+  return local;
+}
+
+// The surface in the world. A step of its offset across it is as long as the map makes it; to that come the errors of the way out and of a
+// next ray's way back in.
+Surface out_of_instance(Surface surface, Instance instance) {
+  Surface world = surface;
+  world.p = map_direction(instance.to_world, surface.p) + map_offset(instance.to_world);
+  vec3 across = transposed(instance.to_local, surface.normal_geometric);
+  float shrinks = sqrt(dot3(across, across));
+  world.normal_geometric = across / shrinks;
+  world.normal = normalize3(transposed(instance.to_local, surface.normal));
+  vec3 local = abs3(surface.p) + map_size(instance.to_local, abs3(world.p - map_offset(instance.to_world)));
+  vec3 reach = map_size(instance.to_world, local) + (abs3(world.p) + abs3(map_offset(instance.to_world)));
+  world.offset = surface.offset / shrinks + 8.0f * EPSILON * dot3(abs3(world.normal_geometric), reach);
+  return world;
+}
+#endif
+
+SHADER_END
+#endif

@@ -1,0 +1,97 @@
+// Shapes that are a plain one, such as the unit sphere, in a space of their own.
+//   a, b, c = the rows of the linear map from the world into object space; their w's are the centre, its origin, in the world
+//   extra   = the first of its vertices: three with the rows of the map back, then the shape's own parameters
+#ifndef OBJECT_SPACE_GLSL
+#define OBJECT_SPACE_GLSL
+#include "geometry/ray.glsl"
+#include "records.h"
+
+SHADER_BEGIN
+
+#define OBJECT_PARAMETERS 3u  // where those begin
+
+// A ray in object space: at `t + s` of the world's ray it is at o + s·d.
+struct ObjectRay {
+  vec3 o;
+  vec3 d;
+  float t;
+};
+
+vec3 into_object(Primitive s, vec3 v) { return vec3(dot3(vec3(s.a), v), dot3(vec3(s.b), v), dot3(vec3(s.c), v)); }
+
+// Where along itself a ray comes nearest to the centre; and the same ray from there.
+float nearest_at(ObjectRay ray) { return -dot3(ray.o, ray.d) / dot3(ray.d, ray.d); }
+ObjectRay from_nearest(ObjectRay ray) {
+  ObjectRay r = ray;
+  float s = nearest_at(ray);
+  r.o = r.o + r.d * s;
+  r.t = r.t + s;
+  return r;
+}
+
+// Distances in object space are not the world's, but t and s are. A ray from afar is followed from its point nearest to the centre: what is
+// computed from there is as small as the shape, so that nothing cancels. In the world first: what the map makes of the direction's
+// rounding does not count on the long way then. `reach`: the farthest that the shape's points are from its centre.
+ObjectRay object_ray(Primitive s, Ray ray, float reach) {
+  vec3 from_center = ray.o - vec3(s.a.w, s.b.w, s.c.w);
+  ObjectRay r;
+  r.o = into_object(s, from_center);
+  r.d = into_object(s, ray.d);
+  r.t = 0.0f;
+  if (dot3(r.o, r.o) > 4.0f * reach * reach) {
+    r.t = -dot3(from_center, ray.d) / dot3(ray.d, ray.d);
+    r.o = into_object(s, from_center + ray.d * r.t);
+    r = from_nearest(r);
+  }
+  // What passes far from the shape is let pass before squares overflow; and a direction so short that its squares are lost, as no
+  // unit vector's are, hits nothing.
+  if (!(dot3(r.o, r.o) <= 4.0f * reach * reach && dot3(r.d, r.d) >= 1.0e-30f)) {
+    r.o = vec3(0.0f, 4.0f * reach, 0.0f);
+    r.d = vec3(1.0f, 0.0f, 0.0f);
+    r.t = 0.0f;
+  }
+  return r;
+}
+
+vec3 at_hit(ObjectRay ray, Hit hit) { return ray.o + ray.d * (hit.t - ray.t); }
+
+// Around all points up to `extent` from the centre of object space along its axes.
+void object_box(Primitive s, vec3 extent, OUT(vec3) lower, OUT(vec3) upper) {
+  vec4 x = bits_to_floats(load_vertex(s.head.w));
+  vec4 y = bits_to_floats(load_vertex(s.head.w + 1u));
+  vec4 z = bits_to_floats(load_vertex(s.head.w + 2u));
+  vec3 centre = vec3(x.w, y.w, z.w);
+  vec3 reach = vec3(dot3(abs3(vec3(x)), extent), dot3(abs3(vec3(y)), extent), dot3(abs3(vec3(z)), extent));
+  lower = centre - reach;
+  upper = centre + reach;
+}
+
+vec4 object_parameters(Primitive s) { return bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS)); }
+
+// The world's surface. `p`: on the shape. `gradient`: points outward there, of about the length 1 where the map is extreme.
+Surface object_surface(Primitive s, vec3 p, vec3 gradient, vec2 uv) {
+  vec4 x = bits_to_floats(load_vertex(s.head.w));
+  vec4 y = bits_to_floats(load_vertex(s.head.w + 1u));
+  vec4 z = bits_to_floats(load_vertex(s.head.w + 2u));
+  Surface surface;
+  surface.p = vec3(dot3(vec3(x), p) + x.w, dot3(vec3(y), p) + y.w, dot3(vec3(z), p) + z.w);
+
+  // Gradients map by the transpose.
+  vec3 n = vec3(s.a) * gradient.x + vec3(s.b) * gradient.y + vec3(s.c) * gradient.z;
+  float slope = sqrt(dot3(n, n));
+  surface.normal_geometric = n / slope;
+  surface.normal = surface.normal_geometric;
+  surface.uv = uv;
+
+  // Rounding on the way here, and when a ray that leaves is brought back into object space.
+  vec3 size = abs3(p);
+  vec3 here = vec3(dot3(abs3(vec3(x)), size) + abs(x.w), dot3(abs3(vec3(y)), size) + abs(y.w),
+                   dot3(abs3(vec3(z)), size) + abs(z.w));
+  size = abs3(surface.p) + abs3(vec3(s.a.w, s.b.w, s.c.w));
+  vec3 back = vec3(dot3(abs3(vec3(s.a)), size), dot3(abs3(vec3(s.b)), size), dot3(abs3(vec3(s.c)), size));
+  surface.offset = 4.0f * EPSILON * (dot3(abs3(surface.normal_geometric), here) + dot3(abs3(gradient), back) / slope);
+  return surface;
+}
+
+SHADER_END
+#endif

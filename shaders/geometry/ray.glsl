@@ -1,0 +1,131 @@
+// Rays and what they hit.
+#ifndef RAY_GLSL
+#define RAY_GLSL
+#include "math/math.glsl"
+#include "records.h"
+
+SHADER_BEGIN
+
+// P(t) = o + t·d. The rest follows from d, once for everything that the ray is tested against.
+struct Ray {
+  vec3 o;
+  vec3 d;
+  vec3 inverse;  // 1 / d, finite: a component of d so small that it does not count is taken as a little larger
+  uint major;    // the axis along which d is longest
+  vec2 shear;    // Woop's, the same for every triangle (shapes/triangle.glsl)
+#if HAS_CSG
+  // A ray that asks a leaf of a CSG object for its next crossing: that behind which t, and on which side of the leaf the ray is until then.
+  float after;
+  uint side;
+#endif
+};
+
+// What `intersect` of closed shapes asks, so that it is for CSG objects too (shapes/csg.glsl): a crossing is the same number for whoever asks.
+// AFTER: beyond which t it counts. ENTERS: whether of the two crossings of a convex shape the first is asked for, which is at t. COUNTS: whether
+// crossings are counted along the whole line; then PASSED: whether that at t has been.
+#if HAS_CSG
+#define SIDE_UNKNOWN 0u
+#define SIDE_OUTSIDE 1u
+#define SIDE_INSIDE 2u
+#define AFTER(ray) ray.after
+#define ENTERS(ray, t) (ray.side == SIDE_UNKNOWN ? (t) > 0.0f : ray.side == SIDE_OUTSIDE)
+#define COUNTS(ray) (ray.side != SIDE_UNKNOWN)
+#define PASSED(ray, t) (COUNTS(ray) && !((t) > ray.after))
+#else
+#define AFTER(ray) 0.0f
+#define ENTERS(ray, t) ((t) > 0.0f)
+#define COUNTS(ray) false
+#define PASSED(ray, t) false
+#endif
+
+struct Hit {
+  float t;        // T_MISS where nothing is hit
+  uint slot;      // of the primitive, for load_primitive; NONE where nothing is hit
+  uint id;        // the scene's primitive index; NONE where nothing is hit
+  uint instance;  // that the primitive belongs to; NONE for one of the world's own
+  vec2 uv;        // the shape's own parameters
+};
+
+// What a shape says of the point that was hit.
+struct Surface {
+  vec3 p;                 // on the surface, projected
+  vec3 normal_geometric;  // unit; outward, or by winding
+  vec3 normal;            // unit shading normal
+  vec2 uv;
+  float offset;  // a ray that starts this far off p along the geometric normal does not hit the surface again
+};
+
+Surface no_surface() {
+  Surface surface;
+  surface.p = vec3(0.0f, 0.0f, 0.0f);
+  surface.normal_geometric = surface.p;
+  surface.normal = surface.p;
+  surface.uv = vec2(0.0f, 0.0f);
+  surface.offset = 0.0f;
+  return surface;
+}
+
+// uv of a surface that is 1 wide: rounding does not take a point of its border to where the next check begins.
+vec2 inner_uv(vec2 uv) { return vec2(minimum(maximum(uv.x, 0.0f), 1.0f - EPSILON), minimum(maximum(uv.y, 0.0f), 1.0f - EPSILON)); }
+
+PacketHit packet_of_hit(Hit hit, uint flags) {
+  PacketHit packet;
+  packet.hit = uvec4(floatBitsToUint(hit.t), hit.slot, hit.id, flags);
+  packet.uv = uvec4(floatBitsToUint(hit.uv.x), floatBitsToUint(hit.uv.y), 0u, 0u);
+  return packet;
+}
+
+Hit hit_of_packet(PacketHit packet, INOUT(uvec4) counts) {
+  counts.z = counts.z | packet.hit.w;
+  Hit hit;
+  hit.t = uintBitsToFloat(packet.hit.x);
+  hit.slot = packet.hit.y;
+  hit.id = packet.hit.z;
+  hit.instance = NONE;
+  hit.uv = vec2(uintBitsToFloat(packet.uv.x), uintBitsToFloat(packet.uv.y));
+  return hit;
+}
+
+uint kind_of(Primitive primitive) { return primitive.head.y >> 24u; }
+uint material_of(Primitive primitive) { return primitive.head.y & 0xffffffu; }
+
+// The last two axes after `major`, then `major` itself.
+vec3 permute(vec3 v, uint major) {
+  return major == 0u ? vec3(v.y, v.z, v.x) : major == 1u ? vec3(v.z, v.x, v.y) : v;
+}
+
+// 1 / x for |x| ≥ least, else 1 / least with the sign of x.
+float bounded_inverse(float x, float least) {
+  float size = maximum(abs(x), least);
+  return 1.0f / (x < 0.0f ? -size : size);
+}
+
+Ray make_ray(vec3 o, vec3 d) {
+  Ray ray;
+  ray.o = o;
+  ray.d = d;
+  vec3 size = abs3(d);
+  ray.major = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
+  vec3 p = permute(d, ray.major);
+  ray.shear = vec2(p.x / p.z, p.y / p.z);
+#if HAS_CSG
+  ray.after = 0.0f;
+  ray.side = SIDE_UNKNOWN;
+#endif
+  // Over the whole length of the ray, 1e-12 of it is far less than what bvh.glsl widens its boxes by.
+  float least = 1.0e-12f * abs(p.z);
+  ray.inverse = vec3(bounded_inverse(d.x, least), bounded_inverse(d.y, least), bounded_inverse(d.z, least));
+  return ray;
+}
+
+// A ray that leaves `s` in direction d, started clear of the surface on the side that d points to. Where d is steep enough the start
+// moves along the ray itself, which keeps its line: a step along the normal would shift every refracted ray sideways.
+Ray spawn_ray(Surface s, vec3 d) {
+  float cosine = dot3(d, s.normal_geometric);
+  float side = cosine < 0.0f ? -s.offset : s.offset;
+  bool steep = abs(cosine) > 0.125f;
+  return make_ray(s.p + (steep ? d * (s.offset / abs(cosine)) : s.normal_geometric * side), d);
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,52 @@
+// From a hit to the surface there: asks the shape that was hit, and brings an instance's into the world.
+#ifndef SURFACE_GLSL
+#define SURFACE_GLSL
+#include "geometry/instance.glsl"
+#include "geometry/ray.glsl"
+#include "records.h"
+
+SHADER_BEGIN
+
+// The primitive that was hit, with the material that it has there.
+Primitive primitive_at(Hit hit) {
+  Primitive primitive = load_primitive(hit.slot);
+#if HAS_INSTANCES
+  if (hit.instance != NONE) {
+    Instance instance = load_instance(hit.instance);
+    if (!of_group(instance)) primitive.head.y = instance.head.z | (primitive.head.y & 0xff000000u);
+  }
+#endif
+#if HAS_CSG
+  if (kind_of(primitive) == KIND_csg)
+    primitive.head.y = material_of(csg_leaf(primitive, hit)) | (primitive.head.y & 0xff000000u);
+#endif
+  return primitive;
+}
+
+Surface surface_at(Primitive primitive, Ray ray, Hit hit) {
+  Surface surface = no_surface();
+  Ray local = ray;
+#if HAS_INSTANCES
+  if (hit.instance != NONE) local = into_instance(ray, load_instance(hit.instance), hit.instance).ray;
+#endif
+#define SURFACE_OF(name, number) \
+  if (kind_of(primitive) == number) surface = name##_surface(primitive, local, hit);
+  SHAPES(SURFACE_OF)
+#if HAS_INSTANCES
+  if (hit.instance != NONE) surface = out_of_instance(surface, load_instance(hit.instance));
+#endif
+  // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
+  if (!(dot3(surface.normal, surface.normal_geometric) > 0.0f)) surface.normal = surface.normal_geometric;
+  return surface;
+}
+
+// The surface as its viewer sees it: normals towards where the ray came from.
+Surface face_viewer(Surface surface, bool front) {
+  Surface seen = surface;
+  seen.normal_geometric = front ? surface.normal_geometric : -surface.normal_geometric;
+  seen.normal = front ? surface.normal : -surface.normal;
+  return seen;
+}
+
+SHADER_END
+#endif

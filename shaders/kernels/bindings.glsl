@@ -1,0 +1,35 @@
+// What the entries share: the buffers. Those that grow with the scene, and the frame, are texel buffers where TEXEL_BUFFERS is set:
+// a storage buffer's range can be as small as 128 MiB, and a CPU driver loads texels faster.
+#ifndef BINDINGS_GLSL
+#define BINDINGS_GLSL
+#include "records.h"
+
+layout(push_constant) uniform PushConstants { Dispatch dispatch; };
+#if TEXEL_BUFFERS
+layout(rgba32ui, binding = BINDING_PRIMITIVES) readonly restrict uniform uimageBuffer primitives;
+layout(rgba32ui, binding = BINDING_VERTICES) readonly restrict uniform uimageBuffer vertices;
+layout(rgba32ui, binding = BINDING_NODES) readonly restrict uniform uimageBuffer nodes;
+layout(rgba32ui, binding = BINDING_TEXELS) readonly restrict uniform uimageBuffer texels;
+layout(rgba32ui, binding = BINDING_FRAME) readonly restrict uniform uimageBuffer frame_words;
+#define LOOP_PROBE imageLoad(frame_words, 2).y
+#else
+layout(std430, binding = BINDING_PRIMITIVES) readonly restrict buffer Primitives { Primitive primitives[]; };
+layout(std430, binding = BINDING_VERTICES) readonly restrict buffer Vertices { uvec4 vertices[]; };
+layout(std430, binding = BINDING_NODES) readonly restrict buffer Nodes { uvec4 nodes[]; };
+layout(std430, binding = BINDING_TEXELS) readonly restrict buffer Texels { uint texels[]; };
+layout(std430, binding = BINDING_FRAME) readonly restrict buffer FrameBuffer { Frame frame_record; };
+#define LOOP_PROBE frame_record.counts.y
+#endif
+#if STORED_HITS
+// What kernels/cooperative/packet.comp.glsl found for this sample: what the eye rays hit, and how much of each light is lost there.
+layout(std430, binding = BINDING_PACKET_HITS) readonly restrict buffer PacketHits { PacketHit packet_hits[]; };
+layout(std430, binding = BINDING_OCCLUSIONS) readonly restrict buffer Occlusions { uint occlusions[]; };
+#endif
+layout(std430, binding = BINDING_BVHS) readonly restrict buffer Bvhs { Bvh bvhs[]; };
+layout(std430, binding = BINDING_INSTANCES) readonly restrict buffer Instances { Instance instances[]; };
+layout(std430, binding = BINDING_MATERIALS) readonly restrict buffer Materials { Material materials[]; };
+layout(std430, binding = BINDING_TEXTURES) readonly restrict buffer Textures { Texture textures[]; };
+layout(std430, binding = BINDING_MEDIA) readonly restrict buffer Media { Medium media[]; };
+layout(std430, binding = BINDING_LIGHTS) readonly restrict buffer Lights { Light lights[]; };
+
+#endif

@@ -1,0 +1,136 @@
+// Entry: coherent rays (kernels/cooperative/packet.glsl).
+//   PACKET_PRIMARY   the rays of a tile's pixels → PacketHit
+//   PACKET_SHADOW    from what those hit to every light → occlusion
+//   otherwise rays from a buffer → QueryHit, with QUERY_ANY whether there is one
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#include "scene.glsl"
+#include "kernels/pixel.glsl"
+#include "kernels/tile.glsl"
+
+#if defined(PACKET_SHADOW) || defined(QUERY_ANY)
+#define ANY true
+#else
+#define ANY false
+#endif
+#include "kernels/cooperative/packet.glsl"
+
+layout(local_size_x = 64) in;
+#if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
+layout(std430, binding = BINDING_PACKET_HITS) restrict buffer PacketHits { PacketHit hits[]; };
+layout(std430, binding = BINDING_OCCLUSIONS) writeonly restrict buffer Occlusions { uint occlusions[]; };
+#else
+layout(std430, binding = BINDING_RAYS) readonly restrict buffer Rays { QueryRay rays[]; };
+layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { QueryHit results[]; };
+#endif
+
+// Which ray of the packet is a lane's k-th. Blocks of pixels come in rows of 8: neighbours go to different lanes, 4 × 2 of them, so that
+// a triangle that few rays pass is one lane's only once.
+uint ray_of(uint lane, uint k) {
+#if SUBGROUP_SIZE == 8
+  return (lane & 3u) | ((k & 1u) << 2u) | ((lane & 4u) << 1u) | ((k >> 1u) << 4u);
+#else
+  return k * LANES + lane;
+#endif
+}
+
+// Where the result of ray i of a packet goes; NONE where there is no such ray.
+uint place_of(uint packet, uint i) {
+  uint j = packet * uint(PACKET) + i;
+#if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
+  uvec2 pixel = pixel_of_block(j / 64u, j % 64u, dispatch.tile);
+  bool there = pixel.x < dispatch.tile.z && pixel.y < dispatch.tile.w;
+  return there ? pixel.y * dispatch.tile.z + pixel.x : NONE;
+#else
+  return j < dispatch.tile.x ? j : NONE;
+#endif
+}
+
+#if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
+// The sample's ray through the pixel at `place` of the tile.
+Ray eye_ray(uint place) {
+  uint row = quotient(place, dispatch.tile.z);
+  uint x = dispatch.tile.x + place - row * dispatch.tile.z;
+  uint y = dispatch.tile.y + row;
+  Frame frame = load_frame();
+  return camera_ray(frame, sample_position(frame, x, y, dispatch.sample_index.x));
+}
+#endif
+
+#ifdef PACKET_SHADOW
+// The surface that the eye ray at `place` hits, as its viewer sees it; struck: whether there is one.
+Surface seen_at(uint place, OUT(bool) struck) {
+  uvec4 counts = uvec4(0u, 0u, 0u, 0u);
+  uint there = place == NONE ? 0u : place;
+  Hit hit = hit_of_packet(hits[there], counts);
+  struck = place != NONE && hit.slot != NONE;
+  hit.slot = struck ? hit.slot : 0u;
+  Ray ray = eye_ray(there);
+  Surface surface = surface_at(primitive_at(hit), ray, hit);
+  return face_viewer(surface, dot3(ray.d, surface.normal_geometric) < 0.0f);
+}
+#endif
+
+void main() {
+  uint group = swizzled_workgroup(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE);
+  uint packet = group * (64u / LANES) + gl_SubgroupID;
+  uint lane = gl_SubgroupInvocationID;
+  uint place[RAYS_A_LANE];
+  EACH place[k] = place_of(packet, ray_of(lane, uint(k)));
+
+#ifdef PACKET_SHADOW
+  Surface seen[RAYS_A_LANE];
+  bool struck[RAYS_A_LANE];
+  uint flags[RAYS_A_LANE];
+  EACH flags[k] = 0u;
+  EACH seen[k] = seen_at(place[k], struck[k]);
+  uint light = 0u;
+  do {
+    // A ray for which nothing is asked hits nothing, but must be one.
+    EACH {
+      LightSample to = sample_light(load_light(light), seen[k].p);
+      bool lit = struck[k] && dot3(seen[k].normal, to.direction) > 0.0f &&
+                 dot3(seen[k].normal_geometric, to.direction) > 0.0f;
+      ray[k] = lit ? spawn_ray(seen[k], to.direction) : make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
+      state[k] = traversal_state(lit ? to.distance : -1.0f);
+      intersect_linear_list(state[k], ray[k], true);
+    }
+    traverse_together(lane);
+    EACH {
+      flags[k] = flags[k] | iteration_limit(state[k]);
+      if (place[k] != NONE) occlusions[light * dispatch.sample_index.z + place[k]] = state[k].occluded;
+    }
+    light += 1u;
+  } while (light < LIGHT_COUNT);
+  uint cut_off = loops_cut_off(LOOP_PROBE);
+  EACH {
+    if (place[k] != NONE) hits[place[k]].hit.w = hits[place[k]].hit.w | flags[k] | cut_off;
+  }
+#else
+  EACH {
+#ifdef PACKET_PRIMARY
+    ray[k] = eye_ray(place[k] == NONE ? 0u : place[k]);
+    state[k] = traversal_state(place[k] == NONE ? -1.0f : T_MISS);
+#else
+    QueryRay asked = rays[place[k] == NONE ? 0u : place[k]];
+    ray[k] = make_ray(vec3(asked.origin), vec3(asked.direction));
+    state[k] = traversal_state(place[k] == NONE ? -1.0f : minimum(asked.direction.w, T_MISS));
+#endif
+    intersect_linear_list(state[k], ray[k], ANY);
+  }
+  traverse_together(lane);
+  uint flags = loops_cut_off(LOOP_PROBE);
+  EACH {
+    if (place[k] != NONE) {
+#ifdef PACKET_PRIMARY
+      hits[place[k]] = packet_of_hit(state[k].hit, flags | iteration_limit(state[k]));
+#else
+      results[place[k]] = answer(state[k], ANY, flags);
+#endif
+    }
+  }
+#endif
+}

@@ -1,0 +1,45 @@
+// Entry: a tile of the picture. One sample of each pixel, or with LISTED of those in a list; or with FIRST_HITS what the ray through
+// the centre of each hits.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "scene.glsl"  // made for the scene by executors/specialise.cpp: only what it has is compiled
+#include "kernels/pixel.glsl"
+#include "kernels/tile.glsl"
+
+layout(local_size_x = 64) in;
+#ifdef FIRST_HITS
+layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { HitResult results[]; };
+#else
+layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { SampleResult results[]; };
+#endif
+
+#ifdef LISTED
+// How many, then the places of the pixels in the tile.
+layout(std430, binding = BINDING_LIST) readonly restrict buffer List { uint list[]; };
+#endif
+
+void main() {
+  uint group = swizzled_workgroup(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE);
+#ifdef LISTED
+  uint entry = group * 64u + gl_LocalInvocationIndex;
+  if (entry >= list[0]) return;
+  uint i = list[1u + entry];
+  uint row = quotient(i, dispatch.tile.z);
+  uvec2 pixel = uvec2(i - row * dispatch.tile.z, row);
+#else
+  uvec2 pixel = pixel_of_block(group, gl_LocalInvocationIndex, dispatch.tile);
+  if (pixel.x >= dispatch.tile.z || pixel.y >= dispatch.tile.w) return;
+  uint i = pixel.y * dispatch.tile.z + pixel.x;
+#endif
+  Frame frame = load_frame();
+
+#ifdef FIRST_HITS
+  results[i] = first_hit(frame, dispatch.tile.x + pixel.x, dispatch.tile.y + pixel.y);
+#else
+#if STORED_HITS
+  stored_place = i;
+#endif
+  results[i] = render_sample(frame, dispatch.tile.x + pixel.x, dispatch.tile.y + pixel.y, dispatch.sample_index.x);
+#endif
+}

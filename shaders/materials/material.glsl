@@ -1,0 +1,25 @@
+// From a material and a point to its scattering: asks the kind of material.
+#ifndef MATERIAL_GLSL
+#define MATERIAL_GLSL
+#include "materials/scattering.glsl"
+
+SHADER_BEGIN
+
+// material: load_material(index).
+Scattering scattering_of(uint index, Material material, ScatteringContext context) {
+  Scattering s = no_scattering();
+#ifdef SCENE_MATERIALS
+  // Each material as constants: hardly anything of it is left to compute.
+#define SCATTERING_OF_ONE(name, i, constants) \
+  if (index == i) s = name##_scattering(constants, context);
+  SCENE_MATERIALS(SCATTERING_OF_ONE)
+#else
+#define SCATTERING_OF(name, number) \
+  if (material.head.x == number) s = name##_scattering(material, context);
+  MATERIALS(SCATTERING_OF)
+#endif
+  return s;
+}
+
+SHADER_END
+#endif

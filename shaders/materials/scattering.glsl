@@ -1,0 +1,51 @@
+// What materials answer: how a point scatters light towards the viewer, after Whitted, "An Improved Illumination Model for Shaded
+// Display" (CACM 1980).
+#ifndef SCATTERING_GLSL
+#define SCATTERING_GLSL
+#include "math/math.glsl"
+#include "records.h"
+#include "materials/texture.glsl"
+
+SHADER_BEGIN
+
+struct ScatteringContext {
+  vec2 uv;
+  vec3 color;      // of a mesh's vertices, white where they have none
+  float cos_view;  // in [0, 1]
+  float ior_from;
+  float ior_to;
+};
+
+struct Scattering {
+  vec3 ambient;      // × the scene's ambient light
+  vec3 diffuse;      // × light · cos θ
+  vec3 specular;     // × light · highlight lobe
+  vec3 reflected;    // × what the mirror direction sees
+  vec3 transmitted;  // × what the refracted direction sees
+  vec3 emitted;      // light of its own
+};
+
+Scattering no_scattering() {
+  Scattering s;
+  s.ambient = vec3(0.0f, 0.0f, 0.0f);
+  s.diffuse = s.ambient;
+  s.specular = s.ambient;
+  s.reflected = s.ambient;
+  s.transmitted = s.ambient;
+  s.emitted = s.ambient;
+  return s;
+}
+
+// The highlight: Phong's (r·v)^n or Blinn's (n·h)^n. All directions are unit and point away from the surface. The cosine of two unit vectors
+// is taken as 1 − |a − b|²/2, which keeps its precision where the lobe is narrow.
+float highlight(Material material, vec3 n, vec3 to_light, vec3 to_viewer) {
+  vec3 half_way = to_light + to_viewer;
+  float length_squared = dot3(half_way, half_way);
+  bool blinn = (material.head.y & MATERIAL_BLINN) != 0u;
+  vec3 a = blinn ? half_way / sqrt(maximum(length_squared, 1.0e-20f)) : mirror3(to_light, n);
+  vec3 difference = a - (blinn ? n : to_viewer);
+  return power_of_complement(minimum(0.5f * dot3(difference, difference), 1.0f), material.parameters.x);
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,131 @@
+// The first root along a ray, from affine bounds of the function (math/affine_bound.glsl): piece after piece, each as long as its affine bound can do
+// with. Whoever marches asks for the function's affine bound on march_middle(march) ± march_half(march) until march.over.
+// A root is where the sign changes. No change is overlooked but within a piece that is passed over, because it is as short as can be or its
+// affine bound hardly sharper than that of a point in it: there the function is zero up to what float32 may round at worst. The sign is then taken
+// from the line, where that is as far off zero as float32 rounds in fact; if it is another than before, the root is where the first line
+// among those pieces is zero, or the last; else in the middle.
+#ifndef ENCLOSURE_MARCH_GLSL
+#define ENCLOSURE_MARCH_GLSL
+#include "math/affine_bound.glsl"
+
+SHADER_BEGIN
+
+// Of the finest pieces: the h of the first piece that may be passed over, and of the longest; each is up to twice as long as the one before, so that
+// where a jump of the function was hit instead of rounding little is lost.
+#define MARCH_FIRST_PASS 64.0f
+#define MARCH_LONGEST_PASS 16384.0f
+#define MARCH_BLUNT 1.5f   // e over that of a point: where more is, shorter pieces tell more
+#define MARCH_LIKELY 0.25f // |a| over e: where more is, its sign is the function's
+
+struct March {
+  float t;        // up to here the sign is known, but for what was passed over
+  float h;        // half the length of the piece that is next
+  float end;      // of the ray
+  float finest;   // a piece with a smaller h is not told from a point; at least an ulp of t, so that every piece leads on
+  float sign;     // the last that was known; 0 where none was
+  float unknown;  // from here to t pieces were passed over
+  float coarse;   // e of the piece before, where that was undecided; beyond all else
+  float noise;    // e of a point nearby; 0 where it is not known
+  float pass;     // the h of a piece that may be passed over
+  float waiting;  // while a point is asked for its e: h of the piece after that; else 0
+  float root;     // once found; before that where a line was zero
+  float past;     // from where on it is passed, where it was found within a piece; else before t
+  float beyond;   // the sign past it
+  bool found;
+  bool over;
+};
+
+// `sign`: at the start; 0 where it is not known.
+March march_begin(float start, float end, float sign, float finest) {
+  March march;
+  march.t = start;
+  march.h = 0.125f * (end - start);
+  march.end = end;
+  march.finest = maximum(finest, 2.0f * EPSILON * maximum(abs(start), abs(end)));
+  march.sign = sign;
+  march.unknown = start;
+  march.coarse = 3.0e38f;
+  march.noise = 0.0f;
+  march.pass = MARCH_FIRST_PASS * finest;
+  march.waiting = 0.0f;
+  march.root = start - 1.0f;
+  march.past = start;
+  march.beyond = 0.0f;
+  march.found = false;
+  march.over = !(start < end);
+  return march;
+}
+
+float march_middle(March march) { return march.t + march.h; }
+// A little more than h, so that no root falls between two pieces.
+float march_half(March march) { return march.h + 4.0f * EPSILON * (abs(march.t) + 2.0f * march.h); }
+
+// The march after the piece on which the function is a + b·s ± e.
+March march_on(March march, vec3 f) {
+  March next = march;
+  if (march.waiting > 0.0f) {
+    next.noise = maximum(f.z, 1.0e-30f);
+    next.h = march.waiting;
+    next.waiting = 0.0f;
+    return next;
+  }
+
+  // Only where |a + b·s| ≤ e can a root be; and one is, by the signs at both ends, where the line leads from -e to e within the piece.
+  float middle = march_middle(march);
+  float h = march_half(march);
+  bool none = abs(f.x) > abs(f.y) + f.z;
+  bool crosses = abs(f.y) > abs(f.x) + f.z;
+  float centre = -f.x / f.y;
+  float width = f.z / abs(f.y) * BOUND_GROW + 8.0f * EPSILON * (1.0f + abs(centre));
+  float left = middle + h * maximum(-1.0f, centre - width);
+  float right = middle + h * minimum(1.0f, centre + width);
+
+  // Shorter pieces tell no more. (A NaN is passed over too.)
+  bool blunt = march.h <= march.finest || (march.noise > 0.0f && !(f.z > MARCH_BLUNT * march.noise));
+  bool narrow = crosses && (blunt || right - left <= 16.0f * march.finest);
+  bool passes = !none && !narrow && blunt && march.h <= march.pass;
+
+  // The sign where the piece begins: if it is another than before, the root is behind.
+  bool known = none || centre - width > -1.0f;
+  bool likely = passes && abs(f.x) > MARCH_LIKELY * f.z;
+  float sign = f.x < (known ? f.y : 0.0f) ? -1.0f : 1.0f;
+  bool changed = (known || likely) && march.sign != 0.0f && sign != march.sign;
+
+  next.sign = known || likely ? sign : march.sign;
+  next.found = changed || narrow;
+  bool guessed = march.root >= march.unknown && march.root <= march.t;
+  float behind = guessed ? march.root
+                 : known ? 0.5f * (march.unknown + march.t) : maximum(march.unknown, minimum(middle + h * centre, middle));
+  next.past = changed ? march.t : right;
+  next.beyond = changed ? sign : f.y < 0.0f ? -1.0f : 1.0f;
+  next.root = changed ? behind : narrow || (passes && !guessed && abs(centre) <= 1.0f) ? middle + h * centre : march.root;
+  next.t = none || passes ? middle + march.h : maximum(march.t, left);
+  bool sure = march.unknown == march.t;
+  next.unknown = none ? next.t : known ? maximum(march.t, left) : sure && !passes ? next.t : march.unknown;
+  next.noise = none ? 0.0f : passes && march.noise == 0.0f ? maximum(f.z, 1.0e-30f) : march.noise;
+  next.pass = none ? MARCH_FIRST_PASS * march.finest : passes ? 2.0f * march.h : march.pass;
+  next.coarse = none || passes ? 3.0e38f : f.z;
+
+  // Next, a piece around what is left, or a longer one. If e hardly shrinks with h, it may be rounding: ask a point.
+  float closer = minimum(maximum(0.625f * (right - left), crosses ? 0.0f : 0.125f * march.h), 0.5f * march.h);
+  bool doubt = !none && !blunt && march.noise == 0.0f && f.z > 0.7f * march.coarse;
+  next.h = none ? 2.0f * march.h
+           : passes ? minimum(2.0f * march.h, MARCH_LONGEST_PASS * march.finest)
+           : crosses && doubt ? march.h : blunt ? march.pass : closer;
+  next.h = minimum(maximum(next.h, march.finest), maximum(0.5f * (march.end - next.t), march.finest));
+  next.waiting = doubt ? next.h : 0.0f;
+  next.h = doubt ? march.finest : next.h;
+  next.over = next.found || next.t >= march.end;
+  bool outside = next.found && !(next.root < march.end);
+  next.found = next.found && !outside;
+  next.sign = outside ? march.sign : next.sign;
+  return next;
+}
+
+// From where on the sign is that beyond the root that was found: a little more than march_half behind one within a piece, so that it is not found again.
+float march_past(March march) {
+  return march.past > march.t ? march.past + 16.0f * (march.finest + EPSILON * abs(march.past)) : march.t;
+}
+
+SHADER_END
+#endif

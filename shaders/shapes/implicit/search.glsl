@@ -1,0 +1,46 @@
+// What the march along a formula (shapes/implicit/lipschitz_march.glsl) and the shape have in common.
+#ifndef IMPLICIT_GLSL
+#define IMPLICIT_GLSL
+#include "geometry/cube.glsl"
+#include "math/dual.glsl"
+#include "shapes/implicit/bound_march.glsl"
+#include "math/formula.glsl"
+
+SHADER_BEGIN
+
+// f ≤ 0 in a box of the user's space, which is the cube from −1 to 1 of object space.
+struct Implicit {
+  vec3 center;  // of the box
+  vec3 extent;  // half its sides
+  float lipschitz;
+  uint formula;
+  bool open;
+};
+
+// What a march comes to.
+#define IMPLICIT_NOTHING 0.0f
+#define IMPLICIT_ENTRY 1.0f  // the cube's face where the ray comes in, a cap
+#define IMPLICIT_EXIT 2.0f   // … and goes out
+#define IMPLICIT_ITSELF 3.0f
+#define IMPLICIT_ITERATION_LIMIT 4.0f
+
+// The t at which the world's ray crosses the surface, s along its ObjectRay, having crossed it at `before` last: always a later one, so
+// that whoever counts crossings misses none.
+float crossing_t(ObjectRay r, float s, float before) { return maximum(r.t + s, before + (2.0f * EPSILON * abs(before) + 1.0e-37f)); }
+
+// Lengths in the cube.
+#define IMPLICIT_STEPS 4096u
+#define IMPLICIT_REFINEMENTS 40u
+#define IMPLICIT_CROSSINGS 64u  // that are passed in CSG objects
+#define IMPLICIT_LEAST_STEP 1.0e-5f
+#define IMPLICIT_MOST_LEAST 32.0f   // of those
+#define IMPLICIT_RELAXED 1.9f       // of 2, where the free ways would just touch
+#define IMPLICIT_MOST_STRETCH 3.0f  // of a free way
+#define IMPLICIT_WIDTH 1.2e-7f
+#define IMPLICIT_DIFFERENCE 0.00390625f
+#define IMPLICIT_PIECES 4096u
+#define IMPLICIT_FINEST 2.5e-7f
+#define IMPLICIT_MOST_RAY_OFFSET 64.0f
+
+SHADER_END
+#endif

@@ -1,0 +1,27 @@
+// Straight-line code, run.
+#pragma once
+
+#include "host/core/vec.hpp"
+#include "host/expression/expression.hpp"
+#include "shaders/language.h"
+
+namespace eyeray::test {
+
+// A formula's text, its first line being f.glsl:10, as straight-line code.
+expression::StraightLine straight_line(const std::string& glsl);
+// In float64.
+double evaluate(const expression::StraightLine& line, const Vec3& p);
+// Enclosed on the piece o + (m + h·s)·d of a ray.
+shader::vec3 bound_piece(const expression::StraightLine& line, const shader::vec3& o, const shader::vec3& d,
+                         float m, float h);
+
+struct FirstRoot {
+  float t;    // -1 where there is none
+  int steps;  // pieces looked at
+  bool over;  // whether that is certain
+};
+// By shaders/shapes/implicit/bound_march.glsl, with `most` pieces at most.
+FirstRoot march(const expression::StraightLine& line, const shader::vec3& o, const shader::vec3& d, float end,
+                float finest, int most);
+
+}  // namespace eyeray::test

@@ -1,0 +1,113 @@
+// The march finds the first root along a ray, against float64 values close together.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/expression/evaluate.hpp"
+#include "tests/expression/surfaces.hpp"
+#include "tests/support/random.hpp"
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using test::Random;
+
+namespace {
+
+constexpr int most_steps = 4096;
+
+struct Count {
+  int hits = 0, missed = 0, wrong = 0, grazing = 0, iteration_limit = 0, most = 0;
+  double steps = 0, worst = 0;  // the worst distance of a root
+};
+
+// The first change of sign of f on o + t·d, 0 ≤ t ≤ end, or -1.
+template <typename F>
+double first_change(const F& f, const Vec3& o, const Vec3& d, double end) {
+  constexpr int samples = 2000;
+  double before = f(o);
+  for (int i = 1; i <= samples; ++i) {
+    const double t = end * i / samples;
+    const double value = f(o + d * t);
+    if ((before < 0) == (value < 0)) continue;
+    double low = end * (i - 1) / samples, high = t;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (low + high);
+      ((f(o + d * middle) < 0) == (before < 0) ? low : high) = middle;
+    }
+    return high;
+  }
+  return -1;
+}
+
+Count march_often(const test::TestSurface& surface, int rays) {
+  const expression::StraightLine function = test::straight_line(surface.glsl);
+  Random random(11);
+  Count count;
+  for (int i = 0; i < rays; ++i) {
+    const shader::vec3 o(random.point(surface.reach)), d(random.direction());
+    const double end = surface.reach;
+    const test::FirstRoot found =
+        test::march(function, o, d, float(end), 4e-7f * float(surface.reach), most_steps);
+    const double root = first_change(surface.f, Vec3(o), Vec3(d), end);
+    count.steps += double(found.steps) / rays;
+    count.most = std::max(count.most, found.steps);
+    count.iteration_limit += !found.over;
+    if (!found.over) continue;
+
+    const auto noise = [&](double t) {
+      return double(test::bound_piece(function, o, d, float(t), 1e-6f * float(surface.reach)).z);
+    };
+    // Whether f comes back to zero before it is farther off it than float32 tells, from the root at t on.
+    const auto undecidable = [&](double t) {
+      const double again = first_change(surface.f, Vec3(o) + Vec3(d) * t, Vec3(d), end - t);
+      double farthest = 0;
+      for (int k = 1; k < 100 && again >= 0; ++k)
+        farthest = std::max(farthest, std::abs(surface.f(Vec3(o) + Vec3(d) * (t + again * k / 100))));
+      return again >= 0 && farthest <= 2 * noise(t);
+    };
+    const double slack = (surface.jumps ? 5e-4 : 1e-4) * surface.reach;
+    const double t = double(found.t);
+    if (root >= 0 && std::abs(t - root) <= slack) {
+      ++count.hits;
+      count.worst = std::max(count.worst, std::abs(t - root));
+    } else if (t < 0 && root < 0) {
+      continue;
+    } else if (root >= 0 && (t < 0 || t > root)) {
+      ++(undecidable(root) ? count.grazing : count.missed);
+    } else {
+      // Two roots between two samples, or a touch.
+      ++(std::abs(surface.f(Vec3(o) + Vec3(d) * t)) <= 2 * noise(t) ? count.grazing : count.wrong);
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("however short a march's finest piece is, it gets to its end") {
+  const expression::StraightLine one = test::straight_line("float f(vec3 p) { return p.x + 1.0; }");
+  Random random(3);
+  for (int i = 0; i < 10'000; ++i) {
+    const float end = float(random.log_uniform(1e-3, 1e4));
+    const float finest = end * float(random.log_uniform(1e-9, 1e-6));
+    const test::FirstRoot found = test::march(one, {0, 0, 0}, {1, 0, 0}, end, finest, most_steps);
+    INFO(end, " ", finest, " ", found.steps);
+    REQUIRE(found.over);
+  }
+}
+
+TEST_CASE("2 000 rays at each surface: no root is missed, none comes out of nothing") {
+  for (const test::TestSurface& surface : test::test_surfaces()) {
+    CAPTURE(surface.name);
+    const Count count = march_often(surface, 2'000);
+    MESSAGE(
+        fmt::format("{:14} hits {:5}, grazing {:3}, missed {}, wrong {}, ran out {}; steps {:5.1f}, at most "
+                    "{}; off by {:.1e}",
+                    surface.name, count.hits, count.grazing, count.missed, count.wrong, count.iteration_limit,
+                    count.steps, count.most, count.worst));
+    CHECK(count.hits > 100);
+    CHECK(count.missed == 0);
+    CHECK(count.wrong == 0);
+    CHECK(count.iteration_limit <= 4);
+  }
+}

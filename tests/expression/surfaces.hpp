@@ -1,0 +1,23 @@
+// Functions of p in GLSL, and by hand in float64: classics of algebraic geometry, and what procedural
+// modelling is made of.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/core/vec.hpp"
+
+namespace eyeray::test {
+
+struct TestSurface {
+  std::string_view name;
+  std::string glsl;
+  double (*f)(const Vec3& p);
+  double reach;        // of the cube around 0 within which it is looked at
+  bool jumps = false;  // not continuous, or made of functions that are not
+};
+
+const std::vector<TestSurface>& test_surfaces();
+
+}  // namespace eyeray::test

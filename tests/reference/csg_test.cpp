@@ -1,0 +1,192 @@
+// CsgObjects against numbers worked out by hand.
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "host/formula/formula.hpp"
+#include "host/reference/media.hpp"
+#include "host/shapes/spans.hpp"
+#include "scenes.hpp"
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+ShapeType::Shapes shapes(std::unique_ptr<Shape> a, std::unique_ptr<Shape> b = nullptr) {
+  ShapeType::Shapes list;
+  list.push_back(std::move(a));
+  if (b) list.push_back(std::move(b));
+  return list;
+}
+
+std::unique_ptr<Shape> made_of(std::unique_ptr<Shape> shape, int material) {
+  shape->material = material;
+  return shape;
+}
+
+// Where the ray's line is within the shape, as "in out in out".
+std::vector<double> ends(const Shape& shape, const Ray& ray) {
+  std::vector<double> all;
+  for (const auto& [in, out] : shape.spans(ray)) {
+    all.push_back(in.t);
+    all.push_back(out.t);
+  }
+  return all;
+}
+
+// Along x, in units.
+std::vector<Span> spans(std::initializer_list<std::pair<double, double>> list, uint32_t part) {
+  std::vector<Span> all;
+  for (const auto& [in, out] : list) all.push_back({{in, 0, 0, part}, {out, 0, 0, part}});
+  return all;
+}
+std::string text(const std::vector<Span>& spans) {
+  std::string all;
+  for (const auto& [in, out] : spans)
+    all += fmt::format("{}{:g}-{}{:g} ", char('a' + in.part), in.t, char('a' + out.part), out.t);
+  return all;
+}
+
+const Ray along_x{{-10, 0, 0}, {1, 0, 0}};
+
+}  // namespace
+
+TEST_CASE("stretches of a line are united, intersected and subtracted") {
+  const auto a = spans({{0, 2}, {4, 6}, {8, 9}}, 0);
+  const auto b = spans({{1, 5}, {6, 7}}, 1);
+  CHECK(text(unite(a, b)) == "a0-b7 a8-a9 ");
+  CHECK(text(eyeray::intersect(a, b)) == "b1-a2 a4-b5 ");
+  CHECK(text(subtract(a, b)) == "a0-b1 b5-a6 a8-a9 ");
+  CHECK(text(subtract(b, a)) == "a2-a4 a6-b7 ");
+  CHECK(text(subtract(b, spans({{2, 3}, {4, 4.5}}, 2))) == "b1-c2 c3-c4 c4.5-b5 b6-b7 ");
+  CHECK(text(unite({}, b)) == text(b));
+  CHECK(text(eyeray::intersect({}, b)).empty());
+}
+
+TEST_CASE("at the same place the lower part is hit, and nothing thin is left") {
+  const auto a = spans({{0, 2}}, 0);
+  CHECK(text(unite(a, spans({{0, 2}}, 1))) == "a0-a2 ");
+  CHECK(text(unite(spans({{0, 2}}, 1), a)) == "a0-a2 ");
+  CHECK(text(unite(a, spans({{2, 3}}, 1))) == "a0-b3 ");
+  CHECK(text(eyeray::intersect(spans({{0, 2}}, 1), a)) == "a0-a2 ");
+  CHECK(text(eyeray::intersect(a, spans({{2, 3}}, 1))).empty());
+  CHECK(text(subtract(a, spans({{0, 2}}, 1))).empty());
+  CHECK(text(subtract(a, spans({{0, 1}}, 1))) == "b1-a2 ");
+  CHECK(text(subtract(a, spans({{1, 2}}, 1))) == "a0-b1 ");
+  CHECK(text(subtract(a, spans({{2, 3}}, 1))) == "a0-a2 ");
+}
+
+TEST_CASE("a lens: entered by the one ball, left by the other, normals outward") {
+  const auto lens = make_csg(true, shapes(make_sphere({-1, 0, 0}, 2), make_sphere({1, 0, 0}, 2)));
+  CHECK(ends(*lens, along_x) == std::vector<double>{9, 11});
+  const SurfacePoint front = struck(*lens, along_x);
+  CHECK(near(front.position, Vec3(-1, 0, 0), 1e-14));
+  CHECK(near(front.normal, Vec3(-1, 0, 0), 1e-14));
+  CHECK(near(struck(*lens, {{0, 0, 0}, {1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-14));
+  // Its rim is where both balls are: at a distance of √3 from the axis.
+  CHECK(distance(*lens, {{0, 1.733, -10}, {0, 0, 1}}) == -1);
+  CHECK(near(distance(*lens, {{0, 0, -10}, {0, 0, 1}}), 10 - std::sqrt(3.0), 1e-13));
+  CHECK(lens->bounds().min.x == -1);
+  CHECK(lens->bounds().max.x == 1);
+}
+
+TEST_CASE("what is taken away shows its surface from within, of its own material") {
+  const auto box = make_csg(false, shapes(made_of(make_box(Vec3(-1), Vec3(1)), 3)),
+                            shapes(made_of(make_sphere({-1, 0, 0}, 0.5), 5)));
+  CHECK(ends(*box, along_x) == std::vector<double>{9.5, 11});
+  const auto hit = box->intersect(along_x);
+  REQUIRE(hit);
+  CHECK(box->part(*hit).material == 5);
+  const SurfacePoint hollow = box->surface(along_x, *hit);
+  CHECK(near(hollow.position, Vec3(-0.5, 0, 0), 1e-14));
+  CHECK(near(hollow.normal, Vec3(-1, 0, 0), 1e-14));
+  CHECK(near(hollow.normal_geometric, Vec3(-1, 0, 0), 1e-14));
+  const Ray beside{{-10, 0.6, 0}, {1, 0, 0}};
+  CHECK(box->part(*box->intersect(beside)).material == 3);
+  CHECK(near(distance(*box, beside), 9, 1e-14));
+}
+
+TEST_CASE("a tube is crossed four times; CSG objects in CSG objects, also where they are taken away") {
+  const auto tube = [] {
+    return make_csg(false, shapes(make_cylinder({0, -1, 0}, {0, 1, 0}, 2)),
+                    shapes(make_cylinder({0, -2, 0}, {0, 2, 0}, 1)));
+  };
+  CHECK(ends(*tube(), along_x) == std::vector<double>{8, 9, 11, 12});
+  // Within the tube, and within a box: what is left of the box without it.
+  const auto kept = make_csg(true, shapes(tube(), make_box({-5, -5, -5}, {0, 5, 5})));
+  CHECK(ends(*kept, along_x) == std::vector<double>{8, 9});
+  const auto cut = make_csg(false, shapes(make_box({-5, -0.5, -5}, {5, 0.5, 5})), shapes(tube()));
+  CHECK(ends(*cut, along_x) == std::vector<double>{5, 8, 9, 11, 12, 15});
+  // Taken away twice, the tube's hole is full again.
+  CHECK(near(struck(*cut, {{0, 0, 0}, {1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-14));
+}
+
+TEST_CASE("each closed shape says where a line is within it, whichever way the line is given") {
+  CHECK(ends(*make_torus({0, 0, 0}, {0, 1, 0}, 3, 1), along_x).size() == 4);
+  const auto half = make_hyperboloid({0, -1, 0}, {0, 1, 0}, 1, 1, 0.5);
+  CHECK(ends(*half, {{0.7, -5, 0}, {0, 1, 0}}).size() == 4);
+  CHECK(!make_cylinder({0, 0, 0}, {0, 1, 0}, 1, true)->is_closed());
+  CHECK(!make_disk({0, 0, 0}, {0, 1, 0}, 1)->is_closed());
+  CHECK(!make_plane({0, 0, 0}, {0, 1, 0})->is_closed());
+  CHECK(make_cone({0, 0, 0}, {0, 1, 0}, 1)->is_closed());
+  CHECK(make_paraboloid({0, 0, 0}, {0, 1, 0}, 1)->is_closed());
+}
+
+TEST_CASE("what a formula bounds: each crossing once, alternating, with a Lipschitz constant and without") {
+  // Sheets of a width that the ray crosses two by two, and the box's faces where it begins and ends within
+  // one.
+  const auto sheets = [](double lipschitz) {
+    FormulaUse use{std::make_shared<const Formula>(
+                       FormulaText{"float f(vec3 p) { return cos(6.283185307179586 * p.x) - 0.5; }", {}},
+                       std::vector<FormulaParameter>{}, "sheets"),
+                   {Vec3(-1.5, -1, -1), Vec3(1, 1, 1)},
+                   lipschitz};
+    return make_implicit(std::move(use), false);
+  };
+  const float turn = 6.283185307179586f;  // as the formula has it
+  const double sixth = std::numbers::pi / 3 / double(turn);
+  for (const double lipschitz : {6.3, 0.0}) {
+    CAPTURE(lipschitz);
+    const std::vector<double> found = ends(*sheets(lipschitz), along_x);
+    const std::vector<double> expected{8.5,        10 - 7 * sixth, 10 - 5 * sixth,
+                                       10 - sixth, 10 + sixth,     10 + 5 * sixth};
+    REQUIRE(found.size() == expected.size());
+    for (size_t i = 0; i < found.size(); ++i) CHECK(near(found[i], expected[i], 1e-12));
+    // Less a ball, whose surface is seen where it cuts a sheet.
+    const auto cut = make_csg(false, shapes(sheets(lipschitz)), shapes(make_sphere({-0.3, 0, 0}, 0.3)));
+    const std::vector<double> left = ends(*cut, along_x);
+    REQUIRE(left.size() == 6);
+    CHECK(near(left[2], 10 - 5 * sixth, 1e-12));
+    CHECK(near(left[3], 9.4, 1e-12));
+    CHECK(near(struck(*cut, {{0, 0, 0}, {-1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-9));
+  }
+}
+
+TEST_CASE("shadows: a CSG object counts once, by the densest of its surfaces on the way") {
+  Scene scene;
+  add(scene, make_phong({}));
+  add(scene, make_dielectric({.ior = 1.5, .shadow = 0.8}));
+  add(scene,
+      make_csg(false, shapes(made_of(make_box(Vec3(-1), Vec3(1)), 1)),
+               shapes(made_of(make_sphere({0, 1, 0}, 0.5), 0))),
+      1);
+  const reference::Tracer tracer(scene);
+  const Ray above{{-10, 0.9, 0}, {1, 0, 0}};
+  uint32_t flags = 0;
+  CHECK(tracer.transmittance(along_x, 100, flags) == doctest::Approx(0.8));
+  CHECK(tracer.transmittance(along_x, 8.9, flags) == 1);
+  CHECK(tracer.transmittance(above, 100, flags) == 0);
+  CHECK(tracer.transmittance(above, 9.2, flags) == doctest::Approx(0.8));
+  CHECK(flags == 0);
+}
+
+TEST_CASE("the eye within a lens of glass is in its medium, and in what was taken from it, in none") {
+  Scene scene;
+  add(scene, make_dielectric({.ior = 1.5}));
+  add(scene, make_csg(false, shapes(make_box(Vec3(-1), Vec3(1))), shapes(make_sphere({0, 0, 0}, 0.5))), 0);
+  CHECK(reference::media_at(scene, {0.7, 0.1, 0}) == std::vector<int>{0});
+  CHECK(reference::media_at(scene, {0.1, 0.1, 0}).empty());
+  CHECK(reference::media_at(scene, {3, 0, 0}).empty());
+}

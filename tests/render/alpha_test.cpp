@@ -1,0 +1,141 @@
+// Holes by alpha: what is behind one is hit, whatever the way of searching, by nearest and by shadow rays.
+#include <fmt/format.h>
+
+#include "host/pack/collapse.hpp"
+#include "host/reference/tracer.hpp"
+#include "query_kernel.hpp"
+#include "random_scene.hpp"
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// 3 × 2 texels of every alpha, the last of them that of the cutoff.
+AlphaMask picture_mask(Filter filter) {
+  auto image = std::make_shared<ImageTexture>();
+  image->width = 3;
+  image->height = 2;
+  for (const int alpha : {255, 0, 140, 10, 200, 128}) image->texels.push_back({9, 9, 9, uint8_t(alpha)});
+  image->filter = filter;
+  return {Texture{Vec3(1), {}, image}, 128.0 / 255};
+}
+
+// Of three materials: with cutouts by checks, by a picture, by vertices and a factor; and one without.
+Scene leafy_scene(Random& random, int count, int instances) {
+  Scene scene;
+  scene.camera.eye = Vec3(0);
+  scene.camera.target = Vec3(0, 0, -1);
+  for (int i = 0; i < 4; ++i) add(scene, make_phong({}));
+  scene.materials[0]->mask = AlphaMask{Texture{{}, Checker{Vec3(1), Vec3(0.2), Vec2(0.3)}}, 0.5};
+  scene.materials[1]->mask = picture_mask(Filter::bilinear);
+  scene.materials[2]->mask = AlphaMask{Texture{Vec3(0.8), {}}, 0.4};
+  for (int i = 0; i < count; ++i) {
+    TriangleValues triangle;
+    const Vec3 a = random.point(3);
+    triangle.vertices = {a, a + random.point(2), a + random.point(2)};
+    if (i % 2) triangle.uv = {{Vec2(0, 0), Vec2(2, 0), Vec2(-1, 3)}};
+    add(scene, make_triangle(triangle), i % 4 == 3 ? 3 : i % 4 % 2);
+  }
+  if (instances == 0) return scene;
+  Mesh mesh = globe(12, 6);
+  for (const Vec3& p : mesh.positions) {
+    mesh.colors.push_back(Vec3(1));
+    mesh.alphas.push_back(0.5 + 0.5 * p.x);
+  }
+  const int globe_mesh = add(scene, std::move(mesh));
+  for (int i = 0; i < instances; ++i)
+    add_instance(scene, globe_mesh, i % 3, translation(random.point(3)) * glm::scale(Mat4(1.0), Vec3(0.7)));
+  return scene;
+}
+
+std::vector<shader::QueryRay> random_rays(Random& random, size_t count) {
+  std::vector<shader::QueryRay> rays(count);
+  for (shader::QueryRay& ray : rays) ray = random_ray(random);
+  return rays;
+}
+
+}  // namespace
+
+TEST_CASE("an alpha of the cutoff is there, below it there is a hole; behind a hole the next is hit") {
+  Scene scene;
+  scene.camera.eye = Vec3(0);
+  scene.camera.target = Vec3(0, 0, -1);
+  for (int i = 0; i < 2; ++i) add(scene, make_phong({}));
+  scene.materials[0]->mask = picture_mask(Filter::nearest);
+  for (const double z : {-1, -2})
+    add(scene, make_parallelogram({-3, -2, z}, {6, 0, 0}, {0, 4, 0}), z == -1 ? 0 : 1);
+  const PackedScene packed = pack(scene, {});
+  const reference::Tracer tracer(scene);
+  const bool there[] = {true, false, true, false, true, true};  // as picture_mask has them
+  for (int texel = 0; texel < 6; ++texel) {
+    const Vec3 to(-2 + 2 * (texel % 3), texel < 3 ? 1 : -1, -1);
+    const shader::QueryRay ray{to_vec4(to + Vec3(0, 0, 1)), to_vec4({0, 0, -1}, 1.5)};
+    CAPTURE(texel);
+    CHECK(ask_twin(packed, {&ray, 1}, true)[0].hit.w == (there[texel] ? OPTICAL_DEPTH_OPAQUE : 0u));
+    shader::QueryRay endless = ray;
+    endless.direction.w = T_MISS;
+    CHECK(ask_twin(packed, {&endless, 1}, false)[0].hit.y == (there[texel] ? 0u : 1u));
+    const Ray exact{to + Vec3(0, 0, 1), {0, 0, -1}};
+    CHECK(tracer.trace(exact)->primitive == (there[texel] ? 0u : 1u));
+    uint32_t flags = 0;
+    CHECK(tracer.transmittance(exact, 1.5, flags) == (there[texel] ? 0.0 : 1.0));
+  }
+}
+
+TEST_CASE("cutouts: BVHs find what brute force finds, and in float64 too, to the last bit" *
+          doctest::test_suite("long")) {
+  Random random(3);
+  for (const int instances : {0, 5}) {
+    const Scene scene = leafy_scene(random, 200, instances);
+    const std::vector<shader::QueryRay> rays = random_rays(random, 100'000);
+    const PackedScene brute = pack(scene, {.acceleration = Acceleration::brute_force});
+    int holes = 0, apart = 0;
+    for (const bool any : {false, true}) {
+      const auto expected = ask_twin(brute, rays, any);
+      for (const bool split : {false, true})
+        CHECK(differences(expected, ask_twin(pack(scene, {.acceleration = Acceleration::bvh, .split = split}),
+                                             rays, any)) == 0);
+      PackedScene filled = brute;
+      for (shader::Material& material : filled.materials) material.mask = {};
+      holes += differences(expected, ask_twin(filled, rays, any));
+      if (any) continue;
+      const reference::Tracer tracer(scene);
+      for (size_t i = 0; i < rays.size(); ++i) {
+        const auto hit = tracer.trace({Vec3(rays[i].origin), Vec3(rays[i].direction)});
+        const bool within = hit && hit->at.t < double(rays[i].direction.w);
+        apart += expected[i].hit.y != (within ? uint32_t(hit->primitive) : NONE);
+      }
+    }
+    MESSAGE(fmt::format("{} instances: {} of {} rays hit cutouts, {} differ from float64", instances, holes,
+                        2 * rays.size(), apart));
+    CHECK(holes > 20'000);
+    CHECK(apart < 100);  // where rounding is to say on which side of a hole's edge a ray is
+  }
+}
+
+TEST_CASE("cutouts on the GPU: in every search what the twin finds" * doctest::test_suite("long")) {
+  gpu::Device device({});
+  Random random(4);
+  for (const auto& [count, instances] : {std::pair(12, 0), {200, 0}, {200, 4}}) {
+    const Scene scene = leafy_scene(random, count, instances);
+    const PackedScene packed = pack(scene, {});
+    const std::vector<shader::QueryRay> rays = random_rays(random, 20'000);
+    for (const bool packets : {true, false}) {
+      Specialisation specialisation;
+      specialisation.profile = {.texel_buffers = packets, .packets = packets, .shift_stack = packets};
+      specialisation.constants = packets;
+      QueryKernel kernel(device, packed, specialisation);
+      for (const bool any : {false, true})
+        CHECK(differences(kernel.ask(rays, any), ask_twin(packed, rays, any)) == 0);
+    }
+    if (packed.has_bvh && packed.quantised_nodes && instances == 0) {
+      const CollapsedBvh bvh4 = collapse(packed.nodes, packed.bvhs[0]);
+      QueryKernel kernel(device, packed, {}, &bvh4);
+      for (const bool any : {false, true})
+        CHECK(differences(kernel.ask(rays, any), ask_twin(packed, rays, any)) == 0);
+    }
+  }
+}
