@@ -26,7 +26,7 @@ SHADER_BEGIN
 #define BINDING_LIST 16
 #define BINDING_NEXT_LIST 17
 #define BINDING_TEXELS 14
-#define BINDING_BVH4_NODES 15
+#define BINDING_BVH4_NODES 18
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss

@@ -68,7 +68,7 @@ class GpuExecutor final : public Executor {
     specialise_for(packed);
     times_.measure("upload", [&] { upload(packed); });
     if (packets_ && worth_wavefront(scene.image, packed))
-      make_wavefront(scene, packed);
+      make_wavefront(packed);
     else
       sample_kernel_ = make_kernel("kernels/render.comp.glsl", "");
     check_validation();
@@ -283,36 +283,45 @@ class GpuExecutor final : public Executor {
         .seconds;
   }
 
-  void make_wavefront(const Scene& scene, const PackedScene& packed) {
+  void make_wavefront(const PackedScene& packed) {
     WavefrontOptions options;
-    options.whitted = scene.render.integrator == IntegratorType::whitted;
-    options.lights = uint32_t(packed.lights.size());
-    options.depth = any_reflects(packed) ? packed.frame.camera.w : 0;
-    // Where no ray splits in two, a path is one ray after the other, and every step of it a wave.
-    options.paths = packed.media.size() == 1;
+    options.shadow_rays = casts_shadow_rays(packed) ? uint32_t(packed.lights.size()) : 0;
+    options.bounces = most_bounces(packed);
+    options.splits = packed.media.size() > 1;
+    options.bounced = incoherent_;
     options.stride = group_stride_;
     options.subgroup = device_.info().limits.subgroup_size;
+    const bool cooperative = options.bounced == Rays::cooperative && options.bounces > 0 && !options.splits;
+    if (cooperative) upload_bvh4();
+    const std::string stack = cooperative ? bvh4_defines() : "";
     wavefront_.emplace(
         device_,
-        [&](const std::string& entry, const std::string& defines) { return make_kernel(entry, defines); },
+        [&](const std::string& entry, const std::string& defines) {
+          return make_kernel(entry, defines + stack);
+        },
         options);
   }
+
+  // The BVH for four lanes a ray, once.
+  void upload_bvh4() {
+    if (binary_nodes_.empty()) return;
+    const CollapsedBvh bvh4 = times_.measure("collapse", [&] { return collapse(binary_nodes_, bvh_); });
+    binary_nodes_ = {};
+    bvh4_stack_ = bvh4.stack_size;
+    const uint64_t before = uploaded_;
+    add_buffer(BINDING_BVH4_NODES, "BVH4 nodes", std::span(bvh4.nodes), large_buffers());
+    geometry_bytes_ += uploaded_ - before;
+  }
+  std::string bvh4_defines() const { return fmt::format("#define BVH4_STACK_SIZE {}\n", bvh4_stack_); }
 
   gpu::Kernel& query_kernel(Rays how, bool any) {
     std::unique_ptr<gpu::Kernel>& kernel = query_kernels_[any][size_t(how)];
     if (kernel) return *kernel;
-    if (how == Rays::cooperative && !binary_nodes_.empty()) {
-      const CollapsedBvh bvh = times_.measure("collapse", [&] { return collapse(binary_nodes_, bvh_); });
-      binary_nodes_ = {};
-      bvh4_stack_ = bvh.stack_size;
-      const uint64_t before = uploaded_;
-      add_buffer(BINDING_BVH4_NODES, "BVH4 nodes", std::span(bvh.nodes), large_buffers());
-      geometry_bytes_ += uploaded_ - before;
-    }
+    if (how == Rays::cooperative) upload_bvh4();
     constexpr const char* entries[] = {"kernels/query.comp.glsl", "kernels/cooperative/packet.comp.glsl",
                                        "kernels/cooperative/bvh4.comp.glsl"};
     std::string defines = any ? "#define QUERY_ANY\n" : "";
-    if (how == Rays::cooperative) defines += fmt::format("#define BVH4_STACK_SIZE {}\n", bvh4_stack_);
+    if (how == Rays::cooperative) defines += bvh4_defines();
     kernel = make_kernel(entries[size_t(how)], defines);
     return *kernel;
   }

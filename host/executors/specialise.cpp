@@ -22,8 +22,9 @@ constexpr size_t most_vertices = 96;
 struct Row {
   std::string_view name;
   uint32_t number;
+  std::string_view traits = "";  // as its row has them
 };
-#define ROW(name, number) {#name, number},
+#define ROW(name, number, ...) {#name, number, #__VA_ARGS__},
 constexpr Row shapes[] = {SHAPES(ROW)};
 constexpr Row deferred_shapes[] = {DEFERRED_SHAPES(ROW)};
 constexpr Row materials[] = {MATERIALS(ROW)};
@@ -44,7 +45,8 @@ std::string registry(std::string_view list, std::string_view folder, const Row (
   for (const Row& row : rows) {
     if (!used.contains(row.number)) continue;
     includes += fmt::format("#include \"{}/{}.glsl\"\n", folder, row.name);
-    entries += fmt::format(" X({}, {}u)", row.name, row.number);
+    entries +=
+        fmt::format(" X({}, {}u{}{})", row.name, row.number, row.traits.empty() ? "" : ", ", row.traits);
   }
   return fmt::format("#define {}(X){}\n{}", list, entries, includes);
 }
@@ -204,14 +206,36 @@ bool any_emits(const PackedScene& scene) {
   });
 }
 
-}  // namespace
+// Whether the scene's integrator has paths that go on.
+bool scatters(const PackedScene& scene) {
+#define SCATTERS(name, number, shadow_rays, scatters) \
+  if (scene.frame.counts.z == number) return scatters;
+  INTEGRATORS(SCATTERS)
+#undef SCATTERS
+  return false;
+}
 
+// Whether any material may send rays on.
 bool any_reflects(const PackedScene& scene) {
   return scene.media.size() > 1 ||
          std::any_of(scene.materials.begin(), scene.materials.end(), [&](const shader::Material& material) {
            const shader::Texture& reflected = scene.textures[material.textures.z];
            return reflected.even != shader::vec4(0, 0, 0, TEXTURE_CONSTANT);
          });
+}
+
+}  // namespace
+
+uint32_t most_bounces(const PackedScene& scene) {
+  return scatters(scene) && any_reflects(scene) ? scene.frame.camera.w : 0;
+}
+
+bool casts_shadow_rays(const PackedScene& scene) {
+#define SHADOW_RAYS(name, number, shadow_rays, scatters) \
+  if (scene.frame.counts.z == number) return shadow_rays && !scene.lights.empty();
+  INTEGRATORS(SHADOW_RAYS)
+#undef SHADOW_RAYS
+  return false;
 }
 
 uint64_t trace_iterations(const PackedScene& scene, bool unrolled) {
@@ -255,12 +279,13 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_MEDIA", int(media));
   define("HAS_ABSORPTION", int(absorption));
   // Only where a ray splits in two does a child wait, and one a level at most.
-  define("WHITTED_STACK", media ? scene.frame.camera.w : 0u);
+  define("PATH_STACK", media ? scene.frame.camera.w : 0u);
   define("TRACE_ITERATIONS", fmt::format("{}u", trace_iterations(scene, unrolled)));
   define("TEXEL_BUFFERS", int(options.profile.texel_buffers));
   define("HAS_BVH", scene.has_bvh ? "true" : "false");
   define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");
-  define("HAS_SECONDARY", int(scene.frame.camera.w > 0 && any_reflects(scene)));
+  define("HAS_SECONDARY", int(most_bounces(scene) > 0));
+  define("INTEGRATOR_IS(number)", "true");  // only one is compiled
   define("RAY_KINDS", int(options.ray_kinds));
   define("SUBGROUP_SIZE", options.subgroup_size);
   define("PACKET_ROOT", fmt::format("{}u", options.packet_bvh.first_node));

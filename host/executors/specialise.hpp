@@ -20,8 +20,9 @@ struct Specialisation {
   bool ray_kinds = false;     // count reflected and refracted rays
 };
 
-// Whether any material may send rays on.
-bool any_reflects(const PackedScene& scene);
+// How often a path may go on: 0 where no material sends rays on, or the integrator none.
+uint32_t most_bounces(const PackedScene& scene);
+bool casts_shadow_rays(const PackedScene& scene);  // the scene's integrator
 
 // How many loop iterations a ray takes at most through what is in no BVH. Through a BVH it takes far fewer
 // than there are primitives, nobody knows how many.

@@ -8,73 +8,86 @@ namespace eyeray {
 
 Wavefront::Wavefront(gpu::Device& device, const MakeKernel& make_kernel, const WavefrontOptions& options)
     : device_(device), options_(options) {
-  primary_ = make_kernel("kernels/cooperative/packet.comp.glsl", "#define PACKET_PRIMARY\n");
-  const std::string stored = "#define STORED_HITS 1\n";
-  if (!options.whitted) {
-    first_ = make_kernel("kernels/render.comp.glsl", stored);
-    return;
+  const std::string packets = "kernels/cooperative/packet.comp.glsl", shade = "kernels/wavefront.comp.glsl";
+  const std::string stored = "#define STORED_HITS 1\n", listed = "#define LISTED\n";
+  eye_.trace = make_kernel(packets, "#define PACKET_PRIMARY\n");
+  if (options.shadow_rays > 0) eye_.shadow = make_kernel(packets, "#define PACKET_SHADOW\n");
+  eye_.shade = make_kernel(shade, options.splits ? stored + "#define ENDS_ONLY\n" : stored);
+  if (options.bounces == 0) return;
+  if (options.splits) {
+    later_.shade = make_kernel("kernels/render.comp.glsl", listed);
+  } else if (options.bounced == Rays::cooperative) {
+    const std::string bvh4 = "kernels/cooperative/bvh4.comp.glsl";
+    later_.trace = make_kernel(bvh4, "#define BOUNCE_HITS\n");
+    if (options.shadow_rays > 0) later_.shadow = make_kernel(bvh4, "#define BOUNCE_SHADOW\n");
+    later_.shade = make_kernel(shade, listed + stored);
+  } else {
+    later_.shade = make_kernel(shade, listed);
   }
-  if (options.lights > 0)
-    shadow_ = make_kernel("kernels/cooperative/packet.comp.glsl", "#define PACKET_SHADOW\n");
-  first_ =
-      make_kernel("kernels/wavefront.comp.glsl", options.paths ? stored : stored + "#define ENDS_ONLY\n");
-  if (options.depth == 0) return;
-  later_ = options.paths ? make_kernel("kernels/wavefront.comp.glsl", "")
-                         : make_kernel("kernels/render.comp.glsl", "#define LISTED\n");
 }
 
 std::optional<double> Wavefront::run(shader::Dispatch push, gpu::Buffer& results) {
-  const auto bytes = std::as_bytes(std::span(&push, 1));
   const uint32_t blocks = (push.tile.z + 7) / 8 * ((push.tile.w + 7) / 8);  // of 8 × 8 pixels
   const uint32_t rays_a_group = 64 / options_.subgroup * PACKET;
-  const uint32_t packet_groups = round_up_to_stride((blocks * 64 + rays_a_group - 1) / rays_a_group);
   make_room(push.tile.z * push.tile.w);
+  for (Bounce* bounce : {&eye_, &later_})
+    if (bounce->shade) bounce->shade->set_buffer(BINDING_OUTPUT, results);
 
   // The eye rays and their shadow rays, and what they see.
-  lists_[0]->clear(sizeof(uint32_t));
-  first_->set_buffer(BINDING_OUTPUT, results);
-  first_->set_buffer(BINDING_LIST, *lists_[1]);
-  first_->set_buffer(BINDING_NEXT_LIST, *lists_[0]);
-  gpu::CommandList commands(device_);
-  commands.dispatch(*primary_, bytes, {packet_groups, 1, 1});
-  commands.barrier();
-  if (shadow_) {
-    commands.dispatch(*shadow_, bytes, {packet_groups, 1, 1});
-    commands.barrier();
-  }
-  commands.dispatch(*first_, bytes, {round_up_to_stride(blocks), 1, 1});
-  double seconds = commands.run().seconds;
+  const auto list_for = [&](Bounce& bounce, gpu::Buffer& list, gpu::Buffer& next) {
+    next.clear(sizeof(uint32_t));
+    for (gpu::Kernel* kernel : {bounce.trace.get(), bounce.shadow.get(), bounce.shade.get()}) {
+      if (!kernel) continue;
+      kernel->set_buffer(BINDING_LIST, list);
+      kernel->set_buffer(BINDING_NEXT_LIST, next);
+    }
+  };
+  list_for(eye_, *lists_[1], *lists_[0]);
+  gpu::CommandList eye_commands(device_);
+  run(eye_, push, (blocks * 64 + rays_a_group - 1) / rays_a_group, blocks, eye_commands);
+  double seconds = eye_commands.run().seconds;
 
-  // Then the paths that go on, each alone: wave after wave, or all the way.
-  const uint32_t waves = options_.paths ? options_.depth : 1;
+  // Then the paths that go on, bounce by bounce; or all the way, where rays split.
+  const uint32_t bounces = options_.splits ? std::min(options_.bounces, 1u) : options_.bounces;
   uint32_t& depth = push.sample_index.y;
-  for (depth = 1; later_ && depth <= waves; ++depth) {
+  for (depth = 1; depth <= bounces; ++depth) {
     gpu::Buffer& list = *lists_[(depth + 1) % 2];
-    gpu::Buffer& next = *lists_[depth % 2];
     const uint32_t count = list.read_records<uint32_t>(1)[0];
     if (count == 0) break;
     if (interrupted()) return std::nullopt;
-    next.clear(sizeof(uint32_t));
-    later_->set_buffer(BINDING_OUTPUT, results);
-    later_->set_buffer(BINDING_LIST, list);
-    later_->set_buffer(BINDING_NEXT_LIST, next);
-    seconds += gpu::dispatch(device_, *later_, bytes, {round_up_to_stride((count + 63) / 64), 1, 1}).seconds;
+    list_for(later_, list, *lists_[depth % 2]);
+    gpu::CommandList commands(device_);
+    run(later_, push, (count + 63) / 64, (count + 63) / 64, commands);
+    seconds += commands.run().seconds;
   }
   return seconds;
+}
+
+void Wavefront::run(Bounce& bounce, const shader::Dispatch& push, uint32_t trace_groups,
+                    uint32_t shade_groups, gpu::CommandList& commands) {
+  const auto bytes = std::as_bytes(std::span(&push, 1));
+  for (gpu::Kernel* kernel : {bounce.trace.get(), bounce.shadow.get()}) {
+    if (!kernel) continue;
+    commands.dispatch(*kernel, bytes, {round_up_to_stride(trace_groups), 1, 1});
+    commands.barrier();
+  }
+  commands.dispatch(*bounce.shade, bytes, {round_up_to_stride(shade_groups), 1, 1});
 }
 
 void Wavefront::make_room(uint32_t pixels) {
   if (pixels <= pixels_) return;
   pixels_ = pixels;
-  hits_.emplace(device_, pixels * sizeof(shader::PacketHit), "packet hits");
-  occlusions_.emplace(device_, pixels * sizeof(uint32_t) * std::max(options_.lights, 1u), "occlusions");
-  paths_.emplace(device_, options_.paths ? pixels * sizeof(shader::PathState) : 0, "paths");
+  hits_.emplace(device_, pixels * sizeof(shader::PacketHit), "hits");
+  occlusions_.emplace(device_, pixels * sizeof(uint32_t) * std::max(options_.shadow_rays, 1u), "occlusions");
+  paths_.emplace(device_, options_.splits ? 0 : pixels * sizeof(shader::PathState), "paths");
   for (auto& list : lists_) list.emplace(device_, (pixels + 1) * sizeof(uint32_t), "paths that go on");
-  for (gpu::Kernel* kernel : {primary_.get(), shadow_.get(), first_.get(), later_.get()}) {
-    if (!kernel) continue;
-    kernel->set_buffer(BINDING_PACKET_HITS, *hits_);
-    kernel->set_buffer(BINDING_OCCLUSIONS, *occlusions_);
-    kernel->set_buffer(BINDING_PATHS, *paths_);
+  for (Bounce* bounce : {&eye_, &later_}) {
+    for (gpu::Kernel* kernel : {bounce->trace.get(), bounce->shadow.get(), bounce->shade.get()}) {
+      if (!kernel) continue;
+      kernel->set_buffer(BINDING_PACKET_HITS, *hits_);
+      kernel->set_buffer(BINDING_OCCLUSIONS, *occlusions_);
+      kernel->set_buffer(BINDING_PATHS, *paths_);
+    }
   }
 }
 

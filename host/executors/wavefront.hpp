@@ -1,22 +1,26 @@
-// Pictures by wavefronts: rays of all pixels of a tile at once, coherent ones in packets
-// (kernels/cooperative/packet.comp.glsl), then those of the pixels whose paths go on.
+// Pictures by wavefronts: all pixels of a tile a bounce at a time, each step a kernel. Eye rays and their
+// shadow rays, which are coherent, are traced in packets; the rays of a later bounce as the profile says; and
+// every bounce is shaded by kernels/wavefront.comp.glsl, which lists the pixels whose paths go on.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <optional>
 
+#include "host/executors/profile.hpp"
 #include "host/gpu/command_list.hpp"
 #include "host/records/records.hpp"
 
 namespace eyeray {
 
 struct WavefrontOptions {
-  bool whitted = false;  // else raycast: no shadow rays, and no path goes on
-  uint32_t lights = 0;
-  uint32_t depth = 0;  // reflections or refractions in a row, at most
-  bool paths = false;  // each is a wavefront of its own (kernels/wavefront.comp.glsl), where no ray splits in
-                       // two; else kernels/render.comp.glsl starts the pixels anew whose paths go on
+  uint32_t shadow_rays = 0;  // of each hit
+  uint32_t bounces = 0;      // at most, after the eye ray
+  // Whether rays split in two. Then kernels/render.comp.glsl starts those pixels anew whose paths go on.
+  bool splits = false;
+  // How the rays of later bounces are traced, and their shadow rays: `lanes` while they are shaded, or
+  // `cooperative` by kernels of their own.
+  Rays bounced = Rays::lanes;
   uint32_t stride = 1;    // GROUP_STRIDE
   uint32_t subgroup = 8;  // lanes
 };
@@ -33,16 +37,20 @@ class Wavefront {
   std::optional<double> run(shader::Dispatch push, gpu::Buffer& results);
 
  private:
+  // What a bounce takes: its rays, their shadow rays, and what they come to. Null where another one does it.
+  struct Bounce {
+    std::unique_ptr<gpu::Kernel> trace, shadow, shade;
+  };
+
+  void run(Bounce& bounce, const shader::Dispatch& push, uint32_t trace_groups, uint32_t shade_groups,
+           gpu::CommandList& commands);
   void make_room(uint32_t pixels);
   uint32_t round_up_to_stride(uint32_t groups) const;
 
   gpu::Device& device_;
   WavefrontOptions options_;
-  std::unique_ptr<gpu::Kernel> primary_;
-  std::unique_ptr<gpu::Kernel> shadow_;  // null without shadow rays
-  std::unique_ptr<gpu::Kernel> first_;   // shades what eye rays hit
-  std::unique_ptr<gpu::Kernel> later_;   // goes on with the paths that do; null where none does
-  uint32_t pixels_ = 0;                  // that the buffers have room for
+  Bounce eye_, later_;
+  uint32_t pixels_ = 0;  // that the buffers have room for
   std::optional<gpu::Buffer> hits_, occlusions_, paths_, lists_[2];
 };
 

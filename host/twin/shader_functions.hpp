@@ -100,7 +100,8 @@ class Binding {
 #define STACK_SIZE 128
 #define TRACE_ITERATIONS 0u
 #define LOOP_PROBE bound_scene->frame.counts.y
-#define WHITTED_STACK 64
+#define PATH_STACK 64
+#define INTEGRATOR_IS(number) (bound_scene->frame.counts.z == number)
 #define HAS_CHECKER 1
 #define HAS_IMAGES 1
 #define HAS_COLORS 1

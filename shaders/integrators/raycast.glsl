@@ -1,47 +1,43 @@
 // Eye rays only: the base colour, shaded by light and normal, without shadows.
 #ifndef RAYCAST_GLSL
 #define RAYCAST_GLSL
+#include "integrators/interaction.glsl"
+#include "integrators/path.glsl"
 #include "lights/light.glsl"
-#include "geometry/surface.glsl"
 #include "materials/texture.glsl"
-#include "bvh/traverse.glsl"
 
 SHADER_BEGIN
 
-vec3 raycast_radiance(Frame frame, Ray ray, INOUT(uvec4) counts) {
-  counts.x += 1u;
-#if STORED_HITS
-  Hit hit = hit_of_packet(load_packet_hit(), counts);
-#else
-  Hit hit = trace(ray, counts.z);
-#endif
-  if (hit.slot == NONE) return vec3(frame.background);
-  counts.y += 1u;
+vec3 raycast_missed(Frame frame) { return vec3(frame.background); }
 
-  // Find the surface, as the viewer sees it.
-  Primitive primitive = primitive_at(hit);
-  Surface surface = surface_at(primitive, ray, hit);
-  Surface seen = face_viewer(surface, dot3(ray.d, surface.normal_geometric) < 0.0f);
-
+vec3 raycast_emitted(Frame frame, Interaction at) {
   // Add up the lights; without any, the viewer holds one.
   vec3 light = vec3(frame.ambient);
   for (uint i = 0u; i < LIGHT_COUNT; i++) {
-    LightSample s = sample_light(load_light(i), seen.p);
-    float cosine = dot3(seen.normal, s.direction);
+    LightSample s = sample_light(load_light(i), at.seen.p);
+    float cosine = dot3(at.seen.normal, s.direction);
     light = cosine > 0.0f ? light + s.color * cosine : light;
   }
-  float headlight = abs(dot3(seen.normal, ray.d));
+  float headlight = abs(dot3(at.seen.normal, at.d));
   if (LIGHT_COUNT == 0u) light = vec3(headlight, headlight, headlight);
-  Material material = load_material(material_of(primitive));
-  vec3 base = texture_color(material.textures.x, surface.uv);
+  vec3 base = texture_color(at.material.textures.x, at.surface.uv);
 #if HAS_EMISSION
-  base = base + texture_color(material.head.y >> MATERIAL_EMISSION_SHIFT, surface.uv);
+  base = base + texture_color(at.material.head.y >> MATERIAL_EMISSION_SHIFT, at.surface.uv);
 #endif
 #if HAS_COLORS
-  base = base * vertex_color(primitive, hit);
+  base = base * at.scatters.color;
 #endif
   return base * light;
 }
+
+bool raycast_shadow_ray(Frame frame, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
+  ray = make_ray(at.seen.p, at.d);
+  distance = 0.0f;
+  contribution = vec3(0.0f, 0.0f, 0.0f);
+  return false;
+}
+
+Continuations raycast_scatter(Frame frame, Path path, Interaction at) { return no_continuation(path); }
 
 SHADER_END
 #endif

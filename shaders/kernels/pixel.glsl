@@ -5,17 +5,14 @@
 #include "kernels/loops.glsl"
 #include "geometry/surface.glsl"
 #include "bvh/traverse.glsl"
+#include "integrators/loop.glsl"
 
 SHADER_BEGIN
 
 SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
   Ray ray = camera_ray(frame, sample_position(frame, x, y, index));
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
-  vec3 color = vec3(0.0f, 0.0f, 0.0f);
-#define RADIANCE_OF(name, number) \
-  if (frame.counts.z == number) color = name##_radiance(frame, ray, counts);
-  INTEGRATORS(RADIANCE_OF)
-
+  vec3 color = radiance(frame, ray, counts);
   counts.z = counts.z | loops_cut_off(LOOP_PROBE);
   SampleResult result;
   result.color = vec4(positive_zeros(color), 1.0f);

@@ -37,9 +37,6 @@ void main() {
 #ifdef FIRST_HITS
   results[i] = first_hit(frame, dispatch.tile.x + pixel.x, dispatch.tile.y + pixel.y);
 #else
-#if STORED_HITS
-  stored_place = i;
-#endif
   results[i] = render_sample(frame, dispatch.tile.x + pixel.x, dispatch.tile.y + pixel.y, dispatch.sample_index.x);
 #endif
 }

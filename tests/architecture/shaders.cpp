@@ -58,7 +58,7 @@ TEST_CASE("nothing is left to the driver's built-in functions but abs, floor, sq
   const auto alone = [](const SourceFile& file) {
     return !self_test(file) && file.path != "shaders/kernels/cooperative/subgroup.glsl" &&
            file.path != "shaders/kernels/cooperative/packet.glsl" &&
-           file.path != "shaders/kernels/cooperative/bvh4.comp.glsl";
+           file.path != "shaders/kernels/cooperative/bvh4.glsl";
   };
   CHECK(find_code(std::regex(R"(\bsubgroup\w+\s*\()"), alone) == "");
 }

@@ -205,13 +205,13 @@ TEST_CASE("a shader that does not compile is shown at its line") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";
   REQUIRE(run_eyeray({"shaders", "--export", shaders}).code == 0);
-  write_text(shaders + "/pixel.glsl",
-             with_pixel_code(read_text(shaders + "/pixel.glsl"), "  color = nonsense;\n"));
+  write_text(shaders + "/kernels/pixel.glsl",
+             with_pixel_code(read_text(shaders + "/kernels/pixel.glsl"), "  color = nonsense;\n"));
   const ProcessResult result =
       run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--shaders", shaders});
   CAPTURE(result.err);
   CHECK(result.code == 2);
-  CHECK(result.err.find(shaders + "/pixel.glsl:") == 0);
+  CHECK(result.err.find(shaders + "/kernels/pixel.glsl:") == 0);
   CHECK(result.err.find(": error: ") != std::string::npos);
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "shaders"});
 
@@ -223,9 +223,9 @@ TEST_CASE("a shader that does not compile is shown at its line") {
 TEST_CASE("a kernel of the user's that reads no push constants runs; one that wants others is told") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";
-  std::filesystem::create_directory(shaders);
+  std::filesystem::create_directories(shaders + "/kernels");
   const auto render = [&](const std::string& kernel) {
-    write_text(shaders + "/render.comp.glsl",
+    write_text(shaders + "/kernels/render.comp.glsl",
                "#version 450\nlayout(local_size_x = 64) in;\n"
                "layout(std430, set = 0, binding = 7) buffer Words { uint words[]; };\n" +
                    kernel);

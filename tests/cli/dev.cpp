@@ -50,7 +50,7 @@ TEST_CASE("dev renders on every save, and outlives what it renders") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";
   REQUIRE(run_eyeray({"shaders", "--export", shaders}).code == 0);
-  const std::string pixel = shaders + "/pixel.glsl";
+  const std::string pixel = shaders + "/kernels/pixel.glsl";
   const std::string good_shader = read_text(pixel);
   Dev dev(folder, "20");
   REQUIRE(dev.says("gpu: "));

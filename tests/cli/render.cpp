@@ -181,7 +181,7 @@ TEST_CASE("shaders: exported files render the same picture, and changed ones are
   const std::string shaders = folder / "shaders";
   REQUIRE(run_eyeray({"shaders", "--export", shaders}).code == 0);
   CHECK(run_eyeray({"shaders", "--print", "kernels/render.comp.glsl"}).out ==
-        read_text(shaders + "/render.comp.glsl"));
+        read_text(shaders + "/kernels/render.comp.glsl"));
   CHECK(run_eyeray({"shaders", "--list"}).out.find("shapes/sphere.glsl\n") != std::string::npos);
 
   REQUIRE(run_eyeray({"render", folder.scene(), "-o", folder / "a.pfm"}).code == 0);
@@ -189,15 +189,15 @@ TEST_CASE("shaders: exported files render the same picture, and changed ones are
   CHECK(read_text(folder / "a.pfm") == read_text(folder / "b.pfm"));
 
   // A changed shader changes the picture, and survives another export.
-  write_text(shaders + "/pixel.glsl",
-             with_pixel_code(read_text(shaders + "/pixel.glsl"), "  color += 1.0f;\n"));
+  write_text(shaders + "/kernels/pixel.glsl",
+             with_pixel_code(read_text(shaders + "/kernels/pixel.glsl"), "  color += 1.0f;\n"));
   REQUIRE(run_eyeray({"render", folder.scene(), "-o", folder / "b.pfm", "--shaders", shaders}).code == 0);
   CHECK(read_image(folder / "b.pfm").pixel(0, 0)[0] == 1.25f);
   const ProcessResult again = run_eyeray({"shaders", "--export", shaders});
   CHECK(again.code == 4);
   CHECK(again.err ==
         "eyeray: error: " + shaders +
-            "/pixel.glsl differs from the embedded shader; nothing was written (--force overwrites)\n");
+            "/kernels/pixel.glsl differs from the embedded shader; nothing was written (--force overwrites)\n");
   CHECK(run_eyeray({"shaders", "--export", shaders, "--force"}).code == 0);
-  CHECK(read_text(shaders + "/pixel.glsl").find("color += 1.0f") == std::string::npos);
+  CHECK(read_text(shaders + "/kernels/pixel.glsl").find("color += 1.0f") == std::string::npos);
 }

@@ -61,16 +61,16 @@ Ray eye_ray(uint place) {
 #endif
 
 #ifdef PACKET_SHADOW
-// The surface that the eye ray at `place` hits, as its viewer sees it; struck: whether there is one.
-Surface seen_at(uint place, OUT(bool) struck) {
+// Where the eye ray at `place` hits something; struck: whether it does.
+Interaction interaction_of(uint place, out bool struck) {
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   uint there = place == NONE ? 0u : place;
   Hit hit = hit_of_packet(hits[there], counts);
   struck = place != NONE && hit.slot != NONE;
   hit.slot = struck ? hit.slot : 0u;
-  Ray ray = eye_ray(there);
-  Surface surface = surface_at(primitive_at(hit), ray, hit);
-  return face_viewer(surface, dot3(ray.d, surface.normal_geometric) < 0.0f);
+  uint flags = 0u;
+  Ray eye = eye_ray(there);
+  return interaction_at(eye, hit, begin(load_frame(), eye).media, flags);
 }
 #endif
 
@@ -82,20 +82,23 @@ void main() {
   EACH place[k] = place_of(packet, ray_of(lane, uint(k)));
 
 #ifdef PACKET_SHADOW
-  Surface seen[RAYS_A_LANE];
+  Frame frame = load_frame();
+  Interaction at_hit[RAYS_A_LANE];
   bool struck[RAYS_A_LANE];
   uint flags[RAYS_A_LANE];
   EACH flags[k] = 0u;
-  EACH seen[k] = seen_at(place[k], struck[k]);
+  EACH at_hit[k] = interaction_of(place[k], struck[k]);
   uint light = 0u;
   do {
     // A ray for which nothing is asked hits nothing, but must be one.
     EACH {
-      LightSample to = sample_light(load_light(light), seen[k].p);
-      bool lit = struck[k] && dot3(seen[k].normal, to.direction) > 0.0f &&
-                 dot3(seen[k].normal_geometric, to.direction) > 0.0f;
-      ray[k] = lit ? spawn_ray(seen[k], to.direction) : make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
-      state[k] = traversal_state(lit ? to.distance : -1.0f);
+      Ray to_light;
+      float distance;
+      vec3 contribution;
+      bool counts = shadow_ray(frame, at_hit[k], light, to_light, distance, contribution) && struck[k];
+      ray[k] = make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
+      if (counts) ray[k] = to_light;
+      state[k] = traversal_state(counts ? distance : -1.0f);
       intersect_linear_list(state[k], ray[k], true);
     }
     traverse_together(lane);
@@ -104,7 +107,7 @@ void main() {
       if (place[k] != NONE) occlusions[light * dispatch.sample_index.z + place[k]] = state[k].occluded;
     }
     light += 1u;
-  } while (light < LIGHT_COUNT);
+  } while (light < shadow_rays());
   uint cut_off = loops_cut_off(LOOP_PROBE);
   EACH {
     if (place[k] != NONE) hits[place[k]].hit.w = hits[place[k]].hit.w | flags[k] | cut_off;

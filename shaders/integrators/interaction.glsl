@@ -1,0 +1,61 @@
+// Where a path meets a surface: all that integrators and materials know of it. Found once, whoever asks.
+#ifndef INTERACTION_GLSL
+#define INTERACTION_GLSL
+#include "geometry/surface.glsl"
+#include "materials/material.glsl"
+#include "materials/media.glsl"
+
+SHADER_BEGIN
+
+struct Interaction {
+  Surface surface;             // as the shape has it
+  Surface seen;                // the same with its normals towards where the ray came from
+  vec3 d;                      // the direction that the ray came in, unit
+  Material material;
+  ScatteringContext scatters;  // what the material's scattering depends on
+  Scattering scattering;       // towards where the ray came from
+  uint media_behind;           // that a refracted ray is in (materials/media.glsl)
+};
+
+// `hit`: that of `ray`, which came through `media`. Adds to `flags` where those are too many.
+Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
+  Primitive primitive = primitive_at(hit);
+  uint material = material_of(primitive);
+  Interaction at;
+  at.d = ray.d;
+  at.material = load_material(material);
+  at.surface = surface_at(primitive, ray, hit);
+  bool front = dot3(ray.d, at.surface.normal_geometric) < 0.0f;
+  at.seen = face_viewer(at.surface, front);
+
+  at.scatters.uv = at.surface.uv;
+  at.scatters.color = vec3(1.0f, 1.0f, 1.0f);
+#if HAS_COLORS
+  at.scatters.color = vertex_color(primitive, hit);
+#endif
+  at.scatters.cos_view = minimum(maximum(-dot3(ray.d, at.seen.normal), 0.0f), 1.0f);
+  at.scatters.ior_from = 1.0f;
+  at.scatters.ior_to = 1.0f;
+  at.media_behind = media;
+#if HAS_MEDIA
+  if (at.material.head.z != 0u)
+    at.media_behind = front ? enter_medium(media, at.material.head.z, flags) : leave_medium(media, at.material.head.z);
+  at.scatters.ior_from = load_medium(innermost_medium(media)).absorption_ior.w;
+  at.scatters.ior_to = load_medium(innermost_medium(at.media_behind)).absorption_ior.w;
+#endif
+  at.scattering = scattering_of(material, at.material, at.scatters);
+  return at;
+}
+
+// The share of light that the medium lets through on the way to a hit at t.
+vec3 medium_transmittance(uint media, float t) {
+#if HAS_ABSORPTION
+  vec4 absorption = load_medium(innermost_medium(media)).absorption_ior;
+  return vec3(exp_negative(-absorption.x * t), exp_negative(-absorption.y * t), exp_negative(-absorption.z * t));
+#else
+  return vec3(1.0f, 1.0f, 1.0f);
+#endif
+}
+
+SHADER_END
+#endif

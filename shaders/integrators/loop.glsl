@@ -1,0 +1,78 @@
+// The loop driver: all rays of one sample, one after the other. Where a path goes on in two ways, one waits on a stack.
+#ifndef LOOP_GLSL
+#define LOOP_GLSL
+#include "integrators/vertex.glsl"
+
+SHADER_BEGIN
+
+#if HAS_SECONDARY
+vec3 radiance(Frame frame, Ray camera_ray, INOUT(uvec4) counts) {
+#if PATH_STACK > 0
+  Path stack[PATH_STACK];
+  uint pending = 0u;
+#endif
+#if RAY_KINDS
+  uint rays_reflected = 0u;
+  uint rays_refracted = 0u;
+  uint total_reflections = 0u;
+#endif
+  vec3 color = vec3(0.0f, 0.0f, 0.0f);
+  Path path = begin(frame, camera_ray);
+  bool going = true;
+  for (; going;) {
+    Ray ray = make_ray(path.o, path.d);
+    Hit hit = trace(ray, counts.z);
+    Continuations all = shade(frame, path, ray, hit, color, counts);
+    going = all.count > 0u;
+    path = all.next;
+
+#if PATH_STACK > 0
+    if (all.count > 1u) {
+      if (pending == uint(PATH_STACK)) {
+        counts.z = counts.z | FLAG_STACK_OVERFLOW;
+      } else {
+        stack[pending] = all.waiting;
+        pending += 1u;
+      }
+    }
+    if (!going && pending > 0u) {
+      pending -= 1u;
+      path = stack[pending];
+      going = true;
+    }
+#endif
+#ifdef LOOP_BUDGET
+    if (going && counts.w > LOOP_BUDGET) {
+      counts.z = counts.z | FLAG_LOOP_BUDGET;
+      going = false;
+    }
+#endif
+#if RAY_KINDS
+    rays_reflected += going && !path.refracted ? 1u : 0u;
+    rays_refracted += going && path.refracted ? 1u : 0u;
+    total_reflections += all.total_reflection ? 1u : 0u;
+#endif
+    // Tested at the bottom, which saves a round with all lanes idle; but not where no loop over lights is inside this one: there Mesa
+    // 22.3.6 may take what it computed last from the rounds of other rays (docs/lavapipe.md).
+    if (LIGHT_COUNT > 0u && !going) break;
+  }
+#if RAY_KINDS
+  counts = counts_by_kind(counts, rays_reflected, rays_refracted, total_reflections);
+#endif
+  return color;
+}
+#else
+// No path goes on: there is nothing to loop for.
+vec3 radiance(Frame frame, Ray camera_ray, INOUT(uvec4) counts) {
+  vec3 color = vec3(0.0f, 0.0f, 0.0f);
+  Hit hit = trace(camera_ray, counts.z);
+  shade(frame, begin(frame, camera_ray), camera_ray, hit, color, counts);
+#if RAY_KINDS
+  counts = counts_by_kind(counts, 0u, 0u, 0u);
+#endif
+  return color;
+}
+#endif
+
+SHADER_END
+#endif

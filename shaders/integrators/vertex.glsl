@@ -1,0 +1,61 @@
+// A vertex of a path, from its hit on: what both drivers do there, the loop and the wavefront.
+#ifndef VERTEX_GLSL
+#define VERTEX_GLSL
+#include "bvh/traverse.glsl"
+#include "integrators/integrator.glsl"
+
+SHADER_BEGIN
+
+// Adds what `path` gains at the hit of `ray`, and finds how it goes on. `counts`: rays, hits, flags, loop iterations.
+Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color, INOUT(uvec4) counts) {
+  Continuations all = no_continuation(path);
+  bool struck = hit.slot != NONE;
+  counts.x += 1u;
+  counts.y += struck ? 1u : 0u;
+  counts.w += TRACE_ITERATIONS + 1u;
+  if (!struck) {
+    color = color + path.throughput * missed(frame);
+  } else {
+    Interaction at = interaction_at(ray, hit, path.media, counts.z);
+#if HAS_ABSORPTION
+    path.throughput = path.throughput * medium_transmittance(path.media, hit.t);
+#endif
+    vec3 light = emitted(frame, at);
+    // Tested at the bottom: Mesa 22.3.6 would go round once more, with all lanes idle.
+    uint i = 0u;
+    if (shadow_rays() > 0u) do {
+      counts.w += 1u + TRACE_ITERATIONS;
+      Ray to_light;
+      float distance;
+      vec3 contribution;
+      if (shadow_ray(frame, at, i, to_light, distance, contribution)) {
+        counts.x += 1u;
+#if STORED_HITS
+        uint occluded = load_occlusion(i);
+#else
+        uint occluded = occlusion(to_light, distance, counts.z);
+#endif
+        light = light + contribution * visibility(occluded);
+      }
+      i += 1u;
+    } while (i < shadow_rays());
+    color = color + path.throughput * light;
+#if HAS_SECONDARY
+    all = scatter(frame, path, at);
+#endif
+  }
+  return all;
+}
+
+#if RAY_KINDS
+// What a sample counted, as a result holds it where rays are counted by their kinds. What does not fit stays at the most that does.
+uint at_most(uint x, uint most) { return x < most ? x : most; }
+uvec4 counts_by_kind(uvec4 counts, uint reflected, uint refracted, uint total) {
+  return uvec4(counts.x, counts.y, counts.z | at_most(refracted, 0xffffffffu >> REFRACTED_SHIFT) << REFRACTED_SHIFT,
+               at_most(reflected, (1u << TOTAL_SHIFT) - 1u) |
+                   at_most(total, 0xffffffffu >> TOTAL_SHIFT) << TOTAL_SHIFT);
+}
+#endif
+
+SHADER_END
+#endif
