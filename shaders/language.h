@@ -14,6 +14,7 @@
 #define INOUT(T) T&
 #define OUT(T) T&
 #define UNROLL
+#define INLINE inline
 
 namespace eyeray::shader {
 
@@ -42,6 +43,7 @@ inline float uintBitsToFloat(uint x) { return __builtin_bit_cast(float, x); }
 #define INOUT(T) inout T
 #define OUT(T) out T
 #define UNROLL [[unroll]]
+#define INLINE
 #define SHADER_BEGIN
 #define SHADER_END
 

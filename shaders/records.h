@@ -1,5 +1,6 @@
-// The ABI: every record and binding slot that host and shaders share. Only float, int, uint, vec4 and uvec4, scalars in
-// fours, sizes a multiple of 16: so std430, std140 and C++ agree. Positions are relative to the camera's eye.
+// The ABI: every record and binding slot that host and shaders share. Scalars in fours, vec4, or vec3 with a scalar behind it, and a
+// size that is a multiple of 16: so std430 and C++ agree. Positions are relative to the camera's eye. A word that holds several things
+// has a function here that takes it apart.
 #ifndef RECORDS_H
 #define RECORDS_H
 
@@ -7,7 +8,7 @@
 
 SHADER_BEGIN
 
-// Descriptor set 0.
+// Descriptor set 0. No two have one number.
 #define BINDING_PRIMITIVES 0
 #define BINDING_VERTICES 1
 #define BINDING_MATERIALS 2
@@ -22,10 +23,10 @@ SHADER_BEGIN
 #define BINDING_INSTANCES 11
 #define BINDING_PACKET_HITS 12
 #define BINDING_OCCLUSIONS 13
+#define BINDING_TEXELS 14
 #define BINDING_PATHS 15
 #define BINDING_LIST 16
 #define BINDING_NEXT_LIST 17
-#define BINDING_TEXELS 14
 #define BINDING_BVH4_NODES 18
 
 #define NONE 0xffffffffu
@@ -34,16 +35,34 @@ SHADER_BEGIN
 #define T_ITERATION_LIMIT -3.2e38f  // "no hit found in the steps allowed"; uv.x says up to which t there is none for sure
 
 // ---- Primitive: 64 bytes --------------------------------------------------------------------------------------------
-//   0 id: the scene's primitive index, or that within an instance (below)    4 material | kind << 24
-//   8 optical depth    12 extra: an index into vertices, or NONE
-//  16 a (vec4)  32 b (vec4)   48 c (vec4)    what they hold is said in the shape's .glsl
 // Where a primitive stands in the buffer, its slot, follows from the BVH and may change; its id does not.
 struct Primitive {
-  uvec4 head;
-  vec4 a;
+  uint id;                 // the scene's primitive index, or that within an instance (below)
+  uint material_and_kind;  // material_of, kind_of
+  uint optical_depth;
+  uint extra;  // an index into vertices, or NONE; a shape that needs none may keep a word here
+  vec4 a;      // what these hold is said in the shape's .glsl
   vec4 b;
   vec4 c;
 };
+INLINE uint kind_of(Primitive primitive) { return primitive.material_and_kind >> 24u; }
+INLINE uint material_of(Primitive primitive) { return primitive.material_and_kind & 0xffffffu; }
+INLINE uint material_and_kind(uint material, uint kind) { return material | kind << 24u; }
+// A primitive as four words of vertices.
+INLINE uvec4 head_of(Primitive primitive) {
+  return uvec4(primitive.id, primitive.material_and_kind, primitive.optical_depth, primitive.extra);
+}
+INLINE Primitive primitive_of(uvec4 head, vec4 a, vec4 b, vec4 c) {
+  Primitive primitive;
+  primitive.id = head.x;
+  primitive.material_and_kind = head.y;
+  primitive.optical_depth = head.z;
+  primitive.extra = head.w;
+  primitive.a = a;
+  primitive.b = b;
+  primitive.c = c;
+  return primitive;
+}
 #define MOST_MATERIALS 0x1000000u
 #define TRIANGLE_WOOP 0u
 #define TRIANGLE_MOLLER_TRUMBORE 1u
@@ -58,20 +77,22 @@ struct Primitive {
 #define CORNERS_COLORS 4u
 
 // ---- BVH: 64 bytes; a node of it ------------------------------------------------------------------------------------
-//   0 origin.xyz  12 -    16 step.xyz  28 -    a plane at q stands at origin + q · step
-//  32 extent.xyz          the most that |q · step| is
-//  44 slack               by which share of its reach a ray's boxes are widened
-//  48 root, which may be a leaf   52 first slot of its primitives   56 end of its slots   60 -
 // A node is two children. Quantised, a child is 16 bytes, its planes integers: lower | upper << 16 for x, y and z, then what it refers
 // to; else it is 32: lower.xyz as floats, what it refers to, upper.xyz, -.
 // A node of kernels/cooperative/bvh4.comp.glsl is four quantised children, one of kernels/cooperative/packet.glsl as many as a subgroup has lanes; those that are not there
 // refer to NONE.
 // A child refers to a node, to 1 … 8 primitives, LEAF | slot << 3 | count − 1, or to an instance, INSTANCE_LEAF | index.
 struct Bvh {
-  vec4 origin;
-  vec4 step;
-  vec4 extent;
-  uvec4 head;
+  vec3 origin;  // a plane at q stands at origin + q · step
+  float unused_0;
+  vec3 step;
+  float unused_1;
+  vec3 extent;      // the most that |q · step| is
+  float slack;      // by which share of its reach a ray's boxes are widened
+  uint root;        // which may be a leaf
+  uint first_slot;  // of its primitives
+  uint end_slot;
+  uint unused_2;
 };
 #define LEAF 0x80000000u
 #define INSTANCE_LEAF 0xc0000000u
@@ -79,56 +100,68 @@ struct Bvh {
 #define MOST_INSTANCES 0x3ffffff0u
 
 // ---- Instance of a mesh or a group with a BVH of its own: 112 bytes ---------------------------------------------------
-//   0 BVH   4 id of its first shape, of a mesh its first triangle
-//   8 material   12 optical depth        of a mesh's triangles; or of a group, whose primitives have their own:
-//   8 NONE       12 id of its first triangle of a mesh
-//  16 to_local.xyz, -, three rows: the linear map into its space, of what is relative to that space's origin
-//  64 to_world, three rows: the affine map back, its w's that origin
 // In its space ids count from 0, those of a group's meshes with ID_OF_TRIANGLE set.
 struct Instance {
-  uvec4 head;
-  vec4 to_local[3];
-  vec4 to_world[3];
+  uint bvh;
+  uint first_id;           // of its first shape, of a mesh its first triangle
+  uint material;           // of a mesh's triangles; NONE of a group, whose primitives have their own
+  uint depth_or_triangle;  // mesh_optical_depth, first_triangle_of
+  vec4 to_local[3];        // rows: the linear map into its space, of what is relative to that space's origin; w unused
+  vec4 to_world[3];        // rows: the affine map back, its w's that origin
 };
+INLINE bool of_group(Instance instance) { return instance.material == NONE; }
+// Of each of a mesh's triangles; NONE of a group.
+INLINE uint mesh_optical_depth(Instance instance) { return of_group(instance) ? NONE : instance.depth_or_triangle; }
+// The id of a group's first triangle of a mesh.
+INLINE uint first_triangle_of(Instance instance) { return instance.depth_or_triangle; }
 #define ID_OF_TRIANGLE 0x80000000u
 
 // ---- Material: 64 bytes ---------------------------------------------------------------------------------------------
-//   0 kind       4 flags | emission, an index into textures, << 8      8 medium that fills the shape: 1…255, 0 for none    12 optical depth
-//  16 base      20 specular  24 reflected  28 ambient    indices into textures; base, with emission, is what raycast shades
-//  32 shininess 36 -         40 -          44 -
-//  48 alpha, an index into textures        52 below which alpha there are holes, the bits of a float; 0 without      56 -   60 -
 struct Material {
-  uvec4 head;
-  uvec4 textures;
-  vec4 parameters;
-  uvec4 mask;
+  uint kind;
+  uint flags;
+  uint medium;  // that fills the shape: 1…255, 0 for none
+  uint optical_depth;
+  uint base;  // indices into textures; base, with emission, is what raycast shades
+  uint specular;
+  uint reflected;
+  uint ambient;
+  uint emission;
+  uint alpha;
+  float alpha_cutoff;  // below which alpha there are holes; 0 without
+  float shininess;
+  vec4 a;  // what it holds is said in the material's .glsl
 };
 #define MATERIAL_BLINN 1u
-#define MATERIAL_EMISSION_SHIFT 8u
 // Optical depth: what a shadow ray loses to each primitive that it hits, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
 #define OPTICAL_DEPTH_OPAQUE 0x10000000u
 #define OPTICAL_DEPTH_SCALE 1048576.0f
 
 // ---- Medium: 16 bytes -----------------------------------------------------------------------------------------------
-//   0 absorption.rgb  12 ior     number 0 is the vacuum
+// Number 0 is the vacuum.
 struct Medium {
-  vec4 absorption_ior;
+  vec3 absorption;
+  float ior;
 };
 
 // ---- Texture: 64 bytes ----------------------------------------------------------------------------------------------
-//   0 even.rgb  12 kind       kind: TEXTURE_CONSTANT, _CHECKER or _IMAGE, as a float; an image is multiplied by even
-//  16 odd.rgb   28 -
-//  32 1 / size.u  36 1 / size.v  40 -  44 -      of a check, or of the whole image
-//  48 width  52 height  56 first texel  60 flags  of an image
 struct Texture {
-  vec4 even;
-  vec4 odd;
-  vec4 frequency;
-  uvec4 image;
+  vec3 even;  // an image is multiplied by it
+  uint kind;
+  vec3 odd;
+  uint flags;         // of an image
+  float frequency_u;  // 1 / size of a check, or of the whole image
+  float frequency_v;
+  uint width;  // of an image
+  uint height;
+  uint first_texel;
+  uint unused_0;
+  uint unused_1;
+  uint unused_2;
 };
-#define TEXTURE_CONSTANT 0.0f
-#define TEXTURE_CHECKER 1.0f
-#define TEXTURE_IMAGE 2.0f
+#define TEXTURE_CONSTANT 0u
+#define TEXTURE_CHECKER 1u
+#define TEXTURE_IMAGE 2u
 #define IMAGE_NEAREST 1u
 #define IMAGE_LINEAR 2u
 #define IMAGE_WRAP_U_SHIFT 4u
@@ -146,37 +179,39 @@ struct Texture {
 #define TEXELS_FIRST 512u
 
 // ---- Light: 48 bytes ------------------------------------------------------------------------------------------------
-//   0 kind   4 falloff   8 -  12 -
-//  16 position.xyz, or the unit direction towards a directional light    28 -
-//  32 intensity.rgb      44 -
 struct Light {
-  uvec4 head;
-  vec4 position;
-  vec4 intensity;
+  vec3 intensity;
+  uint kind;
+  vec4 a;  // what these hold is said in the light's .glsl
+  vec4 b;
 };
 #define LIGHT_POINT 0u
 #define LIGHT_DIRECTIONAL 1u
-#define FALLOFF_INVERSE_SQUARE 0u
-#define FALLOFF_NONE 1u
 
 // ---- Frame: what is the same for all pixels, 128 bytes --------------------------------------------------------------
-//   0 width  4 height  8 seed  12 samples along a side (n of n × n)
-//  16 camera type  20 sample pattern  24 media that the eye is in (materials/media.glsl)  28 max_depth
-//  32 light count  36 2 (kernels/loops.glsl)  40 integrator  44 triangle method
-//  48 right.xyz      60 min_throughput
-//  64 up.xyz         76 2 / width
-//  80 forward.xyz    92 2 / height
-//  96 background.rgb
-// 112 ambient.rgb
 struct Frame {
-  uvec4 image;
-  uvec4 camera;
-  uvec4 counts;
-  vec4 right;
-  vec4 up;
-  vec4 forward;
-  vec4 background;
-  vec4 ambient;
+  uint width;
+  uint height;
+  uint seed;
+  uint samples_per_side;  // n of n × n
+  uint camera;
+  uint pattern;
+  uint media;  // that the eye is in (materials/media.glsl)
+  uint max_depth;
+  uint light_count;
+  uint loop_probe;  // 2 (kernels/loops.glsl)
+  uint integrator;
+  uint triangle_method;
+  vec3 right;
+  float min_throughput;
+  vec3 up;
+  float pixel_width;  // of a picture that is 2 wide
+  vec3 forward;
+  float pixel_height;
+  vec3 background;
+  float unused_0;
+  vec3 ambient;
+  float unused_1;
 };
 #define CAMERA_PERSPECTIVE 0u
 #define CAMERA_ORTHOGRAPHIC 1u
@@ -184,59 +219,98 @@ struct Frame {
 #define PATTERN_JITTERED 1u
 
 // ---- Push constants: what changes from dispatch to dispatch, 32 bytes -----------------------------------------------
-//   0 tile x  4 tile y  8 tile width  12 tile height
-//  16 sample  20 depth of a wave: the reflections before it    24 pixels of the tile    28 -
 struct Dispatch {
-  uvec4 tile;
-  uvec4 sample_index;
+  uint tile_x;
+  uint tile_y;
+  uint tile_width;
+  uint tile_height;
+  uint sample_index;
+  uint depth;  // of a wavefront: the reflections before it
+  uint count;  // pixels of the tile, or rays of a query
+  uint unused;
 };
 
 // ---- Results --------------------------------------------------------------------------------------------------------
-// One sample of one pixel, 32 bytes: colour.rgb and a 1 that says "written"; rays, hits, flags, loop iterations. With RAY_KINDS the
-// last two are flags | refracted rays << REFRACTED_SHIFT, and reflected rays | total reflections << TOTAL_SHIFT.
+#define REFRACTED_SHIFT 8u
+#define TOTAL_SHIFT 20u
+
+// One sample of one pixel, 32 bytes.
 struct SampleResult {
-  vec4 color;
-  uvec4 counts;
+  vec3 color;
+  float written;  // 1
+  uint rays;
+  uint hits;
+  uint flags;       // with RAY_KINDS below refracted_of
+  uint iterations;  // of loops; with RAY_KINDS reflected_of and total_reflections_of instead
 };
-// The first hit of one pixel, 64 bytes: position.xyz (relative to the eye), t; normal.xyz; u, v; primitive, material.
-// ids: primitive, material, flags. A miss has primitive = material = NONE and t = T_MISS.
+INLINE SampleResult sample_result(vec3 color, uvec4 counts) {
+  SampleResult result;
+  result.color = color;
+  result.written = 1.0f;
+  result.rays = counts.x;
+  result.hits = counts.y;
+  result.flags = counts.z;
+  result.iterations = counts.w;
+  return result;
+}
+INLINE uvec4 counts_of(SampleResult result) { return uvec4(result.rays, result.hits, result.flags, result.iterations); }
+// With RAY_KINDS: how many of its rays were refracted and reflected, and how often a reflection was total.
+INLINE uint refracted_of(SampleResult result) { return result.flags >> REFRACTED_SHIFT; }
+INLINE uint reflected_of(SampleResult result) { return result.iterations & ((1u << TOTAL_SHIFT) - 1u); }
+INLINE uint total_reflections_of(SampleResult result) { return result.iterations >> TOTAL_SHIFT; }
+
+// The first hit of one pixel, 48 bytes. A miss has primitive = material = NONE and t = T_MISS.
 struct HitResult {
-  vec4 position_t;
-  vec4 normal;
-  vec4 uv;
-  uvec4 ids;
+  vec3 position;  // relative to the eye
+  float t;
+  vec3 normal;
+  float u;
+  float v;
+  uint primitive;
+  uint material;
+  uint flags;
 };
-// kernels/query.comp.glsl: a ray, 32 bytes: origin.xyz; direction.xyz, the t up to which occlusion counts.
+// kernels/query.comp.glsl: a ray, 32 bytes.
 struct QueryRay {
-  vec4 origin;
-  vec4 direction;
+  vec3 origin;
+  float unused;
+  vec3 direction;
+  float t_max;  // up to which occlusion counts
 };
-// And its answer, 16 bytes: the bits of t, primitive or NONE, flags, -. Asked whether anything is hit: 0 or T_MISS, NONE, flags,
-// occlusion.
+// And its answer, 16 bytes. Asked whether anything is hit: 0 or T_MISS, NONE, flags, occlusion.
 struct QueryHit {
-  uvec4 hit;
+  float t;
+  uint primitive;  // or NONE
+  uint flags;
+  uint occlusion;
 };
 
 // Rays that kernels/cooperative/packet.comp.glsl traces together. More share more of the work, and take longer to compile.
 #define PACKET 32
 
-// What the ray of one sample of a pixel hits, 32 bytes: the bits of t, slot, id, flags; the bits of u and v, -, -.
+// What the ray of one sample of a pixel hits, 32 bytes.
 struct PacketHit {
-  uvec4 hit;
-  uvec4 uv;
+  float t;
+  uint slot;
+  uint id;
+  uint flags;
+  float u;
+  float v;
+  uint unused_0;
+  uint unused_1;
 };
 
-// Where a pixel's path goes on, 48 bytes: origin.xyz; direction.xyz; throughput.rgb.
+// Where a pixel's path goes on, 48 bytes.
 struct PathState {
-  vec4 origin;
-  vec4 direction;
-  vec4 throughput;
+  vec3 origin;
+  float unused_0;
+  vec3 direction;
+  float unused_1;
+  vec3 throughput;
+  float unused_2;
 };
 
-#define REFRACTED_SHIFT 8u
-#define TOTAL_SHIFT 20u
-
-// Bits of SampleResult.counts.z; core/pixel.hpp names them for the host.
+// Bits of the flags of results; core/pixel.hpp names them for the host.
 #define FLAG_MEDIA_OVERFLOW 1u
 #define FLAG_STACK_OVERFLOW 2u
 #define FLAG_LOOP_BUDGET 4u
@@ -256,7 +330,7 @@ static_assert(sizeof(eyeray::shader::Light) == 48);
 static_assert(sizeof(eyeray::shader::Frame) == 128);
 static_assert(sizeof(eyeray::shader::Dispatch) == 32);
 static_assert(sizeof(eyeray::shader::SampleResult) == 32);
-static_assert(sizeof(eyeray::shader::HitResult) == 64);
+static_assert(sizeof(eyeray::shader::HitResult) == 48);
 static_assert(sizeof(eyeray::shader::QueryRay) == 32);
 static_assert(sizeof(eyeray::shader::QueryHit) == 16);
 static_assert(sizeof(eyeray::shader::PacketHit) == 32);

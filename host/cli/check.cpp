@@ -82,7 +82,7 @@ Inventory take_inventory(const Scene& scene) {
     kinds.push_back(uint32_t(std::ranges::find(shape_types(), shape->type) - shape_types().begin()));
   inventory.shapes = count_kinds(shape_types(), kinds);
   kinds.clear();
-  for (const shader::Material& material : packed.materials) kinds.push_back(material.head.x);
+  for (const shader::Material& material : packed.materials) kinds.push_back(material.kind);
   inventory.materials = count_kinds(material_types(), kinds);
   const auto points = size_t(std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
     return light.type == LightType::point;

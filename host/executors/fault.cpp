@@ -29,8 +29,8 @@ Fault::Fault(std::string name) : name_(std::move(name)) {
 
 void Fault::damage(PackedScene& scene) const {
   if (is("ior"))
-    for (size_t i = 1; i < scene.media.size(); ++i) scene.media[i].absorption_ior.w *= 1.05f;
-  if (is("light") && !scene.lights.empty()) scene.lights[0].intensity = shader::vec4(0);
+    for (size_t i = 1; i < scene.media.size(); ++i) scene.media[i].ior *= 1.05f;
+  if (is("light") && !scene.lights.empty()) scene.lights[0].intensity = shader::vec3(0);
 }
 
 std::string Fault::damage(std::string_view file, std::string text) const {
@@ -40,7 +40,7 @@ std::string Fault::damage(std::string_view file, std::string text) const {
     return replaced(std::move(text), "  return surface;",
                     "  surface.normal = -surface.normal;\n  return surface;");
   if (is("ids") && file == "kernels/pixel.glsl")
-    return replaced(std::move(text), "uvec4(hit.id,", "uvec4(hit.id ^ 1u,");
+    return replaced(std::move(text), "result.primitive = hit.id;", "result.primitive = hit.id ^ 1u;");
   if (is("steps") && file == "shapes/superellipsoid.glsl")
     return replaced(std::move(text), "SUPERELLIPSOID_STEPS 64u", "SUPERELLIPSOID_STEPS 4u");
   return text;

@@ -95,7 +95,7 @@ class GpuExecutor final : public Executor {
     };
     for_bands<shader::HitResult>(tile, 0, trace, [&](size_t first, auto results) {
       for (size_t i = 0; i < results.size(); ++i) {
-        check_traced(results[i].ids.z);
+        check_traced(results[i].flags);
         out[first + i] = to_first_hit(results[i], eye_);
       }
     });
@@ -256,9 +256,12 @@ class GpuExecutor final : public Executor {
       const size_t pixels = size_t(height) * size_t(tile.width);
       gpu::Buffer& output = output_for(pixels * sizeof(Result));
       shader::Dispatch push{};
-      push.tile = {uint32_t(tile.x) + fault_.shift(), uint32_t(tile.y + row), uint32_t(tile.width),
-                   uint32_t(height)};
-      push.sample_index = {index, 0u, uint32_t(pixels), 0u};
+      push.tile_x = uint32_t(tile.x) + fault_.shift();
+      push.tile_y = uint32_t(tile.y + row);
+      push.tile_width = uint32_t(tile.width);
+      push.tile_height = uint32_t(height);
+      push.sample_index = index;
+      push.count = uint32_t(pixels);
       const std::optional<double> seconds = trace(push, output);
       if (!seconds) return false;
       times_.add("dispatch", *seconds);
@@ -277,7 +280,7 @@ class GpuExecutor final : public Executor {
   // kernels/render.comp.glsl for a whole tile.
   std::optional<double> dispatch(gpu::Kernel& kernel, const shader::Dispatch& push, gpu::Buffer& output) {
     kernel.set_buffer(BINDING_OUTPUT, output);
-    const uint32_t blocks = (push.tile.z + 7) / 8 * ((push.tile.w + 7) / 8);
+    const uint32_t blocks = (push.tile_width + 7) / 8 * ((push.tile_height + 7) / 8);
     return gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)),
                          {round_up_to_stride(blocks), 1, 1})
         .seconds;
@@ -337,7 +340,7 @@ class GpuExecutor final : public Executor {
     kernel.set_buffer(BINDING_OUTPUT, output);
     const auto count = uint32_t(asked.size());
     shader::Dispatch push{};
-    push.tile.x = count;
+    push.count = count;
     const uint32_t groups =
         how == Rays::packets ? packet_groups(count) : round_up_to_stride((count + 63) / 64);
     const gpu::RunTime time =
@@ -345,7 +348,7 @@ class GpuExecutor final : public Executor {
 
     const std::vector<shader::QueryHit> answers = output.read_records<shader::QueryHit>(count);
     for (size_t i = 0; i < count; ++i) {
-      check_traced(answers[i].hit.z);
+      check_traced(answers[i].flags);
       hits[i] = to_query_hit(answers[i]);
     }
     return time.seconds;

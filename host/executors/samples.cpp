@@ -1,6 +1,5 @@
 #include "host/executors/samples.hpp"
 
-#include <bit>
 #include <limits>
 
 #include "host/core/error.hpp"
@@ -9,7 +8,7 @@
 namespace eyeray {
 
 shader::QueryRay to_query_ray(const Query& ray, const Vec3& eye) {
-  return {to_vec4(ray.o - eye), to_vec4(ray.d, ray.t_max)};
+  return {glm::vec3(ray.o - eye), 0.0f, glm::vec3(ray.d), float(ray.t_max)};
 }
 
 void check_ended(uint32_t flags) {
@@ -18,23 +17,23 @@ void check_ended(uint32_t flags) {
 }
 
 QueryHit to_query_hit(const shader::QueryHit& result) {
-  check_ended(result.hit.z);
-  const auto t = double(std::bit_cast<float>(result.hit.x));
-  if (t >= double(T_MISS)) return {std::numeric_limits<double>::infinity(), -1, result.hit.z};
-  return {t, result.hit.y == NONE ? -1 : int64_t{result.hit.y}, result.hit.z};
+  check_ended(result.flags);
+  const auto t = double(result.t);
+  if (t >= double(T_MISS)) return {std::numeric_limits<double>::infinity(), -1, result.flags};
+  return {t, result.primitive == NONE ? -1 : int64_t{result.primitive}, result.flags};
 }
 
 FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye) {
-  check_ended(result.ids.z);
+  check_ended(result.flags);
   FirstHit hit;
-  hit.flags = result.ids.z;
-  if (result.ids.x == NONE) return hit;
-  hit.t = double(result.position_t.w);
-  hit.position = eye + Vec3(result.position_t);
+  hit.flags = result.flags;
+  if (result.primitive == NONE) return hit;
+  hit.t = double(result.t);
+  hit.position = eye + Vec3(result.position);
   hit.normal = Vec3(result.normal);
-  hit.uv = {double(result.uv.x), double(result.uv.y)};
-  hit.primitive = int32_t(result.ids.x);
-  hit.material = int32_t(result.ids.y);
+  hit.uv = {double(result.u), double(result.v)};
+  hit.primitive = int32_t(result.primitive);
+  hit.material = int32_t(result.material);
   return hit;
 }
 

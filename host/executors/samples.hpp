@@ -12,12 +12,12 @@ void check_ended(uint32_t flags);
 
 // `ray_kinds`: whether the kernel counted them (records.h, SampleResult).
 inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds) {
-  PixelSample sample{Vec3(result.color), result.counts.x, result.counts.y, result.counts.z};
+  PixelSample sample{Vec3(result.color), result.rays, result.hits, result.flags};
   if (ray_kinds) {
     sample.flags &= (1u << REFRACTED_SHIFT) - 1;
-    sample.refracted = result.counts.z >> REFRACTED_SHIFT;
-    sample.reflected = result.counts.w & ((1u << TOTAL_SHIFT) - 1);
-    sample.total_reflections = result.counts.w >> TOTAL_SHIFT;
+    sample.refracted = refracted_of(result);
+    sample.reflected = reflected_of(result);
+    sample.total_reflections = total_reflections_of(result);
   }
   check_ended(sample.flags);
   return sample;

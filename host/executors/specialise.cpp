@@ -1,6 +1,7 @@
 #include "host/executors/specialise.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -60,25 +61,39 @@ std::string literal(uint32_t x) {
 std::string literal(const shader::vec4& v) {
   return fmt::format("vec4({}, {}, {}, {})", literal(v.x), literal(v.y), literal(v.z), literal(v.w));
 }
+std::string literal(const shader::vec3& v) {
+  return fmt::format("vec3({}, {}, {})", literal(v.x), literal(v.y), literal(v.z));
+}
 std::string literal(const shader::uvec4& v) {
   return fmt::format("uvec4({}, {}, {}, {})", literal(v.x), literal(v.y), literal(v.z), literal(v.w));
 }
+// A record of these members, in their order.
+template <typename... Members>
+std::string record_literal(std::string_view type, const Members&... members) {
+  return fmt::format("{}({})", type, fmt::join(std::array{literal(members)...}, ", "));
+}
 std::string literal(const shader::Primitive& p) {
-  return fmt::format("Primitive({}, {}, {}, {})", literal(p.head), literal(p.a), literal(p.b), literal(p.c));
+  return record_literal("Primitive", p.id, p.material_and_kind, p.optical_depth, p.extra, p.a, p.b, p.c);
 }
 std::string literal(const shader::Material& m) {
-  return fmt::format("Material({}, {}, {}, {})", literal(m.head), literal(m.textures), literal(m.parameters),
-                     literal(m.mask));
+  return record_literal("Material", m.kind, m.flags, m.medium, m.optical_depth, m.base, m.specular,
+                        m.reflected, m.ambient, m.emission, m.alpha, m.alpha_cutoff, m.shininess, m.a);
 }
 std::string literal(const shader::Texture& t) {
-  return fmt::format("Texture({}, {}, {}, {})", literal(t.even), literal(t.odd), literal(t.frequency),
-                     literal(t.image));
+  return record_literal("Texture", t.even, t.kind, t.odd, t.flags, t.frequency_u, t.frequency_v, t.width,
+                        t.height, t.first_texel, t.unused_0, t.unused_1, t.unused_2);
 }
 std::string literal(const shader::Medium& m) {
-  return fmt::format("Medium({})", literal(m.absorption_ior));
+  return record_literal("Medium", m.absorption, m.ior);
 }
 std::string literal(const shader::Light& l) {
-  return fmt::format("Light({}, {}, {})", literal(l.head), literal(l.position), literal(l.intensity));
+  return record_literal("Light", l.intensity, l.kind, l.a, l.b);
+}
+std::string literal(const shader::Frame& f) {
+  return record_literal("Frame", f.width, f.height, f.seed, f.samples_per_side, f.camera, f.pattern, f.media,
+                        f.max_depth, f.light_count, f.loop_probe, f.integrator, f.triangle_method, f.right,
+                        f.min_throughput, f.up, f.pixel_width, f.forward, f.pixel_height, f.background,
+                        f.unused_0, f.ambient, f.unused_1);
 }
 
 // A loader that chooses among constants. A driver that runs both sides of every branch selects between
@@ -113,7 +128,7 @@ std::string shading_as_constants(const PackedScene& scene, const std::set<uint32
   if (scene.texel_count > 0) return text;
   text += "#define SCENE_MATERIALS(X)";
   for (const uint32_t i : materials_used) {
-    const auto row = std::ranges::find(materials, scene.materials[i].head.x, &Row::number);
+    const auto row = std::ranges::find(materials, scene.materials[i].kind, &Row::number);
     text += fmt::format(" X({0}, {1}u, load_material({1}u))", row->name, i);
   }
   return text + "\n";
@@ -121,10 +136,7 @@ std::string shading_as_constants(const PackedScene& scene, const std::set<uint32
 
 // What is the same for all pixels, as a constant.
 std::string frame_as_constant(const shader::Frame& f) {
-  return fmt::format(
-      "Frame load_frame() {{ return Frame({}, {}, {}, {}, {}, {}, {}, {}); }}\n#define FRAME_AS_CONSTANT\n",
-      literal(f.image), literal(f.camera), literal(f.counts), literal(f.right), literal(f.up),
-      literal(f.forward), literal(f.background), literal(f.ambient));
+  return fmt::format("Frame load_frame() {{ return {}; }}\n#define FRAME_AS_CONSTANT\n", literal(f));
 }
 
 // Geometry as constants, and the list of primitives that bvh/traverse.glsl unrolls, in the order of their
@@ -134,7 +146,7 @@ std::string primitives_as_constants(const PackedScene& scene) {
                      constant_loader("Primitive", "primitive", scene.primitives) +
                      "#define SCENE_PRIMITIVES(X)";
   std::multimap<uint32_t, size_t> by_id;  // slots
-  for (size_t i = 0; i < scene.primitives.size(); ++i) by_id.emplace(scene.primitives[i].head.x, i);
+  for (size_t i = 0; i < scene.primitives.size(); ++i) by_id.emplace(scene.primitives[i].id, i);
   for (const auto& [id, i] : by_id)
     text += fmt::format(" X({}, {}u, load_primitive({}u))", shapes[kind_of(scene.primitives[i])].name, i, i);
   return text + "\n";
@@ -193,23 +205,26 @@ std::set<uint32_t> deferred_kinds(const PackedScene& scene) {
 
 // Whether any texture of the material varies over a surface.
 bool varies(const PackedScene& scene, const shader::Material& material) {
-  const shader::uvec4& used = material.textures;
   return std::ranges::any_of(
-      std::array{used.x, used.y, used.z, used.w, material.head.y >> MATERIAL_EMISSION_SHIFT, material.mask.x},
-      [&](uint32_t texture) { return scene.textures[texture].even.w != TEXTURE_CONSTANT; });
+      std::array{material.base, material.specular, material.reflected, material.ambient, material.emission,
+                 material.alpha},
+      [&](uint32_t texture) { return scene.textures[texture].kind != TEXTURE_CONSTANT; });
+}
+
+bool is_black(const shader::Texture& texture) {
+  return texture.kind == TEXTURE_CONSTANT && texture.even == shader::vec3(0);
 }
 
 bool any_emits(const PackedScene& scene) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const shader::Material& material) {
-    const shader::Texture& emission = scene.textures[material.head.y >> MATERIAL_EMISSION_SHIFT];
-    return emission.even != shader::vec4(0, 0, 0, TEXTURE_CONSTANT);
+  return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
+    return !is_black(scene.textures[material.emission]);
   });
 }
 
 // Whether the scene's integrator has paths that go on.
 bool scatters(const PackedScene& scene) {
 #define SCATTERS(name, number, shadow_rays, scatters) \
-  if (scene.frame.counts.z == number) return scatters;
+  if (scene.frame.integrator == number) return scatters;
   INTEGRATORS(SCATTERS)
 #undef SCATTERS
   return false;
@@ -218,21 +233,20 @@ bool scatters(const PackedScene& scene) {
 // Whether any material may send rays on.
 bool any_reflects(const PackedScene& scene) {
   return scene.media.size() > 1 ||
-         std::any_of(scene.materials.begin(), scene.materials.end(), [&](const shader::Material& material) {
-           const shader::Texture& reflected = scene.textures[material.textures.z];
-           return reflected.even != shader::vec4(0, 0, 0, TEXTURE_CONSTANT);
+         std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
+           return !is_black(scene.textures[material.reflected]);
          });
 }
 
 }  // namespace
 
 uint32_t most_bounces(const PackedScene& scene) {
-  return scatters(scene) && any_reflects(scene) ? scene.frame.camera.w : 0;
+  return scatters(scene) && any_reflects(scene) ? scene.frame.max_depth : 0;
 }
 
 bool casts_shadow_rays(const PackedScene& scene) {
 #define SHADOW_RAYS(name, number, shadow_rays, scatters) \
-  if (scene.frame.counts.z == number) return shadow_rays && !scene.lights.empty();
+  if (scene.frame.integrator == number) return shadow_rays && !scene.lights.empty();
   INTEGRATORS(SHADOW_RAYS)
 #undef SHADOW_RAYS
   return false;
@@ -249,20 +263,19 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
     for (const auto& [kind, material] : uses) {
       kinds.insert(kind);
       materials_used.insert(material);
-      material_kinds.insert(scene.materials[material].head.x);
+      material_kinds.insert(scene.materials[material].kind);
       if (varies(scene, scene.materials[material])) kinds_with_uv.insert(kind);
-      if (scene.materials[material].mask.y != 0) alpha_tested_kinds.insert(kind);
+      if (scene.materials[material].alpha_cutoff > 0) alpha_tested_kinds.insert(kind);
     }
   };
   take_note(scene.uses, shapes_used);
   take_note(scene.leaf_uses, leaves_used);
   const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
-                                   [](const shader::Texture& t) { return t.even.w == TEXTURE_CHECKER; });
+                                   [](const shader::Texture& t) { return t.kind == TEXTURE_CHECKER; });
   const bool images = scene.texel_count > 0;
   const bool media = scene.media.size() > 1;
-  const bool absorption = std::any_of(scene.media.begin(), scene.media.end(), [](const shader::Medium& m) {
-    return glm::vec3(m.absorption_ior) != glm::vec3(0);
-  });
+  const bool absorption = std::any_of(scene.media.begin(), scene.media.end(),
+                                      [](const shader::Medium& m) { return m.absorption != glm::vec3(0); });
   const bool unrolled = options.constants && few_primitives(scene);
 
   std::string text = "// Made for this scene by executors/specialise.cpp.\n";
@@ -270,7 +283,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
     text += fmt::format("#define {} {}\n", name, value);
   };
   define("LIGHT_COUNT", fmt::format("{}u", scene.lights.size()));
-  define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.counts.w));
+  define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.triangle_method));
   define("HAS_CHECKER", int(checker));
   define("HAS_IMAGES", int(images));
   define("HAS_COLORS", int(scene.vertex_colors));
@@ -279,7 +292,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_MEDIA", int(media));
   define("HAS_ABSORPTION", int(absorption));
   // Only where a ray splits in two does a child wait, and one a level at most.
-  define("PATH_STACK", media ? scene.frame.camera.w : 0u);
+  define("PATH_STACK", media ? scene.frame.max_depth : 0u);
   define("TRACE_ITERATIONS", fmt::format("{}u", trace_iterations(scene, unrolled)));
   define("TEXEL_BUFFERS", int(options.profile.texel_buffers));
   define("HAS_BVH", scene.has_bvh ? "true" : "false");
@@ -329,7 +342,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   text += registry("DEFERRED_SHAPES", "shapes", shapes, slow);
   text += registry("ALPHA_TESTED_SHAPES", "shapes", shapes, alpha_tested_kinds);
   text += registry("MATERIALS", "materials", materials, material_kinds);
-  text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.counts.z});
+  text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.integrator});
   return text;
 }
 

@@ -27,9 +27,9 @@ Wavefront::Wavefront(gpu::Device& device, const MakeKernel& make_kernel, const W
 }
 
 std::optional<double> Wavefront::run(shader::Dispatch push, gpu::Buffer& results) {
-  const uint32_t blocks = (push.tile.z + 7) / 8 * ((push.tile.w + 7) / 8);  // of 8 × 8 pixels
+  const uint32_t blocks = (push.tile_width + 7) / 8 * ((push.tile_height + 7) / 8);  // of 8 × 8 pixels
   const uint32_t rays_a_group = 64 / options_.subgroup * PACKET;
-  make_room(push.tile.z * push.tile.w);
+  make_room(push.count);
   for (Bounce* bounce : {&eye_, &later_})
     if (bounce->shade) bounce->shade->set_buffer(BINDING_OUTPUT, results);
 
@@ -49,7 +49,7 @@ std::optional<double> Wavefront::run(shader::Dispatch push, gpu::Buffer& results
 
   // Then the paths that go on, bounce by bounce; or all the way, where rays split.
   const uint32_t bounces = options_.splits ? std::min(options_.bounces, 1u) : options_.bounces;
-  uint32_t& depth = push.sample_index.y;
+  uint32_t& depth = push.depth;
   for (depth = 1; depth <= bounces; ++depth) {
     gpu::Buffer& list = *lists_[(depth + 1) % 2];
     const uint32_t count = list.read_records<uint32_t>(1)[0];

@@ -33,7 +33,8 @@ class Wavefront {
 
   Wavefront(gpu::Device& device, const MakeKernel& make_kernel, const WavefrontOptions& options);
 
-  // One sample of every pixel of push.tile, as SampleResults; the seconds it took. Nothing when interrupted.
+  // One sample of every pixel of push's tile, as SampleResults; the seconds it took. Nothing when
+  // interrupted.
   std::optional<double> run(shader::Dispatch push, gpu::Buffer& results);
 
  private:

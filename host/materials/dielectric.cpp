@@ -90,8 +90,8 @@ class Dielectric final : public Material {
 
   void pack(Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_dielectric, values_.highlight, shadow_transmittance(), packer);
-    record.head[2] = packer.add_medium(values_.ior, values_.absorption);
-    record.textures[0] = record.textures[2] = packer.add_texture({Vec3(1), {}});
+    record.medium = packer.add_medium(values_.ior, values_.absorption);
+    record.base = record.reflected = packer.add_texture({Vec3(1), {}});
     packer.add(record);
   }
 

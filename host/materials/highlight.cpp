@@ -24,11 +24,19 @@ static uint32_t optical_depth_of(double transmittance) {
 shader::Material make_record(uint32_t kind, const Highlight& highlight, double shadow_transmittance,
                              Packer& packer) {
   const uint32_t black = packer.add_texture({});
-  const uint32_t flags = (highlight.blinn ? MATERIAL_BLINN : 0u) | black << MATERIAL_EMISSION_SHIFT;
-  return {.head = {kind, flags, 0u, optical_depth_of(shadow_transmittance)},
-          .textures = {black, packer.add_texture(highlight.specular), black, black},
-          .parameters = shader::vec4(float(highlight.shininess), 0.0f, 0.0f, 0.0f),
-          .mask = {}};
+  return {.kind = kind,
+          .flags = highlight.blinn ? MATERIAL_BLINN : 0u,
+          .medium = 0,
+          .optical_depth = optical_depth_of(shadow_transmittance),
+          .base = black,
+          .specular = packer.add_texture(highlight.specular),
+          .reflected = black,
+          .ambient = black,
+          .emission = black,
+          .alpha = black,
+          .alpha_cutoff = 0,
+          .shininess = float(highlight.shininess),
+          .a = shader::vec4(0)};
 }
 
 }  // namespace eyeray

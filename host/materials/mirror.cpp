@@ -50,7 +50,7 @@ class Mirror final : public Material {
 
   void pack(Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_mirror, values_.highlight, shadow_transmittance(), packer);
-    record.textures[0] = record.textures[2] = packer.add_texture(values_.reflectance);
+    record.base = record.reflected = packer.add_texture(values_.reflectance);
     packer.add(record);
   }
 

@@ -69,11 +69,10 @@ class Phong final : public Material {
 
   void pack(Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_phong, values_.highlight, shadow_transmittance(), packer);
-    record.textures[0] = packer.add_texture(values_.diffuse);
-    record.textures[2] = packer.add_texture(values_.reflectance);
-    record.textures[3] = packer.add_texture(ambient());
-    record.head.y = (record.head.y & MATERIAL_BLINN) | packer.add_texture(values_.emission)
-                                                           << MATERIAL_EMISSION_SHIFT;
+    record.base = packer.add_texture(values_.diffuse);
+    record.reflected = packer.add_texture(values_.reflectance);
+    record.ambient = packer.add_texture(ambient());
+    record.emission = packer.add_texture(values_.emission);
     packer.add(record);
   }
 

@@ -49,7 +49,7 @@ class Collapser {
     // A child stands after its parent.
     for (size_t i = covers_.size(); i-- > 0;) covers_[i] = cover_node(uint32_t(i));
     add_node();
-    fill(0, bvh_.head.x);
+    fill(0, bvh_.root);
     const uint32_t size = stack_size();
     return {std::move(bvh4_nodes_), size};
   }

@@ -86,9 +86,9 @@ class GeometryPacker {
       shape.pack(packer_);
       for (size_t piece = 0; piece < packed_.primitives.size(); ++piece) {
         shader::Primitive& record = packed_.primitives[piece];
-        record.head.x = uint32_t(id(i));
+        record.id = uint32_t(id(i));
         if (kind_of(record) == shader::KIND_csg) finish_csg(record, packed_);
-        record.head.z = use_material(kind_of(record), material_of(record), shape.counts_crossings());
+        record.optical_depth = use_material(kind_of(record), material_of(record), shape.counts_crossings());
         const Bounds bounds = packer_.pieces.empty() ? shape.bounds() : packer_.pieces.at(piece);
         records.add_shape(record, kind_of(record) == shader::KIND_triangle ? triangle_box(record)
                                                                            : shape_box(bounds, origin));
@@ -168,15 +168,18 @@ class GeometryPacker {
     return int(spaces_.size()) - 1;
   }
 
-  // `material` and `last`: as the record's.
+  // `material` and `depth_or_triangle`: as the record's.
   void add_instance(const Mat4& transform, uint32_t space, uint32_t first_id, uint32_t material,
-                    uint32_t last) {
+                    uint32_t depth_or_triangle) {
     // World is relative to the eye, and what stands there to the centre of its bounds.
     const Affine map(transform);
     const Mat3 inverse = glm::inverse(map.linear);
     const Vec3 to_world_offset = map.point(spaces_[space].origin) - scene_.camera.eye;
     shader::Instance record{};
-    record.head = {space + 1, first_id, material, last};
+    record.bvh = space + 1;
+    record.first_id = first_id;
+    record.material = material;
+    record.depth_or_triangle = depth_or_triangle;
     for (int row = 0; row < 3; ++row) {
       record.to_local[row] = to_vec4({inverse[0][row], inverse[1][row], inverse[2][row]});
       record.to_world[row] =
@@ -188,10 +191,10 @@ class GeometryPacker {
   // Takes note that shapes of a kind are made of a material. Returns what a shadow ray loses to each: a shape
   // weakens it once, a mesh or patch half at each crossing, for a closed body is left as it was entered.
   uint32_t use_material(uint32_t kind, uint32_t material, bool at_each_crossing) {
-    const shader::uvec4& head = packed_.materials[material].head;
+    const uint32_t optical_depth = packed_.materials[material].optical_depth;
     packed_.uses.emplace(kind, material);
-    translucent_ = translucent_ || head.w < OPTICAL_DEPTH_OPAQUE;
-    return at_each_crossing && head.w < OPTICAL_DEPTH_OPAQUE ? head.w / 2 : head.w;
+    translucent_ = translucent_ || optical_depth < OPTICAL_DEPTH_OPAQUE;
+    return at_each_crossing && optical_depth < OPTICAL_DEPTH_OPAQUE ? optical_depth / 2 : optical_depth;
   }
 
   // A floor under many small shapes, say: it stays in the linear list, whose boxes are then coded more
@@ -243,7 +246,7 @@ class GeometryPacker {
       packed_.quantised_nodes = packed_.quantised_nodes && quantising_is_harmless(space.bvh);
     }
     for (const shader::Instance& instance : packed_.instances)
-      world_.boxes.push_back(instance_box(instance, spaces_[instance.head.x - 1].box));
+      world_.boxes.push_back(instance_box(instance, spaces_[instance.bvh - 1].box));
     world_bvh_ = build_bvh(world_.boxes, bvh_options(world_));
     packed_.quantised_nodes = packed_.quantised_nodes && quantising_is_harmless(world_bvh_);
   }
@@ -255,8 +258,8 @@ class GeometryPacker {
     constexpr float harmless = 3;  // what the boxes have room for without this
     if (!instances && growth <= harmless) return;
     // Twice: for the way into the space, and for what a triangle there allows for rounding.
-    const float slack = bvh.extent.w * 2 * growth;
-    bvh.extent = shader::vec4(glm::vec3(bvh.extent) + glm::abs(glm::vec3(bvh.origin)), slack);
+    bvh.slack = bvh.slack * 2 * growth;
+    bvh.extent += glm::abs(bvh.origin);
   }
 
   // Of the world's own shapes, and of those in instances on their way there.
@@ -267,7 +270,7 @@ class GeometryPacker {
         float sum = 0;
         for (int column = 0; column < 3; ++column)
           for (int k = 0; k < 3; ++k) sum += std::fabs(row[k] * instance.to_local[k][column]);
-        growth = std::max(growth, sum * spaces_[instance.head.x - 1].map_growth);
+        growth = std::max(growth, sum * spaces_[instance.bvh - 1].map_growth);
       }
     return growth;
   }
@@ -313,9 +316,10 @@ class GeometryPacker {
       add_bvh(bvh, first_slot, items.size(), packed_);
     } else {
       // A single one is a leaf at the root.
-      packed_.bvhs.emplace_back();
-      packed_.bvhs.back().head = {LEAF | first_slot << 3, first_slot, uint32_t(packed_.primitives.size()),
-                                  0u};
+      shader::Bvh& record = packed_.bvhs.emplace_back();
+      record.root = LEAF | first_slot << 3;
+      record.first_slot = first_slot;
+      record.end_slot = uint32_t(packed_.primitives.size());
     }
     bvh.nodes = {};
     bvh.order = {};

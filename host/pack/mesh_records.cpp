@@ -16,16 +16,16 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
   const bool normals = !mesh.normals.empty();
   const bool uv = !mesh.uv.empty();
   const bool colors = !mesh.colors.empty();
-  head_ = Packer::head(shader::KIND_triangle, material);
-  head_.x = first_id;
-  head_.z = optical_depth;
+  first_ = Packer::primitive(shader::KIND_triangle, material, {}, {}, {});
+  first_.id = first_id;
+  first_.optical_depth = optical_depth;
   if (!normals && !uv && !colors) return;
 
   // What corners look up, and by triangle which its corners are.
   const auto first_vertex = uint32_t(vertices.size());
   const uint32_t vertex_records = colors ? 2 : 1;
   const auto first_corners = uint32_t(first_vertex + mesh.positions.size() * vertex_records);
-  head_.w = first_corners;
+  first_.extra = first_corners;
   corner_records_ = uv ? 2 : 1;
   const CornerNormals map_normal(map);
   vertices.resize(first_corners + mesh.triangles.size() * corner_records_);
@@ -49,10 +49,9 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
 shader::Primitive MeshRecords::record(uint32_t triangle) const {
   const Corners at = corners(triangle);
   const Vec3 outward = mirrored_ ? -geometric_normal(at) : geometric_normal(at);
-  shader::Primitive record;
-  record.head = head_;
-  record.head.x += triangle;
-  record.head.w += triangle * corner_records_;
+  shader::Primitive record = first_;
+  record.id += triangle;
+  record.extra += triangle * corner_records_;
   record.a = to_vec4(at[0] - origin_, outward.x);
   record.b = to_vec4(at[1] - origin_, outward.y);
   record.c = to_vec4(at[2] - origin_, outward.z);

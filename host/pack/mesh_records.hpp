@@ -34,7 +34,7 @@ class MeshRecords {
   Affine map_;
   Vec3 origin_;
   bool mirrored_;
-  shader::uvec4 head_;           // of the first
+  shader::Primitive first_;      // what all have in common, and the first's id and corners
   uint32_t corner_records_ = 0;  // vec4 a triangle among the vertices
 };
 

@@ -100,18 +100,18 @@ void add_bvh(const bvh::Bvh& bvh, uint32_t first_slot, uint32_t first_instance, 
   });
 
   shader::Bvh record{};
-  record.head.x = first_node;
-  record.head.y = first_slot;
-  record.head.z = first_slot + uint32_t(bvh.order.size());
+  record.root = first_node;
+  record.first_slot = first_slot;
+  record.end_slot = first_slot + uint32_t(bvh.order.size());
   if (scene.quantised_nodes) {
-    record.origin = shader::vec4(grid.origin, 0.0f);
-    record.step = shader::vec4(grid.step, 0.0f);
-    record.extent = shader::vec4(grid.step * float(largest_code), 0.0f);
+    record.origin = grid.origin;
+    record.step = grid.step;
+    record.extent = grid.step * float(largest_code);
   } else {
-    record.step = shader::vec4(1.0f, 1.0f, 1.0f, 0.0f);
-    record.extent = shader::vec4(glm::max(glm::abs(bvh.box.lower), glm::abs(bvh.box.upper)), 0.0f);
+    record.step = glm::vec3(1);
+    record.extent = glm::max(glm::abs(bvh.box.lower), glm::abs(bvh.box.upper));
   }
-  record.extent.w = 0x1p-18f;
+  record.slack = 0x1p-18f;
   scene.bvhs.push_back(record);
 }
 

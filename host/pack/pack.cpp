@@ -1,6 +1,5 @@
 #include "host/pack/pack.hpp"
 
-#include <bit>
 #include <cmath>
 
 #include "host/core/error.hpp"
@@ -14,15 +13,12 @@ namespace {
 shader::Light pack_light(const Light& light, const Packer& packer) {
   shader::Light record{};
   const bool point = light.type == LightType::point;
-  record.head.x = point ? LIGHT_POINT : LIGHT_DIRECTIONAL;
-  record.head.y = light.falloff == Falloff::inverse_square ? FALLOFF_INVERSE_SQUARE : FALLOFF_NONE;
-  record.position = to_vec4(point ? packer.relative(light.position) : light.to_light);
-  record.intensity = to_vec4(light.intensity);
+  record.kind = point ? LIGHT_POINT : LIGHT_DIRECTIONAL;
+  record.intensity = glm::vec3(light.intensity);
+  record.a = point
+                 ? to_vec4(packer.relative(light.position), light.falloff == Falloff::inverse_square ? 1 : 0)
+                 : to_vec4(light.to_light);
   return record;
-}
-
-shader::uvec4 pack_mask(const AlphaMask& mask, Packer& packer) {
-  return {packer.add_texture(mask.alpha), std::bit_cast<uint32_t>(float(mask.cutoff)), 0u, 0u};
 }
 
 // The media around the eye as materials/media.glsl stacks them: a byte each, the innermost lowest.
@@ -32,26 +28,34 @@ uint32_t pack_media(const Scene& scene, const PackedScene& packed) {
     throw Error(ExitCode::bad_input, "the camera's eye is inside {} media at once; at most 4 may nest",
                 media.size());
   uint32_t stack = 0;
-  for (const int material : media) stack = stack << 8 | packed.materials[size_t(material)].head.z;
+  for (const int material : media) stack = stack << 8 | packed.materials[size_t(material)].medium;
   return stack;
 }
 
 shader::Frame pack_frame(const Scene& scene, const PackedScene& packed) {
   const CameraFrame camera = camera_frame(scene.camera, scene.image.width, scene.image.height);
   shader::Frame frame{};
-  frame.image = {uint32_t(scene.image.width), uint32_t(scene.image.height), scene.render.seed,
-                 uint32_t(std::lround(std::sqrt(double(scene.image.samples))))};
-  frame.camera = {scene.camera.type == CameraType::orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE,
-                  scene.image.pattern == SamplePattern::jittered ? PATTERN_JITTERED : PATTERN_REGULAR,
-                  pack_media(scene, packed), uint32_t(scene.render.max_depth)};
-  frame.counts = {
-      uint32_t(packed.lights.size()), 2, uint32_t(scene.render.integrator),
-      scene.render.triangle_method == TriangleMethod::woop ? TRIANGLE_WOOP : TRIANGLE_MOLLER_TRUMBORE};
-  frame.right = to_vec4(camera.right, scene.render.min_throughput);
-  frame.up = to_vec4(camera.up, 2.0 / scene.image.width);
-  frame.forward = to_vec4(camera.forward, 2.0 / scene.image.height);
-  frame.background = to_vec4(scene.render.background);
-  frame.ambient = to_vec4(scene.render.ambient);
+  frame.width = uint32_t(scene.image.width);
+  frame.height = uint32_t(scene.image.height);
+  frame.seed = scene.render.seed;
+  frame.samples_per_side = uint32_t(std::lround(std::sqrt(double(scene.image.samples))));
+  frame.camera = scene.camera.type == CameraType::orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;
+  frame.pattern = scene.image.pattern == SamplePattern::jittered ? PATTERN_JITTERED : PATTERN_REGULAR;
+  frame.media = pack_media(scene, packed);
+  frame.max_depth = uint32_t(scene.render.max_depth);
+  frame.light_count = uint32_t(packed.lights.size());
+  frame.loop_probe = 2;
+  frame.integrator = uint32_t(scene.render.integrator);
+  frame.triangle_method =
+      scene.render.triangle_method == TriangleMethod::woop ? TRIANGLE_WOOP : TRIANGLE_MOLLER_TRUMBORE;
+  frame.right = glm::vec3(camera.right);
+  frame.min_throughput = float(scene.render.min_throughput);
+  frame.up = glm::vec3(camera.up);
+  frame.pixel_width = float(2.0 / scene.image.width);
+  frame.forward = glm::vec3(camera.forward);
+  frame.pixel_height = float(2.0 / scene.image.height);
+  frame.background = glm::vec3(scene.render.background);
+  frame.ambient = glm::vec3(scene.render.ambient);
   return frame;
 }
 
@@ -59,7 +63,11 @@ Packer pack_records(const Scene& scene, const PackOptions& options) {
   Packer packer(scene.camera.eye);
   for (const auto& material : scene.materials) {
     material->pack(packer);
-    if (material->mask) packer.scene.materials.back().mask = pack_mask(*material->mask, packer);
+    if (material->mask) {
+      shader::Material& record = packer.scene.materials.back();
+      record.alpha = packer.add_texture(material->mask->alpha);
+      record.alpha_cutoff = float(material->mask->cutoff);
+    }
   }
   pack_geometry(scene, options, packer);
   for (const Light& light : scene.lights) packer.scene.lights.push_back(pack_light(light, packer));

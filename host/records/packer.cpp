@@ -53,7 +53,7 @@ uint32_t Packer::add_formula(const std::shared_ptr<const Formula>& formula, bool
 
 uint32_t Packer::add_medium(double ior, const Vec3& absorption) {
   CHECK_LT(scene.media.size(), size_t{256});
-  scene.media.push_back({to_vec4(absorption, ior)});
+  scene.media.push_back({glm::vec3(absorption), float(ior)});
   return uint32_t(scene.media.size() - 1);
 }
 
@@ -99,17 +99,23 @@ void Packer::write_texels() {
 uint32_t Packer::add_texture(const Texture& texture) {
   shader::Texture record{};
   if (texture.checker) {
-    record.even = to_vec4(texture.checker->even, double(TEXTURE_CHECKER));
-    record.odd = to_vec4(texture.checker->odd);
-    record.frequency = to_vec4(Vec3(1.0 / texture.checker->size.x, 1.0 / texture.checker->size.y, 0));
+    record.kind = TEXTURE_CHECKER;
+    record.even = glm::vec3(texture.checker->even);
+    record.odd = glm::vec3(texture.checker->odd);
+    record.frequency_u = float(1.0 / texture.checker->size.x);
+    record.frequency_v = float(1.0 / texture.checker->size.y);
   } else {
-    record.even = to_vec4(texture.value, double(texture.image ? TEXTURE_IMAGE : TEXTURE_CONSTANT));
+    record.kind = texture.image ? TEXTURE_IMAGE : TEXTURE_CONSTANT;
+    record.even = glm::vec3(texture.value);
   }
   if (texture.image) {
     const ImageTexture& image = *texture.image;
-    record.frequency = to_vec4(Vec3(1.0 / texture.image_size.x, 1.0 / texture.image_size.y, 0));
-    record.image = {uint32_t(image.width), uint32_t(image.height), add_image(texture.image),
-                    image_flags(image)};
+    record.frequency_u = float(1.0 / texture.image_size.x);
+    record.frequency_v = float(1.0 / texture.image_size.y);
+    record.width = uint32_t(image.width);
+    record.height = uint32_t(image.height);
+    record.first_texel = add_image(texture.image);
+    record.flags = image_flags(image);
   }
   const size_t hash = hash_bytes(std::as_bytes(std::span(&record, 1)));
   const auto [begin, end] = textures_by_bytes_.equal_range(hash);

@@ -53,9 +53,9 @@ struct PackedScene {
   bool may_reach_iteration_limit = false;  // whether any shape may return T_ITERATION_LIMIT
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
-  size_t texel_count = 0;        // of `texels`, written or not; 0 without images
-  std::vector<uint32_t> texels;  // records.h says how
-  std::vector<shader::Medium> media{{shader::vec4(0, 0, 0, 1)}};  // by number; 0 is the vacuum
+  size_t texel_count = 0;                             // of `texels`, written or not; 0 without images
+  std::vector<uint32_t> texels;                       // records.h says how
+  std::vector<shader::Medium> media{{{0, 0, 0}, 1}};  // by number; 0 is the vacuum
   std::vector<shader::Light> lights;
   shader::Frame frame{};
 };
@@ -76,9 +76,11 @@ class Packer {
     add(primitive);
     pieces.push_back(bounds);
   }
-  // The head of a primitive; its id and optical depth are filled in later. `extra`: an index into vertices.
-  static shader::uvec4 head(uint32_t kind, int material, uint32_t extra = NONE) {
-    return {0u, uint32_t(material) | kind << 24, 0u, extra};
+  // A primitive; its id and optical depth are filled in later. a, b, c: what the shape's .glsl says. `extra`:
+  // an index into vertices.
+  static shader::Primitive primitive(uint32_t kind, int material, const shader::vec4& a,
+                                     const shader::vec4& b, const shader::vec4& c, uint32_t extra = NONE) {
+    return {0u, shader::material_and_kind(uint32_t(material), kind), 0u, extra, a, b, c};
   }
   void add(const shader::Material& material) { scene.materials.push_back(material); }
   // The index at which `data` now starts in the vertices.
@@ -117,13 +119,6 @@ class Packer {
   std::unordered_multimap<size_t, size_t> images_by_texels_;
   std::unordered_multimap<size_t, size_t> textures_by_bytes_;
 };
-
-inline uint32_t kind_of(const shader::Primitive& primitive) {
-  return primitive.head.y >> 24;
-}
-inline uint32_t material_of(const shader::Primitive& primitive) {
-  return primitive.head.y & 0xffffffu;
-}
 
 // Float32 records from float64 values.
 inline shader::vec4 to_vec4(const Vec3& v, double w = 0) {

@@ -126,11 +126,12 @@ class Bezier final : public Shape {
       // Both ends; of 24 arcs, each with its middle and its next end; of 4 roots.
       packer.add_iterations(2 * 4 + 24 * (1 + 4 + 4) + 4 * 40);
       packer.add_iteration_limit();
-      packer.add_piece({.head = Packer::head(shader::KIND_bezier, material, extra),
-                        .a = shader::vec4(float(from.x), float(to.x), float(from.y), float(to.y)),
-                        .b = to_vec4(packer.relative(piece.middle), piece.radius + room),
-                        .c = to_vec4(piece.normal, mirrored_ ? -piece.beyond : piece.beyond)},
-                       {piece.bounds.min - room, piece.bounds.max + room});
+      packer.add_piece(
+          Packer::primitive(shader::KIND_bezier, material,
+                            shader::vec4(float(from.x), float(to.x), float(from.y), float(to.y)),
+                            to_vec4(packer.relative(piece.middle), piece.radius + room),
+                            to_vec4(piece.normal, mirrored_ ? -piece.beyond : piece.beyond), extra),
+          {piece.bounds.min - room, piece.bounds.max + room});
     }
   }
 

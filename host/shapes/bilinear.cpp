@@ -109,10 +109,9 @@ class Bilinear final : public Shape {
 
   void pack(Packer& packer) const override {
     const Vec3 last = packer.relative(p(2));
-    packer.add({.head = Packer::head(shader::KIND_bilinear, material, mirrored_ ? 1 : 0),
-                .a = to_vec4(packer.relative(p(0)), last.x),
-                .b = to_vec4(packer.relative(p(1)), last.y),
-                .c = to_vec4(packer.relative(p(3)), last.z)});
+    packer.add(Packer::primitive(shader::KIND_bilinear, material, to_vec4(packer.relative(p(0)), last.x),
+                                 to_vec4(packer.relative(p(1)), last.y),
+                                 to_vec4(packer.relative(p(3)), last.z), mirrored_ ? 1 : 0));
   }
 
  private:

@@ -19,7 +19,7 @@ namespace {
 uint32_t kind_of(const Shape& shape) {
   Packer packer(Vec3(0));
   shape.pack(packer);
-  return eyeray::kind_of(packer.scene.primitives[0]);
+  return shader::kind_of(packer.scene.primitives[0]);
 }
 
 std::pair<Vec3, Vec3> center_and_half(const Bounds& bounds) {
@@ -205,9 +205,9 @@ void Solid::pack(Packer& packer) const {
     leaves_[i].shape->pack(packer);
     const shader::Primitive leaf = packer.scene.primitives.back();
     packer.scene.primitives.pop_back();
-    CHECK_EQ(eyeray::kind_of(leaf), leaves_[i].kind);
+    CHECK_EQ(shader::kind_of(leaf), leaves_[i].kind);
     const auto [center, half] = center_and_half(leaves_[i].shape->bounds());
-    leaves.insert(leaves.end(), {leaf.head, to_bits(leaf.a), to_bits(leaf.b), to_bits(leaf.c),
+    leaves.insert(leaves.end(), {shader::head_of(leaf), to_bits(leaf.a), to_bits(leaf.b), to_bits(leaf.c),
                                  to_bits(to_vec4(packer.relative(center))), to_bits(to_vec4(half))});
     removed |= leaves_[i].removed ? 1u << i : 0;
   }
@@ -220,10 +220,8 @@ void Solid::pack(Packer& packer) const {
   // Once round all leaves a crossing; most are crossed twice.
   packer.add_iterations((2 * leaves_.size() + 1) * (leaves_.size() + nodes.size()));
   const auto [center, half] = center_and_half(bounds());
-  packer.add({.head = Packer::head(shader::KIND_csg, material, extra),
-              .a = to_vec4(packer.relative(center)),
-              .b = to_vec4(half),
-              .c = {}});
+  packer.add(Packer::primitive(shader::KIND_csg, material, to_vec4(packer.relative(center)), to_vec4(half),
+                               shader::vec4(0), extra));
 }
 
 namespace {

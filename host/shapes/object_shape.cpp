@@ -130,10 +130,8 @@ void ObjectShape::pack_with(Packer& packer, const std::vector<float>& parameters
   packer.add_iterations(steps_);
   if (steps_ > 0) packer.add_iteration_limit();
   packer.add_map_growth(growth(to_world_, to_object_));
-  packer.add({.head = Packer::head(kind_, material, extra),
-              .a = row(to_object_, 0, center),
-              .b = row(to_object_, 1, center),
-              .c = row(to_object_, 2, center)});
+  packer.add(Packer::primitive(kind_, material, row(to_object_, 0, center), row(to_object_, 1, center),
+                               row(to_object_, 2, center), extra));
 }
 
 Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, double high) {

@@ -89,10 +89,9 @@ class Parallelogram final : public Shape {
   void pack(Packer& packer) const override {
     const Vec3 origin = packer.relative(origin_);
     const uint32_t opposite = packer.add_vertices({to_bits(to_vec4(origin + edge_u_ + edge_v_))});
-    packer.add({.head = Packer::head(shader::KIND_parallelogram, material, opposite),
-                .a = to_vec4(origin, normal_.x),
-                .b = to_vec4(origin + edge_u_, normal_.y),
-                .c = to_vec4(origin + edge_v_, normal_.z)});
+    packer.add(Packer::primitive(shader::KIND_parallelogram, material, to_vec4(origin, normal_.x),
+                                 to_vec4(origin + edge_u_, normal_.y), to_vec4(origin + edge_v_, normal_.z),
+                                 opposite));
   }
 
  private:

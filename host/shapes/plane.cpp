@@ -72,10 +72,9 @@ class Plane final : public Shape {
 
   void pack(Packer& packer) const override {
     const Vec3 point = packer.relative(point_);
-    packer.add({.head = Packer::head(shader::KIND_plane, material),
-                .a = to_vec4(normal_, glm::dot(normal_, point)),
-                .b = to_vec4(u_gradient_, -glm::dot(u_gradient_, point)),
-                .c = to_vec4(v_gradient_, -glm::dot(v_gradient_, point))});
+    packer.add(Packer::primitive(shader::KIND_plane, material, to_vec4(normal_, glm::dot(normal_, point)),
+                                 to_vec4(u_gradient_, -glm::dot(u_gradient_, point)),
+                                 to_vec4(v_gradient_, -glm::dot(v_gradient_, point))));
   }
 
  private:

@@ -110,10 +110,9 @@ class Polygon final : public Shape {
 
     const size_t turns = (vertices.size() - path_begin - 1) / 4;
     packer.add_iterations(turns);
-    packer.add({.head = Packer::head(shader::KIND_polygon, material, packer.add_vertices(vertices)),
-                .a = to_vec4(normal_, double(turns)),
-                .b = to_vec4(centre),
-                .c = to_vec4(reach * (1 + 0x1p-23))});
+    packer.add(Packer::primitive(shader::KIND_polygon, material, to_vec4(normal_, double(turns)),
+                                 to_vec4(centre), to_vec4(reach * (1 + 0x1p-23)),
+                                 packer.add_vertices(vertices)));
   }
 
  private:

@@ -79,10 +79,8 @@ class Sphere final : public Shape {
 
   void pack(Packer& packer) const override {
     const bool mirrored = glm::determinant(axes_) < 0;
-    packer.add({.head = Packer::head(shader::KIND_sphere, material),
-                .a = to_vec4(packer.relative(center_), radius_),
-                .b = to_vec4(axes_[1]),
-                .c = to_vec4(axes_[0], mirrored ? -1 : 1)});
+    packer.add(Packer::primitive(shader::KIND_sphere, material, to_vec4(packer.relative(center_), radius_),
+                                 to_vec4(axes_[1]), to_vec4(axes_[0], mirrored ? -1 : 1)));
   }
 
  private:

@@ -121,10 +121,10 @@ class Triangle final : public Shape {
     }
     // Without −0, so that compiled-in triangles of one plane share what is computed of it.
     const Vec3 normal = normal_ + 0.0;
-    packer.add({.head = Packer::head(shader::KIND_triangle, material, attributes),
-                .a = to_vec4(packer.relative(vertices_[0]), normal.x),
-                .b = to_vec4(packer.relative(vertices_[1]), normal.y),
-                .c = to_vec4(packer.relative(vertices_[2]), normal.z)});
+    packer.add(Packer::primitive(shader::KIND_triangle, material,
+                                 to_vec4(packer.relative(vertices_[0]), normal.x),
+                                 to_vec4(packer.relative(vertices_[1]), normal.y),
+                                 to_vec4(packer.relative(vertices_[2]), normal.z), attributes));
   }
 
  private:

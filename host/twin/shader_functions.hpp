@@ -83,8 +83,8 @@ class Binding {
 // What a specialised kernel gets from its generated scene.glsl, here for every scene.
 #define KIND_FIRST(name) bound_scene->first_linear(KIND_##name)
 #define KIND_END(name) bound_scene->linear_ends[KIND_##name]
-#define LIGHT_COUNT bound_scene->frame.counts.x
-#define TRIANGLE_METHOD bound_scene->frame.counts.w
+#define LIGHT_COUNT bound_scene->frame.light_count
+#define TRIANGLE_METHOD bound_scene->frame.triangle_method
 #define HAS_BVH bound_scene->has_bvh
 #define QUANTISED_NODES bound_scene->quantised_nodes
 #define BVH_HOLDS(number, primitive) (kind_of(primitive) == number)
@@ -99,9 +99,9 @@ class Binding {
 #define SHIFT_STACK 0
 #define STACK_SIZE 128
 #define TRACE_ITERATIONS 0u
-#define LOOP_PROBE bound_scene->frame.counts.y
+#define LOOP_PROBE bound_scene->frame.loop_probe
 #define PATH_STACK 64
-#define INTEGRATOR_IS(number) (bound_scene->frame.counts.z == number)
+#define INTEGRATOR_IS(number) (bound_scene->frame.integrator == number)
 #define HAS_CHECKER 1
 #define HAS_IMAGES 1
 #define HAS_COLORS 1

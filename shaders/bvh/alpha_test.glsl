@@ -15,11 +15,11 @@ float alpha_test(Primitive primitive, uint instance, Ray ray, float t, vec2 uv) 
 #if HAS_INSTANCES
   if (instance != NONE) {
     Instance shown = load_instance(instance);
-    if (!of_group(shown)) index = shown.head.z;
+    if (!of_group(shown)) index = shown.material;
   }
 #endif
-  uvec4 mask = load_material(index).mask;
-  if (mask.y != 0u && t > 0.0f) {
+  Material material = load_material(index);
+  if (material.alpha_cutoff > 0.0f && t > 0.0f) {
     Hit hit;
     hit.t = t;
     hit.slot = 0u;
@@ -30,11 +30,11 @@ float alpha_test(Primitive primitive, uint instance, Ray ray, float t, vec2 uv) 
 #define PLACE_ON(name, number) \
     if (kind_of(primitive) == number) at = name##_surface(primitive, ray, hit).uv;
     ALPHA_TESTED_SHAPES(PLACE_ON)
-    float alpha = texture_alpha(mask.x, at);
+    float alpha = texture_alpha(material.alpha, at);
 #if HAS_COLORS
     alpha = alpha * vertex_alpha(primitive, uv);
 #endif
-    if (alpha < uintBitsToFloat(mask.y)) return -1.0f;
+    if (alpha < material.alpha_cutoff) return -1.0f;
   }
 #endif
   return t;

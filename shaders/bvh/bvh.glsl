@@ -26,11 +26,11 @@ struct BoxRay {
 
 
 BoxRay box_ray(Ray ray, Bvh bvh) {
-  vec3 offset = ray.o - vec3(bvh.origin);
-  float reach = max_component(abs3(offset) + vec3(bvh.extent));
-  vec3 slack = abs3(ray.inverse) * (bvh.extent.w * reach);
+  vec3 offset = ray.o - bvh.origin;
+  float reach = max_component(abs3(offset) + bvh.extent);
+  vec3 slack = abs3(ray.inverse) * (bvh.slack * reach);
   BoxRay boxes;
-  boxes.scale = vec3(bvh.step) * ray.inverse;
+  boxes.scale = bvh.step * ray.inverse;
   boxes.near = offset * ray.inverse + slack;
   boxes.far = offset * ray.inverse - slack;
   if (QUANTISED_NODES) {

@@ -66,7 +66,7 @@ uint optical_depth_of(Primitive primitive, bool is_csg, Ray ray, float t_max, bo
 #if HAS_MIXED_CSG
   if (any && is_csg) return csg_optical_depth(primitive, ray, t_max);
 #endif
-  return primitive.head.z;
+  return primitive.optical_depth;
 }
 
 #ifdef SCENE_PRIMITIVES
@@ -130,7 +130,7 @@ void traverse(INOUT(TraversalState) state, LocalRay world, bool any) {
   LocalRay local = world;
   BoxRay boxes = box_ray(local.ray, load_bvh(0u));
   Stack stack = empty_stack();
-  uint at = load_bvh(0u).head.x;
+  uint at = load_bvh(0u).root;
   do {
 #if HAS_DEFERRED_SHAPES
     do {
@@ -183,13 +183,13 @@ void traverse(INOUT(TraversalState) state, LocalRay world, bool any) {
       bool leaving = at == LEAVE_INSTANCE;
       uint index = at & ~INSTANCE_LEAF;
       Instance instance = load_instance(leaving ? 0u : index);
-      Bvh bvh = load_bvh(leaving ? 0u : instance.head.x);
+      Bvh bvh = load_bvh(leaving ? 0u : instance.bvh);
       if (leaving) {
         local = world;
         at = top_of(stack);
       } else {
         local = into_instance(world.ray, instance, index);
-        at = bvh.head.x;
+        at = bvh.root;
       }
       boxes = box_ray(local.ray, bvh);
       move_stack(stack, !leaving, leaving, LEAVE_INSTANCE);
@@ -222,7 +222,7 @@ void intersect_linear_list(INOUT(TraversalState) state, Ray ray, bool any) {
   {                                                                                         \
     float t = name##_intersect(constants, ray, uv);                                         \
     t = alpha_test(constants, NONE, ray, t, uv);                                        \
-    record_in_order(state, t, uv, index, constants.head.x, constants.head.z, any);            \
+    record_in_order(state, t, uv, index, constants.id, constants.optical_depth, any);            \
   }
   SCENE_PRIMITIVES(INTERSECT_CONSTANT)
 #else
@@ -234,7 +234,7 @@ void intersect_linear_list(INOUT(TraversalState) state, Ray ray, bool any) {
       float t = name##_intersect(primitive, ray, uv);                                            \
       t = alpha_test(primitive, NONE, ray, t, uv);                                           \
       uint optical_depth = optical_depth_of(primitive, number == KIND_csg, ray, state.hit.t, any);     \
-      record_intersection(state, t, uv, i, primitive.head.x, NONE, optical_depth, any);                               \
+      record_intersection(state, t, uv, i, primitive.id, NONE, optical_depth, any);                               \
     }
   SHAPES(INTERSECT_LINEAR_LIST)
 #endif
@@ -248,9 +248,9 @@ TraversalState search(Ray ray, float t_max, bool any) {
   if (!HAS_BVH) {
     for (uint i = 0u; i < INSTANCE_COUNT; i++) {
       Instance instance = load_instance(i);
-      Bvh bvh = load_bvh(instance.head.x);
+      Bvh bvh = load_bvh(instance.bvh);
       LocalRay local = into_instance(ray, instance, i);
-      for (uint slot = bvh.head.y; slot < bvh.head.z && state.occluded < OPTICAL_DEPTH_OPAQUE; slot++)
+      for (uint slot = bvh.first_slot; slot < bvh.end_slot && state.occluded < OPTICAL_DEPTH_OPAQUE; slot++)
         intersect_slot(state, slot, local, any);
     }
   }

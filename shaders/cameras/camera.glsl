@@ -10,20 +10,20 @@ SHADER_BEGIN
 // Where in the picture sample `index` of pixel (x, y) lies, in pixels from the top left: one of n × n cells, its centre or a
 // random place in it.
 vec2 sample_position(Frame frame, uint x, uint y, uint index) {
-  uint n = frame.image.w;
-  uint pixel = y * frame.image.x + x;
-  bool jittered = frame.camera.y == PATTERN_JITTERED;
-  float dx = jittered ? random_number(pixel, index, 0u, frame.image.z) : 0.5f;
-  float dy = jittered ? random_number(pixel, index, 1u, frame.image.z) : 0.5f;
+  uint n = frame.samples_per_side;
+  uint pixel = y * frame.width + x;
+  bool jittered = frame.pattern == PATTERN_JITTERED;
+  float dx = jittered ? random_number(pixel, index, 0u, frame.seed) : 0.5f;
+  float dy = jittered ? random_number(pixel, index, 1u, frame.seed) : 0.5f;
   return vec2(float(x) + (float(index % n) + dx) / float(n), float(y) + (float(index / n) + dy) / float(n));
 }
 
 Ray camera_ray(Frame frame, vec2 place) {
-  float x = (place.x - 0.5f * float(frame.image.x)) * frame.up.w;
-  float y = (0.5f * float(frame.image.y) - place.y) * frame.forward.w;
-  vec3 across = vec3(frame.right) * x + vec3(frame.up) * y;
-  if (frame.camera.x == CAMERA_ORTHOGRAPHIC) return make_ray(across, vec3(frame.forward));
-  return make_ray(vec3(0.0f, 0.0f, 0.0f), normalize3(across + vec3(frame.forward)));
+  float x = (place.x - 0.5f * float(frame.width)) * frame.pixel_width;
+  float y = (0.5f * float(frame.height) - place.y) * frame.pixel_height;
+  vec3 across = frame.right * x + frame.up * y;
+  if (frame.camera == CAMERA_ORTHOGRAPHIC) return make_ray(across, frame.forward);
+  return make_ray(vec3(0.0f, 0.0f, 0.0f), normalize3(across + frame.forward));
 }
 
 SHADER_END

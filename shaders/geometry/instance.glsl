@@ -27,10 +27,10 @@ LocalRay world_ray(Ray ray) {
 
 uint id_of(LocalRay local, Primitive primitive) {
 #if HAS_INSTANCES
-  uint id = primitive.head.x & ~ID_OF_TRIANGLE;
-  return (primitive.head.x & ID_OF_TRIANGLE) != 0u ? local.first_triangle + id : local.first_id + id;
+  uint id = primitive.id & ~ID_OF_TRIANGLE;
+  return (primitive.id & ID_OF_TRIANGLE) != 0u ? local.first_triangle + id : local.first_id + id;
 #else
-  return primitive.head.x;
+  return primitive.id;
 #endif
 }
 
@@ -43,8 +43,6 @@ vec3 map_size(vec4 rows[3], vec3 size) {
 // By rows as columns: what maps normals, when `rows` is the inverse map.
 vec3 transposed(vec4 rows[3], vec3 n) { return vec3(rows[0]) * n.x + vec3(rows[1]) * n.y + vec3(rows[2]) * n.z; }
 
-bool of_group(Instance instance) { return instance.head.z == NONE; }
-
 // The direction keeps its length in the instance's space, so that t stays the same. The difference comes first: near the instance it is exact
 // or nearly so.
 LocalRay into_instance(Ray ray, Instance instance, uint index) {
@@ -52,9 +50,9 @@ LocalRay into_instance(Ray ray, Instance instance, uint index) {
   local.ray = make_ray(map_direction(instance.to_local, ray.o - map_offset(instance.to_world)),
                        map_direction(instance.to_local, ray.d));
   local.instance = index;
-  local.first_id = instance.head.y;
-  local.first_triangle = instance.head.w;
-  local.optical_depth = of_group(instance) ? NONE : instance.head.w;
+  local.first_id = instance.first_id;
+  local.first_triangle = first_triangle_of(instance);
+  local.optical_depth = mesh_optical_depth(instance);
   return local;
 }
 

@@ -57,22 +57,22 @@ vec3 at_hit(ObjectRay ray, Hit hit) { return ray.o + ray.d * (hit.t - ray.t); }
 
 // Around all points up to `extent` from the centre of object space along its axes.
 void object_box(Primitive s, vec3 extent, OUT(vec3) lower, OUT(vec3) upper) {
-  vec4 x = bits_to_floats(load_vertex(s.head.w));
-  vec4 y = bits_to_floats(load_vertex(s.head.w + 1u));
-  vec4 z = bits_to_floats(load_vertex(s.head.w + 2u));
+  vec4 x = bits_to_floats(load_vertex(s.extra));
+  vec4 y = bits_to_floats(load_vertex(s.extra + 1u));
+  vec4 z = bits_to_floats(load_vertex(s.extra + 2u));
   vec3 centre = vec3(x.w, y.w, z.w);
   vec3 reach = vec3(dot3(abs3(vec3(x)), extent), dot3(abs3(vec3(y)), extent), dot3(abs3(vec3(z)), extent));
   lower = centre - reach;
   upper = centre + reach;
 }
 
-vec4 object_parameters(Primitive s) { return bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS)); }
+vec4 object_parameters(Primitive s) { return bits_to_floats(load_vertex(s.extra + OBJECT_PARAMETERS)); }
 
 // The world's surface. `p`: on the shape. `gradient`: points outward there, of about the length 1 where the map is extreme.
 Surface object_surface(Primitive s, vec3 p, vec3 gradient, vec2 uv) {
-  vec4 x = bits_to_floats(load_vertex(s.head.w));
-  vec4 y = bits_to_floats(load_vertex(s.head.w + 1u));
-  vec4 z = bits_to_floats(load_vertex(s.head.w + 2u));
+  vec4 x = bits_to_floats(load_vertex(s.extra));
+  vec4 y = bits_to_floats(load_vertex(s.extra + 1u));
+  vec4 z = bits_to_floats(load_vertex(s.extra + 2u));
   Surface surface;
   surface.p = vec3(dot3(vec3(x), p) + x.w, dot3(vec3(y), p) + y.w, dot3(vec3(z), p) + z.w);
 

@@ -70,24 +70,25 @@ vec2 inner_uv(vec2 uv) { return vec2(minimum(maximum(uv.x, 0.0f), 1.0f - EPSILON
 
 PacketHit packet_of_hit(Hit hit, uint flags) {
   PacketHit packet;
-  packet.hit = uvec4(floatBitsToUint(hit.t), hit.slot, hit.id, flags);
-  packet.uv = uvec4(floatBitsToUint(hit.uv.x), floatBitsToUint(hit.uv.y), 0u, 0u);
+  packet.t = hit.t;
+  packet.slot = hit.slot;
+  packet.id = hit.id;
+  packet.flags = flags;
+  packet.u = hit.uv.x;
+  packet.v = hit.uv.y;
   return packet;
 }
 
 Hit hit_of_packet(PacketHit packet, INOUT(uvec4) counts) {
-  counts.z = counts.z | packet.hit.w;
+  counts.z = counts.z | packet.flags;
   Hit hit;
-  hit.t = uintBitsToFloat(packet.hit.x);
-  hit.slot = packet.hit.y;
-  hit.id = packet.hit.z;
+  hit.t = packet.t;
+  hit.slot = packet.slot;
+  hit.id = packet.id;
   hit.instance = NONE;
-  hit.uv = vec2(uintBitsToFloat(packet.uv.x), uintBitsToFloat(packet.uv.y));
+  hit.uv = vec2(packet.u, packet.v);
   return hit;
 }
-
-uint kind_of(Primitive primitive) { return primitive.head.y >> 24u; }
-uint material_of(Primitive primitive) { return primitive.head.y & 0xffffffu; }
 
 // The last two axes after `major`, then `major` itself.
 vec3 permute(vec3 v, uint major) {

@@ -13,12 +13,12 @@ Primitive primitive_at(Hit hit) {
 #if HAS_INSTANCES
   if (hit.instance != NONE) {
     Instance instance = load_instance(hit.instance);
-    if (!of_group(instance)) primitive.head.y = instance.head.z | (primitive.head.y & 0xff000000u);
+    if (!of_group(instance)) primitive.material_and_kind = material_and_kind(instance.material, kind_of(primitive));
   }
 #endif
 #if HAS_CSG
   if (kind_of(primitive) == KIND_csg)
-    primitive.head.y = material_of(csg_leaf(primitive, hit)) | (primitive.head.y & 0xff000000u);
+    primitive.material_and_kind = material_and_kind(material_of(csg_leaf(primitive, hit)), KIND_csg);
 #endif
   return primitive;
 }

@@ -28,7 +28,7 @@ Path begin(Frame frame, Ray camera_ray) {
   path.d = camera_ray.d;
   path.throughput = vec3(1.0f, 1.0f, 1.0f);
   path.depth = 0u;
-  path.media = scatters() ? frame.camera.z : 0u;
+  path.media = scatters() ? frame.media : 0u;
 #if RAY_KINDS
   path.refracted = false;
 #endif

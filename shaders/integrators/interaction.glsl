@@ -38,10 +38,10 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   at.scatters.ior_to = 1.0f;
   at.media_behind = media;
 #if HAS_MEDIA
-  if (at.material.head.z != 0u)
-    at.media_behind = front ? enter_medium(media, at.material.head.z, flags) : leave_medium(media, at.material.head.z);
-  at.scatters.ior_from = load_medium(innermost_medium(media)).absorption_ior.w;
-  at.scatters.ior_to = load_medium(innermost_medium(at.media_behind)).absorption_ior.w;
+  if (at.material.medium != 0u)
+    at.media_behind = front ? enter_medium(media, at.material.medium, flags) : leave_medium(media, at.material.medium);
+  at.scatters.ior_from = load_medium(innermost_medium(media)).ior;
+  at.scatters.ior_to = load_medium(innermost_medium(at.media_behind)).ior;
 #endif
   at.scattering = scattering_of(material, at.material, at.scatters);
   return at;
@@ -50,7 +50,7 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
 // The share of light that the medium lets through on the way to a hit at t.
 vec3 medium_transmittance(uint media, float t) {
 #if HAS_ABSORPTION
-  vec4 absorption = load_medium(innermost_medium(media)).absorption_ior;
+  vec3 absorption = load_medium(innermost_medium(media)).absorption;
   return vec3(exp_negative(-absorption.x * t), exp_negative(-absorption.y * t), exp_negative(-absorption.z * t));
 #else
   return vec3(1.0f, 1.0f, 1.0f);

@@ -8,11 +8,11 @@
 
 SHADER_BEGIN
 
-vec3 raycast_missed(Frame frame) { return vec3(frame.background); }
+vec3 raycast_missed(Frame frame) { return frame.background; }
 
 vec3 raycast_emitted(Frame frame, Interaction at) {
   // Add up the lights; without any, the viewer holds one.
-  vec3 light = vec3(frame.ambient);
+  vec3 light = frame.ambient;
   for (uint i = 0u; i < LIGHT_COUNT; i++) {
     LightSample s = sample_light(load_light(i), at.seen.p);
     float cosine = dot3(at.seen.normal, s.direction);
@@ -20,9 +20,9 @@ vec3 raycast_emitted(Frame frame, Interaction at) {
   }
   float headlight = abs(dot3(at.seen.normal, at.d));
   if (LIGHT_COUNT == 0u) light = vec3(headlight, headlight, headlight);
-  vec3 base = texture_color(at.material.textures.x, at.surface.uv);
+  vec3 base = texture_color(at.material.base, at.surface.uv);
 #if HAS_EMISSION
-  base = base + texture_color(at.material.head.y >> MATERIAL_EMISSION_SHIFT, at.surface.uv);
+  base = base + texture_color(at.material.emission, at.surface.uv);
 #endif
 #if HAS_COLORS
   base = base * at.scatters.color;

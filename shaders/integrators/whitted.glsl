@@ -8,11 +8,11 @@
 
 SHADER_BEGIN
 
-vec3 whitted_missed(Frame frame) { return vec3(frame.background); }
+vec3 whitted_missed(Frame frame) { return frame.background; }
 
 // The ambient light, and the surface's own.
 vec3 whitted_emitted(Frame frame, Interaction at) {
-  vec3 color = at.scattering.ambient * vec3(frame.ambient);
+  vec3 color = at.scattering.ambient * frame.ambient;
 #if HAS_EMISSION
   color = color + at.scattering.emitted;
 #endif
@@ -39,7 +39,7 @@ vec3 refracted(vec3 d, vec3 n, float cos_view, float eta) {
 // Reflection and refraction, each where it counts for enough. Of both the refracted ray is next.
 Continuations whitted_scatter(Frame frame, Path path, Interaction at) {
   Continuations all = no_continuation(path);
-  bool deeper = path.depth < frame.camera.w;
+  bool deeper = path.depth < frame.max_depth;
   Path reflected = path;
   reflected.d = normalize3(at.d + at.seen.normal * (2.0f * at.scatters.cos_view));
   reflected.o = spawn_ray(at.surface, reflected.d).o;
@@ -48,7 +48,7 @@ Continuations whitted_scatter(Frame frame, Path path, Interaction at) {
 #if RAY_KINDS
   reflected.refracted = false;
 #endif
-  bool reflects = deeper && max_component(reflected.throughput) > frame.right.w;
+  bool reflects = deeper && max_component(reflected.throughput) > frame.min_throughput;
   all.next = reflected;
   all.count = reflects ? 1u : 0u;
 #if HAS_MEDIA
@@ -60,9 +60,9 @@ Continuations whitted_scatter(Frame frame, Path path, Interaction at) {
   transmitted.media = at.media_behind;
 #if RAY_KINDS
   transmitted.refracted = true;
-  all.total_reflection = deeper && at.material.head.z != 0u && max_component(at.scattering.transmitted) == 0.0f;
+  all.total_reflection = deeper && at.material.medium != 0u && max_component(at.scattering.transmitted) == 0.0f;
 #endif
-  bool transmits = deeper && max_component(transmitted.throughput) > frame.right.w;
+  bool transmits = deeper && max_component(transmitted.throughput) > frame.min_throughput;
   all.waiting = reflected;
   if (transmits) all.next = transmitted;
   all.count += transmits ? 1u : 0u;

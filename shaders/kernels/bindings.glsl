@@ -18,7 +18,7 @@ layout(std430, binding = BINDING_VERTICES) readonly restrict buffer Vertices { u
 layout(std430, binding = BINDING_NODES) readonly restrict buffer Nodes { uvec4 nodes[]; };
 layout(std430, binding = BINDING_TEXELS) readonly restrict buffer Texels { uint texels[]; };
 layout(std430, binding = BINDING_FRAME) readonly restrict buffer FrameBuffer { Frame frame_record; };
-#define LOOP_PROBE frame_record.counts.y
+#define LOOP_PROBE frame_record.loop_probe
 #endif
 #if STORED_HITS
 // What kernels/cooperative/packet.comp.glsl found for this sample: what the eye rays hit, and how much of each light is lost there.

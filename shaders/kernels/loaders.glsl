@@ -7,41 +7,30 @@
 #if TEXEL_BUFFERS
 uvec4 load_vertex(uint i) { return imageLoad(vertices, int(i)); }
 uvec4 load_node(uint i) { return imageLoad(nodes, int(i)); }
-uvec4 load_primitive_word(uint i) { return imageLoad(primitives, int(i)); }
 Primitive load_primitive(uint i) {
-  Primitive p;
-  p.head = load_primitive_word(4u * i);
-  p.a = uintBitsToFloat(load_primitive_word(4u * i + 1u));
-  p.b = uintBitsToFloat(load_primitive_word(4u * i + 2u));
-  p.c = uintBitsToFloat(load_primitive_word(4u * i + 3u));
-  return p;
+  int at = int(4u * i);
+  return primitive_of(imageLoad(primitives, at), uintBitsToFloat(imageLoad(primitives, at + 1)),
+                      uintBitsToFloat(imageLoad(primitives, at + 2)), uintBitsToFloat(imageLoad(primitives, at + 3)));
 }
 #else
 uvec4 load_vertex(uint i) { return vertices[i]; }
 uvec4 load_node(uint i) { return nodes[i]; }
 Primitive load_primitive(uint i) { return primitives[i]; }
-uvec4 load_primitive_word(uint i) {
-  uint which = i & 3u;
-  return which == 0u   ? primitives[i >> 2u].head
-         : which == 1u ? floatBitsToUint(primitives[i >> 2u].a)
-         : which == 2u ? floatBitsToUint(primitives[i >> 2u].b)
-                       : floatBitsToUint(primitives[i >> 2u].c);
-}
 #endif
 #endif
 #ifndef FRAME_AS_CONSTANT
 #if TEXEL_BUFFERS
 Frame load_frame() {
-  Frame f;
-  f.image = imageLoad(frame_words, 0);
-  f.camera = imageLoad(frame_words, 1);
-  f.counts = imageLoad(frame_words, 2);
-  f.right = uintBitsToFloat(imageLoad(frame_words, 3));
-  f.up = uintBitsToFloat(imageLoad(frame_words, 4));
-  f.forward = uintBitsToFloat(imageLoad(frame_words, 5));
-  f.background = uintBitsToFloat(imageLoad(frame_words, 6));
-  f.ambient = uintBitsToFloat(imageLoad(frame_words, 7));
-  return f;
+  uvec4 image = imageLoad(frame_words, 0);
+  uvec4 camera = imageLoad(frame_words, 1);
+  uvec4 counts = imageLoad(frame_words, 2);
+  vec4 right = uintBitsToFloat(imageLoad(frame_words, 3));
+  vec4 up = uintBitsToFloat(imageLoad(frame_words, 4));
+  vec4 forward = uintBitsToFloat(imageLoad(frame_words, 5));
+  vec4 background = uintBitsToFloat(imageLoad(frame_words, 6));
+  vec4 ambient = uintBitsToFloat(imageLoad(frame_words, 7));
+  return Frame(image.x, image.y, image.z, image.w, camera.x, camera.y, camera.z, camera.w, counts.x, counts.y, counts.z, counts.w,
+               vec3(right), right.w, vec3(up), up.w, vec3(forward), forward.w, vec3(background), 0.0f, vec3(ambient), 0.0f);
 }
 #else
 Frame load_frame() { return frame_record; }
@@ -50,7 +39,7 @@ Frame load_frame() { return frame_record; }
 #if STORED_HITS
 uint stored_place;  // of this invocation's pixel
 PacketHit load_packet_hit() { return packet_hits[stored_place]; }
-uint load_occlusion(uint light) { return occlusions[light * dispatch.sample_index.z + stored_place]; }
+uint load_occlusion(uint light) { return occlusions[light * dispatch.count + stored_place]; }
 #endif
 Bvh load_bvh(uint i) { return bvhs[i]; }
 Instance load_instance(uint i) { return instances[i]; }

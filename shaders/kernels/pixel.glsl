@@ -14,10 +14,7 @@ SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   vec3 color = radiance(frame, ray, counts);
   counts.z = counts.z | loops_cut_off(LOOP_PROBE);
-  SampleResult result;
-  result.color = vec4(positive_zeros(color), 1.0f);
-  result.counts = counts;
-  return result;
+  return sample_result(positive_zeros(color), counts);
 }
 
 HitResult first_hit(Frame frame, uint x, uint y) {
@@ -26,33 +23,42 @@ HitResult first_hit(Frame frame, uint x, uint y) {
   Hit hit = trace(ray, flags);
   flags = flags | loops_cut_off(LOOP_PROBE);
   HitResult result;
-  result.position_t = vec4(0.0f, 0.0f, 0.0f, T_MISS);
-  result.normal = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-  result.uv = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-  result.ids = uvec4(NONE, NONE, flags, 0u);
+  result.position = vec3(0.0f, 0.0f, 0.0f);
+  result.t = T_MISS;
+  result.normal = vec3(0.0f, 0.0f, 0.0f);
+  result.u = 0.0f;
+  result.v = 0.0f;
+  result.primitive = NONE;
+  result.material = NONE;
+  result.flags = flags;
   if (hit.slot != NONE) {
     Primitive primitive = primitive_at(hit);
     Surface surface = surface_at(primitive, ray, hit);
-    result.position_t = vec4(positive_zeros(surface.p), hit.t);
-    result.normal = vec4(positive_zeros(surface.normal), 0.0f);
-    result.uv = vec4(positive_zero(surface.uv.x), positive_zero(surface.uv.y), 0.0f, 0.0f);
-    result.ids = uvec4(hit.id, material_of(primitive), flags, 0u);
+    result.position = positive_zeros(surface.p);
+    result.t = hit.t;
+    result.normal = positive_zeros(surface.normal);
+    result.u = positive_zero(surface.uv.x);
+    result.v = positive_zero(surface.uv.y);
+    result.primitive = hit.id;
+    result.material = material_of(primitive);
   }
   return result;
 }
 
 QueryHit answer(TraversalState state, bool any, uint flags) {
   bool struck = any ? state.occluded >= OPTICAL_DEPTH_OPAQUE : state.hit.slot != NONE;
-  float t = struck ? (any ? 0.0f : state.hit.t) : T_MISS;
   QueryHit result;
-  result.hit = uvec4(floatBitsToUint(t), struck && !any ? state.hit.id : NONE, flags | iteration_limit(state), state.occluded);
+  result.t = struck ? (any ? 0.0f : state.hit.t) : T_MISS;
+  result.primitive = struck && !any ? state.hit.id : NONE;
+  result.flags = flags | iteration_limit(state);
+  result.occlusion = state.occluded;
   return result;
 }
 
 // A ray asked about alone: the nearest hit before its t_max, or whether anything keeps its light away.
 QueryHit query(QueryRay asked, bool any) {
-  Ray ray = make_ray(vec3(asked.origin), vec3(asked.direction));
-  TraversalState state = search(ray, minimum(asked.direction.w, T_MISS), any);
+  Ray ray = make_ray(asked.origin, asked.direction);
+  TraversalState state = search(ray, minimum(asked.t_max, T_MISS), any);
   return answer(state, any, loops_cut_off(LOOP_PROBE));
 }
 

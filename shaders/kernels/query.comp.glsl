@@ -12,7 +12,7 @@ layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { Que
 
 void main() {
   uint i = swizzled_workgroup(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE) * 64u + gl_LocalInvocationIndex;
-  if (i >= dispatch.tile.x) return;
+  if (i >= dispatch.count) return;
 #ifdef QUERY_ANY
   results[i] = query(rays[i], true);
 #else

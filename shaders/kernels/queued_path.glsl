@@ -6,10 +6,10 @@
 
 Path queued_path(uint place) {
   Path path;
-  path.o = vec3(paths[place].origin);
-  path.d = vec3(paths[place].direction);
-  path.throughput = vec3(paths[place].throughput);
-  path.depth = dispatch.sample_index.y;
+  path.o = paths[place].origin;
+  path.d = paths[place].direction;
+  path.throughput = paths[place].throughput;
+  path.depth = dispatch.depth;
   path.media = 0u;
 #if RAY_KINDS
   path.refracted = false;

@@ -25,18 +25,18 @@ void main() {
   uint entry = group * 64u + gl_LocalInvocationIndex;
   if (entry >= list[0]) return;
   uint i = list[1u + entry];
-  uint row = quotient(i, dispatch.tile.z);
-  uvec2 pixel = uvec2(i - row * dispatch.tile.z, row);
+  uint row = quotient(i, dispatch.tile_width);
+  uvec2 pixel = uvec2(i - row * dispatch.tile_width, row);
 #else
-  uvec2 pixel = pixel_of_block(group, gl_LocalInvocationIndex, dispatch.tile);
-  if (pixel.x >= dispatch.tile.z || pixel.y >= dispatch.tile.w) return;
-  uint i = pixel.y * dispatch.tile.z + pixel.x;
+  uvec2 pixel = pixel_of_block(group, gl_LocalInvocationIndex, dispatch.tile_width);
+  if (pixel.x >= dispatch.tile_width || pixel.y >= dispatch.tile_height) return;
+  uint i = pixel.y * dispatch.tile_width + pixel.x;
 #endif
   Frame frame = load_frame();
 
 #ifdef FIRST_HITS
-  results[i] = first_hit(frame, dispatch.tile.x + pixel.x, dispatch.tile.y + pixel.y);
+  results[i] = first_hit(frame, dispatch.tile_x + pixel.x, dispatch.tile_y + pixel.y);
 #else
-  results[i] = render_sample(frame, dispatch.tile.x + pixel.x, dispatch.tile.y + pixel.y, dispatch.sample_index.x);
+  results[i] = render_sample(frame, dispatch.tile_x + pixel.x, dispatch.tile_y + pixel.y, dispatch.sample_index);
 #endif
 }

@@ -7,8 +7,8 @@
 SHADER_BEGIN
 
 // Invocation i of 64 in a block of 8 × 8 pixels: eight neighbouring invocations cover 4 × 2 pixels.
-uvec2 pixel_of_block(uint block, uint i, uvec4 tile) {
-  uint blocks_across = (tile.z + 7u) / 8u;
+uvec2 pixel_of_block(uint block, uint i, uint tile_width) {
+  uint blocks_across = (tile_width + 7u) / 8u;
   uint row = quotient(block, blocks_across);
   return uvec2((block - row * blocks_across) * 8u + ((i & 3u) | ((i & 8u) >> 1u)),
                row * 8u + (((i & 4u) >> 2u) | ((i & 48u) >> 3u)));

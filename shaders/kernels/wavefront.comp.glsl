@@ -28,14 +28,14 @@ void main() {
   if (i >= list[0]) return;
   uint place = list[1u + i];
   Path path = queued_path(place);
-  color = vec3(results[place].color);
-  counts = results[place].counts;
+  color = results[place].color;
+  counts = counts_of(results[place]);
 #else
-  uvec2 pixel = pixel_of_block(group, gl_LocalInvocationIndex, dispatch.tile);
-  if (pixel.x >= dispatch.tile.z || pixel.y >= dispatch.tile.w) return;
-  uint place = pixel.y * dispatch.tile.z + pixel.x;
-  Path path = begin(frame, camera_ray(frame, sample_position(frame, dispatch.tile.x + pixel.x, dispatch.tile.y + pixel.y,
-                                                             dispatch.sample_index.x)));
+  uvec2 pixel = pixel_of_block(group, gl_LocalInvocationIndex, dispatch.tile_width);
+  if (pixel.x >= dispatch.tile_width || pixel.y >= dispatch.tile_height) return;
+  uint place = pixel.y * dispatch.tile_width + pixel.x;
+  Path path = begin(frame, camera_ray(frame, sample_position(frame, dispatch.tile_x + pixel.x, dispatch.tile_y + pixel.y,
+                                                             dispatch.sample_index)));
 #endif
 
   Ray ray = make_ray(path.o, path.d);
@@ -58,13 +58,12 @@ void main() {
     return;
   }
 #endif
-  results[place].color = vec4(positive_zeros(color), 1.0f);
-  results[place].counts = counts;
+  results[place] = sample_result(positive_zeros(color), counts);
 #ifndef ENDS_ONLY
   if (all.count > 0u) {
-    paths[place].origin = vec4(all.next.o, 0.0f);
-    paths[place].direction = vec4(all.next.d, 0.0f);
-    paths[place].throughput = vec4(all.next.throughput, 0.0f);
+    paths[place].origin = all.next.o;
+    paths[place].direction = all.next.d;
+    paths[place].throughput = all.next.throughput;
     next_list[1u + atomicAdd(next_list[0], 1u)] = place;
   }
 #endif

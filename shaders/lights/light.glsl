@@ -14,13 +14,13 @@ struct LightSample {
 
 LightSample sample_light(Light light, vec3 p) {
   LightSample s;
-  vec3 way = vec3(light.position) - p;
+  vec3 way = vec3(light.a) - p;
   float distance = sqrt(dot3(way, way));
-  bool point = light.head.x == LIGHT_POINT;
-  bool weakened = point && light.head.y == FALLOFF_INVERSE_SQUARE;
-  s.direction = point ? way / distance : vec3(light.position);
+  bool point = light.kind == LIGHT_POINT;
+  bool weakened = point && light.a.w != 0.0f;
+  s.direction = point ? way / distance : vec3(light.a);
   s.distance = point ? distance : T_MISS;
-  s.color = weakened ? vec3(light.intensity) / (distance * distance) : vec3(light.intensity);
+  s.color = weakened ? light.intensity / (distance * distance) : light.intensity;
   return s;
 }
 

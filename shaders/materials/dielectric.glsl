@@ -20,7 +20,7 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
   Scattering s = no_scattering();
   bool one_medium = context.ior_from == context.ior_to;
   float reflected = one_medium ? 0.0f : fresnel_reflectance(context.cos_view, context.ior_from, context.ior_to);
-  s.specular = texture_color(material.textures.y, context.uv);
+  s.specular = texture_color(material.specular, context.uv);
   s.reflected = vec3(reflected, reflected, reflected);
   s.transmitted = vec3(1.0f - reflected, 1.0f - reflected, 1.0f - reflected);
   return s;

@@ -15,7 +15,7 @@ Scattering scattering_of(uint index, Material material, ScatteringContext contex
   SCENE_MATERIALS(SCATTERING_OF_ONE)
 #else
 #define SCATTERING_OF(name, number) \
-  if (material.head.x == number) s = name##_scattering(material, context);
+  if (material.kind == number) s = name##_scattering(material, context);
   MATERIALS(SCATTERING_OF)
 #endif
   return s;

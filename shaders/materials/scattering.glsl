@@ -41,10 +41,10 @@ Scattering no_scattering() {
 float highlight(Material material, vec3 n, vec3 to_light, vec3 to_viewer) {
   vec3 half_way = to_light + to_viewer;
   float length_squared = dot3(half_way, half_way);
-  bool blinn = (material.head.y & MATERIAL_BLINN) != 0u;
+  bool blinn = (material.flags & MATERIAL_BLINN) != 0u;
   vec3 a = blinn ? half_way / sqrt(maximum(length_squared, 1.0e-20f)) : mirror3(to_light, n);
   vec3 difference = a - (blinn ? n : to_viewer);
-  return power_of_complement(minimum(0.5f * dot3(difference, difference), 1.0f), material.parameters.x);
+  return power_of_complement(minimum(0.5f * dot3(difference, difference), 1.0f), material.shininess);
 }
 
 SHADER_END

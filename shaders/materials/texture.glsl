@@ -8,7 +8,7 @@ SHADER_BEGIN
 
 // Whether the check that holds (u, v) is odd. The parity is taken in floats, where an int could overflow.
 bool odd_check(Texture texture, vec2 uv) {
-  float check = floor(uv.x * texture.frequency.x) + floor(uv.y * texture.frequency.y);
+  float check = floor(uv.x * texture.frequency_u) + floor(uv.y * texture.frequency_v);
   return check - 2.0f * floor(0.5f * check) != 0.0f;
 }
 
@@ -36,12 +36,12 @@ uint copied_texel(int i, uint size, uint wrap, bool mirrored) {
 
 // The codes of the texel at `column` and `row`, counted from the lower left.
 uint texel_codes(Texture texture, uint column, uint row) {
-  return load_texel(texture.image.z + (texture.image.y - 1u - row) * texture.image.x + column);
+  return load_texel(texture.first_texel + (texture.height - 1u - row) * texture.width + column);
 }
 
 // Linear RGB of it.
 vec3 texel_color(Texture texture, uint column, uint row) {
-  uint table = (texture.image.w & IMAGE_LINEAR) != 0u ? TEXELS_LINEAR : TEXELS_SRGB;
+  uint table = (texture.flags & IMAGE_LINEAR) != 0u ? TEXELS_LINEAR : TEXELS_SRGB;
   uint texel = texel_codes(texture, column, row);
   return vec3(uintBitsToFloat(load_texel(table + (texel & 255u))),
               uintBitsToFloat(load_texel(table + ((texel >> 8u) & 255u))),
@@ -60,24 +60,24 @@ struct TexelQuad {
 };
 
 TexelQuad image_place(Texture texture, vec2 uv) {
-  float u = uv.x * texture.frequency.x;
-  float v = uv.y * texture.frequency.y;
-  uint wrap_u = (texture.image.w >> IMAGE_WRAP_U_SHIFT) & IMAGE_WRAP_MASK;
-  uint wrap_v = (texture.image.w >> IMAGE_WRAP_V_SHIFT) & IMAGE_WRAP_MASK;
-  bool nearest = (texture.image.w & IMAGE_NEAREST) != 0u;
+  float u = uv.x * texture.frequency_u;
+  float v = uv.y * texture.frequency_v;
+  uint wrap_u = (texture.flags >> IMAGE_WRAP_U_SHIFT) & IMAGE_WRAP_MASK;
+  uint wrap_v = (texture.flags >> IMAGE_WRAP_V_SHIFT) & IMAGE_WRAP_MASK;
+  bool nearest = (texture.flags & IMAGE_NEAREST) != 0u;
   float centre = nearest ? 0.0f : 0.5f;
-  float x = within_copy(u, wrap_u) * float(texture.image.x) - centre;
-  float y = within_copy(v, wrap_v) * float(texture.image.y) - centre;
+  float x = within_copy(u, wrap_u) * float(texture.width) - centre;
+  float y = within_copy(v, wrap_v) * float(texture.height) - centre;
   TexelQuad place;
   place.to_right = nearest ? 0.0f : x - floor(x);
   place.to_top = nearest ? 0.0f : y - floor(y);
 
   bool mirrored_u = mirrored_copy(u, wrap_u);
   bool mirrored_v = mirrored_copy(v, wrap_v);
-  place.left = copied_texel(int(floor(x)), texture.image.x, wrap_u, mirrored_u);
-  place.right = copied_texel(int(floor(x)) + 1, texture.image.x, wrap_u, mirrored_u);
-  place.bottom = copied_texel(int(floor(y)), texture.image.y, wrap_v, mirrored_v);
-  place.top = copied_texel(int(floor(y)) + 1, texture.image.y, wrap_v, mirrored_v);
+  place.left = copied_texel(int(floor(x)), texture.width, wrap_u, mirrored_u);
+  place.right = copied_texel(int(floor(x)) + 1, texture.width, wrap_u, mirrored_u);
+  place.bottom = copied_texel(int(floor(y)), texture.height, wrap_v, mirrored_v);
+  place.top = copied_texel(int(floor(y)) + 1, texture.height, wrap_v, mirrored_v);
   return place;
 }
 
@@ -108,12 +108,12 @@ float image_alpha(Texture texture, vec2 uv) {
 
 vec3 texture_color(uint index, vec2 uv) {
   Texture texture = load_texture(index);
-  vec3 color = vec3(texture.even);
+  vec3 color = texture.even;
 #if HAS_CHECKER
-  if (texture.even.w == TEXTURE_CHECKER && odd_check(texture, uv)) color = vec3(texture.odd);
+  if (texture.kind == TEXTURE_CHECKER && odd_check(texture, uv)) color = texture.odd;
 #endif
 #if HAS_IMAGES
-  if (texture.even.w == TEXTURE_IMAGE) color = color * image_color(texture, uv);
+  if (texture.kind == TEXTURE_IMAGE) color = color * image_color(texture, uv);
 #endif
   return color;
 }
@@ -124,10 +124,10 @@ float texture_alpha(uint index, vec2 uv) {
   Texture texture = load_texture(index);
   float alpha = texture.even.x;
 #if HAS_CHECKER
-  if (texture.even.w == TEXTURE_CHECKER && odd_check(texture, uv)) alpha = texture.odd.x;
+  if (texture.kind == TEXTURE_CHECKER && odd_check(texture, uv)) alpha = texture.odd.x;
 #endif
 #if HAS_IMAGES
-  if (texture.even.w == TEXTURE_IMAGE) alpha = alpha * image_alpha(texture, uv);
+  if (texture.kind == TEXTURE_IMAGE) alpha = alpha * image_alpha(texture, uv);
 #endif
   return alpha;
 }

@@ -30,7 +30,7 @@ BezierRow bezier_row(uint first) {
   return row;
 }
 
-vec4 bezier_patch(Primitive s) { return bits_to_floats(load_vertex(s.head.w + 12u)); }
+vec4 bezier_patch(Primitive s) { return bits_to_floats(load_vertex(s.extra + 12u)); }
 
 // Seen from `o` along three axes.
 vec3 bezier_along(vec3 p, vec3 o, vec3 x, vec3 y, vec3 z) {
@@ -88,10 +88,10 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   y = normalize3(sine > 1.0e-3f ? y : other);
   vec3 z = cross3(d, y);
   BezierNet net;
-  net.r0 = bezier_row_along(bezier_row(s.head.w), o, d, y, z);
-  net.r1 = bezier_row_along(bezier_row(s.head.w + 3u), o, d, y, z);
-  net.r2 = bezier_row_along(bezier_row(s.head.w + 6u), o, d, y, z);
-  net.r3 = bezier_row_along(bezier_row(s.head.w + 9u), o, d, y, z);
+  net.r0 = bezier_row_along(bezier_row(s.extra), o, d, y, z);
+  net.r1 = bezier_row_along(bezier_row(s.extra + 3u), o, d, y, z);
+  net.r2 = bezier_row_along(bezier_row(s.extra + 6u), o, d, y, z);
+  net.r3 = bezier_row_along(bezier_row(s.extra + 9u), o, d, y, z);
 
   // Where the section comes into the piece and goes out of it, about, as seen from the middle.
   float beyond = 1.0f + abs(s.c.w);
@@ -184,10 +184,10 @@ Surface bezier_surface(Primitive s, Ray ray, Hit hit) {
   vec4 patch_ball = bezier_patch(s);
   vec3 o = vec3(patch_ball);
   BezierNet net;
-  net.r0 = bezier_row_along(bezier_row(s.head.w), o, x, y, z);
-  net.r1 = bezier_row_along(bezier_row(s.head.w + 3u), o, x, y, z);
-  net.r2 = bezier_row_along(bezier_row(s.head.w + 6u), o, x, y, z);
-  net.r3 = bezier_row_along(bezier_row(s.head.w + 9u), o, x, y, z);
+  net.r0 = bezier_row_along(bezier_row(s.extra), o, x, y, z);
+  net.r1 = bezier_row_along(bezier_row(s.extra + 3u), o, x, y, z);
+  net.r2 = bezier_row_along(bezier_row(s.extra + 6u), o, x, y, z);
+  net.r3 = bezier_row_along(bezier_row(s.extra + 9u), o, x, y, z);
   BezierPoint at = bezier_at(net, hit.uv.x, hit.uv.y);
 
   // Where the derivatives are parallel, or one is 0, as where an edge is one point, the piece's normal is as near as can be.

@@ -1,4 +1,4 @@
-// (1 − u)(1 − v)·p00 + u(1 − v)·p10 + (1 − u)v·p01 + uv·p11, 0 ≤ u, v ≤ 1.   a = p00, b = p10, c = p01, their w = p11   head.w: 1 where the
+// (1 − u)(1 − v)·p00 + u(1 − v)·p10 + (1 − u)v·p01 + uv·p11, 0 ≤ u, v ≤ 1.   a = p00, b = p10, c = p01, their w = p11   extra: 1 where the
 // normal is the other one
 #ifndef BILINEAR_GLSL
 #define BILINEAR_GLSL
@@ -78,7 +78,7 @@ Surface bilinear_surface(Primitive s, Ray ray, Hit hit) {
 
   Surface surface;
   surface.p = (p00 + along_u * hit.uv.x) + along_v * hit.uv.y;
-  surface.normal_geometric = normalize3(s.head.w == 1u ? -n : n);
+  surface.normal_geometric = normalize3(s.extra == 1u ? -n : n);
   surface.normal = surface.normal_geometric;
   surface.uv = inner_uv(hit.uv);
   vec3 reach = (abs3(p00) + abs3(vec3(s.b))) + (abs3(vec3(s.c)) + abs3(vec3(s.a.w, s.b.w, s.c.w)));

@@ -22,15 +22,11 @@ struct CsgHit {
   bool iteration_limit;  // a leaf did not find its next crossing: beyond `after` nothing is sure
 };
 
-uint csg_leaf_at(Primitive s, uint leaf) { return s.head.w + 1u + load_outline(s.head.w).x + LEAF_WORDS * leaf; }
+uint csg_leaf_at(Primitive s, uint leaf) { return s.extra + 1u + load_outline(s.extra).x + LEAF_WORDS * leaf; }
 
 Primitive load_leaf(uint at) {
-  Primitive leaf;
-  leaf.head = load_outline(at);
-  leaf.a = bits_to_floats(load_outline(at + 1u));
-  leaf.b = bits_to_floats(load_outline(at + 2u));
-  leaf.c = bits_to_floats(load_outline(at + 3u));
-  return leaf;
+  return primitive_of(load_outline(at), bits_to_floats(load_outline(at + 1u)), bits_to_floats(load_outline(at + 2u)),
+                      bits_to_floats(load_outline(at + 3u)));
 }
 
 // Whether the ray passes a box at t > 0. The room is as in geometry/outline.glsl.
@@ -70,8 +66,8 @@ float leaf_crossing(float t, Ray ray) {
 // of all leaves to the first at which it enters or leaves the CSG object, and on to one that weakens a shadow ray by `enough`. So nothing is ever asked
 // where a ray starts. All leaves that are crossed at the same t are crossed at once.
 CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
-  uvec4 head = load_outline(s.head.w);
-  uint nodes = s.head.w + 1u;
+  uvec4 head = load_outline(s.extra);
+  uint nodes = s.extra + 1u;
   uint leaves = nodes + head.x;
   CsgHit hit;
   hit.t = 0.0f;
@@ -149,7 +145,7 @@ float csg_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
 }
 
 // What a shadow ray loses before t_max: as much as the densest surface on its way takes.
-uint csg_optical_depth(Primitive s, Ray ray, float t_max) { return csg_traverse(s, ray, t_max, s.head.z).optical_depth; }
+uint csg_optical_depth(Primitive s, Ray ray, float t_max) { return csg_traverse(s, ray, t_max, s.optical_depth).optical_depth; }
 
 bool csg_reject(Primitive s, Ray ray) { return !passes_box(ray, vec3(s.a), vec3(s.b)); }
 
@@ -177,7 +173,7 @@ Surface csg_surface(Primitive s, Ray ray, Hit hit) {
   CLOSED_SHAPES(LEAF_SURFACE)
 
   // What is taken away is seen from within.
-  if (((load_outline(s.head.w).y >> (leaf >> 2u)) & 1u) != 0u) {
+  if (((load_outline(s.extra).y >> (leaf >> 2u)) & 1u) != 0u) {
     surface.normal_geometric = -surface.normal_geometric;
     surface.normal = -surface.normal;
   }

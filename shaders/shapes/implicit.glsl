@@ -10,13 +10,13 @@ SHADER_BEGIN
 
 Implicit load_implicit(Primitive s) {
   vec4 center = object_parameters(s);
-  vec4 extent = bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS + 1u));
+  vec4 extent = bits_to_floats(load_vertex(s.extra + OBJECT_PARAMETERS + 1u));
   Implicit it;
   it.center = vec3(center);
   it.extent = vec3(extent);
   it.lipschitz = extent.w;
   it.formula = uint(center.w);
-  it.open = bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS + 2u)).x != 0.0f;
+  it.open = bits_to_floats(load_vertex(s.extra + OBJECT_PARAMETERS + 2u)).x != 0.0f;
   return it;
 }
 

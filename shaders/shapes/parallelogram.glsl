@@ -10,7 +10,7 @@ float parallelogram_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   vec3 a = seen_along(ray, vec3(s.a));
   vec3 b = seen_along(ray, vec3(s.b));
   vec3 c = seen_along(ray, vec3(s.c));
-  vec3 opposite = vec3(bits_to_floats(load_vertex(s.head.w)));
+  vec3 opposite = vec3(bits_to_floats(load_vertex(s.extra)));
   vec3 d = seen_along(ray, opposite);
   bool inside = (crosses(a, b) != crosses(b, d)) != (crosses(d, c) != crosses(c, a));
 
@@ -28,7 +28,7 @@ float parallelogram_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
 bool parallelogram_reject(Primitive s, Ray ray) { return false; }
 
 void parallelogram_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
-  vec3 d = vec3(bits_to_floats(load_vertex(s.head.w)));
+  vec3 d = vec3(bits_to_floats(load_vertex(s.extra)));
   lower = vec3(minimum(minimum(s.a.x, s.b.x), minimum(s.c.x, d.x)), minimum(minimum(s.a.y, s.b.y), minimum(s.c.y, d.y)),
                minimum(minimum(s.a.z, s.b.z), minimum(s.c.z, d.z)));
   upper = vec3(maximum(maximum(s.a.x, s.b.x), maximum(s.c.x, d.x)), maximum(maximum(s.a.y, s.b.y), maximum(s.c.y, d.y)),

@@ -16,7 +16,7 @@ float polygon_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   vec3 n = vec3(s.a);
   vec3 centre = vec3(s.b) - ray.o;
   float t = t_within(ray, dot3(n, centre) / dot3(n, ray.d), centre, vec3(s.c));
-  uint at = s.head.w + 2u;
+  uint at = s.extra + 2u;
   uint end = t > 0.0f ? at + 4u * uint(s.a.w) : at;
   vec3 a = path_vertex(ray, at);
   bool inside = false;
@@ -42,8 +42,8 @@ Surface polygon_surface(Primitive s, Ray ray, Hit hit) {
   vec3 n = vec3(s.a);
   vec3 p = ray.o + ray.d * hit.t;
   p = p - n * dot3(n, p - vec3(s.b));
-  vec4 u = bits_to_floats(load_vertex(s.head.w));
-  vec4 v = bits_to_floats(load_vertex(s.head.w + 1u));
+  vec4 u = bits_to_floats(load_vertex(s.extra));
+  vec4 v = bits_to_floats(load_vertex(s.extra + 1u));
 
   Surface surface;
   surface.p = p;

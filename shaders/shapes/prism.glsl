@@ -36,7 +36,7 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   vec2 b = (vec2(1.0f, 1.0f) - vec2(r.o.x, r.o.z)) * inverse;
   float near = maximum(enter, maximum(minimum(a.x, b.x), minimum(a.y, b.y)));
   float far = minimum(leave, minimum(maximum(a.x, b.x), maximum(a.y, b.y)));
-  uint at = s.head.w + OBJECT_PARAMETERS + 3u;
+  uint at = s.extra + OBJECT_PARAMETERS + 3u;
   uint end = near <= far && r.t + far > AFTER(ray) ? at + uint(object_parameters(s).x) : at;
 
   bool enters = false;
@@ -91,7 +91,7 @@ void prism_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, ve
 
 Surface prism_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = at_hit(object_ray(s, ray, 1.7320508f), hit);
-  uint first = s.head.w + OBJECT_PARAMETERS;
+  uint first = s.extra + OBJECT_PARAMETERS;
   vec4 sizes = object_parameters(s);
   vec3 gradient = vec3(0.0f, hit.uv.x == PRISM_BOTTOM ? -1.0f : 1.0f, 0.0f);
   vec2 uv = vec2(0.0f, 0.0f);

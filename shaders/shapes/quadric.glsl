@@ -19,8 +19,8 @@ struct Quadric {
 Quadric load_quadric(Primitive s) {
   Quadric quadric;
   quadric.squares = object_parameters(s);
-  quadric.products = bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS + 1u));
-  quadric.linear = bits_to_floats(load_vertex(s.head.w + OBJECT_PARAMETERS + 2u));
+  quadric.products = bits_to_floats(load_vertex(s.extra + OBJECT_PARAMETERS + 1u));
+  quadric.linear = bits_to_floats(load_vertex(s.extra + OBJECT_PARAMETERS + 2u));
   return quadric;
 }
 

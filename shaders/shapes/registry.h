@@ -1,5 +1,5 @@
 // Every kind of shape: a row is all that has to be added outside the shape's own files. Its number is its kind in
-// Primitive.head.x and its place in the scene's order. A specialised kernel overrides the list with its scene's kinds.
+// kind_of(primitive) and its place in the scene's order. A specialised kernel overrides the list with its scene's kinds.
 #ifndef SHAPES
 #define SHAPES(X) \
   X(sphere, 0u) \

@@ -118,15 +118,15 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal_geometric = vec3(s.a.w, s.b.w, s.c.w);
   surface.normal = surface.normal_geometric;
   surface.uv = hit.uv;
-  if (s.head.w != NONE) {
-    uvec4 corners = load_vertex(s.head.w);
+  if (s.extra != NONE) {
+    uvec4 corners = load_vertex(s.extra);
     vec4 n0 = bits_to_floats(load_vertex(corners.x));
     vec4 n1 = bits_to_floats(load_vertex(corners.y));
     vec4 n2 = bits_to_floats(load_vertex(corners.z));
     if ((corners.w & CORNERS_NORMALS) != 0u)
       surface.normal = normalize3((vec3(n0) * wa + vec3(n1) * hit.uv.x) + vec3(n2) * hit.uv.y);
     if ((corners.w & CORNERS_UV) != 0u) {
-      vec4 v = bits_to_floats(load_vertex(s.head.w + 1u));
+      vec4 v = bits_to_floats(load_vertex(s.extra + 1u));
       surface.uv = vec2((n0.w * wa + n1.w * hit.uv.x) + n2.w * hit.uv.y,
                         (v.x * wa + v.y * hit.uv.x) + v.z * hit.uv.y);
     }
@@ -139,8 +139,8 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
 #if HAS_COLORS
 // What a mesh's vertices multiply the material's colour by; white where they say nothing, and on other shapes.
 vec3 vertex_color(Primitive s, Hit hit) {
-  if (kind_of(s) != KIND_triangle || s.head.w == NONE) return vec3(1.0f, 1.0f, 1.0f);
-  uvec4 corners = load_vertex(s.head.w);
+  if (kind_of(s) != KIND_triangle || s.extra == NONE) return vec3(1.0f, 1.0f, 1.0f);
+  uvec4 corners = load_vertex(s.extra);
   if ((corners.w & CORNERS_COLORS) == 0u) return vec3(1.0f, 1.0f, 1.0f);
   vec3 a = vec3(bits_to_floats(load_vertex(corners.x + 1u)));
   vec3 b = vec3(bits_to_floats(load_vertex(corners.y + 1u)));
@@ -150,8 +150,8 @@ vec3 vertex_color(Primitive s, Hit hit) {
 
 // Their alpha, likewise. Where all three are equal, that very value.
 float vertex_alpha(Primitive s, vec2 uv) {
-  if (kind_of(s) != KIND_triangle || s.head.w == NONE) return 1.0f;
-  uvec4 corners = load_vertex(s.head.w);
+  if (kind_of(s) != KIND_triangle || s.extra == NONE) return 1.0f;
+  uvec4 corners = load_vertex(s.extra);
   if ((corners.w & CORNERS_COLORS) == 0u) return 1.0f;
   float a = bits_to_floats(load_vertex(corners.x + 1u)).w;
   float b = bits_to_floats(load_vertex(corners.y + 1u)).w;

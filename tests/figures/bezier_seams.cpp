@@ -60,7 +60,7 @@ TEST_CASE(
       for (int i = 0; i < 2000; ++i) {
         const shader::Primitive& piece =
             packer.scene.primitives[size_t(random.below(int(packer.scene.primitives.size())))];
-        const BezierNet& patch = nets[size_t(piece.head.w) / 13];
+        const BezierNet& patch = nets[size_t(piece.extra) / 13];
         Vec2 uv(random.uniform(double(piece.a.x), double(piece.a.y)),
                 random.uniform(double(piece.a.z), double(piece.a.w)));
         if (aim == Aim::corners || random.below(2) == 0)

@@ -29,7 +29,7 @@ TEST_CASE("sphere record") {
   shape->material = 7;
   const PackedScene scene = packed(*shape);
   const auto& record = scene.primitives.at(0);
-  CHECK(record.head == shader::uvec4(0u, 7u | shader::KIND_sphere << 24, 0u, NONE));
+  CHECK(shader::head_of(record) == shader::uvec4(0u, 7u | shader::KIND_sphere << 24, 0u, NONE));
   CHECK(record.a == shader::vec4(1, 0.001f, 2, 0.5f));
   CHECK(record.b == shader::vec4(0, 1, 0, 0));
   CHECK(record.c == shader::vec4(1, 0, 0, 1));
@@ -54,7 +54,7 @@ TEST_CASE("plane record: u and v are linear in the eye-relative position") {
 TEST_CASE("triangle record") {
   TriangleValues values{.vertices = {eye + Vec3(1, 2, 3), eye + Vec3(2, 2, 3), eye + Vec3(1, 3, 3)}};
   PackedScene scene = packed(*make_triangle(values));
-  CHECK(scene.primitives.at(0).head == shader::uvec4(0u, shader::KIND_triangle << 24, 0u, NONE));
+  CHECK(shader::head_of(scene.primitives.at(0)) == shader::uvec4(0u, shader::KIND_triangle << 24, 0u, NONE));
   CHECK(scene.primitives.at(0).a == shader::vec4(1, 2, 3, 0));
   CHECK(scene.primitives.at(0).b == shader::vec4(2, 2, 3, 0));
   CHECK(scene.primitives.at(0).c == shader::vec4(1, 3, 3, 1));
@@ -62,7 +62,7 @@ TEST_CASE("triangle record") {
 
   values.uv = {{Vec2(1, 4), Vec2(2, 5), Vec2(3, 6)}};
   scene = packed(*make_triangle(values));
-  CHECK(scene.primitives.at(0).head.w == 3);
+  CHECK(scene.primitives.at(0).extra == 3);
   CHECK(scene.vertices == std::vector{to_bits({0, 0, 1, 1}), to_bits({0, 0, 1, 2}), to_bits({0, 0, 1, 3}),
                                       shader::uvec4(0, 1, 2, CORNERS_UV), to_bits({4, 5, 6, 0})});
 
@@ -76,31 +76,37 @@ TEST_CASE("triangle record") {
 }
 
 TEST_CASE("material records") {
-  const auto texture = [](const PackedScene& scene, int slot) {
-    return glm::vec3(scene.textures.at(scene.materials.at(0).textures[slot]).even);
+  const auto color = [](const PackedScene& scene, uint32_t shader::Material::*texture) {
+    return scene.textures.at(scene.materials.at(0).*texture).even;
   };
   const Highlight blinn{{Vec3(0.25), {}}, 50, true};
   const PackedScene phong =
       packed(*make_phong({.diffuse = {Vec3(0.5), {}}, .reflectance = {Vec3(0.125), {}}, .highlight = blinn}));
-  CHECK(phong.materials.at(0).head ==
-        shader::uvec4(shader::MATERIAL_phong, MATERIAL_BLINN, 0u, OPTICAL_DEPTH_OPAQUE));
-  CHECK(phong.materials.at(0).parameters.x == 50);
-  CHECK(texture(phong, 0) == glm::vec3(0.5f));
-  CHECK(texture(phong, 1) == glm::vec3(0.25f));
-  CHECK(texture(phong, 2) == glm::vec3(0.125f));
-  CHECK(texture(phong, 3) == glm::vec3(0.5f));
+  CHECK(phong.materials.at(0).kind == shader::MATERIAL_phong);
+  CHECK(phong.materials.at(0).flags == MATERIAL_BLINN);
+  CHECK(phong.materials.at(0).medium == 0);
+  CHECK(phong.materials.at(0).optical_depth == OPTICAL_DEPTH_OPAQUE);
+  CHECK(phong.materials.at(0).shininess == 50);
+  CHECK(color(phong, &shader::Material::base) == glm::vec3(0.5f));
+  CHECK(color(phong, &shader::Material::specular) == glm::vec3(0.25f));
+  CHECK(color(phong, &shader::Material::reflected) == glm::vec3(0.125f));
+  CHECK(color(phong, &shader::Material::ambient) == glm::vec3(0.5f));
 
   const PackedScene mirror = packed(*make_mirror({.reflectance = {Vec3(0.75), {}}}));
-  CHECK(mirror.materials.at(0).head == shader::uvec4(shader::MATERIAL_mirror, 0u, 0u, OPTICAL_DEPTH_OPAQUE));
-  CHECK(texture(mirror, 0) == glm::vec3(0.75f));
-  CHECK(texture(mirror, 2) == glm::vec3(0.75f));
-  CHECK(texture(mirror, 3) == glm::vec3(0));
+  CHECK(mirror.materials.at(0).kind == shader::MATERIAL_mirror);
+  CHECK(mirror.materials.at(0).optical_depth == OPTICAL_DEPTH_OPAQUE);
+  CHECK(color(mirror, &shader::Material::base) == glm::vec3(0.75f));
+  CHECK(color(mirror, &shader::Material::reflected) == glm::vec3(0.75f));
+  CHECK(color(mirror, &shader::Material::ambient) == glm::vec3(0));
 
   const PackedScene glass = packed(*make_dielectric({.ior = 1.5, .absorption = {1, 2, 3}, .shadow = 0.25}));
-  CHECK(glass.materials.at(0).head == shader::uvec4(shader::MATERIAL_dielectric, 0u, 1u, 2u << 20));
-  CHECK(glass.media.at(1).absorption_ior == shader::vec4(1, 2, 3, 1.5));
-  CHECK(texture(glass, 0) == glm::vec3(1));
-  CHECK(texture(glass, 2) == glm::vec3(1));
-  CHECK(packed(*make_dielectric({.ior = 1})).materials.at(0).head.w == 0);
-  CHECK(packed(*make_dielectric({.shadow = 0.0})).materials.at(0).head.w == OPTICAL_DEPTH_OPAQUE);
+  CHECK(glass.materials.at(0).kind == shader::MATERIAL_dielectric);
+  CHECK(glass.materials.at(0).medium == 1);
+  CHECK(glass.materials.at(0).optical_depth == 2u << 20);
+  CHECK(glass.media.at(1).absorption == shader::vec3(1, 2, 3));
+  CHECK(glass.media.at(1).ior == 1.5f);
+  CHECK(color(glass, &shader::Material::base) == glm::vec3(1));
+  CHECK(color(glass, &shader::Material::reflected) == glm::vec3(1));
+  CHECK(packed(*make_dielectric({.ior = 1})).materials.at(0).optical_depth == 0);
+  CHECK(packed(*make_dielectric({.shadow = 0.0})).materials.at(0).optical_depth == OPTICAL_DEPTH_OPAQUE);
 }

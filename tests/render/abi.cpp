@@ -1,11 +1,14 @@
 // records.h means the same on both sides: the offsets that the SPIR-V was given, by name, against offsetof.
 #include <cstddef>
+#include <map>
+#include <regex>
 
 #include "host/gpu/reflect.hpp"
 #include "random_scene.hpp"
 #include "support.hpp"
 
 #include "tests/support/doctest.hpp"
+#include "tests/support/process.hpp"
 
 using namespace eyeray;
 
@@ -50,49 +53,88 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
   test::add_instance(described, cube, 0, test::translation({3, 0, 0}));
   PackedScene scene = pack(described);
   REQUIRE(scene.has_bvh);
-  REQUIRE(scene.frame.counts.z == 1);  // whitted
+  REQUIRE(scene.frame.integrator == 1);  // whitted
   scene.media.push_back({});
   scene.lights.push_back({});
   const gpu::Reflection samples = gpu::reflect(test::compile_entry("kernels/render.comp.glsl", scene, {}));
   check_struct(samples, "Primitive", sizeof(shader::Primitive),
-               {MEMBER(Primitive, head), MEMBER(Primitive, a), MEMBER(Primitive, b), MEMBER(Primitive, c)});
+               {MEMBER(Primitive, id), MEMBER(Primitive, material_and_kind), MEMBER(Primitive, optical_depth),
+                MEMBER(Primitive, extra), MEMBER(Primitive, a), MEMBER(Primitive, b), MEMBER(Primitive, c)});
   check_struct(samples, "Bvh", sizeof(shader::Bvh),
-               {MEMBER(Bvh, origin), MEMBER(Bvh, step), MEMBER(Bvh, extent), MEMBER(Bvh, head)});
+               {MEMBER(Bvh, origin), MEMBER(Bvh, unused_0), MEMBER(Bvh, step), MEMBER(Bvh, unused_1),
+                MEMBER(Bvh, extent), MEMBER(Bvh, slack), MEMBER(Bvh, root), MEMBER(Bvh, first_slot),
+                MEMBER(Bvh, end_slot), MEMBER(Bvh, unused_2)});
   check_struct(samples, "Instance", sizeof(shader::Instance),
-               {MEMBER(Instance, head), MEMBER(Instance, to_local), MEMBER(Instance, to_world)});
+               {MEMBER(Instance, bvh), MEMBER(Instance, first_id), MEMBER(Instance, material),
+                MEMBER(Instance, depth_or_triangle), MEMBER(Instance, to_local), MEMBER(Instance, to_world)});
   check_struct(samples, "Material", sizeof(shader::Material),
-               {MEMBER(Material, head), MEMBER(Material, textures), MEMBER(Material, parameters),
-                MEMBER(Material, mask)});
-  check_struct(samples, "Medium", sizeof(shader::Medium), {MEMBER(Medium, absorption_ior)});
-  check_struct(
-      samples, "Texture", sizeof(shader::Texture),
-      {MEMBER(Texture, even), MEMBER(Texture, odd), MEMBER(Texture, frequency), MEMBER(Texture, image)});
+               {MEMBER(Material, kind), MEMBER(Material, flags), MEMBER(Material, medium),
+                MEMBER(Material, optical_depth), MEMBER(Material, base), MEMBER(Material, specular),
+                MEMBER(Material, reflected), MEMBER(Material, ambient), MEMBER(Material, emission),
+                MEMBER(Material, alpha), MEMBER(Material, alpha_cutoff), MEMBER(Material, shininess),
+                MEMBER(Material, a)});
+  check_struct(samples, "Medium", sizeof(shader::Medium), {MEMBER(Medium, absorption), MEMBER(Medium, ior)});
+  check_struct(samples, "Texture", sizeof(shader::Texture),
+               {MEMBER(Texture, even), MEMBER(Texture, kind), MEMBER(Texture, odd), MEMBER(Texture, flags),
+                MEMBER(Texture, frequency_u), MEMBER(Texture, frequency_v), MEMBER(Texture, width),
+                MEMBER(Texture, height), MEMBER(Texture, first_texel), MEMBER(Texture, unused_0),
+                MEMBER(Texture, unused_1), MEMBER(Texture, unused_2)});
   check_struct(samples, "Light", sizeof(shader::Light),
-               {MEMBER(Light, head), MEMBER(Light, position), MEMBER(Light, intensity)});
-  check_struct(
-      samples, "Frame", sizeof(shader::Frame),
-      {MEMBER(Frame, image), MEMBER(Frame, camera), MEMBER(Frame, counts), MEMBER(Frame, right),
-       MEMBER(Frame, up), MEMBER(Frame, forward), MEMBER(Frame, background), MEMBER(Frame, ambient)});
+               {MEMBER(Light, intensity), MEMBER(Light, kind), MEMBER(Light, a), MEMBER(Light, b)});
+  check_struct(samples, "Frame", sizeof(shader::Frame),
+               {MEMBER(Frame, width),       MEMBER(Frame, height),
+                MEMBER(Frame, seed),        MEMBER(Frame, samples_per_side),
+                MEMBER(Frame, camera),      MEMBER(Frame, pattern),
+                MEMBER(Frame, media),       MEMBER(Frame, max_depth),
+                MEMBER(Frame, light_count), MEMBER(Frame, loop_probe),
+                MEMBER(Frame, integrator),  MEMBER(Frame, triangle_method),
+                MEMBER(Frame, right),       MEMBER(Frame, min_throughput),
+                MEMBER(Frame, up),          MEMBER(Frame, pixel_width),
+                MEMBER(Frame, forward),     MEMBER(Frame, pixel_height),
+                MEMBER(Frame, background),  MEMBER(Frame, unused_0),
+                MEMBER(Frame, ambient),     MEMBER(Frame, unused_1)});
   check_struct(samples, "Dispatch", sizeof(shader::Dispatch),
-               {MEMBER(Dispatch, tile), MEMBER(Dispatch, sample_index)});
+               {MEMBER(Dispatch, tile_x), MEMBER(Dispatch, tile_y), MEMBER(Dispatch, tile_width),
+                MEMBER(Dispatch, tile_height), MEMBER(Dispatch, sample_index), MEMBER(Dispatch, depth),
+                MEMBER(Dispatch, count), MEMBER(Dispatch, unused)});
   check_struct(samples, "SampleResult", sizeof(shader::SampleResult),
-               {MEMBER(SampleResult, color), MEMBER(SampleResult, counts)});
+               {MEMBER(SampleResult, color), MEMBER(SampleResult, written), MEMBER(SampleResult, rays),
+                MEMBER(SampleResult, hits), MEMBER(SampleResult, flags), MEMBER(SampleResult, iterations)});
   CHECK(samples.push_constant_bytes == sizeof(shader::Dispatch));
 
   const gpu::Reflection waves =
       gpu::reflect(test::compile_entry("kernels/wavefront.comp.glsl", scene, {}, "#define STORED_HITS 1\n"));
-  check_struct(waves, "PacketHit", sizeof(shader::PacketHit),
-               {MEMBER(PacketHit, hit), MEMBER(PacketHit, uv)});
+  check_struct(
+      waves, "PacketHit", sizeof(shader::PacketHit),
+      {MEMBER(PacketHit, t), MEMBER(PacketHit, slot), MEMBER(PacketHit, id), MEMBER(PacketHit, flags),
+       MEMBER(PacketHit, u), MEMBER(PacketHit, v), MEMBER(PacketHit, unused_0), MEMBER(PacketHit, unused_1)});
   check_struct(waves, "PathState", sizeof(shader::PathState),
-               {MEMBER(PathState, origin), MEMBER(PathState, direction), MEMBER(PathState, throughput)});
+               {MEMBER(PathState, origin), MEMBER(PathState, unused_0), MEMBER(PathState, direction),
+                MEMBER(PathState, unused_1), MEMBER(PathState, throughput), MEMBER(PathState, unused_2)});
 
   const gpu::Reflection hits =
       gpu::reflect(test::compile_entry("kernels/render.comp.glsl", scene, {}, "#define FIRST_HITS\n"));
   check_struct(hits, "HitResult", sizeof(shader::HitResult),
-               {MEMBER(HitResult, position_t), MEMBER(HitResult, normal), MEMBER(HitResult, uv),
-                MEMBER(HitResult, ids)});
+               {MEMBER(HitResult, position), MEMBER(HitResult, t), MEMBER(HitResult, normal),
+                MEMBER(HitResult, u), MEMBER(HitResult, v), MEMBER(HitResult, primitive),
+                MEMBER(HitResult, material), MEMBER(HitResult, flags)});
   const gpu::Reflection query = gpu::reflect(test::compile_entry("kernels/query.comp.glsl", scene, {}));
   check_struct(query, "QueryRay", sizeof(shader::QueryRay),
-               {MEMBER(QueryRay, origin), MEMBER(QueryRay, direction)});
-  check_struct(query, "QueryHit", sizeof(shader::QueryHit), {MEMBER(QueryHit, hit)});
+               {MEMBER(QueryRay, origin), MEMBER(QueryRay, unused), MEMBER(QueryRay, direction),
+                MEMBER(QueryRay, t_max)});
+  check_struct(query, "QueryHit", sizeof(shader::QueryHit),
+               {MEMBER(QueryHit, t), MEMBER(QueryHit, primitive), MEMBER(QueryHit, flags),
+                MEMBER(QueryHit, occlusion)});
+}
+
+TEST_CASE("no two bindings of the buffers have one number") {
+  const std::string text = test::read_text("shaders/records.h");
+  const std::regex row("#define (BINDING_\\w+) (\\d+)");
+  std::map<std::string, std::string> by_number;
+  for (std::sregex_iterator it(text.begin(), text.end(), row), end; it != end; ++it) {
+    const std::string number = (*it)[2], name = (*it)[1];
+    const auto [first, is_new] = by_number.emplace(number, name);
+    CHECK_MESSAGE(is_new, name, " and ", first->second, " are ", number);
+  }
+  CHECK(by_number.size() > 10);
 }

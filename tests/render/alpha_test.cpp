@@ -72,12 +72,12 @@ TEST_CASE("an alpha of the cutoff is there, below it there is a hole; behind a h
   const bool there[] = {true, false, true, false, true, true};  // as picture_mask has them
   for (int texel = 0; texel < 6; ++texel) {
     const Vec3 to(-2 + 2 * (texel % 3), texel < 3 ? 1 : -1, -1);
-    const shader::QueryRay ray{to_vec4(to + Vec3(0, 0, 1)), to_vec4({0, 0, -1}, 1.5)};
+    const shader::QueryRay ray = query_ray(to + Vec3(0, 0, 1), {0, 0, -1}, 1.5);
     CAPTURE(texel);
-    CHECK(ask_twin(packed, {&ray, 1}, true)[0].hit.w == (there[texel] ? OPTICAL_DEPTH_OPAQUE : 0u));
+    CHECK(ask_twin(packed, {&ray, 1}, true)[0].occlusion == (there[texel] ? OPTICAL_DEPTH_OPAQUE : 0u));
     shader::QueryRay endless = ray;
-    endless.direction.w = T_MISS;
-    CHECK(ask_twin(packed, {&endless, 1}, false)[0].hit.y == (there[texel] ? 0u : 1u));
+    endless.t_max = T_MISS;
+    CHECK(ask_twin(packed, {&endless, 1}, false)[0].primitive == (there[texel] ? 0u : 1u));
     const Ray exact{to + Vec3(0, 0, 1), {0, 0, -1}};
     CHECK(tracer.trace(exact)->primitive == (there[texel] ? 0u : 1u));
     uint32_t flags = 0;
@@ -99,14 +99,14 @@ TEST_CASE("cutouts: BVHs find what brute force finds, and in float64 too, to the
         CHECK(differences(expected, ask_twin(pack(scene, {.acceleration = Acceleration::bvh, .split = split}),
                                              rays, any)) == 0);
       PackedScene filled = brute;
-      for (shader::Material& material : filled.materials) material.mask = {};
+      for (shader::Material& material : filled.materials) material.alpha_cutoff = 0;
       holes += differences(expected, ask_twin(filled, rays, any));
       if (any) continue;
       const reference::Tracer tracer(scene);
       for (size_t i = 0; i < rays.size(); ++i) {
         const auto hit = tracer.trace({Vec3(rays[i].origin), Vec3(rays[i].direction)});
-        const bool within = hit && hit->at.t < double(rays[i].direction.w);
-        apart += expected[i].hit.y != (within ? uint32_t(hit->primitive) : NONE);
+        const bool within = hit && hit->at.t < double(rays[i].t_max);
+        apart += expected[i].primitive != (within ? uint32_t(hit->primitive) : NONE);
       }
     }
     MESSAGE(fmt::format("{} instances: {} of {} rays hit cutouts, {} differ from float64", instances, holes,

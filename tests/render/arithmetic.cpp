@@ -33,15 +33,15 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver")
     for (const uint32_t integrator : {0u, 1u}) {
       PackedScene scene = pack(described);
       CHECK(scene.has_bvh == (&described == &large));
-      scene.frame.counts.z = integrator;
-      scene.frame.camera.w = 8;
+      scene.frame.integrator = integrator;
+      scene.frame.max_depth = 8;
       scene.media.push_back({});
       scene.lights.push_back({});
-      scene.textures[0].even.w = TEXTURE_CHECKER;
-      scene.textures.emplace_back().even.w = TEXTURE_IMAGE;
+      scene.textures[0].kind = TEXTURE_CHECKER;
+      scene.textures.emplace_back().kind = TEXTURE_IMAGE;
       scene.texel_count = TEXELS_FIRST;
       for (const uint32_t material : {0u, 1u, 2u}) {
-        scene.materials[0].head.x = material;
+        scene.materials[0].kind = material;
         const std::vector<uint32_t> written =
             test::compile_entry("kernels/render.comp.glsl", scene, specialisation);
         for (const auto& spirv : {written, gpu::optimise(gpu::decorate_no_contraction(written))}) {

@@ -26,17 +26,17 @@ class Tally {
                std::span<const shader::QueryHit> expected, std::span<const shader::QueryHit> found) {
     for (size_t i = 0; i < rays.size(); ++i) {
       ++compared;
-      hits += expected[i].hit.y != NONE;
-      dimmed += expected[i].hit.w > 0 && expected[i].hit.w < OPTICAL_DEPTH_OPAQUE;
-      if (expected[i].hit == found[i].hit) continue;
+      hits += expected[i].primitive != NONE;
+      dimmed += expected[i].occlusion > 0 && expected[i].occlusion < OPTICAL_DEPTH_OPAQUE;
+      if (bits(expected[i]) == bits(found[i])) continue;
       const std::lock_guard lock(mutex_);
       if (++different > 5) continue;
       const auto text = [](const shader::uvec4& hit) {
         return fmt::format("t {:.9g}, primitive {}, flags {}, sum {}", std::bit_cast<float>(hit.x),
                            int(hit.y), hit.z, hit.w);
       };
-      shown_ += fmt::format("scene {}, {}, ray {}: {}; not {}\n", seed, what, i, text(found[i].hit),
-                            text(expected[i].hit));
+      shown_ += fmt::format("scene {}, {}, ray {}: {}; not {}\n", seed, what, i, text(bits(found[i])),
+                            text(bits(expected[i])));
     }
   }
   std::string shown() const { return shown_; }

@@ -79,7 +79,7 @@ TEST_CASE("a BVH4 holds each slot of the binary one once, in boxes no smaller, f
     const PackedScene scene_packed = packed(scene, false);
     const CollapsedBvh bvh = collapse(scene_packed.nodes, scene_packed.bvhs[0]);
     Boxes binary, widened;
-    gather(scene_packed.nodes, 2, scene_packed.bvhs[0].head.x, binary);
+    gather(scene_packed.nodes, 2, scene_packed.bvhs[0].root, binary);
     gather(bvh.nodes, bvh4_children, 0, widened);
     CHECK(widened.size() == binary.size());
     for (const auto& [slot, box] : binary) {
@@ -110,14 +110,15 @@ TEST_CASE("nearest and any: four lanes a ray find what the twin finds, bit by bi
     // Half of them in bundles that start together, as bounces do, and so have a common way down.
     for (size_t i = 0; i < rays.size() / 2; ++i) {
       rays[i].origin = rays[i / 16 * 16].origin;
-      if (i % 3 == 0) rays[i].origin += shader::vec4(random.point(1e-3), 0.0f);
+      if (i % 3 == 0) rays[i].origin += glm::vec3(random.point(1e-3));
     }
     const std::vector<shader::QueryHit> nearest = test::ask_twin(scene_packed, rays, false);
     const std::vector<shader::QueryHit> any = test::ask_twin(scene_packed, rays, true);
     const auto hits =
-        std::ranges::count_if(nearest, [](const shader::QueryHit& hit) { return hit.hit.y != NONE; });
-    const auto half = std::ranges::count_if(
-        any, [](const shader::QueryHit& hit) { return hit.hit.w > 0 && hit.hit.w < OPTICAL_DEPTH_OPAQUE; });
+        std::ranges::count_if(nearest, [](const shader::QueryHit& hit) { return hit.primitive != NONE; });
+    const auto half = std::ranges::count_if(any, [](const shader::QueryHit& hit) {
+      return hit.occlusion > 0 && hit.occlusion < OPTICAL_DEPTH_OPAQUE;
+    });
 
     Specialisation specialisation;
     specialisation.profile.texel_buffers = texels;
@@ -143,17 +144,17 @@ TEST_CASE(
   for (int i = 0; i < 100'000; ++i) test::add(scene, make_triangle(triangle), opaque);
   const PackedScene scene_packed = packed(scene, false);
   const CollapsedBvh bvh = collapse(scene_packed.nodes, scene_packed.bvhs[0]);
-  const std::vector<shader::QueryRay> rays(64, {shader::vec4(0), shader::vec4(0, 0, -1, 1e30f)});
+  const std::vector<shader::QueryRay> rays(64, test::query_ray(Vec3(0), {0, 0, -1}));
   const std::vector<shader::QueryHit> nearest = test::ask_twin(scene_packed, rays, false);
   test::QueryKernel kernel(device, scene_packed, {}, &bvh);
   const std::vector<shader::QueryHit> found = kernel.ask(rays, false);
   int flagged = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
-    CHECK(nearest[i].hit.y == 0);
-    if (found[i].hit.z & FLAG_LOOP_BUDGET)
+    CHECK(nearest[i].primitive == 0);
+    if (found[i].flags & FLAG_LOOP_BUDGET)
       ++flagged;
     else
-      CHECK(found[i].hit == nearest[i].hit);
+      CHECK(test::bits(found[i]) == test::bits(nearest[i]));
   }
   MESSAGE(fmt::format("{} of {} rays flagged", flagged, rays.size()));
 }

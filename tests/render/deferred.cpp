@@ -22,7 +22,7 @@ std::vector<shader::QueryRay> rays_around(const Scene& scene) {
   for (int i = 0; i < 6000; ++i) {
     const Vec3 from = middle + random.point(9);
     const Vec3 d = glm::normalize(middle + random.point(6) - from);
-    rays.push_back({to_vec4(from), to_vec4(d, i % 2 == 0 ? double(T_MISS) : random.uniform(1, 12))});
+    rays.push_back(test::query_ray(from, d, i % 2 == 0 ? double(T_MISS) : random.uniform(1, 12)));
   }
   return rays;
 }
@@ -39,7 +39,7 @@ void check_against_twin(gpu::Device& device, const Scene& scene, const PackedSce
       CAPTURE(any);
       CHECK(differences(expected, kernel.ask(rays, any)) == 0);
       CHECK(std::ranges::count_if(expected, [&](const shader::QueryHit& hit) {
-              return any ? hit.hit.w > 0 : hit.hit.y != NONE;
+              return any ? hit.occlusion > 0 : hit.primitive != NONE;
             }) > least_hits);
     }
   }

@@ -354,7 +354,7 @@ class HardScene {
     const double t_max = chance(0.5)   ? 3e38
                          : chance(0.5) ? distance
                                        : distance * random_.log_uniform(0.1, 10);
-    return {to_vec4(origin), to_vec4(direction, t_max)};
+    return query_ray(origin, direction, t_max);
   }
 
   Random random_;

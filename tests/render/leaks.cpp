@@ -90,7 +90,7 @@ struct PlacedMesh {
     REQUIRE(packed.instances.size() == (kept == Kept::baked ? 0 : 2));
   }
   Vec3 to_world(const Vec3& p) const { return Vec3(map * glm::dvec4(p, 1)); }
-  bool is_hit(const shader::QueryHit& hit) const { return hit.hit.y < triangles; }
+  bool is_hit(const shader::QueryHit& hit) const { return hit.primitive < triangles; }
 
   Scene scene;
   Mat4 map;
@@ -133,7 +133,7 @@ TEST_CASE(
           const Vec3 direction = aim == Aim::random
                                      ? random.direction()
                                      : glm::normalize(placed.to_world(target) - Vec3(glm::vec3(origin)));
-          ray = {to_vec4(origin), to_vec4(direction, 1e30)};
+          ray = test::query_ray(origin, direction);
         }
         const std::vector<shader::QueryHit> hits = kernel.ask(rays, false);
         const auto leaks =
@@ -178,7 +178,7 @@ TEST_CASE(
           away = glm::normalize(away -
                                 surface.normal_geometric * glm::dot(away, surface.normal_geometric) * 0.999f);
         if (shader::dot3(away, surface.normal_geometric) < 0) away = -away;
-        rays.push_back({shader::vec4(shader::spawn_ray(surface, away).o, 0.0f), shader::vec4(away, 1e30f)});
+        rays.push_back({shader::spawn_ray(surface, away).o, 0.0f, away, 1e30f});
       }
       QueryKernel kernel(device, placed.packed, {});
       const std::vector<shader::QueryHit> hits = kernel.ask(rays, false);

@@ -161,14 +161,14 @@ TEST_CASE(
   test::add(scene, make_dielectric({.shadow = 0.99999}));
   for (int i = 0; i < count; ++i) test::add(scene, make_sphere(Vec3(0), 1), 0);
   std::vector<shader::QueryRay> rays;
-  for (int i = 0; i < 64; ++i) rays.push_back({to_vec4(Vec3(0.02 * i, 0, 0)), to_vec4(Vec3(0, 0, -1), 1e30)});
+  for (int i = 0; i < 64; ++i) rays.push_back(test::query_ray(Vec3(0.02 * i, 0, 0), Vec3(0, 0, -1)));
 
   gpu::Device device({});
   for (const Acceleration acceleration : {Acceleration::bvh, Acceleration::brute_force}) {
     const PackedScene packed = pack(scene, {.acceleration = acceleration});
     const std::vector<shader::QueryHit> expected = test::ask_twin(packed, rays, true);
-    CHECK(expected[0].hit.w > count);
-    CHECK(expected[0].hit.w < OPTICAL_DEPTH_OPAQUE);
+    CHECK(expected[0].occlusion > count);
+    CHECK(expected[0].occlusion < OPTICAL_DEPTH_OPAQUE);
     for (const bool texels : {false, true}) {
       Specialisation specialisation;
       specialisation.profile = {.texel_buffers = texels, .shift_stack = texels};
@@ -176,8 +176,8 @@ TEST_CASE(
       const std::vector<shader::QueryHit> found = kernel.ask(rays, true);
       int flagged = 0, wrong = 0, silent = 0;
       for (size_t i = 0; i < rays.size(); ++i) {
-        const bool flag = (found[i].hit.z & FLAG_LOOP_BUDGET) != 0;
-        const bool right = found[i].hit.w == expected[i].hit.w;
+        const bool flag = (found[i].flags & FLAG_LOOP_BUDGET) != 0;
+        const bool right = found[i].occlusion == expected[i].occlusion;
         flagged += flag;
         wrong += !right;
         silent += !right && !flag;

@@ -41,7 +41,7 @@ std::vector<shader::QueryRay> picture(Random& random, int size, int strays) {
       const bool stray = strays > 0 && random.below(strays) == 0;
       const Vec3 start = stray ? random.point(3) - Vec3(0, 0, 8) : Vec3(0);
       const double t_max = rays.size() % 7 == 0 ? random.uniform(0, 9) : 1e30;
-      rays.push_back({to_vec4(start), to_vec4(stray ? random.direction() : glm::normalize(pixel), t_max)});
+      rays.push_back(test::query_ray(start, stray ? random.direction() : glm::normalize(pixel), t_max));
     }
   }
   return rays;
@@ -73,9 +73,10 @@ TEST_CASE("nearest and any: rays in packets find what the twin finds, bit by bit
     const std::vector<shader::QueryHit> nearest = test::ask_twin(scene, rays, false);
     const std::vector<shader::QueryHit> any = test::ask_twin(scene, rays, true);
     const auto hits =
-        std::ranges::count_if(nearest, [](const shader::QueryHit& hit) { return hit.hit.y != NONE; });
-    const auto half = std::ranges::count_if(
-        any, [](const shader::QueryHit& hit) { return hit.hit.w > 0 && hit.hit.w < OPTICAL_DEPTH_OPAQUE; });
+        std::ranges::count_if(nearest, [](const shader::QueryHit& hit) { return hit.primitive != NONE; });
+    const auto half = std::ranges::count_if(any, [](const shader::QueryHit& hit) {
+      return hit.occlusion > 0 && hit.occlusion < OPTICAL_DEPTH_OPAQUE;
+    });
     const int different =
         test::differences(kernel.ask(rays, false), nearest) + test::differences(kernel.ask(rays, true), any);
     MESSAGE(fmt::format("{} primitives: {} of {} rays hit, {} half in shadow, {} differ",

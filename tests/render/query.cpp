@@ -19,9 +19,9 @@ TEST_CASE("nearest and any: every bit is the same on the GPU, unrolled or loopin
     const std::vector<shader::QueryHit> nearest = test::ask_twin(scene, rays, false);
     const std::vector<shader::QueryHit> any = test::ask_twin(scene, rays, true);
     const auto hits =
-        std::ranges::count_if(nearest, [](const shader::QueryHit& hit) { return hit.hit.y != NONE; });
+        std::ranges::count_if(nearest, [](const shader::QueryHit& hit) { return hit.primitive != NONE; });
     const auto shadows =
-        std::ranges::count_if(any, [](const shader::QueryHit& hit) { return hit.hit.w > 0; });
+        std::ranges::count_if(any, [](const shader::QueryHit& hit) { return hit.occlusion > 0; });
     for (const bool constants : {true, false}) {
       Specialisation specialisation;
       specialisation.constants = constants;

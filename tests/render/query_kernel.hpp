@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 #include <vector>
 
@@ -63,7 +64,7 @@ class QueryKernel {
     kernel->set_buffer(BINDING_RAYS, queries);
     kernel->set_buffer(BINDING_OUTPUT, results);
     shader::Dispatch push{};
-    push.tile.x = uint32_t(rays.size());
+    push.count = uint32_t(rays.size());
     gpu::dispatch(device_, *kernel, std::as_bytes(std::span(&push, 1)),
                   {uint32_t(rays.size() + 63) / 64, 1, 1});
     return results.read_records<shader::QueryHit>(rays.size());
@@ -105,10 +106,14 @@ inline std::vector<shader::QueryHit> ask_twin(const PackedScene& scene,
   return hits;
 }
 
+inline shader::uvec4 bits(const shader::QueryHit& hit) {
+  return std::bit_cast<shader::uvec4>(hit);
+}
+
 // How many of the answers are not the same to the last bit.
 inline int differences(std::span<const shader::QueryHit> a, std::span<const shader::QueryHit> b) {
   int different = 0;
-  for (size_t i = 0; i < a.size(); ++i) different += a[i].hit != b[i].hit;
+  for (size_t i = 0; i < a.size(); ++i) different += bits(a[i]) != bits(b[i]);
   return different;
 }
 

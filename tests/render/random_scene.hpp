@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/pack/pack.hpp"
+#include "support.hpp"
 #include "tests/reference/meshes.hpp"
 #include "tests/support/random.hpp"
 
@@ -47,7 +48,8 @@ inline PackedScene random_packed_scene(Random& random, int count, const PackOpti
 inline shader::QueryRay random_ray(Random& random) {
   const Vec3 axes[] = {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
   const Vec3 direction = random.below(10) == 0 ? axes[random.below(3)] : random.direction();
-  return {to_vec4(random.point(4)), to_vec4(direction, random.below(2) == 0 ? random.uniform(0, 8) : 1e30)};
+  const Vec3 origin = random.point(4);
+  return query_ray(origin, direction, random.below(2) == 0 ? random.uniform(0, 8) : 1e30);
 }
 
 }  // namespace eyeray::test

@@ -28,11 +28,11 @@ inline std::vector<RayTarget> ray_targets(const Scene& scene, Random& random) {
     } else if (kind_of(p) == shader::KIND_plane) {
       target = {target.a * p.a.w, target.a * p.a.w + target.b, target.a * p.a.w + target.c};
     } else if (kind_of(p) == shader::KIND_polygon) {
-      const uint32_t path = p.head.w + 2;
+      const uint32_t path = p.extra + 2;
       target = {glm::vec3(vertex(path)), glm::vec3(vertex(path + 1)), glm::vec3(vertex(path + 2))};
     } else if (kind_of(p) != shader::KIND_triangle && kind_of(p) != shader::KIND_parallelogram) {
       // The centre of object space, and where two of its axes leave the unit cube.
-      const glm::vec4 x = vertex(p.head.w), y = vertex(p.head.w + 1), z = vertex(p.head.w + 2);
+      const glm::vec4 x = vertex(p.extra), y = vertex(p.extra + 1), z = vertex(p.extra + 2);
       target.a = {x.w, y.w, z.w};
       target.b = target.a + glm::vec3(x.x, y.x, z.x);
       target.c = target.a + glm::vec3(x.y, y.y, z.y);
@@ -49,9 +49,9 @@ inline std::vector<RayTarget> ray_targets(const Scene& scene, Random& random) {
     }
     targets.push_back(target);
   };
-  for (uint32_t i = 0; i < packed.bvhs[0].head.z; ++i) take(packed.primitives[i], nullptr);
+  for (uint32_t i = 0; i < packed.bvhs[0].end_slot; ++i) take(packed.primitives[i], nullptr);
   for (const shader::Instance& instance : packed.instances)
-    for (uint32_t i = packed.bvhs[instance.head.x].head.y; i < packed.bvhs[instance.head.x].head.z; ++i)
+    for (uint32_t i = packed.bvhs[instance.bvh].first_slot; i < packed.bvhs[instance.bvh].end_slot; ++i)
       take(packed.primitives[i], &instance);
   return targets;
 }

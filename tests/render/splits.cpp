@@ -73,7 +73,7 @@ class LongTriangles {
       if (chance(0.2)) from += random_.direction() * size_ * random_.log_uniform(1e-9, 1e-2);
       if (from == to) from += Vec3(0, 0, size_);
       const Vec3 direction = glm::normalize(to - from);
-      ray = {to_vec4(from), to_vec4(direction, chance(0.5) ? 3e38 : glm::length(to - from))};
+      ray = query_ray(from, direction, chance(0.5) ? 3e38 : glm::length(to - from));
     }
     return rays;
   }
@@ -101,7 +101,7 @@ TEST_CASE("triangles cut in parts: 4 million grazing rays find what brute force 
     const std::vector<shader::QueryRay> rays = hard.rays(4000);
     for (const bool any : {false, true}) {
       const std::vector<shader::QueryHit> expected = ask_twin(brute, rays, any);
-      for (const shader::QueryHit& hit : expected) hits += hit.hit.y != NONE || hit.hit.w > 0;
+      for (const shader::QueryHit& hit : expected) hits += hit.primitive != NONE || hit.occlusion > 0;
       compared += int64_t(rays.size());
       different += differences(expected, ask_twin(cut, rays, any));
     }

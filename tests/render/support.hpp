@@ -1,6 +1,7 @@
 // The entries, compiled for a packed scene as the gpu executor does it.
 #pragma once
 
+#include "host/executors/samples.hpp"
 #include "host/executors/shader_files.hpp"
 #include "host/executors/specialise.hpp"
 #include "host/gpu/kernel_compiler.hpp"
@@ -17,6 +18,11 @@ inline gpu::ShaderSource entry_source(const char* entry, const PackedScene& scen
 inline std::vector<uint32_t> compile_entry(const char* entry, const PackedScene& scene,
                                            const Specialisation& specialisation, const char* defines = "") {
   return gpu::compile_shader(entry_source(entry, scene, specialisation), defines).spirv;
+}
+
+// `t_max`: up to which occlusion counts.
+inline shader::QueryRay query_ray(const Vec3& origin, const Vec3& direction, double t_max = 1e30) {
+  return to_query_ray({origin, direction, t_max}, Vec3(0));
 }
 
 }  // namespace eyeray::test

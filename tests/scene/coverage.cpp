@@ -28,7 +28,7 @@ Kinds kinds_of(const Scene& scene) {
   Kinds kinds;
   for (const auto& [shape, material] : packed.uses) {
     kinds.shapes.insert(shape);
-    kinds.materials.insert(packed.materials[material].head.x);
+    kinds.materials.insert(packed.materials[material].kind);
   }
   return kinds;
 }

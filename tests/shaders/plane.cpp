@@ -58,7 +58,7 @@ TEST_CASE(
 TEST_CASE("a ray parallel to a plane, in it or beside it, is a miss in trace()") {
   PackedScene scene;
   scene.primitives = {make_plane({0, 1, 0}, 0)};
-  scene.primitives[0].head = Packer::head(shader::KIND_plane, 0);
+  scene.primitives[0].material_and_kind = shader::material_and_kind(0, shader::KIND_plane);
   scene.materials.resize(1);  // without holes
   for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
     scene.linear_ends.push_back(kind < shader::KIND_plane ? 0 : 1);

@@ -56,7 +56,7 @@ Mesh closed_mesh(const Vec3& centre, double radius, double stretch) {
 shader::Primitive make_triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   const Vec3 n = glm::normalize(glm::cross(Vec3(b) - Vec3(a), Vec3(c) - Vec3(a)));
   shader::Primitive triangle{};
-  triangle.head.w = NONE;
+  triangle.extra = NONE;
   triangle.a = to_vec4(Vec3(a), n.x);
   triangle.b = to_vec4(Vec3(b), n.y);
   triangle.c = to_vec4(Vec3(c), n.z);
@@ -170,7 +170,7 @@ TEST_CASE("a ray along an edge of a sliver hits the sliver, or nothing, by both 
   // Seen along the ray, which lies in its plane, all its y are 0: by Moeller and Trumbore's weights, rounded,
   // it is hit.
   shader::Primitive sliver{};
-  sliver.head.w = NONE;
+  sliver.extra = NONE;
   sliver.a = {0.836856663F, -1.32419038F, 0.496149808F, -0.328005642F};
   sliver.b = {0.336856663F, -1.32419038F, 0.246149793F, -0.679751098F};
   sliver.c = {0.636856377F, -1.32419074F, 0.396149218F, 0.656011283F};

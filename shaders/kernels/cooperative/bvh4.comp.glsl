@@ -65,17 +65,17 @@ void main() {
     if (!asked) to_light = make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
     TraversalState found = trace_cooperatively(to_light, asked ? distance : -1.0f);
     flags = flags | iteration_limit(found);
-    if (there) occlusions[light * dispatch.sample_index.z + place] = found.occluded;
+    if (there) occlusions[light * dispatch.count + place] = found.occluded;
     light += 1u;
   } while (light < shadow_rays());
   flags = flags | loops_cut_off(LOOP_PROBE);
-  if (there) hits[place].hit.w = hits[place].hit.w | flags;
+  if (there) hits[place].flags = hits[place].flags | flags;
 #endif
 #else
-  bool there = i < dispatch.tile.x;
+  bool there = i < dispatch.count;
   QueryRay asked = rays[there ? i : 0u];
-  Ray own = make_ray(vec3(asked.origin), vec3(asked.direction));
-  TraversalState found = trace_cooperatively(own, there ? minimum(asked.direction.w, T_MISS) : -1.0f);
+  Ray own = make_ray(asked.origin, asked.direction);
+  TraversalState found = trace_cooperatively(own, there ? minimum(asked.t_max, T_MISS) : -1.0f);
   if (there) results[i] = answer(found, ANY, loops_cut_off(LOOP_PROBE));
 #endif
 }

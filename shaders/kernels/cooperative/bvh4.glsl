@@ -128,7 +128,7 @@ void visit_leaf() {
   if (BVH_HOLDS(number, primitive)) t = name##_intersect(primitive, ray, uv);
   SHAPES(INTERSECT_COOPERATIVELY)
   t = alpha_test(primitive, NONE, ray, t, uv);
-  record_intersection(state, mine ? t : -1.0f, uv, slot, primitive.head.x, NONE, primitive.head.z, ANY);
+  record_intersection(state, mine ? t : -1.0f, uv, slot, primitive.id, NONE, primitive.optical_depth, ANY);
   uint next = from_lane(stack[0], 0u);
   if (ANY) next = sum(state.occluded) >= OPTICAL_DEPTH_OPAQUE ? TRAVERSAL_DONE : next;
   else limit = least(floatBitsToInt(state.hit.t));

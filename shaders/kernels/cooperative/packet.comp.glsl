@@ -41,22 +41,22 @@ uint ray_of(uint lane, uint k) {
 uint place_of(uint packet, uint i) {
   uint j = packet * uint(PACKET) + i;
 #if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
-  uvec2 pixel = pixel_of_block(j / 64u, j % 64u, dispatch.tile);
-  bool there = pixel.x < dispatch.tile.z && pixel.y < dispatch.tile.w;
-  return there ? pixel.y * dispatch.tile.z + pixel.x : NONE;
+  uvec2 pixel = pixel_of_block(j / 64u, j % 64u, dispatch.tile_width);
+  bool there = pixel.x < dispatch.tile_width && pixel.y < dispatch.tile_height;
+  return there ? pixel.y * dispatch.tile_width + pixel.x : NONE;
 #else
-  return j < dispatch.tile.x ? j : NONE;
+  return j < dispatch.count ? j : NONE;
 #endif
 }
 
 #if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
 // The sample's ray through the pixel at `place` of the tile.
 Ray eye_ray(uint place) {
-  uint row = quotient(place, dispatch.tile.z);
-  uint x = dispatch.tile.x + place - row * dispatch.tile.z;
-  uint y = dispatch.tile.y + row;
+  uint row = quotient(place, dispatch.tile_width);
+  uint x = dispatch.tile_x + place - row * dispatch.tile_width;
+  uint y = dispatch.tile_y + row;
   Frame frame = load_frame();
-  return camera_ray(frame, sample_position(frame, x, y, dispatch.sample_index.x));
+  return camera_ray(frame, sample_position(frame, x, y, dispatch.sample_index));
 }
 #endif
 
@@ -104,13 +104,13 @@ void main() {
     traverse_together(lane);
     EACH {
       flags[k] = flags[k] | iteration_limit(state[k]);
-      if (place[k] != NONE) occlusions[light * dispatch.sample_index.z + place[k]] = state[k].occluded;
+      if (place[k] != NONE) occlusions[light * dispatch.count + place[k]] = state[k].occluded;
     }
     light += 1u;
   } while (light < shadow_rays());
   uint cut_off = loops_cut_off(LOOP_PROBE);
   EACH {
-    if (place[k] != NONE) hits[place[k]].hit.w = hits[place[k]].hit.w | flags[k] | cut_off;
+    if (place[k] != NONE) hits[place[k]].flags = hits[place[k]].flags | flags[k] | cut_off;
   }
 #else
   EACH {
@@ -119,8 +119,8 @@ void main() {
     state[k] = traversal_state(place[k] == NONE ? -1.0f : T_MISS);
 #else
     QueryRay asked = rays[place[k] == NONE ? 0u : place[k]];
-    ray[k] = make_ray(vec3(asked.origin), vec3(asked.direction));
-    state[k] = traversal_state(place[k] == NONE ? -1.0f : minimum(asked.direction.w, T_MISS));
+    ray[k] = make_ray(asked.origin, asked.direction);
+    state[k] = traversal_state(place[k] == NONE ? -1.0f : minimum(asked.t_max, T_MISS));
 #endif
     intersect_linear_list(state[k], ray[k], ANY);
   }

@@ -62,7 +62,7 @@ struct Line {
 Line line_of(Ray r) {
   Line line;
   line.way = 2u * r.major + (permute(r.d, r.major).z < 0.0f ? 1u : 0u);
-  line.p = permute(r.o - vec3(bvh.origin), r.major);
+  line.p = permute(r.o - bvh.origin, r.major);
   line.shear = r.shear;
   return line;
 }
@@ -93,7 +93,7 @@ Line first_line() {
 // Makes those rays members that run the same way as the first that waits, and no farther than `closeness` from it, where it starts and
 // where it leaves the BVH.
 void choose_members(Line first, float closeness) {
-  float extent = permute(vec3(bvh.extent), first.way >> 1u).z;
+  float extent = permute(bvh.extent, first.way >> 1u).z;
   bool backward = (first.way & 1u) != 0u;
   float start = backward ? minimum(first.p.z, extent) : maximum(first.p.z, 0.0f);
   float end = backward ? 0.0f : extent;
@@ -124,18 +124,18 @@ vec2 max_of(vec2 a, vec2 b) { return vec2(maximum(a.x, b.x), maximum(a.y, b.y));
 void make_shaft_of_members(uint way) {
   bool backward = (way & 1u) != 0u;
   float forward = backward ? -1.0f : 1.0f;
-  float extent = permute(vec3(bvh.extent), way >> 1u).z;
+  float extent = permute(bvh.extent, way >> 1u).z;
   float reach = 0.0f;
   float z0 = T_MISS;
   float z1 = -T_MISS;
   EACH {
     along[k] = vec2(forward * line_of(ray[k]).p.z, abs(permute(ray[k].d, ray[k].major).z));
-    float far = max_component(abs3(ray[k].o - vec3(bvh.origin)) + vec3(bvh.extent));
+    float far = max_component(abs3(ray[k].o - bvh.origin) + bvh.extent);
     reach = member[k] ? maximum(reach, far) : reach;
     z0 = member[k] ? minimum(z0, along[k].x) : z0;
     z1 = member[k] ? maximum(z1, along[k].x + along[k].y * state[k].hit.t) : z1;
   }
-  float slack = bvh.extent.w * largest(reach);
+  float slack = bvh.slack * largest(reach);
   z0 = maximum(least(z0), backward ? -extent : 0.0f) - slack;
   z1 = maximum(minimum(largest(z1), backward ? 0.0f : extent), z0) + slack;
 
@@ -177,8 +177,8 @@ int make_key(int entry) { return entry == FAR_AWAY ? FAR_AWAY : (entry & ~int(LA
 void visit_node() {
   bool here = at < LEAF;
   uvec4 c = load_node(PACKET_ROOT + LANES * (here ? at : 0u) + lane);
-  vec3 lower = vec3(low_half(c.x), low_half(c.y), low_half(c.z)) * vec3(bvh.step);
-  vec3 upper = vec3(low_half(c.x >> 16u), low_half(c.y >> 16u), low_half(c.z >> 16u)) * vec3(bvh.step);
+  vec3 lower = vec3(low_half(c.x), low_half(c.y), low_half(c.z)) * bvh.step;
+  vec3 upper = vec3(low_half(c.x >> 16u), low_half(c.y >> 16u), low_half(c.z >> 16u)) * bvh.step;
   int child = here && c.w != NONE ? make_key(entry_of(shaft, lower, upper, limit)) : FAR_AWAY;
 
   // Go to the nearest child that is hit, or to what waits.
@@ -230,7 +230,7 @@ void visit_leaf() {
 #define BOX_OF(name, number) \
   if (BVH_HOLDS(number, mine)) name##_box(mine, lower, upper);
   SHAPES(BOX_OF)
-  key = there ? make_key(entry_of(shaft, lower - vec3(bvh.origin), upper - vec3(bvh.origin), limit)) : FAR_AWAY;
+  key = there ? make_key(entry_of(shaft, lower - bvh.origin, upper - bvh.origin, limit)) : FAR_AWAY;
   bool hit = key != FAR_AWAY;
   vec3 slack = vec3(shaft.slack, shaft.slack, shaft.slack);
   vec3 far = vec3(T_MISS, T_MISS, T_MISS);
@@ -297,7 +297,7 @@ void intersect_passing() {
   vec2 uv;
   float t = intersect_primitive(primitive, r, uv);
   t = some ? t : -1.0f;
-  EACH record_intersection(state[k], chosen == uint(k) ? t : -1.0f, uv, first_slot + from, primitive.head.x, NONE, primitive.head.z, ANY);
+  EACH record_intersection(state[k], chosen == uint(k) ? t : -1.0f, uv, first_slot + from, primitive.id, NONE, primitive.optical_depth, ANY);
 }
 
 // Few rays pass a triangle: they wait until all of the leaf's have been looked at.
@@ -317,7 +317,7 @@ void intersect_passing(uint from) {
     vec2 uv;
     float t = intersect_primitive(primitive, ray[k], uv);
     t = (bits & (1u << k)) != 0u ? t : -1.0f;
-    record_intersection(state[k], t, uv, first_slot + from, primitive.head.x, NONE, primitive.head.z, ANY);
+    record_intersection(state[k], t, uv, first_slot + from, primitive.id, NONE, primitive.optical_depth, ANY);
   }
   passing = 0u;
 }

@@ -38,12 +38,7 @@ uvec4 from_lane(uvec4 v, uint i) {
   return uvec4(subgroupShuffle(v.x, i), subgroupShuffle(v.y, i), subgroupShuffle(v.z, i), subgroupShuffle(v.w, i));
 }
 Primitive from_lane(Primitive p, uint i) {
-  Primitive other;
-  other.head = from_lane(p.head, i);
-  other.a = from_lane(p.a, i);
-  other.b = from_lane(p.b, i);
-  other.c = from_lane(p.c, i);
-  return other;
+  return primitive_of(from_lane(head_of(p), i), from_lane(p.a, i), from_lane(p.b, i), from_lane(p.c, i));
 }
 
 #endif
