@@ -10,7 +10,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/primitive_ids.hpp"
 
-namespace eyeray {
+namespace eyeray::bench {
 namespace {
 
 constexpr int block = 8;
@@ -130,4 +130,4 @@ Batch bounce_batch(std::span<const SurfacePosition> departures, uint32_t seed) {
   return batch;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::bench

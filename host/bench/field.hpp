@@ -8,7 +8,7 @@
 
 #include "host/bench/race.hpp"
 
-namespace eyeray {
+namespace eyeray::bench {
 
 struct BatchReport {
   std::string name;  // primary, shadow, bounce
@@ -53,4 +53,4 @@ std::string changes(const FieldReport& old, const FieldReport& report);
 // As an SVG picture: rays a second over primitives, and how the others compare with Embree.
 std::string to_svg(const FieldReport& report);
 
-}  // namespace eyeray
+}  // namespace eyeray::bench

@@ -4,7 +4,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -79,4 +79,4 @@ FieldReport read_field_report(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::bench

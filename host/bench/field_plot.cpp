@@ -8,7 +8,7 @@
 #include "host/bench/field.hpp"
 #include "host/bench/svg.hpp"
 
-namespace eyeray {
+namespace eyeray::bench {
 namespace {
 
 constexpr double panel_width = 320, panel_height = 260, margin = 60, bar_height = 12;
@@ -208,4 +208,4 @@ std::string to_svg(const FieldReport& report) {
   return Plot(report).draw();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::bench

@@ -2,7 +2,7 @@
 
 #include "host/contenders/embree.hpp"
 
-namespace eyeray {
+namespace eyeray::bench {
 namespace {
 
 Contender contender(const Embree& embree, EmbreeCalls calls) {
@@ -40,4 +40,4 @@ SceneReport run_field(const std::string& name, const std::string& family, const 
   return report;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::bench

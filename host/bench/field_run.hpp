@@ -2,7 +2,7 @@
 
 #include "host/bench/field.hpp"
 
-namespace eyeray {
+namespace eyeray::bench {
 
 struct FieldOptions {
   int width = 1024;  // of the picture whose eye rays are traced
@@ -17,4 +17,4 @@ struct FieldOptions {
 SceneReport run_field(const std::string& name, const std::string& family, const Scene& scene,
                       const FieldOptions& options, std::span<const Contender> ours);
 
-}  // namespace eyeray
+}  // namespace eyeray::bench

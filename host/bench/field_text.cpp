@@ -4,7 +4,7 @@
 
 #include "host/bench/field.hpp"
 
-namespace eyeray {
+namespace eyeray::bench {
 namespace {
 
 std::string millions(double rays_per_second) {
@@ -87,4 +87,4 @@ std::string changes(const FieldReport& old, const FieldReport& report) {
   return text;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::bench

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace eyeray {
+namespace eyeray::bench {
 namespace {
 
 std::string escaped(std::string_view text) {
@@ -66,4 +66,4 @@ std::string Svg::finished() const {
   return body_ + "</svg>\n";
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::bench

@@ -7,7 +7,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::bench {
 
 class Svg {
  public:
@@ -28,4 +28,4 @@ class Svg {
   std::string body_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::bench

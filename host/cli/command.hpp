@@ -76,9 +76,6 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options);
 
 // --backend gpu|twin|reference.
 void add_backend_option(CLI::App& command, Backend& backend);
-// "gpu", "twin", "reference", both ways; Error (bad_input) for another name.
-Backend parse_backend(const std::string& name);
-std::string_view backend_name(Backend backend);
 
 // --crop X,Y,W,H; an empty rect when not given. Error (bad_input) at load time when it leaves the picture.
 void add_crop_option(CLI::App& command, Rect& crop);
@@ -87,9 +84,5 @@ void check_crop(const Rect& crop, const ImageSettings& image);
 // Progress on stderr: a bar with rays/s and time left on a terminal, a plain line every few seconds
 // otherwise, nothing under --quiet. NO_COLOR is honoured.
 std::function<void(const Progress&)> progress_reporter(bool quiet);
-
-// "12.3 Mrays/s", "1.25 s", "3.4 ms".
-std::string format_rate(double rays_per_second);
-std::string format_seconds(double seconds);
 
 }  // namespace eyeray::cli

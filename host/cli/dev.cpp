@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/picture.hpp"
+#include "host/core/readable.hpp"
 #include "host/core/termination.hpp"
 #include "host/dev/file_watcher.hpp"
 #include "host/dev/worker.hpp"

@@ -7,6 +7,7 @@
 
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
+#include "host/core/readable.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/generate/ply_file.hpp"
 

@@ -192,25 +192,6 @@ void add_backend_option(CLI::App& command, Backend& backend) {
       ->group("Device");
 }
 
-Backend parse_backend(const std::string& name) {
-  for (const Backend backend : {Backend::gpu, Backend::twin, Backend::reference}) {
-    if (name == backend_name(backend)) return backend;
-  }
-  throw Error(ExitCode::bad_input, "no backend '{}': there are gpu, twin and reference", name);
-}
-
-std::string_view backend_name(Backend backend) {
-  switch (backend) {
-    case Backend::gpu:
-      return "gpu";
-    case Backend::twin:
-      return "twin";
-    case Backend::reference:
-      return "reference";
-  }
-  return "";
-}
-
 void add_crop_option(CLI::App& command, Rect& crop) {
   const auto parse = [&crop](const std::string& text) {
     int numbers[4];

@@ -9,6 +9,7 @@
 #include "host/cli/picture_files.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/peak_memory.hpp"
+#include "host/core/readable.hpp"
 #include "host/core/termination.hpp"
 #include "host/image/image_file.hpp"
 #include "host/render/corners.hpp"

@@ -3,6 +3,7 @@
 
 #include "host/cli/picture.hpp"
 #include "host/cli/within.hpp"
+#include "host/core/readable.hpp"
 
 namespace eyeray::cli {
 namespace {

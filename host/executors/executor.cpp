@@ -1,8 +1,28 @@
 #include "host/executors/executor.hpp"
 
+#include "host/core/error.hpp"
 #include "host/executors/executors.hpp"
 
 namespace eyeray {
+
+Backend parse_backend(std::string_view name) {
+  for (const Backend backend : {Backend::gpu, Backend::twin, Backend::reference}) {
+    if (name == backend_name(backend)) return backend;
+  }
+  throw Error(ExitCode::bad_input, "no backend '{}': there are gpu, twin and reference", name);
+}
+
+std::string_view backend_name(Backend backend) {
+  switch (backend) {
+    case Backend::gpu:
+      return "gpu";
+    case Backend::twin:
+      return "twin";
+    case Backend::reference:
+      return "reference";
+  }
+  return "";
+}
 
 std::unique_ptr<Executor> make_executor(Backend backend, const Scene& scene, const ExecutorOptions& options) {
   if (backend == Backend::gpu) return make_gpu_executor(scene, options);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/core/pixel.hpp"
@@ -18,6 +19,9 @@
 namespace eyeray {
 
 enum class Backend { gpu, twin, reference };
+// "gpu", "twin", "reference", both ways; Error (bad_input) for another name.
+Backend parse_backend(std::string_view name);
+std::string_view backend_name(Backend backend);
 
 // Produces samples of pixels of one scene. Not thread-safe; parallel inside.
 class Executor {

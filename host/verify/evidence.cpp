@@ -1,4 +1,4 @@
-#include "host/cli/evidence.hpp"
+#include "host/verify/evidence.hpp"
 
 #include <fstream>
 #include <iterator>
@@ -9,7 +9,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::cli {
+namespace eyeray::verify {
 namespace {
 
 // The words that this process was started with, as a shell takes them.
@@ -56,4 +56,4 @@ void keep_evidence(const fs::path& folder, std::span<const Frame> frames, const 
   write_file_atomically(folder / "command.txt", own_command_line() + "\n");
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::verify

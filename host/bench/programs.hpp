@@ -10,7 +10,7 @@
 #include "host/bench/spread.hpp"
 #include "host/core/process.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::bench {
 
 // What one run took.
 struct TimedRun {
@@ -42,4 +42,4 @@ bool have_povray();
 TimedRun run_povray(const std::filesystem::path& scene, int width, int height,
                     const std::filesystem::path& output);
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::bench

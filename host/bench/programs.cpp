@@ -1,4 +1,4 @@
-#include "host/cli/bench_runs.hpp"
+#include "host/bench/programs.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::cli {
+namespace eyeray::bench {
 namespace {
 
 constexpr double longest_run_seconds = 600;
@@ -92,4 +92,4 @@ TimedRun run_povray(const fs::path& scene, int width, int height, const fs::path
   return run;
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::bench

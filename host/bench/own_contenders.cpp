@@ -1,0 +1,48 @@
+#include "host/bench/own_contenders.hpp"
+
+#include "host/core/stopwatch.hpp"
+
+namespace eyeray::bench {
+
+OwnContenders::OwnContenders(const Scene& scene, const std::vector<std::string>& backends,
+                             const std::vector<std::string>& incoherent, const std::string& device) {
+  ExecutorOptions options;
+  options.device = device;
+  for (const std::string& name : backends) {
+    const Backend backend = parse_backend(name);
+    if (backend != Backend::gpu) {
+      add(name, scene, backend, options);
+      continue;
+    }
+    for (const std::string& how : incoherent) {
+      ExecutorOptions traced_so = options;
+      traced_so.profile.incoherent = how;
+      add(how.empty() ? name : name + " " + how, scene, backend, traced_so);
+    }
+  }
+}
+
+void OwnContenders::add(const std::string& name, const Scene& scene, Backend backend,
+                        const ExecutorOptions& options) {
+  const Stopwatch watch;
+  executors_.push_back(make_executor(backend, scene, options));
+  seconds_.push_back(watch.seconds());
+  Executor* const executor = executors_.back().get();
+  contenders_.push_back({name, ContenderKind::ours, [executor](const Batch& batch, std::span<QueryHit> hits) {
+                           return executor->query({batch.rays, batch.kind, batch.coherent}, hits);
+                         }});
+}
+
+std::vector<Build> OwnContenders::builds() const {
+  std::vector<Build> builds;
+  for (size_t i = 0; i < executors_.size(); ++i) {
+    double packing = 0;
+    for (const auto& [stage, spent] : executors_[i]->times().stages())
+      if (stage == "pack" || stage == "collapse") packing += spent;
+    builds.push_back(
+        {contenders_[i].name, packing > 0 ? packing : seconds_[i], executors_[i]->geometry_bytes()});
+  }
+  return builds;
+}
+
+}  // namespace eyeray::bench

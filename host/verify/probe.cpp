@@ -1,0 +1,58 @@
+#include "host/verify/probe.hpp"
+
+#include <bit>
+
+namespace eyeray::verify {
+namespace {
+
+uint64_t mix(uint64_t hash, uint64_t value) {
+  return (hash ^ value) * 0x9e3779b97f4a7c15u + std::rotl(hash, 23);
+}
+
+// Adds to a probe's fingerprints what one sample's eye ray hits.
+void add_first_hit(Probe& probe, const Scene& scene, const FirstHit& hit) {
+  probe.first_surfaces = mix(probe.first_surfaces, uint64_t(hit.primitive));
+  if (hit.primitive < 0) return;
+  const Vec3 color = scene.materials[size_t(hit.material)]->base_color(hit.uv);
+  for (int c = 0; c < 3; ++c) probe.first_colors = mix(probe.first_colors, std::bit_cast<uint64_t>(color[c]));
+}
+
+// How far off surfaces, and at most aside, float32 rays start: of a triangle, 8 ε for each of its three
+// vertices (docs/numerics.md).
+constexpr double float32_ray_offset = 24 * 0x1p-24;
+
+// All samples of pixel (x, y), every ray moved by `shift`.
+Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int y, const Vec2& shift) {
+  Probe result;
+  const auto seed = uint32_t(mix(std::bit_cast<uint64_t>(shift.x), std::bit_cast<uint64_t>(shift.y)) >> 32);
+  for (int i = 0; i < scene.image.samples; ++i) {
+    const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift);
+    result.color += sample.color / double(scene.image.samples);
+    result.sample_colors.push_back(sample.color);
+    using reference::TextureChoice;
+    const auto add_rounded = [&](bool along_normal, TextureChoice textures) {
+      const reference::RayOffset ray_offset{float32_ray_offset, along_normal, seed, textures};
+      result.rounded_colors.push_back(renderer.sample(x, y, uint32_t(i), shift, ray_offset).color);
+    };
+    for (const bool along_normal : {false, true}) add_rounded(along_normal, TextureChoice::at_hit);
+    if (shift == Vec2(0.0))
+      for (const auto textures : {TextureChoice::darkest, TextureChoice::brightest})
+        add_rounded(false, textures);
+    result.hits += sample.hits;
+    result.direct = result.direct && sample.hits <= 1;
+    const Vec2 place = reference::sample_position(scene.image, scene.render.seed, x, y, uint32_t(i));
+    add_first_hit(result, scene, renderer.first_hit(x, y, place - 0.5 + shift));
+  }
+  result.hits_per_sample = double(result.hits) / scene.image.samples;
+  result.first_hit = renderer.first_hit(x, y, shift);
+  result.rounding = renderer.rounding(x, y, result.first_hit.t);
+  return result;
+}
+
+}  // namespace
+
+Reference probes(const Scene& scene, const reference::Renderer& renderer) {
+  return [&](int x, int y, const Vec2& shift) { return probe(scene, renderer, x, y, shift); };
+}
+
+}  // namespace eyeray::verify

@@ -1,0 +1,13 @@
+// The reference around a pixel, as gates B and C ask for it.
+#pragma once
+
+#include "host/compare/explain.hpp"
+#include "host/reference/renderer.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray::verify {
+
+// `renderer` is that of `scene`; both must outlive what is returned.
+Reference probes(const Scene& scene, const reference::Renderer& renderer);
+
+}  // namespace eyeray::verify

@@ -1,0 +1,41 @@
+// Renders a scene by every executor and compares them, gate by gate (docs/verification.md).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/compare/report.hpp"
+#include "host/executors/executor.hpp"
+#include "host/render/render.hpp"
+
+namespace eyeray::verify {
+
+// How scenes are verified.
+struct Options {
+  std::vector<Backend> backends{Backend::gpu, Backend::twin};  // compared with the reference, in this order
+  ExecutorOptions executor;                                    // of all of them; `fault` is injected here
+  Rect crop;                                                   // what is compared; empty: the whole picture
+  Tolerances tolerances;                                       // of gates B and C
+  int64_t ulp = 0;                                             // the bound of gate A
+  // Asked before each executor renders, for what is told how far it has come; may be empty, and so may its
+  // answer.
+  std::function<std::function<void(const Progress&)>()> progress;
+};
+
+// What is verified, and its names.
+struct Subject {
+  const Scene& scene;
+  std::string file;                // Report::scene
+  std::string written_options;     // Report::options
+  std::filesystem::path evidence;  // the folder where pictures are left when a gate fails (evidence.hpp)
+};
+
+// Renders the scene by each backend and at last by the reference. Gate A compares each backend with the
+// first, gates B and C compare each with the reference. The report says which of them pass. Error
+// (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be written, and what make_executor and
+// render throw.
+Report verify_scene(const Subject& subject, const Options& options);
+
+}  // namespace eyeray::verify
