@@ -256,6 +256,7 @@ uint64_t trace_iterations(const PackedScene& scene, bool unrolled) {
   return scene.has_bvh ? 0 : (unrolled ? 0 : scene.primitives.size()) + scene.shape_iterations;
 }
 
+// Each define that is written here has its meaning in shaders/kernels/features.h.
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
   std::set<uint32_t> shapes_used, leaves_used, materials_used, material_kinds, kinds_with_uv,
       alpha_tested_kinds;
@@ -326,7 +327,9 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_END(name) END_##name\n";
   // Whoever looks at first hits looks at uv too.
   text += "#ifdef FIRST_HITS\n#define UV_OF(name) true\n#else\n#define UV_OF(name) UV_##name\n#endif\n";
-  text += "#include \"kernels/bindings.glsl\"\n";
+  const std::set<uint32_t> slow = deferred_kinds(scene);
+  define("HAS_DEFERRED_SHAPES", int(!slow.empty()));
+  text += "#include \"kernels/features.h\"\n#include \"kernels/bindings.glsl\"\n";
   if (options.constants && few_shading_records(scene)) text += shading_as_constants(scene, materials_used);
   // Where the eye moves, so do primitives: such a kernel is made anew for each camera as it is.
   if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
@@ -334,10 +337,8 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   text += formulas(scene);
   text += registry("CLOSED_SHAPES", "shapes", shapes, leaves_used);
   text += registry("SHAPES", "shapes", shapes, shapes_used);
-  const std::set<uint32_t> slow = deferred_kinds(scene);
   std::set<uint32_t> quick;
   std::ranges::set_difference(scene.bvh_kinds, slow, std::inserter(quick, quick.end()));
-  define("HAS_DEFERRED_SHAPES", int(!slow.empty()));
   text += registry("IMMEDIATE_SHAPES", "shapes", shapes, quick);
   text += registry("DEFERRED_SHAPES", "shapes", shapes, slow);
   text += registry("ALPHA_TESTED_SHAPES", "shapes", shapes, alpha_tested_kinds);

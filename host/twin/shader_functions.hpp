@@ -80,39 +80,19 @@ class Binding {
 }  // namespace
 }  // namespace eyeray::shader
 
-// What a specialised kernel gets from its generated scene.glsl, here for every scene.
+// What a specialised kernel gets from its generated scene.glsl, here for every scene
+// (shaders/kernels/features.h).
 #define KIND_FIRST(name) bound_scene->first_linear(KIND_##name)
 #define KIND_END(name) bound_scene->linear_ends[KIND_##name]
 #define LIGHT_COUNT bound_scene->frame.light_count
 #define TRIANGLE_METHOD bound_scene->frame.triangle_method
 #define HAS_BVH bound_scene->has_bvh
 #define QUANTISED_NODES bound_scene->quantised_nodes
-#define BVH_HOLDS(number, primitive) (kind_of(primitive) == number)
-#define HAS_INSTANCES 1
-#define HAS_DEFERRED_SHAPES 0
 #define IMMEDIATE_SHAPES SHAPES
-#define INSTANCE_COUNT uint(bound_scene->instances.size())
-#define STORED_HITS 0
-#define MAY_REACH_ITERATION_LIMIT 1
-#define HAS_SECONDARY 1
-#define RAY_KINDS 1
-#define SHIFT_STACK 0
-#define STACK_SIZE 128
-#define TRACE_ITERATIONS 0u
-#define LOOP_PROBE bound_scene->frame.loop_probe
-#define PATH_STACK 64
-#define INTEGRATOR_IS(number) (bound_scene->frame.integrator == number)
-#define HAS_CHECKER 1
-#define HAS_IMAGES 1
-#define HAS_COLORS 1
-#define HAS_EMISSION 1
-#define HAS_CSG 1
-#define HAS_MIXED_CSG 1
-#define HAS_ALPHA_TEST 1
 #define ALPHA_TESTED_SHAPES SHAPES
-#define HAS_MEDIA 1
-#define HAS_ABSORPTION 1
-#define UV_OF(name) true
+#define INSTANCE_COUNT uint(bound_scene->instances.size())
+#define LOOP_PROBE bound_scene->frame.loop_probe
+#define INTEGRATOR_IS(number) (bound_scene->frame.integrator == number)
 // One march of each kind for all formulas.
 #define FORMULAS(X) X(if_bounded(it.formula, false), stepped) X(if_bounded(it.formula, true), bounded)
 #define FORMULA_VALUE(it, p) load_formula_value(it.formula, p)
@@ -120,6 +100,8 @@ class Binding {
 #define FORMULA_GRADIENT(it, p) load_formula_gradient(it.formula, p)
 #define FORMULA_BOUND(it, x, y, z) load_formula_bound(it.formula, x, y, z)
 #define FORMULA_DUAL(it, p) load_formula_dual(it.formula, p)
+
+#include "shaders/kernels/features.h"
 
 #include "host/core/local_shaders.hpp"
 

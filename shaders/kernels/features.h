@@ -1,0 +1,144 @@
+// What a kernel is specialised by: the contract between executors/specialise.cpp, which writes these defines for a scene, the twin,
+// which is compiled once for every scene (twin/shader_functions.hpp), and the shaders that ask them. A test compares the lists.
+#ifndef FEATURES_H
+#define FEATURES_H
+
+// ---- What the scene has. Default: everything; the twin takes it, and shaders ask the records as well ----------------
+#ifndef HAS_CHECKER  // a texture is a check
+#define HAS_CHECKER 1
+#endif
+#ifndef HAS_IMAGES  // a texture is an image
+#define HAS_IMAGES 1
+#endif
+#ifndef HAS_COLORS  // a mesh's vertices have colours
+#define HAS_COLORS 1
+#endif
+#ifndef HAS_EMISSION  // a material emits light
+#define HAS_EMISSION 1
+#endif
+#ifndef HAS_ALPHA_TEST  // a material has an alpha
+#define HAS_ALPHA_TEST 1
+#endif
+#ifndef HAS_MEDIA  // there is a medium beside the vacuum
+#define HAS_MEDIA 1
+#endif
+#ifndef HAS_ABSORPTION  // a medium absorbs
+#define HAS_ABSORPTION 1
+#endif
+#ifndef HAS_SECONDARY  // rays are reflected or refracted
+#define HAS_SECONDARY 1
+#endif
+#ifndef HAS_CSG
+#define HAS_CSG 1
+#endif
+#ifndef HAS_MIXED_CSG  // a CSG object's surfaces differ in optical depth
+#define HAS_MIXED_CSG 1
+#endif
+#ifndef HAS_INSTANCES
+#define HAS_INSTANCES 1
+#endif
+#ifndef HAS_DEFERRED_SHAPES  // a BVH holds both DEFERRED_SHAPES and others
+#define HAS_DEFERRED_SHAPES 0
+#endif
+#ifndef MAY_REACH_ITERATION_LIMIT  // a shape may return T_ITERATION_LIMIT
+#define MAY_REACH_ITERATION_LIMIT 1
+#endif
+#ifndef BVH_HOLDS  // (number, primitive): whether the primitive, which is in a BVH, is of that kind
+#define BVH_HOLDS(number, primitive) (kind_of(primitive) == number)
+#endif
+#ifndef BVH_OF_TRIANGLES  // BVHs hold nothing else
+#define BVH_OF_TRIANGLES 0
+#endif
+#ifndef UV_OF  // (name): whether the texture coordinates of that kind of shape count
+#define UV_OF(name) true
+#endif
+// No default; the twin asks its PackedScene.
+//   LIGHT_COUNT        how many lights there are
+//   INSTANCE_COUNT     how many instances
+//   TRIANGLE_METHOD    TRIANGLE_WOOP or TRIANGLE_MOLLER_TRUMBORE
+//   HAS_BVH            true or false: whether there is a BVH of the world
+//   QUANTISED_NODES    true or false: how its nodes are coded
+//   KIND_FIRST         (name): the first slot of that kind in no BVH
+//   KIND_END           (name): and the end of its slots
+//   KIND_name          the number of a shape, and below, by which KIND_FIRST, KIND_END and UV_OF answer
+//   FIRST_name
+//   END_name
+//   UV_name
+
+// ---- The registries, with the rows alone that the scene needs. Default: registry.h of each ---------------------------
+//   SHAPES
+//   CLOSED_SHAPES      those that the scene's CSG objects are made of
+//   DEFERRED_SHAPES    those that rays wait with for each other (bvh/traverse.glsl)
+//   IMMEDIATE_SHAPES   those in BVHs that are not deferred
+//   ALPHA_TESTED_SHAPES  those of a material with an alpha
+//   MATERIALS
+//   INTEGRATORS
+//   INTEGRATOR_IS      (number): whether that is the frame's
+
+// ---- Formulas of [[implicit]] ---------------------------------------------------------------------------------------
+//   FORMULAS              (X): X(number, name) of each; shapes/implicit/*.glsl are included once for each …
+//   FORMULA_NAME          … with this to name their functions, (part), …
+//   FORMULA_VALUE         … and these to ask the formula
+//   FORMULA_HAS_GRADIENT
+//   FORMULA_GRADIENT
+//   FORMULA_BOUND
+//   FORMULA_DUAL
+//   FORMULA_OVERRAN       defined where a formula loops: whether one made too many turns
+
+// ---- What is compiled in: defined or not; the twin has none of it ----------------------------------------------------
+//   SHADING_AS_CONSTANTS  materials, textures, media and lights
+//   FRAME_AS_CONSTANT     the frame
+//   SCENE_MATERIALS       (X): X(name, index, material) of each
+//   SCENE_PRIMITIVES      (X): X(name, slot, primitive) of each, in the order of their ids
+
+// ---- Loops and stacks ------------------------------------------------------------------------------------------------
+#ifndef STACK_SIZE  // of a traversal
+#define STACK_SIZE 128
+#endif
+#ifndef SHIFT_STACK  // whether it stays in registers (bvh/bvh.glsl)
+#define SHIFT_STACK 0
+#endif
+#ifndef PATH_STACK  // paths of a pixel that wait; 0 where no ray splits in two
+#define PATH_STACK 64
+#endif
+#ifndef TRACE_ITERATIONS  // that a ray makes outside BVHs
+#define TRACE_ITERATIONS 0u
+#endif
+//   LOOP_PROBE            2, from a buffer (kernels/loops.glsl); kernels/bindings.glsl defines it
+//   LOOP_BUDGET           defined where a driver caps loops: the iterations that a pixel may make (docs/lavapipe.md)
+
+// ---- How the kernel runs ---------------------------------------------------------------------------------------------
+#ifndef TEXEL_BUFFERS  // whether what grows with the scene is in texel buffers (kernels/bindings.glsl)
+#define TEXEL_BUFFERS 0
+#endif
+#ifndef RAY_KINDS  // whether rays are counted by their kinds (records.h, SampleResult)
+#define RAY_KINDS 1
+#endif
+#ifndef GROUP_STRIDE  // runs of workgroups (kernels/tile.glsl)
+#define GROUP_STRIDE 1u
+#endif
+#ifndef SUBGROUP_SIZE  // lanes
+#define SUBGROUP_SIZE 8
+#endif
+#ifndef PACKET_ROOT  // node of the BVH that packets traverse
+#define PACKET_ROOT 0u
+#endif
+#ifndef PACKET_STACK  // and their stack
+#define PACKET_STACK 1
+#endif
+
+// ---- What an executor defines for one kernel of an entry -------------------------------------------------------------
+#ifndef STORED_HITS  // whether other kernels have traced the paths' rays and their shadow rays
+#define STORED_HITS 0
+#endif
+//   FIRST_HITS            first hits instead of samples
+//   QUERY_ANY             any hit will do
+//   LISTED                the pixels of a list
+//   ENDS_ONLY             of a wavefront: what goes on is only listed
+//   PACKET_PRIMARY        a packet's rays are those of the eye …
+//   PACKET_SHADOW         … or those to the lights from what they hit
+//   BOUNCE_HITS           kernels/cooperative/bvh4.comp.glsl traces the rays of a bounce …
+//   BOUNCE_SHADOW         … or those to the lights from what they hit
+//   BVH4_STACK_SIZE       of kernels/cooperative/bvh4.comp.glsl
+
+#endif
