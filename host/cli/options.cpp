@@ -170,8 +170,9 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options) {
   choose("--loads", options.profile.loads, "texels|storage",
          "Load the scene as texels or from storage buffers.");
   choose("--rays", options.profile.rays, "packets|lanes", "Trace coherent rays together, or each alone.");
-  choose("--incoherent", options.profile.incoherent, "cooperative|lanes",
-         "Trace the rays of later bounces by four lanes each, where packets trace the eye rays, or each alone.");
+  choose(
+      "--incoherent", options.profile.incoherent, "cooperative|lanes",
+      "Trace the rays of later bounces by four lanes each, where packets trace the eye rays, or each alone.");
   choose("--stack", options.profile.stack, "shift|array",
          "Keep the stack in registers or in an indexed array.");
   command

@@ -11,6 +11,7 @@
 #include "host/executors/fault.hpp"
 #include "host/executors/profile.hpp"
 #include "host/executors/samples.hpp"
+#include "host/executors/scene_buffers.hpp"
 #include "host/executors/shader_files.hpp"
 #include "host/executors/specialise.hpp"
 #include "host/executors/wavefront.hpp"
@@ -189,38 +190,22 @@ class GpuExecutor final : public Executor {
     shaders_ = ShaderFiles(options_.shader_folder, specialise(packed, specialisation));
   }
 
-  gpu::BindingKind large_buffers() const {
-    return profile_.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
-  }
-
   void upload(const PackedScene& packed) {
-    const gpu::BindingKind kind = large_buffers();
-    add_buffer(BINDING_PRIMITIVES, "primitives", std::span(packed.primitives), kind);
-    add_buffer(BINDING_VERTICES, "vertices", std::span(packed.vertices), kind);
-    add_buffer(BINDING_NODES, "nodes", std::span(packed.nodes), kind);
-    add_buffer(BINDING_BVHS, "BVHs", std::span(packed.bvhs));
-    add_buffer(BINDING_INSTANCES, "instances", std::span(packed.instances));
-    geometry_bytes_ = uploaded_;
-    add_buffer(BINDING_MATERIALS, "materials", std::span(packed.materials));
-    add_buffer(BINDING_TEXTURES, "textures", std::span(packed.textures));
-    add_buffer(BINDING_TEXELS, "texels", std::span(packed.texels), kind);
-    add_buffer(BINDING_MEDIA, "media", std::span(packed.media));
-    add_buffer(BINDING_LIGHTS, "lights", std::span(packed.lights));
-    add_buffer(BINDING_FRAME, "frame", std::span(&packed.frame, 1), kind);
+    for (const SceneBuffer& buffer : scene_buffers(packed)) add_buffer(buffer);
   }
 
-  template <typename Record>
-  void add_buffer(uint32_t binding, const char* name, std::span<const Record> records,
-                  gpu::BindingKind kind = gpu::BindingKind::storage) {
-    // A shader may look at the first record of an empty list in a branch that is masked out.
-    gpu::Buffer buffer(device_, std::max(records.size(), size_t{1}) * sizeof(Record), name, kind);
+  void add_buffer(const SceneBuffer& source) {
+    const bool texels = source.texels && profile_.texel_buffers;
+    gpu::Buffer buffer(device_, source.size(), source.name,
+                       texels ? gpu::BindingKind::texels : gpu::BindingKind::storage);
     uploaded_ += buffer.size();
+    if (source.geometry) geometry_bytes_ += buffer.size();
     if (uploaded_ > device_.info().limits.heap)
       throw Error(ExitCode::no_device,
                   "the scene needs more than the {} bytes of memory that {} has: {} up to buffer '{}'",
-                  device_.info().limits.heap, device_.info().name, uploaded_, name);
-    if (!records.empty()) buffer.upload_records(records);
-    buffers_.emplace_back(binding, std::move(buffer));
+                  device_.info().limits.heap, device_.info().name, uploaded_, source.name);
+    if (!source.bytes.empty()) buffer.upload(source.bytes);
+    buffers_.emplace_back(source.binding, std::move(buffer));
   }
 
   std::unique_ptr<gpu::Kernel> make_kernel(const std::string& entry, const std::string& defines) {
@@ -311,9 +296,7 @@ class GpuExecutor final : public Executor {
     const CollapsedBvh bvh4 = times_.measure("collapse", [&] { return collapse(binary_nodes_, bvh_); });
     binary_nodes_ = {};
     bvh4_stack_ = bvh4.stack_size;
-    const uint64_t before = uploaded_;
-    add_buffer(BINDING_BVH4_NODES, "BVH4 nodes", std::span(bvh4.nodes), large_buffers());
-    geometry_bytes_ += uploaded_ - before;
+    add_buffer(bvh4_buffer(bvh4.nodes));
   }
   std::string bvh4_defines() const { return fmt::format("#define BVH4_STACK_SIZE {}\n", bvh4_stack_); }
 

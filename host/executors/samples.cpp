@@ -7,6 +7,11 @@
 
 namespace eyeray {
 
+// The host names the shaders' flags where it knows no records (core/pixel.hpp).
+static_assert(media_overflow == FLAG_MEDIA_OVERFLOW && stack_overflow == FLAG_STACK_OVERFLOW);
+static_assert(loop_budget == FLAG_LOOP_BUDGET && iteration_limit == FLAG_ITERATION_LIMIT);
+static_assert(endless == FLAG_ENDLESS);
+
 shader::QueryRay to_query_ray(const Query& ray, const Vec3& eye) {
   return {glm::vec3(ray.o - eye), 0.0f, glm::vec3(ray.d), float(ray.t_max)};
 }

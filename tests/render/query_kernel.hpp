@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/executors/scene_buffers.hpp"
 #include "host/gpu/command_list.hpp"
 #include "host/gpu/self_test.hpp"
 #include "host/pack/collapse.hpp"
@@ -25,25 +26,13 @@ class QueryKernel {
               const CollapsedBvh* collapsed = nullptr)
       : device_(device), scene_(scene), specialisation_(specialisation) {
     specialisation_.subgroup_size = device.info().limits.subgroup_size;
-    const gpu::BindingKind large =
-        specialisation.profile.texel_buffers ? gpu::BindingKind::texels : gpu::BindingKind::storage;
-    add(BINDING_PRIMITIVES, std::as_bytes(std::span(scene.primitives)), large);
-    add(BINDING_VERTICES, std::as_bytes(std::span(scene.vertices)), large);
     PackedScene with_packets = scene;
     if (traces_packets())
       specialisation_.packet_bvh = add_packet_bvh(with_packets, specialisation_.subgroup_size);
-    add(BINDING_NODES, std::as_bytes(std::span(with_packets.nodes)), large);
-    add(BINDING_BVHS, std::as_bytes(std::span(scene.bvhs)));
-    add(BINDING_INSTANCES, std::as_bytes(std::span(scene.instances)));
-    add(BINDING_MATERIALS, std::as_bytes(std::span(scene.materials)));
-    add(BINDING_TEXTURES, std::as_bytes(std::span(scene.textures)));
-    add(BINDING_TEXELS, std::as_bytes(std::span(scene.texels)), large);
-    add(BINDING_MEDIA, std::as_bytes(std::span(scene.media)));
-    add(BINDING_LIGHTS, std::as_bytes(std::span(scene.lights)));
-    add(BINDING_FRAME, std::as_bytes(std::span(&scene.frame, 1)), large);
+    for (const SceneBuffer& buffer : scene_buffers(with_packets)) add(buffer);
     if (traces_packets()) entry_ = "kernels/cooperative/packet.comp.glsl";
     if (collapsed) {
-      add(BINDING_BVH4_NODES, std::as_bytes(std::span(collapsed->nodes)), large);
+      add(bvh4_buffer(collapsed->nodes));
       entry_ = "kernels/cooperative/bvh4.comp.glsl";
       defines_ = fmt::format("#define BVH4_STACK_SIZE {}\n", collapsed->stack_size);
     }
@@ -71,11 +60,12 @@ class QueryKernel {
   }
 
  private:
-  void add(uint32_t binding, std::span<const std::byte> bytes,
-           gpu::BindingKind kind = gpu::BindingKind::storage) {
-    gpu::Buffer buffer(device_, std::max(bytes.size(), size_t{128}), "scene", kind);
-    if (!bytes.empty()) buffer.upload(bytes);
-    buffers_.emplace_back(binding, std::move(buffer));
+  void add(const SceneBuffer& source) {
+    const bool texels = source.texels && specialisation_.profile.texel_buffers;
+    gpu::Buffer buffer(device_, source.size(), source.name,
+                       texels ? gpu::BindingKind::texels : gpu::BindingKind::storage);
+    if (!source.bytes.empty()) buffer.upload(source.bytes);
+    buffers_.emplace_back(source.binding, std::move(buffer));
   }
 
   std::unique_ptr<gpu::Kernel> make_kernel(bool any) {

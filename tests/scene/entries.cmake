@@ -69,7 +69,7 @@ eyeray_verify(mode.brute-force.groups mode scenes/group_instances.toml -s 48x36 
 eyeray_verify(mode.splits mode ${searched} ${groups} --acceleration bvh --splits)
 eyeray_verify(mode.profile-gpu mode ${views} scenes/shapes/polygon.toml scenes/shapes/torus.toml --profile gpu)
 eyeray_verify(mode.packets mode ${small} --acceleration bvh --no-constants --rays packets)
-set(bounces scenes/whitted.toml scenes/sphereflake.toml scenes/cornell.toml scenes/alpha.toml scenes/textures.toml scenes/shapes/superellipsoid.toml)
+set(bounces scenes/sphereflake.toml scenes/cornell.toml scenes/textures.toml)
 eyeray_verify(mode.cooperative mode QUICK ${bounces} -s 48x36 --acceleration bvh --no-constants --rays packets --incoherent cooperative)
 eyeray_verify(mode.packets.edges mode ${EDGES} --acceleration bvh --no-constants --rays packets)
 eyeray_verify(mode.raycast mode ${small} --integrator raycast)
