@@ -28,9 +28,9 @@ const StandardScene* as_standard(const std::string& name) {
 
 Scene load(const std::string& name, const Options& options) {
   if (const StandardScene* const standard = as_standard(name)) return standard->make();
-  std::vector<Override> overrides;
+  std::vector<loader::Override> overrides;
   for (const std::string& define : options.pictures.defines) overrides.push_back({define});
-  return load_scene(name, overrides);
+  return loader::load_scene(name, overrides);
 }
 
 SceneReport race_on(const std::string& name, const Options& options) {
@@ -49,7 +49,7 @@ SceneReport race_on(const std::string& name, const Options& options) {
 std::string text_for_povray(const std::string& name, const Scene& scene, const PictureOptions& options,
                             const Listener& listener) {
   try {
-    return povray_scene(scene, options.width, options.height);
+    return contenders::povray_scene(scene, options.width, options.height);
   } catch (const Error& error) {
     if (error.code() != ExitCode::bad_input) throw;
     listener.remark(fmt::format("{}: without POV-Ray: {}", name, error.what()));
@@ -94,7 +94,7 @@ Report measure(const Options& options, const Listener& listener) {
   // Look at everything that may be wrong before measuring for minutes.
   const bool named = !options.scenes.empty();
   const std::vector<std::string> scenes = named ? options.scenes : all_scenes();
-  for (const std::string& backend : options.pictures.backends) parse_backend(backend);
+  for (const std::string& backend : options.pictures.backends) executors::parse_backend(backend);
   for (const std::string& name : scenes)
     if (!as_standard(name)) load(name, options);
 

@@ -6,28 +6,28 @@ namespace eyeray::bench {
 
 OwnContenders::OwnContenders(const Scene& scene, const std::vector<std::string>& backends,
                              const std::vector<std::string>& incoherent, const std::string& device) {
-  ExecutorOptions options;
+  executors::ExecutorOptions options;
   options.device = device;
   for (const std::string& name : backends) {
-    const Backend backend = parse_backend(name);
-    if (backend != Backend::gpu) {
+    const executors::Backend backend = executors::parse_backend(name);
+    if (backend != executors::Backend::gpu) {
       add(name, scene, backend, options);
       continue;
     }
     for (const std::string& how : incoherent) {
-      ExecutorOptions traced_so = options;
+      executors::ExecutorOptions traced_so = options;
       traced_so.profile.incoherent = how;
       add(how.empty() ? name : name + " " + how, scene, backend, traced_so);
     }
   }
 }
 
-void OwnContenders::add(const std::string& name, const Scene& scene, Backend backend,
-                        const ExecutorOptions& options) {
+void OwnContenders::add(const std::string& name, const Scene& scene, executors::Backend backend,
+                        const executors::ExecutorOptions& options) {
   const Stopwatch watch;
-  executors_.push_back(make_executor(backend, scene, options));
+  executors_.push_back(executors::make_executor(backend, scene, options));
   seconds_.push_back(watch.seconds());
-  Executor* const executor = executors_.back().get();
+  executors::Executor* const executor = executors_.back().get();
   contenders_.push_back({name, ContenderKind::ours, [executor](const Batch& batch, std::span<QueryHit> hits) {
                            return executor->query({batch.rays, batch.kind, batch.coherent}, hits);
                          }});

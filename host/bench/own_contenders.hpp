@@ -22,9 +22,10 @@ class OwnContenders {
   std::vector<Build> builds() const;
 
  private:
-  void add(const std::string& name, const Scene& scene, Backend backend, const ExecutorOptions& options);
+  void add(const std::string& name, const Scene& scene, executors::Backend backend,
+           const executors::ExecutorOptions& options);
 
-  std::vector<std::unique_ptr<Executor>> executors_;
+  std::vector<std::unique_ptr<executors::Executor>> executors_;
   std::vector<Contender> contenders_;
   std::vector<double> seconds_;  // that making each took
 };

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // A stage with a mesh of its last material on it.
-Scene with_mesh(const std::string& stage, const char* name, MeshInMemory&& made) {
-  Scene scene = parse_scene(stage, name);
+Scene with_mesh(const std::string& stage, const char* name, generate::MeshInMemory&& made) {
+  Scene scene = loader::parse_scene(stage, name);
   made.mesh.name = name;
   scene.meshes.push_back(std::move(made.mesh));
   scene.instances.push_back({.mesh = 0, .material = int(scene.materials.size()) - 1, .position = {}});
@@ -29,7 +29,7 @@ Scene with_mesh(const std::string& stage, const char* name, MeshInMemory&& made)
 template <typename Make>
 void write_with_mesh(const fs::path& file, const std::string& stage, const char* material, const Make& make) {
   const fs::path mesh = fs::path(file).replace_extension(".ply");
-  PlyFile sink(mesh, "eyeray bench");
+  generate::PlyFile sink(mesh, "eyeray bench");
   make(sink);
   sink.commit();
   write_file_atomically(file, stage + fmt::format("\n[[mesh]]\nfile = \"{}\"\nmaterial = \"{}\"\n",
@@ -38,25 +38,25 @@ void write_with_mesh(const fs::path& file, const std::string& stage, const char*
 
 template <int grid>
 Scene terrain() {
-  MeshInMemory sink;
-  terrain_mesh({.grid = grid}, sink);
-  return with_mesh(terrain_stage(), "terrain", std::move(sink));
+  generate::MeshInMemory sink;
+  generate::terrain_mesh({.grid = grid}, sink);
+  return with_mesh(generate::terrain_stage(), "terrain", std::move(sink));
 }
 
 template <int grid>
 void write_terrain(const fs::path& file) {
-  write_with_mesh(file, terrain_stage(), "ground",
-                  [](MeshSink& sink) { terrain_mesh({.grid = grid}, sink); });
+  write_with_mesh(file, generate::terrain_stage(), "ground",
+                  [](generate::MeshSink& sink) { generate::terrain_mesh({.grid = grid}, sink); });
 }
 
 template <int size_factor>
 std::string sphereflake_text() {
-  return sphereflake_stage() + sphereflake_spheres(size_factor);
+  return generate::sphereflake_stage() + generate::sphereflake_spheres(size_factor);
 }
 
 template <int size_factor>
 Scene sphereflake() {
-  return parse_scene(sphereflake_text<size_factor>(), "sphereflake");
+  return loader::parse_scene(sphereflake_text<size_factor>(), "sphereflake");
 }
 
 template <int size_factor>
@@ -64,18 +64,18 @@ void write_sphereflake(const fs::path& file) {
   write_file_atomically(file, sphereflake_text<size_factor>());
 }
 
-void tessellate_sphereflake(MeshSink& sink) {
-  sphereflake_mesh(4, sphereflake_divisions(4, 1'000'000), sink);
+void tessellate_sphereflake(generate::MeshSink& sink) {
+  generate::sphereflake_mesh(4, generate::sphereflake_divisions(4, 1'000'000), sink);
 }
 
 Scene sphereflake_of_triangles() {
-  MeshInMemory sink;
+  generate::MeshInMemory sink;
   tessellate_sphereflake(sink);
-  return with_mesh(sphereflake_stage(), "sphereflake", std::move(sink));
+  return with_mesh(generate::sphereflake_stage(), "sphereflake", std::move(sink));
 }
 
 void write_sphereflake_of_triangles(const fs::path& file) {
-  write_with_mesh(file, sphereflake_stage(), "ball", tessellate_sphereflake);
+  write_with_mesh(file, generate::sphereflake_stage(), "ball", tessellate_sphereflake);
 }
 
 constexpr StandardScene scenes[] = {

@@ -25,7 +25,7 @@ struct Command {
 
 ExitCode Command::run() const {
   // Look at everything that may be wrong before measuring for minutes.
-  for (const std::string& backend : options.pictures.backends) parse_backend(backend);
+  for (const std::string& backend : options.pictures.backends) executors::parse_backend(backend);
   if (!plot.empty()) check_writable(plot);
   const bench::Report old = older.empty() ? bench::Report() : bench::read_report(older);
 

@@ -75,7 +75,7 @@ void list_names(const Scene& scene, Inventory& inventory) {
 }
 
 Inventory take_inventory(const Scene& scene) {
-  const PackedScene packed = pack_without_texels(scene);
+  const PackedScene packed = pack::pack_without_texels(scene);
   Inventory inventory;
   std::vector<uint32_t> kinds;
   for (const auto& shape : scene.shapes)
@@ -215,7 +215,7 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
 
 ExitCode Command::run() const {
   if (schema || manual) {
-    fmt::print("{}", schema ? scene_schema() : scene_manual());
+    fmt::print("{}", schema ? loader::scene_schema() : loader::scene_manual());
     return ExitCode::ok;
   }
   if (scene.file().empty()) throw Error(ExitCode::bad_input, "no scene given (see eyeray check --help)");

@@ -55,7 +55,7 @@ class SceneOptions {
  private:
   std::string file_;
   std::vector<std::string> defines_;
-  Trust trust_;
+  loader::Trust trust_;
   std::string size_;
   std::string samples_;
   std::string integrator_;
@@ -72,10 +72,10 @@ Acceleration parse_acceleration(const std::string& name);
 
 // --device, --shaders, --fast-math, --validate, --timeout, --no-constants, --no-optimiser, --acceleration,
 // --splits, --profile, --loads, --stack, and the hidden --inject-fault.
-void add_executor_options(CLI::App& command, ExecutorOptions& options);
+void add_executor_options(CLI::App& command, executors::ExecutorOptions& options);
 
 // --backend gpu|twin|reference.
-void add_backend_option(CLI::App& command, Backend& backend);
+void add_backend_option(CLI::App& command, executors::Backend& backend);
 
 // --crop X,Y,W,H; an empty rect when not given. Error (bad_input) at load time when it leaves the picture.
 void add_crop_option(CLI::App& command, Rect& crop);
@@ -83,6 +83,6 @@ void check_crop(const Rect& crop, const ImageSettings& image);
 
 // Progress on stderr: a bar with rays/s and time left on a terminal, a plain line every few seconds
 // otherwise, nothing under --quiet. NO_COLOR is honoured.
-std::function<void(const Progress&)> progress_reporter(bool quiet);
+std::function<void(const render::Progress&)> progress_reporter(bool quiet);
 
 }  // namespace eyeray::cli

@@ -14,7 +14,7 @@ namespace {
 
 struct Command {
   std::string a, b;
-  double tolerance = Tolerances{}.color;
+  double tolerance = compare::Tolerances{}.color;
   int64_t max_different = 0;
   std::string diff;
   bool json = false;
@@ -24,7 +24,7 @@ struct Command {
 
 struct Comparison {
   std::vector<std::string> failures;
-  std::optional<Metrics> metrics;  // absent when the sizes differ
+  std::optional<compare::Metrics> metrics;  // absent when the sizes differ
   int64_t pixels = 0;
   int64_t different = 0;
 };
@@ -37,7 +37,7 @@ std::string describe_size(const Image& image) {
 Comparison compare(const Command& command, const Image& a, const Image& b) {
   Comparison result;
   for (const auto& [name, image] : {std::pair{&command.a, &a}, {&command.b, &b}}) {
-    const Soundness soundness = inspect(*image);
+    const compare::Soundness soundness = compare::inspect(*image);
     if (!soundness.ok()) result.failures.push_back(fmt::format("{}: {}", *name, describe(soundness)));
   }
   if (!a.same_size(b)) {
@@ -45,9 +45,9 @@ Comparison compare(const Command& command, const Image& a, const Image& b) {
     return result;
   }
 
-  result.metrics = measure(a, b);
+  result.metrics = compare::measure(a, b);
   result.pixels = int64_t{a.width()} * a.height();
-  result.different = count_different(a, b, command.tolerance);
+  result.different = compare::count_different(a, b, command.tolerance);
   if (result.different > command.max_different) {
     result.failures.push_back(fmt::format("{} of {} pixels differ by more than {} · max(1, |b|); {} may",
                                           result.different, result.pixels, command.tolerance,
@@ -59,7 +59,7 @@ Comparison compare(const Command& command, const Image& a, const Image& b) {
 Json to_json(const Comparison& result) {
   Json json{{"passed", result.failures.empty()}, {"failures", result.failures}};
   if (!result.metrics) return json;
-  const Metrics& m = *result.metrics;
+  const compare::Metrics& m = *result.metrics;
   json["pixels"] = result.pixels;
   json["different"] = result.different;
   json["metrics"] = {{"rmse", m.rmse},  {"psnr", m.psnr}, {"p99", m.p99},
@@ -81,7 +81,7 @@ ExitCode Command::run() const {
   const Image image_a = read_image(a), image_b = read_image(b);
   const Comparison result = compare(*this, image_a, image_b);
   if (!diff.empty() && result.metrics) {
-    const Image difference = log_difference(image_a, image_b);
+    const Image difference = compare::log_difference(image_a, image_b);
     const bool as_data = image_format(diff) == ImageFormat::pfm;
     write_image(diff, as_data ? difference : false_color(difference, FalseColor::scalar));
   }

@@ -22,9 +22,9 @@ struct Command {
   ExitCode run();
 
  private:
-  WatchList watch_list() const;
+  dev::WatchList watch_list() const;
   // Renders once in the worker and tells how it went; the fault when there was one.
-  std::optional<ExitCode> render_once(Worker& worker);
+  std::optional<ExitCode> render_once(dev::Worker& worker);
   void report_picture(const Json& answer);
   ExitCode report_fault(ExitCode code, const std::string& text, const Json& error);
 
@@ -58,8 +58,8 @@ Json answer(const PictureRequest& request) {
   }
 }
 
-WatchList Command::watch_list() const {
-  WatchList list{sources_, {}, {".glsl", ".h"}};
+dev::WatchList Command::watch_list() const {
+  dev::WatchList list{sources_, {}, {".glsl", ".h"}};
   list.files.emplace_back(request.scene.file());
   if (!request.executor.shader_folder.empty()) list.folders.push_back(request.executor.shader_folder);
   return list;
@@ -79,22 +79,22 @@ ExitCode Command::report_fault(ExitCode code, const std::string& text, const Jso
   return code;
 }
 
-std::optional<ExitCode> Command::render_once(Worker& worker) {
+std::optional<ExitCode> Command::render_once(dev::Worker& worker) {
   const auto fault = [this](ExitCode code, const std::string& message) {
     return report_fault(code, "eyeray: error: " + message, to_json(Error(code, message)));
   };
   const double timeout = request.executor.timeout_seconds;
-  const Worker::Answer reply = worker.ask("render", timeout);
+  const dev::Worker::Answer reply = worker.ask("render", timeout);
   switch (reply.outcome) {
-    case Worker::Outcome::interrupted:
+    case dev::Worker::Outcome::interrupted:
       return ExitCode::interrupted;
-    case Worker::Outcome::timed_out:
+    case dev::Worker::Outcome::timed_out:
       return fault(ExitCode::timed_out,
                    fmt::format("no picture after {}: a shader that never ends? (--timeout allows longer)",
                                format_seconds(timeout)));
-    case Worker::Outcome::died:
+    case dev::Worker::Outcome::died:
       return fault(ExitCode::bad_input, "the rendering process ended by " + reply.text);
-    case Worker::Outcome::answered:
+    case dev::Worker::Outcome::answered:
       break;
   }
 
@@ -117,10 +117,10 @@ ExitCode Command::run() {
   request.check_outputs();
   if (!fs::exists(request.scene.file())) request.scene.load();  // throws, with the loader's own words
 
-  Worker worker([this](const std::string&) {
+  dev::Worker worker([this](const std::string&) {
     return answer(request).dump(-1, ' ', false, Json::error_handler_t::replace);
   });
-  FileWatcher watcher;
+  dev::FileWatcher watcher;
   for (bool first = true; !interrupted(); first = false) {
     // Watch before rendering: a save during the rendering is not lost.
     watcher.watch(watch_list());

@@ -21,7 +21,7 @@ struct SphereflakeCommand {
 };
 
 ExitCode SphereflakeCommand::run() const {
-  const uint64_t count = sphereflake_count(size_factor);
+  const uint64_t count = generate::sphereflake_count(size_factor);
   if (divisions == 0 && triangles == 0) {
     if (size_factor > max_sphereflake_as_spheres)
       throw Error(
@@ -32,25 +32,26 @@ ExitCode SphereflakeCommand::run() const {
     write_generated(output, false, [&] {
       return Generated{.recipe = fmt::format("sphereflake --size-factor {}", size_factor),
                        .counts = {{"spheres", count}},
-                       .scene = sphereflake_stage() + sphereflake_spheres(size_factor)};
+                       .scene = generate::sphereflake_stage() + generate::sphereflake_spheres(size_factor)};
     });
     return ExitCode::ok;
   }
 
-  const int edge = divisions > 0 ? divisions : sphereflake_divisions(size_factor, triangles);
-  check_triangles(double(sphereflake_triangles(size_factor, 1)) * edge * edge);
+  const int edge = divisions > 0 ? divisions : generate::sphereflake_divisions(size_factor, triangles);
+  check_triangles(double(generate::sphereflake_triangles(size_factor, 1)) * edge * edge);
   write_generated(output, true, [&] {
-    return Generated{.recipe = fmt::format("sphereflake --size-factor {} --tessellate {}", size_factor, edge),
-                     .scene = sphereflake_stage(),
-                     .mesh = [&](MeshSink& sink) { sphereflake_mesh(size_factor, edge, sink); },
-                     .mesh_keys = "material = \"ball\"\n"};
+    return Generated{
+        .recipe = fmt::format("sphereflake --size-factor {} --tessellate {}", size_factor, edge),
+        .scene = generate::sphereflake_stage(),
+        .mesh = [&](generate::MeshSink& sink) { generate::sphereflake_mesh(size_factor, edge, sink); },
+        .mesh_keys = "material = \"ball\"\n"};
   });
   return ExitCode::ok;
 }
 
 struct TerrainCommand {
   GenerateOutput output;
-  TerrainOptions terrain;
+  generate::TerrainOptions terrain;
   uint64_t triangles = 0;
 
   ExitCode run();
@@ -59,21 +60,21 @@ struct TerrainCommand {
 ExitCode TerrainCommand::run() {
   if (triangles > 0) {
     check_triangles(double(triangles));
-    terrain.grid = terrain_grid(triangles);
+    terrain.grid = generate::terrain_grid(triangles);
   }
   check_triangles(2.0 * terrain.grid * terrain.grid);
   write_generated(output, true, [&] {
     return Generated{.recipe = fmt::format("terrain --grid {} --seed {} --roughness {}", terrain.grid,
                                            terrain.seed, terrain.roughness),
-                     .scene = terrain_stage(),
-                     .mesh = [&](MeshSink& sink) { terrain_mesh(terrain, sink); },
+                     .scene = generate::terrain_stage(),
+                     .mesh = [&](generate::MeshSink& sink) { generate::terrain_mesh(terrain, sink); },
                      .mesh_keys = "material = \"ground\"\n"};
   });
   return ExitCode::ok;
 }
 
 struct ClassicCommand {
-  const Classic& classic;
+  const generate::Classic& classic;
   int size_factor = classic.size_factor;
   bool patches = false;
   GenerateOutput output = {};
@@ -93,7 +94,7 @@ ExitCode ClassicCommand::run() const {
                    .scene = classic.scene(size_factor),
                    .mesh_keys = std::string(classic.mesh_keys)};
     if (patches) made.scene += classic.patches();
-    if (mesh) made.mesh = [&](MeshSink& sink) { classic.mesh(size_factor, sink); };
+    if (mesh) made.mesh = [&](generate::MeshSink& sink) { classic.mesh(size_factor, sink); };
     return made;
   });
   return ExitCode::ok;
@@ -115,7 +116,7 @@ void add_sphereflake(CLI::App& generate, Run& run) {
   add_output(*command, options->output);
   command->add_option("--size-factor", options->size_factor, "Levels: 4 has 7381 spheres, 5 has 66430.")
       ->option_text("N=4")
-      ->check(CLI::Range(1, max_sphereflake));
+      ->check(CLI::Range(1, generate::max_sphereflake));
   CLI::Option* const tessellate =
       command
           ->add_option("--tessellate", options->divisions,
@@ -137,7 +138,7 @@ void add_terrain(CLI::App& generate, Run& run) {
   CLI::Option* const grid =
       command->add_option("--grid", options->terrain.grid, "Cells a side, two triangles each.")
           ->option_text("N=160")
-          ->check(CLI::Range(1, max_terrain_grid));
+          ->check(CLI::Range(1, generate::max_terrain_grid));
   command->add_option("--triangles", options->triangles, "About so many triangles instead.")
       ->option_text("N")
       ->check(CLI::PositiveNumber)
@@ -151,7 +152,7 @@ void add_terrain(CLI::App& generate, Run& run) {
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 
-void add_classic(CLI::App& generate, const Classic& classic, Run& run) {
+void add_classic(CLI::App& generate, const generate::Classic& classic, Run& run) {
   CLI::App* const command = generate.add_subcommand(std::string(classic.name),
                                                     fmt::format("{} One of Haines' databases.", classic.doc));
   const auto options = std::make_shared<ClassicCommand>(ClassicCommand{classic});
@@ -171,7 +172,7 @@ void add_classic(CLI::App& generate, const Classic& classic, Run& run) {
 void add_generate(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("generate", "Write a procedural scene, of any size.");
   add_sphereflake(*command, run);
-  for (const Classic& classic : classics()) add_classic(*command, classic, run);
+  for (const generate::Classic& classic : generate::classics()) add_classic(*command, classic, run);
   add_terrain(*command, run);
   command->footer(
       "Each has its own --help, and answers in JSON under --json.\n"

@@ -43,7 +43,7 @@ struct Mesh {
 };
 
 Mesh write_mesh(const fs::path& path, const Generated& made) {
-  PlyFile file(path, fmt::format("{}: {}", made_by, made.recipe));
+  generate::PlyFile file(path, fmt::format("{}: {}", made_by, made.recipe));
   made.mesh(file);
   file.commit();
   return {file.vertices(), file.triangles(), file.bytes()};
@@ -51,7 +51,7 @@ Mesh write_mesh(const fs::path& path, const Generated& made) {
 
 void report(const GenerateOutput& output, const Generated& made, const Mesh& mesh, uint64_t bytes,
             double seconds) {
-  std::vector<Count> counts = made.counts;
+  std::vector<generate::Count> counts = made.counts;
   if (made.mesh) counts.push_back({"triangles", mesh.triangles});
   std::vector<std::string> parts;
   for (const auto& [what, number] : counts)
@@ -71,9 +71,9 @@ void report(const GenerateOutput& output, const Generated& made, const Mesh& mes
 }  // namespace
 
 void check_triangles(double triangles) {
-  if (triangles > double(max_generated_triangles))
+  if (triangles > double(generate::max_generated_triangles))
     throw Error(ExitCode::bad_input, "that would be {:.0f} triangles; the most is {}", triangles,
-                max_generated_triangles);
+                generate::max_generated_triangles);
 }
 
 void write_generated(const GenerateOutput& output, bool with_mesh, const std::function<Generated()>& make) {

@@ -20,11 +20,11 @@ struct GenerateOutput {
 };
 
 struct Generated {
-  std::string recipe = {};         // the words after `eyeray generate` that make the same again
-  std::vector<Count> counts = {};  // of what the scene file has
+  std::string recipe = {};                   // the words after `eyeray generate` that make the same again
+  std::vector<generate::Count> counts = {};  // of what the scene file has
   std::string scene = {};
-  std::function<void(MeshSink&)> mesh = {};  // empty: none
-  std::string mesh_keys = {};                // of its [[mesh]], beside `file`
+  std::function<void(generate::MeshSink&)> mesh = {};  // empty: none
+  std::string mesh_keys = {};                          // of its [[mesh]], beside `file`
 };
 
 // Error (bad_input) beyond what a mesh may have.

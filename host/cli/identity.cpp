@@ -20,16 +20,16 @@ std::string hash_of(const std::vector<fs::path>& files) {
 
 }  // namespace
 
-std::vector<IdentityPart> identity_of(const PictureRequest& request, const Scene& scene,
-                                      const Executor& executor) {
+std::vector<render::IdentityPart> identity_of(const PictureRequest& request, const Scene& scene,
+                                              const executors::Executor& executor) {
   const Rect& crop = request.crop;
-  const bool gpu = request.backend == Backend::gpu;
+  const bool gpu = request.backend == executors::Backend::gpu;
   return {
       {"size", fmt::format("{}x{}", scene.image.width, scene.image.height)},
       {"crop", crop == Rect{} ? "none" : fmt::format("{},{},{},{}", crop.x, crop.y, crop.width, crop.height)},
       {"--classic", request.classic ? "on" : "off"},
       {"samples a pixel", std::to_string(scene.image.samples)},
-      {"backend", std::string(backend_name(request.backend))},
+      {"backend", std::string(executors::backend_name(request.backend))},
       // The processors' executors compute the same wherever the same program runs.
       {"device", gpu ? executor.description() : "none"},
       {"scene", hash_of(scene.files), false},

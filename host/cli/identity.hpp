@@ -9,7 +9,7 @@
 namespace eyeray::cli {
 
 // Error (file_io) when a file of the scene or a shader cannot be read any more.
-std::vector<IdentityPart> identity_of(const PictureRequest& request, const Scene& scene,
-                                      const Executor& executor);
+std::vector<render::IdentityPart> identity_of(const PictureRequest& request, const Scene& scene,
+                                              const executors::Executor& executor);
 
 }  // namespace eyeray::cli

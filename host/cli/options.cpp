@@ -78,7 +78,7 @@ std::string SceneOptions::as_written() const {
 }
 
 Scene SceneOptions::load() const {
-  std::vector<Override> overrides;
+  std::vector<loader::Override> overrides;
   for (const std::string& define : defines_) overrides.push_back({define});
   if (!size_.empty()) {
     const auto [width, height] = parse_size(size_);
@@ -94,9 +94,10 @@ Scene SceneOptions::load() const {
   add("render.seed", seed_);
   add("render.triangle", triangle_);
 
-  Scene scene = load_scene(file_, overrides, trust_);
-  check_formulas(scene);
-  for (Diagnostic& doubt : doubt_lipschitz_constants(scene)) scene.warnings.push_back(std::move(doubt));
+  Scene scene = loader::load_scene(file_, overrides, trust_);
+  executors::check_formulas(scene);
+  for (Diagnostic& doubt : executors::doubt_lipschitz_constants(scene))
+    scene.warnings.push_back(std::move(doubt));
   for (const Diagnostic& warning : scene.warnings) fmt::print(stderr, "{}\n", format_diagnostic(warning));
   return scene;
 }
@@ -108,7 +109,7 @@ Acceleration parse_acceleration(const std::string& name) {
   throw Error(ExitCode::bad_input, "--acceleration is auto, bvh or brute-force, not '{}'", name);
 }
 
-void add_executor_options(CLI::App& command, ExecutorOptions& options) {
+void add_executor_options(CLI::App& command, executors::ExecutorOptions& options) {
   const std::string group = "Device";
   command
       .add_option("--device", options.device,
@@ -183,8 +184,8 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options) {
   command.add_option("--inject-fault", options.fault)->group("");
 }
 
-void add_backend_option(CLI::App& command, Backend& backend) {
-  const auto parse = [&backend](const std::string& name) { backend = parse_backend(name); };
+void add_backend_option(CLI::App& command, executors::Backend& backend) {
+  const auto parse = [&backend](const std::string& name) { backend = executors::parse_backend(name); };
   command
       .add_option_function<std::string>(
           "--backend", parse,

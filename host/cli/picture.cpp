@@ -44,7 +44,7 @@ double rays_per_second(const Picture& picture) {
 
 // Corners, a depth of five with the eye rays, and nothing left out because it counts for little.
 void make_classic(Scene& scene) {
-  sample_corners(scene);
+  render::sample_corners(scene);
   scene.render.max_depth = 4;
   scene.render.min_throughput = 0;
 }
@@ -62,14 +62,14 @@ void spare_sources(const PictureRequest& request, const Scene& scene) {
   }
 }
 
-std::optional<Checkpoint> checkpoint_of(const PictureRequest& request, const Scene& scene,
-                                        const Executor& executor) {
+std::optional<render::Checkpoint> checkpoint_of(const PictureRequest& request, const Scene& scene,
+                                                const executors::Executor& executor) {
   const LongRender& wanted = request.long_render;
   if (wanted.checkpoint.empty() && wanted.resume.empty()) return std::nullopt;
-  std::vector<IdentityPart> identity = identity_of(request, scene, executor);
+  std::vector<render::IdentityPart> identity = identity_of(request, scene, executor);
   if (wanted.resume.empty())
-    return Checkpoint::begin(wanted.checkpoint, std::move(identity), wanted.checkpoint_seconds);
-  return Checkpoint::resume(wanted.resume, std::move(identity), wanted.checkpoint_seconds);
+    return render::Checkpoint::begin(wanted.checkpoint, std::move(identity), wanted.checkpoint_seconds);
+  return render::Checkpoint::resume(wanted.resume, std::move(identity), wanted.checkpoint_seconds);
 }
 
 }  // namespace
@@ -114,7 +114,8 @@ void PictureRequest::check_outputs() {
   }
 }
 
-Picture make_picture(const PictureRequest& request, const std::function<void(const Progress&)>& progress) {
+Picture make_picture(const PictureRequest& request,
+                     const std::function<void(const render::Progress&)>& progress) {
   const Stopwatch watch;
   Picture picture;
   Scene scene = picture.times.measure("load", [&] { return request.scene.load(); });
@@ -122,18 +123,19 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
   check_crop(request.crop, scene.image);
   const Rect crop = request.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : request.crop;
   if (request.classic) make_classic(scene);
-  ExecutorOptions executor_options = request.executor;
+  executors::ExecutorOptions executor_options = request.executor;
   executor_options.ray_kinds = request.ray_kinds;
-  const std::unique_ptr<Executor> executor = make_executor(request.backend, scene, executor_options);
-  std::optional<Checkpoint> checkpoint = checkpoint_of(request, scene, *executor);
+  const std::unique_ptr<executors::Executor> executor =
+      executors::make_executor(request.backend, scene, executor_options);
+  std::optional<render::Checkpoint> checkpoint = checkpoint_of(request, scene, *executor);
 
   // Render the picture. Files are begun with the first rows: of a picture of one band, when it is done.
-  RenderOptions options;
-  options.crop = request.classic ? corners_of(crop) : crop;
+  render::RenderOptions options;
+  options.crop = request.classic ? render::corners_of(crop) : crop;
   options.ray_kinds = request.ray_kinds;
   options.band_bytes = size_t(request.long_render.band_mebibytes) << 20;
   options.checkpoint = checkpoint ? &*checkpoint : nullptr;
-  options.progress = [&, warned = false](const Progress& now) mutable {
+  options.progress = [&, warned = false](const render::Progress& now) mutable {
     if (progress) progress(now);
     if (!warned && checkpoint && !checkpoint->failure().empty()) {
       fmt::print(stderr, "eyeray: warning: no more checkpoints are written: {}\n", checkpoint->failure());
@@ -141,14 +143,15 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
     }
   };
   std::optional<PictureFiles> files;
-  CornerMean corners;
+  render::CornerMean corners;
   StageTimes encoding;
-  const RenderTotals totals = render_rows(scene, *executor, options, [&](const FinishedRows& rows) {
-    encoding.measure("encode", [&] {
-      if (!files) files.emplace(request.outputs, request.aovs, crop.width, crop.height, scene);
-      files->write(request.classic ? corners.add(rows) : rows);
-    });
-  });
+  const render::RenderTotals totals =
+      render::render_rows(scene, *executor, options, [&](const render::FinishedRows& rows) {
+        encoding.measure("encode", [&] {
+          if (!files) files.emplace(request.outputs, request.aovs, crop.width, crop.height, scene);
+          files->write(request.classic ? corners.add(rows) : rows);
+        });
+      });
   picture.interrupted = totals.interrupted;
 
   // A picture in which every pixel has a sample is worth keeping; a part of one is not.
@@ -157,13 +160,14 @@ Picture make_picture(const PictureRequest& request, const std::function<void(con
     encoding.measure("encode", [&] { files->finish_picture(picture.files); });
   }
   if (!picture.interrupted && need_first_hits(request.aovs)) {
-    picture.interrupted = !trace_first_hits(*executor, crop, [&](int, std::span<const FirstHit> hits) {
-      for (const FirstHit& hit : hits) {
-        picture.flags |= hit.flags;
-        picture.flagged_hits += hit.flags != 0;
-      }
-      encoding.measure("encode", [&] { files->write(hits); });
-    });
+    picture.interrupted =
+        !render::trace_first_hits(*executor, crop, [&](int, std::span<const FirstHit> hits) {
+          for (const FirstHit& hit : hits) {
+            picture.flags |= hit.flags;
+            picture.flagged_hits += hit.flags != 0;
+          }
+          encoding.measure("encode", [&] { files->write(hits); });
+        });
   }
   if (!picture.interrupted) encoding.measure("encode", [&] { files->finish_aovs(picture.files); });
   if (checkpoint && !picture.interrupted) checkpoint->remove();

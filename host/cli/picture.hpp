@@ -24,8 +24,8 @@ struct LongRender {
 
 struct PictureRequest {
   SceneOptions scene;
-  Backend backend = Backend::gpu;
-  ExecutorOptions executor;
+  executors::Backend backend = executors::Backend::gpu;
+  executors::ExecutorOptions executor;
   Rect crop;
   std::vector<std::string> outputs;  // none: the scene's name with .png, in the current folder
   std::vector<Aov> aovs;             // each as NAME.aov.pfm and NAME.aov.png, NAME from the first output
@@ -64,7 +64,8 @@ struct Picture {
 
 // Loads, renders and writes. `files` is empty when it was interrupted before every pixel had a sample, and,
 // for a picture of several bands, before all had all.
-Picture make_picture(const PictureRequest& request, const std::function<void(const Progress&)>& progress);
+Picture make_picture(const PictureRequest& request,
+                     const std::function<void(const render::Progress&)>& progress);
 
 // What went wrong in some pixels and what to do about it; "" when nothing did.
 std::string flag_warning(const Picture& picture);

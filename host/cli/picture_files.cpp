@@ -73,7 +73,7 @@ PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::v
   for (const Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height, scene);
 }
 
-void PictureFiles::write(const FinishedRows& rows) {
+void PictureFiles::write(const render::FinishedRows& rows) {
   for (ImageWriter& writer : writers_) writer.write(rows.color);
   for (AovFiles& files : aovs_) {
     if (files.aov() == Aov::hits) files.write(rows.hits);

@@ -52,7 +52,7 @@ class PictureFiles {
                const Scene& scene);
 
   // The next rows, from the top down, of the picture and of the AOVs `hits` and `flags`.
-  void write(const FinishedRows& rows);
+  void write(const render::FinishedRows& rows);
   // The same of the other AOVs.
   void write(std::span<const FirstHit> hits);
   // After the last rows. They add the names of what was written to `files`.

@@ -45,7 +45,7 @@ bool stderr_is_terminal() {
 }
 
 // " band 3 of 32, sample 2 of 4"; what there is only one of is not said.
-std::string place(const Progress& progress) {
+std::string place(const render::Progress& progress) {
   std::vector<std::string> parts;
   if (progress.bands > 1) parts.push_back(fmt::format("band {} of {}", progress.band + 1, progress.bands));
   if (progress.samples > 1)
@@ -53,7 +53,7 @@ std::string place(const Progress& progress) {
   return parts.empty() ? "" : fmt::format("  {}", fmt::join(parts, ", "));
 }
 
-std::string describe(const Progress& progress, double share) {
+std::string describe(const render::Progress& progress, double share) {
   const double taken = double(progress.samples_done - progress.samples_resumed);
   const double left = progress.seconds * double(progress.samples_total - progress.samples_done) / taken;
   return fmt::format("{:3.0f} %{}  {}  {} left", share * 100, place(progress),
@@ -62,11 +62,11 @@ std::string describe(const Progress& progress, double share) {
 
 }  // namespace
 
-std::function<void(const Progress&)> progress_reporter(bool quiet) {
+std::function<void(const render::Progress&)> progress_reporter(bool quiet) {
   if (quiet) return {};
   const std::shared_ptr<Bar> bar = stderr_is_terminal() ? std::make_shared<Bar>() : nullptr;
   const double pause = bar ? seconds_between_bars : seconds_between_lines;
-  return [bar, pause, next = pause](const Progress& progress) mutable {
+  return [bar, pause, next = pause](const render::Progress& progress) mutable {
     if (progress.seconds < next || progress.samples_done <= progress.samples_resumed) return;
     next = progress.seconds + pause;
     const double share = double(progress.samples_done) / double(progress.samples_total);

@@ -20,18 +20,18 @@ struct Command {
   bool json = false;
 
   ExitCode run();
-  Report report_on(const SceneOptions& scene_file) const;
+  compare::Report report_on(const SceneOptions& scene_file) const;
   fs::path folder_for(const std::string& scene) const;
 };
 
 // "gpu,twin".
-std::vector<Backend> parse_backends(const std::string& list) {
-  std::vector<Backend> backends;
+std::vector<executors::Backend> parse_backends(const std::string& list) {
+  std::vector<executors::Backend> backends;
   for (size_t begin = 0; begin <= list.size();) {
     const size_t end = std::min(list.find(',', begin), list.size());
-    const Backend backend = parse_backend(list.substr(begin, end - begin));
+    const executors::Backend backend = executors::parse_backend(list.substr(begin, end - begin));
     begin = end + 1;
-    if (backend == Backend::reference) {
+    if (backend == executors::Backend::reference) {
       throw Error(ExitCode::bad_input,
                   "--backends names what is compared with the reference: gpu, twin or gpu,twin");
     }
@@ -46,7 +46,7 @@ fs::path Command::folder_for(const std::string& scene) const {
   return more_scenes.empty() ? fs::path(keep) : fs::path(keep) / stem;
 }
 
-Report Command::report_on(const SceneOptions& scene_file) const {
+compare::Report Command::report_on(const SceneOptions& scene_file) const {
   const Scene scene = scene_file.load();
   check_crop(options.crop, scene.image);
   return verify::verify_scene(
@@ -58,7 +58,7 @@ ExitCode Command::run() {
   std::vector<std::string> files{scene_options.file()};
   files.insert(files.end(), more_scenes.begin(), more_scenes.end());
 
-  std::vector<Report> reports;
+  std::vector<compare::Report> reports;
   for (const std::string& file : files) {
     reports.push_back(report_on(scene_options.for_file(file)));
     if (!json) fmt::print("{}", to_text(reports.back()));
@@ -68,7 +68,8 @@ ExitCode Command::run() {
   } else if (reports.size() > 1) {
     fmt::print("{}", summary(reports));
   }
-  const bool passed = std::all_of(reports.begin(), reports.end(), [](const Report& r) { return r.passes(); });
+  const bool passed =
+      std::all_of(reports.begin(), reports.end(), [](const compare::Report& r) { return r.passes(); });
   return passed ? ExitCode::ok : ExitCode::comparison_failed;
 }
 

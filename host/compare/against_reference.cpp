@@ -6,7 +6,7 @@
 
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 namespace {
 
@@ -216,4 +216,4 @@ ReferenceComparison compare_with_reference(const Frame& value, const Frame& refe
   return result;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -6,7 +6,7 @@
 
 #include "host/compare/explain.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 // How the pixels of one gate came out; the counts add up to `pixels`.
 struct Tally {
@@ -40,4 +40,4 @@ struct ReferenceComparison {
 ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference, const Reference& probe,
                                            const Tolerances& tolerances = {});
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

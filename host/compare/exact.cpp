@@ -7,7 +7,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 namespace {
 
@@ -108,4 +108,4 @@ ExactComparison compare_exactly(const Frame& value, const Frame& other) {
   return result;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

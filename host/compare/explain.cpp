@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray {
+namespace eyeray::compare {
 
 namespace {
 
@@ -174,4 +174,4 @@ Cause Neighbourhood::cause_of_first_hit() const {
   return same ? Cause::grazing : Cause::silhouette;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -8,7 +8,7 @@
 
 #include "host/compare/tolerance.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 // The reference at one pixel, every ray of it moved by a fraction of a pixel.
 struct Probe {
@@ -71,4 +71,4 @@ class Neighbourhood {
   size_t innermost_ = 1;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -8,7 +8,7 @@
 #include "host/compare/plane.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 namespace {
 
@@ -172,4 +172,4 @@ double mean_flip(const Image& a, const Image& b) {
   return sum / double(colors_a.size());
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace eyeray {
+namespace eyeray::compare {
 
 namespace {
 
@@ -36,4 +36,4 @@ std::string why_incomparable(const Frame& value, const Frame& reference) {
   return "";
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

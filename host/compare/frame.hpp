@@ -9,7 +9,7 @@
 #include "host/core/rect.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 struct Frame {
   Rect area;                         // the pixels of the whole picture that it holds
@@ -41,4 +41,4 @@ inline Vec3 color_at(const Image& image, int x, int y) {
 // Why two frames cannot be compared at all ("its picture is 95×72, not 96×72"); empty when they can.
 std::string why_incomparable(const Frame& value, const Frame& reference);
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -10,7 +10,7 @@
 #include "host/core/error.hpp"
 #include "host/image/srgb.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 namespace {
 
@@ -129,4 +129,4 @@ Image log_difference(const Image& a, const Image& b) {
   return result;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

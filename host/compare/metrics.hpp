@@ -3,7 +3,7 @@
 
 #include "host/compare/frame.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 struct Metrics {
   double rmse = 0;  // over all channels
@@ -27,4 +27,4 @@ int64_t count_different(const Image& a, const Image& b, double tolerance);
 // For a false-colour picture: log10 of each pixel's worst |difference|, no less than −8; 1 channel.
 Image log_difference(const Image& a, const Image& b);
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -6,7 +6,7 @@
 
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 Kernel gaussian(double sigma, int radius) {
   Kernel kernel(size_t(2 * radius + 1));
@@ -40,4 +40,4 @@ Plane convolve(const Plane& plane, const Kernel& horizontal, const Kernel& verti
   return result;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

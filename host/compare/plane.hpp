@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::compare {
 
 struct Plane {
   int width = 0;
@@ -25,4 +25,4 @@ Kernel gaussian(double sigma, int radius);
 // `plane` filtered by `horizontal`, then by `vertical`; beyond the border the border's values go on.
 Plane convolve(const Plane& plane, const Kernel& horizontal, const Kernel& vertical);
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

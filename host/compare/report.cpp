@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace eyeray {
+namespace eyeray::compare {
 
 namespace {
 
@@ -47,7 +47,7 @@ std::vector<std::string> Report::failures() const {
 
   // What is wrong with one picture alone comes first: it makes the comparisons fail too.
   for (const Participant& p : participants) {
-    if (!p.soundness.ok()) failures.push_back(fmt::format("{}: {}", p.name, eyeray::describe(p.soundness)));
+    if (!p.soundness.ok()) failures.push_back(fmt::format("{}: {}", p.name, compare::describe(p.soundness)));
   }
   for (const ExactResult& result : exact) {
     const ExactComparison& c = result.comparison;
@@ -124,4 +124,4 @@ std::string summary(std::span<const Report> reports) {
   return fmt::format("{} scenes: {} passed, {} failed ({})\n", reports.size(), passed, failed, names);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -12,7 +12,7 @@
 #include "host/compare/metrics.hpp"
 #include "host/compare/soundness.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 // One executor that took part.
 struct Participant {
@@ -73,4 +73,4 @@ std::string to_json(std::span<const Report> reports);
 // "RMSE 1e-05, PSNR 100.0 dB, …".
 std::string to_text(const Metrics& metrics);
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -2,7 +2,7 @@
 
 #include "host/compare/report.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 namespace {
 
@@ -133,4 +133,4 @@ std::string to_json(std::span<const Report> reports) {
          "\n";
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -6,7 +6,7 @@
 
 #include "host/compare/report.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 namespace {
 
@@ -131,4 +131,4 @@ std::string to_text(const Report& report) {
   return text;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -3,7 +3,7 @@
 
 #include "host/compare/frame.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 enum class Seam { none, primitive, t, normal, material, color, hits };
 
@@ -19,4 +19,4 @@ struct WorstPixel {
 // For reports: "first hit's t".
 const char* name(Seam seam);
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray {
+namespace eyeray::compare {
 
 namespace {
 
@@ -102,4 +102,4 @@ std::string describe(const Soundness& soundness) {
   return text;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

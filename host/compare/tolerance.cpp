@@ -6,7 +6,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 namespace {
 
@@ -89,4 +89,4 @@ const char* name(Seam seam) {
   return "none";
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

@@ -3,7 +3,7 @@
 
 #include "host/compare/seam.hpp"
 
-namespace eyeray {
+namespace eyeray::compare {
 
 struct Tolerances {
   double color = 1e-4;           // of each channel, × max(1, |reference|)
@@ -29,4 +29,4 @@ double hit_excess(const FirstHit& value, const FirstHit& reference, const Tolera
 // The first of primitive, t, normal, material, colour that is out of tolerance.
 Seam first_seam(const WorstPixel& pixel, const Tolerances& tolerances);
 
-}  // namespace eyeray
+}  // namespace eyeray::compare

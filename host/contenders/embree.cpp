@@ -11,7 +11,7 @@
 #include "host/core/parallel_for.hpp"
 #include "host/core/stopwatch.hpp"
 
-namespace eyeray {
+namespace eyeray::contenders {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -249,4 +249,4 @@ std::string Embree::version() {
   return "Embree " RTC_VERSION_STRING;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::contenders

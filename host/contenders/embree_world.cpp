@@ -7,7 +7,7 @@
 #include "host/core/error.hpp"
 #include "host/core/stopwatch.hpp"
 
-namespace eyeray {
+namespace eyeray::contenders {
 namespace {
 
 // Set while a faulty call is on its way back to us.
@@ -169,4 +169,4 @@ void EmbreeWorld::add_meshes(const Scene& scene) {
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::contenders

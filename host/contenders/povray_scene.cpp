@@ -8,7 +8,7 @@
 #include "host/core/error.hpp"
 #include "host/scene/camera_frame.hpp"
 
-namespace eyeray {
+namespace eyeray::contenders {
 namespace {
 
 // Formats onto the end of a string.
@@ -227,4 +227,4 @@ std::string povray_scene(const Scene& scene, int width, int height) {
   return text;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::contenders

@@ -4,7 +4,7 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::contenders {
 
 // The scene in POV-Ray 3.7's language, for a picture of width × height: geometry, camera, lights and depth
 // are the same, and so is what phong and mirror materials scatter, but for textures (their colour at uv 0
@@ -12,4 +12,4 @@ namespace eyeray {
 // nesting. Error (bad_input) for a shape that POV-Ray has no primitive for, and for holes.
 std::string povray_scene(const Scene& scene, int width, int height);
 
-}  // namespace eyeray
+}  // namespace eyeray::contenders

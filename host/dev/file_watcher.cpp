@@ -14,7 +14,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray {
+namespace eyeray::dev {
 namespace {
 
 constexpr uint32_t appeared = IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE;
@@ -125,4 +125,4 @@ std::set<std::string> FileWatcher::wait() {
   return {};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::dev

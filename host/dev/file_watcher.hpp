@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::dev {
 
 // What to watch. A file that does not exist (yet) counts as changed once it appears.
 struct WatchList {
@@ -51,4 +51,4 @@ class FileWatcher {
   std::vector<std::string> endings_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::dev

@@ -17,7 +17,7 @@
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 
-namespace eyeray {
+namespace eyeray::dev {
 namespace {
 
 constexpr double longest_farewell = 2;  // seconds
@@ -135,4 +135,4 @@ Worker::Answer Worker::ask(const std::string& request, double timeout_seconds) {
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::dev

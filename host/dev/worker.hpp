@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace eyeray {
+namespace eyeray::dev {
 
 class Worker {
  public:
@@ -44,4 +44,4 @@ class Worker {
   int socket_ = -1;  // to the child
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::dev

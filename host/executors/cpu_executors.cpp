@@ -12,7 +12,7 @@
 #include "host/reference/renderer.hpp"
 #include "host/twin/twin.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 namespace {
 
 // Calls pixel(x, y, out[i]) for every pixel of the tile. Returns false when interrupted.
@@ -48,8 +48,8 @@ double timed_queries(std::span<const Query> rays, std::span<QueryHit> hits, cons
 
 class TwinExecutor final : public Executor {
  public:
-  TwinExecutor(const Scene& scene, const PackOptions& options) : eye_(scene.camera.eye) {
-    times_.measure("pack", [&] { packed_ = pack(scene, options); });
+  TwinExecutor(const Scene& scene, const pack::PackOptions& options) : eye_(scene.camera.eye) {
+    times_.measure("pack", [&] { packed_ = pack::pack(scene, options); });
   }
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
@@ -133,4 +133,4 @@ std::unique_ptr<Executor> make_reference_executor(std::shared_ptr<const referenc
   return std::make_unique<ReferenceExecutor>(std::move(renderer));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

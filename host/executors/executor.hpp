@@ -16,7 +16,7 @@
 #include "host/scene/query.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 
 enum class Backend { gpu, twin, reference };
 // "gpu", "twin", "reference", both ways; Error (bad_input) for another name.
@@ -58,7 +58,7 @@ struct ExecutorOptions {
   bool fast_math = false;               // gpu: let the driver contract and re-associate
   std::string validation;               // gpu: "", "core" or "sync"
   double timeout_seconds = 60;          // gpu: the longest wait for one dispatch
-  PackOptions pack;                     // all: `acceleration`; gpu and twin: the rest
+  pack::PackOptions pack;               // all: `acceleration`; gpu and twin: the rest
   ProfileOptions profile;               // gpu
   bool ray_kinds = false;               // gpu: count reflected and refracted rays; the others always do
   bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
@@ -70,4 +70,4 @@ struct ExecutorOptions {
 // compile.
 std::unique_ptr<Executor> make_executor(Backend backend, const Scene& scene, const ExecutorOptions& options);
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

@@ -4,7 +4,7 @@
 #include "host/executors/executor.hpp"
 #include "host/reference/renderer.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 
 std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOptions& options);
 std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorOptions& options);
@@ -12,4 +12,4 @@ std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const Exec
 // The same by a renderer that others use too: its BVHs are built once.
 std::unique_ptr<Executor> make_reference_executor(std::shared_ptr<const reference::Renderer> renderer);
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

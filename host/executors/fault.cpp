@@ -7,7 +7,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 namespace {
 
 constexpr std::string_view names[] = {"",          "shift",  "nan", "black",       "ior",  "light",
@@ -53,4 +53,4 @@ void Fault::damage(std::span<PixelSample> samples) const {
     for (PixelSample& sample : samples) sample.color = Vec3(0.0);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

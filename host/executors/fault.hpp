@@ -9,7 +9,7 @@
 #include "host/core/pixel.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 
 class Fault {
  public:
@@ -31,4 +31,4 @@ class Fault {
   std::string name_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

@@ -21,7 +21,7 @@
 #include "host/pack/collapse.hpp"
 #include "host/pack/pack.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 namespace {
 
 // The most pixels of one dispatch: 32 MiB of samples.
@@ -64,7 +64,7 @@ class GpuExecutor final : public Executor {
       return gpu::self_test(
           device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_);
     });
-    PackedScene packed = times_.measure("pack", [&] { return pack(scene, options.pack); });
+    PackedScene packed = times_.measure("pack", [&] { return pack::pack(scene, options.pack); });
     fault_.damage(packed);
     specialise_for(packed);
     times_.measure("upload", [&] { upload(packed); });
@@ -167,7 +167,8 @@ class GpuExecutor final : public Executor {
       bvh_ = packed.bvhs[0];
     }
     if (packets_)
-      specialisation.packet_bvh = times_.measure("collapse", [&] { return add_packet_bvh(packed, lanes); });
+      specialisation.packet_bvh =
+          times_.measure("collapse", [&] { return pack::add_packet_bvh(packed, lanes); });
     if (facts_.loop_cap) {
       // One ray with its shadow rays must fit whatever came before it. In a BVH it makes far fewer
       // iterations than there are primitives; where it does not, the shader sees that the driver stopped it.
@@ -293,7 +294,8 @@ class GpuExecutor final : public Executor {
   // The BVH for four lanes a ray, once.
   void upload_bvh4() {
     if (binary_nodes_.empty()) return;
-    const CollapsedBvh bvh4 = times_.measure("collapse", [&] { return collapse(binary_nodes_, bvh_); });
+    const pack::CollapsedBvh bvh4 =
+        times_.measure("collapse", [&] { return pack::collapse(binary_nodes_, bvh_); });
     binary_nodes_ = {};
     bvh4_stack_ = bvh4.stack_size;
     add_buffer(bvh4_buffer(bvh4.nodes));
@@ -392,4 +394,4 @@ std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOp
   return std::make_unique<GpuExecutor>(scene, options);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

@@ -4,7 +4,7 @@
 #include "host/executors/specialise.hpp"
 #include "host/pack/collapse.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 namespace {
 
 // Whether `choice` is `yes`; `automatic` where it is empty.
@@ -63,7 +63,7 @@ Rays incoherent_rays(const Profile& profile, const PackedScene& scene, bool pack
   const bool few = scene.primitives.size() <= (meshes ? 1 << 9 : 1 << 10);
   const Rays wanted = profile.incoherent.value_or(few ? Rays::lanes : Rays::cooperative);
   const bool can_collapse = scene.has_bvh && scene.instances.empty() && scene.leaf_uses.empty() &&
-                            scene.quantised_nodes && subgroup_size >= bvh4_children;
+                            scene.quantised_nodes && subgroup_size >= pack::bvh4_children;
   const bool possible = wanted == Rays::packets ? packets : wanted == Rays::cooperative ? can_collapse : true;
   return possible ? wanted : Rays::lanes;
 }
@@ -75,4 +75,4 @@ std::string describe(const Profile& profile) {
                      profile.constants ? "" : ", no constants", profile.flatten ? ", flattened" : "");
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

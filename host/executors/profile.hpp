@@ -9,7 +9,7 @@
 #include "host/gpu/device.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 
 // How rays are traced: each alone on its lane (kernels/query.comp.glsl), many together
 // (kernels/cooperative/packet.comp.glsl), or each by four lanes (kernels/cooperative/bvh4.comp.glsl).
@@ -36,4 +36,4 @@ Rays incoherent_rays(const Profile& profile, const PackedScene& scene, bool pack
 // "flattened" where that is so.
 std::string describe(const Profile& profile);
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

@@ -5,7 +5,7 @@
 #include "host/executors/executor.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 
 // Error (timed_out) where the flags say that a formula's loops did not end; so do the three below.
 void check_ended(uint32_t flags);
@@ -30,4 +30,4 @@ QueryHit to_query_hit(const shader::QueryHit& result);
 // `eye`: the origin of the shaders' world.
 FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye);
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

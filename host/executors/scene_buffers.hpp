@@ -8,7 +8,7 @@
 
 #include "host/records/packer.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 
 struct SceneBuffer {
   uint32_t binding;  // records.h
@@ -27,4 +27,4 @@ std::array<SceneBuffer, 11> scene_buffers(const PackedScene& scene);
 // What kernels/cooperative/bvh4.comp.glsl needs besides; `nodes` must stay.
 SceneBuffer bvh4_buffer(std::span<const shader::uvec4> nodes);
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

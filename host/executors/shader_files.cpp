@@ -4,7 +4,7 @@
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 
 ShaderFiles::ShaderFiles(std::filesystem::path folder, std::string scene_glsl)
     : folder_(std::move(folder)), scene_glsl_(std::move(scene_glsl)) {
@@ -33,4 +33,4 @@ std::string ShaderFiles::shown(const std::string& name) const {
   return std::filesystem::is_regular_file(path, error) ? path.string() : name;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

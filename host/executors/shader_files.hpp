@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray {
+namespace eyeray::executors {
 
 class ShaderFiles {
  public:
@@ -29,4 +29,4 @@ class ShaderFiles {
   std::set<std::filesystem::path> looked_for_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

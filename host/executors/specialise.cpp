@@ -13,7 +13,7 @@
 #include "host/expression/emit.hpp"
 #include "host/formula/formula.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 namespace {
 
 // Above this many records of a kind the code outgrows what it saves, and its compilation what a frame saves.
@@ -347,4 +347,4 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   return text;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

@@ -7,7 +7,7 @@
 #include "host/pack/collapse.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 
 struct Specialisation {
   bool constants = true;  // compile a small scene in, instead of loading it
@@ -15,7 +15,7 @@ struct Specialisation {
       0;  // iterations an invocation may make before it gives up with FLAG_LOOP_BUDGET; 0: no cap
   Profile profile = {};
   uint32_t subgroup_size = 8;  // of kernels/cooperative/packet.comp.glsl
-  PacketBvh packet_bvh = {};
+  pack::PacketBvh packet_bvh = {};
   uint32_t group_stride = 1;  // kernels/render.comp.glsl: runs of workgroups
   bool ray_kinds = false;     // count reflected and refracted rays
 };
@@ -30,4 +30,4 @@ uint64_t trace_iterations(const PackedScene& scene, bool unrolled);
 
 std::string specialise(const PackedScene& scene, const Specialisation& options);
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

@@ -4,7 +4,7 @@
 
 #include "host/core/termination.hpp"
 
-namespace eyeray {
+namespace eyeray::executors {
 
 Wavefront::Wavefront(gpu::Device& device, const MakeKernel& make_kernel, const WavefrontOptions& options)
     : device_(device), options_(options) {
@@ -96,4 +96,4 @@ uint32_t Wavefront::round_up_to_stride(uint32_t groups) const {
   return (groups + options_.stride - 1) / options_.stride * options_.stride;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::executors

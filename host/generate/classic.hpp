@@ -10,7 +10,7 @@
 
 #include "host/generate/mesh_sink.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 
 struct ClassicView {
   Vec3 eye;
@@ -67,4 +67,4 @@ struct Classic {
 
 std::span<const Classic> classics();
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

@@ -7,7 +7,7 @@
 #include "host/generate/tetra.hpp"
 #include "host/generate/tree.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 
 std::span<const Classic> classics() {
   static const Classic all[] = {tetra_classic, tree_classic,  rings_classic,
@@ -15,4 +15,4 @@ std::span<const Classic> classics() {
   return all;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

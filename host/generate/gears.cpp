@@ -8,7 +8,7 @@
 #include "host/generate/batch_text.hpp"
 #include "host/generate/portable_math.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 namespace {
 
 constexpr int teeth = 36;
@@ -110,4 +110,4 @@ const Classic gears_classic = {
     .scene = scene,
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

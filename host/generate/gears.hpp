@@ -7,7 +7,7 @@
 
 #include "host/generate/classic.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 
 struct Gear {
   Vec3 center;  // of its top
@@ -25,4 +25,4 @@ void for_each_gear(int size_factor, const std::function<void(const Gear&)>& visi
 
 extern const Classic gears_classic;
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

@@ -5,7 +5,7 @@
 
 #include "host/scene/mesh.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 
 enum class Shading { smooth, flat };  // with a normal at each vertex, or with none
 
@@ -44,4 +44,4 @@ class MeshInMemory final : public MeshSink {
   Shading shading_ = Shading::smooth;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

@@ -6,7 +6,7 @@
 #include "host/generate/batch_text.hpp"
 #include "host/generate/portable_math.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 namespace {
 
 // √(2^(1/3) − 1): displacements for the fractal dimension 2.2.
@@ -126,4 +126,4 @@ const Classic mount_classic = {
     .mesh_keys = "material = \"rock\"\nsmooth = 0\n",
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

@@ -3,7 +3,7 @@
 
 #include "host/generate/classic.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 
 // What decides a grid point's height, for i, j from 0 to 2ⁿ. It repeats itself: that belongs to the scene.
 uint32_t mount_seed(int size_factor, int i, int j);
@@ -20,4 +20,4 @@ void mount_mesh(int size_factor, MeshSink& sink);
 
 extern const Classic mount_classic;
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

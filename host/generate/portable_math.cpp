@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace eyeray {
+namespace eyeray::generate {
 
 Vec2 unit_circle(double degrees) {
   const double quarter = std::floor(degrees / 90 + 0.5);
@@ -35,4 +35,4 @@ double natural_log(double x) {
   return exponent * std::numbers::ln2 + 2 * (s + s * sum);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

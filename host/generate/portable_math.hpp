@@ -4,7 +4,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 
 // (cos, sin) of an angle of at most some turns. Multiples of 90° are exact.
 Vec2 unit_circle(double degrees);
@@ -12,4 +12,4 @@ Vec2 unit_circle(double degrees);
 // ln x, for a normal x > 0.
 double natural_log(double x);
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

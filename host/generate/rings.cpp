@@ -6,7 +6,7 @@
 #include "host/generate/batch_text.hpp"
 #include "host/generate/portable_math.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 namespace {
 
 // 1 / sin 22.5°: from one layer of rings to the next.
@@ -92,4 +92,4 @@ const Classic rings_classic = {
     .scene = scene,
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

@@ -5,7 +5,7 @@
 
 #include "host/generate/classic.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 
 // A cylinder from one point to another, and a sphere of its radius at the first.
 struct Rod {
@@ -21,4 +21,4 @@ void for_each_rod(int size_factor, const std::function<void(const Rod&)>& visit)
 
 extern const Classic rings_classic;
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

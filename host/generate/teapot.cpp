@@ -5,7 +5,7 @@
 
 #include "host/generate/batch_text.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 namespace {
 
 // Bernstein's cubic polynomials, and their derivatives.
@@ -132,4 +132,4 @@ const Classic teapot_classic = {
     .patches = teapot_bezier,
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

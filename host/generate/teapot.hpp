@@ -3,7 +3,7 @@
 
 #include "host/generate/classic.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 
 // 16 control points: rows along s, and in a row along t.
 using BezierPatch = std::array<std::array<Vec3, 4>, 4>;
@@ -20,4 +20,4 @@ std::string teapot_bezier();
 
 extern const Classic teapot_classic;
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

@@ -1,6 +1,6 @@
 #include "host/generate/tetra.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 namespace {
 
 constexpr Vec3 corners[4] = {{-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}, {1, 1, 1}};
@@ -49,4 +49,4 @@ const Classic tetra_classic = {
     .mesh_keys = "material = \"tetra\"\nsmooth = 0\n",
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

@@ -3,7 +3,7 @@
 #include "host/generate/batch_text.hpp"
 #include "host/generate/portable_math.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 namespace {
 
 // A map of space, first `linear`, then moved.
@@ -79,4 +79,4 @@ const Classic tree_classic = {
     .scene = scene,
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

@@ -5,7 +5,7 @@
 
 #include "host/generate/classic.hpp"
 
-namespace eyeray {
+namespace eyeray::generate {
 
 // A cone from `foot` to `tip`, and a sphere of `tip_radius` at its tip.
 struct Branch {
@@ -20,4 +20,4 @@ void for_each_branch(int size_factor, const std::function<void(const Branch&)>& 
 
 extern const Classic tree_classic;
 
-}  // namespace eyeray
+}  // namespace eyeray::generate

@@ -5,7 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/core/input_file.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace fs = std::filesystem;
 
@@ -33,4 +33,4 @@ std::string AssetFiles::read(std::string_view name, std::string_view what) {
   return read_input_file(locate(name), what, most_mesh_bytes);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

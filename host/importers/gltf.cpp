@@ -16,7 +16,7 @@
 #include "host/importers/malformed.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -308,4 +308,4 @@ ImportedScene import_gltf(MeshFile& file) {
   return GltfReader(file).read();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

@@ -6,7 +6,7 @@
 
 #include "host/importers/gltf_components.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -78,4 +78,4 @@ void GltfBreaches::check_attribute(std::string_view name, size_t index) {
   add("attributes of component types that glTF does not give them, read as they say", accessor.place());
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

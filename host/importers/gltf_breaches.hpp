@@ -9,7 +9,7 @@
 
 #include "host/importers/gltf_json.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 // Warnings, one a kind, with how often and where first.
 class GltfBreaches {
@@ -38,4 +38,4 @@ class GltfBreaches {
   std::vector<Kind> kinds_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

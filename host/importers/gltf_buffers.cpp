@@ -11,7 +11,7 @@
 #include "host/importers/gltf_meshopt.hpp"
 #include "host/importers/malformed.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -283,4 +283,4 @@ std::vector<uint32_t> GltfBuffers::indices(size_t accessor) {
   return read<uint32_t>(accessor, "SCALAR", 1);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

@@ -5,7 +5,7 @@
 #include "host/importers/gltf_buffers.hpp"
 #include "host/importers/malformed.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -102,4 +102,4 @@ std::string GltfBuffers::read_uri(const GltfObject& owner, std::string_view what
   return std::move(*bytes);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

@@ -6,7 +6,7 @@
 #include "host/importers/malformed.hpp"
 #include "host/scene/diagnostic_log.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -171,4 +171,4 @@ Json parse_gltf_json(std::string_view text, const std::string& file) {
   return json;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

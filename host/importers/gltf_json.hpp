@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::importers {
 
 // An object of the document, and where it is. Whatever is wrong with it is an InputError with that place. The
 // document and the file's name must outlive it.
@@ -56,4 +56,4 @@ class GltfObject {
 // InputError for what is no JSON, is nested absurdly deep, has more than 2^24 values, or is no glTF 2.
 nlohmann::json parse_gltf_json(std::string_view text, const std::string& file);
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

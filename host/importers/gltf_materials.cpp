@@ -12,7 +12,7 @@
 #include "host/scene/diagnostic_log.hpp"
 #include "host/scene/image_texture_file.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -303,4 +303,4 @@ void GltfMaterials::note_rest(const GltfObject& material) {
   if (alpha == "BLEND") left_out_.add("transparency by alpha");
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

@@ -11,7 +11,7 @@
 #include "host/importers/texture_files.hpp"
 #include "host/scene/material.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 // What a file has and we leave out, counted.
 class GltfLeftOut {
@@ -65,4 +65,4 @@ class GltfMaterials {
   GltfBreaches& breaches_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

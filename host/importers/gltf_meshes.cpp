@@ -8,7 +8,7 @@
 
 #include "host/scene/diagnostic_log.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -168,4 +168,4 @@ std::vector<Mesh> GltfMeshes::take(std::vector<std::string>& warnings) {
   return std::move(meshes_);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

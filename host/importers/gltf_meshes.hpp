@@ -11,7 +11,7 @@
 #include "host/importers/gltf_skins.hpp"
 #include "host/importers/mesh_builder.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 class GltfMeshes {
  public:
@@ -47,4 +47,4 @@ class GltfMeshes {
   std::vector<std::optional<std::vector<Part>>> parts_;  // of each mesh of the file
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

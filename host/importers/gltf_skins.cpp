@@ -8,7 +8,7 @@
 #include "host/importers/gltf_components.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -120,4 +120,4 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

@@ -9,7 +9,7 @@
 #include "host/importers/gltf_buffers.hpp"
 #include "host/importers/mesh_builder.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 // How a node bends the mesh that it shows.
 struct GltfPose {
@@ -30,4 +30,4 @@ void add_targets(const GltfObject& primitive, std::span<const double> weights, c
 void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, const GltfObject& document,
                     GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices);
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

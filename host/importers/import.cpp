@@ -8,7 +8,7 @@
 #include "host/importers/malformed.hpp"
 #include "host/materials/make.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::unique_ptr<Material> plain_material(bool colored) {
   return material;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

@@ -11,8 +11,10 @@
 #include "host/scene/scene.hpp"
 
 namespace eyeray {
+struct PixelBudget;  // image/coded_image.hpp
+}
 
-struct PixelBudget;
+namespace eyeray::importers {
 
 struct ImportOptions {
   // Where a file has no normals: the greatest angle, in degrees, between faces that are shaded as one smooth
@@ -49,4 +51,4 @@ ImportedScene import_bytes(std::string bytes, const std::string& name, const Imp
 // What is shown of meshes whose file names no materials: a light grey, or white where vertices have colours.
 std::unique_ptr<Material> plain_material(bool colored);
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

@@ -9,7 +9,7 @@
 
 #include "host/importers/malformed.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -79,4 +79,4 @@ void check_json_text(std::string_view text, const std::string& file) {
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

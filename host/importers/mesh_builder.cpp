@@ -11,7 +11,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -182,4 +182,4 @@ Mesh MeshBuilder::build(const RawTriangles& raw, double smooth) {
   return mesh;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

@@ -13,7 +13,7 @@
 #include "host/importers/obj_materials.hpp"
 #include "host/importers/polygon.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -291,4 +291,4 @@ ImportedScene import_obj(MeshFile& file) {
   return scene;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

@@ -12,7 +12,7 @@
 #include "host/materials/make.hpp"
 #include "host/scene/diagnostic_log.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -127,4 +127,4 @@ void ObjMaterials::parse(std::string text) {
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

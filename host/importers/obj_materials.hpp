@@ -11,7 +11,7 @@
 #include "host/importers/texture_files.hpp"
 #include "host/scene/material.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 class ObjMaterials {
  public:
@@ -39,4 +39,4 @@ class ObjMaterials {
   std::map<std::string, int> indices_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

@@ -9,7 +9,7 @@
 #include "host/importers/ply_values.hpp"
 #include "host/importers/polygon.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -302,4 +302,4 @@ ImportedScene import_ply(MeshFile& file) {
   return {};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

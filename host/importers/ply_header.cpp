@@ -4,7 +4,7 @@
 
 #include "host/importers/malformed.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 namespace {
 
@@ -146,4 +146,4 @@ PlyHeader read_ply_header(std::string_view bytes, const std::string& file) {
   return HeaderReader(bytes, file).read();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

@@ -3,7 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/scene/image_texture_file.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 std::shared_ptr<const ImageTexture> TextureFiles::load(const std::string& name) {
   return load(name, [&](PixelBudget& budget) { return load_image_texture(assets_.locate(name), budget); });
@@ -23,4 +23,4 @@ std::shared_ptr<const ImageTexture> TextureFiles::load(
   return entry->second;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

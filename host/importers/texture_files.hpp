@@ -11,7 +11,7 @@
 #include "host/importers/asset_files.hpp"
 #include "host/scene/texture.hpp"
 
-namespace eyeray {
+namespace eyeray::importers {
 
 class TextureFiles {
  public:
@@ -31,4 +31,4 @@ class TextureFiles {
   std::map<std::string, std::shared_ptr<const ImageTexture>> known_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::importers

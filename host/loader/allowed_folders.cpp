@@ -2,7 +2,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace fs = std::filesystem;
 
@@ -24,4 +24,4 @@ AllowedFolders::File AllowedFolders::find(std::string_view key, const std::strin
   return {path, fs::weakly_canonical(fs::absolute(path))};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -9,7 +9,7 @@
 
 #include "host/core/folder_trees.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 class AllowedFolders {
  public:
@@ -28,4 +28,4 @@ class AllowedFolders {
   FolderTrees trees_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

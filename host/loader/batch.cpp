@@ -11,7 +11,7 @@
 #include "host/scene/table.hpp"
 #include "host/scene/value.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 Batch read_batch(const Section& section, const toml::table& table, DiagnosticLog& log) {
   const toml::node* node = table.get(batch_key);
@@ -61,4 +61,4 @@ std::string_view written_name(const toml::table& table, const Batch& batch, size
   return node && node->is_string() ? std::string_view(node->as_string()->get()) : std::string_view();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -7,7 +7,7 @@
 
 #include "host/loader/sections.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 // Why no table of this section can stand in a CSG object, or "".
 std::string why_no_part(const Section& section);
@@ -22,4 +22,4 @@ Blame why_not_closed(const ShapeType& type);
 // Why the CSG object would be filled with two media at once, or "".
 std::string why_two_media(const Shape& csg, const std::vector<std::unique_ptr<Material>>& materials);
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

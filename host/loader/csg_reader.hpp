@@ -10,7 +10,7 @@
 #include "host/scene/diagnostic_log.hpp"
 #include "host/scene/table.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 // `Host` reads tables, materials and shapes: the scene's builder, whose own these functions would be if they
 // were fewer.
@@ -104,4 +104,4 @@ class CsgReader {
   DiagnosticLog& log_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

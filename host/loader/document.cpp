@@ -7,7 +7,7 @@
 #include "host/loader/toml_file.hpp"
 #include "host/scene/value.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -154,4 +154,4 @@ Document parse_document(std::string_view text, const std::string& name, Diagnost
   return document;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -5,7 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/core/input_file.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -29,4 +29,4 @@ std::optional<FormulaText> FormulaFiles::load(const std::string& name, const Sou
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -8,7 +8,7 @@
 #include "host/scene/diagnostic_log.hpp"
 #include "host/scene/formula_source.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 class FormulaFiles final : public FormulaSource {
  public:
@@ -29,4 +29,4 @@ class FormulaFiles final : public FormulaSource {
   std::vector<std::filesystem::path> files_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

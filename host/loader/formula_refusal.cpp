@@ -4,7 +4,7 @@
 
 #include "host/scene/value.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -27,4 +27,4 @@ void refuse_formulas(const toml::table& root, DiagnosticLog& log) {
   refuse(root, false, log);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -5,9 +5,9 @@
 
 #include "host/scene/diagnostic_log.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 // An error at each `code` and `file` of an [[implicit]], wherever it stands; before any of them is read.
 void refuse_formulas(const toml::table& root, DiagnosticLog& log);
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -9,7 +9,7 @@
 #include "host/loader/sections.hpp"
 #include "host/scene/value.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -234,4 +234,4 @@ std::vector<const toml::table*> GroupPlan::idle() const {
   return idle;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -14,7 +14,7 @@
 #include "host/scene/diagnostic_log.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 class GroupPlan {
  public:
@@ -77,4 +77,4 @@ class GroupPlan {
   bool sound_ = true;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

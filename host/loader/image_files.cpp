@@ -5,7 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/scene/image_texture_file.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::shared_ptr<const ImageTexture> ImageFiles::load(ImageTexture wanted, const 
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

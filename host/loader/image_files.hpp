@@ -10,7 +10,7 @@
 #include "host/scene/diagnostic_log.hpp"
 #include "host/scene/image_source.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 class ImageFiles final : public ImageSource {
  public:
@@ -39,4 +39,4 @@ class ImageFiles final : public ImageSource {
   std::map<std::filesystem::path, Entry> images_;  // by canonical path
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -4,7 +4,7 @@
 #include "host/loader/sections.hpp"
 #include "host/scene/table.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::string scene_manual() {
   return text;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -4,7 +4,7 @@
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace fs = std::filesystem;
 
@@ -27,7 +27,7 @@ void MeshImports::add_file(const fs::path& file) {
 void MeshImports::import(Entry& entry, const fs::path& file, std::optional<double> smooth) {
   add_file(file);
   try {
-    entry.scene = import_file(file, {smooth, trees_, &budget_});
+    entry.scene = importers::import_file(file, {smooth, trees_, &budget_});
     for (const fs::path& read : entry.scene.files) add_file(read);
     const size_t lights = entry.scene.lights.size();
     if (lights > 0 || entry.scene.camera) {
@@ -57,11 +57,11 @@ MeshImports::Loaded MeshImports::load(const std::string& name, std::optional<dou
 }
 
 MeshImports::Loaded MeshImports::load_alone(const fs::path& file) {
-  ImportedScene scene = import_file(file, {{}, trees_, &budget_});
+  importers::ImportedScene scene = importers::import_file(file, {{}, trees_, &budget_});
   for (const fs::path& read : scene.files) add_file(read);
   Entry& entry = entries_[{folders_.find("file", file.filename().string(), file).whole, std::nullopt}];
   entry.scene = std::move(scene);
   return {&entry.scene, true};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

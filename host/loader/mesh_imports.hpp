@@ -10,7 +10,7 @@
 #include "host/importers/import.hpp"
 #include "host/loader/allowed_folders.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 class MeshImports {
  public:
@@ -22,7 +22,7 @@ class MeshImports {
       : folders_(folders), trees_(std::move(trees)), sources_(std::move(sources)), budget_(budget) {}
 
   struct Loaded {
-    ImportedScene* scene;
+    importers::ImportedScene* scene;
     bool fresh;  // this is the first time that it is asked for
   };
   // What the file holds that is named in the file `from`; the pointer stays good. Error, one sentence, where
@@ -38,7 +38,7 @@ class MeshImports {
 
  private:
   struct Entry {
-    ImportedScene scene;
+    importers::ImportedScene scene;
     std::string refused;  // why there is none
     ExitCode code = ExitCode::ok;
   };
@@ -53,4 +53,4 @@ class MeshImports {
   std::map<std::pair<std::filesystem::path, std::optional<double>>, Entry> entries_;  // by canonical path
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

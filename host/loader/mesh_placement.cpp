@@ -6,7 +6,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr double least_thickness = thinnest_triangle / 10;
 
 }  // namespace
 
-void MeshPlacer::take_meshes(ImportedScene& import, Place& place) {
+void MeshPlacer::take_meshes(importers::ImportedScene& import, Place& place) {
   place.first_mesh = static_cast<int>(scene_.meshes.size());
   for (Mesh& mesh : import.meshes) {
     double thinnest = 1;
@@ -30,7 +30,7 @@ void MeshPlacer::take_meshes(ImportedScene& import, Place& place) {
   }
 }
 
-void MeshPlacer::take_materials(ImportedScene& import, Place& place) {
+void MeshPlacer::take_materials(importers::ImportedScene& import, Place& place) {
   place.first_material = static_cast<int>(scene_.materials.size());
   std::ranges::move(import.materials, std::back_inserter(scene_.materials));
 }
@@ -40,7 +40,7 @@ int MeshPlacer::plain_material_index(const Mesh& mesh) {
   int& index = plain_[colored];
   if (index < 0) {
     index = static_cast<int>(scene_.materials.size());
-    scene_.materials.push_back(plain_material(colored));
+    scene_.materials.push_back(importers::plain_material(colored));
   }
   return index;
 }
@@ -68,9 +68,9 @@ std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
   return "";
 }
 
-std::string MeshPlacer::place(ImportedScene& import, const Mat4& transform, std::optional<int> material,
-                              const SourcePosition& position, const NameRef& name,
-                              std::vector<Instance>& into) {
+std::string MeshPlacer::place(importers::ImportedScene& import, const Mat4& transform,
+                              std::optional<int> material, const SourcePosition& position,
+                              const NameRef& name, std::vector<Instance>& into) {
   Place& place = places_[&import];
   if (place.first_mesh < 0) take_meshes(import, place);
   if (!material && place.first_material < 0) take_materials(import, place);
@@ -87,4 +87,4 @@ std::string MeshPlacer::place(ImportedScene& import, const Mat4& transform, std:
   return "";
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

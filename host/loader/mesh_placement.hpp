@@ -9,7 +9,7 @@
 #include "host/importers/import.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 class MeshPlacer {
  public:
@@ -18,7 +18,7 @@ class MeshPlacer {
   // Adds everything that the file shows to `into`, moved by `transform`, with one material for all or,
   // absent, with the file's own. The first time, the file's meshes, and its materials once they are needed,
   // move into the scene. Why it cannot stand there, or "".
-  std::string place(ImportedScene& import, const Mat4& transform, std::optional<int> material,
+  std::string place(importers::ImportedScene& import, const Mat4& transform, std::optional<int> material,
                     const SourcePosition& position, const NameRef& name, std::vector<Instance>& into);
 
   // Why a mesh of the scene cannot stand under this map, or "".
@@ -36,14 +36,14 @@ class MeshPlacer {
     double thinnest;  // triangle, see thickness()
   };
 
-  void take_meshes(ImportedScene& import, Place& place);
-  void take_materials(ImportedScene& import, Place& place);
+  void take_meshes(importers::ImportedScene& import, Place& place);
+  void take_materials(importers::ImportedScene& import, Place& place);
   int plain_material_index(const Mesh& mesh);
 
   Scene& scene_;
-  std::map<const ImportedScene*, Place> places_;
+  std::map<const importers::ImportedScene*, Place> places_;
   std::vector<Extent> extents_;  // one a mesh of the scene
   int plain_[2] = {-1, -1};  // the materials of meshes that have none: without and with colours of vertices
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

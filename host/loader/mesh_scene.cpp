@@ -6,7 +6,7 @@
 
 #include "host/scene/affine.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -24,7 +24,7 @@ constexpr size_t most_points = 4'000'000;
 
 // Calls visit(p) for points in the world that span all instances.
 template <typename Visit>
-void each_point(const ImportedScene& import, const Visit& visit) {
+void each_point(const importers::ImportedScene& import, const Visit& visit) {
   size_t count = 0;
   for (const Instance& instance : import.instances)
     count += import.meshes[static_cast<size_t>(instance.mesh)].positions.size();
@@ -43,7 +43,7 @@ void each_point(const ImportedScene& import, const Visit& visit) {
 }
 
 // From where all is seen, and little else, in pictures of any shape.
-Camera framing(const ImportedScene& import) {
+Camera framing(const importers::ImportedScene& import) {
   Bounds box;
   each_point(import, [&](const Vec3& p) { box.include(p); });
   const Vec3 centre = box.min + (box.max - box.min) / 2.0;
@@ -114,7 +114,7 @@ std::vector<Light> studio_lights(const Camera& camera) {
 
 }  // namespace
 
-toml::table mesh_scene(const std::filesystem::path& file, const ImportedScene& import) {
+toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import) {
   const Camera camera = import.camera ? *import.camera : framing(import);
   toml::array lights;
   for (const Light& light : import.lights.empty() ? studio_lights(camera) : import.lights)
@@ -128,4 +128,4 @@ toml::table mesh_scene(const std::filesystem::path& file, const ImportedScene& i
   return root;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

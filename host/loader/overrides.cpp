@@ -10,7 +10,7 @@
 #include "host/loader/toml_file.hpp"
 #include "host/scene/value.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -168,4 +168,4 @@ void apply_overrides(toml::table& root, std::span<const Override> overrides, Dia
   for (const Override& change : overrides) Assignment(change.text, root, log).apply();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -13,7 +13,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/table.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -67,7 +67,7 @@ class Builder {
   }
 
  private:
-  friend class eyeray::CsgReader<Builder>;
+  friend class loader::CsgReader<Builder>;
 
   struct NamedMaterial {
     int index;  // in Scene::materials; -1 after an error
@@ -391,4 +391,4 @@ Scene build_scene(const toml::table& root, const SceneSources& sources, Diagnost
   return Builder(root, sources, log).build();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -9,7 +9,7 @@
 #include "host/loader/overrides.hpp"
 #include "host/loader/scene_builder.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -46,7 +46,7 @@ Scene load_scene(const fs::path& file, std::span<const Override> overrides, cons
   PixelBudget pixels;
   std::vector<fs::path> trees = trust.folders;
   trees.push_back(file.parent_path());
-  if (is_mesh_file(file)) {
+  if (importers::is_mesh_file(file)) {
     MeshImports meshes(folders, std::move(trees), {file}, pixels);
     Document document = read_mesh(file, meshes, log);
     ImageFiles images(folders, document.files, pixels, log);
@@ -65,4 +65,4 @@ Scene parse_scene(std::string_view text, const std::string& name, std::span<cons
   return finish(parse_document(text, name, log), name, overrides, nullptr, nullptr, nullptr, log);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

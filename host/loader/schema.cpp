@@ -7,7 +7,7 @@
 #include "host/loader/sections.hpp"
 #include "host/scene/table.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -243,4 +243,4 @@ std::string scene_schema() {
   return schema.dump(2) + "\n";
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -7,7 +7,7 @@
 #include "host/loader/settings.hpp"
 #include "host/scene/foreign_words.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -232,4 +232,4 @@ std::string suggest_section(std::string_view name) {
   return fmt::format("did you mean {}?", section ? section->title : nearest);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

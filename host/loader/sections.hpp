@@ -9,7 +9,7 @@
 #include "host/scene/material.hpp"
 #include "host/scene/shape.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 struct Section {
   enum class Kind { image, camera, render, light, material, group, instance, mesh, shape };
@@ -51,4 +51,4 @@ inline constexpr std::string_view minus_key = "minus";
 inline constexpr std::string_view include_key = "include";
 inline constexpr std::string_view batch_key = "batch";
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -272,4 +272,4 @@ Light read_light(TableReader& table) {
   return light;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

@@ -5,7 +5,7 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 std::span<const Key> image_keys();
 std::span<const Key> camera_keys();
@@ -18,4 +18,4 @@ Camera read_camera(TableReader& table);
 RenderSettings read_render(TableReader& table);
 Light read_light(TableReader& table);
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

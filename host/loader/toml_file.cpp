@@ -10,7 +10,7 @@
 #include "host/loader/statements.hpp"
 #include "host/scene/value.hpp"
 
-namespace eyeray {
+namespace eyeray::loader {
 
 namespace {
 
@@ -161,4 +161,4 @@ toml::table parse_toml(std::string_view original, const std::string& name, TreeB
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::loader

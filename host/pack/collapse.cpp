@@ -6,7 +6,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::pack {
 namespace {
 
 // What a step costs at a node, and at a leaf.
@@ -219,4 +219,4 @@ PacketBvh add_packet_bvh(PackedScene& scene, uint32_t lanes) {
   return place;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::pack

@@ -7,7 +7,7 @@
 
 #include "host/records/packer.hpp"
 
-namespace eyeray {
+namespace eyeray::pack {
 
 // The children of a node of kernels/cooperative/bvh4.comp.glsl.
 inline constexpr uint32_t bvh4_children = 4;
@@ -34,4 +34,4 @@ struct PacketBvh {
 // quantised BVH and no instances.
 PacketBvh add_packet_bvh(PackedScene& scene, uint32_t lanes);
 
-}  // namespace eyeray
+}  // namespace eyeray::pack

@@ -1,6 +1,6 @@
 #include "host/pack/csg_records.hpp"
 
-namespace eyeray {
+namespace eyeray::pack {
 
 void finish_csg(shader::Primitive& csg, PackedScene& packed) {
   const shader::uvec4 head = packed.vertices[csg.extra];
@@ -24,4 +24,4 @@ void finish_csg(shader::Primitive& csg, PackedScene& packed) {
   packed.mixed_csg = packed.mixed_csg || least < deepest;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::pack

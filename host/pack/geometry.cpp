@@ -13,7 +13,7 @@
 #include "host/pack/record_boxes.hpp"
 #include "host/scene/primitive_ids.hpp"
 
-namespace eyeray {
+namespace eyeray::pack {
 namespace {
 
 // Up to here testing everything is as fast as a BVH.
@@ -357,4 +357,4 @@ void pack_geometry(const Scene& scene, const PackOptions& options, Packer& packe
   GeometryPacker(scene, options, packer).run();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::pack

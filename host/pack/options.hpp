@@ -3,7 +3,7 @@
 
 #include "host/core/acceleration.hpp"
 
-namespace eyeray {
+namespace eyeray::pack {
 
 struct PackOptions {
   Acceleration acceleration = Acceleration::automatic;
@@ -11,4 +11,4 @@ struct PackOptions {
   bool split = false;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::pack

@@ -7,7 +7,7 @@
 #include "host/reference/media.hpp"
 #include "host/scene/camera_frame.hpp"
 
-namespace eyeray {
+namespace eyeray::pack {
 namespace {
 
 shader::Light pack_light(const Light& light, const Packer& packer) {
@@ -87,4 +87,4 @@ PackedScene pack_without_texels(const Scene& scene) {
   return pack_records(scene, {}).scene;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::pack

@@ -7,7 +7,7 @@
 #include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::render {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
@@ -178,4 +178,4 @@ void Checkpoint::remove() {
   rows_->remove();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::render

@@ -26,7 +26,7 @@
 #include "host/render/row_store.hpp"
 #include "host/render/sums.hpp"
 
-namespace eyeray {
+namespace eyeray::render {
 
 // Something that decides a picture's bits: a render is resumed only where all of it is the same.
 struct IdentityPart {
@@ -95,4 +95,4 @@ class Checkpoint {
   bool saved_ = false;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::render

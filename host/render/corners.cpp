@@ -6,7 +6,7 @@
 
 #include "host/scene/camera_frame.hpp"
 
-namespace eyeray {
+namespace eyeray::render {
 namespace {
 
 float mean(float a, float b, float c, float d) {
@@ -76,4 +76,4 @@ FinishedRows CornerMean::add(const FinishedRows& corners) {
   return rows;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::render

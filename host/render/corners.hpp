@@ -6,7 +6,7 @@
 #include "host/render/sums.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::render {
 
 // Makes the picture one of the corners, a row and a column larger: the centres of its pixels are where the
 // corners of the old ones were. One sample each.
@@ -25,4 +25,4 @@ class CornerMean {
   Image last_color_, last_hits_, last_flagged_;  // the last row of corners so far; empty at the start
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::render

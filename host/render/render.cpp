@@ -8,7 +8,7 @@
 #include "host/core/termination.hpp"
 #include "host/render/checkpoint.hpp"
 
-namespace eyeray {
+namespace eyeray::render {
 namespace {
 
 // How many pixels are traced at a time: tens of megabytes of whatever is made of them.
@@ -38,7 +38,7 @@ class RowsAtATime {
 
 class Driver {
  public:
-  Driver(const Scene& scene, Executor& executor, const RenderOptions& options, const RowSink& sink)
+  Driver(const Scene& scene, executors::Executor& executor, const RenderOptions& options, const RowSink& sink)
       : executor_(executor),
         options_(options),
         sink_(sink),
@@ -197,7 +197,7 @@ class Driver {
     return totals();
   }
 
-  Executor& executor_;
+  executors::Executor& executor_;
   const RenderOptions& options_;
   const RowSink& sink_;
   const Rect crop_;
@@ -220,12 +220,12 @@ void copy_rows(const Image& rows, int first, Image& picture) {
 
 }  // namespace
 
-RenderTotals render_rows(const Scene& scene, Executor& executor, const RenderOptions& options,
+RenderTotals render_rows(const Scene& scene, executors::Executor& executor, const RenderOptions& options,
                          const RowSink& sink) {
   return Driver(scene, executor, options, sink).run();
 }
 
-bool trace_first_hits(Executor& executor, const Rect& crop, const FirstHitSink& sink) {
+bool trace_first_hits(executors::Executor& executor, const Rect& crop, const FirstHitSink& sink) {
   std::vector<FirstHit> hits;
   for (int row = 0; row < crop.height;) {
     const Rect tile{crop.x, crop.y + row, crop.width,
@@ -240,7 +240,7 @@ bool trace_first_hits(Executor& executor, const Rect& crop, const FirstHitSink& 
   return true;
 }
 
-Rendering render(const Scene& scene, Executor& executor, const RenderOptions& options) {
+Rendering render(const Scene& scene, executors::Executor& executor, const RenderOptions& options) {
   Rect crop = options.crop;
   if (crop.pixels() == 0) crop = {0, 0, scene.image.width, scene.image.height};
   Rendering result;
@@ -264,4 +264,4 @@ Rendering render(const Scene& scene, Executor& executor, const RenderOptions& op
   return result;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::render

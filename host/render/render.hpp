@@ -7,7 +7,7 @@
 #include "host/executors/executor.hpp"
 #include "host/render/sums.hpp"
 
-namespace eyeray {
+namespace eyeray::render {
 
 class Checkpoint;  // render/checkpoint.hpp
 
@@ -60,14 +60,14 @@ using RowSink = std::function<void(const FinishedRows&)>;
 // the caller, and when the last sample is taken: from then on it says that nothing but handing on is left.
 // What keeps it from being written is no reason to lose the render (Checkpoint::failure). Error (file_io)
 // when the checkpoint to resume from is damaged.
-RenderTotals render_rows(const Scene& scene, Executor& executor, const RenderOptions& options,
+RenderTotals render_rows(const Scene& scene, executors::Executor& executor, const RenderOptions& options,
                          const RowSink& sink);
 
 using FirstHitSink = std::function<void(int first_row, std::span<const FirstHit>)>;
 
 // What the rays through the centres of the crop's pixels hit, some rows at a time. Returns false when
 // interrupted: `sink` has not got all then.
-bool trace_first_hits(Executor& executor, const Rect& crop, const FirstHitSink& sink);
+bool trace_first_hits(executors::Executor& executor, const Rect& crop, const FirstHitSink& sink);
 
 // What was rendered, all at once.
 struct Rendering : RenderTotals {
@@ -77,6 +77,6 @@ struct Rendering : RenderTotals {
 };
 
 // As render_rows; when interrupted, the images are empty unless samples_done > 0, and first_hits is empty.
-Rendering render(const Scene& scene, Executor& executor, const RenderOptions& options);
+Rendering render(const Scene& scene, executors::Executor& executor, const RenderOptions& options);
 
-}  // namespace eyeray
+}  // namespace eyeray::render

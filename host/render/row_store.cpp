@@ -11,7 +11,7 @@
 #include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::render {
 namespace {
 
 using StoredPixel = std::array<float, 5>;
@@ -84,4 +84,4 @@ void RowStore::remove() {
   std::filesystem::remove(file_, ignored);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::render

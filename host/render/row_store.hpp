@@ -7,7 +7,7 @@
 
 #include "host/render/sums.hpp"
 
-namespace eyeray {
+namespace eyeray::render {
 
 // Rows from the top down; of each its pixels from left to right, 20 bytes each: the mean colour, the mean
 // of `hits` and the flags, five float32, little-endian. Every failure is an Error (file_io).
@@ -38,4 +38,4 @@ class RowStore {
   bool dropped_rest_ = false;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::render

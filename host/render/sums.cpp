@@ -3,7 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray {
+namespace eyeray::render {
 
 static_assert(sizeof(PixelSums::Pixel) == 32, "checkpoints hold it as it lies in memory");
 
@@ -41,4 +41,4 @@ FinishedRows PixelSums::mean(int first, int count, int samples, int extra_rows) 
   return rows;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::render

@@ -7,7 +7,7 @@
 #include "host/core/pixel.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray {
+namespace eyeray::render {
 
 // Finished rows of a picture; sinks get them from the top down, none twice.
 struct FinishedRows {
@@ -49,4 +49,4 @@ class PixelSums {
   std::vector<Pixel> pixels_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::render

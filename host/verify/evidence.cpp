@@ -36,13 +36,14 @@ std::string own_command_line() {
 
 }  // namespace
 
-void keep_evidence(const fs::path& folder, std::span<const Frame> frames, const Report& report) {
+void keep_evidence(const fs::path& folder, std::span<const compare::Frame> frames,
+                   const compare::Report& report) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
     throw Error(ExitCode::file_io, "cannot make the folder {}: {}", folder.string(), error.message());
 
-  const Frame& reference = frames.back();
+  const compare::Frame& reference = frames.back();
   for (size_t i = 0; i < frames.size(); ++i) {
     const std::string& name = report.participants[i].name;
     const Image& picture = frames[i].color;
@@ -50,7 +51,7 @@ void keep_evidence(const fs::path& folder, std::span<const Frame> frames, const 
     write_image(folder / (name + ".pfm"), picture);
     if (i + 1 < frames.size() && picture.same_size(reference.color)) {
       write_image(folder / (name + "-difference.png"),
-                  false_color(log_difference(picture, reference.color), FalseColor::scalar));
+                  false_color(compare::log_difference(picture, reference.color), FalseColor::scalar));
     }
   }
   write_file_atomically(folder / "command.txt", own_command_line() + "\n");

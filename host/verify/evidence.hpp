@@ -11,6 +11,7 @@ namespace eyeray::verify {
 // Writes into `folder` (made where missing) every frame as NAME.pfm, its difference from the last frame as
 // NAME-difference.png in false colour, and the command line as command.txt. `frames` are those of the
 // report's participants. Error (file_io) when that fails.
-void keep_evidence(const std::filesystem::path& folder, std::span<const Frame> frames, const Report& report);
+void keep_evidence(const std::filesystem::path& folder, std::span<const compare::Frame> frames,
+                   const compare::Report& report);
 
 }  // namespace eyeray::verify

@@ -10,7 +10,7 @@ uint64_t mix(uint64_t hash, uint64_t value) {
 }
 
 // Adds to a probe's fingerprints what one sample's eye ray hits.
-void add_first_hit(Probe& probe, const Scene& scene, const FirstHit& hit) {
+void add_first_hit(compare::Probe& probe, const Scene& scene, const FirstHit& hit) {
   probe.first_surfaces = mix(probe.first_surfaces, uint64_t(hit.primitive));
   if (hit.primitive < 0) return;
   const Vec3 color = scene.materials[size_t(hit.material)]->base_color(hit.uv);
@@ -22,8 +22,9 @@ void add_first_hit(Probe& probe, const Scene& scene, const FirstHit& hit) {
 constexpr double float32_ray_offset = 24 * 0x1p-24;
 
 // All samples of pixel (x, y), every ray moved by `shift`.
-Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int y, const Vec2& shift) {
-  Probe result;
+compare::Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int y,
+                     const Vec2& shift) {
+  compare::Probe result;
   const auto seed = uint32_t(mix(std::bit_cast<uint64_t>(shift.x), std::bit_cast<uint64_t>(shift.y)) >> 32);
   for (int i = 0; i < scene.image.samples; ++i) {
     const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift);
@@ -51,7 +52,7 @@ Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int 
 
 }  // namespace
 
-Reference probes(const Scene& scene, const reference::Renderer& renderer) {
+compare::Reference probes(const Scene& scene, const reference::Renderer& renderer) {
   return [&](int x, int y, const Vec2& shift) { return probe(scene, renderer, x, y, shift); };
 }
 

@@ -10,16 +10,16 @@ namespace eyeray::verify {
 namespace {
 
 // Renders by one executor, which becomes a participant of the report.
-Frame render_frame(Backend backend, Executor& executor, const Scene& scene, const Options& options,
-                   Report& report) {
-  RenderOptions how;
+compare::Frame render_frame(executors::Backend backend, executors::Executor& executor, const Scene& scene,
+                            const Options& options, compare::Report& report) {
+  render::RenderOptions how;
   how.crop = options.crop;
   how.first_hits = true;
   if (options.progress) how.progress = options.progress();
-  Rendering rendering = render(scene, executor, how);
+  render::Rendering rendering = render::render(scene, executor, how);
   if (rendering.interrupted) throw Error(ExitCode::interrupted, "interrupted; nothing was decided");
 
-  Frame frame;
+  compare::Frame frame;
   frame.area = report.area;
   frame.color = std::move(rendering.color);
   frame.first_hits = std::move(rendering.first_hits);
@@ -27,31 +27,32 @@ Frame render_frame(Backend backend, Executor& executor, const Scene& scene, cons
   frame.rays = rendering.rays;
   frame.flagged_pixels = rendering.flagged_pixels;
   frame.flags = rendering.flags;
-  report.participants.push_back({std::string(backend_name(backend)), executor.description(),
-                                 rendering.seconds, rendering.rays, inspect(frame)});
+  report.participants.push_back({std::string(executors::backend_name(backend)), executor.description(),
+                                 rendering.seconds, rendering.rays, compare::inspect(frame)});
   return frame;
 }
 
 // Gate A: every executor of the shaders with the first of them.
-void compare_backends(std::span<const Frame> frames, const Options& options, Report& report) {
+void compare_backends(std::span<const compare::Frame> frames, const Options& options,
+                      compare::Report& report) {
   for (size_t i = 1; i < options.backends.size(); ++i) {
     report.exact.push_back({report.participants[0].name, report.participants[i].name, options.ulp,
-                            compare_exactly(frames[0], frames[i])});
+                            compare::compare_exactly(frames[0], frames[i])});
   }
 }
 
 // Gates B and C: every executor of the shaders with the reference, whose frame is the last.
-void compare_with_reference(std::span<const Frame> frames, const Reference& reference, const Options& options,
-                            Report& report) {
-  const Frame& reference_frame = frames.back();
+void compare_each_with_reference(std::span<const compare::Frame> frames, const compare::Reference& reference,
+                                 const Options& options, compare::Report& report) {
+  const compare::Frame& reference_frame = frames.back();
   for (size_t i = 0; i < options.backends.size(); ++i) {
-    ReferenceResult result;
+    compare::ReferenceResult result;
     result.value = report.participants[i].name;
     result.tolerances = options.tolerances;
     result.comparison =
-        eyeray::compare_with_reference(frames[i], reference_frame, reference, options.tolerances);
+        compare::compare_with_reference(frames[i], reference_frame, reference, options.tolerances);
     if (result.comparison.incomparable.empty()) {
-      result.metrics = measure(frames[i].color, reference_frame.color);
+      result.metrics = compare::measure(frames[i].color, reference_frame.color);
       result.metrics->max_at.x += report.area.x;
       result.metrics->max_at.y += report.area.y;
     }
@@ -60,7 +61,7 @@ void compare_with_reference(std::span<const Frame> frames, const Reference& refe
 }
 
 // Says what the report's first hits hit, in the words of the scene.
-void name_hits(const Scene& scene, Report& report) {
+void name_hits(const Scene& scene, compare::Report& report) {
   const Objects objects(scene);
   for (const FirstHit& hit : report.shown_hits()) {
     // An executor that fails may say anything.
@@ -75,9 +76,9 @@ void name_hits(const Scene& scene, Report& report) {
 
 }  // namespace
 
-Report verify_scene(const Subject& subject, const Options& options) {
+compare::Report verify_scene(const Subject& subject, const Options& options) {
   const Scene& scene = subject.scene;
-  Report report;
+  compare::Report report;
   report.scene = subject.file;
   report.options = subject.written_options;
   report.width = scene.image.width;
@@ -86,18 +87,18 @@ Report verify_scene(const Subject& subject, const Options& options) {
   report.samples = scene.image.samples;
 
   // Render, the reference last.
-  std::vector<Frame> frames;
-  const auto add_frame = [&](Backend backend, std::unique_ptr<Executor> executor) {
+  std::vector<compare::Frame> frames;
+  const auto add_frame = [&](executors::Backend backend, std::unique_ptr<executors::Executor> executor) {
     frames.push_back(render_frame(backend, *executor, scene, options, report));
   };
-  for (const Backend backend : options.backends)
-    add_frame(backend, make_executor(backend, scene, options.executor));
+  for (const executors::Backend backend : options.backends)
+    add_frame(backend, executors::make_executor(backend, scene, options.executor));
   const auto renderer =
       std::make_shared<const reference::Renderer>(scene, options.executor.pack.acceleration);
-  add_frame(Backend::reference, make_reference_executor(renderer));
+  add_frame(executors::Backend::reference, executors::make_reference_executor(renderer));
 
   compare_backends(frames, options, report);
-  compare_with_reference(frames, probes(scene, *renderer), options, report);
+  compare_each_with_reference(frames, probes(scene, *renderer), options, report);
   name_hits(scene, report);
   if (!report.passes()) {
     keep_evidence(subject.evidence, frames, report);

@@ -14,14 +14,15 @@ namespace eyeray::verify {
 
 // How scenes are verified.
 struct Options {
-  std::vector<Backend> backends{Backend::gpu, Backend::twin};  // compared with the reference, in this order
-  ExecutorOptions executor;                                    // of all of them; `fault` is injected here
-  Rect crop;                                                   // what is compared; empty: the whole picture
-  Tolerances tolerances;                                       // of gates B and C
-  int64_t ulp = 0;                                             // the bound of gate A
+  std::vector<executors::Backend> backends{
+      executors::Backend::gpu, executors::Backend::twin};  // compared with the reference, in this order
+  executors::ExecutorOptions executor;                     // of all of them; `fault` is injected here
+  Rect crop;                                               // what is compared; empty: the whole picture
+  compare::Tolerances tolerances;                          // of gates B and C
+  int64_t ulp = 0;                                         // the bound of gate A
   // Asked before each executor renders, for what is told how far it has come; may be empty, and so may its
   // answer.
-  std::function<std::function<void(const Progress&)>()> progress;
+  std::function<std::function<void(const render::Progress&)>()> progress;
 };
 
 // What is verified, and its names.
@@ -36,6 +37,6 @@ struct Subject {
 // first, gates B and C compare each with the reference. The report says which of them pass. Error
 // (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be written, and what make_executor and
 // render throw.
-Report verify_scene(const Subject& subject, const Options& options);
+compare::Report verify_scene(const Subject& subject, const Options& options);
 
 }  // namespace eyeray::verify

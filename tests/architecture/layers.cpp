@@ -1,9 +1,8 @@
 // Who may include whom: a folder under host/ is a layer (docs/architecture.md).
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 
+#include "layering.hpp"
 #include "sources.hpp"
 #include "tests/support/doctest.hpp"
 
@@ -11,21 +10,7 @@ using namespace eyeray::test;
 
 namespace {
 
-// A layer as CMakeLists.txt lists it: what it links, layers and libraries.
-std::map<std::string, std::set<std::string>> read_layers() {
-  std::ifstream stream("CMakeLists.txt");
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  std::map<std::string, std::set<std::string>> layers;
-  static const std::regex call(R"(eyeray_layer\((\w+)([^)]*)\))");
-  for (auto it = std::sregex_iterator(text.begin(), text.end(), call); it != std::sregex_iterator(); ++it) {
-    std::istringstream words((*it)[2].str());
-    std::set<std::string>& links = layers[(*it)[1]];
-    for (std::string word; words >> word;) links.insert(word);
-  }
-  return layers;
-}
-// The command line links them all.
-const std::map<std::string, std::set<std::string>> layers = read_layers();
+const std::map<std::string, Links> layers = read_layers();
 
 // Which shader files a layer may include: the records have the ABI, the registries' rows are the host's too,
 // and the twin has everything.
@@ -75,7 +60,7 @@ bool allowed(const std::string& from, const std::string& include) {
     return shaders != visible_shaders.end() && std::regex_match(include, shaders->second);
   }
   const std::string to = layer_of(include);
-  return to == from || from == "cli" || layers.at(from).contains(to);
+  return to == from || layers.at(from).contains(to);
 }
 
 }  // namespace
@@ -84,7 +69,7 @@ TEST_CASE("every folder under host/ is a layer, and includes only what it may se
   size_t seen = 0;
   for (const SourceFile& file : source_files("host")) {
     CAPTURE(file.path);
-    REQUIRE((file.layer() == "cli" || layers.contains(file.layer())));
+    REQUIRE(layers.contains(file.layer()));
     for (const Include& include : includes(file)) {
       if (include.system) continue;
       INFO(file.at(include.line), ": the layer ", file.layer(), " must not include ", include.name);

@@ -9,6 +9,9 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
+using namespace eyeray::generate;
+using namespace eyeray::contenders;
 using eyeray::test::Random;
 
 namespace {

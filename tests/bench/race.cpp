@@ -9,6 +9,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
 using namespace eyeray::bench;
 
 TEST_CASE("contenders take turns after a round that does not count, and are compared with the first") {

@@ -10,6 +10,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::dev;
 using namespace eyeray::test;
 namespace fs = std::filesystem;
 

@@ -12,6 +12,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
 using test::Random;
 
 namespace {

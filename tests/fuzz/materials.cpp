@@ -5,9 +5,9 @@
 #include "host/importers/obj_materials.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  eyeray::AssetFiles none;
+  eyeray::importers::AssetFiles none;
   eyeray::PixelBudget pixels;
-  eyeray::ObjMaterials materials(none, pixels);
+  eyeray::importers::ObjMaterials materials(none, pixels);
   materials.parse({reinterpret_cast<const char*>(data), size});
   for (const auto& material : materials.materials) {
     const eyeray::Scattering s = material->scattering({{0, 0}, 1, 1, 1});

@@ -16,6 +16,8 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
+using namespace eyeray::generate;
 using eyeray::test::pixel;
 
 namespace {

@@ -11,6 +11,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::generate;
 using eyeray::test::read_text;
 using eyeray::test::TemporaryFolder;
 

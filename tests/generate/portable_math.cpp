@@ -7,6 +7,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::generate;
 
 TEST_CASE("the circle is the libm's, and exact at its quarters") {
   double worst = 0;

@@ -55,7 +55,7 @@ inline GltfFile grid_file(int index_component = 5123) {
 }
 
 // Whether the scene is the grid, each vertex within the tolerance.
-inline void check_grid(const ImportedScene& scene, double tolerance, int side = grid_side) {
+inline void check_grid(const importers::ImportedScene& scene, double tolerance, int side = grid_side) {
   REQUIRE(scene.meshes.size() == 1);
   const Mesh& mesh = scene.meshes[0];
   CHECK(mesh.triangles.size() == size_t(2 * (side - 1) * (side - 1)));

@@ -4,6 +4,7 @@
 #include "coded_grid.hpp"
 
 using namespace eyeray;
+using namespace eyeray::importers;
 using namespace eyeray::test;
 
 namespace {

@@ -7,6 +7,7 @@
 #include "host/image/coded_image.hpp"
 
 using namespace eyeray;
+using namespace eyeray::importers;
 using namespace eyeray::test;
 
 namespace {

@@ -2,6 +2,7 @@
 #include "gltf_files.hpp"
 
 using namespace eyeray;
+using namespace eyeray::importers;
 using namespace eyeray::test;
 
 namespace {

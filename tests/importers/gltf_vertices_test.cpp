@@ -4,6 +4,7 @@
 #include "gltf_files.hpp"
 
 using namespace eyeray;
+using namespace eyeray::importers;
 using namespace eyeray::test;
 
 TEST_CASE("colours of vertices are linear, with and without alpha, and kept within 0 to 1") {

@@ -8,6 +8,7 @@
 #include "support.hpp"
 
 using namespace eyeray;
+using namespace eyeray::importers;
 using namespace eyeray::test;
 
 namespace {

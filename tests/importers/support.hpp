@@ -12,9 +12,9 @@
 namespace eyeray::test {
 
 // What the importers make of the bytes, which must keep all promises.
-inline ImportedScene import_sound(const std::string& bytes, const std::string& name,
-                                  const ImportOptions& options = {}) {
-  ImportedScene scene = import_bytes(bytes, name, options);
+inline importers::ImportedScene import_sound(const std::string& bytes, const std::string& name,
+                                             const importers::ImportOptions& options = {}) {
+  importers::ImportedScene scene = importers::import_bytes(bytes, name, options);
   CHECK(broken_promise(scene) == "");
   return scene;
 }
@@ -34,7 +34,7 @@ inline bool contains(const std::string& text, const std::string& part) {
 }
 
 // Whether some warning has the words.
-inline bool warns(const ImportedScene& scene, const std::string& words) {
+inline bool warns(const importers::ImportedScene& scene, const std::string& words) {
   for (const std::string& warning : scene.warnings)
     if (contains(warning, words)) return true;
   return false;

@@ -10,6 +10,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
 namespace fs = std::filesystem;
 
 namespace {

@@ -10,7 +10,7 @@
 namespace eyeray::test {
 
 inline Scene parse_walls(const std::string& text) {
-  return parse_scene("[[material]]\nname = \"wall\"\ntype = \"phong\"\n" + text, "scene.toml");
+  return loader::parse_scene("[[material]]\nname = \"wall\"\ntype = \"phong\"\n" + text, "scene.toml");
 }
 
 // What is said of it, or "accepted".

@@ -15,6 +15,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::compare;
 using namespace eyeray::test;
 
 namespace {
@@ -33,7 +34,7 @@ FirstHit& hit_at(Frame& frame, Pixel p) {
   return frame.first_hits[size_t(p.y * picture_width + p.x)];
 }
 
-ReferenceComparison compare(const Frame& value, const Frame& reference = picture_frame()) {
+ReferenceComparison compared(const Frame& value, const Frame& reference = picture_frame()) {
   return compare_with_reference(value, reference, picture_reference);
 }
 
@@ -52,7 +53,7 @@ Report verify(const Frame& gpu) {
   for (const auto& [name, frame] : {std::pair{"gpu", &gpu}, {"twin", &twin}}) {
     ReferenceResult result;
     result.value = name;
-    result.comparison = compare(*frame, reference);
+    result.comparison = compared(*frame, reference);
     report.against_reference.push_back(result);
   }
   return report;
@@ -179,16 +180,16 @@ TEST_CASE("NaN, infinity and negative colours fail, alone, everywhere") {
   // A NaN is no match, not even for a NaN of the reference, and nothing explains it.
   Frame gpu = honest_frame();
   gpu.color.pixel(on_ball.x, on_ball.y)[1] = nan_value;
-  CHECK(compare(gpu).colors.unexplained == 1);
-  CHECK(compare(gpu, gpu).colors.unexplained == 1);
+  CHECK(compared(gpu).colors.unexplained == 1);
+  CHECK(compared(gpu, gpu).colors.unexplained == 1);
   CHECK(count_different(gpu.color, gpu.color, 1.0) == 1);
   gpu = honest_frame();
   hit_at(gpu, on_ball).normal.x = std::nan("");
-  CHECK(compare(gpu).first_hits.unexplained == 1);
+  CHECK(compared(gpu).first_hits.unexplained == 1);
   CHECK(mentions(verify(gpu), "gpu: 1 NaN"));
   gpu = honest_frame();
   hit_at(gpu, on_ball).t = std::nan("");
-  CHECK(compare(gpu).first_hits.unexplained == 1);
+  CHECK(compared(gpu).first_hits.unexplained == 1);
   gpu = honest_frame();
   hit_at(gpu, on_ball).t = double(infinity);
   CHECK(mentions(verify(gpu), "gpu: 1 infinite"));
@@ -212,7 +213,7 @@ TEST_CASE("a black picture fails") {
 
 TEST_CASE("a shift by one pixel fails, in any direction") {
   for (const Vec2 shift : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1), Vec2(0.02, 0), Vec2(0, -0.02)}) {
-    const ReferenceComparison comparison = compare(picture_frame(shift));
+    const ReferenceComparison comparison = compared(picture_frame(shift));
     CHECK_FALSE(comparison.colors.passes());
     CHECK_FALSE(comparison.first_hits.passes());
   }
@@ -224,18 +225,18 @@ TEST_CASE("swapped ids fail at the seam 'primitive'") {
     if (hit.primitive >= 0 && hit.primitive < 2) hit.primitive = 1 - hit.primitive;
   });
   CHECK(mentions(verify(gpu), "parts at primitive"));
-  CHECK_FALSE(compare(gpu).first_hits.passes());
+  CHECK_FALSE(compared(gpu).first_hits.passes());
 
   // One pixel is enough, and a neighbour's id that is 3 pixels away explains nothing.
   gpu = honest_frame();
   hit_at(gpu, {48, 34 - 22}).primitive = 0;
-  CHECK(compare(gpu).first_hits.unexplained == 1);
+  CHECK(compared(gpu).first_hits.unexplained == 1);
 }
 
 TEST_CASE("another material fails") {
   Frame gpu = honest_frame();
   hit_at(gpu, on_ball).material = 0;
-  const ReferenceComparison comparison = compare(gpu);
+  const ReferenceComparison comparison = compared(gpu);
   CHECK(comparison.first_hits.unexplained == 1);
   CHECK(comparison.first_hits.worst.seam == Seam::material);
 }
@@ -245,7 +246,7 @@ TEST_CASE("the wrong root fails at the seam 't'") {
   for_each_pixel(gpu, [](float*, FirstHit& hit) {
     if (hit.primitive == 1) hit.t = 1800 - hit.t;
   });
-  const ReferenceComparison comparison = compare(gpu);
+  const ReferenceComparison comparison = compared(gpu);
   CHECK_FALSE(comparison.first_hits.passes());
   CHECK(comparison.first_hits.worst.seam == Seam::t);
   CHECK(mentions(verify(gpu), "gate C: gpu against the reference: "));
@@ -255,7 +256,7 @@ TEST_CASE("the wrong root fails at the seam 't'") {
 TEST_CASE("flipped normals fail at the seam 'normal'") {
   Frame gpu = honest_frame();
   for_each_pixel(gpu, [](float*, FirstHit& hit) { hit.normal = -hit.normal; });
-  const ReferenceComparison comparison = compare(gpu);
+  const ReferenceComparison comparison = compared(gpu);
   CHECK_FALSE(comparison.first_hits.passes());
   CHECK(comparison.first_hits.worst.seam == Seam::normal);
 }
@@ -265,7 +266,7 @@ TEST_CASE("a missing light fails at the seam 'color'") {
   for_each_pixel(gpu, [](float* color, FirstHit& hit) {
     if (hit.primitive == 1) color[0] = color[1] = color[2] = 0.1f;
   });
-  const ReferenceComparison comparison = compare(gpu);
+  const ReferenceComparison comparison = compared(gpu);
   CHECK_FALSE(comparison.colors.passes());
   CHECK(comparison.first_hits.passes());
   CHECK(comparison.colors.worst.seam == Seam::color);
@@ -275,13 +276,13 @@ TEST_CASE("a difference just over the tolerance fails, just below passes") {
   for (const auto& [factor, passes] : {std::pair{0.5, true}, {5.0, false}}) {
     Frame gpu = picture_frame();
     gpu.color.pixel(on_ball.x, on_ball.y)[0] += float(factor * 1e-4);
-    CHECK(compare(gpu).colors.passes() == passes);
+    CHECK(compared(gpu).colors.passes() == passes);
     gpu = picture_frame();
     hit_at(gpu, on_ball).t *= 1 + factor * 1e-5;
-    CHECK(compare(gpu).first_hits.passes() == passes);
+    CHECK(compared(gpu).first_hits.passes() == passes);
     gpu = picture_frame();
     hit_at(gpu, on_ball).normal.y += factor * 1e-4;
-    CHECK(compare(gpu).first_hits.passes() == passes);
+    CHECK(compared(gpu).first_hits.passes() == passes);
   }
 }
 
@@ -290,14 +291,14 @@ TEST_CASE("an edge does not excuse a value that is on neither side of it") {
   for (const Pixel p : {Pixel{88, 6}, {6, 60}, {20, 63}, {6, 10}}) {
     Frame gpu = honest_frame();
     gpu.color.pixel(p.x, p.y)[1] = 0.97f;
-    const ReferenceComparison comparison = compare(gpu);
+    const ReferenceComparison comparison = compared(gpu);
     CHECK(comparison.colors.unexplained == 1);
     CHECK(comparison.colors.worst.pixel == p);
   }
   // A hit of the right primitive with another's t.
   Frame gpu = honest_frame();
   hit_at(gpu, {88, 6}) = {900, {}, {0, 0, 1}, {}, 0, 0};
-  CHECK(compare(gpu).first_hits.unexplained == 1);
+  CHECK(compared(gpu).first_hits.unexplained == 1);
 }
 
 TEST_CASE("too many explained pixels fail, all of them explained") {
@@ -354,7 +355,7 @@ TEST_CASE("what is not looked into fails, even where all that was looked into is
 TEST_CASE("noise cannot hide: pixels beyond the cap are not even looked into, and fail") {
   Frame gpu = honest_frame();
   for_each_pixel(gpu, [](float* color, FirstHit& hit) { color[0] += hit.primitive == 0 ? 1e-3f : 0.0f; });
-  const Tally tally = compare(gpu).colors;
+  const Tally tally = compared(gpu).colors;
   CHECK(tally.unexamined > 0);
   CHECK(tally.unexplained > 0);
   CHECK_FALSE(tally.passes());
@@ -371,11 +372,11 @@ TEST_CASE("a picture of another size, place or shape fails, and so does none at 
   wrong[5].color = Image(picture_width, picture_height, 1);
   for (const Frame& frame : wrong) {
     CHECK_FALSE(compare_exactly(frame, reference).passes(64));
-    CHECK_FALSE(compare(frame).passes());
+    CHECK_FALSE(compared(frame).passes());
     CHECK(mentions(verify(frame), "wrong size"));
   }
   CHECK_FALSE(compare_exactly(Frame{}, Frame{}).passes(64));
-  CHECK_FALSE(compare(Frame{}, Frame{}).passes());
+  CHECK_FALSE(compared(Frame{}, Frame{}).passes());
   CHECK_FALSE(Tally{}.passes());
   CHECK_FALSE(ExactComparison{}.passes(64));
   CHECK_FALSE(Report{}.passes());

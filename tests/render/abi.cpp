@@ -51,7 +51,7 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
   const int cube = test::add(described, test::cube());
   test::add_instance(described, cube, 0);
   test::add_instance(described, cube, 0, test::translation({3, 0, 0}));
-  PackedScene scene = pack(described);
+  PackedScene scene = pack::pack(described);
   REQUIRE(scene.has_bvh);
   REQUIRE(scene.frame.integrator == 1);  // whitted
   scene.media.push_back({});

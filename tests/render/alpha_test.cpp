@@ -9,6 +9,8 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::pack;
+using namespace eyeray::executors;
 using namespace eyeray::test;
 
 namespace {
@@ -67,7 +69,7 @@ TEST_CASE("an alpha of the cutoff is there, below it there is a hole; behind a h
   scene.materials[0]->mask = picture_mask(Filter::nearest);
   for (const double z : {-1, -2})
     add(scene, make_parallelogram({-3, -2, z}, {6, 0, 0}, {0, 4, 0}), z == -1 ? 0 : 1);
-  const PackedScene packed = pack(scene, {});
+  const PackedScene packed = pack::pack(scene, {});
   const reference::Tracer tracer(scene);
   const bool there[] = {true, false, true, false, true, true};  // as picture_mask has them
   for (int texel = 0; texel < 6; ++texel) {
@@ -91,13 +93,14 @@ TEST_CASE("cutouts: BVHs find what brute force finds, and in float64 too, to the
   for (const int instances : {0, 5}) {
     const Scene scene = leafy_scene(random, 200, instances);
     const std::vector<shader::QueryRay> rays = random_rays(random, 100'000);
-    const PackedScene brute = pack(scene, {.acceleration = Acceleration::brute_force});
+    const PackedScene brute = pack::pack(scene, {.acceleration = Acceleration::brute_force});
     int holes = 0, apart = 0;
     for (const bool any : {false, true}) {
       const auto expected = ask_twin(brute, rays, any);
       for (const bool split : {false, true})
-        CHECK(differences(expected, ask_twin(pack(scene, {.acceleration = Acceleration::bvh, .split = split}),
-                                             rays, any)) == 0);
+        CHECK(differences(expected,
+                          ask_twin(pack::pack(scene, {.acceleration = Acceleration::bvh, .split = split}),
+                                   rays, any)) == 0);
       PackedScene filled = brute;
       for (shader::Material& material : filled.materials) material.alpha_cutoff = 0;
       holes += differences(expected, ask_twin(filled, rays, any));
@@ -121,7 +124,7 @@ TEST_CASE("cutouts on the GPU: in every search what the twin finds" * doctest::t
   Random random(4);
   for (const auto& [count, instances] : {std::pair(12, 0), {200, 0}, {200, 4}}) {
     const Scene scene = leafy_scene(random, count, instances);
-    const PackedScene packed = pack(scene, {});
+    const PackedScene packed = pack::pack(scene, {});
     const std::vector<shader::QueryRay> rays = random_rays(random, 20'000);
     for (const bool packets : {true, false}) {
       Specialisation specialisation;

@@ -10,6 +10,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::executors;
 
 TEST_CASE("no entry contains an operation whose rounding is left to the driver") {
   // GLSL.std.450: FAbs, Floor, Sqrt, and nothing else.
@@ -31,7 +32,7 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver")
                  {large, {.profile = {.texel_buffers = false, .shift_stack = false}}}};
   for (const auto& [described, specialisation] : kernels) {
     for (const uint32_t integrator : {0u, 1u}) {
-      PackedScene scene = pack(described);
+      PackedScene scene = pack::pack(described);
       CHECK(scene.has_bvh == (&described == &large));
       scene.frame.integrator = integrator;
       scene.frame.max_depth = 8;

@@ -6,6 +6,9 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
+using namespace eyeray::render;
+using namespace eyeray::executors;
 using namespace eyeray::test;
 
 namespace {
@@ -27,12 +30,12 @@ TEST_CASE("bands make the same picture, bit by bit, by every executor") {
   const Scene scene = parse_scene(glass_over_floor, "scene.toml");
   for (const Backend backend : {Backend::gpu, Backend::twin, Backend::reference}) {
     const auto executor = make_executor(backend, scene, {});
-    const Rendering whole = render(scene, *executor, in_bands(scene, 29));
+    const Rendering whole = render::render(scene, *executor, in_bands(scene, 29));
     REQUIRE(whole.bands == 1);
     for (const int rows : {1, 5, 28}) {
       CAPTURE(int(backend));
       CAPTURE(rows);
-      const Rendering banded = render(scene, *executor, in_bands(scene, rows));
+      const Rendering banded = render::render(scene, *executor, in_bands(scene, rows));
       CHECK(banded.bands == (29 + rows - 1) / rows);
       CHECK(same_rendering(banded, whole));
       int different = 0;
@@ -84,7 +87,7 @@ TEST_CASE("progress tells the band, the sample, and how much of all is done") {
     CHECK(progress.samples_done > done);
     done = progress.samples_done;
   };
-  render(scene, executor, options);
+  render::render(scene, executor, options);
   CHECK(done == 280);
   REQUIRE(seen.size() == 12);
   CHECK(seen.front().first == 0);
@@ -96,7 +99,7 @@ TEST_CASE("an interrupted picture of several bands is none") {
   const Scene scene = scene_of(10, 7, 4);
   for (const int stop : {0, 3, 4, 11}) {
     FakeExecutor executor([&](int call) { return call != stop; });
-    const Rendering part = render(scene, executor, in_bands(scene, 3));
+    const Rendering part = render::render(scene, executor, in_bands(scene, 3));
     CHECK(part.interrupted);
     CHECK(part.samples_done == 0);
     CHECK(part.color.sample_count() == 0);
@@ -104,7 +107,7 @@ TEST_CASE("an interrupted picture of several bands is none") {
   }
   // Of one band it is whole, and only noisier.
   FakeExecutor executor([](int call) { return call != 3; });
-  const Rendering part = render(scene, executor, in_bands(scene, 7));
+  const Rendering part = render::render(scene, executor, in_bands(scene, 7));
   CHECK(part.interrupted);
   CHECK(part.samples_done == 3);
   CHECK(*part.hits.pixel(2, 6) == 7.0f);

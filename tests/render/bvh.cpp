@@ -15,6 +15,8 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::render;
+using namespace eyeray::executors;
 using namespace eyeray::test;
 
 namespace {
@@ -55,8 +57,9 @@ void hard_scenes_on_the_gpu(int count) {
   int bvhs = 0, quantised = 0, with_splits = 0, with_instances = 0, together = 0;
   for (uint64_t seed = 20000; bvhs < count; ++seed) {
     HardScene hard{seed};
-    const PackedScene brute = pack(hard.scene(), {.acceleration = Acceleration::brute_force});
-    const PackedScene bvh = pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = bvhs % 8 < 4});
+    const PackedScene brute = pack::pack(hard.scene(), {.acceleration = Acceleration::brute_force});
+    const PackedScene bvh =
+        pack::pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = bvhs % 8 < 4});
     if (!bvh.has_bvh) continue;
     const bool splits = bvh.primitives.size() > brute.primitives.size();
     quantised += bvh.quantised_nodes;
@@ -100,9 +103,9 @@ TEST_CASE("10 000 hard scenes on the twin: the BVH finds what brute force finds,
     const int seed = i < 10000 ? i : once_wrong[size_t(i - 10000)];
     HardScene hard{uint64_t(seed)};
     const std::vector<shader::QueryRay> rays = hard.rays(200);
-    const PackedScene brute = pack(hard.scene(), {.acceleration = Acceleration::brute_force});
-    const PackedScene bvh = pack(hard.scene(), {.acceleration = Acceleration::bvh});
-    const PackedScene cut = pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = true});
+    const PackedScene brute = pack::pack(hard.scene(), {.acceleration = Acceleration::brute_force});
+    const PackedScene bvh = pack::pack(hard.scene(), {.acceleration = Acceleration::bvh});
+    const PackedScene cut = pack::pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = true});
     const bool splits = cut.primitives.size() > bvh.primitives.size();
     bvhs += bvh.has_bvh;
     quantised += bvh.has_bvh && bvh.quantised_nodes;
@@ -154,7 +157,7 @@ TEST_CASE("the validation layers have nothing to say of BVHs, instances and eith
   add_point_light(scene, {3, 4, 5}, Vec3(1));
   const int mesh = add(scene, globe(12, 6));
   for (const double x : {-1.5, 1.5}) add_instance(scene, mesh, 0, translation({x, 0, 0}));
-  REQUIRE(!pack(scene).instances.empty());
+  REQUIRE(!pack::pack(scene).instances.empty());
   for (const char* layer : {"core", "sync"}) {
     for (const char* loads : {"texels", "storage"}) {
       ExecutorOptions options;
@@ -162,8 +165,8 @@ TEST_CASE("the validation layers have nothing to say of BVHs, instances and eith
       options.profile.loads = loads;
       // A message is an error.
       const auto gpu = make_executor(Backend::gpu, scene, options);
-      const Rendering ours = render(scene, *gpu, {.crop = {}, .first_hits = true, .progress = {}});
-      const Rendering twins = render(scene, *make_executor(Backend::twin, scene, {}), {});
+      const Rendering ours = render::render(scene, *gpu, {.crop = {}, .first_hits = true, .progress = {}});
+      const Rendering twins = render::render(scene, *make_executor(Backend::twin, scene, {}), {});
       CHECK(ours.color.samples() == twins.color.samples());
       std::vector<QueryHit> hit(1);
       const Query ray{{-1.5, 0, 6}, {0, 0, -1}};
@@ -187,13 +190,13 @@ TEST_CASE("a floor under many spheres stands in the linear list, whose leaves ho
   const auto linear_triangles = [](const PackedScene& packed) {
     return packed.linear_ends[shader::KIND_triangle] - packed.first_linear(shader::KIND_triangle);
   };
-  const PackedScene packed = pack(scene, {});
+  const PackedScene packed = pack::pack(scene, {});
   CHECK(linear_triangles(packed) == 2);
   CHECK(packed.bvh_kinds == std::set<uint32_t>{shader::KIND_sphere});
 
   std::vector<shader::QueryRay> rays(5000);
   for (shader::QueryRay& ray : rays) ray = test::random_ray(random);
-  const PackedScene brute = pack(scene, {.acceleration = Acceleration::brute_force});
+  const PackedScene brute = pack::pack(scene, {.acceleration = Acceleration::brute_force});
   for (const bool any : {false, true})
     CHECK(test::differences(test::ask_twin(packed, rays, any), test::ask_twin(brute, rays, any)) == 0);
 
@@ -203,5 +206,5 @@ TEST_CASE("a floor under many spheres stands in the linear list, whose leaves ho
     triangle.vertices = {Vec3(-3, -0.5, -3), Vec3(3, 0.1 * i, 3), Vec3(3, -0.5, -3)};
     test::add(scene, make_triangle(triangle), material);
   }
-  CHECK(linear_triangles(pack(scene, {})) == 0);
+  CHECK(linear_triangles(pack::pack(scene, {})) == 0);
 }

@@ -9,6 +9,8 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::pack;
+using namespace eyeray::executors;
 using test::Random;
 
 namespace {
@@ -39,7 +41,7 @@ void add_hard_triangles(Scene& scene, Random& random, int count, bool glass) {
 }
 
 PackedScene packed(const Scene& scene, bool split) {
-  PackedScene result = pack(scene, {.acceleration = Acceleration::bvh, .split = split});
+  PackedScene result = pack::pack(scene, {.acceleration = Acceleration::bvh, .split = split});
   REQUIRE(result.has_bvh);
   REQUIRE(result.quantised_nodes);
   return result;

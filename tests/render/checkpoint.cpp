@@ -9,6 +9,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::render;
 using namespace eyeray::test;
 
 namespace {
@@ -27,7 +28,7 @@ RenderOptions options_of(const Scene& scene, int band_rows, Checkpoint* checkpoi
 void render_part(const Scene& scene, int band_rows, const std::string& file, int stop) {
   Checkpoint checkpoint = Checkpoint::begin(file, identity, seldom);
   FakeExecutor executor([=](int call) { return call != stop; });
-  const Rendering part = render(scene, executor, options_of(scene, band_rows, &checkpoint));
+  const Rendering part = render::render(scene, executor, options_of(scene, band_rows, &checkpoint));
   REQUIRE(part.interrupted);
   REQUIRE(checkpoint.failure() == "");
 }
@@ -35,7 +36,7 @@ void render_part(const Scene& scene, int band_rows, const std::string& file, int
 Rendering render_rest(const Scene& scene, int band_rows, const std::string& file, int stop = -1) {
   Checkpoint checkpoint = Checkpoint::resume(file, identity, seldom);
   FakeExecutor executor([=](int call) { return call != stop; });
-  Rendering rest = render(scene, executor, options_of(scene, band_rows, &checkpoint));
+  Rendering rest = render::render(scene, executor, options_of(scene, band_rows, &checkpoint));
   if (!rest.interrupted) checkpoint.remove();
   return rest;
 }
@@ -59,7 +60,7 @@ TEST_CASE("interrupted anywhere and resumed, a picture is the uninterrupted one"
   for (const int band_rows : {7, 3}) {
     const int calls = band_rows == 7 ? 4 : 12;
     FakeExecutor undisturbed;
-    const Rendering whole = render(scene, undisturbed, options_of(scene, band_rows, nullptr));
+    const Rendering whole = render::render(scene, undisturbed, options_of(scene, band_rows, nullptr));
     for (int stop = 0; stop < calls; ++stop) {
       CAPTURE(band_rows);
       CAPTURE(stop);
@@ -91,7 +92,7 @@ TEST_CASE("interrupted within a sample of a band, too" * doctest::test_suite("lo
   const std::string file = folder / "a";
   const Scene scene = scene_of(1 << 19, 10, 4);
   FakeExecutor undisturbed;
-  const Rendering whole = render(scene, undisturbed, options_of(scene, 5, nullptr));
+  const Rendering whole = render::render(scene, undisturbed, options_of(scene, 5, nullptr));
   bool within = false;
   for (const int stop : {1, 4, 9}) {
     CAPTURE(stop);
@@ -107,14 +108,14 @@ TEST_CASE("a render that fails leaves its checkpoint, and one that is killed the
   const std::string file = folder / "a";
   const Scene scene = scene_of(9, 7, 4);
   FakeExecutor undisturbed;
-  const Rendering whole = render(scene, undisturbed, options_of(scene, 3, nullptr));
+  const Rendering whole = render::render(scene, undisturbed, options_of(scene, 3, nullptr));
   {
     Checkpoint checkpoint = Checkpoint::begin(file, identity, seldom);
     FakeExecutor failing([](int call) {
       if (call == 6) throw Error(ExitCode::no_device, "lost");
       return true;
     });
-    CHECK_THROWS_AS(render(scene, failing, options_of(scene, 3, &checkpoint)), Error);
+    CHECK_THROWS_AS(render::render(scene, failing, options_of(scene, 3, &checkpoint)), Error);
   }
   CHECK(Checkpoint::resume(file, identity, seldom).position().samples == 2);
   CHECK(same_rendering(render_rest(scene, 3, file), whole));
@@ -127,7 +128,7 @@ TEST_CASE("a render that fails leaves its checkpoint, and one that is killed the
       if (call == 7) std::filesystem::copy(file, killed / "a");
       return true;
     });
-    CHECK(same_rendering(render(scene, copying, options_of(scene, 3, &checkpoint)), whole));
+    CHECK(same_rendering(render::render(scene, copying, options_of(scene, 3, &checkpoint)), whole));
     std::filesystem::copy(file + ".rows", killed / "a.rows");
   }
   CHECK(std::filesystem::file_size(killed / "a.rows") == 6 * 9 * 20);
@@ -141,7 +142,7 @@ TEST_CASE("from the last sample on, the checkpoint has all but the handing on") 
   const Scene scene = scene_of(9, 7, 4);
   for (const int band_rows : {3, 7}) {
     FakeExecutor undisturbed;
-    const Rendering whole = render(scene, undisturbed, options_of(scene, band_rows, nullptr));
+    const Rendering whole = render::render(scene, undisturbed, options_of(scene, band_rows, nullptr));
     {
       Checkpoint checkpoint = Checkpoint::begin(file, identity, seldom);
       FakeExecutor executor;
@@ -153,7 +154,7 @@ TEST_CASE("from the last sample on, the checkpoint has all but the handing on") 
     }
     Checkpoint checkpoint = Checkpoint::resume(file, identity, seldom);
     FakeExecutor executor([](int) -> bool { throw std::runtime_error("nothing is left to sample"); });
-    const Rendering rest = render(scene, executor, options_of(scene, band_rows, &checkpoint));
+    const Rendering rest = render::render(scene, executor, options_of(scene, band_rows, &checkpoint));
     CHECK(same_rendering(rest, whole));
     checkpoint.remove();
   }
@@ -256,13 +257,13 @@ TEST_CASE("a checkpoint that cannot be written costs the checkpoint, not the ren
   std::filesystem::create_directory(inner);
   const Scene scene = scene_of(9, 7, 4);
   FakeExecutor undisturbed;
-  const Rendering whole = render(scene, undisturbed, options_of(scene, 3, nullptr));
+  const Rendering whole = render::render(scene, undisturbed, options_of(scene, 3, nullptr));
   Checkpoint checkpoint = Checkpoint::begin(inner + "/a", identity, 0);
   FakeExecutor executor([&](int call) {
     if (call == 1) std::filesystem::remove_all(inner);
     return true;
   });
-  CHECK(same_rendering(render(scene, executor, options_of(scene, 3, &checkpoint)), whole));
+  CHECK(same_rendering(render::render(scene, executor, options_of(scene, 3, &checkpoint)), whole));
   CHECK(checkpoint.failure().find("No such file or directory") != std::string::npos);
   CHECK_FALSE(checkpoint.due());
 }

@@ -10,6 +10,8 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
+using namespace eyeray::executors;
 using namespace eyeray::test;
 
 namespace {
@@ -54,7 +56,7 @@ TEST_CASE(
   for (const std::string file : {"scenes/shapes/gallery.toml", "scenes/group_shapes.toml"}) {
     CAPTURE(file);
     const Scene scene = load_scene(file);
-    const PackedScene packed = pack(scene, {.acceleration = Acceleration::bvh});
+    const PackedScene packed = pack::pack(scene, {.acceleration = Acceleration::bvh});
     REQUIRE(packed.has_bvh);
     size_t slow = 0;
 #define COUNT(name, number) slow += packed.bvh_kinds.count(number);
@@ -93,7 +95,7 @@ group = "pair"
 batch = { transform = [[], [{ translate = [3, 1, 0] }], [{ scale = [1, 2, 1] }, { translate = [-4, 0, 1] }]] }
 )",
                                   "scene.toml");
-  const PackedScene packed = pack(scene, {.acceleration = Acceleration::brute_force});
+  const PackedScene packed = pack::pack(scene, {.acceleration = Acceleration::brute_force});
   CHECK(!packed.has_bvh);
   CHECK(packed.instances.size() == 3);
   check_against_twin(device, scene, packed, 500);

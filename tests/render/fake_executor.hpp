@@ -10,7 +10,7 @@
 
 namespace eyeray::test {
 
-class FakeExecutor final : public Executor {
+class FakeExecutor final : public executors::Executor {
  public:
   // `before_call(n)` is asked before the n-th call of sample, from 0; false interrupts, and it may throw.
   explicit FakeExecutor(std::function<bool(int)> before_call = {}) : before_call_(std::move(before_call)) {}
@@ -55,7 +55,7 @@ inline Scene scene_of(int width, int height, int samples) {
 
 // How many bytes of sums make bands of that many rows.
 inline size_t band_of_rows(const Scene& scene, int rows) {
-  return size_t(rows) * size_t(scene.image.width) * sizeof(PixelSums::Pixel);
+  return size_t(rows) * size_t(scene.image.width) * sizeof(render::PixelSums::Pixel);
 }
 
 inline bool same_bits(const Image& a, const Image& b) {
@@ -67,7 +67,7 @@ inline bool same_bits(const Image& a, const Image& b) {
 }
 
 // In everything but how long it took and whether it was resumed.
-inline bool same_rendering(const Rendering& a, const Rendering& b) {
+inline bool same_rendering(const render::Rendering& a, const render::Rendering& b) {
   return same_bits(a.color, b.color) && same_bits(a.hits, b.hits) && a.rays == b.rays && a.flags == b.flags &&
          a.flagged_pixels == b.flagged_pixels && a.samples_done == b.samples_done;
 }

@@ -14,6 +14,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::executors;
 
 namespace {
 

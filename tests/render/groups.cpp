@@ -13,6 +13,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
 using namespace eyeray::test;
 
 namespace {
@@ -107,9 +108,9 @@ TEST_CASE(
     REQUIRE(once.group_instances.size() == 4);
 
     const reference::Tracer flat_tracer(flat), once_tracer(once);
-    const PackedScene flat_records = pack(flat);
-    const PackedScene once_records = pack(once, {.acceleration = Acceleration::bvh});
-    const PackedScene once_brute = pack(once, {.acceleration = Acceleration::brute_force});
+    const PackedScene flat_records = pack::pack(flat);
+    const PackedScene once_records = pack::pack(once, {.acceleration = Acceleration::bvh});
+    const PackedScene once_brute = pack::pack(once, {.acceleration = Acceleration::brute_force});
     REQUIRE(once_records.has_bvh);
     const Vec3 eye = once.camera.eye;
     Random random(3);
@@ -180,7 +181,7 @@ material = "wall"
                                                     "[[{}], [{{ translate = [0, 5e5, 0] }}]] }}\n",
                                                     place),
                                "instanced");
-    const PackedScene packed = pack(scene);
+    const PackedScene packed = pack::pack(scene);
     REQUIRE(packed.instances.size() == 2);
     const shader::Binding binding(packed);
     const Bounds local = bounds(scene.groups[0], scene.meshes);

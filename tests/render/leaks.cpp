@@ -12,6 +12,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::executors;
 using namespace eyeray::test;
 
 namespace {
@@ -86,7 +87,7 @@ struct PlacedMesh {
       add_instance(scene, index, 0, map);
       if (kept == Kept::instance) add_instance(scene, index, 0, second);
     }
-    packed = pack(scene, {.acceleration = Acceleration::bvh});
+    packed = pack::pack(scene, {.acceleration = Acceleration::bvh});
     REQUIRE(packed.instances.size() == (kept == Kept::baked ? 0 : 2));
   }
   Vec3 to_world(const Vec3& p) const { return Vec3(map * glm::dvec4(p, 1)); }

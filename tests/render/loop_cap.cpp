@@ -11,6 +11,8 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
+using namespace eyeray::executors;
 
 namespace {
 
@@ -165,7 +167,7 @@ TEST_CASE(
 
   gpu::Device device({});
   for (const Acceleration acceleration : {Acceleration::bvh, Acceleration::brute_force}) {
-    const PackedScene packed = pack(scene, {.acceleration = acceleration});
+    const PackedScene packed = pack::pack(scene, {.acceleration = acceleration});
     const std::vector<shader::QueryHit> expected = test::ask_twin(packed, rays, true);
     CHECK(expected[0].occlusion > count);
     CHECK(expected[0].occlusion < OPTICAL_DEPTH_OPAQUE);

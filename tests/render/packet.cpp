@@ -8,6 +8,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::executors;
 using test::Random;
 
 namespace {
@@ -62,7 +63,8 @@ TEST_CASE("nearest and any: rays in packets find what the twin finds, bit by bit
         {20'000, 0.05, false, 33, 0},
         {3000, 0.1, true, 101, 5},
         {3000, 0.1, false, 101, 5}}) {
-    const PackedScene scene = pack(cloud(random, count, size, spheres), {.acceleration = Acceleration::bvh});
+    const PackedScene scene =
+        pack::pack(cloud(random, count, size, spheres), {.acceleration = Acceleration::bvh});
     REQUIRE(scene.has_bvh);
     REQUIRE(scene.bvh_kinds.size() == (spheres ? 2 : 1));
     Specialisation specialisation;

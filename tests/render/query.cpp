@@ -7,6 +7,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::executors;
 
 TEST_CASE("nearest and any: every bit is the same on the GPU, unrolled or looping, and on the twin") {
   gpu::Device device({});

@@ -22,17 +22,17 @@ class QueryKernel {
  public:
   // With a `collapsed`, by kernels/cooperative/bvh4.comp.glsl; else in packets or each ray alone, as the
   // profile says.
-  QueryKernel(gpu::Device& device, const PackedScene& scene, const Specialisation& specialisation,
-              const CollapsedBvh* collapsed = nullptr)
+  QueryKernel(gpu::Device& device, const PackedScene& scene, const executors::Specialisation& specialisation,
+              const pack::CollapsedBvh* collapsed = nullptr)
       : device_(device), scene_(scene), specialisation_(specialisation) {
     specialisation_.subgroup_size = device.info().limits.subgroup_size;
     PackedScene with_packets = scene;
     if (traces_packets())
-      specialisation_.packet_bvh = add_packet_bvh(with_packets, specialisation_.subgroup_size);
-    for (const SceneBuffer& buffer : scene_buffers(with_packets)) add(buffer);
+      specialisation_.packet_bvh = pack::add_packet_bvh(with_packets, specialisation_.subgroup_size);
+    for (const executors::SceneBuffer& buffer : executors::scene_buffers(with_packets)) add(buffer);
     if (traces_packets()) entry_ = "kernels/cooperative/packet.comp.glsl";
     if (collapsed) {
-      add(bvh4_buffer(collapsed->nodes));
+      add(executors::bvh4_buffer(collapsed->nodes));
       entry_ = "kernels/cooperative/bvh4.comp.glsl";
       defines_ = fmt::format("#define BVH4_STACK_SIZE {}\n", collapsed->stack_size);
     }
@@ -60,7 +60,7 @@ class QueryKernel {
   }
 
  private:
-  void add(const SceneBuffer& source) {
+  void add(const executors::SceneBuffer& source) {
     const bool texels = source.texels && specialisation_.profile.texel_buffers;
     gpu::Buffer buffer(device_, source.size(), source.name,
                        texels ? gpu::BindingKind::texels : gpu::BindingKind::storage);
@@ -80,7 +80,7 @@ class QueryKernel {
 
   gpu::Device& device_;
   const PackedScene& scene_;
-  Specialisation specialisation_;
+  executors::Specialisation specialisation_;
   const char* entry_ = "kernels/query.comp.glsl";
   std::string defines_;
   DiskCache cache_ = DiskCache::of_user();

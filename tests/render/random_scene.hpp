@@ -40,8 +40,8 @@ inline Scene random_scene(Random& random, int count) {
 }
 
 // The same as records.
-inline PackedScene random_packed_scene(Random& random, int count, const PackOptions& options = {}) {
-  return pack(random_scene(random, count), options);
+inline PackedScene random_packed_scene(Random& random, int count, const pack::PackOptions& options = {}) {
+  return pack::pack(random_scene(random, count), options);
 }
 
 // Rays from anywhere to anywhere, some along an axis; every other one ends after a few units.

@@ -17,6 +17,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
 using namespace eyeray::test;
 
 namespace {
@@ -217,7 +218,7 @@ TEST_CASE("vertex normals are interpolated in the object's space, however it com
       write_text(folder / "scene.toml", "[[material]]\nname = \"wall\"\ntype = \"phong\"\n" + text);
       const Scene scene = load_scene(folder / "scene.toml");
       const reference::Tracer tracer(scene);
-      const PackedScene packed = pack(scene);
+      const PackedScene packed = pack::pack(scene);
       const shader::Binding binding(packed);
       Random random(7);
       int asked = 0;
@@ -266,7 +267,7 @@ TEST_CASE("what is left of stretched CSG objects looks where the gradient does, 
       const Scene scene =
           parse_scene("[[material]]\nname = \"wall\"\ntype = \"phong\"\n" + way, "scene.toml");
       const reference::Tracer tracer(scene);
-      const PackedScene packed = pack(scene);
+      const PackedScene packed = pack::pack(scene);
       const shader::Binding binding(packed);
       Random random(8);
       int outer = 0, hollow = 0;

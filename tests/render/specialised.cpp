@@ -13,6 +13,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
 
 namespace {
 
@@ -30,7 +31,7 @@ TEST_CASE("a kernel has the shapes of its scene, and no other's") {
   for (const ShapeType* type : shape_types()) {
     const std::string file = "scenes/shapes/" + std::string(type->name) + ".toml";
     CAPTURE(file);
-    const PackedScene packed = pack(load_scene(file));
+    const PackedScene packed = pack::pack(load_scene(file));
     std::set<uint32_t> used;
     for (const shader::Primitive& primitive : packed.primitives) used.insert(kind_of(primitive));
     for (const auto& [kind, material] : packed.leaf_uses) used.insert(kind);

@@ -50,7 +50,7 @@ class LongTriangles {
                    translation(center) * glm::rotate(Mat4(1.0), random_.uniform(0, 7), random_.direction()) *
                        translation(-center));
     size_ = size;
-    const PackedScene packed = pack(scene_, {.acceleration = Acceleration::brute_force});
+    const PackedScene packed = pack::pack(scene_, {.acceleration = Acceleration::brute_force});
     for (const shader::Primitive& p : packed.primitives) corners_.push_back({p.a, p.b, p.c});
   }
 
@@ -94,8 +94,8 @@ TEST_CASE("triangles cut in parts: 4 million grazing rays find what brute force 
   std::atomic<int64_t> compared = 0, hits = 0, different = 0, parts = 0, triangles = 0;
   parallel_for(0, 500, [&](int seed) {
     LongTriangles hard{uint64_t(seed)};
-    const PackedScene brute = pack(hard.scene(), {.acceleration = Acceleration::brute_force});
-    const PackedScene cut = pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = true});
+    const PackedScene brute = pack::pack(hard.scene(), {.acceleration = Acceleration::brute_force});
+    const PackedScene cut = pack::pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = true});
     triangles += int64_t(brute.primitives.size());
     parts += int64_t(cut.primitives.size());
     const std::vector<shader::QueryRay> rays = hard.rays(4000);
@@ -118,7 +118,7 @@ TEST_CASE(
     "where a part of a CSG object lets light through, nothing is cut: in two leaves it would count twice") {
   LongTriangles hard{1};
   const auto primitives = [&](bool split) {
-    return pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = split}).primitives.size();
+    return pack::pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = split}).primitives.size();
   };
   REQUIRE(primitives(true) > primitives(false));
   ShapeType::Shapes lens;

@@ -9,20 +9,21 @@
 namespace eyeray::test {
 
 inline gpu::ShaderSource entry_source(const char* entry, const PackedScene& scene,
-                                      const Specialisation& specialisation) {
-  ShaderFiles files({}, specialise(scene, specialisation));
+                                      const executors::Specialisation& specialisation) {
+  executors::ShaderFiles files({}, executors::specialise(scene, specialisation));
   return gpu::read_shader([&](std::string_view name) { return files.read(name); }, entry);
 }
 
 // As glslang leaves it, with all functions.
 inline std::vector<uint32_t> compile_entry(const char* entry, const PackedScene& scene,
-                                           const Specialisation& specialisation, const char* defines = "") {
+                                           const executors::Specialisation& specialisation,
+                                           const char* defines = "") {
   return gpu::compile_shader(entry_source(entry, scene, specialisation), defines).spirv;
 }
 
 // `t_max`: up to which occlusion counts.
 inline shader::QueryRay query_ray(const Vec3& origin, const Vec3& direction, double t_max = 1e30) {
-  return to_query_ray({origin, direction, t_max}, Vec3(0));
+  return executors::to_query_ray({origin, direction, t_max}, Vec3(0));
 }
 
 }  // namespace eyeray::test

@@ -7,6 +7,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
 
 namespace {
 
@@ -24,7 +25,7 @@ struct Kinds {
 };
 
 Kinds kinds_of(const Scene& scene) {
-  const PackedScene packed = pack(scene);
+  const PackedScene packed = pack::pack(scene);
   Kinds kinds;
   for (const auto& [shape, material] : packed.uses) {
     kinds.shapes.insert(shape);

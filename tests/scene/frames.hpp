@@ -9,15 +9,16 @@
 
 namespace eyeray::test {
 
-inline constexpr Backend backends[] = {Backend::gpu, Backend::twin, Backend::reference};
+inline constexpr executors::Backend backends[] = {executors::Backend::gpu, executors::Backend::twin,
+                                                  executors::Backend::reference};
 inline constexpr const char* backend_names[] = {"gpu", "twin", "reference"};
 
 inline Rect whole(const Scene& scene) {
   return {0, 0, scene.image.width, scene.image.height};
 }
 
-inline Frame render_frame(const Scene& scene, Executor& executor, Rect area) {
-  Rendering rendering = render(scene, executor, {area, true, {}});
+inline compare::Frame render_frame(const Scene& scene, executors::Executor& executor, Rect area) {
+  render::Rendering rendering = render::render(scene, executor, {area, true, {}});
   return {area,
           std::move(rendering.color),
           std::move(rendering.first_hits),
@@ -27,15 +28,16 @@ inline Frame render_frame(const Scene& scene, Executor& executor, Rect area) {
           rendering.flags};
 }
 
-inline Frame render_frame(const Scene& scene, Backend backend, const ExecutorOptions& options = {}) {
-  return render_frame(scene, *make_executor(backend, scene, options), whole(scene));
+inline compare::Frame render_frame(const Scene& scene, executors::Backend backend,
+                                   const executors::ExecutorOptions& options = {}) {
+  return render_frame(scene, *executors::make_executor(backend, scene, options), whole(scene));
 }
 
 // Gates B and C.
-inline ReferenceComparison compare_with_reference(const Scene& scene, const Frame& value) {
+inline compare::ReferenceComparison compare_with_reference(const Scene& scene, const compare::Frame& value) {
   const reference::Renderer renderer(scene);
-  const Reference probe = [&](int x, int y, const Vec2& shift) {
-    Probe result;
+  const compare::Reference probe = [&](int x, int y, const Vec2& shift) {
+    compare::Probe result;
     for (int i = 0; i < scene.image.samples; ++i) {
       const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift);
       result.color += sample.color / double(scene.image.samples);
@@ -44,7 +46,7 @@ inline ReferenceComparison compare_with_reference(const Scene& scene, const Fram
     result.first_hit = renderer.first_hit(x, y, shift);
     return result;
   };
-  return compare_with_reference(value, render_frame(scene, Backend::reference), probe);
+  return compare::compare_with_reference(value, render_frame(scene, executors::Backend::reference), probe);
 }
 
 }  // namespace eyeray::test

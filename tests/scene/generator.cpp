@@ -214,21 +214,21 @@ void Writer::table(const std::string& title, std::initializer_list<std::span<con
 }
 
 std::string Writer::write() {
-  table("[image]", {find_section("image")->keys}, {}, "");
+  table("[image]", {loader::find_section("image")->keys}, {}, "");
 
   const bool orthographic = chance(0.3);
   std::set<std::string_view> left_out = {"type"};
   if (orthographic) left_out.insert({"fov", "fov_axis"});
   if (!orthographic) left_out.insert("size");
-  table("[camera]", {find_section("camera")->keys}, left_out,
+  table("[camera]", {loader::find_section("camera")->keys}, left_out,
         fmt::format("type = \"{}\"\n", orthographic ? "orthographic" : "perspective"));
-  table("[render]", {find_section("render")->keys}, {}, "");
+  table("[render]", {loader::find_section("render")->keys}, {}, "");
 
   for (int i = random_.below(4); i > 0; --i) {
     // What a light needs is optional in its keys, for it depends on the type.
     const bool point = chance(0.5);
     const Key place{.name = "", .type = KeyType::vec3, .doc = ""};
-    table("[[light]]", {find_section("light")->keys},
+    table("[[light]]", {loader::find_section("light")->keys},
           point ? std::set<std::string_view>{"type", "direction", "position"}
                 : std::set<std::string_view>{"type", "direction", "position", "falloff"},
           fmt::format("type = \"{}\"\n{} = {}\n", point ? "point" : "directional",
@@ -255,13 +255,14 @@ std::string Writer::write() {
       return chance(0.5) ? "ready = \"rounded-box\"\n"
                          : "code = \"float f(vec3 p) { return dot(p, p) - 0.25; }\"\nlipschitz = 4\n";
     };
-    table(fmt::format("[[{}]]", type.name), {type.keys, find_section(type.name)->keys}, mostly, given(type));
+    table(fmt::format("[[{}]]", type.name), {type.keys, loader::find_section(type.name)->keys}, mostly,
+          given(type));
     if (!type.combine) continue;
     for (int part = 1 + random_.below(3); part > 0; --part) {
       const ShapeType& inner = closed_shape();
       const char* holder = part > 1 && chance(0.3) ? "csg.minus" : "csg";
-      table(fmt::format("[[{}.{}]]", holder, inner.name), {inner.keys, find_section("sphere")->keys}, mostly,
-            given(inner));
+      table(fmt::format("[[{}.{}]]", holder, inner.name), {inner.keys, loader::find_section("sphere")->keys},
+            mostly, given(inner));
     }
   }
   return text_;

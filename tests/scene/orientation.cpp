@@ -10,6 +10,9 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
+using namespace eyeray::executors;
+using namespace eyeray::compare;
 using namespace eyeray::test;
 
 namespace {

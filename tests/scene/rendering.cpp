@@ -9,6 +9,10 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
+using namespace eyeray::render;
+using namespace eyeray::executors;
+using namespace eyeray::compare;
 using namespace eyeray::test;
 
 namespace {
@@ -79,7 +83,7 @@ TEST_CASE("an interrupted picture has whole samples: what a pixel shows is the m
     CHECK(progress.samples_total == 4u * 2621440u);
     CHECK(progress.rays == 2 * progress.samples_done);
   };
-  const Rendering full = render(scene, endless, counting);
+  const Rendering full = render::render(scene, endless, counting);
   CHECK_FALSE(full.interrupted);
   CHECK(full.samples_done == 4);
   CHECK(full.rays == 2u * 4u * 2621440u);
@@ -90,7 +94,7 @@ TEST_CASE("an interrupted picture has whole samples: what a pixel shows is the m
   for (const int stop : {1, 4, 5}) {
     CAPTURE(stop);
     StoppingExecutor executor(stop);
-    const Rendering part = render(scene, executor, {{}, true, {}});
+    const Rendering part = render::render(scene, executor, {{}, true, {}});
     CHECK(part.interrupted);
     CHECK_FALSE(executor.asked_first_hits);
     CHECK(part.first_hits.empty());

@@ -9,6 +9,8 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::executors;
+using namespace eyeray::compare;
 using namespace eyeray::test;
 
 namespace {

@@ -19,9 +19,9 @@ inline constexpr int edge_pixels = 8;
 // The picture at a point in pixels from its top left corner: a ball (primitive 1) before a wall (primitive
 // 0), an opening in the wall, a shadow and a checker's edge on it, and a mirror (primitive 2) in which two
 // colours hit.
-inline Probe picture_at(double x, double y) {
+inline compare::Probe picture_at(double x, double y) {
   const auto between = [](double value, double low, double high) { return value >= low && value < high; };
-  Probe probe;
+  compare::Probe probe;
   probe.hits = 1;
 
   // The wall, lit a little unevenly.
@@ -60,20 +60,21 @@ inline Probe picture_at(double x, double y) {
   return probe;
 }
 
-inline Probe picture_reference(int x, int y, const Vec2& shift) {
+inline compare::Probe picture_reference(int x, int y, const Vec2& shift) {
   return picture_at(x + 0.5 + shift.x, y + 0.5 + shift.y);
 }
 
 // The picture as an executor would give it, rays moved by `shift`.
-inline Frame picture_frame(const Vec2& shift = Vec2(0.0), const Reference& picture = picture_reference) {
-  Frame frame;
+inline compare::Frame picture_frame(const Vec2& shift = Vec2(0.0),
+                                    const compare::Reference& picture = picture_reference) {
+  compare::Frame frame;
   frame.area = {0, 0, picture_width, picture_height};
   frame.color = Image(picture_width, picture_height, 3);
   frame.hits = Image(picture_width, picture_height, 1);
   frame.rays = 2u * picture_width * picture_height;
   for (int y = 0; y < picture_height; ++y) {
     for (int x = 0; x < picture_width; ++x) {
-      const Probe probe = picture(x, y, shift);
+      const compare::Probe probe = picture(x, y, shift);
       for (int c = 0; c < 3; ++c) frame.color.pixel(x, y)[c] = float(probe.color[c]);
       *frame.hits.pixel(x, y) = float(probe.hits);
       frame.first_hits.push_back(probe.first_hit);

@@ -45,7 +45,7 @@ inline std::string broken_promise(const Mesh& mesh) {
   return "";
 }
 
-inline std::string broken_promise(const ImportedScene& scene) {
+inline std::string broken_promise(const importers::ImportedScene& scene) {
   for (const Mesh& mesh : scene.meshes)
     if (const std::string broken = broken_promise(mesh); !broken.empty()) return broken;
   if (scene.instances.empty()) return "no instances";

@@ -6,6 +6,10 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::loader;
+using namespace eyeray::render;
+using namespace eyeray::executors;
+using namespace eyeray::compare;
 using eyeray::test::TemporaryFolder;
 namespace fs = std::filesystem;
 

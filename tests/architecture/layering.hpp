@@ -1,0 +1,32 @@
+// The layers as CMakeLists.txt lists them, which is the only list.
+#pragma once
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace eyeray::test {
+
+// What a layer links, layers and libraries.
+using Links = std::set<std::string>;
+
+// Of every layer, and of the command line, "cli".
+inline std::map<std::string, Links> read_layers() {
+  std::ifstream stream("CMakeLists.txt");
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  std::map<std::string, Links> layers;
+  static const std::regex call(R"((?:eyeray_layer\((\w+)|target_link_libraries\(eyeray PRIVATE)([^)]*)\))");
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), call); it != std::sregex_iterator(); ++it) {
+    std::istringstream words((*it)[2].str());
+    Links& links = layers[(*it)[1].matched ? (*it)[1].str() : "cli"];
+    for (std::string word; words >> word;)
+      if (!std::set<std::string>{"COMPUTES", "LINK", "PUBLIC", "PRIVATE"}.contains(word)) links.insert(word);
+  }
+  return layers;
+}
+
+}  // namespace eyeray::test

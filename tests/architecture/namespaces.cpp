@@ -1,0 +1,164 @@
+// Which names belong to whom: a folder under host/ is a namespace, and a type has one definition.
+#include <map>
+#include <set>
+
+#include "layering.hpp"
+#include "sources.hpp"
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray::test;
+
+namespace {
+
+// Their words are everyone's.
+const std::set<std::string> common = {"core", "scene"};
+// What is still plain `eyeray`. This list only shrinks: an entry that nothing needs fails the test.
+const std::set<std::string> unconverted = {"host/image",
+                                           "host/shapes",
+                                           "host/materials",
+                                           "host/records",
+                                           "host/formula/formula.hpp",
+                                           "host/formula/formula.cpp",
+                                           "host/twin/straight_line.hpp",
+                                           "host/twin/straight_line.cpp"};
+// The shaders' own names, in C++.
+const std::set<std::string> speaks_shader = {"records", "twin"};
+
+// A line of a namespace's body, which clang-format leaves at the margin.
+struct Line {
+  size_t number;
+  std::string scope;  // "eyeray::loader", with "{}" at its end inside an unnamed namespace
+  std::string text;
+};
+
+// A namespace that a file opens.
+struct Opening {
+  size_t line;
+  std::string name;
+  bool declares_only;  // nothing but forward declarations
+};
+
+const std::regex opening(R"(^(?:inline )?namespace ([\w:]*) ?\{$)");
+const std::regex closing(R"(^\}(?:  // namespace.*)?$)");
+const std::regex declaration(R"(^(?:class|struct) (\w+);.*$)");
+
+std::vector<Opening> openings(const SourceFile& file) {
+  std::vector<Opening> found;
+  std::smatch match;
+  for (size_t i = 0; i < file.lines.size(); ++i) {
+    if (!std::regex_match(file.lines[i], match, opening) || match[1].length() == 0) continue;
+    size_t end = i + 1;
+    while (end < file.lines.size() && std::regex_match(file.lines[end], declaration)) ++end;
+    const bool declares_only = end < file.lines.size() && std::regex_match(file.lines[end], closing);
+    found.push_back({i, match[1], declares_only});
+  }
+  return found;
+}
+
+// The lines at the margin that are in a namespace and do not open or close one.
+std::vector<Line> top_level(const SourceFile& file) {
+  std::vector<Line> found;
+  std::vector<std::string> scopes;
+  std::smatch match;
+  bool in_body = false;  // of a type or a function, which ends with a brace at the margin
+  for (size_t i = 0; i < file.lines.size(); ++i) {
+    const std::string& line = file.lines[i];
+    if (std::regex_match(line, match, opening)) {
+      const std::string name = match[1].length() ? match[1].str() : "{}";
+      scopes.push_back(scopes.empty() ? name : scopes.back() + "::" + name);
+    } else if (in_body) {
+      in_body = !line.starts_with("}");
+    } else if (line.starts_with("}")) {
+      if (!scopes.empty()) scopes.pop_back();
+    } else if (!scopes.empty() && !line.empty() && !line.starts_with(" ")) {
+      found.push_back({i, scopes.back(), line});
+      in_body = code(line).find('{') != std::string::npos && code(line).find('}') == std::string::npos;
+    }
+  }
+  return found;
+}
+
+bool is_listed(const SourceFile& file) {
+  return unconverted.contains(file.path) || unconverted.contains("host/" + file.layer());
+}
+
+bool in_its_own_namespace(const SourceFile& file, const std::string& name) {
+  const std::string own = "eyeray::" + file.layer();
+  if (name == own || name.starts_with(own + "::")) return true;
+  if (common.contains(file.layer()) && (name == "eyeray" || name == "eyeray::detail")) return true;
+  return speaks_shader.contains(file.layer()) && name == "eyeray::shader";
+}
+
+}  // namespace
+
+TEST_CASE("a folder under host/ is a namespace") {
+  std::set<std::string> needed;
+  size_t seen = 0;
+  for (const SourceFile& file : source_files("host")) {
+    for (const Opening& each : openings(file)) {
+      if (!each.name.starts_with("eyeray") || each.declares_only) continue;
+      ++seen;
+      if (in_its_own_namespace(file, each.name)) continue;
+      INFO(file.at(each.line), " opens ", each.name);
+      CHECK(is_listed(file));
+      needed.insert(unconverted.contains(file.path) ? file.path : "host/" + file.layer());
+    }
+  }
+  CHECK(seen > 300);
+  for (const std::string& entry : unconverted) {
+    INFO(entry, " need not be listed any more");
+    CHECK(needed.contains(entry));
+  }
+}
+
+TEST_CASE("no two files define a type of one name in one namespace") {
+  static const std::regex definition(
+      R"(^(?:class|struct|union|enum|enum class) (\w+)(?: final)?(?: :.*)? \{.*$)");
+  std::map<std::string, std::string> defined;
+  std::smatch match;
+  for (const SourceFile& file : source_files("host")) {
+    for (const Line& line : top_level(file)) {
+      if (line.scope.find("{}") != std::string::npos || !std::regex_match(line.text, match, definition))
+        continue;
+      const std::string name = line.scope + "::" + match[1].str();
+      const auto [first, is_new] = defined.emplace(name, file.at(line.number));
+      INFO(name, " is defined in ", first->second, " and in ", file.at(line.number));
+      CHECK(is_new);
+    }
+  }
+  CHECK(defined.size() > 300);
+  CHECK(defined.contains("eyeray::loader::Batch"));
+  CHECK(defined.contains("eyeray::bench::Batch"));
+}
+
+TEST_CASE("forward declarations do not reach where includes may not") {
+  // What a layer is handed by those above it, without knowing what it is.
+  const std::set<std::pair<std::string, std::string>> handed_down = {{"scene", "Packer"}};
+
+  // Headers, by the types that they define.
+  const std::vector<SourceFile> files = source_files("host");
+  static const std::regex definition(R"(^\s*(?:class|struct) (\w+)(?: final)?(?: :.*)? \{.*$)");
+  std::map<std::string, std::set<std::string>> owners;
+  std::smatch match;
+  for (const SourceFile& file : files)
+    for (const std::string& line : file.lines)
+      if (std::regex_match(line, match, definition)) owners[match[1]].insert(file.layer());
+
+  const std::map<std::string, Links> layers = read_layers();
+  std::set<std::pair<std::string, std::string>> needed;
+  for (const SourceFile& file : files) {
+    for (const Line& line : top_level(file)) {
+      if (!std::regex_match(line.text, match, declaration)) continue;
+      const std::string name = match[1];
+      const auto owner = owners.find(name);
+      if (owner == owners.end() || owner->second.contains(file.layer())) continue;
+      const bool linked = std::ranges::any_of(
+          owner->second, [&](const std::string& layer) { return layers.at(file.layer()).contains(layer); });
+      if (linked) continue;
+      INFO(file.at(line.number), " declares ", name, ", which is of ", *owner->second.begin());
+      CHECK(handed_down.contains({file.layer(), name}));
+      needed.insert({file.layer(), name});
+    }
+  }
+  CHECK(needed == handed_down);
+}
