@@ -53,7 +53,8 @@ TEST_CASE("a layer calls only what it links") {
     if (layer != "cli") symbols[layer] = symbols_of(layer);
 
   size_t seen = 0;
-  for (const auto& [layer, own] : symbols) {
+  for (const auto& [caller, own] : symbols) {
+    const std::string& layer = caller;
     for (const std::string& name : own.undefined) {
       if (own.defined.contains(name)) continue;
       bool linked = false;
@@ -74,14 +75,15 @@ TEST_CASE("a layer calls only what it links") {
 TEST_CASE("docs/architecture.md lists the layers as CMakeLists.txt does") {
   const std::map<std::string, Links> layers = read_layers();
   std::map<std::string, std::string> document = read_document();
-  for (const auto& [layer, links] : layers) {
+  for (const auto& entry : layers) {
+    const std::string& layer = entry.first;
     CAPTURE(layer);
     std::set<std::string> listed, expected;
     static const std::regex word(R"([\w/]+)");
     const std::string& row = document[layer];
     for (auto it = std::sregex_iterator(row.begin(), row.end(), word); it != std::sregex_iterator(); ++it)
       listed.insert(it->str());
-    for (const std::string& link : links) {
+    for (const std::string& link : entry.second) {
       if (link == "shader_headers") expected.insert("shaders/");
       if (layers.contains(link) && link != "core") expected.insert(link);
     }

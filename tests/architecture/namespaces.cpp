@@ -121,9 +121,9 @@ TEST_CASE("no two files define a type of one name in one namespace") {
       if (line.scope.find("{}") != std::string::npos || !std::regex_match(line.text, match, definition))
         continue;
       const std::string name = line.scope + "::" + match[1].str();
-      const auto [first, is_new] = defined.emplace(name, file.at(line.number));
-      INFO(name, " is defined in ", first->second, " and in ", file.at(line.number));
-      CHECK(is_new);
+      const auto added = defined.emplace(name, file.at(line.number));
+      INFO(name, " is defined in ", added.first->second, " and in ", file.at(line.number));
+      CHECK(added.second);
     }
   }
   CHECK(defined.size() > 300);

@@ -22,7 +22,7 @@ inline importers::ImportedScene import_sound(const std::string& bytes, const std
 // Why the bytes are refused, or "accepted".
 inline std::string refusal(const std::string& bytes, const std::string& name) {
   try {
-    import_bytes(bytes, name);
+    importers::import_bytes(bytes, name);
   } catch (const InputError& error) {
     return error.what();
   }
