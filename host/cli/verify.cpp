@@ -111,9 +111,7 @@ void add_verify(CLI::App& app, Run& run) {
       "Examples:\n"
       "  eyeray verify scenes/whitted.toml\n"
       "  eyeray verify scenes/*.toml -s 96x72 --json\n"
-      "Exit code 0 when every gate passes, 1 when one fails, 6 when a scene could not be verified for want "
-      "of a C++ "
-      "compiler.");
+      "Exit code 0 when every gate passes, 1 when one fails.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 
