@@ -5,10 +5,10 @@ file(GLOB_RECURSE SHADER_FILES CONFIGURE_DEPENDS RELATIVE ${SHADER_ROOT} ${SHADE
 list(TRANSFORM SHADER_FILES PREPEND ${SHADER_ROOT}/ OUTPUT_VARIABLE SHADER_PATHS)
 
 # The twin compiles every row of the registries; a GPU kernel, its scene's only (executors/specialise.cpp).
-foreach(registry shapes materials integrators)
+foreach(registry cameras shapes materials lights integrators)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${SHADER_ROOT}/${registry}/registry.h)
-  file(STRINGS ${SHADER_ROOT}/${registry}/registry.h rows REGEX "X\\([a-z_]+,")
-  string(REGEX REPLACE "[^;]*X\\(([a-z_]+),[^;]*" "#include \"${registry}/\\1.glsl\"\n" includes "${rows}")
+  file(STRINGS ${SHADER_ROOT}/${registry}/registry.h rows REGEX "^  (X\\(|R\\(X, )[a-z_]+,")
+  string(REGEX REPLACE "  (X\\(|R\\(X, )([a-z_]+),[^;]*" "#include \"${registry}/\\2.glsl\"\n" includes "${rows}")
   string(REPLACE ";" "" includes "${includes}")
   file(CONFIGURE OUTPUT ${GENERATED}/${registry}/all.glsl CONTENT "${includes}")
 endforeach()

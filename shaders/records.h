@@ -185,8 +185,6 @@ struct Light {
   vec4 a;  // what these hold is said in the light's .glsl
   vec4 b;
 };
-#define LIGHT_POINT 0u
-#define LIGHT_DIRECTIONAL 1u
 
 // ---- Frame: what is the same for all pixels, 128 bytes --------------------------------------------------------------
 struct Frame {
@@ -213,8 +211,6 @@ struct Frame {
   vec3 ambient;
   float unused_1;
 };
-#define CAMERA_PERSPECTIVE 0u
-#define CAMERA_ORTHOGRAPHIC 1u
 #define PATTERN_REGULAR 0u
 #define PATTERN_JITTERED 1u
 

@@ -104,14 +104,10 @@ std::vector<SurfacePosition> departures(const Scene& scene, std::span<const Quer
 Batch shadow_batch(const Scene& scene, std::span<const SurfacePosition> departures) {
   Batch batch{"shadow", QueryKind::any, true, {}};
   if (scene.lights.empty()) return batch;
-  const Light& light = scene.lights.front();
   for (const SurfacePosition& from : departures) {
-    Query ray{from.position, light.to_light};
-    if (light.type == LightType::point) {
-      ray.t_max = glm::distance(light.position, from.position);
-      ray.d = (light.position - from.position) / ray.t_max;
-    }
-    if (glm::dot(ray.d, from.normal) > 0) batch.rays.push_back(ray);
+    const Illumination to = scene.lights.front()->illuminate(from.position);
+    if (glm::dot(to.l, from.normal) > 0)
+      batch.rays.push_back({from.position, to.l, std::min(to.distance, Query{}.t_max)});
   }
   return batch;
 }

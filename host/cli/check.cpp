@@ -84,12 +84,9 @@ Inventory take_inventory(const Scene& scene) {
   kinds.clear();
   for (const shader::Material& material : packed.materials) kinds.push_back(material.kind);
   inventory.materials = count_kinds(material_types(), kinds);
-  const auto points = size_t(std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-    return light.type == LightType::point;
-  }));
-  if (points > 0) inventory.lights.emplace_back("point", points);
-  if (points < scene.lights.size())
-    inventory.lights.emplace_back("directional", scene.lights.size() - points);
+  kinds.clear();
+  for (const shader::Light& light : packed.lights) kinds.push_back(light.kind);
+  inventory.lights = count_kinds(light_types(), kinds);
   list_names(scene, inventory);
   for (const Mesh& mesh : scene.meshes) inventory.mesh_triangles += mesh.triangles.size();
   inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.nodes) +

@@ -41,10 +41,12 @@ std::string camera(const Scene& scene, int width, int height) {
                      vector(2.0 * frame.up));
 }
 
-std::string light(const Light& light) {
-  if (light.type == LightType::directional)
-    return fmt::format("light_source {{ {} color rgb {} parallel point_at 0 }}\n",
-                       vector(1e6 * light.to_light), vector(light.intensity));
+std::string light_text(const DirectionalLight& light) {
+  return fmt::format("light_source {{ {} color rgb {} parallel point_at 0 }}\n", vector(1e6 * light.to_light),
+                     vector(light.intensity));
+}
+
+std::string light_text(const PointLight& light) {
   if (light.falloff == Falloff::none)
     return fmt::format("light_source {{ {} color rgb {} }}\n", vector(light.position),
                        vector(light.intensity));
@@ -52,6 +54,10 @@ std::string light(const Light& light) {
   constexpr double d = 1e-3;
   return fmt::format("light_source {{ {} color rgb {} fade_distance {} fade_power 2 }}\n",
                      vector(light.position), vector(light.intensity / (2 * d * d)), d);
+}
+
+std::string light_text(std::monostate) {
+  throw Error(ExitCode::bad_input, "the scene has a light that is not written for POV-Ray");
 }
 
 std::string texture(const Material& material, const Vec3& ambient_light) {
@@ -215,7 +221,8 @@ std::string povray_scene(const Scene& scene, int width, int height) {
       "background {{ rgb {} }}\n",
       scene.render.max_depth + 1, scene.render.min_throughput, vector(scene.render.background));
   text += camera(scene, width, height);
-  for (const Light& each : scene.lights) text += light(each);
+  for (const auto& light : scene.lights)
+    text += std::visit([](const auto& form) { return light_text(form); }, light->form());
   for (size_t i = 0; i < scene.materials.size(); ++i)
     append(text, "#declare M{} = {}\n", i, texture(*scene.materials[i], scene.render.ambient));
   for (const auto& shape : scene.shapes) add_shape(text, scene, *shape);

@@ -29,13 +29,10 @@ struct Row {
 constexpr Row shapes[] = {SHAPES(ROW)};
 constexpr Row deferred_shapes[] = {DEFERRED_SHAPES(ROW)};
 constexpr Row materials[] = {MATERIALS(ROW)};
+constexpr Row cameras[] = {CAMERAS(ROW)};
+constexpr Row lights[] = {LIGHTS(ROW)};
 constexpr Row integrators[] = {INTEGRATORS(ROW)};
 #undef ROW
-// The registry's other lists have the numbers of the first.
-#define SAME(name, number) static_assert(number == shader::KIND_##name);
-DEFERRED_SHAPES(SAME)
-CLOSED_SHAPES(SAME)
-#undef SAME
 
 // The registry macro `list` with the rows that are used alone, and the files of `folder` that they need.
 template <size_t n>
@@ -299,6 +296,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_BVH", scene.has_bvh ? "true" : "false");
   define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");
   define("HAS_SECONDARY", int(most_bounces(scene) > 0));
+  define("CAMERA_IS(number)", "true");      // only one is compiled, as of integrators
   define("INTEGRATOR_IS(number)", "true");  // only one is compiled
   define("RAY_KINDS", int(options.ray_kinds));
   define("SUBGROUP_SIZE", options.subgroup_size);
@@ -343,6 +341,10 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   text += registry("DEFERRED_SHAPES", "shapes", shapes, slow);
   text += registry("ALPHA_TESTED_SHAPES", "shapes", shapes, alpha_tested_kinds);
   text += registry("MATERIALS", "materials", materials, material_kinds);
+  std::set<uint32_t> light_kinds;
+  for (const shader::Light& light : scene.lights) light_kinds.insert(light.kind);
+  text += registry("LIGHTS", "lights", lights, light_kinds);
+  text += registry("CAMERAS", "cameras", cameras, {scene.frame.camera});
   text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.integrator});
   return text;
 }

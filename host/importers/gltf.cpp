@@ -280,10 +280,8 @@ void GltfReader::read_light(const GltfObject& source, const Mat4& world) {
   const std::string type = source.text("type");
   const std::vector<double> color = source.numbers("color", {1, 1, 1});
   const double intensity = source.number("intensity", 1);
-  Light light;
-  light.intensity = Vec3(color[0], color[1], color[2]) * intensity * unit_of_light;
-  const bool right =
-      intensity >= 0 && *std::ranges::min_element(color) >= 0 && magnitude(light.intensity) < 1e12;
+  const Vec3 arriving = Vec3(color[0], color[1], color[2]) * intensity * unit_of_light;
+  const bool right = intensity >= 0 && *std::ranges::min_element(color) >= 0 && magnitude(arriving) < 1e12;
   if (!right) source.fail("has an intensity that no light has");
   if (*std::ranges::max_element(color) > 1)
     breaches_.add("colours of lights above 1, taken as they are", source.place());
@@ -291,15 +289,13 @@ void GltfReader::read_light(const GltfObject& source, const Mat4& world) {
   if (source.has("range") && !(source.number("range", 0) > 0))
     breaches_.add("ranges of lights that are not above 0", source.place());
   if (type == "directional") {
-    light.type = LightType::directional;
-    light.to_light = unit(Vec3(world[2]));
+    scene_.lights.push_back(DirectionalLight{unit(Vec3(world[2])), arriving});
   } else if (type == "point" || type == "spot") {
-    light.position = Vec3(world[3]);
+    scene_.lights.push_back(PointLight{.position = Vec3(world[3]), .intensity = arriving});
     if (type == "spot") read_cone(source);
   } else {
     source.fail("has a type that glTF does not know");
   }
-  scene_.lights.push_back(light);
 }
 
 }  // namespace

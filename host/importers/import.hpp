@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "host/scene/scene.hpp"
@@ -30,7 +31,7 @@ struct ImportedScene {
   std::vector<Mesh> meshes;         // as scene/mesh.hpp promises
   std::vector<Instance> instances;  // `material` is an index of `materials`, or −1: the file names none
   std::vector<std::unique_ptr<Material>> materials;
-  std::vector<Light> lights;
+  std::vector<std::variant<PointLight, DirectionalLight>> lights;
   std::optional<Camera> camera;
   std::vector<std::string> warnings;         // what was left out, once each, with counts
   std::vector<std::filesystem::path> files;  // every file read, this one first

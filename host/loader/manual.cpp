@@ -29,6 +29,15 @@ std::string trimmed(std::string_view text) {
   return std::string(text) + "\n\n";
 }
 
+template <typename Type>
+std::string kinds_manual(std::span<const Type* const> types) {
+  std::string text;
+  for (const Type* type : types)
+    text +=
+        fmt::format("### `type = \"{}\"`\n\n", type->name) + trimmed(type->manual) + key_table({type->keys});
+  return text;
+}
+
 }  // namespace
 
 std::string scene_manual() {
@@ -49,11 +58,9 @@ std::string scene_manual() {
     text += std::string(section.doc) + "\n\n";
     if (!section.manual.empty()) text += trimmed(section.manual);
     text += key_table({section.keys});
+    if (section.kind == light) text += kinds_manual(light_types());
     if (section.kind != material) continue;
-    for (const MaterialType* type : material_types()) {
-      text += fmt::format("### `type = \"{}\"`\n\n", type->name) + trimmed(type->manual) +
-              key_table({type->keys});
-    }
+    text += kinds_manual(material_types());
     text += "### `{ checker = … }`\n\nA checkerboard in uv, wherever a color may vary over a surface.\n\n";
     text += key_table({checker_table_keys()});
     text +=

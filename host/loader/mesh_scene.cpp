@@ -87,27 +87,24 @@ toml::table table(const Camera& camera) {
   return table;
 }
 
-toml::table table(const Light& light) {
-  toml::table table{{"intensity", list(light.intensity)}};
-  if (light.type == LightType::point) {
-    table.insert("type", "point");
-    table.insert("position", list(light.position));
-  } else {
-    table.insert("type", "directional");
-    table.insert("direction", list(-light.to_light));
-  }
-  return table;
+toml::table table(const PointLight& light) {
+  return toml::table{
+      {"type", "point"}, {"intensity", list(light.intensity)}, {"position", list(light.position)}};
+}
+
+toml::table table(const DirectionalLight& light) {
+  return toml::table{
+      {"type", "directional"}, {"intensity", list(light.intensity)}, {"direction", list(-light.to_light)}};
 }
 
 // The two lights of a studio: a key light over the left shoulder of whoever looks, and a weak one from the
 // right that gives the shadows form.
-std::vector<Light> studio_lights(const Camera& camera) {
+decltype(importers::ImportedScene::lights) studio_lights(const Camera& camera) {
   const Vec3 back = unit(camera.eye - camera.target);
   const Vec3 right = unit(glm::cross(camera.up, back));
   const auto light = [&](double along_back, double along_right, double upward, double intensity) {
-    return Light{.type = LightType::directional,
-                 .to_light = unit(along_back * back + along_right * right + upward * glm::cross(back, right)),
-                 .intensity = Vec3(intensity)};
+    return DirectionalLight{unit(along_back * back + along_right * right + upward * glm::cross(back, right)),
+                            Vec3(intensity)};
   };
   return {light(0.75, -0.6, 0.8, 0.8), light(0.7, 1.0, 0.25, 0.28)};
 }
@@ -117,8 +114,8 @@ std::vector<Light> studio_lights(const Camera& camera) {
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import) {
   const Camera camera = import.camera ? *import.camera : framing(import);
   toml::array lights;
-  for (const Light& light : import.lights.empty() ? studio_lights(camera) : import.lights)
-    lights.push_back(table(light));
+  for (const auto& light : import.lights.empty() ? studio_lights(camera) : import.lights)
+    lights.push_back(std::visit([](const auto& form) { return table(form); }, light));
 
   toml::table root;
   root.insert("camera", table(camera));

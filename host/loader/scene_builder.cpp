@@ -7,6 +7,8 @@
 #include "host/loader/csg_reader.hpp"
 #include "host/loader/group_placement.hpp"
 #include "host/loader/group_plan.hpp"
+#include "host/loader/kinds.hpp"
+#include "host/loader/lights.hpp"
 #include "host/loader/mesh_placement.hpp"
 #include "host/loader/sections.hpp"
 #include "host/loader/settings.hpp"
@@ -52,8 +54,8 @@ class Builder {
                    fmt::format("a scene can have at most {} lights", most_lights));
       }
       if (lights_ > most_lights) return;
-      TableReader light = read_table({section.title, &table, {section.keys}}, log_);
-      scene_.lights.push_back(read_light(light));
+      if (std::unique_ptr<Light> light = read_light(section, table, log_))
+        scene_.lights.push_back(std::move(light));
     });
     for_each(root_, "material",
              [&](const Section& section, const toml::table& table) { add_material(section, table); });
@@ -144,11 +146,7 @@ class Builder {
 
 // The type comes first, for it decides which other keys there are.
 void Builder::add_material(const Section& section, const toml::table& table) {
-  const MaterialType* type = nullptr;
-  if (const toml::node* written = table.get("type"); written && written->is_string()) {
-    const auto found = std::ranges::find(material_types(), written->as_string()->get(), &MaterialType::name);
-    if (found != material_types().end()) type = *found;
-  }
+  const MaterialType* type = named_type(table, material_types());
   const std::string title = type ? fmt::format("[[material]] of type {}", type->name) : section.title;
   TableReader reader = read_table({.title = title,
                                    .table = &table,

@@ -144,9 +144,10 @@ Json table_schema(std::span<const Key> keys) {
 }
 
 // One alternative a type, each with its own keys.
-Json material_schema(const Section& section) {
+template <typename Type>
+Json kinds_schema(const Section& section, std::span<const Type* const> types) {
   Json alternatives = Json::array();
-  for (const MaterialType* type : material_types()) {
+  for (const Type* type : types) {
     Json schema = table_schema(section.keys);
     add_keys(schema, type->keys);
     schema["properties"]["type"] = {{"const", type->name}};
@@ -215,7 +216,8 @@ Json placed_schema(const Section& section) {
 
 Json section_schema(const Section& section) {
   if (section.is_placed()) return list_schema(world_ray(section));
-  if (section.kind == Section::Kind::material) return list_schema(material_schema(section));
+  if (section.kind == Section::Kind::material) return list_schema(kinds_schema(section, material_types()));
+  if (section.kind == Section::Kind::light) return list_schema(kinds_schema(section, light_types()));
   return section.many() ? list_schema(table_schema(section.keys)) : table_schema(section.keys);
 }
 

@@ -11,21 +11,32 @@ namespace eyeray::loader {
 
 namespace {
 
-std::span<const std::string_view> material_names() {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> all;
-    for (const MaterialType* type : material_types()) all.push_back(type->name);
-    return all;
-  }();
+template <typename Type>
+std::vector<std::string_view> names_of(std::span<const Type* const> types) {
+  std::vector<std::string_view> names;
+  for (const Type* type : types) names.push_back(type->name);
   return names;
 }
 
+std::span<const Key> light_keys() {
+  static const std::vector<std::string_view> names = names_of(light_types());
+  static const Key keys[] = {
+      {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = names},
+      {.name = "intensity",
+       .type = KeyType::color,
+       .doc = "The light that arrives, at distance 1 from a point light.",
+       .fallback = "1"},
+  };
+  return keys;
+}
+
 std::span<const Key> material_keys() {
+  static const std::vector<std::string_view> names = names_of(material_types());
   static const Key keys[] = {
       {.name = "name",
        .type = KeyType::string,
        .doc = "The name by which shapes refer to it, unique in the scene."},
-      {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = material_names()},
+      {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = names},
       {.name = "alpha",
        .type = KeyType::texture,
        .doc = "Where it is below `alpha_cutoff`, there is no surface. Of a color the first component counts, "

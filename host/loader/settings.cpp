@@ -14,8 +14,6 @@ constexpr std::string_view fov_axes[] = {"horizontal", "vertical", "shorter", "d
 constexpr std::string_view integrators[] = {"raycast", "whitted"};
 constexpr std::string_view triangle_methods[] = {"woop", "moller-trumbore"};
 constexpr std::string_view group_storages[] = {"automatic", "instanced", "flat"};
-constexpr std::string_view light_types[] = {"point", "directional"};
-constexpr std::string_view falloffs[] = {"inverse_square", "none"};
 
 constexpr Key image_table[] = {
     {.name = "width",
@@ -125,30 +123,6 @@ constexpr Key render_table[] = {
      .fallback = "0"},
 };
 
-constexpr Key light_table[] = {
-    {.name = "type",
-     .type = KeyType::choice,
-     .doc = "A point that shines, or the sun.",
-     .choices = light_types},
-    {.name = "position",
-     .type = KeyType::vec3,
-     .doc = "Where a point light stands; point only.",
-     .optional = true},
-    {.name = "direction",
-     .type = KeyType::vec3,
-     .doc = "The way the light travels, of any length but 0; directional only.",
-     .optional = true},
-    {.name = "intensity",
-     .type = KeyType::color,
-     .doc = "The light that arrives, at distance 1 from a point light.",
-     .fallback = "1"},
-    {.name = "falloff",
-     .type = KeyType::choice,
-     .doc = "Weaker with the square of the distance, or the same everywhere; point only.",
-     .fallback = "\"inverse_square\"",
-     .choices = falloffs},
-};
-
 // Reports `key` if it is written, for it means something only with another `type`.
 void refuse(TableReader& table, std::string_view key, std::string_view only, std::string_view instead) {
   if (table.has(key)) table.error(key, fmt::format("`{}` is for type = \"{}\" only{}", key, only, instead));
@@ -192,9 +166,6 @@ std::span<const Key> camera_keys() {
 }
 std::span<const Key> render_keys() {
   return render_table;
-}
-std::span<const Key> light_keys() {
-  return light_table;
 }
 
 ImageSettings read_image(TableReader& table) {
@@ -245,31 +216,6 @@ RenderSettings read_render(TableReader& table) {
   render.background = table.color("background");
   render.ambient = table.color("ambient");
   return render;
-}
-
-Light read_light(TableReader& table) {
-  Light light;
-  light.type = static_cast<LightType>(table.choice("type"));
-  light.position = table.vec3("position");
-  light.intensity = table.color("intensity");
-  light.falloff = static_cast<Falloff>(table.choice("falloff"));
-  if (!table.valid("type")) return light;
-  if (light.type == LightType::point) {
-    if (!table.has("position")) table.error("position", "a point light needs `position`");
-    refuse(table, "direction", "directional", "; a point light has `position`");
-    return light;
-  }
-  refuse(table, "position", "point", "; a directional light has `direction`");
-  refuse(table, "falloff", "point", "");
-  const Vec3 direction = table.vec3("direction");
-  const double length = glm::length(direction);
-  if (!table.has("direction")) {
-    table.error("direction", "a directional light needs `direction`, the way the light travels");
-  } else if (!(length > 1e-15)) {
-    table.error("direction", "`direction` has no length");
-  }
-  light.to_light = length > 1e-15 ? -direction / length : Vec3(0, 1, 0);
-  return light;
 }
 
 }  // namespace eyeray::loader

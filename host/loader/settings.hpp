@@ -1,4 +1,4 @@
-// The tables that are not shapes or materials: their keys, and their values as the scene holds them.
+// The tables that have no kinds: their keys, and their values as the scene holds them.
 #pragma once
 
 #include <span>
@@ -10,12 +10,10 @@ namespace eyeray::loader {
 std::span<const Key> image_keys();
 std::span<const Key> camera_keys();
 std::span<const Key> render_keys();
-std::span<const Key> light_keys();
 
 // What the table says; what is wrong between its values is reported to it.
 ImageSettings read_image(TableReader& table);
 Camera read_camera(TableReader& table);
 RenderSettings read_render(TableReader& table);
-Light read_light(TableReader& table);
 
 }  // namespace eyeray::loader

@@ -10,16 +10,10 @@
 namespace eyeray::pack {
 namespace {
 
-shader::Light pack_light(const Light& light, const Packer& packer) {
-  shader::Light record{};
-  const bool point = light.type == LightType::point;
-  record.kind = point ? LIGHT_POINT : LIGHT_DIRECTIONAL;
-  record.intensity = glm::vec3(light.intensity);
-  record.a = point
-                 ? to_vec4(packer.relative(light.position), light.falloff == Falloff::inverse_square ? 1 : 0)
-                 : to_vec4(light.to_light);
-  return record;
-}
+// A row without its CameraType, or with another number, is an error that bears its name.
+#define SAME(name, number) static_assert(uint32_t(CameraType::name) == number);
+CAMERAS(SAME)
+#undef SAME
 
 // The media around the eye as materials/media.glsl stacks them: a byte each, the innermost lowest.
 uint32_t pack_media(const Scene& scene, const PackedScene& packed) {
@@ -39,7 +33,7 @@ shader::Frame pack_frame(const Scene& scene, const PackedScene& packed) {
   frame.height = uint32_t(scene.image.height);
   frame.seed = scene.render.seed;
   frame.samples_per_side = uint32_t(std::lround(std::sqrt(double(scene.image.samples))));
-  frame.camera = scene.camera.type == CameraType::orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;
+  frame.camera = uint32_t(scene.camera.type);
   frame.pattern = scene.image.pattern == SamplePattern::jittered ? PATTERN_JITTERED : PATTERN_REGULAR;
   frame.media = pack_media(scene, packed);
   frame.max_depth = uint32_t(scene.render.max_depth);
@@ -70,7 +64,7 @@ Packer pack_records(const Scene& scene, const PackOptions& options) {
     }
   }
   pack_geometry(scene, options, packer);
-  for (const Light& light : scene.lights) packer.scene.lights.push_back(pack_light(light, packer));
+  for (const auto& light : scene.lights) light->pack(packer);
   packer.scene.frame = pack_frame(scene, packer.scene);
   return packer;
 }

@@ -83,6 +83,7 @@ class Packer {
     return {0u, shader::material_and_kind(uint32_t(material), kind), 0u, extra, a, b, c};
   }
   void add(const shader::Material& material) { scene.materials.push_back(material); }
+  void add(const shader::Light& light) { scene.lights.push_back(light); }
   // The index at which `data` now starts in the vertices.
   uint32_t add_vertices(std::initializer_list<shader::uvec4> data) { return add_vertices(std::span(data)); }
   uint32_t add_vertices(std::span<const shader::uvec4> data);

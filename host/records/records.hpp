@@ -5,18 +5,23 @@
 #pragma GCC diagnostic ignored "-Wpedantic"
 #include "shaders/records.h"
 #pragma GCC diagnostic pop
+#include "shaders/cameras/registry.h"
 #include "shaders/integrators/registry.h"
+#include "shaders/lights/registry.h"
 #include "shaders/materials/registry.h"
 #include "shaders/shapes/registry.h"
 
 namespace eyeray::shader {
 
-// The registries' numbers: KIND_sphere, MATERIAL_phong, …
+// The registries' numbers: KIND_sphere, MATERIAL_phong, LIGHT_point, …
 #define X(name, number) inline constexpr uint KIND_##name = number;
 SHAPES(X)
 #undef X
 #define X(name, number) inline constexpr uint MATERIAL_##name = number;
 MATERIALS(X)
+#undef X
+#define X(name, number) inline constexpr uint LIGHT_##name = number;
+LIGHTS(X)
 #undef X
 
 // How many kinds of shape there are.

@@ -39,8 +39,13 @@ Ray CameraRays::ray(const Vec2& place) const {
   const double x = 2.0 * place.x / width_ - 1.0;
   const double y = (1.0 - 2.0 * place.y / height_) * (height_ / width_);
   const Vec3 across = x * u_ + y * v_;
-  if (type_ == CameraType::orthographic) return {eye_ + size_ * across, w_};
-  return {eye_, glm::normalize(across + distance_ * w_)};
+  switch (type_) {
+    case CameraType::perspective:
+      return {eye_, glm::normalize(across + distance_ * w_)};
+    case CameraType::orthographic:
+      return {eye_ + size_ * across, w_};
+  }
+  return {eye_, w_};
 }
 
 Vec2 sample_position(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index) {

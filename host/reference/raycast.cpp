@@ -1,7 +1,5 @@
 #include "host/reference/raycast.hpp"
 
-#include "host/reference/light.hpp"
-
 namespace eyeray::reference {
 
 PixelSample raycast(const Tracer& tracer, const Ray& ray) {
@@ -19,8 +17,8 @@ PixelSample raycast(const Tracer& tracer, const Ray& ray) {
     light = Vec3(glm::abs(glm::dot(n, ray.d)) / glm::length(ray.d));
   } else {
     light = scene.render.ambient;
-    for (const Light& source : scene.lights) {
-      const Illumination illumination = illuminate(source, surface.position);
+    for (const auto& source : scene.lights) {
+      const Illumination illumination = source->illuminate(surface.position);
       const double cosine = glm::dot(n, illumination.l);
       if (cosine > 0) light += illumination.color * cosine;
     }

@@ -5,7 +5,6 @@
 
 #include "host/core/termination.hpp"
 #include "host/reference/crossings.hpp"
-#include "host/reference/light.hpp"
 #include "host/reference/rng.hpp"
 
 namespace eyeray::reference {
@@ -179,8 +178,8 @@ Vec3 Recursion::child(const Path& path, const View& view, const Vec3& d, const M
 Vec3 Recursion::direct(const View& view, const Scattering& scattering) {
   const Vec3 n = view.surface.normal;
   Vec3 color = scattering.emitted + scattering.ambient * scene_.render.ambient;
-  for (const Light& light : scene_.lights) {
-    const auto [l, arriving, distance] = illuminate(light, view.surface.position);
+  for (const auto& light : scene_.lights) {
+    const auto [l, arriving, distance] = light->illuminate(view.surface.position);
     const double cosine = glm::dot(n, l);
     if (!(cosine > 0 && glm::dot(view.surface.normal_geometric, l) > 0)) continue;
     ++rays;

@@ -8,6 +8,7 @@
 
 #include "host/core/vec.hpp"
 #include "host/scene/group.hpp"
+#include "host/scene/light.hpp"
 #include "host/scene/material.hpp"
 #include "host/scene/mesh.hpp"
 #include "host/scene/shape.hpp"
@@ -51,17 +52,6 @@ struct RenderSettings {
   Vec3 ambient{0.0};                              // light that reaches every point from everywhere
 };
 
-enum class LightType { point, directional };
-enum class Falloff { inverse_square, none };
-
-struct Light {
-  LightType type = LightType::point;
-  Vec3 position{0.0};      // point
-  Vec3 to_light{0, 1, 0};  // directional: unit, from the scene towards the light
-  Vec3 intensity{1.0};
-  Falloff falloff = Falloff::inverse_square;  // point
-};
-
 struct Scene {
   std::filesystem::path file;
   std::vector<std::filesystem::path> files;  // every file read, the scene first: what a watcher watches
@@ -69,7 +59,7 @@ struct Scene {
   ImageSettings image;
   Camera camera;
   RenderSettings render;
-  std::vector<Light> lights;
+  std::vector<std::unique_ptr<Light>> lights;
   std::vector<std::unique_ptr<Material>> materials;
   // In registry order, within a kind in file order (an included file's where its name stands); then those of
   // each group in turn.

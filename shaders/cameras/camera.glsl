@@ -22,8 +22,11 @@ Ray camera_ray(Frame frame, vec2 place) {
   float x = (place.x - 0.5f * float(frame.width)) * frame.pixel_width;
   float y = (0.5f * float(frame.height) - place.y) * frame.pixel_height;
   vec3 across = frame.right * x + frame.up * y;
-  if (frame.camera == CAMERA_ORTHOGRAPHIC) return make_ray(across, frame.forward);
-  return make_ray(vec3(0.0f, 0.0f, 0.0f), normalize3(across + frame.forward));
+  Ray ray = make_ray(across, frame.forward);
+#define RAY_OF(name, number) \
+  if (CAMERA_IS(number)) ray = name##_ray(frame, across);
+  CAMERAS(RAY_OF)
+  return ray;
 }
 
 SHADER_END

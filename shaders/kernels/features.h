@@ -72,6 +72,9 @@
 //   IMMEDIATE_SHAPES   those in BVHs that are not deferred
 //   ALPHA_TESTED_SHAPES  those of a material with an alpha
 //   MATERIALS
+//   CAMERAS
+//   CAMERA_IS          (number): whether that is the frame's
+//   LIGHTS
 //   INTEGRATORS
 //   INTEGRATOR_IS      (number): whether that is the frame's
 

@@ -18,6 +18,7 @@ const std::map<std::string, std::regex> visible_shaders = {
     {"records", std::regex(R"(shaders/(records\.h|[a-z]+/registry\.h))")},
     {"shapes", std::regex(R"(shaders/shapes/registry\.h)")},
     {"materials", std::regex(R"(shaders/materials/registry\.h)")},
+    {"lights", std::regex(R"(shaders/lights/registry\.h)")},
     {"twin", std::regex(".*")},
     {"formula", std::regex(R"(shaders/(language\.h|math/formula\.glsl))")},
 };

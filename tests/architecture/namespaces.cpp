@@ -16,6 +16,7 @@ const std::set<std::string> common = {"core", "scene"};
 const std::set<std::string> unconverted = {"host/image",
                                            "host/shapes",
                                            "host/materials",
+                                           "host/lights",
                                            "host/records",
                                            "host/formula/formula.hpp",
                                            "host/formula/formula.cpp",

@@ -113,11 +113,13 @@ TEST_CASE("the first camera and all lights") {
   CHECK(scene.camera->fov_degrees == doctest::Approx(45));
   CHECK(warns(scene, "cameras but the first (1)"));
   REQUIRE(scene.lights.size() == 3);
-  CHECK(scene.lights[0].position == Vec3(4, 5, 6));
-  CHECK(glm::length(scene.lights[0].intensity - Vec3(1, 0.5, 0)) < 1e-12);
-  CHECK(glm::length(scene.lights[1].to_light - Vec3(0, 1, 0)) < 1e-6);  // it shines along −z, turned to −y
-  CHECK(scene.lights[1].intensity.x == doctest::Approx(2));
-  CHECK(scene.lights[2].type == LightType::point);
+  const auto& point = std::get<PointLight>(scene.lights[0]);
+  CHECK(point.position == Vec3(4, 5, 6));
+  CHECK(glm::length(point.intensity - Vec3(1, 0.5, 0)) < 1e-12);
+  const auto& sun = std::get<DirectionalLight>(scene.lights[1]);
+  CHECK(glm::length(sun.to_light - Vec3(0, 1, 0)) < 1e-6);  // it shines along −z, turned to −y
+  CHECK(sun.intensity.x == doctest::Approx(2));
+  CHECK(std::holds_alternative<PointLight>(scene.lights[2]));
   CHECK(warns(scene, "cones of spot lights"));
   CHECK(warns(scene, "ranges of lights"));
 

@@ -179,7 +179,7 @@ TEST_CASE("overrides and a file's own camera and lights") {
   const Scene scene = load_scene(obj, overrides);
   CHECK(scene.camera.eye == Vec3(1, 2, 3));
   CHECK(scene.meshes[0].normals.empty());
-  CHECK(scene.lights[0].intensity == Vec3(2));
+  CHECK(std::get<DirectionalLight>(scene.lights[0]->form()).intensity == Vec3(2));
   CHECK(scene.render.background == Vec3(1));
 
   const std::string gltf =
@@ -197,7 +197,7 @@ TEST_CASE("overrides and a file's own camera and lights") {
   CHECK(own.camera.eye == Vec3(1, 2, 3));
   CHECK(own.camera.fov_axis == FovAxis::vertical);
   REQUIRE(own.lights.size() == 1);
-  CHECK(own.lights[0].position == Vec3(4, 5, 6));
+  CHECK(std::get<PointLight>(own.lights[0]->form()).position == Vec3(4, 5, 6));
 
   // In a scene file they are left out, with a word.
   const Scene shown = load_scene(folder.write("scene.toml", light + "[[mesh]]\nfile = 'a.gltf'\n"));

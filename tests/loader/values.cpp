@@ -109,13 +109,13 @@ type = "directional"
 direction = [0, -3, 4]
 )");
   REQUIRE(scene.lights.size() == 2);
-  CHECK(scene.lights[0].type == LightType::point);
-  CHECK(scene.lights[0].position == Vec3(1, 2, 3));
-  CHECK(scene.lights[0].intensity == Vec3(4, 5, 6));
-  CHECK(scene.lights[0].falloff == Falloff::none);
-  CHECK(scene.lights[1].type == LightType::directional);
-  CHECK(near(scene.lights[1].to_light, Vec3(0, 0.6, -0.8)));
-  CHECK(scene.lights[1].intensity == Vec3(1));
+  const auto point = std::get<PointLight>(scene.lights[0]->form());
+  CHECK(point.position == Vec3(1, 2, 3));
+  CHECK(point.intensity == Vec3(4, 5, 6));
+  CHECK(point.falloff == Falloff::none);
+  const auto sun = std::get<DirectionalLight>(scene.lights[1]->form());
+  CHECK(near(sun.to_light, Vec3(0, 0.6, -0.8)));
+  CHECK(sun.intensity == Vec3(1));
 }
 
 TEST_CASE("materials and textures") {

@@ -52,7 +52,8 @@ TEST_CASE("diffuse light follows the cosine, and a point light the square of the
   scene.lights.clear();
   add_point_light(scene, {0, 3, 4}, Vec3(10), Falloff::inverse_square);
   CHECK(near(look(scene).color, Vec3(0.8 * 10 / 25 * 0.6), 1e-14));
-  scene.lights[0].falloff = Falloff::none;
+  scene.lights.clear();
+  add_point_light(scene, {0, 3, 4}, Vec3(10), Falloff::none);
   CHECK(near(look(scene).color, Vec3(0.8 * 10 * 0.6), 1e-14));
 }
 
@@ -62,7 +63,8 @@ TEST_CASE("the side that is seen is the side that is lit") {
   PixelSample sample = look(scene);
   CHECK(sample.color == Vec3(0));
   CHECK(sample.rays == 1);  // nothing is asked of a light that is behind
-  scene.lights[0].to_light = {0, -1, 0};
+  scene.lights.clear();
+  add_sun(scene, {0, -1, 0}, Vec3(1));
   CHECK(look(scene).color == Vec3(1));
 }
 
@@ -99,13 +101,15 @@ TEST_CASE("shadow rays lose their light to each shape that they hit") {
   CHECK(look(scene).color == Vec3(0));
 
   // Behind the light, or behind the floor, nothing casts a shadow.
-  scene.lights[0].position = {0, 7, 0};
+  scene.lights.clear();
+  add_point_light(scene, {0, 7, 0}, Vec3(1));
   CHECK(near(look(scene).color, Vec3(0.96), 1e-14));
   add(scene, make_sphere({0, -2, 0}, 1), opaque);
   CHECK(near(look(scene).color, Vec3(0.96), 1e-14));
 
   // A light inside the glass is dimmed as one behind it.
-  scene.lights[0].position = {0, 5, 0};
+  scene.lights.clear();
+  add_point_light(scene, {0, 5, 0}, Vec3(1));
   CHECK(near(look(scene).color, Vec3(0.96), 1e-14));
 }
 
@@ -139,7 +143,8 @@ TEST_CASE("raycast: no shadows, no reflections; a lamp at the eye where there is
   CHECK(sample.hits == 1);
 
   // A light behind the surface, or in the very point that is seen, gives nothing.
-  scene.lights[0].to_light = {0, -1, 0};
+  scene.lights.clear();
+  add_sun(scene, {0, -1, 0}, Vec3(2));
   CHECK(near(look(scene).color, Vec3(0.05), 1e-15));
   scene.lights.clear();
   add_point_light(scene, {0, 0, 0}, Vec3(1), Falloff::inverse_square);

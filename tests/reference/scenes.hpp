@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
+#include "host/lights/make.hpp"
 #include "host/materials/make.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/shapes/make.hpp"
@@ -23,13 +24,11 @@ inline int add(Scene& scene, std::unique_ptr<Shape> shape, int material) {
 
 inline void add_point_light(Scene& scene, const Vec3& position, const Vec3& intensity,
                             Falloff falloff = Falloff::none) {
-  scene.lights.push_back(
-      {.type = LightType::point, .position = position, .intensity = intensity, .falloff = falloff});
+  scene.lights.push_back(make_light(PointLight{position, intensity, falloff}));
 }
 
 inline void add_sun(Scene& scene, const Vec3& to_light, const Vec3& intensity) {
-  scene.lights.push_back(
-      {.type = LightType::directional, .to_light = glm::normalize(to_light), .intensity = intensity});
+  scene.lights.push_back(make_light(DirectionalLight{glm::normalize(to_light), intensity}));
 }
 
 // A scene of one pixel, whose ray runs from `eye` exactly towards `target`.

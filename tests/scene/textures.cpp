@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "frames.hpp"
+#include "host/lights/make.hpp"
 #include "host/materials/make.hpp"
 #include "host/shapes/make.hpp"
 #include "tests/support/random.hpp"
@@ -42,7 +43,7 @@ Scene patchwork(Random& random, int across, int down) {
   scene.camera.target = {0.5 * across + 0.0131, 0.5 * down + 0.0073, 0};
   scene.camera.eye = scene.camera.target + Vec3(0, 0, 5);
   scene.render.ambient = Vec3(0.25);
-  scene.lights.push_back({.type = LightType::point, .position = {3, 4, 9}, .intensity = Vec3(60)});
+  scene.lights.push_back(make_light(PointLight{.position = {3, 4, 9}, .intensity = Vec3(60)}));
   for (int y = 0; y < down; ++y) {
     for (int x = 0; x < across; ++x) {
       Texture texture{Vec3(random.uniform(), random.uniform(), 1), {}};

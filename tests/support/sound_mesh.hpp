@@ -55,8 +55,12 @@ inline std::string broken_promise(const importers::ImportedScene& scene) {
       return "material of an instance";
     if (!why_singular(instance.transform).empty()) return "transform of an instance";
   }
-  for (const Light& light : scene.lights)
-    if (!finite(light.position) || !finite(light.to_light) || !finite(light.intensity)) return "light";
+  for (const auto& light : scene.lights) {
+    const auto* point = std::get_if<PointLight>(&light);
+    const auto* sun = std::get_if<DirectionalLight>(&light);
+    if (point && !(finite(point->position) && finite(point->intensity))) return "point light";
+    if (sun && !(finite(sun->to_light) && finite(sun->intensity))) return "directional light";
+  }
   if (scene.camera && (!finite(scene.camera->eye) || !finite(scene.camera->target))) return "camera";
   return "";
 }

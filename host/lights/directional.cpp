@@ -1,0 +1,65 @@
+#include <limits>
+
+#include "host/lights/make.hpp"
+#include "host/records/packer.hpp"
+
+namespace eyeray {
+
+extern const LightType directional_type;
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(The sun: light of one direction and strength everywhere.
+
+```toml
+[[light]]
+type = "directional"
+direction = [-1, -2, -1]
+intensity = 0.8
+```
+)";
+
+constexpr Key keys[] = {
+    {.name = "direction", .type = KeyType::vec3, .doc = "The way the light travels, of any length but 0."},
+};
+
+class Directional final : public Light {
+ public:
+  explicit Directional(const DirectionalLight& values) : values_(values) { type = &directional_type; }
+
+  Illumination illuminate(const Vec3&) const override {
+    return {values_.to_light, values_.intensity, std::numeric_limits<double>::infinity()};
+  }
+
+  void pack(Packer& packer) const override {
+    packer.add(shader::Light{.intensity = glm::vec3(values_.intensity),
+                             .kind = shader::LIGHT_directional,
+                             .a = to_vec4(values_.to_light),
+                             .b = shader::vec4(0)});
+  }
+
+  LightForm form() const override { return values_; }
+
+ private:
+  DirectionalLight values_;
+};
+
+std::unique_ptr<Light> parse(TableReader& table) {
+  const Vec3 direction = table.vec3("direction");
+  const double length = glm::length(direction);
+  if (table.valid("direction") && !(length > 1e-15)) table.error("direction", "`direction` has no length");
+  if (table.failed()) return nullptr;
+  return make_light(DirectionalLight{-direction / length, table.color("intensity")});
+}
+
+}  // namespace
+
+extern const LightType directional_type{
+    .name = "directional", .manual = manual, .keys = keys, .parse = parse};
+
+std::unique_ptr<Light> make_light(const DirectionalLight& values) {
+  return std::make_unique<Directional>(values);
+}
+
+}  // namespace eyeray

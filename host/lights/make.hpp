@@ -1,0 +1,11 @@
+// Lights built in code, by tests; a scene file's go through their LightType.
+#pragma once
+
+#include "host/scene/light.hpp"
+
+namespace eyeray {
+
+std::unique_ptr<Light> make_light(const PointLight& values);
+std::unique_ptr<Light> make_light(const DirectionalLight& values);
+
+}  // namespace eyeray

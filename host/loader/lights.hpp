@@ -1,0 +1,14 @@
+// A [[light]] of a scene file.
+#pragma once
+
+#include <memory>
+
+#include "host/loader/sections.hpp"
+#include "host/scene/table.hpp"
+
+namespace eyeray::loader {
+
+// Null after an error, which is in the log.
+std::unique_ptr<Light> read_light(const Section& section, const toml::table& table, DiagnosticLog& log);
+
+}  // namespace eyeray::loader

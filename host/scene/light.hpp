@@ -1,0 +1,65 @@
+// What every light answers, in float64. A light is one .cpp in host/lights, one .glsl in shaders/lights and
+// one row in lights/registry.h.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "host/core/vec.hpp"
+#include "host/scene/table_reader.hpp"
+
+namespace eyeray {
+
+class Packer;  // records/packer.hpp
+struct LightType;
+
+// A light as a point sees it.
+struct Illumination {
+  Vec3 l;           // unit, towards the light
+  Vec3 color;       // what arrives, were nothing between
+  double distance;  // infinite for a light without a place
+};
+
+// Lights in the terms that other programs share.
+enum class Falloff { inverse_square, none };
+
+struct PointLight {
+  Vec3 position{0.0};
+  Vec3 intensity{1.0};
+  Falloff falloff = Falloff::inverse_square;
+};
+
+struct DirectionalLight {
+  Vec3 to_light{0, 1, 0};  // unit, from the scene towards the light
+  Vec3 intensity{1.0};
+};
+
+// monostate: what other programs have no word for.
+using LightForm = std::variant<std::monostate, PointLight, DirectionalLight>;
+
+class Light {
+ public:
+  virtual ~Light() = default;
+
+  // The light that arrives at `point`, were nothing between. The reference's half: no float32.
+  virtual Illumination illuminate(const Vec3& point) const = 0;
+  // Appends the light's one record.
+  virtual void pack(Packer& packer) const = 0;
+  virtual LightForm form() const { return {}; }
+
+  const LightType* type = nullptr;
+};
+
+struct LightType {
+  std::string_view name;  // `type` in a [[light]] table, and its .glsl
+  std::string_view manual;
+  std::span<const Key> keys;                            // beside `type` and `intensity`
+  std::unique_ptr<Light> (*parse)(TableReader& table);  // null after an error, which is reported to the table
+};
+
+// Every kind of light, in registry order.
+std::span<const LightType* const> light_types();
+
+}  // namespace eyeray

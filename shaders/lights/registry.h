@@ -1,0 +1,6 @@
+// Every kind of light; see shapes/registry.h.
+#ifndef LIGHTS
+#define LIGHTS(X) \
+  X(point, 0u)    \
+  X(directional, 1u)
+#endif
