@@ -2,16 +2,22 @@
 
 #include <cmath>
 
+#include "shaders/cameras/registry.h"
+#include "shaders/integrators/registry.h"
+
 namespace eyeray::loader {
 
 namespace {
 
 constexpr int64_t most_pixels = int64_t{1} << 28;
 
+// The registries' rows are what a scene file may name.
+#define NAME(name, ...) #name,
+constexpr std::string_view camera_types[] = {CAMERAS(NAME)};
+constexpr std::string_view integrators[] = {INTEGRATORS(NAME)};
+#undef NAME
 constexpr std::string_view patterns[] = {"regular", "jittered"};
-constexpr std::string_view camera_types[] = {"perspective", "orthographic"};
 constexpr std::string_view fov_axes[] = {"horizontal", "vertical", "shorter", "diagonal"};
-constexpr std::string_view integrators[] = {"raycast", "whitted"};
 constexpr std::string_view triangle_methods[] = {"woop", "moller-trumbore"};
 constexpr std::string_view group_storages[] = {"automatic", "instanced", "flat"};
 

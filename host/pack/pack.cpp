@@ -10,10 +10,13 @@
 namespace eyeray::pack {
 namespace {
 
-// A row without its CameraType, or with another number, is an error that bears its name.
-#define SAME(name, number) static_assert(uint32_t(CameraType::name) == number);
-CAMERAS(SAME)
-#undef SAME
+// A row that the scene does not know, or by another number, is an error that bears its name.
+#define SAME_CAMERA(name, number) static_assert(uint32_t(CameraType::name) == number);
+CAMERAS(SAME_CAMERA)
+#undef SAME_CAMERA
+#define SAME_INTEGRATOR(name, number, ...) static_assert(uint32_t(IntegratorType::name) == number);
+INTEGRATORS(SAME_INTEGRATOR)
+#undef SAME_INTEGRATOR
 
 // The media around the eye as materials/media.glsl stacks them: a byte each, the innermost lowest.
 uint32_t pack_media(const Scene& scene, const PackedScene& packed) {

@@ -17,9 +17,16 @@ Renderer::Renderer(const Scene& scene, Acceleration acceleration)
 PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset) const {
   const Vec2 place = sample_position(scene_.image, scene_.render.seed, x, y, index);
   const Ray ray = camera_.ray(Vec2(x, y) + place + shift);
-  if (scene_.render.integrator == IntegratorType::raycast) return raycast(tracer_, ray);
-  PixelSample sample = whitted(tracer_, ray, media_, ray_offset);
-  sample.flags |= flags_;
+  PixelSample sample;
+  switch (scene_.render.integrator) {
+    case IntegratorType::raycast:
+      sample = raycast(tracer_, ray);
+      break;
+    case IntegratorType::whitted:
+      sample = whitted(tracer_, ray, media_, ray_offset);
+      sample.flags |= flags_;
+      break;
+  }
   return sample;
 }
 
