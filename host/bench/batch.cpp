@@ -84,8 +84,8 @@ Batch primary_batch(const Scene& scene, int width, int height) {
   return batch;
 }
 
-std::vector<SurfacePosition> departures(const Scene& scene, std::span<const Query> rays,
-                                        std::span<const QueryHit> hits) {
+std::vector<SurfacePosition> surface_positions(const Scene& scene, std::span<const Query> rays,
+                                               std::span<const QueryHit> hits) {
   CHECK_EQ(rays.size(), hits.size());
   const PrimitiveIds ids(scene);
   std::vector<SurfacePosition> found;
@@ -101,10 +101,10 @@ std::vector<SurfacePosition> departures(const Scene& scene, std::span<const Quer
   return found;
 }
 
-Batch shadow_batch(const Scene& scene, std::span<const SurfacePosition> departures) {
+Batch shadow_batch(const Scene& scene, std::span<const SurfacePosition> surface_positions) {
   Batch batch{"shadow", QueryKind::any, true, {}};
   if (scene.lights.empty()) return batch;
-  for (const SurfacePosition& from : departures) {
+  for (const SurfacePosition& from : surface_positions) {
     const Illumination to = scene.lights.front()->illuminate(from.position);
     if (glm::dot(to.l, from.normal) > 0)
       batch.rays.push_back({from.position, to.l, std::min(to.distance, Query{}.t_max)});
@@ -112,10 +112,10 @@ Batch shadow_batch(const Scene& scene, std::span<const SurfacePosition> departur
   return batch;
 }
 
-Batch bounce_batch(std::span<const SurfacePosition> departures, uint32_t seed) {
+Batch bounce_batch(std::span<const SurfacePosition> surface_positions, uint32_t seed) {
   Batch batch{"bounce", QueryKind::nearest, false, {}};
-  batch.rays.reserve(departures.size());
-  for (const SurfacePosition& from : departures) {
+  batch.rays.reserve(surface_positions.size());
+  for (const SurfacePosition& from : surface_positions) {
     // A point on the unit sphere around the normal's tip: the directions to it have the cosine's density.
     const double z = 2 * reference::random(from.ray, 0, 0, seed) - 1;
     const double phi = 2 * std::numbers::pi * reference::random(from.ray, 0, 1, seed);

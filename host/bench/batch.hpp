@@ -28,13 +28,13 @@ struct SurfacePosition {
   Vec3 normal;  // unit, geometric, towards where the ray came from
 };
 // `hits` are those of `rays`; a hit that float64 does not confirm is left out.
-std::vector<SurfacePosition> departures(const Scene& scene, std::span<const Query> rays,
-                                        std::span<const QueryHit> hits);
+std::vector<SurfacePosition> surface_positions(const Scene& scene, std::span<const Query> rays,
+                                               std::span<const QueryHit> hits);
 
-// From each departure that faces the scene's first light to that light; empty without a light.
-Batch shadow_batch(const Scene& scene, std::span<const SurfacePosition> departures);
+// From each surface position that faces the scene's first light to that light; empty without a light.
+Batch shadow_batch(const Scene& scene, std::span<const SurfacePosition> surface_positions);
 
-// From each departure into one direction, distributed as the cosine to its normal.
-Batch bounce_batch(std::span<const SurfacePosition> departures, uint32_t seed);
+// From each surface position into one direction, distributed as the cosine to its normal.
+Batch bounce_batch(std::span<const SurfacePosition> surface_positions, uint32_t seed);
 
 }  // namespace eyeray::bench

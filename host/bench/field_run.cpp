@@ -32,7 +32,7 @@ SceneReport run_field(const std::string& name, const std::string& family, const 
   Batch primary = primary_batch(scene, options.width, options.height);
   std::vector<QueryHit> hits(primary.rays.size());
   embree.query(primary.rays, primary.kind, hits, contenders::EmbreeCalls::packets_of_8, true);
-  const std::vector<SurfacePosition> from = departures(scene, primary.rays, hits);
+  const std::vector<SurfacePosition> from = surface_positions(scene, primary.rays, hits);
   for (const Batch& batch :
        {std::move(primary), shadow_batch(scene, from), bounce_batch(from, options.seed)}) {
     if (!batch.rays.empty())

@@ -1,4 +1,4 @@
-// A binary BVH over things that have boxes, built by Embree (rtcBuildBVH) with the surface area
+// A binary BVH over objects that have boxes, built by Embree (rtcBuildBVH) with the surface area
 // heuristic.
 #pragma once
 

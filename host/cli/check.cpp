@@ -66,11 +66,11 @@ uint64_t shapes_kept_in_groups(const Scene& scene) {
 
 void list_names(const Scene& scene, Inventory& inventory) {
   constexpr size_t most = 10;
-  const Objects things(scene);
-  for (size_t i = 0; i < things.size(); ++i) {
-    const Object thing = things[i];
-    if (!thing.name.own || ++inventory.named > most) continue;
-    inventory.names.push_back(describe(thing, scene.names));
+  const Objects objects(scene);
+  for (size_t i = 0; i < objects.size(); ++i) {
+    const Object object = objects[i];
+    if (!object.name.own || ++inventory.named > most) continue;
+    inventory.names.push_back(describe(object, scene.names));
   }
 }
 

@@ -21,17 +21,17 @@ std::string color_of(int64_t id) {
   return fmt::format("#{:02x}{:02x}{:02x}", code(0), code(1), code(2));
 }
 
-Json entry(const Object& thing, const Names& names, uint64_t pixels) {
-  Json json{{"first", thing.first}, {"last", thing.first + thing.count - 1}, {"kind", thing.kind}};
-  if (const std::string name = path(thing, names); !name.empty())
-    json[thing.name.own ? "name" : "group"] = name;
-  if (!thing.mesh.empty()) json["mesh"] = thing.mesh;
-  if (thing.position->line > 0) {
-    json["file"] = thing.position->file;
-    json["line"] = thing.position->line;
+Json entry(const Object& object, const Names& names, uint64_t pixels) {
+  Json json{{"first", object.first}, {"last", object.first + object.count - 1}, {"kind", object.kind}};
+  if (const std::string name = path(object, names); !name.empty())
+    json[object.name.own ? "name" : "group"] = name;
+  if (!object.mesh.empty()) json["mesh"] = object.mesh;
+  if (object.position->line > 0) {
+    json["file"] = object.position->file;
+    json["line"] = object.position->line;
   }
   // Every triangle of a mesh has its own.
-  if (thing.count == 1) json["color"] = color_of(int64_t(thing.first));
+  if (object.count == 1) json["color"] = color_of(int64_t(object.first));
   json["pixels"] = pixels;
   return json;
 }

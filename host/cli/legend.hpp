@@ -28,7 +28,7 @@ class Legend {
   Aov aov_;
   const Scene& scene_;
   Objects objects_;
-  std::vector<uint64_t> pixels_;  // of each thing, or of each material
+  std::vector<uint64_t> pixels_;  // of each object, or of each material
   uint64_t nothing_ = 0;          // pixels where nothing is hit
 };
 

@@ -68,7 +68,7 @@ ir::Function FunctionLowering::run() {
   const Type& result = module_.type_of(function_.id);
   if (result.op != spv::OpTypeVoid) out_.result = new_place(result, result.op == spv::OpTypeArray);
 
-  walk(function_.blocks[0].label, 0, out_.body);
+  lower_from(function_.blocks[0].label, 0, out_.body);
   return std::move(out_);
 }
 
@@ -178,32 +178,32 @@ bool FunctionLowering::jump(uint32_t label, ir::Block& out) const {
   return true;
 }
 
-void FunctionLowering::walk(uint32_t label, uint32_t stop, ir::Block& out) {
+void FunctionLowering::lower_from(uint32_t label, uint32_t stop, ir::Block& out) {
   while (label != stop && !jump(label, out)) {
     const Block& block = function_.blocks[function_.block_of.at(label)];
     const bool enters = block.merge != 0 && (loops_.empty() || loops_.back().header != label);
     if (!enters) {
-      walk_instructions(block, out);
-      if (!walk_branch(block, label, out)) return;
+      lower_instructions(block, out);
+      if (!lower_branch(block, label, out)) return;
       continue;
     }
     ir::Loop loop;
     loops_.push_back({label, block.merge, block.next});
-    walk_instructions(block, loop.body);
+    lower_instructions(block, loop.body);
     uint32_t after = 0;
-    if (walk_branch(block, after, loop.body)) walk(after, 0, loop.body);
+    if (lower_branch(block, after, loop.body)) lower_from(after, 0, loop.body);
     if (!loop.body.empty())
       if (const auto* last = std::get_if<ir::Jump>(&loop.body.back().what); last && *last == ir::Jump::next)
         loop.body.pop_back();
     loops_.back().in_next = true;
-    walk(block.next, label, loop.next);
+    lower_from(block.next, label, loop.next);
     loops_.pop_back();
     out.push_back({std::move(loop)});
     label = block.merge;
   }
 }
 
-void FunctionLowering::walk_instructions(const Block& block, ir::Block& out) {
+void FunctionLowering::lower_instructions(const Block& block, ir::Block& out) {
   block_ = function_.block_of.at(block.label);
   for (at_ = 0; at_ + 1 < block.instructions.size(); ++at_) lower_instruction(block.instructions[at_], out);
   const auto phis = phis_.find(block.label);
@@ -215,7 +215,7 @@ void FunctionLowering::walk_instructions(const Block& block, ir::Block& out) {
 }
 
 // Follows the block's last instruction. Whether it goes on, at `label`.
-bool FunctionLowering::walk_branch(const Block& block, uint32_t& label, ir::Block& out) {
+bool FunctionLowering::lower_branch(const Block& block, uint32_t& label, ir::Block& out) {
   const Instruction& last = block.instructions.back();
   const std::vector<uint32_t>& words = last.words;
   switch (last.op) {
@@ -225,8 +225,8 @@ bool FunctionLowering::walk_branch(const Block& block, uint32_t& label, ir::Bloc
     case spv::OpBranchConditional: {
       ir::Branch branch{value(words[0]).numbers[0], {}, {}};
       if (block.join) {
-        walk(words[1], block.join, branch.yes);
-        walk(words[2], block.join, branch.no);
+        lower_from(words[1], block.join, branch.yes);
+        lower_from(words[2], block.join, branch.no);
         label = block.join;
       } else if (jump(words[2], branch.no)) {
         label = words[1];

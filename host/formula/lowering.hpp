@@ -60,9 +60,9 @@ class FunctionLowering {
   bool is_table(uint32_t variable) const;
 
   // Blocks in order from `label` until `stop`.
-  void walk(uint32_t label, uint32_t stop, ir::Block& out);
-  void walk_instructions(const Block& block, ir::Block& out);
-  bool walk_branch(const Block& block, uint32_t& label, ir::Block& out);
+  void lower_from(uint32_t label, uint32_t stop, ir::Block& out);
+  void lower_instructions(const Block& block, ir::Block& out);
+  bool lower_branch(const Block& block, uint32_t& label, ir::Block& out);
   bool jump(uint32_t label, ir::Block& out) const;
   void give_back(const Instruction& terminator, ir::Block& out);
 

@@ -13,7 +13,7 @@ namespace eyeray::loader {
 
 // A batch of a table's values, as it was checked.
 struct Batch {
-  const toml::table* lists = nullptr;  // null: the table is one thing
+  const toml::table* lists = nullptr;  // null: the table is one object
   size_t count = 1;                    // 0 after an error
 };
 

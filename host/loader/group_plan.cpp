@@ -163,12 +163,12 @@ void GroupPlan::visit(Node& node, std::vector<std::string_view>& chain) {
   } else {
     node.visit = Node::Visit::begun;
     link(node);
-    node.items = node.things = node.own;
+    node.items = node.objects = node.own;
     for (const auto& [group, count] : node.members) {
       if (!sound_) break;
       visit(*group, chain);
       node.items += count * group->items;
-      node.things += count * (group->things + 1);
+      node.objects += count * (group->objects + 1);
       node.bounded = node.bounded && group->bounded;
       node.height = std::max(node.height, group->height + 1);
     }
@@ -199,15 +199,15 @@ void GroupPlan::choose(Node& node, GroupStorage storage) {
 void GroupPlan::check_counts(const Node& root) {
   double kept = 0;
   for (const Node& node : nodes_)
-    kept += node.instanced ? node.things + node.shown : (node.own + 1) * node.shown;
-  for (const toml::table* group : idle()) kept += by_table_.at(group)->things;
+    kept += node.instanced ? node.objects + node.shown : (node.own + 1) * node.shown;
+  for (const toml::table* group : idle()) kept += by_table_.at(group)->objects;
   if (root.items > most_shown) {
     sound_ = false;
-    log_.error({}, fmt::format("batches and groups show {:.0f} things; at most {:.0f} can be told apart",
+    log_.error({}, fmt::format("batches and groups show {:.0f} objects; at most {:.0f} can be told apart",
                                root.items, most_shown));
   } else if (kept > most_kept) {
     sound_ = false;
-    log_.error({}, fmt::format("batches and groups come to {:.0f} things; at most {:.0f} are possible", kept,
+    log_.error({}, fmt::format("batches and groups come to {:.0f} objects; at most {:.0f} are possible", kept,
                                most_kept));
   }
 }

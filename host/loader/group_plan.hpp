@@ -50,7 +50,7 @@ class GroupPlan {
     std::vector<Member> members;
     double own = 0;       // shapes and meshes of its own, …
     double items = 0;     // … with those of its groups, …
-    double things = 0;    // … and with the groups themselves
+    double objects = 0;   // … and with the groups themselves
     bool bounded = true;  // all of it
     int height = 0;       // of groups in groups
     enum class Visit { none, begun, done } visit = Visit::none;

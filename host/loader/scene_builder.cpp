@@ -25,7 +25,7 @@ constexpr size_t most_media = 255;  // their number is a byte in the shaders' st
 // has room for so many where a scene has 24 shapes and no tree, too (docs/lavapipe.md).
 constexpr size_t most_lights = 2048;
 
-// Where a thing stands, and what it is called.
+// Where a object stands, and what it is called.
 struct Placing {
   Mat4 to_world{1.0};
   NameRef name;

@@ -52,7 +52,7 @@ class GeometryPacker {
 
  private:
   // A mesh or a group that instances show, with a BVH of its own.
-  struct Space {
+  struct Blas {
     Vec3 origin;  // that its records are relative to
     BlasRecords items;
     float map_growth = 1;  // as PackedScene's, of its shapes
@@ -126,10 +126,10 @@ class GeometryPacker {
       int& space = space_of[size_t(instance.mesh)];
       if (space < 0) {
         // Material and optical depth are each instance's own.
-        Space added{middle(bounds(mesh)), {}};
+        Blas added{middle(bounds(mesh)), {}};
         added.items.add_mesh({mesh, Affine(Mat4(1.0)), added.origin, 0, 0, 0, packed_.vertices});
         packed_.vertex_colors = packed_.vertex_colors || !mesh.colors.empty();
-        space = add_space(std::move(added));
+        space = add_blas(std::move(added));
       }
       add_instance(instance.transform, uint32_t(space), id, uint32_t(instance.material),
                    use_material(shader::KIND_triangle, uint32_t(instance.material), true));
@@ -142,17 +142,17 @@ class GeometryPacker {
       const GroupInstance& instance = scene_.group_instances[i];
       int& space = space_of[size_t(instance.group)];
       if (count_primitives(scene_.groups[size_t(instance.group)], scene_.meshes) == 0) continue;
-      if (space < 0) space = add_space(group_space(scene_.groups[size_t(instance.group)]));
+      if (space < 0) space = add_blas(group_blas(scene_.groups[size_t(instance.group)]));
       const auto [shape, triangle] = ids_.of_group(i);
       add_instance(instance.transform, uint32_t(space), uint32_t(shape), NONE, uint32_t(triangle));
     }
   }
 
   // All of a group, relative to the centre of its bounds.
-  Space group_space(const Group& group) {
+  Blas group_blas(const Group& group) {
     const Vec3 centre = middle(bounds(group, scene_.meshes));
     const float growth = std::exchange(packed_.map_growth, 1.0f);
-    Space space{centre, shape_records(group.shapes, centre, [](size_t id) { return id; })};
+    Blas space{centre, shape_records(group.shapes, centre, [](size_t id) { return id; })};
     space.map_growth = std::exchange(packed_.map_growth, std::max(growth, packed_.map_growth));
     uint32_t triangle = 0;
     for (const Instance& instance : group.instances) {
@@ -162,10 +162,10 @@ class GeometryPacker {
     return space;
   }
 
-  int add_space(Space space) {
+  int add_blas(Blas space) {
     for (const bvh::Box& box : space.items.boxes) space.box.include(box);
-    spaces_.push_back(std::move(space));
-    return int(spaces_.size()) - 1;
+    blases_.push_back(std::move(space));
+    return int(blases_.size()) - 1;
   }
 
   // `material` and `depth_or_triangle`: as the record's.
@@ -174,7 +174,7 @@ class GeometryPacker {
     // World is relative to the eye, and what stands there to the centre of its bounds.
     const Affine map(transform);
     const Mat3 inverse = glm::inverse(map.linear);
-    const Vec3 to_world_offset = map.point(spaces_[space].origin) - scene_.camera.eye;
+    const Vec3 to_world_offset = map.point(blases_[space].origin) - scene_.camera.eye;
     shader::Instance record{};
     record.bvh = space + 1;
     record.first_id = first_id;
@@ -239,14 +239,14 @@ class GeometryPacker {
 
   void build_bvhs() {
     packed_.quantised_nodes = true;
-    for (Space& space : spaces_) {
+    for (Blas& space : blases_) {
       if (space.items.size() == 1) continue;
       space.bvh = build_bvh(space.items.boxes, bvh_options(space.items));
       space.items.boxes = {};
       packed_.quantised_nodes = packed_.quantised_nodes && quantising_is_harmless(space.bvh);
     }
     for (const shader::Instance& instance : packed_.instances)
-      world_.boxes.push_back(instance_box(instance, spaces_[instance.bvh - 1].box));
+      world_.boxes.push_back(instance_box(instance, blases_[instance.bvh - 1].box));
     world_bvh_ = build_bvh(world_.boxes, bvh_options(world_));
     packed_.quantised_nodes = packed_.quantised_nodes && quantising_is_harmless(world_bvh_);
   }
@@ -270,22 +270,22 @@ class GeometryPacker {
         float sum = 0;
         for (int column = 0; column < 3; ++column)
           for (int k = 0; k < 3; ++k) sum += std::fabs(row[k] * instance.to_local[k][column]);
-        growth = std::max(growth, sum * spaces_[instance.bvh - 1].map_growth);
+        growth = std::max(growth, sum * blases_[instance.bvh - 1].map_growth);
       }
     return growth;
   }
 
   // Slots of the world: by kind, what is in no BVH, then what is, as its leaves hold it.
   void lay_out_world() {
-    std::vector<std::vector<uint32_t>> loose(shader::SHAPE_KINDS);
+    std::vector<std::vector<uint32_t>> linear(shader::SHAPE_KINDS);
     for (uint32_t item = 0; item < world_.size(); ++item) {
       if (!packed_.has_bvh || !world_.boxes[item].is_finite())
-        loose[world_.kind(item)].push_back(item);
+        linear[world_.kind(item)].push_back(item);
       else
         packed_.bvh_kinds.insert(world_.kind(item));
     }
     world_.boxes = {};
-    for (const auto& items : loose) {
+    for (const auto& items : linear) {
       append_records(items, world_);
       packed_.linear_ends.push_back(uint32_t(packed_.primitives.size()));
     }
@@ -294,7 +294,7 @@ class GeometryPacker {
   }
 
   void lay_out_spaces() {
-    for (Space& space : spaces_) {
+    for (Blas& space : blases_) {
       for (uint32_t item = 0; item < space.items.size(); ++item)
         packed_.bvh_kinds.insert(space.items.kind(item));
       if (!packed_.has_bvh || space.items.size() == 1) {
@@ -334,7 +334,7 @@ class GeometryPacker {
 
   int deepest_space() const {
     int depth = 0;
-    for (const Space& space : spaces_) depth = std::max(depth, space.bvh.depth);
+    for (const Blas& space : blases_) depth = std::max(depth, space.bvh.depth);
     return depth;
   }
 
@@ -345,7 +345,7 @@ class GeometryPacker {
   const PrimitiveIds ids_{scene_};
   std::vector<uint32_t> uses_;  // by mesh
   BlasRecords world_;
-  std::vector<Space> spaces_;  // by the BVH of instances, less one
+  std::vector<Blas> blases_;  // by the BVH of instances, less one
   bvh::Bvh world_bvh_;
   bool use_bvh_ = false;
   bool translucent_ = false;

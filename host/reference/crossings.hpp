@@ -1,4 +1,4 @@
-// How a ray goes on from a surface: off it, and from crossing to crossing of one body.
+// How a ray goes on from a surface: off it, and from crossing to crossing of one object.
 #pragma once
 
 #include <cmath>
@@ -16,22 +16,22 @@ Vec3 spawn_origin(const SurfacePoint& point, const Vec3& d, double least = 0, bo
 // Many more than the surfaces of a mesh that a ray can sensibly cross.
 inline constexpr int most_crossings = 1 << 20;
 
-// Calls visit(t, hit, surface) for each crossing of the body, which has a Shape's `intersect` and `surface`,
-// in order of t, until `visit` returns false. It ends after the body's most_crossings(), else most_crossings,
-// and where rounding lets a ray come no further. Returns up to which t none is left out for want of steps,
-// infinity for all.
-template <typename Body, typename Visit>
-double for_each_crossing(const Body& body, const Ray& ray, const Visit& visit) {
+// Calls visit(t, hit, surface) for each crossing of the object, which has a Shape's `intersect` and
+// `surface`, in order of t, until `visit` returns false. It ends after the object's most_crossings(), else
+// most_crossings, and where rounding lets a ray come no further. Returns up to which t none is left out for
+// want of steps, infinity for all.
+template <typename Object, typename Visit>
+double for_each_crossing(const Object& object, const Ray& ray, const Visit& visit) {
   int most = most_crossings;
-  if constexpr (requires { body.most_crossings(); }) most = body.most_crossings();
+  if constexpr (requires { object.most_crossings(); }) most = object.most_crossings();
   // Start anew behind each crossing; t stays that of the ray as given.
   Ray rest = ray;
   double passed = 0;
   for (int crossings = 0; crossings < most; ++crossings) {
-    const auto hit = body.intersect(rest);
+    const auto hit = object.intersect(rest);
     if (!hit) break;
     if (hit->iteration_limit) return passed + hit->t;
-    const SurfacePoint surface = body.surface(rest, *hit);
+    const SurfacePoint surface = object.surface(rest, *hit);
     if (!visit(passed + hit->t, *hit, surface)) break;
     rest.o = spawn_origin(surface, ray.d);
     const double before = passed;

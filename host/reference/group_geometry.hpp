@@ -7,37 +7,37 @@ namespace eyeray::reference {
 
 class GroupGeometry {
  public:
-  // `bodies`, the group's, must outlive it.
-  GroupGeometry(const GroupInstance& instance, const Objects& bodies)
-      : bodies_(&bodies), map_(instance.transform), box_(map_.bounds(bodies.bounds())) {}
+  // `objects`, the group's, must outlive it.
+  GroupGeometry(const GroupInstance& instance, const Objects& objects)
+      : objects_(&objects), map_(instance.transform), box_(map_.bounds(objects.bounds())) {}
 
-  const Objects& bodies() const { return *bodies_; }
+  const Objects& objects() const { return *objects_; }
   // In the world: around the group's own box.
   const Bounds& bounds() const { return box_; }
-  double reach() const { return map_.reach(bodies_->bounds()); }
-  double growth() const { return map_.growth() * bodies_->growth(); }
+  double reach() const { return map_.reach(objects_->bounds()); }
+  double growth() const { return map_.growth() * objects_->growth(); }
 
-  // As its bodies', for rays of the world; t is the same in both spaces.
+  // As its objects', for rays of the world; t is the same in both spaces.
   std::optional<Objects::Hit> trace(const Ray& ray, double limit, double& sure_until) const {
-    return bodies_->trace(map_.into(ray), limit, sure_until);
+    return objects_->trace(map_.into(ray), limit, sure_until);
   }
-  std::optional<Objects::Hit> intersect(size_t body, const Ray& ray) const {
-    return bodies_->intersect(body, map_.into(ray));
+  std::optional<Objects::Hit> intersect(size_t object, const Ray& ray) const {
+    return objects_->intersect(object, map_.into(ray));
   }
   SurfacePoint surface(const Ray& ray, const Objects::Hit& hit) const {
-    return map_.out(bodies_->surface(map_.into(ray), hit));
+    return map_.out(objects_->surface(map_.into(ray), hit));
   }
   bool add_shares(const Ray& ray, double t_end, size_t space, std::vector<Objects::Share>& shares,
                   bool& gave_up) const {
-    return bodies_->add_shares(map_.into(ray), t_end, space, shares, gave_up);
+    return objects_->add_shares(map_.into(ray), t_end, space, shares, gave_up);
   }
   double reach(const Objects::Hit& hit, const Vec3& eye) const {
-    const double in_group = bodies_->reach(hit, Vec3(0));
+    const double in_group = objects_->reach(hit, Vec3(0));
     return map_.reach({Vec3(-in_group), Vec3(in_group)}, eye);
   }
 
  private:
-  const Objects* bodies_;
+  const Objects* objects_;
   InstanceMap map_;
   Bounds box_;
 };

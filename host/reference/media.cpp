@@ -14,11 +14,11 @@ struct Crossing {
   bool leaving;
 };
 
-// One body, of the world's or of a group's.
+// One object, of the world's or of a group's.
 template <typename Holder>
-struct Body {
+struct Object {
   const Holder& holder;
-  const Objects& bodies;
+  const Objects& objects;
   size_t index;
 
   std::optional<TriangleHit> intersect(const Ray& ray) const {
@@ -28,7 +28,7 @@ struct Body {
   SurfacePoint surface(const Ray& ray, const TriangleHit& hit) const {
     return holder.surface(ray, {hit, index});
   }
-  int most_crossings() const { return bodies.most_crossings(index); }
+  int most_crossings() const { return objects.most_crossings(index); }
 };
 
 // The media that the ray leaves without having entered them, innermost first.
@@ -37,21 +37,21 @@ std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
   const auto has_medium = [&](int material) {
     return tracer.scene().materials[size_t(material)]->medium().has_value();
   };
-  const auto collect = [&](const auto& body, const auto& material_at) {
-    for_each_crossing(body, ray, [&](double t, const auto& hit, const SurfacePoint& surface) {
+  const auto collect = [&](const auto& object, const auto& material_at) {
+    for_each_crossing(object, ray, [&](double t, const auto& hit, const SurfacePoint& surface) {
       const int material = material_at(hit);
       if (has_medium(material))
         crossings.push_back({t, material, glm::dot(ray.d, surface.normal_geometric) > 0});
       return true;
     });
   };
-  const auto collect_all = [&]<typename Holder>(const Holder& holder, const Objects& bodies) {
-    for (size_t i = 0; i < bodies.size(); ++i) {
+  const auto collect_all = [&]<typename Holder>(const Holder& holder, const Objects& objects) {
+    for (size_t i = 0; i < objects.size(); ++i) {
       bool any_medium = false;
-      bodies.for_each_material(i, [&](int material) { any_medium = any_medium || has_medium(material); });
+      objects.for_each_material(i, [&](int material) { any_medium = any_medium || has_medium(material); });
       if (!any_medium) continue;
-      collect(Body<Holder>{holder, bodies, i}, [&](const TriangleHit& hit) {
-        return bodies.material({hit, i});
+      collect(Object<Holder>{holder, objects, i}, [&](const TriangleHit& hit) {
+        return objects.material({hit, i});
       });
     }
   };
@@ -59,7 +59,7 @@ std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
   const BoxRay box_ray = tracer.group_box_ray(ray);
   for (const GroupGeometry& group : tracer.groups())
     if (box_ray.entry(group.bounds()) < std::numeric_limits<double>::infinity())
-      collect_all(group, group.bodies());
+      collect_all(group, group.objects());
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
 

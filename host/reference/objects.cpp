@@ -29,8 +29,8 @@ Objects::Objects(std::span<const std::unique_ptr<Shape>> shapes, std::span<const
     triangles += instances_.back().triangles();
   }
 
-  const auto add = [&](size_t body, const Bounds& box) {
-    bounded_.push_back(uint32_t(body));
+  const auto add = [&](size_t object, const Bounds& box) {
+    bounded_.push_back(uint32_t(object));
     boxes_.push_back(box);
     bounds_.include(box.min);
     bounds_.include(box.max);
@@ -55,12 +55,12 @@ Objects::Objects(std::span<const std::unique_ptr<Shape>> shapes, std::span<const
 }
 
 int Objects::material(const Hit& hit) const {
-  return is_shape(hit.body) ? shapes_[hit.body]->part(hit.at).material
-                            : instances_[hit.body - shapes_.size()].material();
+  return is_shape(hit.object) ? shapes_[hit.object]->part(hit.at).material
+                              : instances_[hit.object - shapes_.size()].material();
 }
 
-int Objects::most_crossings(size_t body) const {
-  return is_shape(body) ? shapes_[body]->most_crossings() : reference::most_crossings;
+int Objects::most_crossings(size_t object) const {
+  return is_shape(object) ? shapes_[object]->most_crossings() : reference::most_crossings;
 }
 
 // A hole is not hit, and behind it there is nothing more of a shape that may have one.
@@ -72,18 +72,18 @@ std::optional<Intersection> Objects::intersect_shape(size_t index, const Ray& ra
   return hit;
 }
 
-std::optional<Objects::Hit> Objects::intersect(size_t body, const Ray& ray, double limit) const {
-  if (is_shape(body)) {
-    const auto hit = intersect_shape(body, ray);
+std::optional<Objects::Hit> Objects::intersect(size_t object, const Ray& ray, double limit) const {
+  if (is_shape(object)) {
+    const auto hit = intersect_shape(object, ray);
     if (!hit) return std::nullopt;
-    return Hit{TriangleHit{*hit}, body};
+    return Hit{TriangleHit{*hit}, object};
   }
-  const auto hit = instances_[body - shapes_.size()].intersect(ray, limit);
+  const auto hit = instances_[object - shapes_.size()].intersect(ray, limit);
   if (!hit) return std::nullopt;
-  return Hit{*hit, body};
+  return Hit{*hit, object};
 }
 
-// Calls visit(body, entry, limit) for the bodies that the ray enters at t = entry ≤ limit; it returns the
+// Calls visit(object, entry, limit) for the objects that the ray enters at t = entry ≤ limit; it returns the
 // limit from there on, a negative one to end the search.
 template <typename Visit>
 void Objects::for_each_entered(const Ray& ray, double limit, const Visit& visit) const {
@@ -99,15 +99,15 @@ void Objects::for_each_entered(const Ray& ray, double limit, const Visit& visit)
 
 std::optional<Objects::Hit> Objects::trace(const Ray& ray, double limit, double& sure_until) const {
   std::optional<Hit> nearest;
-  for_each_entered(ray, limit, [&](size_t body, double entry, double so_far) {
-    auto hit = intersect(body, ray, so_far);
+  for_each_entered(ray, limit, [&](size_t object, double entry, double so_far) {
+    auto hit = intersect(object, ray, so_far);
     if (!hit) return so_far;
     if (hit->at.iteration_limit) {
       sure_until = std::min(sure_until, hit->at.t);
       return so_far;
     }
     hit->at.t = std::max(hit->at.t, entry);
-    if (nearest && !(hit->at.t < nearest->at.t || (hit->at.t == nearest->at.t && body < nearest->body)))
+    if (nearest && !(hit->at.t < nearest->at.t || (hit->at.t == nearest->at.t && object < nearest->object)))
       return so_far;
     nearest = *hit;
     return std::min(so_far, hit->at.t);
@@ -116,13 +116,13 @@ std::optional<Objects::Hit> Objects::trace(const Ray& ray, double limit, double&
 }
 
 SurfacePoint Objects::surface(const Ray& ray, const Hit& hit) const {
-  return is_shape(hit.body) ? shapes_[hit.body]->surface(ray, hit.at)
-                            : instances_[hit.body - shapes_.size()].surface(ray, hit.at);
+  return is_shape(hit.object) ? shapes_[hit.object]->surface(ray, hit.at)
+                              : instances_[hit.object - shapes_.size()].surface(ray, hit.at);
 }
 
 double Objects::reach(const Hit& hit, const Vec3& eye) const {
-  if (!is_shape(hit.body)) return instances_[hit.body - shapes_.size()].reach(hit.at.triangle, eye);
-  const Bounds box = shapes_[hit.body]->part(hit.at).bounds();
+  if (!is_shape(hit.object)) return instances_[hit.object - shapes_.size()].reach(hit.at.triangle, eye);
+  const Bounds box = shapes_[hit.object]->part(hit.at).bounds();
   return finite(box) ? std::max(magnitude(box.min - eye), magnitude(box.max - eye)) : 0;
 }
 
@@ -170,11 +170,12 @@ double Objects::share_of_instance(const InstanceGeometry& instance, const Ray& r
 bool Objects::add_shares(const Ray& ray, double t_end, size_t space, std::vector<Share>& shares,
                          bool& gave_up) const {
   bool lost = false;
-  for_each_entered(ray, t_end, [&](size_t body, double entry, double limit) {
+  for_each_entered(ray, t_end, [&](size_t object, double entry, double limit) {
     if (!(entry < t_end)) return limit;
-    const double share = is_shape(body) ? share_of_shape(body, ray, entry, t_end, gave_up)
-                                        : share_of_instance(instances_[body - shapes_.size()], ray, t_end);
-    if (share != 1) shares.push_back({space, body, share});
+    const double share = is_shape(object)
+                             ? share_of_shape(object, ray, entry, t_end, gave_up)
+                             : share_of_instance(instances_[object - shapes_.size()], ray, t_end);
+    if (share != 1) shares.push_back({space, object, share});
     lost = share == 0;
     return lost ? -1.0 : limit;
   });

@@ -1,4 +1,4 @@
-// The bodies of one space, the world's or a group's: its shapes, then its instances of meshes, and a BVH
+// The objects of one space, the world's or a group's: its shapes, then its instances of meshes, and a BVH
 // over them.
 #pragma once
 
@@ -19,9 +19,9 @@ class Objects {
 
   struct Hit {
     TriangleHit at;  // of a shape: its intersection
-    size_t body;     // a shape by index; the instances follow
+    size_t object;   // a shape by index; the instances follow
   };
-  // The nearest hit with t > 0; of exactly equal ones that of the lowest body. Beyond `limit` it may be
+  // The nearest hit with t > 0; of exactly equal ones that of the lowest object. Beyond `limit` it may be
   // missing. Where the steps allowed did not suffice for a shape, `sure_until` becomes no more than the t up
   // to which there is nothing of it.
   std::optional<Hit> trace(const Ray& ray, double limit, double& sure_until) const;
@@ -31,27 +31,27 @@ class Objects {
   size_t size() const { return shapes_.size() + instances_.size(); }
   // Of an instance, or of a shape's part that has the surface there.
   int material(const Hit& hit) const;
-  std::optional<Hit> intersect(size_t body, const Ray& ray,
+  std::optional<Hit> intersect(size_t object, const Ray& ray,
                                double limit = std::numeric_limits<double>::infinity()) const;
-  // How often a line crosses the body at most, as far as that is known.
-  int most_crossings(size_t body) const;
-  // Calls visit(material) for each that the body has surfaces of.
+  // How often a line crosses the object at most, as far as that is known.
+  int most_crossings(size_t object) const;
+  // Calls visit(material) for each that the object has surfaces of.
   template <typename Visit>
-  void for_each_material(size_t body, const Visit& visit) const {
-    if (!is_shape(body)) return visit(instances_[body - shapes_.size()].material());
-    for_each_leaf(*shapes_[body], [&](const Shape& leaf) { visit(leaf.material); });
+  void for_each_material(size_t object, const Visit& visit) const {
+    if (!is_shape(object)) return visit(instances_[object - shapes_.size()].material());
+    for_each_leaf(*shapes_[object], [&](const Shape& leaf) { visit(leaf.material); });
   }
-  // Whether it is a shape; else how many triangles of instances come before those of the body.
-  bool is_shape(size_t body) const { return body < shapes_.size(); }
-  uint64_t triangles_before(size_t body) const { return triangles_before_[body - shapes_.size()]; }
+  // Whether it is a shape; else how many triangles of instances come before those of the object.
+  bool is_shape(size_t object) const { return object < shapes_.size(); }
+  uint64_t triangles_before(size_t object) const { return triangles_before_[object - shapes_.size()]; }
 
-  // Adds the shares of light that come through those bodies at 0 < t < t_end that keep any away, in any
+  // Adds the shares of light that come through those objects at 0 < t < t_end that keep any away, in any
   // order; returns whether all is lost. A shape counts once; of an instance each triangle lets the square
   // root of its material's share through, so that a closed mesh, which is crossed twice, counts once as well.
   // Sets `gave_up` where the steps allowed did not suffice for a shape.
   struct Share {
     size_t space;  // as given
-    size_t body;
+    size_t object;
     double share;
   };
   bool add_shares(const Ray& ray, double t_end, size_t space, std::vector<Share>& shares,
@@ -76,8 +76,8 @@ class Objects {
   std::span<const std::unique_ptr<Material>> materials_;
   std::vector<InstanceGeometry> instances_;
   std::vector<uint64_t> triangles_before_;  // by instance
-  std::vector<uint32_t> unbounded_;         // bodies
-  std::vector<uint32_t> bounded_;           // bodies, …
+  std::vector<uint32_t> unbounded_;         // objects
+  std::vector<uint32_t> bounded_;           // objects, …
   std::vector<Bounds> boxes_;               // … and where they are
   Bounds bounds_;
   double reach_ = 0;   // the largest coordinate in any computation that yields a box

@@ -29,16 +29,16 @@ BoxRay Tracer::group_box_ray(const Ray& ray) const {
   return {ray, rounding * groups_growth_ * (magnitude(ray.o) + groups_reach_)};
 }
 
-uint64_t Tracer::primitive(const Objects& bodies, const Objects::Hit& hit, int group) const {
-  if (bodies.is_shape(hit.body))
-    return group < 0 ? ids_.of_shape(hit.body) : ids_.of_group(size_t(group)).shape + hit.body;
-  const uint64_t triangle = bodies.triangles_before(hit.body) + hit.at.triangle;
+uint64_t Tracer::primitive(const Objects& objects, const Objects::Hit& hit, int group) const {
+  if (objects.is_shape(hit.object))
+    return group < 0 ? ids_.of_shape(hit.object) : ids_.of_group(size_t(group)).shape + hit.object;
+  const uint64_t triangle = objects.triangles_before(hit.object) + hit.at.triangle;
   if (group >= 0) return ids_.of_group(size_t(group)).triangle + triangle;
-  return ids_.of_instance(hit.body - scene_.shapes.size()) + hit.at.triangle;
+  return ids_.of_instance(hit.object - scene_.shapes.size()) + hit.at.triangle;
 }
 
-Hit Tracer::complete(const Objects& bodies, const Objects::Hit& hit, int group) const {
-  return {hit.at, hit.body, primitive(bodies, hit, group), bodies.material(hit), group};
+Hit Tracer::complete(const Objects& objects, const Objects::Hit& hit, int group) const {
+  return {hit.at, hit.object, primitive(objects, hit, group), objects.material(hit), group};
 }
 
 std::optional<Hit> Tracer::trace(const Ray& ray) const {
@@ -63,7 +63,7 @@ void Tracer::search_groups(const Ray& ray, std::optional<Hit>& nearest, double& 
     auto hit = groups_[i].trace(ray, limit, sure_until);
     if (!hit) return limit;
     hit->at.t = std::max(hit->at.t, entry);
-    const Hit found = complete(groups_[i].bodies(), *hit, int(i));
+    const Hit found = complete(groups_[i].objects(), *hit, int(i));
     if (nearest && !(found.at.t < nearest->at.t ||
                      (found.at.t == nearest->at.t && found.primitive < nearest->primitive)))
       return limit;
@@ -73,17 +73,17 @@ void Tracer::search_groups(const Ray& ray, std::optional<Hit>& nearest, double& 
 }
 
 SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
-  const Objects::Hit body{hit.at, hit.body};
+  const Objects::Hit object{hit.at, hit.object};
   SurfacePoint point =
-      hit.group < 0 ? world_->surface(ray, body) : groups_[size_t(hit.group)].surface(ray, body);
+      hit.group < 0 ? world_->surface(ray, object) : groups_[size_t(hit.group)].surface(ray, object);
   // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
   if (!(glm::dot(point.normal, point.normal_geometric) > 0)) point.normal = point.normal_geometric;
   return point;
 }
 
 double Tracer::reach(const Hit& hit, const Vec3& eye) const {
-  const Objects::Hit body{hit.at, hit.body};
-  return hit.group < 0 ? world_->reach(body, eye) : groups_[size_t(hit.group)].reach(body, eye);
+  const Objects::Hit object{hit.at, hit.object};
+  return hit.group < 0 ? world_->reach(object, eye) : groups_[size_t(hit.group)].reach(object, eye);
 }
 
 double Tracer::transmittance(const Ray& ray, double t_end, uint32_t& flags) const {
@@ -102,7 +102,7 @@ double Tracer::transmittance(const Ray& ray, double t_end, uint32_t& flags) cons
   }
   if (lost) return 0;
   std::sort(shares.begin(), shares.end(), [](const Objects::Share& a, const Objects::Share& b) {
-    return std::pair(a.space, a.body) < std::pair(b.space, b.body);
+    return std::pair(a.space, a.object) < std::pair(b.space, b.object);
   });
   double product = 1;
   for (const Objects::Share& each : shares) product *= each.share;

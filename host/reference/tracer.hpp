@@ -12,7 +12,7 @@ namespace eyeray::reference {
 
 struct Hit {
   TriangleHit at;      // of a shape: its intersection
-  size_t body;         // see Objects::Hit; of its group
+  size_t object;       // see Objects::Hit; of its group
   uint64_t primitive;  // see scene/primitive_ids.hpp
   int material;        // index in Scene::materials
   int group = -1;      // index in Scene::group_instances; −1 for the scene's own
@@ -40,7 +40,7 @@ class Tracer {
   double transmittance(const Ray& ray, double t_end, uint32_t& flags) const;
 
   const Scene& scene() const { return scene_; }
-  // The scene's own bodies, and as Scene::group_instances those of groups.
+  // The scene's own objects, and as Scene::group_instances those of groups.
   const Objects& world() const { return *world_; }
   const std::vector<GroupGeometry>& groups() const { return groups_; }
   // The ray as the boxes of groups() see it.
@@ -48,8 +48,8 @@ class Tracer {
 
  private:
   void search_groups(const Ray& ray, std::optional<Hit>& nearest, double& sure_until) const;
-  uint64_t primitive(const Objects& bodies, const Objects::Hit& hit, int group) const;
-  Hit complete(const Objects& bodies, const Objects::Hit& hit, int group) const;
+  uint64_t primitive(const Objects& objects, const Objects::Hit& hit, int group) const;
+  Hit complete(const Objects& objects, const Objects::Hit& hit, int group) const;
 
   const Scene& scene_;
   PrimitiveIds ids_;

@@ -9,14 +9,14 @@
 
 namespace eyeray {
 
-// A tree of names: of things, and of the groups that hold them. Each text is kept once, and each thing of a
-// name takes 12 bytes, however many copies of its groups there are. Copying indices is all that things do.
+// A tree of names: of objects, and of the groups that hold them. Each text is kept once, and each object of a
+// name takes 12 bytes, however many copies of its groups there are. Copying indices is all that objects do.
 class Names {
  public:
   // Of what has no name and stands in no group that has one.
   static constexpr int32_t none = -1;
 
-  // The next thing called `text` in `group`, which is none or what add returned. `number`: of a batch that
+  // The next object called `text` in `group`, which is none or what add returned. `number`: of a batch that
   // shares the name, from 1; 0: it is alone.
   int32_t add(std::string_view text, uint32_t number, int32_t group);
 
@@ -37,7 +37,7 @@ class Names {
   std::unordered_map<std::string, uint32_t> places_;  // in texts_
 };
 
-// A thing's name, or that of the group it stands in.
+// A object's name, or that of the group it stands in.
 struct NameRef {
   int32_t index = Names::none;
   bool own = false;  // else the group's

@@ -64,24 +64,24 @@ size_t Objects::of(uint64_t primitive) const {
 }
 
 std::string Objects::describe(uint64_t primitive) const {
-  const Object thing = (*this)[of(primitive)];
-  std::string text = thing.kind == "mesh" ? fmt::format("triangle {} of ", primitive - thing.first) : "";
-  text += eyeray::describe(thing, scene_.names);
-  if (path(thing, scene_.names).empty() && !thing.mesh.empty()) text += fmt::format(" \"{}\"", thing.mesh);
-  if (thing.position->line > 0) text += fmt::format(", {}:{}", thing.position->file, thing.position->line);
+  const Object object = (*this)[of(primitive)];
+  std::string text = object.kind == "mesh" ? fmt::format("triangle {} of ", primitive - object.first) : "";
+  text += eyeray::describe(object, scene_.names);
+  if (path(object, scene_.names).empty() && !object.mesh.empty()) text += fmt::format(" \"{}\"", object.mesh);
+  if (object.position->line > 0) text += fmt::format(", {}:{}", object.position->file, object.position->line);
   return text;
 }
 
-std::string path(const Object& thing, const Names& names) {
-  const std::string group = names.path(thing.group.index);
-  const std::string own = names.path(thing.name.index);
+std::string path(const Object& object, const Names& names) {
+  const std::string group = names.path(object.group.index);
+  const std::string own = names.path(object.name.index);
   return group + (group.empty() || own.empty() ? "" : "/") + own;
 }
 
-std::string describe(const Object& thing, const Names& names) {
-  const std::string name = path(thing, names);
-  if (name.empty()) return std::string(thing.kind);
-  return fmt::format("{} {}\"{}\"", thing.kind, thing.name.own ? "" : "in ", name);
+std::string describe(const Object& object, const Names& names) {
+  const std::string name = path(object, names);
+  if (name.empty()) return std::string(object.kind);
+  return fmt::format("{} {}\"{}\"", object.kind, object.name.own ? "" : "in ", name);
 }
 
 }  // namespace eyeray

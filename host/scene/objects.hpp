@@ -26,7 +26,7 @@ class Objects {
   // The scene's own shapes and instances, then those of each group instance.
   size_t size() const { return first_in_group_.back(); }
   Object operator[](size_t index) const;
-  // The thing that a primitive belongs to; primitive < Scene::primitive_count().
+  // The object that a primitive belongs to; primitive < Scene::primitive_count().
   size_t of(uint64_t primitive) const;
 
   // `sphere "left eye", scene.toml:12`, and of a mesh `triangle 7 of mesh "mug", scene.toml:40`.
@@ -35,12 +35,12 @@ class Objects {
  private:
   const Scene& scene_;
   PrimitiveIds ids_;
-  std::vector<size_t> first_in_group_;  // things, by group instance; one more at the end
+  std::vector<size_t> first_in_group_;  // objects, by group instance; one more at the end
 };
 
 // The names of its groups, then its own; "" where there are none.
-std::string path(const Object& thing, const Names& names);
+std::string path(const Object& object, const Names& names);
 // As describe() of a name.
-std::string describe(const Object& thing, const Names& names);
+std::string describe(const Object& object, const Names& names);
 
 }  // namespace eyeray

@@ -49,7 +49,7 @@ std::vector<SurfacePosition> departures_of(const Scene& scene, const Batch& prim
   const Embree embree(scene);
   std::vector<QueryHit> hits(primary.rays.size());
   embree.query(primary.rays, QueryKind::nearest, hits, EmbreeCalls::one, true);
-  return departures(scene, primary.rays, hits);
+  return surface_positions(scene, primary.rays, hits);
 }
 
 }  // namespace
@@ -131,7 +131,7 @@ material = "m"
       hits[i] = {hit->at.t, int64_t(hit->primitive)};
       met.insert(hits[i].primitive);
     }
-    return departures(scene, primary.rays, hits);
+    return surface_positions(scene, primary.rays, hits);
   };
   const std::vector<SurfacePosition> a = leaving(once), b = leaving(flat);
   REQUIRE(a.size() == b.size());

@@ -195,9 +195,10 @@ TEST_CASE("shaders: exported files render the same picture, and changed ones are
   CHECK(read_image(folder / "b.pfm").pixel(0, 0)[0] == 1.25f);
   const ProcessResult again = run_eyeray({"shaders", "--export", shaders});
   CHECK(again.code == 4);
-  CHECK(again.err ==
-        "eyeray: error: " + shaders +
-            "/kernels/pixel.glsl differs from the embedded shader; nothing was written (--force overwrites)\n");
+  CHECK(
+      again.err ==
+      "eyeray: error: " + shaders +
+          "/kernels/pixel.glsl differs from the embedded shader; nothing was written (--force overwrites)\n");
   CHECK(run_eyeray({"shaders", "--export", shaders, "--force"}).code == 0);
   CHECK(read_text(shaders + "/kernels/pixel.glsl").find("color += 1.0f") == std::string::npos);
 }

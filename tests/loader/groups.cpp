@@ -62,5 +62,5 @@ TEST_CASE("groups that multiply beyond all memory are refused before they fill i
     text += "] }\n";
   }
   const std::string said = refused(text + sphere(table + ".sphere", 1));
-  CHECK_MESSAGE(said.find("things; at most 67108864 are possible") != std::string::npos, said);
+  CHECK_MESSAGE(said.find("objects; at most 67108864 are possible") != std::string::npos, said);
 }

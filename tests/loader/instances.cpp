@@ -210,7 +210,7 @@ TEST_CASE("named groups that double each time are refused, or kept once where th
   const Scene scene = parse_walls(doubled(20));
   CHECK(scene.primitive_count() == 1'048'576);
   CHECK(scene.shapes.size() + scene.group_instances.size() < 20'000);
-  CHECK(says(refused(doubled(40)), "things; at most 2147483647 can be told apart"));
+  CHECK(says(refused(doubled(40)), "objects; at most 2147483647 can be told apart"));
 }
 
 TEST_CASE("what stands in CSG objects counts among what is kept") {
@@ -220,7 +220,7 @@ TEST_CASE("what stands in CSG objects counts among what is kept") {
       "radius = 1\n" +
       batch(10'000);
   const std::string said = refused("[render]\ngroups = \"flat\"\n" + text);
-  CHECK_MESSAGE(says(said, "batches and groups come to 100020001 things; at most 67108864 are possible"),
+  CHECK_MESSAGE(says(said, "batches and groups come to 100020001 objects; at most 67108864 are possible"),
                 said);
 }
 

@@ -44,9 +44,9 @@ TEST_CASE("a shape is called by its name, after those of its groups") {
                         sphere));
   CHECK(names(scene) == std::vector<std::string>{"sphere", "sphere \"left eye\"", "sphere in \"cart\"",
                                                  "sphere \"cart/wheel\""});
-  const Objects things(scene);
-  CHECK(things.describe(0) == "sphere, scene.toml:4");
-  CHECK(things.describe(1) == "sphere \"left eye\", scene.toml:8");
+  const Objects objects(scene);
+  CHECK(objects.describe(0) == "sphere, scene.toml:4");
+  CHECK(objects.describe(1) == "sphere \"left eye\", scene.toml:8");
 }
 
 TEST_CASE("the elements of a batch share a name and are numbered, or bring their own") {

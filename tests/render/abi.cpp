@@ -102,13 +102,13 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(SampleResult, hits), MEMBER(SampleResult, flags), MEMBER(SampleResult, iterations)});
   CHECK(samples.push_constant_bytes == sizeof(shader::Dispatch));
 
-  const gpu::Reflection waves =
+  const gpu::Reflection wavefront =
       gpu::reflect(test::compile_entry("kernels/wavefront.comp.glsl", scene, {}, "#define STORED_HITS 1\n"));
   check_struct(
-      waves, "PacketHit", sizeof(shader::PacketHit),
+      wavefront, "PacketHit", sizeof(shader::PacketHit),
       {MEMBER(PacketHit, t), MEMBER(PacketHit, slot), MEMBER(PacketHit, id), MEMBER(PacketHit, flags),
        MEMBER(PacketHit, u), MEMBER(PacketHit, v), MEMBER(PacketHit, unused_0), MEMBER(PacketHit, unused_1)});
-  check_struct(waves, "PathState", sizeof(shader::PathState),
+  check_struct(wavefront, "PathState", sizeof(shader::PathState),
                {MEMBER(PathState, origin), MEMBER(PathState, unused_0), MEMBER(PathState, direction),
                 MEMBER(PathState, unused_1), MEMBER(PathState, throughput), MEMBER(PathState, unused_2)});
 

@@ -72,8 +72,9 @@ RayCounts counted(std::span<const PixelSample> samples) {
 
 }  // namespace
 
-TEST_CASE("GPU and twin count the same rays of each kind in every pixel, in waves too; the reference nearly" *
-          doctest::test_suite("long")) {
+TEST_CASE(
+    "GPU and twin count the same rays of each kind in every pixel, in wavefronts too; the reference nearly" *
+    doctest::test_suite("long")) {
   for (const std::string material : {"glass", "floor"}) {
     CAPTURE(material);
     const Scene scene = parse_scene(stage + things(material), "scene.toml");

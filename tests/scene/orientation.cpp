@@ -40,11 +40,11 @@ struct Object {
   Vec3 center;
   int primitive;
 };
-const Object things[] = {{"white", {0, 0, 0}, 0},
-                         {"red", {1.8, 0, 0}, 1},
-                         {"green", {0, 1.5, 0}, 2},
-                         {"blue", {0, 0, 1.6}, 3},
-                         {"red", {-1.7, 0.75, 0}, 5}};
+const Object objects[] = {{"white", {0, 0, 0}, 0},
+                          {"red", {1.8, 0, 0}, 1},
+                          {"green", {0, 1.5, 0}, 2},
+                          {"blue", {0, 0, 1.6}, 3},
+                          {"red", {-1.7, 0.75, 0}, 5}};
 
 }  // namespace
 
@@ -54,15 +54,15 @@ TEST_CASE("orientation: red is right, green is up, blue is near, by every execut
     CAPTURE(backend_names[int(backend)]);
     const Frame frame = render_frame(scene, backend);
 
-    // Each thing is seen where its centre projects to.
-    for (const Object& thing : things) {
-      CAPTURE(thing.material);
-      const Place place = project(scene, thing.center);
+    // Each object is seen where its centre projects to.
+    for (const Object& object : objects) {
+      CAPTURE(object.material);
+      const Place place = project(scene, object.center);
       const FirstHit& hit = frame.first_hit(place.x, place.y);
-      CHECK(hit.primitive == thing.primitive);
+      CHECK(hit.primitive == object.primitive);
       REQUIRE(hit.material >= 0);
-      CHECK(scene.materials[size_t(hit.material)]->name == thing.material);
-      CHECK(glm::length(hit.position - thing.center) < 0.6);
+      CHECK(scene.materials[size_t(hit.material)]->name == object.material);
+      CHECK(glm::length(hit.position - object.center) < 0.6);
     }
 
     // And without any formula: the picture's right half has the ball of red, its left the arrow, its top the
@@ -86,17 +86,17 @@ TEST_CASE("orientation: red is right, green is up, blue is near, by every execut
     CHECK(seen(4, bottom) > seen(4, top));
 
     // Colours have their channels in order.
-    const auto color = [&](const Object& thing) {
-      const Place place = project(scene, thing.center);
+    const auto color = [&](const Object& object) {
+      const Place place = project(scene, object.center);
       return color_at(frame.color, place.x, place.y);
     };
-    const Vec3 red = color(things[1]), green = color(things[2]), blue = color(things[3]);
+    const Vec3 red = color(objects[1]), green = color(objects[2]), blue = color(objects[3]);
     CHECK(red.r > 2 * std::max(red.g, red.b));
     CHECK(green.g > 2 * std::max(green.r, green.b));
     CHECK(blue.b > 2 * std::max(blue.r, blue.g));
 
     // Blue stands before white.
-    const Place near = project(scene, things[3].center), far = project(scene, things[0].center);
+    const Place near = project(scene, objects[3].center), far = project(scene, objects[0].center);
     CHECK(frame.first_hit(near.x, near.y).t < frame.first_hit(far.x, far.y).t - 0.5);
   }
 }
