@@ -256,7 +256,8 @@ TEST_CASE("what a group's map makes of shapes is legal or not, however the group
        "accepted"},
   };
   for (const auto& [map, shape, wrong] : cases) {
-    CAPTURE(std::string(shape));
+    const std::string text(shape);
+    CAPTURE(text);
     std::string said[2];
     for (const bool once : {false, true}) {
       said[once] =
