@@ -80,7 +80,7 @@ std::vector<double> with(std::vector<double> numbers, size_t at, double value) {
 // A light at a node.
 std::function<void(GltfFile&)> light(const Json& json) {
   return [=](GltfFile& file) {
-    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {json};
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({json});
     file.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 0;
   };
 }
