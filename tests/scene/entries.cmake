@@ -99,7 +99,7 @@ eyeray_verify(mode.caustic-rim mode scenes/shapes/gallery.toml -s 96x72 --crop 7
 eyeray_verify(mode.caustic-rim-wide mode scenes/shapes/gallery.toml -s 96x54 --crop 75,29,9,9 --backends twin)
 eyeray_verify(mode.plane-of-symmetry mode scenes/whitted.toml -s 333x250 --crop 162,69,9,9)
 eyeray_verify(mode.plane-of-symmetry-walls mode scenes/whitted.toml -s 309x231 --crop 154,163,1,1 --backends twin)
-eyeray_verify(mode.empty-csg_objects mode tests/loader/warned/empty_csg_objects.toml)
+eyeray_verify(mode.empty-csg mode tests/loader/warned/empty_csg.toml)
 eyeray_verify(mode.crop mode QUICK ${some} -s 200x150 --crop 51,37,83,71)
 eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --spp 4 -D image.pattern=jittered)
 
