@@ -277,7 +277,7 @@ class GpuExecutor final : public Executor {
     options.shadow_rays = casts_shadow_rays(packed) ? uint32_t(packed.lights.size()) : 0;
     options.bounces = most_bounces(packed);
     options.splits = packed.media.size() > 1;
-    options.bounced = incoherent_;
+    options.bounced = bounced_rays(profile_, packed, incoherent_);
     options.stride = group_stride_;
     options.subgroup = device_.info().limits.subgroup_size;
     const bool cooperative = options.bounced == Rays::cooperative && options.bounces > 0 && !options.splits;

@@ -68,6 +68,12 @@ Rays incoherent_rays(const Profile& profile, const PackedScene& scene, bool pack
   return possible ? wanted : Rays::lanes;
 }
 
+Rays bounced_rays(const Profile& profile, const PackedScene& scene, Rays incoherent) {
+  // Most rays that leave a mesh hit no more of it: not worth kernels of their own (docs/performance.md).
+  const bool meshes = scene.bvh_kinds == std::set<uint32_t>{shader::KIND_triangle};
+  return meshes && !profile.incoherent ? Rays::lanes : incoherent;
+}
+
 std::string describe(const Profile& profile) {
   return fmt::format("{} loads, {}, {} stack, incoherent rays {}{}{}",
                      profile.texel_buffers ? "texel" : "storage", profile.packets ? "packets" : "lanes",
