@@ -12,7 +12,7 @@ struct Interaction {
   Surface seen;                // the same with its normals towards where the ray came from
   vec3 d;                      // the direction that the ray came in, unit
   Material material;
-  ScatteringContext scatters;  // what the material's scattering depends on
+  ScatteringContext context;   // what the material's scattering depends on
   Scattering scattering;       // towards where the ray came from
   uint media_behind;           // that a refracted ray is in (materials/media.glsl)
 };
@@ -28,34 +28,32 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   bool front = dot3(ray.d, at.surface.normal_geometric) < 0.0f;
   at.seen = face_viewer(at.surface, front);
 
-  at.scatters.uv = at.surface.uv;
-  at.scatters.color = vec3(1.0f, 1.0f, 1.0f);
+  at.context.uv = at.surface.uv;
+  at.context.color = vec3(1.0f, 1.0f, 1.0f);
 #if HAS_COLORS
-  at.scatters.color = vertex_color(primitive, hit);
+  at.context.color = vertex_color(primitive, hit);
 #endif
-  at.scatters.cos_view = minimum(maximum(-dot3(ray.d, at.seen.normal), 0.0f), 1.0f);
-  at.scatters.ior_from = 1.0f;
-  at.scatters.ior_to = 1.0f;
+  at.context.cos_view = minimum(maximum(-dot3(ray.d, at.seen.normal), 0.0f), 1.0f);
+  at.context.ior_from = 1.0f;
+  at.context.ior_to = 1.0f;
   at.media_behind = media;
 #if HAS_MEDIA
   if (at.material.medium != 0u)
     at.media_behind = front ? enter_medium(media, at.material.medium, flags) : leave_medium(media, at.material.medium);
-  at.scatters.ior_from = load_medium(innermost_medium(media)).ior;
-  at.scatters.ior_to = load_medium(innermost_medium(at.media_behind)).ior;
+  at.context.ior_from = load_medium(innermost_medium(media)).ior;
+  at.context.ior_to = load_medium(innermost_medium(at.media_behind)).ior;
 #endif
-  at.scattering = scattering_of(material, at.material, at.scatters);
+  at.scattering = scattering_of(material, at.material, at.context);
   return at;
 }
 
+#if HAS_ABSORPTION
 // The share of light that the medium lets through on the way to a hit at t.
 vec3 medium_transmittance(uint media, float t) {
-#if HAS_ABSORPTION
   vec3 absorption = load_medium(innermost_medium(media)).absorption;
   return vec3(exp_negative(-absorption.x * t), exp_negative(-absorption.y * t), exp_negative(-absorption.z * t));
-#else
-  return vec3(1.0f, 1.0f, 1.0f);
-#endif
 }
+#endif
 
 SHADER_END
 #endif

@@ -25,7 +25,7 @@ vec3 raycast_emitted(Frame frame, Interaction at) {
   base = base + texture_color(at.material.emission, at.surface.uv);
 #endif
 #if HAS_COLORS
-  base = base * at.scatters.color;
+  base = base * at.context.color;
 #endif
   return base * light;
 }

@@ -41,7 +41,7 @@ Continuations whitted_scatter(Frame frame, Path path, Interaction at) {
   Continuations all = no_continuation(path);
   bool deeper = path.depth < frame.max_depth;
   Path reflected = path;
-  reflected.d = normalize3(at.d + at.seen.normal * (2.0f * at.scatters.cos_view));
+  reflected.d = normalize3(at.d + at.seen.normal * (2.0f * at.context.cos_view));
   reflected.o = spawn_ray(at.surface, reflected.d).o;
   reflected.throughput = path.throughput * at.scattering.reflected;
   reflected.depth = path.depth + 1u;
@@ -53,7 +53,7 @@ Continuations whitted_scatter(Frame frame, Path path, Interaction at) {
   all.count = reflects ? 1u : 0u;
 #if HAS_MEDIA
   Path transmitted = path;
-  transmitted.d = refracted(at.d, at.seen.normal, at.scatters.cos_view, at.scatters.ior_from / at.scatters.ior_to);
+  transmitted.d = refracted(at.d, at.seen.normal, at.context.cos_view, at.context.ior_from / at.context.ior_to);
   transmitted.o = spawn_ray(at.surface, transmitted.d).o;
   transmitted.throughput = path.throughput * at.scattering.transmitted;
   transmitted.depth = path.depth + 1u;

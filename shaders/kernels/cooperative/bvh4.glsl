@@ -72,23 +72,9 @@ BoxRay boxes;
 TraversalState state;
 int limit;
 uint at;
-// Entry e of the stack is in row e / 4 on lane e % 4, the top is entry 0, and below the last one all is TRAVERSAL_DONE. There is room for
-// the most that can wait in this BVH (pack/collapse.cpp).
-uint stack[STACK_ROWS];
-
-// Pushes what the first `push` lanes have, or drops `drop` entries.
-void move_stack(uint push, uint drop, uint value) {
-  uint turn = (lane + drop - push) & 3u;
-  bool from_before = lane < push;
-  bool from_after = lane + drop >= 4u;
-  uint turned[STACK_ROWS + 1];
-  turned[STACK_ROWS] = TRAVERSAL_DONE;
-  EACH_ROW turned[i] = from_lane(stack[i], turn);
-  EACH_ROW {
-    uint before = i > 0 ? turned[i > 0 ? i - 1 : 0] : value;
-    stack[i] = from_before ? before : from_after ? turned[i + 1] : turned[i];
-  }
-}
+// There is room for the most that can wait in this BVH (pack/collapse.cpp).
+#define STACK_LANES 4u
+#include "kernels/cooperative/lane_stack.glsl"
 
 void visit_node() {
   bool here = at < LEAF;

@@ -33,8 +33,6 @@ int limit;      // how far along the shaft anything may still be hit, as the bit
 uint work;      // done for this shaft, in nodes, leaves and primitives
 uint patience;  // how much of it is too much
 uint at;        // what comes next
-// Entry e of the stack is in row e / LANES on lane e % LANES, the top is entry 0, and below the last one all is TRAVERSAL_DONE.
-uint stack[STACK_ROWS];
 
 // A leaf, with a primitive a lane.
 uint first_slot;
@@ -157,19 +155,8 @@ void make_shaft_of_members(uint way) {
 
 // ---- Going down ------------------------------------------------------------------------------------------------------------
 
-// Pushes what the first `push` lanes have, or drops `drop` entries.
-void move_stack(uint push, uint drop, uint value) {
-  uint turn = (lane + drop - push) & (LANES - 1u);
-  bool from_before = lane < push;
-  bool from_after = lane + drop >= LANES;
-  uint turned[STACK_ROWS + 1];
-  turned[STACK_ROWS] = TRAVERSAL_DONE;
-  EACH_ROW turned[i] = from_lane(stack[i], turn);
-  EACH_ROW {
-    uint before = i > 0 ? turned[i > 0 ? i - 1 : 0] : value;
-    stack[i] = from_before ? before : from_after ? turned[i + 1] : turned[i];
-  }
-}
+#define STACK_LANES LANES
+#include "kernels/cooperative/lane_stack.glsl"
 
 // Keys sort by how far along, and no two are the same.
 int make_key(int entry) { return entry == FAR_AWAY ? FAR_AWAY : (entry & ~int(LANES - 1u)) | int(lane); }
