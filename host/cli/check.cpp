@@ -6,7 +6,6 @@
 #include "host/cli/json.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/pack/pack.hpp"
-#include "host/scene/camera_frame.hpp"
 #include "host/scene/objects.hpp"
 
 namespace eyeray::cli {
@@ -107,11 +106,13 @@ std::string format_counts(const Counts& counts) {
   return text.empty() ? "none" : text;
 }
 
+std::string_view camera_name(const Scene& scene) {
+  return camera_types()[scene.camera.projection->kind()]->name;
+}
+
 void print_text(const Scene& scene, const Inventory& inventory) {
-  const Camera& camera = scene.camera;
   const ImageSettings& image = scene.image;
-  const CameraFrame frame = camera_frame(camera, image.width, image.height);
-  const bool perspective = camera.type == CameraType::perspective;
+  const CameraAxes camera = camera_axes(scene.camera);
   const auto line = [](std::string_view name, const std::string& text) {
     fmt::print("{:<12} {}\n", name, text);
   };
@@ -119,19 +120,13 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   line("image", fmt::format("{}×{} pixels, {} sample{} a pixel, {}", image.width, image.height, image.samples,
                             image.samples == 1 ? "" : "s",
                             image.pattern == SamplePattern::jittered ? "jittered" : "regular"));
-  line("camera", perspective ? "perspective" : "orthographic");
+  line("camera", std::string(camera_name(scene)));
   line("  eye", format_vec(camera.eye));
-  line("  u right", format_vec(frame.u));
-  line("  v up", format_vec(frame.v));
-  line("  w forward", format_vec(frame.w));
-  if (perspective) {
-    line("  D", fmt::format("{:.6g}, the image plane's distance in half widths", frame.distance));
-    line("  fov", fmt::format("{:.6g}° horizontal, {:.6g}° vertical", frame.horizontal_fov_degrees,
-                              frame.vertical_fov_degrees));
-  } else {
-    line("  sees",
-         fmt::format("{:.6g} × {:.6g} units", 2 * camera.size, 2 * camera.size * image.height / image.width));
-  }
+  line("  u right", format_vec(camera.u));
+  line("  v up", format_vec(camera.v));
+  line("  w forward", format_vec(camera.w));
+  for (const CameraFact& fact : scene.camera.projection->facts(image.size()))
+    line(fmt::format("  {}", fact.label), fact.text);
   line("integrator", scene.render.integrator == IntegratorType::raycast
                          ? "raycast"
                          : fmt::format("whitted, max_depth {}, min_throughput {:g}", scene.render.max_depth,
@@ -170,21 +165,14 @@ Json to_json(const Counts& counts) {
 }
 
 Json as_json(const Scene& scene, const Inventory& inventory) {
-  const Camera& camera = scene.camera;
-  const CameraFrame frame = camera_frame(camera, scene.image.width, scene.image.height);
+  const CameraAxes camera = camera_axes(scene.camera);
   Json view{{"eye", to_json(camera.eye)},
-            {"u", to_json(frame.u)},
-            {"v", to_json(frame.v)},
-            {"w", to_json(frame.w)}};
-  if (camera.type == CameraType::perspective) {
-    view["type"] = "perspective";
-    view["distance"] = frame.distance;
-    view["horizontal_fov_degrees"] = frame.horizontal_fov_degrees;
-    view["vertical_fov_degrees"] = frame.vertical_fov_degrees;
-  } else {
-    view["type"] = "orthographic";
-    view["size"] = camera.size;
-  }
+            {"u", to_json(camera.u)},
+            {"v", to_json(camera.v)},
+            {"w", to_json(camera.w)},
+            {"type", camera_name(scene)}};
+  for (const CameraFact& fact : scene.camera.projection->facts(scene.image.size()))
+    for (const auto& [name, number] : fact.numbers) view[std::string(name)] = number;
   Json json{
       {"image",
        {{"width", scene.image.width}, {"height", scene.image.height}, {"samples", scene.image.samples}}},

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "host/core/error.hpp"
-#include "host/scene/camera_frame.hpp"
 
 namespace eyeray::contenders {
 namespace {
@@ -31,12 +30,25 @@ double mean(const Vec3& v) {
   return (v.x + v.y + v.z) / 3;
 }
 
+std::string_view camera_word(const PerspectiveCamera&) {
+  return "perspective";
+}
+
+std::string_view camera_word(const OrthographicCamera&) {
+  return "orthographic";
+}
+
+std::string_view camera_word(std::monostate) {
+  throw Error(ExitCode::bad_input, "the scene has a camera that is not written for POV-Ray");
+}
+
 // POV-Ray's rays go along direction + x·right + y·up with x, y in [−½, ½]; given all three, handedness is
 // ours.
 std::string camera(const Scene& scene, int width, int height) {
-  const CameraFrame frame = camera_frame(scene.camera, width, height);
+  const CameraFrame frame = camera_frame(scene.camera, {width, height});
+  const CameraForm form = scene.camera.projection->form();
   return fmt::format("camera {{ {} location {} direction {} right {} up {} }}\n",
-                     scene.camera.type == CameraType::orthographic ? "orthographic" : "perspective",
+                     std::visit([](const auto& values) { return camera_word(values); }, form),
                      vector(scene.camera.eye), vector(frame.forward), vector(2.0 * frame.right),
                      vector(2.0 * frame.up));
 }

@@ -244,21 +244,20 @@ void GltfReader::read_mesh(const GltfObject& node, size_t mesh, const Mat4& worl
 // The first one: it looks along −z, and y is up.
 void GltfReader::read_camera(const GltfObject& source, const Mat4& world) {
   if (scene_.camera) return left_out_.add("cameras but the first");
-  Camera camera;
+  ImportedCamera camera;
   camera.eye = Vec3(world[3]);
   camera.target = camera.eye - unit(Vec3(world[2])) * std::max(1.0, magnitude(camera.eye));
   camera.up = unit(Vec3(world[1]));
   if (source.has("perspective") && source.has("orthographic"))
     source.fail("is both perspective and orthographic");
   if (const auto perspective = source.object("perspective")) {
-    camera.fov_axis = FovAxis::vertical;
-    camera.fov_degrees = glm::degrees(perspective->number("yfov", 0));
-    if (!(camera.fov_degrees > 0 && camera.fov_degrees < 180))
-      perspective->fail("has a yfov that no camera has");
+    const double degrees = glm::degrees(perspective->number("yfov", 0));
+    if (!(degrees > 0 && degrees < 180)) perspective->fail("has a yfov that no camera has");
+    camera.form = PerspectiveCamera{degrees, FovAxis::vertical};
   } else if (const auto orthographic = source.object("orthographic")) {
-    camera.type = CameraType::orthographic;
-    camera.size = orthographic->number("xmag", 0);
-    if (!(camera.size > 1e-12 && camera.size < 1e12)) orthographic->fail("has an xmag that no camera has");
+    const double size = orthographic->number("xmag", 0);
+    if (!(size > 1e-12 && size < 1e12)) orthographic->fail("has an xmag that no camera has");
+    camera.form = OrthographicCamera{size};
   } else {
     source.fail("is neither perspective nor orthographic");
   }

@@ -27,12 +27,19 @@ struct ImportOptions {
   PixelBudget* pixels = nullptr;
 };
 
+struct ImportedCamera {
+  Vec3 eye{0.0};
+  Vec3 target{0.0};
+  Vec3 up{0, 1, 0};
+  std::variant<PerspectiveCamera, OrthographicCamera> form;
+};
+
 struct ImportedScene {
   std::vector<Mesh> meshes;         // as scene/mesh.hpp promises
   std::vector<Instance> instances;  // `material` is an index of `materials`, or −1: the file names none
   std::vector<std::unique_ptr<Material>> materials;
   std::vector<std::variant<PointLight, DirectionalLight>> lights;
-  std::optional<Camera> camera;
+  std::optional<ImportedCamera> camera;
   std::vector<std::string> warnings;         // what was left out, once each, with counts
   std::vector<std::filesystem::path> files;  // every file read, this one first
 };

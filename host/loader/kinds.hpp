@@ -8,17 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "host/loader/sections.hpp"
 #include "host/scene/diagnostic_log.hpp"
 #include "host/scene/table.hpp"
 
 namespace eyeray::loader {
 
-// The row of `types` that the table's `type` names; null where it names none.
+// The row of `types` that the table's `type` names, or where it is not written, its default; null where it
+// names none.
 template <typename Type>
-const Type* named_type(const toml::table& table, std::span<const Type* const> types) {
-  const toml::node* written = table.get("type");
-  if (!written || !written->is_string()) return nullptr;
-  const auto found = std::ranges::find(types, written->as_string()->get(), &Type::name);
+const Type* named_type(const toml::table* table, const Section& section, std::span<const Type* const> types) {
+  const toml::node* name = table ? table->get("type") : nullptr;
+  const Key& key = *std::ranges::find(section.keys, "type", &Key::name);
+  if (!name && !key.fallback.empty()) name = &fallback_of(key);
+  if (!name || !name->is_string()) return nullptr;
+  const auto found = std::ranges::find(types, name->as_string()->get(), &Type::name);
   return found == types.end() ? nullptr : *found;
 }
 
@@ -45,6 +49,30 @@ void refuse_keys_of_others(const toml::table& table, const Type& own, std::span<
       log.error(position_of(written->source()),
                 fmt::format("`{}` is for type = \"{}\" only", name, (*owner)->name));
   }
+}
+
+template <typename Type>
+struct Kind {
+  const Type* type;
+  TableReader reader;
+};
+
+// The table by the keys of its type, which comes first: it decides which other keys there are. The type is
+// null after an error in it, which is in the log. `table` null: not written.
+template <typename Type>
+Kind<Type> read_kind(const Section& section, const toml::table* table, std::span<const Type* const> types,
+                     DiagnosticLog& log) {
+  const Type* type = named_type(table, section, types);
+  const std::string title = type ? fmt::format("{} of type {}", section.title, type->name) : section.title;
+  const std::vector<std::string_view> others =
+      type ? keys_of_others(*type, types) : std::vector<std::string_view>();
+  if (type && table) refuse_keys_of_others(*table, *type, types, log);
+  return {type, read_table({.title = title,
+                            .table = table,
+                            .keys = {section.keys, type ? type->keys : std::span<const Key>()},
+                            .extra_keys = others,
+                            .open = !type},
+                           log)};
 }
 
 }  // namespace eyeray::loader

@@ -58,6 +58,7 @@ std::string scene_manual() {
     text += std::string(section.doc) + "\n\n";
     if (!section.manual.empty()) text += trimmed(section.manual);
     text += key_table({section.keys});
+    if (section.kind == camera) text += kinds_manual(camera_types());
     if (section.kind == light) text += kinds_manual(light_types());
     if (section.kind != material) continue;
     text += kinds_manual(material_types());

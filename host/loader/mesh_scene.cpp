@@ -43,7 +43,7 @@ void each_point(const importers::ImportedScene& import, const Visit& visit) {
 }
 
 // From where all is seen, and little else, in pictures of any shape.
-Camera framing(const importers::ImportedScene& import) {
+importers::ImportedCamera framing(const importers::ImportedScene& import) {
   Bounds box;
   each_point(import, [&](const Vec3& p) { box.include(p); });
   const Vec3 centre = box.min + (box.max - box.min) / 2.0;
@@ -66,25 +66,29 @@ Camera framing(const importers::ImportedScene& import) {
   const Vec2 middle = (most[0] - most[1]) / 2.0;
   const Vec2 distance = (most[0] + most[1]) / (2 * slope);
 
-  Camera camera;
-  camera.fov_degrees = fov_degrees;
-  camera.fov_axis = FovAxis::shorter;
+  importers::ImportedCamera camera;
+  camera.form = PerspectiveCamera{fov_degrees, FovAxis::shorter};
   camera.target = centre + right * middle.x + up * middle.y;
   camera.eye = camera.target + towards_eye * std::max(distance.x, distance.y);
   return camera;
 }
 
-toml::table table(const Camera& camera) {
-  constexpr std::string_view axes[] = {"horizontal", "vertical", "shorter", "diagonal"};
-  toml::table table{{"eye", list(camera.eye)}, {"target", list(camera.target)}, {"up", list(camera.up)}};
-  if (camera.type == CameraType::orthographic) {
-    table.insert("type", "orthographic");
-    table.insert("size", camera.size);
-  } else {
-    table.insert("fov", camera.fov_degrees);
-    table.insert("fov_axis", axes[static_cast<size_t>(camera.fov_axis)]);
-  }
-  return table;
+toml::table table(const PerspectiveCamera& camera) {
+  return toml::table{{"type", "perspective"},
+                     {"fov", camera.fov_degrees},
+                     {"fov_axis", fov_axis_names[static_cast<size_t>(camera.fov_axis)]}};
+}
+
+toml::table table(const OrthographicCamera& camera) {
+  return toml::table{{"type", "orthographic"}, {"size", camera.size}};
+}
+
+toml::table table(const importers::ImportedCamera& camera) {
+  toml::table all = std::visit([](const auto& form) { return table(form); }, camera.form);
+  all.insert("eye", list(camera.eye));
+  all.insert("target", list(camera.target));
+  all.insert("up", list(camera.up));
+  return all;
 }
 
 toml::table table(const PointLight& light) {
@@ -99,7 +103,7 @@ toml::table table(const DirectionalLight& light) {
 
 // The two lights of a studio: a key light over the left shoulder of whoever looks, and a weak one from the
 // right that gives the shadows form.
-decltype(importers::ImportedScene::lights) studio_lights(const Camera& camera) {
+decltype(importers::ImportedScene::lights) studio_lights(const importers::ImportedCamera& camera) {
   const Vec3 back = unit(camera.eye - camera.target);
   const Vec3 right = unit(glm::cross(camera.up, back));
   const auto light = [&](double along_back, double along_right, double upward, double intensity) {
@@ -112,7 +116,7 @@ decltype(importers::ImportedScene::lights) studio_lights(const Camera& camera) {
 }  // namespace
 
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import) {
-  const Camera camera = import.camera ? *import.camera : framing(import);
+  const importers::ImportedCamera camera = import.camera ? *import.camera : framing(import);
   toml::array lights;
   for (const auto& light : import.lights.empty() ? studio_lights(camera) : import.lights)
     lights.push_back(std::visit([](const auto& form) { return table(form); }, light));

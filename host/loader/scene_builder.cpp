@@ -4,6 +4,7 @@
 #include <map>
 
 #include "host/loader/batch.hpp"
+#include "host/loader/cameras.hpp"
 #include "host/loader/csg_reader.hpp"
 #include "host/loader/group_placement.hpp"
 #include "host/loader/group_plan.hpp"
@@ -43,8 +44,7 @@ class Builder {
   Scene build() {
     TableReader image = read_single("image");
     scene_.image = read_image(image);
-    TableReader camera = read_single("camera");
-    scene_.camera = read_camera(camera);
+    scene_.camera = read_camera(*find_section("camera"), single("camera"), log_);
     TableReader render = read_single("render");
     scene_.render = read_render(render);
 
@@ -77,10 +77,15 @@ class Builder {
     bool used = false;
   };
 
+  // Null where it is not written.
+  const toml::table* single(std::string_view name) const {
+    const toml::node* node = root_.get(name);
+    return node ? node->as_table() : nullptr;
+  }
+
   TableReader read_single(std::string_view name) {
     const Section& section = *find_section(name);
-    const toml::node* node = root_.get(name);
-    return read_table({section.title, node ? node->as_table() : nullptr, {section.keys}}, log_);
+    return read_table({section.title, single(name), {section.keys}}, log_);
   }
 
   // Visits the tables of a list; one that should be a list or a table and is not is an error. Returns whether
@@ -146,7 +151,7 @@ class Builder {
 
 // The type comes first, for it decides which other keys there are.
 void Builder::add_material(const Section& section, const toml::table& table) {
-  const MaterialType* type = named_type(table, material_types());
+  const MaterialType* type = named_type(&table, section, material_types());
   const std::string title = type ? fmt::format("[[material]] of type {}", type->name) : section.title;
   TableReader reader = read_table({.title = title,
                                    .table = &table,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -143,14 +144,18 @@ Json table_schema(std::span<const Key> keys) {
   return schema;
 }
 
-// One alternative a type, each with its own keys.
+// One alternative a type, each with its own keys. All but the default must be named.
 template <typename Type>
 Json kinds_schema(const Section& section, std::span<const Type* const> types) {
+  const Key& type_key = *std::ranges::find(section.keys, "type", &Key::name);
+  const std::string default_name =
+      type_key.fallback.empty() ? "" : fallback_of(type_key).value_or(std::string());
   Json alternatives = Json::array();
   for (const Type* type : types) {
     Json schema = table_schema(section.keys);
     add_keys(schema, type->keys);
     schema["properties"]["type"] = {{"const", type->name}};
+    if (!default_name.empty() && default_name != type->name) schema["required"].push_back("type");
     alternatives.push_back(std::move(schema));
   }
   return {{"oneOf", std::move(alternatives)}};
@@ -217,6 +222,7 @@ Json placed_schema(const Section& section) {
 Json section_schema(const Section& section) {
   if (section.is_placed()) return list_schema(world_ray(section));
   if (section.kind == Section::Kind::material) return list_schema(kinds_schema(section, material_types()));
+  if (section.kind == Section::Kind::camera) return kinds_schema(section, camera_types());
   if (section.kind == Section::Kind::light) return list_schema(kinds_schema(section, light_types()));
   return section.many() ? list_schema(table_schema(section.keys)) : table_schema(section.keys);
 }

@@ -18,6 +18,27 @@ std::vector<std::string_view> names_of(std::span<const Type* const> types) {
   return names;
 }
 
+std::span<const Key> camera_keys() {
+  static const std::vector<std::string_view> names = names_of(camera_types());
+  static const Key keys[] = {
+      {.name = "type",
+       .type = KeyType::choice,
+       .doc = "Its kind; see below.",
+       .fallback = "\"perspective\"",
+       .choices = names},
+      {.name = "eye", .type = KeyType::vec3, .doc = "Where the camera stands.", .fallback = "[0, 0, 5]"},
+      {.name = "target",
+       .type = KeyType::vec3,
+       .doc = "The point it looks at, not the eye.",
+       .fallback = "[0, 0, 0]"},
+      {.name = "up",
+       .type = KeyType::vec3,
+       .doc = "What is up in the picture; not parallel to the way it looks.",
+       .fallback = "[0, 1, 0]"},
+  };
+  return keys;
+}
+
 std::span<const Key> light_keys() {
   static const std::vector<std::string_view> names = names_of(light_types());
   static const Key keys[] = {

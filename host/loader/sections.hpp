@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/scene/camera.hpp"
 #include "host/scene/light.hpp"
 #include "host/scene/material.hpp"
 #include "host/scene/shape.hpp"

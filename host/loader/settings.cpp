@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "shaders/cameras/registry.h"
 #include "shaders/integrators/registry.h"
 
 namespace eyeray::loader {
@@ -13,11 +12,9 @@ constexpr int64_t most_pixels = int64_t{1} << 28;
 
 // The registries' rows are what a scene file may name.
 #define NAME(name, ...) #name,
-constexpr std::string_view camera_types[] = {CAMERAS(NAME)};
 constexpr std::string_view integrators[] = {INTEGRATORS(NAME)};
 #undef NAME
 constexpr std::string_view patterns[] = {"regular", "jittered"};
-constexpr std::string_view fov_axes[] = {"horizontal", "vertical", "shorter", "diagonal"};
 constexpr std::string_view triangle_methods[] = {"woop", "moller-trumbore"};
 constexpr std::string_view group_storages[] = {"automatic", "instanced", "flat"};
 
@@ -45,42 +42,6 @@ constexpr Key image_table[] = {
      .doc = "Samples at the centres of the grid's cells, or at a random place of each.",
      .fallback = "\"regular\"",
      .choices = patterns},
-};
-
-constexpr Key camera_table[] = {
-    {.name = "type",
-     .type = KeyType::choice,
-     .doc = "Rays from one point, or parallel ones.",
-     .fallback = "\"perspective\"",
-     .choices = camera_types},
-    {.name = "eye", .type = KeyType::vec3, .doc = "Where the camera stands.", .fallback = "[0, 0, 5]"},
-    {.name = "target",
-     .type = KeyType::vec3,
-     .doc = "The point it looks at, not the eye.",
-     .fallback = "[0, 0, 0]"},
-    {.name = "up",
-     .type = KeyType::vec3,
-     .doc = "What is up in the picture; not parallel to the way it looks.",
-     .fallback = "[0, 1, 0]"},
-    {.name = "fov",
-     .type = KeyType::number,
-     .doc = "Full angle of view along `fov_axis`, in degrees; perspective only.",
-     .fallback = "45",
-     .min = 0,
-     .max = 180,
-     .above_min = true,
-     .below_max = true},
-    {.name = "fov_axis",
-     .type = KeyType::choice,
-     .doc = "The side of the picture that `fov` spans; perspective only.",
-     .fallback = "\"horizontal\"",
-     .choices = fov_axes},
-    {.name = "size",
-     .type = KeyType::number,
-     .doc = "Half the width of what is seen; orthographic only.",
-     .fallback = "1",
-     .min = 0,
-     .above_min = true},
 };
 
 constexpr Key render_table[] = {
@@ -129,11 +90,6 @@ constexpr Key render_table[] = {
      .fallback = "0"},
 };
 
-// Reports `key` if it is written, for it means something only with another `type`.
-void refuse(TableReader& table, std::string_view key, std::string_view only, std::string_view instead) {
-  if (table.has(key)) table.error(key, fmt::format("`{}` is for type = \"{}\" only{}", key, only, instead));
-}
-
 void check_samples(TableReader& table, int samples) {
   const int root = static_cast<int>(std::sqrt(static_cast<double>(samples)));
   if (root * root == samples) return;
@@ -141,34 +97,10 @@ void check_samples(TableReader& table, int samples) {
                                      samples, root * root, (root + 1) * (root + 1)));
 }
 
-void check_view(TableReader& table, const Camera& camera) {
-  const Vec3 view = camera.target - camera.eye;
-  const double reach = std::max(glm::length(camera.eye), glm::length(camera.target));
-  if (!(glm::length(view) > 1e-12 * reach)) {
-    table.error(table.has("target") ? "target" : "eye",
-                "`eye` and `target` are the same point: the camera looks nowhere");
-    return;
-  }
-  if (camera.up == Vec3(0)) {
-    table.error("up", "`up` has no length");
-    return;
-  }
-  // The sine of the angle between them must be a number that survives normalising.
-  const double sine = glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up)));
-  if (!(sine > 1e-9)) {
-    table.error(
-        table.has("up") ? "up" : "target",
-        "`up` is parallel to the way the camera looks (target − eye); choose another, such as [0, 0, 1]");
-  }
-}
-
 }  // namespace
 
 std::span<const Key> image_keys() {
   return image_table;
-}
-std::span<const Key> camera_keys() {
-  return camera_table;
 }
 std::span<const Key> render_keys() {
   return render_table;
@@ -188,27 +120,6 @@ ImageSettings read_image(TableReader& table) {
                             image.height, pixels, most_pixels));
   }
   return image;
-}
-
-Camera read_camera(TableReader& table) {
-  Camera camera;
-  camera.type = static_cast<CameraType>(table.choice("type"));
-  camera.eye = table.vec3("eye");
-  camera.target = table.vec3("target");
-  camera.up = table.vec3("up");
-  camera.fov_degrees = table.number("fov");
-  camera.fov_axis = static_cast<FovAxis>(table.choice("fov_axis"));
-  camera.size = table.number("size");
-  if (!table.valid("type")) {
-    // Which keys belong is not known.
-  } else if (camera.type == CameraType::perspective) {
-    refuse(table, "size", "orthographic", "; a perspective camera has `fov`");
-  } else {
-    refuse(table, "fov", "perspective", "; an orthographic camera has `size`");
-    refuse(table, "fov_axis", "perspective", "");
-  }
-  if (table.valid("eye") && table.valid("target") && table.valid("up")) check_view(table, camera);
-  return camera;
 }
 
 RenderSettings read_render(TableReader& table) {

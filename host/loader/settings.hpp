@@ -8,12 +8,10 @@
 namespace eyeray::loader {
 
 std::span<const Key> image_keys();
-std::span<const Key> camera_keys();
 std::span<const Key> render_keys();
 
 // What the table says; what is wrong between its values is reported to it.
 ImageSettings read_image(TableReader& table);
-Camera read_camera(TableReader& table);
 RenderSettings read_render(TableReader& table);
 
 }  // namespace eyeray::loader

@@ -5,15 +5,11 @@
 #include "host/core/error.hpp"
 #include "host/pack/geometry.hpp"
 #include "host/reference/media.hpp"
-#include "host/scene/camera_frame.hpp"
 
 namespace eyeray::pack {
 namespace {
 
 // A row that the scene does not know, or by another number, is an error that bears its name.
-#define SAME_CAMERA(name, number) static_assert(uint32_t(CameraType::name) == number);
-CAMERAS(SAME_CAMERA)
-#undef SAME_CAMERA
 #define SAME_INTEGRATOR(name, number, ...) static_assert(uint32_t(IntegratorType::name) == number);
 INTEGRATORS(SAME_INTEGRATOR)
 #undef SAME_INTEGRATOR
@@ -30,13 +26,13 @@ uint32_t pack_media(const Scene& scene, const PackedScene& packed) {
 }
 
 shader::Frame pack_frame(const Scene& scene, const PackedScene& packed) {
-  const CameraFrame camera = camera_frame(scene.camera, scene.image.width, scene.image.height);
+  const CameraFrame camera = camera_frame(scene.camera, scene.image.size());
   shader::Frame frame{};
   frame.width = uint32_t(scene.image.width);
   frame.height = uint32_t(scene.image.height);
   frame.seed = scene.render.seed;
   frame.samples_per_side = uint32_t(std::lround(std::sqrt(double(scene.image.samples))));
-  frame.camera = uint32_t(scene.camera.type);
+  frame.camera = scene.camera.projection->kind();
   frame.pattern = scene.image.pattern == SamplePattern::jittered ? PATTERN_JITTERED : PATTERN_REGULAR;
   frame.media = pack_media(scene, packed);
   frame.max_depth = uint32_t(scene.render.max_depth);

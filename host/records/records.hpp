@@ -23,6 +23,9 @@ MATERIALS(X)
 #define X(name, number) inline constexpr uint LIGHT_##name = number;
 LIGHTS(X)
 #undef X
+#define X(name, number) inline constexpr uint CAMERA_##name = number;
+CAMERAS(X)
+#undef X
 
 // How many kinds of shape there are.
 inline constexpr uint SHAPE_KINDS = 0

@@ -13,12 +13,9 @@ class CameraRays {
   Ray ray(const Vec2& place) const;
 
  private:
-  CameraType type_;
-  Vec3 eye_;
-  Vec3 u_, v_, w_;   // image right, image up, the way the camera looks: orthonormal
-  double distance_;  // perspective: of the image plane, in half widths
-  double size_;      // orthographic: half the width seen
-  double width_, height_;
+  CameraAxes axes_;
+  std::shared_ptr<const Projection> projection_;
+  Vec2 size_;
 };
 
 // Where in pixel (x, y) its sample `index` lies, in pixels from the pixel's top left corner.

@@ -1,10 +1,6 @@
 #include "host/render/corners.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "host/scene/camera_frame.hpp"
 
 namespace eyeray::render {
 namespace {
@@ -50,11 +46,7 @@ Image between(Image& last, const Image& corners, Combine combine) {
 
 void sample_corners(Scene& scene) {
   const double wider = double(scene.image.width + 1) / scene.image.width;
-  Camera& camera = scene.camera;
-  const double distance = camera_frame(camera, scene.image.width, scene.image.height).distance;
-  camera.fov_degrees = std::atan2(wider, distance) * 360 / std::numbers::pi;
-  camera.fov_axis = FovAxis::horizontal;
-  camera.size *= wider;
+  scene.camera.projection = scene.camera.projection->widened(wider, scene.image.size());
   scene.image.width += 1;
   scene.image.height += 1;
   scene.image.samples = 1;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/core/vec.hpp"
+#include "host/scene/camera.hpp"
 #include "host/scene/group.hpp"
 #include "host/scene/light.hpp"
 #include "host/scene/material.hpp"
@@ -22,19 +23,8 @@ struct ImageSettings {
   int height = 480;
   int samples = 1;  // a pixel; a square number n², laid out n × n
   SamplePattern pattern = SamplePattern::regular;
-};
 
-enum class CameraType { perspective, orthographic };
-enum class FovAxis { horizontal, vertical, shorter, diagonal };
-
-struct Camera {
-  CameraType type = CameraType::perspective;
-  Vec3 eye{0, 0, 5};
-  Vec3 target{0, 0, 0};
-  Vec3 up{0, 1, 0};
-  double fov_degrees = 45;  // perspective: full angle along fov_axis
-  FovAxis fov_axis = FovAxis::horizontal;
-  double size = 1;  // orthographic: half the width of what is seen
+  Vec2 size() const { return {width, height}; }  // in pixels
 };
 
 enum class IntegratorType { raycast, whitted };

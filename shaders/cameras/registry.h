@@ -1,4 +1,4 @@
-// Every kind of camera; see shapes/registry.h. CameraType in scene/scene.hpp has the same names and numbers.
+// Every kind of camera; see shapes/registry.h.
 #ifndef CAMERAS
 #define CAMERAS(X)    \
   X(perspective, 0u) \

@@ -17,9 +17,10 @@ const std::map<std::string, Links> layers = read_layers();
 const std::map<std::string, std::regex> visible_shaders = {
     {"records", std::regex(R"(shaders/(records\.h|[a-z]+/registry\.h))")},
     {"shapes", std::regex(R"(shaders/shapes/registry\.h)")},
-    {"loader", std::regex(R"(shaders/(cameras|integrators)/registry\.h)")},
+    {"loader", std::regex(R"(shaders/integrators/registry\.h)")},
     {"materials", std::regex(R"(shaders/materials/registry\.h)")},
     {"lights", std::regex(R"(shaders/lights/registry\.h)")},
+    {"cameras", std::regex(R"(shaders/cameras/registry\.h)")},
     {"twin", std::regex(".*")},
     {"formula", std::regex(R"(shaders/(language\.h|math/formula\.glsl))")},
 };

@@ -13,6 +13,7 @@
 #include "host/loader/scene_file.hpp"
 //
 #include "pixel.hpp"
+#include "tests/support/camera.hpp"
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
@@ -74,7 +75,8 @@ TEST_CASE("every classic is a scene without warnings, at its smallest and at its
       CHECK(scene.shapes.size() == shapes);
       CHECK(scene.image.width == 512);
       CHECK(scene.image.height == 512);
-      CHECK(scene.camera.fov_degrees == doctest::Approx(45.0792615).epsilon(1e-9));
+      CHECK(test::camera_as<PerspectiveCamera>(scene).fov_degrees ==
+            doctest::Approx(45.0792615).epsilon(1e-9));
       if (!classic.mesh) CHECK(scene.warnings.empty());
     }
   }

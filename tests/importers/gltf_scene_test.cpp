@@ -109,8 +109,9 @@ TEST_CASE("the first camera and all lights") {
   CHECK(scene.camera->eye == Vec3(1, 2, 3));
   CHECK(glm::normalize(scene.camera->target - scene.camera->eye) == Vec3(0, 0, -1));
   CHECK(scene.camera->up == Vec3(0, 1, 0));
-  CHECK(scene.camera->fov_axis == FovAxis::vertical);
-  CHECK(scene.camera->fov_degrees == doctest::Approx(45));
+  const auto perspective = std::get<PerspectiveCamera>(scene.camera->form);
+  CHECK(perspective.fov_axis == FovAxis::vertical);
+  CHECK(perspective.fov_degrees == doctest::Approx(45));
   CHECK(warns(scene, "cameras but the first (1)"));
   REQUIRE(scene.lights.size() == 3);
   const auto& point = std::get<PointLight>(scene.lights[0]);
@@ -125,8 +126,7 @@ TEST_CASE("the first camera and all lights") {
 
   file.json["nodes"][1].erase("camera");
   const ImportedScene second = import_sound(file.gltf(), "a.gltf");
-  CHECK(second.camera->type == CameraType::orthographic);
-  CHECK(second.camera->size == 3);
+  CHECK(std::get<OrthographicCamera>(second.camera->form).size == 3);
 }
 
 TEST_CASE("alphaMode MASK leaves holes by factor, picture and vertices; else alpha is not looked at") {

@@ -47,6 +47,8 @@ TEST_CASE("every default is a right value of its key") {
     if (section.shape) check(section.shape->keys);
   }
   for (const MaterialType* type : material_types()) check(type->keys);
+  for (const LightType* type : light_types()) check(type->keys);
+  for (const CameraType* type : camera_types()) check(type->keys);
   CHECK(defaults > 20);
 }
 

@@ -3,8 +3,8 @@
 
 #include "folder.hpp"
 #include "host/loader/scene_file.hpp"
-#include "host/scene/camera_frame.hpp"
 //
+#include "tests/support/camera.hpp"
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
@@ -156,16 +156,13 @@ TEST_CASE("a mesh file alone is a scene that frames it") {
   for (const char* size : {"image.width=100", "image.height=100", "image.width=2000"}) {
     const Override shape{size};
     const Scene other = load_scene(obj, {&shape, 1});
-    const CameraFrame frame = camera_frame(other.camera, other.image.width, other.image.height);
     const double half =
         std::min(1.0, double(other.image.height) / other.image.width);  // the square's, in half widths
     double most = 0;
     for (const Vec3& p : other.meshes[0].positions) {
-      const Vec3 ray = p - other.camera.eye;
-      const double scale = frame.distance / glm::dot(ray, frame.w) / half;
-      REQUIRE(scale > 0);
-      most = std::max(most, std::fabs(glm::dot(ray, frame.u)) * scale);
-      most = std::max(most, std::fabs(glm::dot(ray, frame.v)) * scale);
+      REQUIRE(glm::dot(p - other.camera.eye, camera_axes(other.camera).w) > 0);
+      const Vec2 place = test::place_seen(other, p) / half;
+      most = std::max({most, std::fabs(place.x), std::fabs(place.y)});
     }
     CHECK(most == doctest::Approx(0.94));
   }
@@ -195,7 +192,7 @@ TEST_CASE("overrides and a file's own camera and lights") {
   const Scene own = load_scene(gltf);
   CHECK(own.warnings.empty());
   CHECK(own.camera.eye == Vec3(1, 2, 3));
-  CHECK(own.camera.fov_axis == FovAxis::vertical);
+  CHECK(test::camera_as<PerspectiveCamera>(own).fov_axis == FovAxis::vertical);
   REQUIRE(own.lights.size() == 1);
   CHECK(std::get<PointLight>(own.lights[0]->form()).position == Vec3(4, 5, 6));
 

@@ -1,6 +1,7 @@
 // -D KEY=VALUE.
 #include "host/loader/scene_file.hpp"
 //
+#include "tests/support/camera.hpp"
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
@@ -53,7 +54,7 @@ TEST_CASE("an override stands in for the file's value") {
   CHECK(scene.render.max_depth == 3);
   CHECK(scene.render.integrator == IntegratorType::raycast);
   CHECK(scene.camera.eye == Vec3(1, 9, 3));
-  CHECK(scene.camera.fov_degrees == 30);
+  CHECK(test::camera_as<PerspectiveCamera>(scene).fov_degrees == 30);
 }
 
 TEST_CASE("elements are named by index or by name") {

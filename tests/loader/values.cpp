@@ -5,6 +5,7 @@
 
 #include "host/loader/scene_file.hpp"
 //
+#include "tests/support/camera.hpp"
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
@@ -40,13 +41,12 @@ TEST_CASE("an empty scene has the defaults of the model") {
   CHECK(scene.image.height == model.image.height);
   CHECK(scene.image.samples == model.image.samples);
   CHECK(scene.image.pattern == model.image.pattern);
-  CHECK(scene.camera.type == model.camera.type);
   CHECK(scene.camera.eye == model.camera.eye);
   CHECK(scene.camera.target == model.camera.target);
   CHECK(scene.camera.up == model.camera.up);
-  CHECK(scene.camera.fov_degrees == model.camera.fov_degrees);
-  CHECK(scene.camera.fov_axis == model.camera.fov_axis);
-  CHECK(scene.camera.size == model.camera.size);
+  const auto perspective = test::camera_as<PerspectiveCamera>(scene);
+  CHECK(perspective.fov_degrees == test::camera_as<PerspectiveCamera>(model).fov_degrees);
+  CHECK(perspective.fov_axis == test::camera_as<PerspectiveCamera>(model).fov_axis);
   CHECK(scene.render.integrator == model.render.integrator);
   CHECK(scene.render.max_depth == model.render.max_depth);
   CHECK(scene.render.min_throughput == model.render.min_throughput);
@@ -82,11 +82,10 @@ ambient = 0.5
   CHECK(scene.image.height == 4096);
   CHECK(scene.image.samples == 65536);
   CHECK(scene.image.pattern == SamplePattern::jittered);
-  CHECK(scene.camera.type == CameraType::orthographic);
   CHECK(scene.camera.eye == Vec3(1, 2, 3));
   CHECK(scene.camera.target == Vec3(4, 5, 6.5));
   CHECK(scene.camera.up == Vec3(0, 0, -2));
-  CHECK(scene.camera.size == 7.25);
+  CHECK(test::camera_as<OrthographicCamera>(scene).size == 7.25);
   CHECK(scene.render.integrator == IntegratorType::raycast);
   CHECK(scene.render.max_depth == 0);
   CHECK(scene.render.min_throughput == 0);
@@ -94,7 +93,8 @@ ambient = 0.5
   CHECK(scene.render.triangle_method == TriangleMethod::moller_trumbore);
   CHECK(scene.render.background == Vec3(0.1, 0.2, 0.3));
   CHECK(scene.render.ambient == Vec3(0.5));
-  CHECK(parse("[camera]\nfov = 179.5\nfov_axis = \"diagonal\"").camera.fov_axis == FovAxis::diagonal);
+  const Scene wide = parse("[camera]\nfov = 179.5\nfov_axis = \"diagonal\"");
+  CHECK(test::camera_as<PerspectiveCamera>(wide).fov_axis == FovAxis::diagonal);
 }
 
 TEST_CASE("lights") {

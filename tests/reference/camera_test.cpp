@@ -1,4 +1,5 @@
 #include "host/reference/camera.hpp"
+#include "host/cameras/make.hpp"
 #include "host/reference/rng.hpp"
 #include "scenes.hpp"
 #include "tests/support/doctest.hpp"
@@ -6,8 +7,16 @@
 using namespace eyeray;
 using namespace eyeray::test;
 
+namespace {
+
+Camera looking_along_z(const PerspectiveCamera& values) {
+  return {.eye = {0, 0, 5}, .target = {0, 0, 0}, .projection = make_projection(values)};
+}
+
+}  // namespace
+
 TEST_CASE("row 0 is the top and column 0 the left") {
-  const Camera camera{.eye = {0, 0, 5}, .target = {0, 0, 0}, .fov_degrees = 90};
+  const Camera camera = looking_along_z(PerspectiveCamera{90});
   const reference::CameraRays rays(camera, {.width = 200, .height = 100});
   CHECK(near(rays.ray({100, 50}).d, Vec3(0, 0, -1), 1e-15));
   CHECK(near(rays.ray({0, 50}).d, glm::normalize(Vec3(-1, 0, -1)), 1e-15));
@@ -19,7 +28,7 @@ TEST_CASE("row 0 is the top and column 0 the left") {
 TEST_CASE("the field of view is measured along its axis") {
   // A 300 × 400 picture has a diagonal of 500; tan(α/2) = 1 along the axis.
   const auto half_width = [](FovAxis axis, int width, int height) {
-    const Camera camera{.fov_degrees = 90, .fov_axis = axis};
+    const Camera camera = looking_along_z(PerspectiveCamera{90, axis});
     const Vec3 d =
         reference::CameraRays(camera, {.width = width, .height = height}).ray({width, height / 2.0}).d;
     return d.x / -d.z;
@@ -32,7 +41,8 @@ TEST_CASE("the field of view is measured along its axis") {
 }
 
 TEST_CASE("an orthographic camera moves the origin") {
-  const Camera camera{.type = CameraType::orthographic, .eye = {1, 2, 5}, .target = {1, 2, 0}, .size = 3};
+  const Camera camera{
+      .eye = {1, 2, 5}, .target = {1, 2, 0}, .projection = make_projection(OrthographicCamera{3})};
   const reference::CameraRays rays(camera, {.width = 200, .height = 100});
   CHECK(near(rays.ray({0, 0}).o, Vec3(1 - 3, 2 + 1.5, 5), 1e-14));
   CHECK(near(rays.ray({150, 50}).o, Vec3(1 + 1.5, 2, 5), 1e-14));
@@ -43,7 +53,7 @@ TEST_CASE("a known picture stands upright") {
   // Red to the right, green above, blue to the left of the middle.
   Scene scene;
   scene.image = {.width = 9, .height = 9};
-  scene.camera = {.eye = {0, 0, 5}, .target = {0, 0, 0}, .fov_degrees = 90};
+  scene.camera = looking_along_z(PerspectiveCamera{90});
   scene.render.integrator = IntegratorType::raycast;
   const auto ball = [&](const Vec3& center, const Vec3& color) {
     add(scene, make_sphere(center, 0.6), add(scene, make_phong({.diffuse = {color, {}}})));

@@ -1,9 +1,10 @@
 // Pictures sampled at the corners of their pixels.
 #include "host/render/corners.hpp"
 
+#include "host/cameras/make.hpp"
 #include "host/loader/scene_file.hpp"
+#include "host/reference/camera.hpp"
 #include "host/render/render.hpp"
-#include "host/scene/camera_frame.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -12,12 +13,9 @@ using namespace eyeray::render;
 
 namespace {
 
-// A pixel's place (x, y), in pixels from the upper left, as a direction or an offset from the eye.
-Vec3 seen_at(const Scene& scene, double x, double y) {
-  const CameraFrame frame = camera_frame(scene.camera, scene.image.width, scene.image.height);
-  const Vec3 aside =
-      (2 * x / scene.image.width - 1) * frame.right + (1 - 2 * y / scene.image.height) * frame.up;
-  return scene.camera.type == CameraType::orthographic ? aside : glm::normalize(aside + frame.forward);
+// The ray at a place (x, y) in pixels from the upper left.
+Ray ray_at(const Scene& scene, double x, double y) {
+  return reference::CameraRays(scene.camera, scene.image).ray({x, y});
 }
 
 }  // namespace
@@ -26,20 +24,23 @@ TEST_CASE("the pixels' centres are where the corners were, by every camera") {
   Scene scene;
   scene.camera.eye = {1, 2, 3};
   scene.image = {.width = 7, .height = 5, .samples = 16, .pattern = SamplePattern::jittered};
-  for (const CameraType type : {CameraType::perspective, CameraType::orthographic}) {
-    for (const FovAxis axis : {FovAxis::horizontal, FovAxis::vertical, FovAxis::shorter, FovAxis::diagonal}) {
-      scene.camera.type = type;
-      scene.camera.fov_axis = axis;
-      Scene corners;
-      corners.camera = scene.camera;
-      corners.image = scene.image;
-      sample_corners(corners);
-      REQUIRE(corners.image.width == 8);
-      REQUIRE(corners.image.height == 6);
-      CHECK(corners.image.samples == 1);
-      CHECK(corners.image.pattern == SamplePattern::regular);
-      for (const auto& [x, y] : {std::pair(0, 0), std::pair(7, 0), std::pair(3, 2), std::pair(7, 5)})
-        CHECK(glm::distance(seen_at(corners, x + 0.5, y + 0.5), seen_at(scene, x, y)) < 1e-15);
+  std::vector<std::shared_ptr<const Projection>> projections = {make_projection(OrthographicCamera{1.5})};
+  for (const FovAxis axis : {FovAxis::horizontal, FovAxis::vertical, FovAxis::shorter, FovAxis::diagonal})
+    projections.push_back(make_projection(PerspectiveCamera{45, axis}));
+  for (const auto& projection : projections) {
+    scene.camera.projection = projection;
+    Scene corners;
+    corners.camera = scene.camera;
+    corners.image = scene.image;
+    sample_corners(corners);
+    REQUIRE(corners.image.width == 8);
+    REQUIRE(corners.image.height == 6);
+    CHECK(corners.image.samples == 1);
+    CHECK(corners.image.pattern == SamplePattern::regular);
+    for (const auto& [x, y] : {std::pair(0, 0), std::pair(7, 0), std::pair(3, 2), std::pair(7, 5)}) {
+      const Ray corner = ray_at(corners, x + 0.5, y + 0.5), pixel = ray_at(scene, x, y);
+      CHECK(glm::distance(corner.o, pixel.o) < 1e-15);
+      CHECK(glm::distance(corner.d, pixel.d) < 1e-15);
     }
   }
 }

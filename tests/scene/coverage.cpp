@@ -48,19 +48,23 @@ TEST_CASE("every shape of the registry has a scene of its name, in which it is")
 }
 
 TEST_CASE(
-    "every material of the registry is on some shape of some scene, every light in one, and no scene warns") {
+    "every material of the registry is on some shape of some scene, every light and camera in one, and no "
+    "scene warns") {
   std::set<uint32_t> used;
   std::set<const LightType*> lights;
+  std::set<uint32_t> cameras;
   for (const std::filesystem::path& file : scene_files("scenes")) {
     CAPTURE(file);
     const Scene scene = load_scene(file);
     CHECK(scene.warnings.empty());
     used.merge(kinds_of(scene).materials);
     for (const auto& light : scene.lights) lights.insert(light->type);
+    cameras.insert(scene.camera.projection->kind());
   }
   for (uint32_t kind = 0; kind < material_types().size(); ++kind) {
     CAPTURE(material_types()[kind]->name);
     CHECK(used.contains(kind));
   }
   for (const LightType* type : light_types()) CHECK_MESSAGE(lights.contains(type), type->name);
+  CHECK(cameras.size() == camera_types().size());
 }

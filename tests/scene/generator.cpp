@@ -216,12 +216,11 @@ void Writer::table(const std::string& title, std::initializer_list<std::span<con
 std::string Writer::write() {
   table("[image]", {loader::find_section("image")->keys}, {}, "");
 
-  const bool orthographic = chance(0.3);
-  std::set<std::string_view> left_out = {"type"};
-  if (orthographic) left_out.insert({"fov", "fov_axis"});
-  if (!orthographic) left_out.insert("size");
-  table("[camera]", {loader::find_section("camera")->keys}, left_out,
-        fmt::format("type = \"{}\"\n", orthographic ? "orthographic" : "perspective"));
+  // Most often the first.
+  const double which = std::max(0.0, 1 - random_.uniform() / 0.3) * double(camera_types().size() - 1);
+  const CameraType& camera = *camera_types()[size_t(std::ceil(which))];
+  table("[camera]", {loader::find_section("camera")->keys, camera.keys}, {"type"},
+        fmt::format("type = \"{}\"\n", camera.name));
   table("[render]", {loader::find_section("render")->keys}, {}, "");
 
   for (int i = random_.below(4); i > 0; --i) {

@@ -6,6 +6,7 @@
 
 #include "frames.hpp"
 #include "host/loader/scene_file.hpp"
+#include "tests/support/camera.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -29,7 +30,8 @@ Place project(const Scene& scene, const Vec3& p) {
   const Vec3 v = glm::cross(u, w);
   const Vec3 way = p - camera.eye;
   const double width = scene.image.width, height = scene.image.height;
-  const double distance = 1 / std::tan(camera.fov_degrees / 2 * std::numbers::pi / 180);
+  const double distance =
+      1 / std::tan(camera_as<PerspectiveCamera>(scene).fov_degrees / 2 * std::numbers::pi / 180);
   const double x = distance * glm::dot(way, u) / glm::dot(way, w);
   const double y = distance * glm::dot(way, v) / glm::dot(way, w) * width / height;
   return {int((x + 1) / 2 * width), int((1 - y) / 2 * height)};

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "frames.hpp"
+#include "host/cameras/make.hpp"
 #include "host/lights/make.hpp"
 #include "host/materials/make.hpp"
 #include "host/shapes/make.hpp"
@@ -37,8 +38,7 @@ std::shared_ptr<const ImageTexture> random_image(Random& random) {
 Scene patchwork(Random& random, int across, int down) {
   Scene scene;
   scene.image = {.width = 24 * across, .height = 24 * down};
-  scene.camera.type = CameraType::orthographic;
-  scene.camera.size = 0.5 * across;
+  scene.camera.projection = make_projection(OrthographicCamera{0.5 * across});
   // A little off, so that no pixel's centre lies on an edge.
   scene.camera.target = {0.5 * across + 0.0131, 0.5 * down + 0.0073, 0};
   scene.camera.eye = scene.camera.target + Vec3(0, 0, 5);

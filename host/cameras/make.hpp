@@ -1,0 +1,11 @@
+// Projections made in code, by tests; a scene file's go through their CameraType.
+#pragma once
+
+#include "host/scene/camera.hpp"
+
+namespace eyeray {
+
+std::shared_ptr<const Projection> make_projection(const PerspectiveCamera& values);
+std::shared_ptr<const Projection> make_projection(const OrthographicCamera& values);
+
+}  // namespace eyeray

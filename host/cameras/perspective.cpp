@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/cameras/make.hpp"
+#include "host/records/records.hpp"
+
+namespace eyeray {
+
+extern const CameraType perspective_camera;
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(All rays come from the eye: what is twice as far looks half as big.
+
+```toml
+[camera]
+eye = [0, 1, 6]
+target = [0, 0, 0]
+fov = 35
+```
+)";
+
+constexpr Key keys[] = {
+    {.name = "fov",
+     .type = KeyType::number,
+     .doc = "Full angle of view along `fov_axis`, in degrees.",
+     .fallback = "45",
+     .min = 0,
+     .max = 180,
+     .above_min = true,
+     .below_max = true},
+    {.name = "fov_axis",
+     .type = KeyType::choice,
+     .doc = "The side of the picture that `fov` spans.",
+     .fallback = "\"horizontal\"",
+     .choices = fov_axis_names},
+};
+
+double degrees_from_tangent(double half) {
+  return std::atan(half) * 360 / std::numbers::pi;
+}
+
+class Perspective final : public Projection {
+ public:
+  explicit Perspective(const PerspectiveCamera& values) : values_(values) {}
+
+  uint32_t kind() const override { return shader::CAMERA_perspective; }
+
+  // `forward` ends on an image plane whose X reaches from −1 to 1.
+  Vec3 scale(const Vec2& size) const override { return {1, size.y / size.x, 1 / half_width(size)}; }
+
+  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& size) const override {
+    const double distance = 1.0 / horizontal_tangent(size);
+    return {camera.eye, glm::normalize(place.x * camera.u + place.y * camera.v + distance * camera.w)};
+  }
+
+  std::shared_ptr<const Projection> widened(double factor, const Vec2& size) const override {
+    const double degrees = std::atan2(factor, scale(size).z) * 360 / std::numbers::pi;
+    return make_projection(PerspectiveCamera{degrees, FovAxis::horizontal});
+  }
+
+  std::vector<CameraFact> facts(const Vec2& size) const override {
+    const double distance = scale(size).z;
+    const double across = degrees_from_tangent(half_width(size));
+    const double down = degrees_from_tangent(half_width(size) * (size.y / size.x));
+    return {
+        {"D",
+         fmt::format("{:.6g}, the image plane's distance in half widths", distance),
+         {{"distance", distance}}},
+        {"fov",
+         fmt::format("{:.6g}° horizontal, {:.6g}° vertical", across, down),
+         {{"horizontal_fov_degrees", across}, {"vertical_fov_degrees", down}}},
+    };
+  }
+
+  CameraForm form() const override { return values_; }
+
+ private:
+  // tan(α/2) scales like the length along which α is measured; bring it to the width.
+  double half_width(const Vec2& size) const {
+    const double lengths[] = {size.x, size.y, std::min(size.x, size.y), std::hypot(size.x, size.y)};
+    const double measured = lengths[size_t(values_.fov_axis)];
+    return std::tan(values_.fov_degrees * std::numbers::pi / 360) * size.x / measured;
+  }
+
+  // tan(α/2) for the horizontal field of view α; the reference's.
+  double horizontal_tangent(const Vec2& size) const {
+    const double tangent = std::tan(values_.fov_degrees * std::numbers::pi / 360.0);
+    switch (values_.fov_axis) {
+      case FovAxis::horizontal:
+        return tangent;
+      case FovAxis::vertical:
+        return tangent * size.x / size.y;
+      case FovAxis::shorter:
+        return size.x <= size.y ? tangent : tangent * size.x / size.y;
+      case FovAxis::diagonal:
+        return tangent * size.x / std::sqrt(size.x * size.x + size.y * size.y);
+    }
+    return tangent;
+  }
+
+  PerspectiveCamera values_;
+};
+
+std::shared_ptr<const Projection> parse(TableReader& table) {
+  const PerspectiveCamera values{table.number("fov"), static_cast<FovAxis>(table.choice("fov_axis"))};
+  if (table.failed()) return nullptr;
+  return make_projection(values);
+}
+
+}  // namespace
+
+extern const CameraType perspective_camera{
+    .name = "perspective", .manual = manual, .keys = keys, .parse = parse};
+
+std::shared_ptr<const Projection> make_projection(const PerspectiveCamera& values) {
+  return std::make_shared<Perspective>(values);
+}
+
+}  // namespace eyeray

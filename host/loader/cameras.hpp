@@ -1,0 +1,12 @@
+// The [camera] of a scene file.
+#pragma once
+
+#include "host/loader/sections.hpp"
+#include "host/scene/table.hpp"
+
+namespace eyeray::loader {
+
+// `table` null: not written. Errors are in the log; after one the camera may have no projection.
+Camera read_camera(const Section& section, const toml::table* table, DiagnosticLog& log);
+
+}  // namespace eyeray::loader

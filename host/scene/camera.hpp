@@ -1,0 +1,94 @@
+// What every camera answers, in float64. A camera is one .cpp in host/cameras, one .glsl in shaders/cameras
+// and one row in cameras/registry.h.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "host/core/vec.hpp"
+#include "host/scene/table_reader.hpp"
+
+namespace eyeray {
+
+// Where a camera stands, and its axes: unit, image right, image up, the way it looks.
+struct CameraAxes {
+  Vec3 eye, u, v, w;
+};
+
+// Cameras in the terms that other programs share.
+enum class FovAxis { horizontal, vertical, shorter, diagonal };
+inline constexpr std::string_view fov_axis_names[] = {"horizontal", "vertical", "shorter", "diagonal"};
+
+struct PerspectiveCamera {
+  double fov_degrees = 45;  // full angle along fov_axis
+  FovAxis fov_axis = FovAxis::horizontal;
+};
+
+struct OrthographicCamera {
+  double size = 1;  // half the width of what is seen
+};
+
+// monostate: what other programs have no word for.
+using CameraForm = std::variant<std::monostate, PerspectiveCamera, OrthographicCamera>;
+
+// A line of `eyeray check` and the numbers in it, as JSON names them.
+struct CameraFact {
+  std::string_view label;
+  std::string text;
+  std::vector<std::pair<std::string_view, double>> numbers;
+};
+
+// The kind of a camera: which ray passes a place in the picture. `size` is the picture's, in pixels.
+class Projection {
+ public:
+  virtual ~Projection() = default;
+
+  // Its number in cameras/registry.h: shader::CAMERA_NAME.
+  virtual uint32_t kind() const = 0;
+  // What the shaders' `right`, `up` and `forward` are as multiples of the axes. X·right + Y·up, with X and Y
+  // in [−1, 1], spans the picture.
+  virtual Vec3 scale(const Vec2& size) const = 0;
+  // The ray, its direction unit, at `place`: from the picture's middle to the right and up, in half widths.
+  // The reference's half: written from the mathematics, not from `scale` and the shader.
+  virtual Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& size) const = 0;
+  // The same with `factor` times the width of a picture of this size in view, at the same scale in both
+  // directions.
+  virtual std::shared_ptr<const Projection> widened(double factor, const Vec2& size) const = 0;
+  virtual std::vector<CameraFact> facts(const Vec2& size) const = 0;
+  virtual CameraForm form() const { return {}; }
+};
+
+struct CameraType {
+  std::string_view name;  // `type` in a [camera] table, and its .glsl
+  std::string_view manual;
+  std::span<const Key> keys;                                       // beside `type`, `eye`, `target` and `up`
+  std::shared_ptr<const Projection> (*parse)(TableReader& table);  // null after an error, which is reported
+};
+
+// Every kind of camera, in registry order.
+std::span<const CameraType* const> camera_types();
+// That of a scene whose file says nothing.
+std::shared_ptr<const Projection> default_projection();
+
+struct Camera {
+  Vec3 eye{0, 0, 5};
+  Vec3 target{0, 0, 0};
+  Vec3 up{0, 1, 0};
+  std::shared_ptr<const Projection> projection = default_projection();
+};
+
+// By docs/conventions.md.
+CameraAxes camera_axes(const Camera& camera);
+
+// The axes as the shaders have them, scaled.
+struct CameraFrame {
+  Vec3 right, up, forward;
+};
+CameraFrame camera_frame(const Camera& camera, const Vec2& size);
+
+}  // namespace eyeray

@@ -1,0 +1,23 @@
+// What a test asks of a scene's camera.
+#pragma once
+
+#include "host/scene/scene.hpp"
+
+namespace eyeray::test {
+
+// The camera in terms of a PerspectiveCamera or another form; std::bad_variant_access where it is no such.
+template <typename Form>
+Form camera_as(const Scene& scene) {
+  return std::get<Form>(scene.camera.projection->form());
+}
+
+// Where a point of the world lies in a perspective picture, from its middle to the right and up, in half
+// widths.
+inline Vec2 place_seen(const Scene& scene, const Vec3& point) {
+  const CameraAxes camera = camera_axes(scene.camera);
+  const double distance = scene.camera.projection->scale(scene.image.size()).z;
+  const Vec3 way = point - camera.eye;
+  return distance / glm::dot(way, camera.w) * Vec2(glm::dot(way, camera.u), glm::dot(way, camera.v));
+}
+
+}  // namespace eyeray::test
