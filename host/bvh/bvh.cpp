@@ -18,6 +18,13 @@ constexpr float item_cost = 1.0f;
 // Embree makes leaves of whatever is left there; ours may go a little deeper.
 constexpr unsigned deepest = 56;
 
+// Embree calculates with the bits of an item's number as if they were a fourth coordinate. As denormals,
+// which numbers would be, they double the time that a build takes: so they are written as floats from 1 on.
+constexpr uint32_t number_zero = 0x3f800000;
+uint32_t number_of(const RTCBuildPrimitive& item) {
+  return item.primID - number_zero;
+}
+
 // A BVH as Embree has it made. A node counts what becomes of it and all below: nodes, and places in
 // Bvh::order.
 struct BuildNode {
@@ -75,7 +82,7 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* it
   auto* leaf = static_cast<BuildLeaf*>(rtcThreadLocalAlloc(allocator, sizeof(BuildLeaf), 16));
   leaf->leaf = true;
   leaf->count = uint32_t(count);
-  for (size_t i = 0; i < count; ++i) leaf->all[i] = items[i].primID;
+  for (size_t i = 0; i < count; ++i) leaf->all[i] = number_of(items[i]);
   std::sort(leaf->all, leaf->all + count);
 
   // Lone items part from the others at nodes of their own.
@@ -104,7 +111,7 @@ void split_item(const RTCBuildPrimitive* item, unsigned axis, float position, RT
     high = Box();
   } else {
     const auto [cut_low, cut_high] =
-        static_cast<const BvhOptions*>(user)->cut(item->primID, int(axis), position);
+        static_cast<const BvhOptions*>(user)->cut(number_of(*item), int(axis), position);
     low = low.intersection(cut_low);
     high = high.intersection(cut_high);
   }
@@ -208,10 +215,12 @@ BuildItems build_items(std::span<const Box> boxes, bool split) {
   items.all = std::make_unique_for_overwrite<RTCBuildPrimitive[]>(items.room);
   parallel_for(0, int(boxes.size()), [&](int i) {
     const auto& [lower, upper] = boxes[size_t(i)];
-    items.all[size_t(i)] = {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, uint32_t(i)};
+    items.all[size_t(i)] = {lower.x, lower.y, lower.z, 0,
+                            upper.x, upper.y, upper.z, number_zero + uint32_t(i)};
   });
-  auto* end = std::remove_if(items.all.get(), items.all.get() + items.count,
-                             [&](const RTCBuildPrimitive& item) { return !boxes[item.primID].is_finite(); });
+  auto* end =
+      std::remove_if(items.all.get(), items.all.get() + items.count,
+                     [&](const RTCBuildPrimitive& item) { return !boxes[number_of(item)].is_finite(); });
   items.count = size_t(end - items.all.get());
   return items;
 }
