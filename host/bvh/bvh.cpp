@@ -3,10 +3,12 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 
 #include "host/core/error.hpp"
+#include "host/core/free_memory.hpp"
 #include "host/core/parallel_for.hpp"
 
 namespace eyeray::bvh {
@@ -157,7 +159,7 @@ class Flattener {
     const auto* inner = static_cast<const BuildInner*>(node);
     const BuildNode* const left = inner->child[0];
     const BuildNode* const right = inner->child[1];
-    Node& to = bvh_.nodes[node_at];
+    Node& to = bvh_.nodes[node_at] = Node();
     int depths[2];
     const auto go_left = [&] { depths[0] = flatten(left, node_at + 1, item_at, to.children[0]); };
     const auto go_right = [&] {
@@ -189,7 +191,7 @@ class Flattener {
       child.index = items[0];
       return 0;
     }
-    Child(&children)[2] = bvh_.nodes[node_at].children;
+    Child(&children)[2] = (bvh_.nodes[node_at] = Node()).children;
     const auto last = items.size() - 1;
     const int depth = flatten_leaf(items.first(last), shared, node_at + 1, item_at, children[0]);
     flatten_leaf(items.subspan(last), 0, node_at + 1, item_at, children[1]);
@@ -205,23 +207,24 @@ class Flattener {
 
 // What Embree builds from, and sorts.
 struct BuildItems {
-  std::unique_ptr<RTCBuildPrimitive[]> all;
+  RawVector<RTCBuildPrimitive> all;  // and room for what splits add
   size_t count;
-  size_t room;
 };
 
 BuildItems build_items(std::span<const Box> boxes, bool split) {
-  BuildItems items{nullptr, boxes.size(), boxes.size() * (split ? 2 : 1)};
-  items.all = std::make_unique_for_overwrite<RTCBuildPrimitive[]>(items.room);
+  BuildItems items{RawVector<RTCBuildPrimitive>(boxes.size() * (split ? 2 : 1)), boxes.size()};
+  std::atomic<bool> unbounded = false;
   parallel_for(0, int(boxes.size()), [&](int i) {
+    if (!boxes[size_t(i)].is_finite()) unbounded = true;
     const auto& [lower, upper] = boxes[size_t(i)];
     items.all[size_t(i)] = {lower.x, lower.y, lower.z, 0,
                             upper.x, upper.y, upper.z, number_zero + uint32_t(i)};
   });
-  auto* end =
-      std::remove_if(items.all.get(), items.all.get() + items.count,
+  if (!unbounded) return items;
+  const auto end =
+      std::remove_if(items.all.begin(), items.all.begin() + ptrdiff_t(items.count),
                      [&](const RTCBuildPrimitive& item) { return !boxes[number_of(item)].is_finite(); });
-  items.count = size_t(end - items.all.get());
+  items.count = size_t(end - items.all.begin());
   return items;
 }
 
@@ -245,9 +248,9 @@ Bvh build_bvh(std::span<const Box> boxes, const BvhOptions& options) {
   arguments.traversalCost = node_cost;
   arguments.intersectionCost = item_cost;
   arguments.bvh = bvh.get();
-  arguments.primitives = items.all.get();
+  arguments.primitives = items.all.data();
   arguments.primitiveCount = items.count;
-  arguments.primitiveArrayCapacity = items.room;
+  arguments.primitiveArrayCapacity = items.all.size();
   arguments.createNode = create_node;
   arguments.setNodeChildren = set_children;
   arguments.setNodeBounds = set_child_bounds;
@@ -259,7 +262,7 @@ Bvh build_bvh(std::span<const Box> boxes, const BvhOptions& options) {
     throw Error(ExitCode::no_device, "Embree cannot build a BVH over {} items: error {}", items.count,
                 int(rtcGetDeviceError(device.get())));
   CHECK_EQ(root->leaf, false);
-  items.all.reset();
+  free_memory(items.all);
   return Flattener(boxes, static_cast<const BuildInner*>(root)).take();
 }
 

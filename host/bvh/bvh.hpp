@@ -7,9 +7,9 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "host/bvh/box.hpp"
+#include "host/core/raw_vector.hpp"
 
 namespace eyeray::bvh {
 
@@ -30,8 +30,8 @@ struct Node {
 
 struct Bvh {
   Box box;
-  std::vector<Node> nodes;  // depth first: the root first, a node's left half, then its right; never empty
-  std::vector<uint32_t> order;  // items as leaves hold them, depth first; with splits, some more than once
+  RawVector<Node> nodes;  // depth first: the root first, a node's left half, then its right; never empty
+  RawVector<uint32_t> order;  // items as leaves hold them, depth first; with splits, some more than once
   int depth = 0;                // of nodes
 };
 

@@ -1,6 +1,7 @@
 // eyeray check: reads a scene, says whether it is sound, and prints what follows from it.
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
@@ -44,9 +45,9 @@ Counts count_kinds(const Types& types, const std::vector<uint32_t>& kinds) {
   return counts;
 }
 
-template <typename Record>
-size_t bytes(const std::vector<Record>& records) {
-  return records.size() * sizeof(Record);
+template <typename Records>
+size_t bytes(const Records& records) {
+  return std::span(records).size_bytes();
 }
 
 // As often as they are shown.

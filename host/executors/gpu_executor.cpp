@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "host/core/error.hpp"
+#include "host/core/free_memory.hpp"
 #include "host/core/parallel_for.hpp"
 #include "host/core/termination.hpp"
 #include "host/executors/executors.hpp"
@@ -296,7 +297,7 @@ class GpuExecutor final : public Executor {
     if (binary_nodes_.empty()) return;
     const pack::CollapsedBvh bvh4 =
         times_.measure("collapse", [&] { return pack::collapse(binary_nodes_, bvh_); });
-    binary_nodes_ = {};
+    free_memory(binary_nodes_);
     bvh4_stack_ = bvh4.stack_size;
     add_buffer(bvh4_buffer(bvh4.nodes));
   }
@@ -372,11 +373,11 @@ class GpuExecutor final : public Executor {
   gpu::DeviceFacts facts_;
   ShaderFiles shaders_;
   uint32_t group_stride_ = 1;
-  bool packets_ = false;                     // whether kernels/cooperative/packet.comp.glsl is used
-  Rays incoherent_ = Rays::lanes;            // how incoherent rays are traced
-  std::vector<shader::uvec4> binary_nodes_;  // until they are collapsed
-  shader::Bvh bvh_{};                        // of the world
-  uint32_t bvh4_stack_ = 1;                  // CollapsedBvh::stack_size
+  bool packets_ = false;                   // whether kernels/cooperative/packet.comp.glsl is used
+  Rays incoherent_ = Rays::lanes;          // how incoherent rays are traced
+  RawVector<shader::uvec4> binary_nodes_;  // until they are collapsed
+  shader::Bvh bvh_{};                      // of the world
+  uint32_t bvh4_stack_ = 1;                // CollapsedBvh::stack_size
   uint64_t geometry_bytes_ = 0;
   std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
   std::optional<gpu::Buffer> output_;

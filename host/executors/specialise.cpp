@@ -95,11 +95,10 @@ std::string literal(const shader::Frame& f) {
 
 // A loader that chooses among constants. A driver that runs both sides of every branch selects between
 // registers faster than it gathers from memory; where all records agree, nothing is left to select.
-template <typename Record>
-std::string constant_loader(std::string_view type, std::string_view name,
-                            const std::vector<Record>& records) {
+template <typename Records>
+std::string constant_loader(std::string_view type, std::string_view name, const Records& records) {
   std::string text = fmt::format("{0} load_{1}(uint i) {{\n  {0} r = {2};\n", type, name,
-                                 literal(records.empty() ? Record{} : records[0]));
+                                 literal(records.empty() ? typename Records::value_type{} : records[0]));
   for (size_t i = 1; i < records.size(); ++i)
     text += fmt::format("  if (i == {}u) r = {};\n", i, literal(records[i]));
   return text + "  return r;\n}\n";

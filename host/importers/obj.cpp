@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "host/core/free_memory.hpp"
 #include "host/importers/formats.hpp"
 #include "host/importers/malformed.hpp"
 #include "host/importers/mesh_builder.hpp"
@@ -260,7 +261,7 @@ RawTriangles triangulate(const Part& part, const VertexPool& vertices, MeshCount
 ImportedScene import_obj(MeshFile& file) {
   ObjReader reader(file);
   reader.read();
-  file.bytes = {};  // make room
+  free_memory(file.bytes);  // make room
 
   ImportedScene scene;
   scene.warnings = std::move(reader.materials.warnings);

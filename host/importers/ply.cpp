@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "host/core/free_memory.hpp"
 #include "host/importers/formats.hpp"
 #include "host/importers/mesh_builder.hpp"
 #include "host/importers/ply_header.hpp"
@@ -267,7 +268,7 @@ template <typename Values>
 ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
   PlyReader<Values> reader(header, file);
   reader.read();
-  file.bytes = {};  // make room
+  free_memory(file.bytes);  // make room
 
   ImportedScene scene;
   scene.warnings = std::move(reader.warnings);

@@ -26,7 +26,7 @@ class BlasRecords {
   shader::Primitive record(uint32_t item) const;
 
   // Of the items, and of what else the space's BVH holds; what has no bounds is in no BVH.
-  std::vector<bvh::Box> boxes;
+  RawVector<bvh::Box> boxes;
 
  private:
   struct Triangles {

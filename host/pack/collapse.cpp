@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
 
 namespace eyeray::pack {
 namespace {
@@ -40,14 +41,15 @@ struct Cover {
 template <uint32_t width>
 class Collapser {
   static constexpr uint32_t most_in_leaf = std::min(width, 8u);
+  static constexpr uint32_t worth_a_task = 4096;
 
  public:
   Collapser(std::span<const shader::uvec4> nodes, const shader::Bvh& bvh)
       : nodes_(nodes), bvh_(bvh), covers_(nodes.size() / 2) {}
 
   CollapsedBvh run() {
-    // A child stands after its parent.
-    for (size_t i = covers_.size(); i-- > 0;) covers_[i] = cover_node(uint32_t(i));
+    find_covers(0, uint32_t(covers_.size()));
+    bvh4_nodes_.reserve(nodes_.size() / 2 * width);
     add_node();
     fill(0, bvh_.root);
     const uint32_t size = stack_size();
@@ -118,6 +120,19 @@ class Collapser {
     return first_slot(a) + count(a) == first_slot(b) && together <= most_in_leaf
                ? make_leaf(first_slot(a), together)
                : NONE;
+  }
+
+  // Of the nodes from `first` to before `end`, one and all below it or none. A node stands before its left
+  // half, and that before its right.
+  void find_covers(uint32_t first, uint32_t end) {
+    if (end - first <= worth_a_task) {
+      for (uint32_t node = end; node-- > first;) covers_[node] = cover_node(node);
+      return;
+    }
+    const uint32_t right = nodes_[2 * first + 1].w;
+    const uint32_t middle = is_leaf(right) ? end : right;
+    parallel_invoke([&] { find_covers(first + 1, middle); }, [&] { find_covers(middle, end); });
+    covers_[first] = cover_node(first);
   }
 
   uint32_t add_node() {
@@ -197,8 +212,8 @@ class Collapser {
 
   std::span<const shader::uvec4> nodes_;
   const shader::Bvh& bvh_;
-  std::vector<Cover<width>> covers_;  // by binary node
-  std::vector<shader::uvec4> bvh4_nodes_;
+  RawVector<Cover<width>> covers_;  // by binary node
+  RawVector<shader::uvec4> bvh4_nodes_;
 };
 
 }  // namespace

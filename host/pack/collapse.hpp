@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "host/records/packer.hpp"
 
@@ -13,9 +12,9 @@ namespace eyeray::pack {
 inline constexpr uint32_t bvh4_children = 4;
 
 struct CollapsedBvh {
-  std::vector<shader::uvec4> nodes;  // children coded as the binary BVH's; those that are not there refer
-                                     // to NONE. The root comes first.
-  uint32_t stack_size = 0;           // the most that can wait while children are visited in any order
+  RawVector<shader::uvec4> nodes;  // children coded as the binary BVH's; those that are not there refer
+                                   // to NONE. The root comes first.
+  uint32_t stack_size = 0;         // the most that can wait while children are visited in any order
 };
 
 // Which binary nodes fall away, and which leaves grow together, is what the surface area heuristic finds

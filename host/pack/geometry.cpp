@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "host/core/error.hpp"
+#include "host/core/free_memory.hpp"
 #include "host/core/parallel_for.hpp"
 #include "host/pack/blas_records.hpp"
 #include "host/pack/csg_records.hpp"
@@ -214,10 +215,10 @@ class GeometryPacker {
   }
 
   bool has_bounded(size_t least) const {
-    return packed_.instances.size() +
-               size_t(std::count_if(world_.boxes.begin(), world_.boxes.end(),
-                                    [](const bvh::Box& box) { return box.is_finite(); })) >=
-           least;
+    size_t count = packed_.instances.size();
+    for (auto box = world_.boxes.begin(); count < least && box != world_.boxes.end(); ++box)
+      count += box->is_finite() ? 1 : 0;
+    return count >= least;
   }
 
   bvh::BvhOptions bvh_options(const BlasRecords& items) const {
@@ -242,7 +243,7 @@ class GeometryPacker {
     for (Blas& space : blases_) {
       if (space.items.size() == 1) continue;
       space.bvh = build_bvh(space.items.boxes, bvh_options(space.items));
-      space.items.boxes = {};
+      free_memory(space.items.boxes);
       packed_.quantised_nodes = packed_.quantised_nodes && quantising_is_harmless(space.bvh);
     }
     for (const shader::Instance& instance : packed_.instances)
@@ -284,7 +285,7 @@ class GeometryPacker {
       else
         packed_.bvh_kinds.insert(world_.kind(item));
     }
-    world_.boxes = {};
+    free_memory(world_.boxes);
     for (const auto& items : linear) {
       append_records(items, world_);
       packed_.linear_ends.push_back(uint32_t(packed_.primitives.size()));
@@ -321,8 +322,8 @@ class GeometryPacker {
       record.first_slot = first_slot;
       record.end_slot = uint32_t(packed_.primitives.size());
     }
-    bvh.nodes = {};
-    bvh.order = {};
+    free_memory(bvh.nodes);
+    free_memory(bvh.order);
   }
 
   void append_records(std::span<const uint32_t> order, const BlasRecords& items) {

@@ -11,7 +11,7 @@ bvh::Box triangle_box(const shader::Primitive& triangle) {
 }
 
 MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin, int material,
-                         uint32_t optical_depth, uint32_t first_id, std::vector<shader::uvec4>& vertices)
+                         uint32_t optical_depth, uint32_t first_id, RawVector<shader::uvec4>& vertices)
     : mesh_(&mesh), map_(map), origin_(origin), mirrored_(map.mirrors()) {
   const bool normals = !mesh.normals.empty();
   const bool uv = !mesh.uv.empty();

@@ -20,7 +20,7 @@ class MeshRecords {
   // subtracted. Their ids count from `first_id`; `optical_depth` is what a shadow ray loses to each. Appends
   // normals, texture coordinates and colours to `vertices`.
   MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin, int material, uint32_t optical_depth,
-              uint32_t first_id, std::vector<shader::uvec4>& vertices);
+              uint32_t first_id, RawVector<shader::uvec4>& vertices);
 
   uint32_t size() const { return uint32_t(mesh_->triangles.size()); }
   shader::Primitive record(uint32_t triangle) const;

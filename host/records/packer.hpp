@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/core/raw_vector.hpp"
 #include "host/expression/expression.hpp"
 #include "host/records/records.hpp"
 #include "host/scene/bounds.hpp"
@@ -28,7 +29,7 @@ struct PackedFormula {
 struct PackedScene {
   // By slot: of the world's own those in no BVH, by kind in registry order, then the others as leaves hold
   // them; then those of each mesh or group with a BVH of its own.
-  std::vector<shader::Primitive> primitives;
+  RawVector<shader::Primitive> primitives;
   std::vector<uint32_t> linear_ends;  // by kind, the end of those in no BVH
   // Of those of `kind` in no BVH.
   uint32_t first_linear(uint32_t kind) const { return kind == 0 ? 0 : linear_ends[kind - 1]; }
@@ -37,13 +38,13 @@ struct PackedScene {
   std::set<std::pair<uint32_t, uint32_t>> leaf_uses;  // the same of the shapes that CSG objects are made of
   uint32_t csg_leaves = 0;                            // how many of these there are
   bool mixed_csg = false;  // whether a CSG object's surfaces differ in what they take from a shadow ray
-  std::vector<shader::uvec4> nodes;
+  RawVector<shader::uvec4> nodes;
   std::vector<shader::Bvh> bvhs;  // the world's, then one a mesh or group of `instances`
   std::vector<shader::Instance> instances;
   bool has_bvh = false;          // whether `nodes` are to be used; else all is tested one by one
   bool quantised_nodes = false;  // how `nodes` are coded
   uint32_t stack_size = 1;       // what a traversal may have waiting
-  std::vector<shader::uvec4> vertices;
+  RawVector<shader::uvec4> vertices;
   bool vertex_colors = false;  // whether any of `vertices` have colours
   // How much larger, seen from the world, rounding is in a shape's own space: |linear| · |inverse|, the
   // largest of all shapes.
