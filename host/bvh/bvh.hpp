@@ -30,9 +30,9 @@ struct Node {
 
 struct Bvh {
   Box box;
-  RawVector<Node> nodes;  // depth first: the root first, a node's left half, then its right; never empty
+  RawVector<Node> nodes;      // depth first: the root first, a node's left half, then its right; never empty
   RawVector<uint32_t> order;  // items as leaves hold them, depth first; with splits, some more than once
-  int depth = 0;                // of nodes
+  int depth = 0;              // of nodes
 };
 
 struct BvhOptions {
