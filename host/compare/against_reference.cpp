@@ -19,8 +19,8 @@ struct Judgement {
   double excess = 0;
 };
 
-constexpr int64_t always_allowed = 4;   // so that a small crop around an edge can pass
-constexpr size_t most_examined = 4096;  // of a gate that has failed already
+constexpr int64_t always_allowed = 4;      // so that a small crop around an edge can pass
+constexpr size_t examined_at_once = 4096;  // so that what has failed is soon told
 // Where a colour runs to and fro, the usual places may all miss its extreme: pixels that they leave
 // unexplained, if these are few, are looked at again at more places.
 constexpr int usual_angles = 16;
@@ -58,10 +58,16 @@ class Judge {
     });
   }
 
-  // ShadingData into the pixels that differ, of each gate all of them, or an even choice when they are too
-  // many to pass.
+  // Looks into the pixels that differ, of each gate all of them, unless an even choice shows that they are
+  // too many to pass.
   void explain(const Reference& probe) {
-    look_at(together(choose(colors_), choose(first_hits_)), probe, usual_angles, false);
+    const std::vector<size_t> different = together(unsettled(colors_), unsettled(first_hits_));
+    const size_t parts = different.size() / examined_at_once + 1;
+    for (size_t part = 0; part < parts && !hopeless(); ++part) {
+      std::vector<size_t> chosen;
+      for (size_t n = part; n < different.size(); n += parts) chosen.push_back(different[n]);
+      look_at(chosen, probe, usual_angles, false);
+    }
     const std::vector<size_t> left = together(unexplained(colors_), unexplained(first_hits_));
     if (left.size() <= few) look_at(left, probe, many_angles, true);
   }
@@ -93,23 +99,24 @@ class Judge {
     return {equal ? Outcome::equal : Outcome::matching, {}, excess};
   }
 
-  std::vector<size_t> choose(const std::vector<Judgement>& judgements) const {
-    std::vector<size_t> different;
-    for (size_t i = 0; i < judgements.size(); ++i) {
-      if (judgements[i].outcome == Outcome::unexamined) different.push_back(i);
-    }
-    const size_t count = different.size();
-    if (int64_t(count) <= cap() || count <= most_examined) return different;
-    std::vector<size_t> chosen(most_examined);
-    for (size_t n = 0; n < most_examined; ++n) chosen[n] = different[n * count / most_examined];
-    return chosen;
+  // Whether a gate has failed, whatever else is found.
+  bool hopeless() const {
+    const auto failed = [](const Tally& tally) {
+      return tally.capped_pixels() > tally.may_be_explained || tally.unexplained > int64_t(few);
+    };
+    return failed(count_colors()) || failed(count_first_hits());
   }
 
+  static std::vector<size_t> unsettled(const std::vector<Judgement>& judgements) {
+    return of_outcome(judgements, Outcome::unexamined);
+  }
   static std::vector<size_t> unexplained(const std::vector<Judgement>& judgements) {
+    return of_outcome(judgements, Outcome::unexplained);
+  }
+  static std::vector<size_t> of_outcome(const std::vector<Judgement>& judgements, Outcome outcome) {
     std::vector<size_t> pixels;
-    for (size_t i = 0; i < judgements.size(); ++i) {
-      if (judgements[i].outcome == Outcome::unexplained) pixels.push_back(i);
-    }
+    for (size_t i = 0; i < judgements.size(); ++i)
+      if (judgements[i].outcome == outcome) pixels.push_back(i);
     return pixels;
   }
   static std::vector<size_t> together(std::vector<size_t> pixels, const std::vector<size_t>& more) {

@@ -109,7 +109,9 @@ const char* name(Cause cause) {
 }
 
 Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between) {
-  probes_.push_back(reference(pixel.x, pixel.y, Vec2(0.0)));
+  for (const bool coincident : {false, true})
+    probes_.push_back(reference(pixel.x, pixel.y, Vec2(0.0), coincident));
+  innermost_ = probes_.size();
   const double reach = std::min(most_reach, 1 + probes_.front().hits_per_sample / 8);
 
   // What varies more quickly than from ring to ring, the rings within show: a caustic's rim may be a
@@ -130,7 +132,7 @@ void Neighbourhood::add_ring(const Reference& reference, Pixel pixel, double rad
                              double turn) {
   for (int step = 0; step < angles; ++step) {
     const double angle = 2 * M_PI * (step + turn) / angles;
-    probes_.push_back(reference(pixel.x, pixel.y, radius * Vec2(std::cos(angle), std::sin(angle))));
+    probes_.push_back(reference(pixel.x, pixel.y, radius * Vec2(std::cos(angle), std::sin(angle)), false));
   }
 }
 

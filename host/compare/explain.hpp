@@ -26,8 +26,9 @@ struct Probe {
   double rounding = 0;          // as many pixels as float32's arithmetic may move the eye ray; 0 if unknown
 };
 
-// (x, y): a pixel of the whole picture; called from many threads at once.
-using Reference = std::function<Probe(int x, int y, const Vec2& shift)>;
+// (x, y): a pixel of the whole picture; called from many threads at once. `coincident`: of two surfaces that
+// float32 cannot tell apart, rays hit the farther one.
+using Reference = std::function<Probe(int x, int y, const Vec2& shift, bool coincident)>;
 
 enum class Cause {
   silhouette,         // another primitive is hit first
@@ -36,7 +37,8 @@ enum class Cause {
   shadow_edge,        // none of these: it is the light that changes
   rounding,     // a ray that leaves a surface starts as close to another, or to an edge, as it is rounded
   grazing,      // of a first hit alone: the same surface, hit at so small an angle that t or the normal races
-  undecidable,  // the jump is as near to the eye ray as float32 rounds that: no float32 renderer can tell
+  undecidable,  // the jump is as near to the eye ray, or to a hit, as float32 rounds those: no float32
+                // renderer can tell
 };
 inline constexpr int cause_count = 7;
 const char* name(Cause cause);
@@ -64,11 +66,11 @@ class Neighbourhood {
   void add_ring(const Reference& reference, Pixel pixel, double radius, int angles, double turn);
   Cause cause_of_color() const;
   Cause cause_of_first_hit() const;
-  // The pixel itself and the ring of a rounding error.
+  // The pixel itself, as it is and with coincident surfaces, and the ring of a rounding error.
   std::span<const Probe> innermost() const { return std::span(probes_).first(innermost_); }
 
   std::vector<Probe> probes_;
-  size_t innermost_ = 1;
+  size_t innermost_ = 0;
 };
 
 }  // namespace eyeray::compare

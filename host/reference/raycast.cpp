@@ -2,11 +2,13 @@
 
 namespace eyeray::reference {
 
-PixelSample raycast(const Tracer& tracer, const Ray& ray) {
+PixelSample raycast(const Tracer& tracer, const Ray& ray, const RayOffset& ray_offset) {
   const Scene& scene = tracer.scene();
   uint32_t flags = 0;
-  const auto hit = tracer.trace(ray, flags);
+  auto hit = tracer.trace(ray, flags);
   if (!hit) return {.color = scene.render.background, .rays = 1, .flags = flags};
+  if (ray_offset.coincident)
+    if (const auto other = tracer.trace_coincident(ray, *hit)) hit = other;
 
   const SurfacePoint surface = tracer.surface(ray, *hit);
   const bool front = glm::dot(ray.d, surface.normal_geometric) < 0;

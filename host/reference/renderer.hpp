@@ -16,11 +16,11 @@ class Renderer {
   explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
 
   // Sample `index` of pixel (x, y), by the scene's integrator. `shift`, in pixels, is added to the sample's
-  // place; `clearance`: see whitted.hpp.
+  // place; `ray_offset`: see whitted.hpp.
   PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0},
                      const RayOffset& ray_offset = {}) const;
-  // What the ray through the pixel's centre + `shift` hits.
-  FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}) const;
+  // What the ray through the pixel's centre + `shift` hits; `coincident`: see RayOffset.
+  FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}, bool coincident = false) const;
   // How many pixels aside float32 may take the ray through the pixel's centre, where it has come to `t`.
   double rounding(int x, int y, double t) const;
 

@@ -55,6 +55,23 @@ std::optional<Hit> Tracer::trace(const Ray& ray, uint32_t& flags) const {
   return nearest;
 }
 
+std::optional<Hit> Tracer::trace_coincident(const Ray& ray, const Hit& hit) const {
+  const SurfacePoint point = surface(ray, hit);
+  const double cosine = std::max(0.01, std::abs(glm::dot(ray.d, point.normal_geometric)));
+  const double apart = 8 * 0x1p-24 * glm::length(point.position - scene_.camera.eye) / cosine;
+  // The primitive itself is hit again, once or twice.
+  const double step = 1e-6 * apart;
+  double start = hit.at.t - step;
+  for (int again = 0; again < 4; ++again) {
+    auto found = trace({ray.o + start * ray.d, ray.d});
+    if (!found || start + found->at.t > hit.at.t + apart) break;
+    found->at.t += start;
+    if (found->primitive != hit.primitive) return found;
+    start = found->at.t + step;
+  }
+  return std::nullopt;
+}
+
 void Tracer::search_groups(const Ray& ray, std::optional<Hit>& nearest, double& sure_until) const {
   const BoxRay box_ray = group_box_ray(ray);
   group_bvh_.search(box_ray, nearest ? nearest->at.t : infinity, [&](uint32_t i, double limit) {

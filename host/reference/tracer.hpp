@@ -29,6 +29,9 @@ class Tracer {
   // SampleFlags, what may be wrong with it.
   std::optional<Hit> trace(const Ray& ray, uint32_t& flags) const;
   std::optional<Hit> trace(const Ray& ray) const;
+  // Another primitive that `ray` (with a unit direction) hits so close behind `hit` that float32 may take it
+  // for the nearer one.
+  std::optional<Hit> trace_coincident(const Ray& ray, const Hit& hit) const;
   // The surface where `ray` has that hit, its normal on the side of the geometric one.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
 

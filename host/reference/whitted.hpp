@@ -12,12 +12,14 @@ namespace eyeray::reference {
 // the greatest in each channel. For these two rays leave as the mathematics says.
 enum class TextureChoice { at_hit, darkest, brightest };
 
-// How rays leave surfaces (crossings.hpp, departure): at least this far off, and up to this far aside.
+// How float32 may round rays. They leave surfaces (crossings.hpp, departure) at least this far off, and up to
+// this far aside.
 struct RayOffset {
   double share = 0;  // off, of |n|·|position − eye|; aside, of |position − eye|
   bool along_normal = false;
   uint32_t seed = 0;  // of where aside
   TextureChoice textures = TextureChoice::at_hit;
+  bool coincident = false;  // of two surfaces that float32 cannot tell apart, the farther one is hit
 };
 
 // What `ray` (with a unit direction) sees, starting in `media`.

@@ -16,7 +16,7 @@ namespace {
 // The cause found at a pixel where `change` is made to everything right of the pixel's centre.
 template <typename Change>
 Cause cause_of(const Change& change) {
-  const Reference reference = [&](int x, int y, const Vec2& shift) {
+  const Reference reference = [&](int x, int y, const Vec2& shift, bool) {
     Probe probe = picture_reference(x, y, shift);
     if (shift.x > 0) change(probe);
     return probe;
@@ -43,7 +43,7 @@ TEST_CASE("a cause is the first thing along the ray that changes") {
 TEST_CASE("what float32's rounding of where rays start changes is explained as that, and not otherwise") {
   const auto neighbourhood = [](double near, double far) {
     return Neighbourhood(
-        [=](int, int, const Vec2&) {
+        [=](int, int, const Vec2&, bool) {
           Probe probe;
           probe.color = Vec3(near);
           probe.sample_colors = {Vec3(near)};
@@ -59,9 +59,29 @@ TEST_CASE("what float32's rounding of where rays start changes is explained as t
   CHECK_FALSE(neighbourhood(0.2, 0.0).explains_as_rounding(Vec3(0.7), {}));
 }
 
+TEST_CASE("of two surfaces that float32 cannot tell apart, it may show either") {
+  const Neighbourhood neighbourhood(
+      [](int, int, const Vec2&, bool coincident) {
+        Probe probe;
+        probe.color = Vec3(coincident ? 0.7 : 0.2);
+        probe.first_hit = {.t = 4, .normal = {0, 0, 1}, .primitive = coincident ? 3 : 2, .material = 0};
+        return probe;
+      },
+      {0, 0}, 16);
+  const auto hit = [](int primitive) {
+    return FirstHit{.t = 4, .normal = {0, 0, 1}, .primitive = primitive, .material = 0};
+  };
+  CHECK(neighbourhood.explains(Vec3(0.7), {}));
+  CHECK(neighbourhood.cause(Vec3(0.7), {}) == Cause::undecidable);
+  CHECK_FALSE(neighbourhood.explains(Vec3(0.8), {}));
+  CHECK(neighbourhood.explains(hit(3), {}));
+  CHECK(neighbourhood.cause(hit(3), {}) == Cause::undecidable);
+  CHECK_FALSE(neighbourhood.explains(hit(4), {}));
+}
+
 TEST_CASE("a first hit that differs does so at a silhouette, or on a surface hit at a grazing angle") {
   const auto cause = [](int32_t primitive) {
-    const Reference reference = [&](int x, int y, const Vec2& shift) {
+    const Reference reference = [&](int x, int y, const Vec2& shift, bool) {
       Probe probe = picture_reference(x, y, shift);
       probe.first_colors = shift.x > 0;
       if (shift.x > 0) probe.first_hit.primitive = primitive;
@@ -75,13 +95,20 @@ TEST_CASE("a first hit that differs does so at a silhouette, or on a surface hit
 
 TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around, and the pixel itself") {
   std::vector<Vec2> shifts;
-  const Reference reference = [&](int x, int y, const Vec2& shift) {
+  int coincident = 0;
+  const Reference reference = [&](int x, int y, const Vec2& shift, bool farther) {
     CHECK(x == 5);
     CHECK(y == 7);
-    shifts.push_back(shift);
+    if (farther) {
+      ++coincident;
+      CHECK(shift == Vec2(0.0));
+    } else {
+      shifts.push_back(shift);
+    }
     return Probe{};
   };
   const Neighbourhood neighbourhood(reference, {5, 7}, 16);
+  CHECK(coincident == 1);
   REQUIRE(shifts.size() == 65);
   CHECK(shifts[0] == Vec2(0.0));
   int quadrants[4] = {};
@@ -95,7 +122,7 @@ TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around,
 
 TEST_CASE("a jump within a rounding error of the eye ray is undecidable") {
   const auto cause = [](double edge, double rounding) {
-    const Reference reference = [=](int, int, const Vec2& shift) {
+    const Reference reference = [=](int, int, const Vec2& shift, bool) {
       const bool beyond_edge = shift.y > edge;
       Probe probe;
       probe.color = Vec3(beyond_edge ? 0.7 : 0.2);
@@ -120,7 +147,7 @@ TEST_CASE("a jump within a rounding error of the eye ray is undecidable") {
 
 TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what may be explained") {
   const auto colors = [](double rounding) {
-    const Reference picture = [=](int, int y, const Vec2& shift) {
+    const Reference picture = [=](int, int y, const Vec2& shift, bool) {
       Probe probe;
       probe.color = Vec3(y + shift.y > 30 + 5e-7 ? 0.7 : 0.2);
       probe.rounding = rounding;
@@ -139,7 +166,7 @@ TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what
 }
 
 TEST_CASE("what is narrower than the first ring is found by the second look") {
-  const Reference reference = [](int, int, const Vec2& shift) {
+  const Reference reference = [](int, int, const Vec2& shift, bool) {
     Probe probe;
     const double r = glm::length(shift);
     probe.color = Vec3(r > 2e-5 && r < 4e-4 ? 0.7 : 0.2);
@@ -152,7 +179,7 @@ TEST_CASE("what is narrower than the first ring is found by the second look") {
 }
 
 TEST_CASE("what is explained lies between the neighbours, a tolerance more at each end") {
-  const Reference reference = [](int, int, const Vec2& shift) {
+  const Reference reference = [](int, int, const Vec2& shift, bool) {
     Probe probe;
     probe.color = Vec3(shift.x > 0.002 ? 0.7 : 0.2, 10, 0);
     probe.first_hit = {shift.x > 0.002 ? 50.0 : 40.0, {}, {0, 0, 1}, {}, 3, 1};
@@ -205,7 +232,7 @@ TEST_CASE("t may be off by the rounding of the coordinates that it comes from, a
 
 TEST_CASE("a neighbourhood is as wide as the rounding of its coordinates") {
   const auto explained = [](double t_scale) {
-    const Reference reference = [&](int x, int y, const Vec2& shift) {
+    const Reference reference = [&](int x, int y, const Vec2& shift, bool) {
       Probe probe = picture_reference(x, y, shift);
       probe.first_hit.t_scale = t_scale;
       return probe;

@@ -128,6 +128,24 @@ TEST_CASE("of equal hits the lowest primitive wins") {
   CHECK(reference::Renderer(scene).first_hit(0, 0).primitive == -1);
 }
 
+TEST_CASE("a surface that float32 cannot tell from the nearest one is its coincident one") {
+  const auto coincident = [](double behind) {
+    Scene scene = one_pixel({0, 0, 5}, {0, 0, 0});
+    const int paint = add(scene, make_phong({}));
+    add(scene, make_sphere({0, 0, 0}, 1), paint);
+    add(scene, make_sphere({0, 0, -behind}, 1), paint);
+    return reference::Renderer(scene).first_hit(0, 0, {0, 0}, true);
+  };
+  for (const double behind : {1e-10, 1e-8, 1e-6}) {
+    const FirstHit hit = coincident(behind);
+    CHECK(hit.primitive == 1);
+    CHECK(near(hit.t, 4 + behind, 1e-12));
+  }
+  CHECK(coincident(-1e-8).primitive == 0);
+  CHECK(coincident(-1e-4).primitive == 1);
+  CHECK(coincident(1e-4).primitive == 0);
+}
+
 TEST_CASE("crossings end, whatever a body says") {
   // Met again and again: every so far along the ray, or at one point that no step gets away from.
   struct Body {

@@ -60,7 +60,7 @@ inline compare::Probe picture_at(double x, double y) {
   return probe;
 }
 
-inline compare::Probe picture_reference(int x, int y, const Vec2& shift) {
+inline compare::Probe picture_reference(int x, int y, const Vec2& shift, bool = false) {
   return picture_at(x + 0.5 + shift.x, y + 0.5 + shift.y);
 }
 
@@ -74,7 +74,7 @@ inline compare::Frame picture_frame(const Vec2& shift = Vec2(0.0),
   frame.rays = 2u * picture_width * picture_height;
   for (int y = 0; y < picture_height; ++y) {
     for (int x = 0; x < picture_width; ++x) {
-      const compare::Probe probe = picture(x, y, shift);
+      const compare::Probe probe = picture(x, y, shift, false);
       for (int c = 0; c < 3; ++c) frame.color.pixel(x, y)[c] = float(probe.color[c]);
       *frame.hits.pixel(x, y) = float(probe.hits);
       frame.first_hits.push_back(probe.first_hit);
