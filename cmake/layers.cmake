@@ -12,6 +12,24 @@ if(EYERAY_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)  # coverage for the fuzzers in everything
 endif()
 
+# What most files include is parsed once for each level of optimisation. In the release build only: the others see to it that a file
+# includes what it uses. eyeray_precompiled(TARGET [LEVEL]), LEVEL such as -O0 where the target has one of its own.
+function(eyeray_precompiled target)
+  if(NOT EYERAY_PRECOMPILED)
+    return()
+  endif()
+  set(owner precompiled${ARGN})
+  if(NOT TARGET ${owner})
+    file(CONFIGURE OUTPUT ${owner}.cpp CONTENT "")
+    add_library(${owner} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${owner}.cpp)
+    target_link_libraries(${owner} PRIVATE eyeray_warnings fmt::fmt glm::glm)
+    target_compile_options(${owner} PRIVATE ${ARGN})
+    target_precompile_headers(${owner} PRIVATE <algorithm> <array> <atomic> <cmath> <filesystem> <fstream> <functional> <map> <memory>
+      <optional> <set> <span> <string> <string_view> <variant> <vector> <fmt/format.h> <fmt/ranges.h> <glm/glm.hpp>)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${owner})
+endfunction()
+
 # eyeray_layer(NAME [COMPUTES] LINK …): the static library of every host/NAME/*.cpp. With sanitizers in the code, optimising takes a
 # compiler longer than all else it does, and pays only for layers that compute, and for fuzzers.
 function(eyeray_layer name)
@@ -20,6 +38,7 @@ function(eyeray_layer name)
   add_library(${name} STATIC ${sources})
   target_link_libraries(${name} PRIVATE eyeray_warnings)
   target_link_libraries(${name} ${arg_LINK})
+  eyeray_precompiled(${name})
   set_property(GLOBAL APPEND PROPERTY EYERAY_LAYERS ${name})
   if(EYERAY_SANITIZE AND NOT EYERAY_FUZZ AND NOT arg_COMPUTES)
     target_compile_options(${name} PRIVATE -O0)

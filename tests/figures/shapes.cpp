@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <mutex>
 #include <set>
 
@@ -14,6 +13,7 @@
 #include "host/shapes/make.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "makers.hpp"
+#include "tests/support/amount.hpp"
 #include "tests/support/random.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -28,10 +28,7 @@ namespace {
 constexpr int parts = 64;
 
 int rays_a_part() {
-  return (std::getenv("EYERAY_FULL_TESTS")  ? 1'000'000
-          : std::getenv("EYERAY_FEW_TESTS") ? 10'000
-                                            : 100'000) /
-         parts;
+  return test::amount(10'000, 100'000, 1'000'000) / parts;
 }
 
 // One shape as a scene, in both forms.

@@ -8,6 +8,7 @@
 
 #include "host/shapes/make.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "tests/support/amount.hpp"
 #include "tests/support/random.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -18,7 +19,7 @@ using test::Random;
 namespace {
 
 int rays_a_place() {
-  return std::getenv("EYERAY_FULL_TESTS") ? 100'000 : 10'000;
+  return test::amount(10'000, 10'000, 100'000);
 }
 
 constexpr int teeth = 36;

@@ -1,9 +1,9 @@
 // Formulas at random: whatever they say, they are refused with words or run to an end, twice to the same
 // bits. EYERAY_FULL_TESTS=1 draws a million, EYERAY_SEED other ones.
-#include <cstdlib>
 #include <cstring>
 
 #include "host/formula/formula.hpp"
+#include "tests/support/amount.hpp"
 #include "tests/support/random_formula.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -29,7 +29,7 @@ uint64_t bits_at(const Formula& formula, const Vec3& p) {
 }  // namespace
 
 TEST_CASE("formulas at random are refused with words or run to an end, each time to the same bits") {
-  const int count = std::getenv("EYERAY_FULL_TESTS") ? 1'000'000 : 1'000;
+  const int count = test::amount(1'000, 1'000, 1'000'000);
   int accepted = 0;
   for (int i = 0; i < count; ++i) {
     const uint64_t seed = test::seed() * 10'000'000 + uint64_t(i);

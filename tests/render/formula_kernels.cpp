@@ -1,6 +1,5 @@
 // What kernels and drivers make of formulas at random, beside the interpreter.
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
 #include "host/executors/shader_files.hpp"
@@ -9,6 +8,7 @@
 #include "host/gpu/kernel_compiler.hpp"
 #include "host/gpu/self_test.hpp"
 #include "support.hpp"
+#include "tests/support/amount.hpp"
 #include "tests/support/random_formula.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -86,17 +86,13 @@ std::optional<float> value_at(const Formula& formula, const glm::vec4& p) {
   }
 }
 
-int count_of(int few, int many) {
-  return std::getenv("EYERAY_FULL_TESTS") ? many : few;
-}
-
 }  // namespace
 
 TEST_CASE("kernels of formulas at random compute the interpreter's bits, wherever indices point") {
   gpu::Device device({});
   constexpr int in_a_kernel = 8;
   size_t compared = 0, different = 0;
-  for (int batch = 0; batch < count_of(4, 4000); ++batch) {
+  for (int batch = 0; batch < test::amount(4, 4, 4000); ++batch) {
     std::vector<std::unique_ptr<Formula>> formulas;
     std::string text, first_text;
     std::vector<std::string> functions;
@@ -131,7 +127,7 @@ TEST_CASE("kernels of formulas at random compute the interpreter's bits, whereve
 TEST_CASE("formulas without anything undefined are what a driver makes of their text") {
   gpu::Device device({});
   size_t compared = 0, different = 0;
-  for (int k = 0; k < count_of(12, 3000); ++k) {
+  for (int k = 0; k < test::amount(12, 12, 3000); ++k) {
     const std::string text = test::RandomFormula(test::seed() * 10'000'000 + uint64_t(k), true).text();
     const auto formula = formula_of(text);
     if (!formula) continue;

@@ -2,13 +2,13 @@
 // baked and as instances.
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <map>
 
 #include "host/twin/shader_functions.hpp"
 #include "query_kernel.hpp"
 #include "random_scene.hpp"
 
+#include "tests/support/amount.hpp"
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
@@ -17,9 +17,8 @@ using namespace eyeray::test;
 
 namespace {
 
-// EYERAY_FULL_TESTS=1 makes these tests ten times as long, as docs/numerics.md reports them.
 int effort() {
-  return std::getenv("EYERAY_FULL_TESTS") ? 10 : 1;
+  return test::amount(1, 1, 10);
 }
 
 // A unit sphere: an icosahedron with each face split in four, `levels` times; vertices moved in and out by up

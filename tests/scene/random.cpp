@@ -10,6 +10,7 @@
 #include "host/core/parallel_for.hpp"
 #include "host/loader/scene_file.hpp"
 //
+#include "tests/support/amount.hpp"
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
@@ -69,8 +70,8 @@ Scene extreme_scene(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("10 000 scenes with extreme values: a clear error or a sound picture") {
-  constexpr int count = 10000;
+TEST_CASE("scenes with extreme values: a clear error or a sound picture") {
+  const int count = test::amount(2'000, 10'000, 10'000);
   Failures failures;
   std::atomic<int> refused = 0, rendered = 0, with_hits = 0, reached_iteration_limit = 0;
   parallel_for(0, count, [&](int i) {
@@ -136,8 +137,9 @@ material = "mirror"
 }
 
 TEST_CASE("extreme scenes: the GPU and the twin, bit by bit") {
+  const int count = test::amount(4, 16, 16);
   int compared = 0;
-  for (int i = 0; compared < 16; ++i) {
+  for (int i = 0; compared < count; ++i) {
     const std::string text = extreme_text(i);
     try {
       const Scene scene = extreme_scene(text);
@@ -156,8 +158,8 @@ TEST_CASE("extreme scenes: the GPU and the twin, bit by bit") {
   }
 }
 
-TEST_CASE("300 scenes at random: the twin agrees with the reference, the GPU with the twin") {
-  constexpr int count = 300;
+TEST_CASE("scenes at random: the twin agrees with the reference, the GPU with the twin") {
+  const int count = test::amount(60, 300, 300);
   Failures failures;
   int compared = 0, explained = 0, creases = 0, on_gpu = 0;
   for (int i = 0; compared < count; ++i) {

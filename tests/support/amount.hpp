@@ -1,0 +1,13 @@
+// How much a test at random draws.
+#pragma once
+
+#include <cstdlib>
+
+namespace eyeray::test {
+
+// EYERAY_FULL_TESTS=1 draws `full`, as the documents report it; EYERAY_FEW_TESTS=1 draws `few`, which `scripts/test` has time for.
+inline int amount(int few, int usual, int full) {
+  return std::getenv("EYERAY_FULL_TESTS") ? full : std::getenv("EYERAY_FEW_TESTS") ? few : usual;
+}
+
+}  // namespace eyeray::test
