@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "host/cli/command.hpp"
+#include "host/core/embedded_shaders.hpp"
 #include "host/executors/formula_check.hpp"
 #include "host/loader/scene_file.hpp"
 
@@ -21,6 +22,25 @@ bool parse_integers(std::string_view text, char separator, std::span<int> number
     at = next;
   }
   return at == end;
+}
+
+// A file that has an embedded shader's name, but lies elsewhere, takes nothing's place.
+void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
+    const std::filesystem::path place = entry.path().lexically_relative(folder);
+    const EmbeddedShader* namesake = nullptr;
+    for (const EmbeddedShader& shader : embedded_shaders()) {
+      if (shader.name == place.generic_string()) {
+        namesake = nullptr;
+        break;
+      }
+      if (std::filesystem::path(shader.name).filename() == place.filename()) namesake = &shader;
+    }
+    if (namesake)
+      fmt::print(stderr, "eyeray: warning: {} takes no shader's place; did you mean {}?\n",
+                 entry.path().string(), (folder / namesake->name).string());
+  }
 }
 
 }  // namespace
@@ -125,6 +145,7 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
         if (!std::filesystem::is_directory(folder))
           throw Error(ExitCode::file_io, "--shaders {}: no such folder; eyeray shaders --export {} makes one",
                       folder, folder);
+        warn_of_misplaced_shaders(folder);
         return std::string();
       });
   command.add_option("--timeout", options.timeout_seconds, "The longest wait for the device, in seconds.")

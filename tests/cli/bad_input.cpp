@@ -220,6 +220,31 @@ TEST_CASE("a shader that does not compile is shown at its line") {
   CHECK(nowhere.err.find("no such folder") != std::string::npos);
 }
 
+TEST_CASE("--acceleration tree is bvh until 0.2, and not told of") {
+  const SceneFolder folder;
+  CHECK(run_eyeray({"render", folder.scene(), "-q", "-o", folder / "a.png", "--acceleration", "tree"}).code ==
+        0);
+  const ProcessResult other =
+      run_eyeray({"render", folder.scene(), "-q", "-o", folder / "a.png", "--acceleration", "trees"});
+  CHECK(other.code == 2);
+  CHECK(other.err.find("--acceleration is auto, bvh or brute-force, not 'trees'") != std::string::npos);
+}
+
+TEST_CASE("a shader of --shaders that lies where none is read is told, with its place") {
+  const SceneFolder folder;
+  const std::string shaders = folder / "shaders";
+  std::filesystem::create_directories(shaders + "/shapes");
+  write_text(shaders + "/sphere.glsl", "as folders were before shaders lay in folders\n");
+  write_text(shaders + "/shapes/own.glsl", "no shader's name\n");
+  const ProcessResult result =
+      run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--shaders", shaders});
+  CHECK(result.code == 0);
+  CHECK(result.err.find("eyeray: warning: " + shaders +
+                        "/sphere.glsl takes no shader's place; did you mean " + shaders +
+                        "/shapes/sphere.glsl?\n") == 0);
+  CHECK(result.err.find("own.glsl") == std::string::npos);
+}
+
 TEST_CASE("a kernel of the user's that reads no push constants runs; one that wants others is told") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";

@@ -63,8 +63,9 @@ TEST_CASE("triangle record") {
   values.uv = {{Vec2(1, 4), Vec2(2, 5), Vec2(3, 6)}};
   scene = packed(*make_triangle(values));
   CHECK(scene.primitives.at(0).extra == 3);
-  CHECK(scene.vertices == std::vector{to_bits({0, 0, 1, 1}), to_bits({0, 0, 1, 2}), to_bits({0, 0, 1, 3}),
-                                      shader::uvec4(0, 1, 2, CORNERS_UV), to_bits({4, 5, 6, 0})});
+  CHECK(scene.vertices == RawVector<shader::uvec4>{to_bits({0, 0, 1, 1}), to_bits({0, 0, 1, 2}),
+                                                   to_bits({0, 0, 1, 3}), shader::uvec4(0, 1, 2, CORNERS_UV),
+                                                   to_bits({4, 5, 6, 0})});
 
   values.uv.reset();
   values.normals = {{Vec3(0, 0, 2), Vec3(0, 3, 4), Vec3(0, 0, 1)}};

@@ -36,14 +36,14 @@ inline compare::Frame render_frame(const Scene& scene, executors::Backend backen
 // Gates B and C.
 inline compare::ReferenceComparison compare_with_reference(const Scene& scene, const compare::Frame& value) {
   const reference::Renderer renderer(scene);
-  const compare::Reference probe = [&](int x, int y, const Vec2& shift) {
+  const compare::Reference probe = [&](int x, int y, const Vec2& shift, bool coincident) {
     compare::Probe result;
     for (int i = 0; i < scene.image.samples; ++i) {
-      const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift);
+      const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift, {.coincident = coincident});
       result.color += sample.color / double(scene.image.samples);
       result.hits_per_sample += double(sample.hits) / scene.image.samples;
     }
-    result.first_hit = renderer.first_hit(x, y, shift);
+    result.first_hit = renderer.first_hit(x, y, shift, coincident);
     return result;
   };
   return compare::compare_with_reference(value, render_frame(scene, executors::Backend::reference), probe);

@@ -5,7 +5,8 @@
 
 namespace eyeray::test {
 
-// EYERAY_FULL_TESTS=1 draws `full`, as the documents report it; EYERAY_FEW_TESTS=1 draws `few`, which `scripts/test` has time for.
+// EYERAY_FULL_TESTS=1 draws `full`, as the documents report it; EYERAY_FEW_TESTS=1 draws `few`, which
+// `scripts/test` has time for.
 inline int amount(int few, int usual, int full) {
   return std::getenv("EYERAY_FULL_TESTS") ? full : std::getenv("EYERAY_FEW_TESTS") ? few : usual;
 }
