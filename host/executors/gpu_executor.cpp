@@ -16,6 +16,7 @@
 #include "host/executors/shader_files.hpp"
 #include "host/executors/specialise.hpp"
 #include "host/executors/wavefront.hpp"
+#include "host/executors/workgroups.hpp"
 #include "host/gpu/command_list.hpp"
 #include "host/gpu/kernel_compiler.hpp"
 #include "host/gpu/self_test.hpp"
@@ -185,10 +186,10 @@ class GpuExecutor final : public Executor {
                     packed.lights.size());
       specialisation.loop_budget = uint32_t(granted_iterations - one_ray);
     }
-    // A CPU driver splits the workgroups of a dispatch evenly over its threads.
+    workgroups_.subgroup = lanes;
     if (device_.info().type == gpu::DeviceType::cpu)
-      group_stride_ = std::max(1u, std::thread::hardware_concurrency());
-    specialisation.group_stride = group_stride_;
+      workgroups_.stride = std::max(1u, std::thread::hardware_concurrency());
+    specialisation.group_stride = workgroups_.stride;
     shaders_ = ShaderFiles(options_.shader_folder, specialise(packed, specialisation));
   }
 
@@ -267,9 +268,8 @@ class GpuExecutor final : public Executor {
   // kernels/render.comp.glsl for a whole tile.
   std::optional<double> dispatch(gpu::Kernel& kernel, const shader::Dispatch& push, gpu::Buffer& output) {
     kernel.set_buffer(BINDING_OUTPUT, output);
-    const uint32_t blocks = (push.tile_width + 7) / 8 * ((push.tile_height + 7) / 8);
     return gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)),
-                         {round_up_to_stride(blocks), 1, 1})
+                         {workgroups_.of_items(Workgroups::pixels(push.tile_width, push.tile_height)), 1, 1})
         .seconds;
   }
 
@@ -279,8 +279,7 @@ class GpuExecutor final : public Executor {
     options.bounces = most_bounces(packed);
     options.splits = packed.media.size() > 1;
     options.bounced = bounced_rays(profile_, packed, incoherent_);
-    options.stride = group_stride_;
-    options.subgroup = device_.info().limits.subgroup_size;
+    options.workgroups = workgroups_;
     const bool cooperative = options.bounced == Rays::cooperative && options.bounces > 0 && !options.splits;
     if (cooperative) upload_bvh4();
     const std::string stack = cooperative ? bvh4_defines() : "";
@@ -328,7 +327,7 @@ class GpuExecutor final : public Executor {
     shader::Dispatch push{};
     push.count = count;
     const uint32_t groups =
-        how == Rays::packets ? packet_groups(count) : round_up_to_stride((count + 63) / 64);
+        how == Rays::packets ? workgroups_.of_packets(count) : workgroups_.of_items(count);
     const gpu::RunTime time =
         gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)), {groups, 1, 1});
 
@@ -338,17 +337,6 @@ class GpuExecutor final : public Executor {
       hits[i] = to_query_hit(answers[i]);
     }
     return time.seconds;
-  }
-
-  // As many workgroups as make runs of equal length (kernels/render.comp.glsl).
-  uint32_t round_up_to_stride(uint32_t groups) const {
-    return (groups + group_stride_ - 1) / group_stride_ * group_stride_;
-  }
-
-  // Workgroups of kernels/cooperative/packet.comp.glsl for so many rays.
-  uint32_t packet_groups(uint32_t rays) const {
-    const uint32_t a_group = 64 / device_.info().limits.subgroup_size * PACKET;
-    return round_up_to_stride((rays + a_group - 1) / a_group);
   }
 
   gpu::Buffer& output_for(size_t bytes) {
@@ -372,7 +360,7 @@ class GpuExecutor final : public Executor {
   Profile profile_;
   gpu::DeviceFacts facts_;
   ShaderFiles shaders_;
-  uint32_t group_stride_ = 1;
+  Workgroups workgroups_;
   bool packets_ = false;                   // whether kernels/cooperative/packet.comp.glsl is used
   Rays incoherent_ = Rays::lanes;          // how incoherent rays are traced
   RawVector<shader::uvec4> binary_nodes_;  // until they are collapsed

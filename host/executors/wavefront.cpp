@@ -27,8 +27,7 @@ Wavefront::Wavefront(gpu::Device& device, const MakeKernel& make_kernel, const W
 }
 
 std::optional<double> Wavefront::run(shader::Dispatch push, gpu::Buffer& results) {
-  const uint32_t blocks = (push.tile_width + 7) / 8 * ((push.tile_height + 7) / 8);  // of 8 × 8 pixels
-  const uint32_t rays_a_group = 64 / options_.subgroup * PACKET;
+  const uint32_t pixels = Workgroups::pixels(push.tile_width, push.tile_height);
   make_room(push.count);
   for (Bounce* bounce : {&eye_, &later_})
     if (bounce->shade) bounce->shade->set_buffer(BINDING_OUTPUT, results);
@@ -44,7 +43,7 @@ std::optional<double> Wavefront::run(shader::Dispatch push, gpu::Buffer& results
   };
   list_for(eye_, *lists_[1], *lists_[0]);
   gpu::CommandList eye_commands(device_);
-  run(eye_, push, (blocks * 64 + rays_a_group - 1) / rays_a_group, blocks, eye_commands);
+  run(eye_, push, options_.workgroups.of_packets(pixels), options_.workgroups.of_items(pixels), eye_commands);
   double seconds = eye_commands.run().seconds;
 
   // Then the paths that go on, bounce by bounce; or all the way, where rays split.
@@ -57,7 +56,8 @@ std::optional<double> Wavefront::run(shader::Dispatch push, gpu::Buffer& results
     if (interrupted()) return std::nullopt;
     list_for(later_, list, *lists_[depth % 2]);
     gpu::CommandList commands(device_);
-    run(later_, push, (count + 63) / 64, (count + 63) / 64, commands);
+    const uint32_t groups = options_.workgroups.of_items(count);
+    run(later_, push, groups, groups, commands);
     seconds += commands.run().seconds;
   }
   return seconds;
@@ -68,10 +68,10 @@ void Wavefront::run(Bounce& bounce, const shader::Dispatch& push, uint32_t trace
   const auto bytes = std::as_bytes(std::span(&push, 1));
   for (gpu::Kernel* kernel : {bounce.trace.get(), bounce.shadow.get()}) {
     if (!kernel) continue;
-    commands.dispatch(*kernel, bytes, {round_up_to_stride(trace_groups), 1, 1});
+    commands.dispatch(*kernel, bytes, {trace_groups, 1, 1});
     commands.barrier();
   }
-  commands.dispatch(*bounce.shade, bytes, {round_up_to_stride(shade_groups), 1, 1});
+  commands.dispatch(*bounce.shade, bytes, {shade_groups, 1, 1});
 }
 
 void Wavefront::make_room(uint32_t pixels) {
@@ -89,11 +89,6 @@ void Wavefront::make_room(uint32_t pixels) {
       kernel->set_buffer(BINDING_PATHS, *paths_);
     }
   }
-}
-
-// As many workgroups as make runs of equal length (kernels/tile.glsl).
-uint32_t Wavefront::round_up_to_stride(uint32_t groups) const {
-  return (groups + options_.stride - 1) / options_.stride * options_.stride;
 }
 
 }  // namespace eyeray::executors

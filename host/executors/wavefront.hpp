@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "host/executors/profile.hpp"
+#include "host/executors/workgroups.hpp"
 #include "host/gpu/command_list.hpp"
 #include "host/records/records.hpp"
 
@@ -21,8 +22,7 @@ struct WavefrontOptions {
   // How the rays of later bounces are traced, and their shadow rays: `lanes` while they are shaded, or
   // `cooperative` by kernels of their own.
   Rays bounced = Rays::lanes;
-  uint32_t stride = 1;    // GROUP_STRIDE
-  uint32_t subgroup = 8;  // lanes
+  Workgroups workgroups;
 };
 
 class Wavefront {
@@ -46,7 +46,6 @@ class Wavefront {
   void run(Bounce& bounce, const shader::Dispatch& push, uint32_t trace_groups, uint32_t shade_groups,
            gpu::CommandList& commands);
   void make_room(uint32_t pixels);
-  uint32_t round_up_to_stride(uint32_t groups) const;
 
   gpu::Device& device_;
   WavefrontOptions options_;

@@ -1,0 +1,32 @@
+// How many workgroups of 64 a dispatch takes.
+#pragma once
+
+#include <cstdint>
+
+#include "host/records/records.hpp"
+
+namespace eyeray::executors {
+
+struct Workgroups {
+  uint32_t stride = 1;    // GROUP_STRIDE: a CPU driver splits a dispatch evenly over so many threads
+  uint32_t subgroup = 8;  // lanes
+
+  // An invocation each.
+  uint32_t of_items(uint32_t count) const { return in_runs(count, 64); }
+  // In packets, of a subgroup each (kernels/cooperative/packet.comp.glsl).
+  uint32_t of_packets(uint32_t rays) const { return in_runs(rays, 64 / subgroup * PACKET); }
+
+  // The pixels of a tile, its sides rounded up: 8 × 8 pixels a workgroup (kernels/tile.glsl).
+  static uint32_t pixels(uint32_t width, uint32_t height) {
+    return (width + 7) / 8 * ((height + 7) / 8) * 64;
+  }
+
+ private:
+  // As many as make runs of equal length.
+  uint32_t in_runs(uint32_t items, uint32_t a_group) const {
+    const uint32_t groups = (items + a_group - 1) / a_group;
+    return (groups + stride - 1) / stride * stride;
+  }
+};
+
+}  // namespace eyeray::executors
