@@ -1,41 +1,49 @@
-// Arbitrary output variables: what a pixel's ray hit, beside its colour, as pictures.
+// Arbitrary output variables: what a pixel's ray hit, beside its colour, as pictures. An AOV is one row in
+// aov.cpp.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
+#include "host/cli/legend.hpp"
 #include "host/core/pixel.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image.hpp"
+#include "host/render/sums.hpp"
 
 namespace eyeray::cli {
 
-enum class Aov {
-  depth,      // t of the first hit, infinity where there is none
-  position,   // world
-  normal,     // world, shading; 0 where nothing is hit
-  uv,         // and 0
-  primitive,  // index, −1 where nothing is hit
-  material,   // index, −1 where nothing is hit
-  hits,       // surfaces struck, the mean of a pixel's samples
-  flags,      // what may be wrong with any of a pixel's samples, as a sum of SampleFlags; 0 where nothing is
+// Where an AOV's values come from: the first hit of a pixel's centre, of whose three as many count as it has
+// channels, or what was summed over its samples.
+using ValueOfHit = Vec3 (*)(const FirstHit& hit);
+using ValuesOfRows = const Image& (*)(const render::FinishedRows& rows);
+
+struct AovType {
+  std::string_view name;
+  int channels;         // 1 or 3
+  FalseColor shown_as;  // in its picture for people
+  std::variant<ValueOfHit, ValuesOfRows> values;
+  // Of ids: what they stand for; `scene` must outlive it. Else null.
+  std::unique_ptr<LegendEntries> (*legend)(const Scene& scene) = nullptr;
+
+  bool is_of_first_hits() const { return std::holds_alternative<ValueOfHit>(values); }
 };
 
-std::string_view aov_name(Aov aov);
+using Aov = const AovType*;
+
+// All, in the order in which they are listed.
+std::span<const AovType> aov_types();
+// "depth, position, …".
+std::string aov_names();
 
 // "depth,normal" or "all"; Error (bad_input) for an unknown name.
 std::vector<Aov> parse_aovs(const std::string& list);
 
-// Whether it is made of first hits, as all but `hits` and `flags` are.
-bool is_of_first_hits(Aov aov);
 bool need_first_hits(const std::vector<Aov>& aovs);
-
-// 1 or 3.
-int aov_channels(Aov aov);
-// What its picture for people is.
-FalseColor aov_shown_as(Aov aov);
 
 // Rows of an AOV that is made of first hits; `width` pixels each.
 Image aov_image(Aov aov, std::span<const FirstHit> hits, int width);

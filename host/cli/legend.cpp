@@ -2,9 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/cli/json.hpp"
 #include "host/core/atomic_file.hpp"
+#include "host/image/false_color.hpp"
 #include "host/image/image_file.hpp"
+#include "host/scene/objects.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -21,28 +22,50 @@ std::string color_of(int64_t id) {
   return fmt::format("#{:02x}{:02x}{:02x}", code(0), code(1), code(2));
 }
 
-Json entry(const Object& object, const Names& names, uint64_t pixels) {
-  Json json{{"first", object.first}, {"last", object.first + object.count - 1}, {"kind", object.kind}};
-  if (const std::string name = path(object, names); !name.empty())
-    json[object.name.own ? "name" : "group"] = name;
-  if (!object.mesh.empty()) json["mesh"] = object.mesh;
-  if (object.position->line > 0) {
-    json["file"] = object.position->file;
-    json["line"] = object.position->line;
-  }
-  // Every triangle of a mesh has its own.
-  if (object.count == 1) json["color"] = color_of(int64_t(object.first));
-  json["pixels"] = pixels;
-  return json;
-}
+class ObjectEntries final : public LegendEntries {
+ public:
+  explicit ObjectEntries(const Scene& scene) : scene_(scene), objects_(scene) {}
 
-Json entry(const Material& material, size_t index, uint64_t pixels) {
-  Json json{{"first", index}, {"last", index}, {"kind", "material"}};
-  if (!material.name.empty()) json["name"] = material.name;
-  json["color"] = color_of(int64_t(index));
-  json["pixels"] = pixels;
-  return json;
-}
+  size_t size() const override { return objects_.size(); }
+  size_t of(const FirstHit& hit) const override { return objects_.of(uint64_t(hit.primitive)); }
+
+  Json entry(size_t index) const override {
+    const Object object = objects_[index];
+    Json json{{"first", object.first}, {"last", object.first + object.count - 1}, {"kind", object.kind}};
+    if (const std::string name = path(object, scene_.names); !name.empty())
+      json[object.name.own ? "name" : "group"] = name;
+    if (!object.mesh.empty()) json["mesh"] = object.mesh;
+    if (object.position->line > 0) {
+      json["file"] = object.position->file;
+      json["line"] = object.position->line;
+    }
+    // Every triangle of a mesh has its own.
+    if (object.count == 1) json["color"] = color_of(int64_t(object.first));
+    return json;
+  }
+
+ private:
+  const Scene& scene_;
+  Objects objects_;
+};
+
+class MaterialEntries final : public LegendEntries {
+ public:
+  explicit MaterialEntries(const Scene& scene) : scene_(scene) {}
+
+  size_t size() const override { return scene_.materials.size(); }
+  size_t of(const FirstHit& hit) const override { return size_t(hit.material); }
+
+  Json entry(size_t index) const override {
+    Json json{{"first", index}, {"last", index}, {"kind", "material"}};
+    if (const std::string& name = scene_.materials[index]->name; !name.empty()) json["name"] = name;
+    json["color"] = color_of(int64_t(index));
+    return json;
+  }
+
+ private:
+  const Scene& scene_;
+};
 
 // File names may hold any bytes; JSON may not.
 std::string text_of(const Json& json) {
@@ -51,12 +74,16 @@ std::string text_of(const Json& json) {
 
 }  // namespace
 
-bool has_legend(Aov aov) {
-  return aov == Aov::primitive || aov == Aov::material;
+std::unique_ptr<LegendEntries> legend_of_objects(const Scene& scene) {
+  return std::make_unique<ObjectEntries>(scene);
 }
 
-Legend::Legend(Aov aov, const Scene& scene) : aov_(aov), scene_(scene), objects_(scene) {
-  pixels_.resize(aov == Aov::material ? scene.materials.size() : objects_.size());
+std::unique_ptr<LegendEntries> legend_of_materials(const Scene& scene) {
+  return std::make_unique<MaterialEntries>(scene);
+}
+
+Legend::Legend(std::unique_ptr<LegendEntries> entries) : entries_(std::move(entries)) {
+  pixels_.resize(entries_->size());
 }
 
 void Legend::see(std::span<const FirstHit> hits) {
@@ -64,7 +91,7 @@ void Legend::see(std::span<const FirstHit> hits) {
     if (hit.primitive < 0)
       ++nothing_;
     else
-      ++pixels_.at(aov_ == Aov::material ? size_t(hit.material) : objects_.of(uint64_t(hit.primitive)));
+      ++pixels_.at(entries_->of(hit));
   }
 }
 
@@ -77,8 +104,9 @@ std::filesystem::path Legend::write(const std::filesystem::path& picture) const 
   for (size_t i = 0; i < pixels_.size(); ++i) {
     if (pixels_[i] == 0) continue;
     text += first ? "\n  " : ",\n  ";
-    text += text_of(aov_ == Aov::material ? entry(*scene_.materials[i], i, pixels_[i])
-                                          : entry(objects_[i], scene_.names, pixels_[i]));
+    Json entry = entries_->entry(i);
+    entry["pixels"] = pixels_[i];
+    text += text_of(entry);
     first = false;
     if (text.size() < piece) continue;
     file.write(text);

@@ -2,33 +2,44 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "host/cli/aov.hpp"
-#include "host/scene/objects.hpp"
+#include "host/cli/json.hpp"
+#include "host/core/pixel.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray::cli {
 
-// Whether an AOV has a legend: its values are ids.
-bool has_legend(Aov aov);
+// What may be hit, by the ids of one AOV.
+class LegendEntries {
+ public:
+  virtual ~LegendEntries() = default;
 
-// Takes first hits, and lists what they hit: of `primitive` the shapes and meshes, of `material` the
-// materials, each with its ids, its name, where the file has it, its colour in the picture, and its pixels.
+  virtual size_t size() const = 0;
+  // Which of them a hit is of.
+  virtual size_t of(const FirstHit& hit) const = 0;
+  // Its ids, its name, where the file has it and its colour in the picture.
+  virtual Json entry(size_t index) const = 0;
+};
+
+// Of `primitive` the shapes and meshes, of `material` the materials. `scene` must outlive them.
+std::unique_ptr<LegendEntries> legend_of_objects(const Scene& scene);
+std::unique_ptr<LegendEntries> legend_of_materials(const Scene& scene);
+
+// Takes first hits, and lists what they hit, each with its pixels.
 class Legend {
  public:
-  // `scene` must outlive it.
-  Legend(Aov aov, const Scene& scene);
+  explicit Legend(std::unique_ptr<LegendEntries> entries);
 
   void see(std::span<const FirstHit> hits);
   // Writes NAME.json for a picture NAME.png; Error (file_io) when it cannot be written. Its name.
   std::filesystem::path write(const std::filesystem::path& picture) const;
 
  private:
-  Aov aov_;
-  const Scene& scene_;
-  Objects objects_;
-  std::vector<uint64_t> pixels_;  // of each object, or of each material
+  std::unique_ptr<LegendEntries> entries_;
+  std::vector<uint64_t> pixels_;  // of each entry
   uint64_t nothing_ = 0;          // pixels where nothing is hit
 };
 

@@ -86,10 +86,9 @@ void PictureRequest::add_to(CLI::App& command) {
   command
       .add_option_function<std::string>(
           "--aov", parse,
-          "Also write depth, position, normal, uv, primitive, material, hits, flags, or all of them: each as "
-          "data "
-          "(FILE.NAME.pfm) and in false colour (FILE.NAME.png), ids with what they stand for "
-          "(FILE.NAME.json).")
+          fmt::format("Also write {}, or all of them: each as data (FILE.NAME.pfm) and in false colour "
+                      "(FILE.NAME.png), ids with what they stand for (FILE.NAME.json).",
+                      aov_names()))
       ->option_text("LIST");
   add_crop_option(command, crop);
   add_backend_option(command, backend);
@@ -100,7 +99,7 @@ void PictureRequest::check_outputs() {
   if (classic && need_first_hits(aovs))
     throw Error(
         ExitCode::bad_input,
-        "--classic sends no rays through the centres of pixels, of which AOVs other than hits are made");
+        "--classic sends no rays through the centres of pixels, of which AOVs but hits and flags are made");
   if (outputs.empty())
     outputs.push_back(fs::path(scene.file()).filename().replace_extension(".png").string());
   for (const std::string& output : outputs) {

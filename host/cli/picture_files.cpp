@@ -14,7 +14,7 @@ namespace {
 constexpr int painted_pixels = 1 << 20;
 
 fs::path aov_file(fs::path output, Aov aov, std::string_view ending) {
-  return output.replace_extension(fmt::format("{}.{}", aov_name(aov), ending));
+  return output.replace_extension(fmt::format("{}.{}", aov->name, ending));
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ std::vector<fs::path> files_written(const std::vector<std::string>& outputs, con
   for (const Aov aov : aovs) {
     files.push_back(aov_file(outputs[0], aov, "pfm"));
     files.push_back(aov_file(outputs[0], aov, "png"));
-    if (has_legend(aov)) files.push_back(aov_file(outputs[0], aov, "json"));
+    if (aov->legend) files.push_back(aov_file(outputs[0], aov, "json"));
   }
   return files;
 }
@@ -35,9 +35,9 @@ AovFiles::AovFiles(Aov aov, fs::path output, int width, int height, const Scene&
       height_(height),
       data_name_(aov_file(output, aov, "pfm")),
       picture_name_(aov_file(output, aov, "png")),
-      data_(data_name_, width, height, aov_channels(aov)),
-      painter_(aov_shown_as(aov), aov_channels(aov)) {
-  if (has_legend(aov)) legend_.emplace(aov, scene);
+      data_(data_name_, width, height, aov->channels),
+      painter_(aov->shown_as, aov->channels) {
+  if (aov->legend) legend_.emplace(aov->legend(scene));
 }
 
 void AovFiles::write(const Image& rows) {
@@ -45,7 +45,12 @@ void AovFiles::write(const Image& rows) {
   data_.write(rows);
 }
 
+void AovFiles::write(const render::FinishedRows& rows) {
+  if (const ValuesOfRows* values = std::get_if<ValuesOfRows>(&aov_->values)) write((*values)(rows));
+}
+
 void AovFiles::write(std::span<const FirstHit> hits) {
+  if (!aov_->is_of_first_hits()) return;
   write(aov_image(aov_, hits, width_));
   if (legend_) legend_->see(hits);
 }
@@ -54,7 +59,7 @@ void AovFiles::finish(std::vector<fs::path>& files) {
   data_.finish();
   files.push_back(data_name_);
 
-  PfmRows data(data_name_, width_, height_, aov_channels(aov_));
+  PfmRows data(data_name_, width_, height_, aov_->channels);
   ImageWriter picture(picture_name_, width_, height_, 3);
   for (int row = 0; row < height_;) {
     const int count = std::min(std::max(1, painted_pixels / width_), height_ - row);
@@ -75,16 +80,11 @@ PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::v
 
 void PictureFiles::write(const render::FinishedRows& rows) {
   for (ImageWriter& writer : writers_) writer.write(rows.color);
-  for (AovFiles& files : aovs_) {
-    if (files.aov() == Aov::hits) files.write(rows.hits);
-    if (files.aov() == Aov::flags) files.write(rows.flagged);
-  }
+  for (AovFiles& files : aovs_) files.write(rows);
 }
 
 void PictureFiles::write(std::span<const FirstHit> hits) {
-  for (AovFiles& files : aovs_) {
-    if (is_of_first_hits(files.aov())) files.write(hits);
-  }
+  for (AovFiles& files : aovs_) files.write(hits);
 }
 
 void PictureFiles::finish_picture(std::vector<fs::path>& files) {

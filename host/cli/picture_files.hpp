@@ -25,15 +25,16 @@ class AovFiles {
   // NAME from `output`; `scene` must outlive it.
   AovFiles(Aov aov, std::filesystem::path output, int width, int height, const Scene& scene);
 
-  Aov aov() const { return aov_; }
-  // The next rows, from the top down.
-  void write(const Image& rows);
+  // The next rows, from the top down, if it is made of these.
+  void write(const render::FinishedRows& rows);
   void write(std::span<const FirstHit> hits);
   // The data takes its place, and is read again to be painted: its range is known only now. Adds the files'
   // names to `files`.
   void finish(std::vector<std::filesystem::path>& files);
 
  private:
+  void write(const Image& rows);
+
   Aov aov_;
   int width_;
   int height_;
@@ -51,9 +52,9 @@ class PictureFiles {
   PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width, int height,
                const Scene& scene);
 
-  // The next rows, from the top down, of the picture and of the AOVs `hits` and `flags`.
+  // The next rows, from the top down, of the picture and of the AOVs that are made of them.
   void write(const render::FinishedRows& rows);
-  // The same of the other AOVs.
+  // The same of those that are made of first hits.
   void write(std::span<const FirstHit> hits);
   // After the last rows. They add the names of what was written to `files`.
   void finish_picture(std::vector<std::filesystem::path>& files);

@@ -1,5 +1,8 @@
 // What the program answers to its command line alone.
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "scene.hpp"
 //
@@ -16,6 +19,21 @@ struct Mistake {
 };
 
 }  // namespace
+
+TEST_CASE("docs/command-line.md says what each AOV holds") {
+  const std::string document = read_text("docs/command-line.md");
+  const std::string help = run_eyeray({"render", "--help"}).out;
+  const std::string refusal = run_eyeray({"render", "none.toml", "--aov", "none"}).err;
+  static const std::regex name(R"((\w+)(?=,| and all))");
+  int names = 0;
+  const std::string list = refusal.substr(refusal.find("There are "));
+  for (std::sregex_iterator it(list.begin(), list.end(), name), end; it != end; ++it, ++names) {
+    CAPTURE(it->str());
+    CHECK(document.find(fmt::format("\n| `{}` | ", it->str())) != std::string::npos);
+    CHECK(help.find(it->str()) != std::string::npos);
+  }
+  CHECK(names >= 8);
+}
 
 TEST_CASE("a wrong command line is one line that says what was meant, and code 2") {
   const SceneFolder folder;
