@@ -193,7 +193,7 @@ struct Frame {
   uint seed;
   uint samples_per_side;  // n of n × n
   uint camera;
-  uint pattern;
+  uint pattern;  // the sampler's number
   uint media;  // that the eye is in (materials/media.glsl)
   uint max_depth;
   uint light_count;
@@ -211,8 +211,6 @@ struct Frame {
   vec3 ambient;
   float unused_1;
 };
-#define PATTERN_REGULAR 0u
-#define PATTERN_JITTERED 1u
 
 // ---- Push constants: what changes from dispatch to dispatch, 32 bytes -----------------------------------------------
 struct Dispatch {

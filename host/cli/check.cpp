@@ -119,8 +119,7 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   };
 
   line("image", fmt::format("{}×{} pixels, {} sample{} a pixel, {}", image.width, image.height, image.samples,
-                            image.samples == 1 ? "" : "s",
-                            image.pattern == SamplePattern::jittered ? "jittered" : "regular"));
+                            image.samples == 1 ? "" : "s", sample_patterns[uint32_t(image.pattern)]));
   line("camera", std::string(camera_name(scene)));
   line("  eye", format_vec(camera.eye));
   line("  u right", format_vec(camera.u));
@@ -128,10 +127,12 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   line("  w forward", format_vec(camera.w));
   for (const CameraFact& fact : scene.camera.projection->facts(image.size()))
     line(fmt::format("  {}", fact.label), fact.text);
-  line("integrator", scene.render.integrator == IntegratorType::raycast
-                         ? "raycast"
-                         : fmt::format("whitted, max_depth {}, min_throughput {:g}", scene.render.max_depth,
-                                       scene.render.min_throughput));
+  const IntegratorType integrator = scene.render.integrator;
+  line("integrator", fmt::format("{}{}", integrator_names[uint32_t(integrator)],
+                                 traits_of(integrator).scatters
+                                     ? fmt::format(", max_depth {}, min_throughput {:g}",
+                                                   scene.render.max_depth, scene.render.min_throughput)
+                                     : ""));
   line("shapes", format_counts(inventory.shapes));
   if (!scene.meshes.empty()) {
     line("meshes", fmt::format("{} of {} triangles, shown {} times", scene.meshes.size(),

@@ -12,6 +12,7 @@
 
 #include "host/expression/emit.hpp"
 #include "host/formula/formula.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::executors {
 namespace {
@@ -32,6 +33,7 @@ constexpr Row materials[] = {MATERIALS(ROW)};
 constexpr Row cameras[] = {CAMERAS(ROW)};
 constexpr Row lights[] = {LIGHTS(ROW)};
 constexpr Row integrators[] = {INTEGRATORS(ROW)};
+constexpr Row samplers[] = {SAMPLERS(ROW)};
 #undef ROW
 
 // The registry macro `list` with the rows that are used alone, and the files of `folder` that they need.
@@ -217,15 +219,6 @@ bool any_emits(const PackedScene& scene) {
   });
 }
 
-// Whether the scene's integrator has paths that go on.
-bool scatters(const PackedScene& scene) {
-#define SCATTERS(name, number, shadow_rays, scatters) \
-  if (scene.frame.integrator == number) return scatters;
-  INTEGRATORS(SCATTERS)
-#undef SCATTERS
-  return false;
-}
-
 // Whether any material may send rays on.
 bool any_reflects(const PackedScene& scene) {
   return scene.media.size() > 1 ||
@@ -237,15 +230,13 @@ bool any_reflects(const PackedScene& scene) {
 }  // namespace
 
 uint32_t most_bounces(const PackedScene& scene) {
-  return scatters(scene) && any_reflects(scene) ? scene.frame.max_depth : 0;
+  return traits_of(IntegratorType(scene.frame.integrator)).scatters && any_reflects(scene)
+             ? scene.frame.max_depth
+             : 0;
 }
 
 bool casts_shadow_rays(const PackedScene& scene) {
-#define SHADOW_RAYS(name, number, shadow_rays, scatters) \
-  if (scene.frame.integrator == number) return shadow_rays && !scene.lights.empty();
-  INTEGRATORS(SHADOW_RAYS)
-#undef SHADOW_RAYS
-  return false;
+  return traits_of(IntegratorType(scene.frame.integrator)).shadow_rays && !scene.lights.empty();
 }
 
 uint64_t trace_iterations(const PackedScene& scene, bool unrolled) {
@@ -295,8 +286,10 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("HAS_BVH", scene.has_bvh ? "true" : "false");
   define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");
   define("HAS_SECONDARY", int(most_bounces(scene) > 0));
-  define("CAMERA_IS(number)", "true");      // only one is compiled, as of integrators
-  define("INTEGRATOR_IS(number)", "true");  // only one is compiled
+  // Of these only one is compiled.
+  define("CAMERA_IS(number)", "true");
+  define("SAMPLER_IS(number)", "true");
+  define("INTEGRATOR_IS(number)", "true");
   define("RAY_KINDS", int(options.ray_kinds));
   define("SUBGROUP_SIZE", options.subgroup_size);
   define("PACKET_ROOT", fmt::format("{}u", options.packet_bvh.first_node));
@@ -344,6 +337,7 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   for (const shader::Light& light : scene.lights) light_kinds.insert(light.kind);
   text += registry("LIGHTS", "lights", lights, light_kinds);
   text += registry("CAMERAS", "cameras", cameras, {scene.frame.camera});
+  text += registry("SAMPLERS", "samplers", samplers, {scene.frame.pattern});
   text += registry("INTEGRATORS", "integrators", integrators, {scene.frame.integrator});
   return text;
 }

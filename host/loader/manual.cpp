@@ -2,6 +2,8 @@
 
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
+#include "host/reference/integrator.hpp"
+#include "host/reference/sampler.hpp"
 #include "host/scene/table.hpp"
 
 namespace eyeray::loader {
@@ -38,6 +40,16 @@ std::string kinds_manual(std::span<const Type* const> types) {
   return text;
 }
 
+// The values of a key that have a page of their own.
+template <typename Manual>
+std::string values_manual(std::string_view key, std::span<const std::string_view> names,
+                          const Manual& manual) {
+  std::string text;
+  for (uint32_t i = 0; i < names.size(); ++i)
+    text += fmt::format("### `{} = \"{}\"`\n\n", key, names[i]) + trimmed(manual(i));
+  return text;
+}
+
 }  // namespace
 
 std::string scene_manual() {
@@ -58,6 +70,12 @@ std::string scene_manual() {
     text += std::string(section.doc) + "\n\n";
     if (!section.manual.empty()) text += trimmed(section.manual);
     text += key_table({section.keys});
+    if (section.kind == image)
+      text += values_manual("pattern", sample_patterns,
+                            [](uint32_t i) { return reference::sampler(SamplePattern(i)).manual; });
+    if (section.kind == render)
+      text += values_manual("integrator", integrator_names,
+                            [](uint32_t i) { return reference::integrator(IntegratorType(i)).manual; });
     if (section.kind == camera) text += kinds_manual(camera_types());
     if (section.kind == light) text += kinds_manual(light_types());
     if (section.kind != material) continue;

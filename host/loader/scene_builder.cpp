@@ -373,7 +373,7 @@ int Builder::find_material(TableReader& shape) {
 void Builder::check_whole() {
   const bool empty = scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
   if (empty && !tried_shapes_) log_.warning({}, "the scene has no shapes: only background will be seen");
-  if (scene_.lights.empty() && scene_.render.integrator == IntegratorType::whitted && !empty) {
+  if (scene_.lights.empty() && traits_of(scene_.render.integrator).shadow_rays && !empty) {
     log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");
   }
   const auto is_medium = [](const auto& material) { return material->medium().has_value(); };

@@ -2,19 +2,12 @@
 
 #include <cmath>
 
-#include "shaders/integrators/registry.h"
-
 namespace eyeray::loader {
 
 namespace {
 
 constexpr int64_t most_pixels = int64_t{1} << 28;
 
-// The registries' rows are what a scene file may name.
-#define NAME(name, ...) #name,
-constexpr std::string_view integrators[] = {INTEGRATORS(NAME)};
-#undef NAME
-constexpr std::string_view patterns[] = {"regular", "jittered"};
 constexpr std::string_view triangle_methods[] = {"woop", "moller-trumbore"};
 constexpr std::string_view group_storages[] = {"automatic", "instanced", "flat"};
 
@@ -39,17 +32,17 @@ constexpr Key image_table[] = {
      .max = 65536},
     {.name = "pattern",
      .type = KeyType::choice,
-     .doc = "Samples at the centres of the grid's cells, or at a random place of each.",
+     .doc = "Where in the grid's cells samples lie; see below.",
      .fallback = "\"regular\"",
-     .choices = patterns},
+     .choices = sample_patterns},
 };
 
 constexpr Key render_table[] = {
     {.name = "integrator",
      .type = KeyType::choice,
-     .doc = "Eye rays only, or with shadows, reflections and refractions.",
+     .doc = "What light is followed; see below.",
      .fallback = "\"whitted\"",
-     .choices = integrators},
+     .choices = integrator_names},
     {.name = "max_depth",
      .type = KeyType::integer,
      .doc = "Reflections and refractions in a row; 0: eye and shadow rays only.",

@@ -9,11 +9,6 @@
 namespace eyeray::pack {
 namespace {
 
-// A row that the scene does not know, or by another number, is an error that bears its name.
-#define SAME_INTEGRATOR(name, number, ...) static_assert(uint32_t(IntegratorType::name) == number);
-INTEGRATORS(SAME_INTEGRATOR)
-#undef SAME_INTEGRATOR
-
 // The media around the eye as materials/media.glsl stacks them: a byte each, the innermost lowest.
 uint32_t pack_media(const Scene& scene, const PackedScene& packed) {
   const std::vector<int> media = reference::media_at(scene, scene.camera.eye);
@@ -33,7 +28,7 @@ shader::Frame pack_frame(const Scene& scene, const PackedScene& packed) {
   frame.seed = scene.render.seed;
   frame.samples_per_side = uint32_t(std::lround(std::sqrt(double(scene.image.samples))));
   frame.camera = scene.camera.projection->kind();
-  frame.pattern = scene.image.pattern == SamplePattern::jittered ? PATTERN_JITTERED : PATTERN_REGULAR;
+  frame.pattern = uint32_t(scene.image.pattern);
   frame.media = pack_media(scene, packed);
   frame.max_depth = uint32_t(scene.render.max_depth);
   frame.light_count = uint32_t(packed.lights.size());

@@ -9,6 +9,7 @@
 #include "shaders/integrators/registry.h"
 #include "shaders/lights/registry.h"
 #include "shaders/materials/registry.h"
+#include "shaders/samplers/registry.h"
 #include "shaders/shapes/registry.h"
 
 namespace eyeray::shader {

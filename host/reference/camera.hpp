@@ -18,7 +18,4 @@ class CameraRays {
   Vec2 size_;
 };
 
-// Where in pixel (x, y) its sample `index` lies, in pixels from the pixel's top left corner.
-Vec2 sample_position(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index);
-
 }  // namespace eyeray::reference

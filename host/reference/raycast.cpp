@@ -1,8 +1,17 @@
-#include "host/reference/raycast.hpp"
+#include "host/reference/integrator.hpp"
 
 namespace eyeray::reference {
 
-PixelSample raycast(const Tracer& tracer, const Ray& ray, const RayOffset& ray_offset) {
+extern const Integrator raycast_integrator;
+
+namespace {
+
+constexpr std::string_view manual =
+    "Eye rays only: the first surface in its own colour, lit without shadows, or, in a scene without lights, "
+    "by a "
+    "lamp at the eye.";
+
+PixelSample raycast(const Tracer& tracer, const Ray& ray, const MediaStack&, const RayOffset& ray_offset) {
   const Scene& scene = tracer.scene();
   uint32_t flags = 0;
   auto hit = tracer.trace(ray, flags);
@@ -28,5 +37,9 @@ PixelSample raycast(const Tracer& tracer, const Ray& ray, const RayOffset& ray_o
   const Vec3 base = scene.materials[size_t(hit->material)]->base_color(surface.uv) * surface.color;
   return {.color = base * light, .rays = 1, .hits = 1, .flags = flags};
 }
+
+}  // namespace
+
+extern const Integrator raycast_integrator{.manual = manual, .sample = raycast};
 
 }  // namespace eyeray::reference

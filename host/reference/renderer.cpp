@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/reference/raycast.hpp"
-#include "host/reference/whitted.hpp"
+#include "host/reference/sampler.hpp"
 
 namespace eyeray::reference {
 
@@ -17,16 +16,9 @@ Renderer::Renderer(const Scene& scene, Acceleration acceleration)
 PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset) const {
   const Vec2 place = sample_position(scene_.image, scene_.render.seed, x, y, index);
   const Ray ray = camera_.ray(Vec2(x, y) + place + shift);
-  PixelSample sample;
-  switch (scene_.render.integrator) {
-    case IntegratorType::raycast:
-      sample = raycast(tracer_, ray, ray_offset);
-      break;
-    case IntegratorType::whitted:
-      sample = whitted(tracer_, ray, media_, ray_offset);
-      sample.flags |= flags_;
-      break;
-  }
+  const IntegratorType type = scene_.render.integrator;
+  PixelSample sample = integrator(type).sample(tracer_, ray, media_, ray_offset);
+  if (traits_of(type).scatters) sample.flags |= flags_;
   return sample;
 }
 

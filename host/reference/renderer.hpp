@@ -4,9 +4,8 @@
 
 #include "host/core/pixel.hpp"
 #include "host/reference/camera.hpp"
-#include "host/reference/media.hpp"
+#include "host/reference/integrator.hpp"
 #include "host/reference/tracer.hpp"
-#include "host/reference/whitted.hpp"
 
 namespace eyeray::reference {
 
@@ -16,7 +15,7 @@ class Renderer {
   explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
 
   // Sample `index` of pixel (x, y), by the scene's integrator. `shift`, in pixels, is added to the sample's
-  // place; `ray_offset`: see whitted.hpp.
+  // place; `ray_offset`: see integrator.hpp.
   PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0},
                      const RayOffset& ray_offset = {}) const;
   // What the ray through the pixel's centre + `shift` hits; `coincident`: see RayOffset.

@@ -1,4 +1,6 @@
-#include "host/reference/whitted.hpp"
+// Whitted: An Improved Illumination Model for Shaded Display, CACM 23(6), 1980; recursive, as the paper has
+// it.
+#include "host/reference/integrator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +11,14 @@
 
 namespace eyeray::reference {
 
+extern const Integrator whitted_integrator;
+
 namespace {
+
+constexpr std::string_view manual =
+    "Whitted's ray tracing: every light's shadow at every surface, and reflections and refractions of it, "
+    "each "
+    "followed by itself.";
 
 // A ray on its way, and what it is worth.
 struct Path {
@@ -196,8 +205,6 @@ Vec3 Recursion::direct(const View& view, const Scattering& scattering) {
   return color;
 }
 
-}  // namespace
-
 PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media,
                     const RayOffset& ray_offset) {
   Recursion recursion(tracer, ray_offset);
@@ -210,5 +217,9 @@ PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& medi
           recursion.refracted,
           recursion.total_reflections};
 }
+
+}  // namespace
+
+extern const Integrator whitted_integrator{.manual = manual, .sample = whitted};
 
 }  // namespace eyeray::reference

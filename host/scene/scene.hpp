@@ -9,14 +9,14 @@
 #include "host/core/vec.hpp"
 #include "host/scene/camera.hpp"
 #include "host/scene/group.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/scene/light.hpp"
 #include "host/scene/material.hpp"
 #include "host/scene/mesh.hpp"
+#include "host/scene/sampler.hpp"
 #include "host/scene/shape.hpp"
 
 namespace eyeray {
-
-enum class SamplePattern { regular, jittered };
 
 struct ImageSettings {
   int width = 640;
@@ -27,7 +27,6 @@ struct ImageSettings {
   Vec2 size() const { return {width, height}; }  // in pixels
 };
 
-enum class IntegratorType { raycast, whitted };
 enum class TriangleMethod { woop, moller_trumbore };
 enum class GroupStorage { automatic, instanced, flat };
 

@@ -93,6 +93,7 @@ class Binding {
 #define INSTANCE_COUNT uint(bound_scene->instances.size())
 #define LOOP_PROBE bound_scene->frame.loop_probe
 #define CAMERA_IS(number) (bound_scene->frame.camera == number)
+#define SAMPLER_IS(number) (bound_scene->frame.pattern == number)
 #define INTEGRATOR_IS(number) (bound_scene->frame.integrator == number)
 // One march of each kind for all formulas.
 #define FORMULAS(X) X(if_bounded(it.formula, false), stepped) X(if_bounded(it.formula, true), bounded)
@@ -121,6 +122,7 @@ class Binding {
 #include "shapes/all.glsl"
 #include "materials/all.glsl"
 #include "cameras/all.glsl"
+#include "samplers/all.glsl"
 #include "lights/all.glsl"
 #include "integrators/all.glsl"
 #include "shaders/kernels/pixel.glsl"

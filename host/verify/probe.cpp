@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "host/reference/sampler.hpp"
+
 namespace eyeray::verify {
 namespace {
 

@@ -1,5 +1,5 @@
-// Every integrator; see shapes/registry.h. IntegratorType in scene/scene.hpp has the same order. A row says whether the integrator
-// casts shadow rays, one to each light, and whether its paths go on where they hit something.
+// Every integrator; see shapes/registry.h. A row says whether the integrator casts shadow rays, one to each light, and whether its paths
+// go on where they hit something.
 #ifndef INTEGRATORS
 #define INTEGRATORS(X)        \
   X(raycast, 0u, false, false) \

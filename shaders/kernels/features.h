@@ -74,6 +74,8 @@
 //   MATERIALS
 //   CAMERAS
 //   CAMERA_IS          (number): whether that is the frame's
+//   SAMPLERS
+//   SAMPLER_IS         (number): whether that is the frame's
 //   LIGHTS
 //   INTEGRATORS
 //   INTEGRATOR_IS      (number): whether that is the frame's

@@ -6,6 +6,7 @@
 #include "geometry/surface.glsl"
 #include "bvh/traverse.glsl"
 #include "integrators/loop.glsl"
+#include "samplers/sampler.glsl"
 
 SHADER_BEGIN
 

@@ -17,7 +17,7 @@ const std::map<std::string, Links> layers = read_layers();
 const std::map<std::string, std::regex> visible_shaders = {
     {"records", std::regex(R"(shaders/(records\.h|[a-z]+/registry\.h))")},
     {"shapes", std::regex(R"(shaders/shapes/registry\.h)")},
-    {"loader", std::regex(R"(shaders/integrators/registry\.h)")},
+    {"scene", std::regex(R"(shaders/(integrators|samplers)/registry\.h)")},
     {"materials", std::regex(R"(shaders/materials/registry\.h)")},
     {"lights", std::regex(R"(shaders/lights/registry\.h)")},
     {"cameras", std::regex(R"(shaders/cameras/registry\.h)")},

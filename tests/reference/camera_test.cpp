@@ -1,6 +1,7 @@
 #include "host/reference/camera.hpp"
 #include "host/cameras/make.hpp"
 #include "host/reference/rng.hpp"
+#include "host/reference/sampler.hpp"
 #include "scenes.hpp"
 #include "tests/support/doctest.hpp"
 

@@ -1,6 +1,8 @@
-// Whitted: An Improved Illumination Model for Shaded Display, CACM 23(6), 1980; recursive, as the paper has
-// it.
+// What an integrator computes, in float64. An integrator is one .cpp here, one .glsl in shaders/integrators
+// and one row in integrators/registry.h.
 #pragma once
+
+#include <string_view>
 
 #include "host/core/pixel.hpp"
 #include "host/reference/media.hpp"
@@ -22,8 +24,13 @@ struct RayOffset {
   bool coincident = false;  // of two surfaces that float32 cannot tell apart, the farther one is hit
 };
 
-// What `ray` (with a unit direction) sees, starting in `media`.
-PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media,
-                    const RayOffset& ray_offset = {});
+struct Integrator {
+  std::string_view manual;  // Markdown
+  // What the eye's ray, its direction unit, sees, starting in `media`.
+  PixelSample (*sample)(const Tracer& tracer, const Ray& ray, const MediaStack& media,
+                        const RayOffset& ray_offset);
+};
+
+const Integrator& integrator(IntegratorType type);
 
 }  // namespace eyeray::reference

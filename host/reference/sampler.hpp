@@ -1,0 +1,22 @@
+// Where in a pixel its samples lie, in float64. A sampler is one .cpp here, one .glsl in shaders/samplers and
+// one row in samplers/registry.h.
+#pragma once
+
+#include <string_view>
+
+#include "host/scene/scene.hpp"
+
+namespace eyeray::reference {
+
+struct Sampler {
+  std::string_view manual;  // Markdown
+  // Where in its cell sample `index` of a pixel, counted along the rows, lies: each in [0, 1).
+  Vec2 (*in_cell)(uint32_t pixel, uint32_t index, uint32_t seed);
+};
+
+const Sampler& sampler(SamplePattern pattern);
+
+// Where in pixel (x, y) its sample `index` lies, in pixels from the pixel's top left corner.
+Vec2 sample_position(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index);
+
+}  // namespace eyeray::reference
