@@ -8,8 +8,7 @@ namespace {
 
 constexpr std::string_view manual =
     "Eye rays only: the first surface in its own colour, lit without shadows, or, in a scene without lights, "
-    "by a "
-    "lamp at the eye.";
+    "by a lamp at the eye.";
 
 PixelSample raycast(const Tracer& tracer, const Ray& ray, const MediaStack&, const RayOffset& ray_offset) {
   const Scene& scene = tracer.scene();

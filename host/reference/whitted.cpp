@@ -17,8 +17,7 @@ namespace {
 
 constexpr std::string_view manual =
     "Whitted's ray tracing: every light's shadow at every surface, and reflections and refractions of it, "
-    "each "
-    "followed by itself.";
+    "each followed by itself.";
 
 // A ray on its way, and what it is worth.
 struct Path {

@@ -66,7 +66,7 @@ class Tree {
   Tree() {
     fs::remove_all(root_);
     fs::create_directories(root_);
-    for (const char* part : {"CMakeLists.txt", "cmake", "host", "shaders"})
+    for (const char* part : {"CMakeLists.txt", "CMakePresets.json", "cmake", "host", "shaders"})
       fs::copy(part, root_ / part, fs::copy_options::recursive);
   }
 
@@ -87,10 +87,9 @@ class Tree {
   }
 
   ProcessResult build(const std::string& target) const {
-    const ProcessResult configured =
-        run_process({"cmake", "-S", root_, "-B", build_, "-G", "Ninja", "-DEYERAY_TESTS=OFF",
-                     "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCMAKE_CXX_COMPILER=" CXX_COMPILER},
-                    {}, 600);
+    const ProcessResult configured = run_process({"cmake", "-S", root_, "--preset", "release",
+                                                  "-DEYERAY_TESTS=OFF", "-DCMAKE_CXX_COMPILER=" CXX_COMPILER},
+                                                 {}, 600);
     REQUIRE_MESSAGE(configured.code == 0, configured.err);
     return run_process({"cmake", "--build", build_, "-j", "2", "--target", target}, {}, 7200);
   }
