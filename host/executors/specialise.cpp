@@ -28,6 +28,8 @@ struct Row {
 };
 #define ROW(name, number, ...) {#name, number, #__VA_ARGS__},
 constexpr Row shapes[] = {SHAPES(ROW)};
+constexpr Row immediate_leaves[] = {IMMEDIATE_LEAVES(ROW)};
+constexpr Row deferred_leaves[] = {DEFERRED_LEAVES(ROW)};
 constexpr Row deferred_shapes[] = {DEFERRED_SHAPES(ROW)};
 constexpr Row materials[] = {MATERIALS(ROW)};
 constexpr Row cameras[] = {CAMERAS(ROW)};
@@ -298,6 +300,9 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   define("SHIFT_STACK", int(options.profile.shift_stack));
   define("STACK_SIZE", scene.stack_size);
   define("HAS_CSG", int(!scene.leaf_uses.empty()));
+  define("HAS_DEFERRED_LEAVES", int(std::ranges::any_of(deferred_leaves, [&](const Row& row) {
+           return leaves_used.contains(row.number);
+         })));
   define("HAS_MIXED_CSG", int(scene.mixed_csg));
   define("HAS_INSTANCES", int(!scene.instances.empty()));
   define("INSTANCE_COUNT", fmt::format("{}u", scene.instances.size()));
@@ -326,6 +331,8 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   text += "#include \"kernels/loaders.glsl\"\n";
   text += formulas(scene);
   text += registry("CLOSED_SHAPES", "shapes", shapes, leaves_used);
+  text += registry("IMMEDIATE_LEAVES", "shapes", immediate_leaves, leaves_used);
+  text += registry("DEFERRED_LEAVES", "shapes", deferred_leaves, leaves_used);
   text += registry("SHAPES", "shapes", shapes, shapes_used);
   std::set<uint32_t> quick;
   std::ranges::set_difference(scene.bvh_kinds, slow, std::inserter(quick, quick.end()));

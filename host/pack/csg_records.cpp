@@ -20,7 +20,6 @@ void finish_csg(shader::Primitive& csg, PackedScene& packed) {
     deepest = std::max(deepest, optical_depth);
     least = std::min(least, optical_depth);
   }
-  packed.csg_leaves += leaves;
   packed.mixed_csg = packed.mixed_csg || least < deepest;
 }
 

@@ -17,8 +17,8 @@
 namespace eyeray::pack {
 namespace {
 
-// Up to here testing everything is as fast as a BVH.
-constexpr size_t few_primitives = 24;
+// Up to here testing everything is as fast as a BVH: primitives, and turns of loops of their own.
+constexpr size_t few_tests = 24;
 // A box that takes this part of the scene's own is hit by nearly every ray that hits the scene. To test what
 // is in it straight away is cheaper than steps that lead there, while such primitives are few.
 constexpr double most_of_scene = 0.5;
@@ -41,9 +41,9 @@ class GeometryPacker {
     add_groups();
     use_bvh_ = options_.acceleration == Acceleration::bvh ||
                (options_.acceleration == Acceleration::automatic &&
-                (world_.size() + packed_.csg_leaves > few_primitives || !scene_.instances.empty() ||
+                (world_.size() + packed_.shape_iterations > few_tests || !scene_.instances.empty() ||
                  !packed_.instances.empty()));
-    if (world_.size() > few_primitives && packed_.instances.empty()) unbind_largest();
+    if (world_.size() > few_tests && packed_.instances.empty()) unbind_largest();
     packed_.has_bvh = use_bvh_ && has_bounded(2);
     if (packed_.has_bvh) build_bvhs();
     lay_out_world();

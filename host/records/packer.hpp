@@ -36,7 +36,6 @@ struct PackedScene {
   std::set<uint32_t> bvh_kinds;                       // of the shapes in BVHs
   std::set<std::pair<uint32_t, uint32_t>> uses;       // kinds of shape, and materials that they are made of
   std::set<std::pair<uint32_t, uint32_t>> leaf_uses;  // the same of the shapes that CSG objects are made of
-  uint32_t csg_leaves = 0;                            // how many of these there are
   bool mixed_csg = false;  // whether a CSG object's surfaces differ in what they take from a shadow ray
   RawVector<shader::uvec4> nodes;
   std::vector<shader::Bvh> bvhs;  // the world's, then one a mesh or group of `instances`

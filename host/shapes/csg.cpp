@@ -22,6 +22,13 @@ uint32_t kind_of(const Shape& shape) {
   return shader::kind_of(packer.scene.primitives[0]);
 }
 
+bool is_deferred(uint32_t kind) {
+#define NUMBER(name, number) number,
+  constexpr uint32_t kinds[] = {DEFERRED_LEAVES(NUMBER)};
+#undef NUMBER
+  return std::ranges::find(kinds, kind) != std::end(kinds);
+}
+
 std::pair<Vec3, Vec3> center_and_half(const Bounds& bounds) {
   const Vec3 half = (bounds.max - bounds.min) * 0.5;
   return {bounds.min + half, half};
@@ -200,7 +207,7 @@ void Solid::pack(Packer& packer) const {
 
   // The leaves, as records that stand with the vertices.
   std::vector<shader::uvec4> leaves;
-  uint32_t removed = 0;
+  uint32_t removed = 0, deferred = 0;
   for (size_t i = 0; i < leaves_.size(); ++i) {
     leaves_[i].shape->pack(packer);
     const shader::Primitive leaf = packer.scene.primitives.back();
@@ -210,15 +217,15 @@ void Solid::pack(Packer& packer) const {
     leaves.insert(leaves.end(), {shader::head_of(leaf), to_bits(leaf.a), to_bits(leaf.b), to_bits(leaf.c),
                                  to_bits(to_vec4(packer.relative(center))), to_bits(to_vec4(half))});
     removed |= leaves_[i].removed ? 1u << i : 0;
+    deferred |= is_deferred(leaves_[i].kind) ? 1u << i : 0;
   }
-  leaves.push_back({0u, ~0u, 0u, 0u});
   const uint32_t extra =
-      packer.add_vertices({{uint32_t(nodes.size()), removed, uint32_t(leaves_.size()), 0u}});
+      packer.add_vertices({{uint32_t(nodes.size()), removed, uint32_t(leaves_.size()), deferred}});
   packer.add_vertices(nodes);
   packer.add_vertices(leaves);
 
-  // Once round all leaves a crossing; most are crossed twice.
-  packer.add_iterations((2 * leaves_.size() + 1) * (leaves_.size() + nodes.size()));
+  // Once round all leaves a crossing; most are crossed twice. Before, each is looked at and asked.
+  packer.add_iterations((2 * leaves_.size() + 1) * (leaves_.size() + nodes.size() + 2) + 2 * leaves_.size());
   const auto [center, half] = center_and_half(bounds());
   packer.add(Packer::primitive(shader::KIND_csg, material, to_vec4(packer.relative(center)), to_vec4(half),
                                shader::vec4(0), extra));

@@ -31,25 +31,27 @@ ObjectRay from_nearest(ObjectRay ray) {
 
 // Distances in object space are not the world's, but t and s are. A ray from afar is followed from its point nearest to the centre: what is
 // computed from there is as small as the shape, so that nothing cancels. In the world first: what the map makes of the direction's
-// rounding does not count on the long way then. `reach`: the farthest that the shape's points are from its centre.
+// rounding does not count on the long way then. `reach`: the farthest that the shape's points are from its centre. Without branches, so that compilers
+// share what is the same for all who ask: another kind of leaf of a CSG object, or the same for its next crossing.
 ObjectRay object_ray(Primitive s, Ray ray, float reach) {
   vec3 from_center = ray.o - vec3(s.a.w, s.b.w, s.c.w);
   ObjectRay r;
   r.o = into_object(s, from_center);
   r.d = into_object(s, ray.d);
   r.t = 0.0f;
-  if (dot3(r.o, r.o) > 4.0f * reach * reach) {
-    r.t = -dot3(from_center, ray.d) / dot3(ray.d, ray.d);
-    r.o = into_object(s, from_center + ray.d * r.t);
-    r = from_nearest(r);
-  }
+  ObjectRay far = r;
+  far.t = -dot3(from_center, ray.d) / dot3(ray.d, ray.d);
+  far.o = into_object(s, from_center + ray.d * far.t);
+  far = from_nearest(far);
+  bool is_far = dot3(r.o, r.o) > 4.0f * reach * reach;
+  r.t = is_far ? far.t : r.t;
+  r.o = is_far ? far.o : r.o;
   // What passes far from the shape is let pass before squares overflow; and a direction so short that its squares are lost, as no
   // unit vector's are, hits nothing.
-  if (!(dot3(r.o, r.o) <= 4.0f * reach * reach && dot3(r.d, r.d) >= 1.0e-30f)) {
-    r.o = vec3(0.0f, 4.0f * reach, 0.0f);
-    r.d = vec3(1.0f, 0.0f, 0.0f);
-    r.t = 0.0f;
-  }
+  bool passes = dot3(r.o, r.o) <= 4.0f * reach * reach && dot3(r.d, r.d) >= 1.0e-30f;
+  r.o = passes ? r.o : vec3(0.0f, 4.0f * reach, 0.0f);
+  r.d = passes ? r.d : vec3(1.0f, 0.0f, 0.0f);
+  r.t = passes ? r.t : 0.0f;
   return r;
 }
 

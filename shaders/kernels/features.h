@@ -31,6 +31,9 @@
 #ifndef HAS_CSG
 #define HAS_CSG 1
 #endif
+#ifndef HAS_DEFERRED_LEAVES  // there are DEFERRED_LEAVES
+#define HAS_DEFERRED_LEAVES 1
+#endif
 #ifndef HAS_MIXED_CSG  // a CSG object's surfaces differ in optical depth
 #define HAS_MIXED_CSG 1
 #endif
@@ -67,7 +70,9 @@
 
 // ---- The registries, with the rows alone that the scene needs. Default: registry.h of each ---------------------------
 //   SHAPES
-//   CLOSED_SHAPES      those that the scene's CSG objects are made of
+//   CLOSED_SHAPES      those that the scene's CSG objects are made of …
+//   IMMEDIATE_LEAVES   … of these those that are not deferred (shapes/csg.glsl)
+//   DEFERRED_LEAVES    … and those that are
 //   DEFERRED_SHAPES    those that rays wait with for each other (bvh/traverse.glsl)
 //   IMMEDIATE_SHAPES   those in BVHs that are not deferred
 //   ALPHA_TESTED_SHAPES  those of a material with an alpha

@@ -30,8 +30,10 @@ float capsule_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float leave = middle + root;
   float enter_y = r.o.y + r.d.y * enter;
   float leave_y = r.o.y + r.d.y * leave;
-  if (abs(enter_y) > half_length) enter = capsule_end(r, enter_y < 0.0f ? -half_length : half_length, -1.0f);
-  if (abs(leave_y) > half_length) leave = capsule_end(r, leave_y < 0.0f ? -half_length : half_length, 1.0f);
+  float first = capsule_end(r, enter_y < 0.0f ? -half_length : half_length, -1.0f);
+  float second = capsule_end(r, leave_y < 0.0f ? -half_length : half_length, 1.0f);
+  enter = abs(enter_y) > half_length ? first : enter;
+  leave = abs(leave_y) > half_length ? second : leave;
   float t = ENTERS(ray, r.t + enter) ? enter : leave;
   return discriminant >= 0.0f && t < T_MISS ? r.t + t : T_NONE;
 }

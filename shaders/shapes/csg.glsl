@@ -1,6 +1,6 @@
 // Union, intersection and difference of closed shapes, its leaves.   a = centre of its bounds    b = half of their size
-// extra: how many nodes, as bits the leaves that are taken away, how many leaves; the nodes; the leaves by kind in registry order, each a Primitive,
-// the centre of its bounds and half of their size; then a word of no kind.
+// extra: how many nodes, as bits the leaves that are taken away, how many leaves, as bits those of deferred kinds; the nodes; the leaves by kind in
+// registry order, each a Primitive, the centre of its bounds and half of their size.
 // A node: its operands as bits, leaves and nodes before it, and whether it is within all of them or within any. Within what is taken away is
 // without. The last node is the CSG object.
 #ifndef CSG_GLSL
@@ -12,6 +12,7 @@ SHADER_BEGIN
 
 #if HAS_CSG
 #define LEAF_WORDS 6u
+#define MOST_LEAVES 32
 
 struct CsgHit {
   float t;       // T_NONE where there is none
@@ -39,21 +40,31 @@ bool passes_box(Ray ray, vec3 box_centre, vec3 half_size) {
   return exit > 0.0f && max_component(middle - reach) <= exit;
 }
 
-// Whether a point is within the CSG object. `literals`: the leaves that it is within, and those taken away that it is not.
-bool csg_holds(uint at, uint nodes, uint literals) {
-  uint values = 0u;
-  uint bit = 1u;
-  bool value = false;
+uint node_holds(uvec4 node, uint literals, uint values) {
+  uint of_leaves = literals & node.x;
+  uint of_nodes = values & node.y;
+  return (node.z != 0u ? of_leaves == node.x && of_nodes == node.y : (of_leaves | of_nodes) != 0u) ? 1u : 0u;
+}
+
+// Of two points, 1 where it is within the CSG object. `literals`: the leaves that each is within, and those taken away that it is not.
+uvec2 csg_holds(uint at, uint nodes, uvec2 literals) {
+  uvec2 values = uvec2(0u, 0u);
+  uvec2 value = uvec2(0u, 0u);
   for (uint i = 0u; i < nodes; i++) {
     uvec4 node = load_outline(at + i);
-    uint of_leaves = literals & node.x;
-    uint of_nodes = values & node.y;
-    value = node.z != 0u ? of_leaves == node.x && of_nodes == node.y : (of_leaves | of_nodes) != 0u;
-    values = value ? values | bit : values;
-    bit = bit << 1u;
+    value = uvec2(node_holds(node, literals.x, values.x), node_holds(node, literals.y, values.y));
+    values = uvec2(values.x | value.x << i, values.y | value.y << i);
   }
   return value;
 }
+
+// How a ray goes on to cross a leaf.
+struct LeafCrossings {
+  float next;    // where it does at t > 0; 0 where the leaf's steps ran out; below where that takes asking again, from `passed` on
+  float second;  // where it does after that, negative where more may come; 0 where that is not known
+  bool inside;   // until `next`; where that is below 0, from `passed` on
+  float passed;
+};
 
 // Where the ray next crosses the leaf that it has asked.
 float leaf_crossing(float t, Ray ray) {
@@ -62,9 +73,63 @@ float leaf_crossing(float t, Ray ray) {
   return t > ray.after ? t : otherwise;
 }
 
+Ray beyond(Ray ray, float t) {
+  Ray r = ray;
+  r.after = t;
+  r.side = SIDE_OUTSIDE + SIDE_INSIDE - ray.side;
+  return r;
+}
+
+// Three crossings of a leaf whose kind is quick to ask, for most of what they take is the same: so of a convex one all is known at once.
+LeafCrossings ask_immediate(Primitive leaf, Ray ray) {
+  float t0 = T_MISS;
+  float t1 = T_MISS;
+  float t2 = T_MISS;
+#define ASK_THRICE(name, number)                                     \
+  if (kind_of(leaf) == number) {                                     \
+    vec2 uv;                                                         \
+    t0 = leaf_crossing(name##_intersect(leaf, ray, uv), ray);        \
+    Ray second = beyond(ray, t0);                                    \
+    t1 = leaf_crossing(name##_intersect(leaf, second, uv), second);  \
+    Ray third = beyond(second, t1);                                  \
+    t2 = leaf_crossing(name##_intersect(leaf, third, uv), third);    \
+  }
+  IMMEDIATE_LEAVES(ASK_THRICE)
+  bool last = t2 == T_MISS;
+  bool outside = ray.side == SIDE_OUTSIDE;
+  LeafCrossings all;
+  all.next = t0 > 0.0f ? t0 : t1 > 0.0f ? t1 : t2 > 0.0f ? t2 : T_NONE;
+  all.second = t0 > 0.0f ? (last ? t1 : -t1) : t1 > 0.0f ? (last ? t2 : -t2) : 0.0f;
+  all.inside = outside != (t0 > 0.0f || (!(t1 > 0.0f) && t2 > 0.0f));
+  all.passed = t2;
+  return all;
+}
+
+#if HAS_DEFERRED_LEAVES
+// The next crossing of one whose kind searches for it.
+LeafCrossings ask_deferred(Primitive leaf, Ray ray) {
+  float t = T_MISS;
+#define ASK_ONCE(name, number)                 \
+  if (kind_of(leaf) == number) {               \
+    vec2 uv;                                   \
+    t = name##_intersect(leaf, ray, uv);       \
+  }
+  DEFERRED_LEAVES(ASK_ONCE)
+  bool limit = t == T_ITERATION_LIMIT;
+  t = leaf_crossing(t, ray);
+  bool outside = ray.side == SIDE_OUTSIDE;
+  LeafCrossings all;
+  all.next = limit ? 0.0f : t > 0.0f ? t : T_NONE;
+  all.second = 0.0f;
+  all.inside = outside != (t > 0.0f);
+  all.passed = t;
+  return all;
+}
+#endif
+
 // Follows the ray from t = −∞, where it is outside of all that is closed: past what each leaf crosses up to t = 0, then from crossing to crossing
 // of all leaves to the first at which it enters or leaves the CSG object, and on to one that weakens a shadow ray by `enough`. So nothing is ever asked
-// where a ray starts. All leaves that are crossed at the same t are crossed at once.
+// where a ray starts. A leaf is asked again only where the ray has crossed what it said. All leaves that are crossed at the same t are crossed at once.
 CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
   uvec4 head = load_outline(s.extra);
   uint nodes = s.extra + 1u;
@@ -77,9 +142,8 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
   hit.optical_depth = 0u;
   hit.iteration_limit = false;
 
-  // As bits, the leaves that the ray comes near to, and those that it is inside of.
+  // As bits, the leaves that the ray comes near to.
   uint near = 0u;
-  uint inside = 0u;
   uint bit = 1u;
   uint end = passes_box(ray, vec3(s.a), vec3(s.b)) ? leaves + LEAF_WORDS * head.z : leaves;
   for (uint at = leaves; at < end; at += LEAF_WORDS) {
@@ -87,52 +151,87 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
     bit = bit << 1u;
   }
 
-  // Each round ends farther along, or leaves at the same t what was entered there.
-  Ray r = ray;
+  // LeafCrossings of each; next_crossing is negative while the ray is inside.
+  float next_crossing[MOST_LEAVES];
+  float second_crossing[MOST_LEAVES];
+  uint asked = near;
+  uint inside = 0u;
   float from = T_NONE;
   bool going = near != 0u;
-  for (; going;) {
-    float next = T_MISS;
-    uint crossed = 0u;
-    uint at = leaves;
-    bit = 1u;
-    vec2 uv = vec2(0.0f, 0.0f);
-    // Only a loop keeps a driver that runs both sides of every branch from what is not near.
-#define CROSS_KIND(name, number)                                                       \
-    for (; (load_outline(at).y >> 24u) == number; at += LEAF_WORDS) {                  \
-      float t = T_MISS;                                                                \
-      r.after = from;                                                                  \
-      for (bool behind = (near & bit) != 0u; behind;) {                                \
-        r.side = (inside & bit) != 0u ? SIDE_INSIDE : SIDE_OUTSIDE;                    \
-        t = name##_intersect(load_leaf(at), r, uv);                                    \
-        hit.iteration_limit = hit.iteration_limit || t == T_ITERATION_LIMIT;                                   \
-        t = leaf_crossing(t, r);                                                       \
-        behind = t <= 0.0f;                                                            \
-        inside = behind ? inside ^ bit : inside;                                       \
-        r.after = t;                                                                   \
-      }                                                                                \
-      crossed = t < next ? bit : t == next ? crossed | bit : crossed;                  \
-      next = minimum(t, next);                                                         \
-      bit = bit << 1u;                                                                 \
+  do {
+    // Ask, of each list one after the other whatever their kinds, until what is said is at t > 0. Tested at the bottom, which saves a round with
+    // all lanes idle: what comes out is in the arrays (docs/lavapipe.md).
+#define ASK(ask, which)                                                                                     \
+    {                                                                                                       \
+      uint todo = asked & (which);                                                                          \
+      float after = from;                                                                                   \
+      uint within = inside;                                                                                 \
+      do {                                                                                                  \
+        if (todo != 0u) {                                                                                   \
+          uint i = lowest_bit(todo);                                                                        \
+          uint one = todo & (~todo + 1u);                                                                   \
+          Ray r = ray;                                                                                      \
+          r.after = after;                                                                                  \
+          r.side = (within & one) != 0u ? SIDE_INSIDE : SIDE_OUTSIDE;                                       \
+          LeafCrossings all = ask(load_leaf(leaves + LEAF_WORDS * i), r);                                   \
+          bool said = all.next >= 0.0f;                                                                     \
+          if (said) {                                                                                       \
+            next_crossing[i] = all.inside ? -all.next : all.next;                                           \
+            second_crossing[i] = all.second;                                                                \
+          }                                                                                                 \
+          todo = said ? todo ^ one : todo;                                                                  \
+          after = said ? from : all.passed;                                                                 \
+          within = all.inside ? within | one : within & ~one;                                               \
+        }                                                                                                   \
+      } while (todo != 0u);                                                                                 \
     }
-    CLOSED_SHAPES(CROSS_KIND)
+    ASK(ask_immediate, ~head.w)
+#if HAS_DEFERRED_LEAVES
+    ASK(ask_deferred, head.w)
+#endif
 
-    // The surface is that of the first leaf whose crossing brings the ray to where it is then.
-    uint literals = (inside ^ crossed) ^ head.y;
-    bool now = csg_holds(nodes, head.x, literals);
-    bool boundary = now != csg_holds(nodes, head.x, inside ^ head.y) && next < t_max;
-    uint changed = crossed & (now ? literals : ~literals);
-    uint first = boundary ? changed & (~changed + 1u) : 1u;
-    hit.leaf = lowest_bit(first);
-    uint optical_depth = boundary ? load_outline(leaves + LEAF_WORDS * hit.leaf).z : 0u;
-    hit.optical_depth = optical_depth > hit.optical_depth ? optical_depth : hit.optical_depth;
-    hit.side = (inside & first) != 0u ? SIDE_INSIDE : SIDE_OUTSIDE;
-    hit.after = hit.t;
-    hit.t = next;
-    from = next;
-    inside = inside ^ crossed;
-    going = next < t_max && !hit.iteration_limit && !(boundary && hit.optical_depth >= enough);
-  }
+    // Cross, as long as that is known. Tested at the top: what comes out of it keeps for rays that are done with the loop around.
+    asked = 0u;
+    for (; going && asked == 0u;) {
+      float next = T_MISS;
+      uint crossed = 0u;
+      inside = 0u;
+      for (uint rest = near; rest != 0u; rest = rest & (rest - 1u)) {
+        uint one = rest & (~rest + 1u);
+        float crossing = next_crossing[lowest_bit(rest)];
+        float t = abs(crossing);
+        inside = crossing < 0.0f ? inside | one : inside;
+        crossed = t < next ? one : t == next ? crossed | one : crossed;
+        next = minimum(t, next);
+      }
+
+      // The surface is that of the first leaf whose crossing brings the ray to where it is then.
+      uint literals = (inside ^ crossed) ^ head.y;
+      uvec2 holds = csg_holds(nodes, head.x, uvec2(inside ^ head.y, literals));
+      hit.iteration_limit = next == 0.0f;
+      bool boundary = holds.x != holds.y && next < t_max && !hit.iteration_limit;
+      uint changed = crossed & (holds.y != 0u ? literals : ~literals);
+      uint first = boundary ? changed & (~changed + 1u) : 1u;
+      hit.leaf = lowest_bit(first);
+      uint optical_depth = boundary ? load_outline(leaves + LEAF_WORDS * hit.leaf).z : 0u;
+      hit.optical_depth = optical_depth > hit.optical_depth ? optical_depth : hit.optical_depth;
+      hit.side = (inside & first) != 0u ? SIDE_INSIDE : SIDE_OUTSIDE;
+      hit.after = hit.t;
+      hit.t = next;
+      from = next;
+      inside = inside ^ crossed;
+      going = next < t_max && !hit.iteration_limit && !(boundary && hit.optical_depth >= enough);
+
+      for (uint rest = going ? crossed : 0u; rest != 0u; rest = rest & (rest - 1u)) {
+        uint one = rest & (~rest + 1u);
+        uint i = lowest_bit(rest);
+        float second = second_crossing[i];
+        asked = second == 0.0f ? asked | one : asked;
+        next_crossing[i] = (inside & one) != 0u ? -abs(second) : abs(second);
+        second_crossing[i] = second < 0.0f ? 0.0f : T_MISS;
+      }
+    }
+  } while (going);
   hit.t = hit.t > 0.0f && hit.t < T_MISS ? hit.t : T_NONE;
   return hit;
 }
@@ -166,7 +265,7 @@ Surface csg_surface(Primitive s, Ray ray, Hit hit) {
   Hit own = hit;
   Surface surface = no_surface();
 #define LEAF_SURFACE(name, number)                                           \
-  for (bool is = kind_of(primitive) == number; is; is = false) {             \
+  if (kind_of(primitive) == number) {             \
     name##_intersect(primitive, r, own.uv);                                  \
     surface = name##_surface(primitive, ray, own);                           \
   }

@@ -42,3 +42,19 @@
 #define ROW_OF_closed(X, name, number) X(name, number)
 #define ROW_OF_no_leaf(X, name, number)
 #endif
+#ifndef DEFERRED_LEAVES
+#define DEFERRED_LEAVES(X) SHAPE_ROWS(DEFERRED_LEAF, X)
+#define DEFERRED_LEAF(X, name, number, time, volume) DEFERRED_LEAF_##time##_##volume(X, name, number)
+#define DEFERRED_LEAF_deferred_closed(X, name, number) X(name, number)
+#define DEFERRED_LEAF_deferred_no_leaf(X, name, number)
+#define DEFERRED_LEAF_immediate_closed(X, name, number)
+#define DEFERRED_LEAF_immediate_no_leaf(X, name, number)
+#endif
+#ifndef IMMEDIATE_LEAVES
+#define IMMEDIATE_LEAVES(X) SHAPE_ROWS(IMMEDIATE_LEAF, X)
+#define IMMEDIATE_LEAF(X, name, number, time, volume) IMMEDIATE_LEAF_##time##_##volume(X, name, number)
+#define IMMEDIATE_LEAF_immediate_closed(X, name, number) X(name, number)
+#define IMMEDIATE_LEAF_immediate_no_leaf(X, name, number)
+#define IMMEDIATE_LEAF_deferred_closed(X, name, number)
+#define IMMEDIATE_LEAF_deferred_no_leaf(X, name, number)
+#endif

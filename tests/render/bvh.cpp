@@ -8,6 +8,8 @@
 #include "hard_scene.hpp"
 #include "host/core/parallel_for.hpp"
 #include "host/executors/specialise.hpp"
+#include "host/loader/scene_file.hpp"
+#include "host/pack/pack.hpp"
 #include "host/render/render.hpp"
 #include "query_kernel.hpp"
 #include "random_scene.hpp"
@@ -91,7 +93,18 @@ void hard_scenes_on_the_gpu(int count) {
   CHECK(together > count / 6);
 }
 
+bool has_bvh(const std::string& file) {
+  return pack::pack(loader::load_scene(file), {.acceleration = Acceleration::automatic}).has_bvh;
+}
+
 }  // namespace
+
+TEST_CASE("a few shapes are in a BVH where their tests have loops of their own") {
+  CHECK(!has_bvh("scenes/shapes/cylinder.toml"));
+  CHECK(has_bvh("scenes/shapes/polygon.toml"));
+  CHECK(has_bvh("scenes/shapes/torus.toml"));
+  CHECK(has_bvh("scenes/shapes/csg.toml"));
+}
 
 TEST_CASE("10 000 hard scenes on the twin: the BVH finds what brute force finds, to the last bit" *
           doctest::test_suite("long")) {
