@@ -13,10 +13,8 @@ constexpr std::string_view manual =
 PixelSample raycast(const Tracer& tracer, const Ray& ray, const MediaStack&, const RayOffset& ray_offset) {
   const Scene& scene = tracer.scene();
   uint32_t flags = 0;
-  auto hit = tracer.trace(ray, flags);
+  const auto hit = tracer.trace(ray, flags, ray_offset.coincident);
   if (!hit) return {.color = scene.render.background, .rays = 1, .flags = flags};
-  if (ray_offset.coincident)
-    if (const auto other = tracer.trace_coincident(ray, *hit)) hit = other;
 
   const SurfacePoint surface = tracer.surface(ray, *hit);
   const bool front = glm::dot(ray.d, surface.normal_geometric) < 0;

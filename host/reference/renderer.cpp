@@ -25,10 +25,8 @@ PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const Ray
 FirstHit Renderer::first_hit(int x, int y, Vec2 shift, bool coincident) const {
   const Ray ray = camera_.ray(Vec2(x, y) + Vec2(0.5) + shift);
   FirstHit result;
-  auto hit = tracer_.trace(ray, result.flags);
+  const auto hit = tracer_.trace(ray, result.flags, coincident);
   if (!hit) return result;
-  if (coincident)
-    if (const auto other = tracer_.trace_coincident(ray, *hit)) hit = other;
   const SurfacePoint surface = tracer_.surface(ray, *hit);
   // Towards grazing incidence t runs away from any bound; the gates explain it there by its neighbourhood.
   const double cosine = std::max(0.01, std::abs(glm::dot(ray.d, surface.normal_geometric)));

@@ -46,16 +46,18 @@ std::optional<Hit> Tracer::trace(const Ray& ray) const {
   return trace(ray, flags);
 }
 
-std::optional<Hit> Tracer::trace(const Ray& ray, uint32_t& flags) const {
+std::optional<Hit> Tracer::trace(const Ray& ray, uint32_t& flags, bool coincident) const {
   std::optional<Hit> nearest;
   double sure_until = infinity;
   if (const auto hit = world_->trace(ray, infinity, sure_until)) nearest = complete(*world_, *hit, -1);
   if (!groups_.empty()) search_groups(ray, nearest, sure_until);
   if (sure_until < (nearest ? nearest->at.t : infinity)) flags |= iteration_limit;
+  if (nearest && coincident)
+    if (const auto other = coincident_with(ray, *nearest)) return other;
   return nearest;
 }
 
-std::optional<Hit> Tracer::trace_coincident(const Ray& ray, const Hit& hit) const {
+std::optional<Hit> Tracer::coincident_with(const Ray& ray, const Hit& hit) const {
   const SurfacePoint point = surface(ray, hit);
   const double cosine = std::max(0.01, std::abs(glm::dot(ray.d, point.normal_geometric)));
   const double apart = 8 * 0x1p-24 * glm::length(point.position - scene_.camera.eye) / cosine;

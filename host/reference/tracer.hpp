@@ -26,12 +26,10 @@ class Tracer {
   explicit Tracer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
 
   // The nearest hit with t > 0; of exactly equal ones that of the lowest primitive. Adds to `flags`, of
-  // SampleFlags, what may be wrong with it.
-  std::optional<Hit> trace(const Ray& ray, uint32_t& flags) const;
+  // SampleFlags, what may be wrong with it. `coincident`: rather another primitive that a ray with a unit
+  // direction hits so close behind it that float32 may take it for the nearer one.
+  std::optional<Hit> trace(const Ray& ray, uint32_t& flags, bool coincident = false) const;
   std::optional<Hit> trace(const Ray& ray) const;
-  // Another primitive that `ray` (with a unit direction) hits so close behind `hit` that float32 may take it
-  // for the nearer one.
-  std::optional<Hit> trace_coincident(const Ray& ray, const Hit& hit) const;
   // The surface where `ray` has that hit, its normal on the side of the geometric one.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
 
@@ -50,6 +48,7 @@ class Tracer {
   BoxRay group_box_ray(const Ray& ray) const;
 
  private:
+  std::optional<Hit> coincident_with(const Ray& ray, const Hit& hit) const;
   void search_groups(const Ray& ray, std::optional<Hit>& nearest, double& sure_until) const;
   uint64_t primitive(const Objects& objects, const Objects::Hit& hit, int group) const;
   Hit complete(const Objects& objects, const Objects::Hit& hit, int group) const;

@@ -126,11 +126,9 @@ Vec3 refract(const View& view, double n1, double n2) {
 Vec3 Recursion::radiance(const Path& path) {
   stop_if_interrupted();
   ++rays;
-  auto hit = tracer_.trace(path.ray, flags);
+  const auto hit = tracer_.trace(path.ray, flags, ray_offset_.coincident);
   if (!hit) return scene_.render.background;
   ++hits;
-  if (ray_offset_.coincident)
-    if (const auto other = tracer_.trace_coincident(path.ray, *hit)) hit = other;
 
   // Turn the surface to the viewer.
   View view{tracer_.surface(path.ray, *hit), path.ray.d, 0};
