@@ -129,7 +129,8 @@ TEST_CASE("a device that fails while it works leaves a message, and the checkpoi
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "work"});
 }
 
-TEST_CASE("a driver that does not return is left where it is, by a signal or --timeout") {
+TEST_CASE("a driver that does not return is left where it is, by a signal or --timeout" *
+          doctest::test_suite("long")) {
   const SceneFolder folder;
   // Calls from opening the driver to a dispatch amid the picture.
   for (const std::string call : {"vkCreateInstance 1", "vkEnumeratePhysicalDevices 1", "vkCreateDevice 1",

@@ -12,7 +12,8 @@
 using namespace eyeray;
 using namespace eyeray::executors;
 
-TEST_CASE("no entry contains an operation whose rounding is left to the driver") {
+TEST_CASE("no entry contains an operation whose rounding is left to the driver" *
+          doctest::test_suite("long")) {
   // GLSL.std.450: FAbs, Floor, Sqrt, and nothing else.
   const std::set<uint32_t> allowed_extended = {4, 8, 31};
   constexpr uint32_t op_ext_inst = 12;

@@ -186,7 +186,7 @@ TEST_CASE("what another render left is refused, and what differs is named") {
   CHECK_THROWS_AS(Checkpoint::resume(folder.path(), identity, seldom), Error);
 }
 
-TEST_CASE("cut anywhere or with any byte changed, a checkpoint is refused") {
+TEST_CASE("cut anywhere or with any byte changed, a checkpoint is refused" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string file = folder / "a";
   const Scene scene = scene_of(9, 7, 4);
