@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <span>
@@ -26,28 +27,31 @@ const Type* named_type(const toml::table* table, const Section& section, std::sp
   return found == types.end() ? nullptr : *found;
 }
 
-// The names of the keys that other kinds than `own` have and it has not.
+// The names of the keys that other kinds than `own` have and it has not, each once.
 template <typename Type>
 std::vector<std::string_view> keys_of_others(const Type& own, std::span<const Type* const> types) {
   std::vector<std::string_view> names;
   for (const Type* type : types)
     for (const Key& key : type->keys)
-      if (std::ranges::find(own.keys, key.name, &Key::name) == own.keys.end()) names.push_back(key.name);
+      if (std::ranges::find(own.keys, key.name, &Key::name) == own.keys.end() &&
+          std::ranges::find(names, key.name) == names.end())
+        names.push_back(key.name);
   return names;
 }
 
-// Reports each key that is written and only other kinds than `own` have.
+// Reports each of the keys, which other kinds have, that is written.
 template <typename Type>
-void refuse_keys_of_others(const toml::table& table, const Type& own, std::span<const Type* const> types,
-                           DiagnosticLog& log) {
-  for (const std::string_view name : keys_of_others(own, types)) {
+void refuse_keys(const toml::table& table, std::span<const std::string_view> keys,
+                 std::span<const Type* const> types, DiagnosticLog& log) {
+  for (const std::string_view name : keys) {
     const toml::node* written = table.get(name);
-    const auto owner = std::ranges::find_if(types, [&](const Type* type) {
-      return std::ranges::find(type->keys, name, &Key::name) != type->keys.end();
-    });
-    if (written)
-      log.error(position_of(written->source()),
-                fmt::format("`{}` is for type = \"{}\" only", name, (*owner)->name));
+    if (!written) continue;
+    std::vector<std::string> owners;
+    for (const Type* type : types)
+      if (std::ranges::find(type->keys, name, &Key::name) != type->keys.end())
+        owners.push_back(fmt::format("\"{}\"", type->name));
+    log.error(position_of(written->source()),
+              fmt::format("`{}` is for type = {} only", name, fmt::join(owners, " or ")));
   }
 }
 
@@ -58,20 +62,21 @@ struct Kind {
 };
 
 // The table by the keys of its type, which comes first: it decides which other keys there are. The type is
-// null after an error in it, which is in the log. `table` null: not written.
+// null after an error in it, which is in the log. `table` null: not written. `images`: see TableSource.
 template <typename Type>
 Kind<Type> read_kind(const Section& section, const toml::table* table, std::span<const Type* const> types,
-                     DiagnosticLog& log) {
+                     DiagnosticLog& log, ImageSource* images = nullptr) {
   const Type* type = named_type(table, section, types);
   const std::string title = type ? fmt::format("{} of type {}", section.title, type->name) : section.title;
   const std::vector<std::string_view> others =
       type ? keys_of_others(*type, types) : std::vector<std::string_view>();
-  if (type && table) refuse_keys_of_others(*table, *type, types, log);
+  if (table) refuse_keys(*table, others, types, log);
   return {type, read_table({.title = title,
                             .table = table,
                             .keys = {section.keys, type ? type->keys : std::span<const Key>()},
-                            .extra_keys = others,
-                            .open = !type},
+                            .refused_keys = others,
+                            .open = !type,
+                            .images = images},
                            log)};
 }
 

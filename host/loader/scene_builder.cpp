@@ -149,16 +149,8 @@ class Builder {
   bool tried_shapes_ = false;
 };
 
-// The type comes first, for it decides which other keys there are.
 void Builder::add_material(const Section& section, const toml::table& table) {
-  const MaterialType* type = named_type(&table, section, material_types());
-  const std::string title = type ? fmt::format("[[material]] of type {}", type->name) : section.title;
-  TableReader reader = read_table({.title = title,
-                                   .table = &table,
-                                   .keys = {section.keys, type ? type->keys : std::span<const Key>()},
-                                   .open = !type,
-                                   .images = images_},
-                                  log_);
+  auto [type, reader] = read_kind(section, &table, material_types(), log_, images_);
   std::unique_ptr<Material> material = type ? type->parse(reader) : nullptr;
 
   // Enter the name even after an error, so that its users are not reported too.

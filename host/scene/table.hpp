@@ -19,10 +19,11 @@ struct TableSource {
   std::array<std::span<const Key>, 2> keys = {};  // those that all such tables share, and its own
   const toml::table* batch = nullptr;             // lists of values that stand in for values of the table …
   size_t element = 0;                             // … and which element of them to take
-  std::span<const std::string_view> extra_keys = {};  // that are allowed and read elsewhere
-  bool open = false;                                  // whether any other key is
-  FormulaSource* formulas = nullptr;                  // loads the files of formulas; null: none may be named
-  ImageSource* images = nullptr;                      // loads the images of textures; null: none may be named
+  std::span<const std::string_view> extra_keys = {};    // that are allowed and read elsewhere
+  std::span<const std::string_view> refused_keys = {};  // that an error elsewhere is about
+  bool open = false;                                    // whether any other key is
+  FormulaSource* formulas = nullptr;  // loads the files of formulas; null: none may be named
+  ImageSource* images = nullptr;      // loads the images of textures; null: none may be named
 };
 
 // Reads and checks every key; problems go to the log, which must outlive the reader.

@@ -50,7 +50,7 @@ struct TableReader::Table {
   void check_names();
 };
 
-// ShadingData a key up in the batch, then in the table.
+// Looks a key up in the batch, then in the table.
 const toml::node* TableReader::Table::find(std::string_view name) const {
   if (source.batch) {
     const toml::node* list = source.batch->get(name);
@@ -89,6 +89,7 @@ void TableReader::Table::check_names() {
   names.insert(names.end(), source.extra_keys.begin(), source.extra_keys.end());
   for (const auto& [written, node] : *source.table) {
     if (std::ranges::find(names, written.str()) != names.end()) continue;
+    if (std::ranges::find(source.refused_keys, written.str()) != source.refused_keys.end()) continue;
     if (log.full()) {
       error(position_of(written.source()), "unknown key");
       continue;

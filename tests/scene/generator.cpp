@@ -36,6 +36,10 @@ class Writer {
   bool chance(double share) { return random_.uniform() < share; }
   // A mishap that a legal scene does not have.
   bool mishap() { return !wildness_.legal && chance(0.001); }
+  template <typename Type>
+  const Type& one_of(std::span<const Type* const> types) {
+    return *types[size_t(random_.below(int(types.size())))];
+  }
 
   double extreme(const Key& key);
   double number(const Key& key);
@@ -224,24 +228,19 @@ std::string Writer::write() {
   table("[render]", {loader::find_section("render")->keys}, {}, "");
 
   for (int i = random_.below(4); i > 0; --i) {
-    // What a light needs is optional in its keys, for it depends on the type.
-    const bool point = chance(0.5);
-    const Key place{.name = "", .type = KeyType::vec3, .doc = ""};
-    table("[[light]]", {loader::find_section("light")->keys},
-          point ? std::set<std::string_view>{"type", "direction", "position"}
-                : std::set<std::string_view>{"type", "direction", "position", "falloff"},
-          fmt::format("type = \"{}\"\n{} = {}\n", point ? "point" : "directional",
-                      point ? "position" : "direction", numbers(place, 3)));
+    const LightType& type = one_of(light_types());
+    table("[[light]]", {loader::find_section("light")->keys, type.keys}, {"type"},
+          fmt::format("type = \"{}\"\n", type.name));
   }
   for (int i = 0; i < materials; ++i) {
-    const MaterialType& type = *material_types()[size_t(random_.below(int(material_types().size())))];
+    const MaterialType& type = one_of(material_types());
     // Few shapes may have holes.
     table("[[material]]", {type.keys},
           chance(0.9) ? std::set<std::string_view>{"alpha", "alpha_cutoff"} : std::set<std::string_view>{},
           fmt::format("name = \"m{}\"\ntype = \"{}\"\n", i, type.name));
   }
   for (int i = random_.below(6); i > 0; --i) {
-    const ShapeType& type = *shape_types()[size_t(random_.below(int(shape_types().size())))];
+    const ShapeType& type = one_of(shape_types());
     // A normal that points the wrong way is refused: half of all. Most triangles go without.
     std::set<std::string_view> mostly;
     if (chance(0.8)) mostly = {"normals"};
