@@ -5,7 +5,7 @@ file(GLOB_RECURSE SHADER_FILES CONFIGURE_DEPENDS RELATIVE ${SHADER_ROOT} ${SHADE
 list(TRANSFORM SHADER_FILES PREPEND ${SHADER_ROOT}/ OUTPUT_VARIABLE SHADER_PATHS)
 
 # The twin compiles every row of the registries; a GPU kernel, its scene's only (executors/specialise.cpp).
-foreach(registry cameras samplers shapes materials lights integrators)
+foreach(registry cameras samplers textures shapes materials lights integrators)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${SHADER_ROOT}/${registry}/registry.h)
   file(STRINGS ${SHADER_ROOT}/${registry}/registry.h rows REGEX "^  (X\\(|R\\(X, )[a-z_]+,")
   string(REGEX REPLACE "  (X\\(|R\\(X, )([a-z_]+),[^;]*" "#include \"${registry}/\\2.glsl\"\n" includes "${rows}")

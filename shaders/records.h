@@ -146,22 +146,13 @@ struct Medium {
 
 // ---- Texture: 64 bytes ----------------------------------------------------------------------------------------------
 struct Texture {
-  vec3 even;  // an image is multiplied by it
+  vec3 color;
   uint kind;
-  vec3 odd;
-  uint flags;         // of an image
-  float frequency_u;  // 1 / size of a check, or of the whole image
-  float frequency_v;
-  uint width;  // of an image
-  uint height;
-  uint first_texel;
-  uint unused_0;
-  uint unused_1;
-  uint unused_2;
+  vec4 a;  // what these hold is said in the texture's .glsl
+  vec4 b;
+  uvec4 c;
 };
-#define TEXTURE_CONSTANT 0u
-#define TEXTURE_CHECKER 1u
-#define TEXTURE_IMAGE 2u
+// The flags of an image.
 #define IMAGE_NEAREST 1u
 #define IMAGE_LINEAR 2u
 #define IMAGE_WRAP_U_SHIFT 4u

@@ -13,6 +13,7 @@
 #include "host/expression/emit.hpp"
 #include "host/formula/formula.hpp"
 #include "host/scene/integrator.hpp"
+#include "host/scene/texture.hpp"
 
 namespace eyeray::executors {
 namespace {
@@ -31,6 +32,7 @@ constexpr Row shapes[] = {SHAPES(ROW)};
 constexpr Row immediate_leaves[] = {IMMEDIATE_LEAVES(ROW)};
 constexpr Row deferred_leaves[] = {DEFERRED_LEAVES(ROW)};
 constexpr Row deferred_shapes[] = {DEFERRED_SHAPES(ROW)};
+constexpr Row textures[] = {TEXTURES(ROW)};
 constexpr Row materials[] = {MATERIALS(ROW)};
 constexpr Row cameras[] = {CAMERAS(ROW)};
 constexpr Row lights[] = {LIGHTS(ROW)};
@@ -81,8 +83,7 @@ std::string literal(const shader::Material& m) {
                         m.reflected, m.ambient, m.emission, m.alpha, m.alpha_cutoff, m.shininess, m.a);
 }
 std::string literal(const shader::Texture& t) {
-  return record_literal("Texture", t.even, t.kind, t.odd, t.flags, t.frequency_u, t.frequency_v, t.width,
-                        t.height, t.first_texel, t.unused_0, t.unused_1, t.unused_2);
+  return record_literal("Texture", t.color, t.kind, t.a, t.b, t.c);
 }
 std::string literal(const shader::Medium& m) {
   return record_literal("Medium", m.absorption, m.ior);
@@ -203,16 +204,19 @@ std::set<uint32_t> deferred_kinds(const PackedScene& scene) {
   return slow == scene.bvh_kinds ? std::set<uint32_t>() : slow;
 }
 
+bool varies(const shader::Texture& texture) {
+  return std::ranges::find(texture_rows, texture.kind, &TextureRow::number)->varies;
+}
+
 // Whether any texture of the material varies over a surface.
 bool varies(const PackedScene& scene, const shader::Material& material) {
-  return std::ranges::any_of(
-      std::array{material.base, material.specular, material.reflected, material.ambient, material.emission,
-                 material.alpha},
-      [&](uint32_t texture) { return scene.textures[texture].kind != TEXTURE_CONSTANT; });
+  return std::ranges::any_of(std::array{material.base, material.specular, material.reflected,
+                                        material.ambient, material.emission, material.alpha},
+                             [&](uint32_t texture) { return varies(scene.textures[texture]); });
 }
 
 bool is_black(const shader::Texture& texture) {
-  return texture.kind == TEXTURE_CONSTANT && texture.even == shader::vec3(0);
+  return !varies(texture) && texture.color == shader::vec3(0);
 }
 
 bool any_emits(const PackedScene& scene) {
@@ -260,9 +264,6 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   };
   take_note(scene.uses, shapes_used);
   take_note(scene.leaf_uses, leaves_used);
-  const bool checker = std::any_of(scene.textures.begin(), scene.textures.end(),
-                                   [](const shader::Texture& t) { return t.kind == TEXTURE_CHECKER; });
-  const bool images = scene.texel_count > 0;
   const bool media = scene.media.size() > 1;
   const bool absorption = std::any_of(scene.media.begin(), scene.media.end(),
                                       [](const shader::Medium& m) { return m.absorption != glm::vec3(0); });
@@ -274,8 +275,6 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   };
   define("LIGHT_COUNT", fmt::format("{}u", scene.lights.size()));
   define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.triangle_method));
-  define("HAS_CHECKER", int(checker));
-  define("HAS_IMAGES", int(images));
   define("HAS_COLORS", int(scene.vertex_colors));
   define("HAS_EMISSION", int(any_emits(scene)));
   define("HAS_ALPHA_TEST", int(!alpha_tested_kinds.empty()));
@@ -330,6 +329,10 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
   text += "#include \"kernels/loaders.glsl\"\n";
   text += formulas(scene);
+  std::set<uint32_t> texture_kinds, light_kinds;
+  for (const shader::Texture& texture : scene.textures) texture_kinds.insert(texture.kind);
+  for (const shader::Light& light : scene.lights) light_kinds.insert(light.kind);
+  text += registry("TEXTURES", "textures", textures, texture_kinds);
   text += registry("CLOSED_SHAPES", "shapes", shapes, leaves_used);
   text += registry("IMMEDIATE_LEAVES", "shapes", immediate_leaves, leaves_used);
   text += registry("DEFERRED_LEAVES", "shapes", deferred_leaves, leaves_used);
@@ -340,8 +343,6 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   text += registry("DEFERRED_SHAPES", "shapes", shapes, slow);
   text += registry("ALPHA_TESTED_SHAPES", "shapes", shapes, alpha_tested_kinds);
   text += registry("MATERIALS", "materials", materials, material_kinds);
-  std::set<uint32_t> light_kinds;
-  for (const shader::Light& light : scene.lights) light_kinds.insert(light.kind);
   text += registry("LIGHTS", "lights", lights, light_kinds);
   text += registry("CAMERAS", "cameras", cameras, {scene.frame.camera});
   text += registry("SAMPLERS", "samplers", samplers, {scene.frame.pattern});

@@ -97,7 +97,7 @@ void GltfLeftOut::report(std::vector<std::string>& warnings) const {
 
 struct GltfMaterials::Surface {
   Vec3 base{1};
-  Texture emission = {};
+  TexturePtr emission;
   std::shared_ptr<const ImageTexture> image;
   double metalness = 1;
   double roughness = 1;
@@ -165,21 +165,21 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
 }
 
 // What its picture takes of a mesh's uv must be what the base colour takes: a vertex has one uv.
-Texture GltfMaterials::emission(const GltfObject& material) {
-  Texture emission{share(factors(material, "emissiveFactor", {0, 0, 0})), {}};
-  if (emission.value == Vec3(0)) return emission;
+TexturePtr GltfMaterials::emission(const GltfObject& material) {
+  const TexturePtr none = textures::make_constant(Vec3(0));
+  Vec3 color = share(factors(material, "emissiveFactor", {0, 0, 0}));
+  if (color == Vec3(0)) return none;
   if (const auto strength = material.extension("KHR_materials_emissive_strength"))
-    emission.value *= std::clamp(strength->number("emissiveStrength", 1), 0.0, most_emission);
+    color *= std::clamp(strength->number("emissiveStrength", 1), 0.0, most_emission);
   const auto reference = material.object("emissiveTexture");
-  if (!reference) return emission;
-  emission.image = texture(*reference, true);
-  if (!emission.image) {
-    emission.value = Vec3(0);
-  } else if (const auto base = base_texture(material); base && uv_of(*reference) != uv_of(*base)) {
+  if (!reference) return textures::make_constant(color);
+  const auto image = texture(*reference, true);
+  if (!image) return none;
+  if (const auto base = base_texture(material); base && uv_of(*reference) != uv_of(*base)) {
     left_out_.add("emission maps with uv of their own");
-    return {};
+    return none;
   }
-  return emission;
+  return textures::make_image(image, color);
 }
 
 GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
@@ -218,7 +218,7 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
     made = make_glass(source);
   } else if (source.extension("KHR_materials_unlit")) {
     const Surface s = surface(source);
-    made = make_phong({.diffuse = Texture{}, .emission = Texture{s.base, {}, s.image}});
+    made = make_phong({.diffuse = textures::make_constant(Vec3(0)), .emission = textured(s.base, s.image)});
   } else {
     const Surface s = surface(source);
     const double smooth = (1 - s.roughness) * (1 - s.roughness);
@@ -226,11 +226,11 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
     const bool mirrors = std::max({mirrored.x, mirrored.y, mirrored.z}) >= least_reflectance;
     const double exponent = std::clamp(2 / std::max(1e-4, std::pow(s.roughness, 4)) - 2, 1.0, 10000.0);
     const Vec3 lobe = glm::mix(Vec3(0.04), s.base, s.metalness) * ((exponent + 2) / 8);
-    const Highlight highlight{Texture{glm::min(lobe, Vec3(1)), {}}, exponent, true};
+    const Highlight highlight{textures::make_constant(glm::min(lobe, Vec3(1))), exponent, true};
     // Only what a metal mirrors has the colour of its picture.
-    const Texture reflectance{
-        mirrors ? mirrored : Vec3(0), {}, mirrors && s.metalness > 0.5 ? s.image : nullptr};
-    const Texture diffuse{s.base * (1 - s.metalness * smooth), {}, s.image};
+    const TexturePtr reflectance =
+        textured(mirrors ? mirrored : Vec3(0), mirrors && s.metalness > 0.5 ? s.image : nullptr);
+    const TexturePtr diffuse = textured(s.base * (1 - s.metalness * smooth), s.image);
     if (s.metalness * smooth > 0.95) {
       made = make_mirror({.reflectance = reflectance, .highlight = highlight});
     } else {
@@ -255,11 +255,11 @@ std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material) {
   if (!(cutoff > 0)) return std::nullopt;
   const auto pbr = material.object("pbrMetallicRoughness");
   const auto old = pbr ? std::nullopt : material.extension(specular_glossiness);
-  AlphaMask mask{.cutoff = cutoff};
-  if (pbr) mask.alpha.value = Vec3(factors(*pbr, "baseColorFactor", {1, 1, 1, 1})[3]);
-  if (old) mask.alpha.value = Vec3(factors(*old, "diffuseFactor", {1, 1, 1, 1})[3]);
-  if (const auto reference = base_texture(material)) mask.alpha.image = texture(*reference, true);
-  return mask;
+  double alpha = 1;
+  if (pbr) alpha = factors(*pbr, "baseColorFactor", {1, 1, 1, 1})[3];
+  if (old) alpha = factors(*old, "diffuseFactor", {1, 1, 1, 1})[3];
+  const auto reference = base_texture(material);
+  return AlphaMask{textured(Vec3(alpha), reference ? texture(*reference, true) : nullptr), cutoff};
 }
 
 // Of metallic-roughness, or where there is only that of specular-glossiness.

@@ -48,7 +48,7 @@ class GltfMaterials {
   struct Surface;  // metallic-roughness, as numbers and one picture
 
   Surface surface(const GltfObject& material);
-  Texture emission(const GltfObject& material);
+  TexturePtr emission(const GltfObject& material);
   std::optional<AlphaMask> mask(const GltfObject& material);
   std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, bool srgb);
   ImageTexture decode_image(size_t index, PixelBudget& budget);

@@ -80,7 +80,7 @@ ImportedScene import_bytes(std::string bytes, const std::string& name, const Imp
 }
 
 std::unique_ptr<Material> plain_material(bool colored) {
-  auto material = make_phong({.diffuse = Texture{Vec3(colored ? 1.0 : 0.75), {}}});
+  auto material = make_phong({.diffuse = textures::make_constant(Vec3(colored ? 1.0 : 0.75))});
   material->name = colored ? "colored" : "plain";
   return material;
 }

@@ -36,7 +36,7 @@ Highlight highlight(const tinyobj::material_t& source) {
   if (source.illum == no_highlight) return {};
   // `Ns` is the exponent of Blinn's lobe (Alias: Object Files, B1).
   const double shininess = source.shininess >= 1 ? std::min(source.shininess, 10000.0) : 1;
-  return {Texture{color(source.specular), {}}, shininess, true};
+  return {textures::make_constant(color(source.specular)), shininess, true};
 }
 
 std::unique_ptr<Material> convert(const tinyobj::material_t& source,
@@ -45,10 +45,10 @@ std::unique_ptr<Material> convert(const tinyobj::material_t& source,
     const double ior = source.ior >= 1 && source.ior <= 4 ? source.ior : 1.5;
     return make_dielectric({.ior = ior, .highlight = highlight(source)});
   }
-  const Texture diffuse{color(source.diffuse), {}, std::move(image)};
+  const TexturePtr diffuse = textured(color(source.diffuse), std::move(image));
   if (!mirrors(source.illum)) return make_phong({.diffuse = diffuse, .highlight = highlight(source)});
-  const Texture reflectance{color(source.specular), {}};
-  if (diffuse.value == Vec3(0)) return make_mirror({.reflectance = reflectance});
+  const TexturePtr reflectance = textures::make_constant(color(source.specular));
+  if (color(source.diffuse) == Vec3(0)) return make_mirror({.reflectance = reflectance});
   return make_phong({.diffuse = diffuse, .reflectance = reflectance, .highlight = highlight(source)});
 }
 

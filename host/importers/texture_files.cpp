@@ -5,6 +5,10 @@
 
 namespace eyeray::importers {
 
+TexturePtr textured(const Vec3& color, std::shared_ptr<const ImageTexture> picture) {
+  return picture ? textures::make_image(std::move(picture), color) : textures::make_constant(color);
+}
+
 std::shared_ptr<const ImageTexture> TextureFiles::load(const std::string& name) {
   return load(name, [&](PixelBudget& budget) { return load_image_texture(assets_.locate(name), budget); });
 }

@@ -9,9 +9,12 @@
 
 #include "host/image/coded_image.hpp"
 #include "host/importers/asset_files.hpp"
-#include "host/scene/texture.hpp"
+#include "host/textures/make.hpp"
 
 namespace eyeray::importers {
+
+// A color, times a picture where there is one.
+TexturePtr textured(const Vec3& color, std::shared_ptr<const ImageTexture> picture);
 
 class TextureFiles {
  public:

@@ -29,8 +29,9 @@ void check_view(TableReader& table, const Camera& camera) {
 
 }  // namespace
 
-Camera read_camera(const Section& section, const toml::table* table, DiagnosticLog& log) {
-  auto [type, reader] = read_kind(section, table, camera_types(), log);
+Camera read_camera(const Section& section, const toml::table* table, const ValueSources& sources,
+                   DiagnosticLog& log) {
+  auto [type, reader] = read_kind(section, table, camera_types(), sources, log);
   const Camera camera{.eye = reader.vec3("eye"),
                       .target = reader.vec3("target"),
                       .up = reader.vec3("up"),

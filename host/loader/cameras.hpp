@@ -7,6 +7,7 @@
 namespace eyeray::loader {
 
 // `table` null: not written. Errors are in the log; after one the camera may have no projection.
-Camera read_camera(const Section& section, const toml::table* table, DiagnosticLog& log);
+Camera read_camera(const Section& section, const toml::table* table, const ValueSources& sources,
+                   DiagnosticLog& log);
 
 }  // namespace eyeray::loader

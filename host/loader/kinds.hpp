@@ -62,10 +62,10 @@ struct Kind {
 };
 
 // The table by the keys of its type, which comes first: it decides which other keys there are. The type is
-// null after an error in it, which is in the log. `table` null: not written. `images`: see TableSource.
+// null after an error in it, which is in the log. `table` null: not written.
 template <typename Type>
 Kind<Type> read_kind(const Section& section, const toml::table* table, std::span<const Type* const> types,
-                     DiagnosticLog& log, ImageSource* images = nullptr) {
+                     const ValueSources& sources, DiagnosticLog& log) {
   const Type* type = named_type(table, section, types);
   const std::string title = type ? fmt::format("{} of type {}", section.title, type->name) : section.title;
   const std::vector<std::string_view> others =
@@ -76,7 +76,7 @@ Kind<Type> read_kind(const Section& section, const toml::table* table, std::span
                             .keys = {section.keys, type ? type->keys : std::span<const Key>()},
                             .refused_keys = others,
                             .open = !type,
-                            .images = images},
+                            .sources = sources},
                            log)};
 }
 

@@ -4,8 +4,9 @@
 
 namespace eyeray::loader {
 
-std::unique_ptr<Light> read_light(const Section& section, const toml::table& table, DiagnosticLog& log) {
-  auto [type, reader] = read_kind(section, &table, light_types(), log);
+std::unique_ptr<Light> read_light(const Section& section, const toml::table& table,
+                                  const ValueSources& sources, DiagnosticLog& log) {
+  auto [type, reader] = read_kind(section, &table, light_types(), sources, log);
   return type ? type->parse(reader) : nullptr;
 }
 

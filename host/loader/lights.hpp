@@ -9,6 +9,7 @@
 namespace eyeray::loader {
 
 // Null after an error, which is in the log.
-std::unique_ptr<Light> read_light(const Section& section, const toml::table& table, DiagnosticLog& log);
+std::unique_ptr<Light> read_light(const Section& section, const toml::table& table,
+                                  const ValueSources& sources, DiagnosticLog& log);
 
 }  // namespace eyeray::loader

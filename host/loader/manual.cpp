@@ -5,6 +5,7 @@
 #include "host/reference/integrator.hpp"
 #include "host/reference/sampler.hpp"
 #include "host/scene/table.hpp"
+#include "host/textures/registry.hpp"
 
 namespace eyeray::loader {
 
@@ -37,6 +38,15 @@ std::string kinds_manual(std::span<const Type* const> types) {
   for (const Type* type : types)
     text +=
         fmt::format("### `type = \"{}\"`\n\n", type->name) + trimmed(type->manual) + key_table({type->keys});
+  return text;
+}
+
+std::string textures_manual() {
+  std::string text;
+  for (const TextureType* type : textures::types())
+    text += type->of_color ? "### `[r, g, b]`\n\n" + trimmed(type->manual)
+                           : fmt::format("### `{{ {} = … }}`\n\n", type->name) + trimmed(type->manual) +
+                                 key_table({type->keys});
   return text;
 }
 
@@ -80,14 +90,7 @@ std::string scene_manual() {
     if (section.kind == light) text += kinds_manual(light_types());
     if (section.kind != material) continue;
     text += kinds_manual(material_types());
-    text += "### `{ checker = … }`\n\nA checkerboard in uv, wherever a color may vary over a surface.\n\n";
-    text += key_table({checker_table_keys()});
-    text +=
-        "### `{ image = … }`\n\nA picture, wherever a color may vary over a surface: (0, 0) in uv is its "
-        "lower left "
-        "corner, (`scale`, `scale`) its upper right. "
-        "See [scene-file.md](scene-file.md#images).\n\n";
-    text += key_table({image_table_keys()});
+    text += textures_manual();
   }
   text +=
       "## `transform`\n\nEach step is a table with one of these keys; steps are applied in the order "

@@ -15,6 +15,7 @@
 #include "host/loader/settings.hpp"
 #include "host/scene/affine.hpp"
 #include "host/scene/table.hpp"
+#include "host/textures/registry.hpp"
 
 namespace eyeray::loader {
 
@@ -36,15 +37,14 @@ class Builder {
  public:
   Builder(const toml::table& root, const SceneSources& sources, DiagnosticLog& log)
       : root_(root),
-        images_(sources.images),
+        values_{.formulas = sources.formulas, .images = sources.images, .textures = textures::types()},
         meshes_(sources.meshes),
-        formulas_(sources.formulas),
         log_(log) {}
 
   Scene build() {
     TableReader image = read_single("image");
     scene_.image = read_image(image);
-    scene_.camera = read_camera(*find_section("camera"), single("camera"), log_);
+    scene_.camera = read_camera(*find_section("camera"), single("camera"), values_, log_);
     TableReader render = read_single("render");
     scene_.render = read_render(render);
 
@@ -54,7 +54,7 @@ class Builder {
                    fmt::format("a scene can have at most {} lights", most_lights));
       }
       if (lights_ > most_lights) return;
-      if (std::unique_ptr<Light> light = read_light(section, table, log_))
+      if (std::unique_ptr<Light> light = read_light(section, table, values_, log_))
         scene_.lights.push_back(std::move(light));
     });
     for_each(root_, "material",
@@ -132,9 +132,8 @@ class Builder {
   void check_whole();
 
   const toml::table& root_;
-  ImageSource* images_;
+  const ValueSources values_;
   MeshImports* meshes_;
-  FormulaSource* formulas_;
   DiagnosticLog& log_;
   Scene scene_;
   std::map<std::string, NamedMaterial, std::less<>> materials_;
@@ -150,7 +149,7 @@ class Builder {
 };
 
 void Builder::add_material(const Section& section, const toml::table& table) {
-  auto [type, reader] = read_kind(section, &table, material_types(), log_, images_);
+  auto [type, reader] = read_kind(section, &table, material_types(), values_, log_);
   std::unique_ptr<Material> material = type ? type->parse(reader) : nullptr;
 
   // Enter the name even after an error, so that its users are not reported too.
@@ -281,7 +280,7 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
                                      .batch = batch.lists,
                                      .element = i,
                                      .extra_keys = elsewhere,
-                                     .formulas = formulas_},
+                                     .sources = values_},
                                     log_);
     if (reader.has("name") && reader.valid("name") && reader.string("name").empty())
       reader.error("name", "a name must not be empty; leave `name` out instead");

@@ -7,6 +7,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
 #include "host/scene/table.hpp"
+#include "host/textures/registry.hpp"
 
 namespace eyeray::loader {
 
@@ -54,6 +55,14 @@ Json either(Json a, Json b) {
 }
 
 Json table_schema(std::span<const Key> keys);
+
+Json texture_schema(const TextureType& type) {
+  if (type.is_flat()) return table_schema(type.keys);
+  return {{"type", "object"},
+          {"properties", {{std::string(type.name), table_schema(type.keys)}}},
+          {"required", {type.name}},
+          {"additionalProperties", false}};
+}
 
 // What a value of the key may be, without its description.
 Json value_schema(const Key& key) {
@@ -114,13 +123,9 @@ Json value_schema(const Key& key) {
       return rows;
     }
     case KeyType::texture: {
-      Json checker = {{"type", "object"},
-                      {"properties", {{"checker", table_schema(checker_table_keys())}}},
-                      {"required", {"checker"}},
-                      {"additionalProperties", false}};
       Json schema = either(number_schema(positive, "number"), vector_schema(positive, 3));
-      schema["anyOf"].push_back(std::move(checker));
-      schema["anyOf"].push_back(table_schema(image_table_keys()));
+      for (const TextureType* type : textures::types())
+        if (type->parse) schema["anyOf"].push_back(texture_schema(*type));
       return schema;
     }
   }

@@ -91,7 +91,7 @@ class Dielectric final : public Material {
   void pack(Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_dielectric, values_.highlight, shadow_transmittance(), packer);
     record.medium = packer.add_medium(values_.ior, values_.absorption);
-    record.base = record.reflected = packer.add_texture({Vec3(1), {}});
+    record.base = record.reflected = textures::make_constant(Vec3(1))->pack(packer);
     packer.add(record);
   }
 

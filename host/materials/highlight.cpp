@@ -5,7 +5,7 @@
 namespace eyeray {
 
 void Highlight::apply(const Vec2& uv, Scattering& scattering) const {
-  scattering.specular = specular.at(uv);
+  scattering.specular = specular->at(uv);
   scattering.shininess = shininess;
   scattering.blinn = blinn;
 }
@@ -23,13 +23,13 @@ static uint32_t optical_depth_of(double transmittance) {
 
 shader::Material make_record(uint32_t kind, const Highlight& highlight, double shadow_transmittance,
                              Packer& packer) {
-  const uint32_t black = packer.add_texture({});
+  const uint32_t black = textures::make_constant(Vec3(0))->pack(packer);
   return {.kind = kind,
           .flags = highlight.blinn ? MATERIAL_BLINN : 0u,
           .medium = 0,
           .optical_depth = optical_depth_of(shadow_transmittance),
           .base = black,
-          .specular = packer.add_texture(highlight.specular),
+          .specular = highlight.specular->pack(packer),
           .reflected = black,
           .ambient = black,
           .emission = black,

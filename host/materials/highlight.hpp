@@ -4,11 +4,12 @@
 #include "host/records/packer.hpp"
 #include "host/scene/material.hpp"
 #include "host/scene/table_reader.hpp"
+#include "host/textures/make.hpp"
 
 namespace eyeray {
 
 struct Highlight {
-  Texture specular = {};
+  TexturePtr specular = textures::make_constant(Vec3(0));
   double shininess = 32;
   bool blinn = false;
 

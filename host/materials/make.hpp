@@ -11,16 +11,16 @@
 namespace eyeray {
 
 struct PhongValues {
-  Texture diffuse{Vec3(0.8), {}};
-  std::optional<Texture> ambient = {};  // absent: as diffuse
-  Texture reflectance = {};
-  Texture emission = {};
+  TexturePtr diffuse = textures::make_constant(Vec3(0.8));
+  TexturePtr ambient = nullptr;  // null: as diffuse
+  TexturePtr reflectance = textures::make_constant(Vec3(0));
+  TexturePtr emission = textures::make_constant(Vec3(0));
   Highlight highlight = {};
 };
 std::unique_ptr<Material> make_phong(const PhongValues& values);
 
 struct MirrorValues {
-  Texture reflectance{Vec3(0.95), {}};
+  TexturePtr reflectance = textures::make_constant(Vec3(0.95));
   Highlight highlight = {};
 };
 std::unique_ptr<Material> make_mirror(const MirrorValues& values);

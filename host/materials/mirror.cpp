@@ -41,16 +41,16 @@ class Mirror final : public Material {
 
   Scattering scattering(const ScatteringContext& context) const override {
     Scattering scattering;
-    scattering.reflected = values_.reflectance.at(context.uv);
+    scattering.reflected = values_.reflectance->at(context.uv);
     values_.highlight.apply(context.uv, scattering);
     return scattering;
   }
 
-  Vec3 base_color(const Vec2& uv) const override { return values_.reflectance.at(uv); }
+  Vec3 base_color(const Vec2& uv) const override { return values_.reflectance->at(uv); }
 
   void pack(Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_mirror, values_.highlight, shadow_transmittance(), packer);
-    record.base = record.reflected = packer.add_texture(values_.reflectance);
+    record.base = record.reflected = values_.reflectance->pack(packer);
     packer.add(record);
   }
 

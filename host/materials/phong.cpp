@@ -57,27 +57,29 @@ class Phong final : public Material {
 
   Scattering scattering(const ScatteringContext& context) const override {
     Scattering scattering;
-    scattering.ambient = ambient().at(context.uv) * context.color;
-    scattering.diffuse = values_.diffuse.at(context.uv) * context.color;
-    scattering.emitted = values_.emission.at(context.uv) * context.color;
-    scattering.reflected = values_.reflectance.at(context.uv);
+    scattering.ambient = ambient()->at(context.uv) * context.color;
+    scattering.diffuse = values_.diffuse->at(context.uv) * context.color;
+    scattering.emitted = values_.emission->at(context.uv) * context.color;
+    scattering.reflected = values_.reflectance->at(context.uv);
     values_.highlight.apply(context.uv, scattering);
     return scattering;
   }
 
-  Vec3 base_color(const Vec2& uv) const override { return values_.diffuse.at(uv) + values_.emission.at(uv); }
+  Vec3 base_color(const Vec2& uv) const override {
+    return values_.diffuse->at(uv) + values_.emission->at(uv);
+  }
 
   void pack(Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_phong, values_.highlight, shadow_transmittance(), packer);
-    record.base = packer.add_texture(values_.diffuse);
-    record.reflected = packer.add_texture(values_.reflectance);
-    record.ambient = packer.add_texture(ambient());
-    record.emission = packer.add_texture(values_.emission);
+    record.base = values_.diffuse->pack(packer);
+    record.reflected = values_.reflectance->pack(packer);
+    record.ambient = ambient()->pack(packer);
+    record.emission = values_.emission->pack(packer);
     packer.add(record);
   }
 
  private:
-  const Texture& ambient() const { return values_.ambient ? *values_.ambient : values_.diffuse; }
+  const TexturePtr& ambient() const { return values_.ambient ? values_.ambient : values_.diffuse; }
 
   PhongValues values_;
 };

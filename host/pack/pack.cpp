@@ -53,7 +53,7 @@ Packer pack_records(const Scene& scene, const PackOptions& options) {
     material->pack(packer);
     if (material->mask) {
       shader::Material& record = packer.scene.materials.back();
-      record.alpha = packer.add_texture(material->mask->alpha);
+      record.alpha = material->mask->alpha->pack(packer);
       record.alpha_cutoff = float(material->mask->cutoff);
     }
   }

@@ -14,23 +14,6 @@ namespace eyeray {
 
 namespace {
 
-uint32_t wrap_code(Wrap wrap) {
-  switch (wrap) {
-    case Wrap::repeat:
-      return WRAP_REPEAT;
-    case Wrap::mirror:
-      return WRAP_MIRROR;
-    case Wrap::clamp:
-      return WRAP_CLAMP;
-  }
-  return WRAP_REPEAT;
-}
-
-uint32_t image_flags(const ImageTexture& image) {
-  return (image.filter == Filter::nearest ? IMAGE_NEAREST : 0) | (image.srgb ? 0 : IMAGE_LINEAR) |
-         wrap_code(image.wrap_u) << IMAGE_WRAP_U_SHIFT | wrap_code(image.wrap_v) << IMAGE_WRAP_V_SHIFT;
-}
-
 size_t hash_bytes(std::span<const std::byte> bytes) {
   return std::hash<std::string_view>{}({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
@@ -96,27 +79,7 @@ void Packer::write_texels() {
   CHECK_EQ(scene.texels.size(), scene.texel_count);
 }
 
-uint32_t Packer::add_texture(const Texture& texture) {
-  shader::Texture record{};
-  if (texture.checker) {
-    record.kind = TEXTURE_CHECKER;
-    record.even = glm::vec3(texture.checker->even);
-    record.odd = glm::vec3(texture.checker->odd);
-    record.frequency_u = float(1.0 / texture.checker->size.x);
-    record.frequency_v = float(1.0 / texture.checker->size.y);
-  } else {
-    record.kind = texture.image ? TEXTURE_IMAGE : TEXTURE_CONSTANT;
-    record.even = glm::vec3(texture.value);
-  }
-  if (texture.image) {
-    const ImageTexture& image = *texture.image;
-    record.frequency_u = float(1.0 / texture.image_size.x);
-    record.frequency_v = float(1.0 / texture.image_size.y);
-    record.width = uint32_t(image.width);
-    record.height = uint32_t(image.height);
-    record.first_texel = add_image(texture.image);
-    record.flags = image_flags(image);
-  }
+uint32_t Packer::add(const shader::Texture& record) {
   const size_t hash = hash_bytes(std::as_bytes(std::span(&record, 1)));
   const auto [begin, end] = textures_by_bytes_.equal_range(hash);
   for (auto known = begin; known != end; ++known)

@@ -14,7 +14,7 @@
 #include "host/expression/expression.hpp"
 #include "host/records/records.hpp"
 #include "host/scene/bounds.hpp"
-#include "host/scene/texture.hpp"
+#include "host/scene/image_texture.hpp"
 
 namespace eyeray {
 
@@ -92,8 +92,8 @@ class Packer {
   void add_iterations(size_t count) { scene.shape_iterations += count; }
   // Every shape whose `intersect` may return T_ITERATION_LIMIT says so.
   void add_iteration_limit() { scene.may_reach_iteration_limit = true; }
-  // The index of a texture; equal textures share one.
-  uint32_t add_texture(const Texture& texture);
+  // The index of a texture; equal ones share it.
+  uint32_t add(const shader::Texture& texture);
   // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there
   // are more than an index can tell apart. Counts them alone: write_texels() writes.
   uint32_t add_image(const std::shared_ptr<const ImageTexture>& image);

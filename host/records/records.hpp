@@ -11,6 +11,7 @@
 #include "shaders/materials/registry.h"
 #include "shaders/samplers/registry.h"
 #include "shaders/shapes/registry.h"
+#include "shaders/textures/registry.h"
 
 namespace eyeray::shader {
 
@@ -23,6 +24,9 @@ MATERIALS(X)
 #undef X
 #define X(name, number) inline constexpr uint LIGHT_##name = number;
 LIGHTS(X)
+#undef X
+#define X(name, number, ...) inline constexpr uint TEXTURE_##name = number;
+TEXTURES(X)
 #undef X
 #define X(name, number) inline constexpr uint CAMERA_##name = number;
 CAMERAS(X)

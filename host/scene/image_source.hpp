@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "host/core/diagnostic.hpp"
-#include "host/scene/texture.hpp"
+#include "host/scene/image_texture.hpp"
 
 namespace eyeray {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "host/image/coded_image.hpp"
-#include "host/scene/texture.hpp"
+#include "host/scene/image_texture.hpp"
 
 namespace eyeray {
 

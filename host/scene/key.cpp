@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/scene/table_reader.hpp"
+#include "host/scene/texture.hpp"
 
 namespace eyeray {
 
@@ -42,6 +42,17 @@ std::string describe_choices(std::span<const std::string_view> choices) {
   return text;
 }
 
+// "a color [r, g, b], one number for all three, { checker = … } or { image = … }".
+std::string describe_textures() {
+  std::string text = "a color [r, g, b], one number for all three", last;
+  for (const TextureRow& row : texture_rows) {
+    if (!row.varies) continue;
+    if (!last.empty()) text += ", " + last;
+    last = fmt::format("{{ {} = … }}", row.name);
+  }
+  return text + " or " + last;
+}
+
 }  // namespace
 
 std::string describe(const Key& declared) {
@@ -79,7 +90,7 @@ std::string describe(const Key& declared) {
     case KeyType::color:
       return "a color [r, g, b] or one number for all three" + each(key);
     case KeyType::texture:
-      return "a color [r, g, b], one number for all three, { checker = … } or { image = … }" + each(key);
+      return describe_textures() + each(key);
     case KeyType::scale2:
       return "two numbers [u, v] or one for both" + each(key);
     case KeyType::scale3:

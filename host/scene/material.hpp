@@ -45,11 +45,11 @@ struct ScatteringContext {
 
 // Holes: where the alpha, times that of a mesh's vertices, is below `cutoff`, there is no surface.
 struct AlphaMask {
-  Texture alpha{Vec3(1.0), {}};  // by Texture::alpha_at
-  double cutoff = 0.5;           // above 0
+  TexturePtr alpha;     // by Texture::alpha_at
+  double cutoff = 0.5;  // above 0
 
   bool covers(const Vec2& uv, double vertex_alpha = 1) const {
-    return alpha.alpha_at(uv) * vertex_alpha >= cutoff;
+    return alpha->alpha_at(uv) * vertex_alpha >= cutoff;
   }
 };
 

@@ -22,8 +22,7 @@ struct TableSource {
   std::span<const std::string_view> extra_keys = {};    // that are allowed and read elsewhere
   std::span<const std::string_view> refused_keys = {};  // that an error elsewhere is about
   bool open = false;                                    // whether any other key is
-  FormulaSource* formulas = nullptr;  // loads the files of formulas; null: none may be named
-  ImageSource* images = nullptr;      // loads the images of textures; null: none may be named
+  ValueSources sources = {};
 };
 
 // Reads and checks every key; problems go to the log, which must outlive the reader.
@@ -33,8 +32,6 @@ TableReader read_table(const TableSource& source, DiagnosticLog& log);
 const toml::node& fallback_of(const Key& key);
 
 // The keys of the tables inside of values, for the schema and the manual.
-std::span<const Key> checker_table_keys();
-std::span<const Key> image_table_keys();
 std::span<const Key> transform_step_keys();
 std::span<const Key> rotation_keys();
 

@@ -65,18 +65,18 @@ Row TableReader::Table::read(const Key& key) {
     const bool wrong = !key.optional && !log.damaged();
     if (wrong) error(header(), fmt::format("{} needs `{}`, {}", source.title, key.name, describe(key)));
     failed = failed || !key.optional;
-    return {&key, nullptr, stand_in(key), !key.optional};
+    return {&key, nullptr, stand_in(key, source.sources), !key.optional};
   }
   if (node) {
-    if (auto value = read_value(key, *node, log, source.images, source.formulas))
+    if (auto value = read_value(key, *node, log, source.sources))
       return {&key, node, std::move(*value), false};
     failed = true;
   }
 
   // Take the default, for want of a value or of a right one.
   const bool wrong = node != nullptr;
-  if (key.fallback.empty()) return {&key, node, stand_in(key), wrong};
-  auto value = read_value(key, fallback_of(key), log);
+  if (key.fallback.empty()) return {&key, node, stand_in(key, source.sources), wrong};
+  auto value = read_value(key, fallback_of(key), log, source.sources);
   CHECK(value.has_value());
   return {&key, node, std::move(*value), wrong};
 }
@@ -176,8 +176,8 @@ std::vector<FormulaParameter> TableReader::parameters(std::string_view key) cons
 Vec3 TableReader::color(std::string_view key) const {
   return table_->get<Vec3>(key);
 }
-Texture TableReader::texture(std::string_view key) const {
-  return table_->get<Texture>(key);
+TexturePtr TableReader::texture(std::string_view key) const {
+  return table_->get<TexturePtr>(key);
 }
 Vec2 TableReader::scale2(std::string_view key) const {
   return table_->get<Vec2>(key);
@@ -187,6 +187,13 @@ Vec3 TableReader::scale3(std::string_view key) const {
 }
 Mat4 TableReader::transform(std::string_view key) const {
   return table_->get<Mat4>(key);
+}
+
+std::shared_ptr<const ImageTexture> TableReader::load_image(std::string_view key, ImageTexture wanted) {
+  if (!table_->source.sources.images) return error(key, "only a scene in a file can have images"), nullptr;
+  auto image = table_->source.sources.images->load(std::move(wanted), position(key));
+  table_->failed = table_->failed || !image;
+  return image;
 }
 
 void TableReader::error(std::string_view key, std::string message, std::initializer_list<size_t> element) {

@@ -13,12 +13,14 @@
 
 #include "host/core/diagnostic.hpp"
 #include "host/core/vec.hpp"
-#include "host/scene/texture.hpp"
 
 namespace eyeray {
 
 struct FormulaText;  // formula/formula.hpp
 struct FormulaParameter;
+class Texture;  // scene/texture.hpp
+using TexturePtr = std::shared_ptr<const Texture>;
+struct ImageTexture;  // scene/image_texture.hpp
 
 enum class KeyType {
   boolean,
@@ -36,10 +38,9 @@ enum class KeyType {
   formula_file,  // the name of a file of it
   parameters,    // { NAME = number or [2 to 4 numbers], … }
   color,         // [r, g, b], each ≥ 0, or one number for all three
-  texture,       // a color, { checker = { even = color, odd = color, size = number or [u, v] } },
-            // or { image = file, filter = …, wrap = …, color_space = …, scale = …, tint = color }
-  scale2,     // [u, v], or one number for both
-  scale3,     // [x, y, z], or one number for all three
+  texture,       // a color, or a table of a kind of texture
+  scale2,        // [u, v], or one number for both
+  scale3,        // [x, y, z], or one number for all three
   transform,  // [ { translate = [x,y,z] }, { rotate = { axis = [x,y,z], degrees = a } }, { scale = number or
               // [x,y,z] },
               //   { matrix = [[4], [4], [4]] } ], applied in the order written
@@ -86,7 +87,10 @@ class TableReader {
   FormulaText formula(std::string_view key) const;  // of formula and formula_file
   std::vector<FormulaParameter> parameters(std::string_view key) const;
   Vec3 color(std::string_view key) const;
-  Texture texture(std::string_view key) const;
+  TexturePtr texture(std::string_view key) const;
+  // `wanted` with the texels of the file that the key names; null where it cannot be had, which is an error
+  // then.
+  std::shared_ptr<const ImageTexture> load_image(std::string_view key, ImageTexture wanted);
   Vec2 scale2(std::string_view key) const;
   Vec3 scale3(std::string_view key) const;
   Mat4 transform(std::string_view key) const;

@@ -1,50 +1,59 @@
-// A colour that may vary over a surface.
+// What every texture answers, in float64: a colour that may vary over a surface. A texture is one .cpp in
+// host/textures, one .glsl in shaders/textures and one row in textures/registry.h.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+#include <span>
+#include <string_view>
 
 #include "host/core/vec.hpp"
+#include "host/scene/table_reader.hpp"
+#include "shaders/textures/registry.h"
 
 namespace eyeray {
 
-// A checkerboard in uv: the check that holds (u, v) is `even` where floor(u / size.x) + floor(v / size.y) is
-// even.
-struct Checker {
-  Vec3 even;
-  Vec3 odd;
-  Vec2 size;
+class Packer;  // records/packer.hpp
+
+class Texture {
+ public:
+  virtual ~Texture() = default;
+
+  // Linear RGB. The reference's half: no float32.
+  virtual Vec3 at(const Vec2& uv) const = 0;
+  // As an alpha.
+  virtual double alpha_at(const Vec2& uv) const { return at(uv).x; }
+  // The index of the texture's record, which is added unless there is an equal one.
+  virtual uint32_t pack(Packer& packer) const = 0;
 };
 
-enum class Filter { bilinear, nearest };
-enum class Wrap { repeat, mirror, clamp };
+struct TextureType {
+  std::string_view name;  // as a scene file has it, and its .glsl
+  std::string_view manual;
+  std::span<const Key> keys = {};
+  TexturePtr (*parse)(TableReader& table) = nullptr;  // null after an error, which is reported to the table
+  // Of the kind that is written as a plain color, and has no table.
+  TexturePtr (*of_color)(const Vec3& color) = nullptr;
 
-// A picture in uv: (0, 0) is its lower left corner, (1, 1) its upper right.
-struct ImageTexture {
-  std::string name;  // for messages
-  int width = 0;
-  int height = 0;
-  std::vector<std::array<uint8_t, 4>> texels;  // the top row first, as the file has them
-  bool srgb = true;                            // the texels are sRGB codes; false: linear, code / 255
-  Filter filter = Filter::bilinear;            // on linear values
-  Wrap wrap_u = Wrap::repeat;
-  Wrap wrap_v = Wrap::repeat;
+  // Whether its name is one of its keys and the others stand beside it, { image = "a.png", wrap = … }, or
+  // they are in a table of that name, { checker = { … } }.
+  bool is_flat() const {
+    for (const Key& key : keys)
+      if (key.name == name) return true;
+    return false;
+  }
 };
 
-// Linear RGB: constant, checkered, or an image times `value`.
-struct Texture {
-  Vec3 value{0.0};
-  std::optional<Checker> checker;
-  std::shared_ptr<const ImageTexture> image = {};
-  Vec2 image_size{1.0};  // of the picture, in uv
-
-  Vec3 at(const Vec2& uv) const;  // an image's alpha is not looked at
-  // As an alpha: the first component of a constant or a check; an image's alpha times that of `value`.
-  double alpha_at(const Vec2& uv) const;
+// The rows of the registry, for those who ask of no texture more than that.
+struct TextureRow {
+  std::string_view name;
+  uint32_t number;
+  bool varies;  // over a surface
+};
+inline constexpr TextureRow texture_rows[] = {
+#define X(name, number, varies) {#name, number, varies},
+    TEXTURES(X)
+#undef X
 };
 
 }  // namespace eyeray

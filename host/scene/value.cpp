@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "host/core/error.hpp"
 #include "host/scene/foreign_words.hpp"
 #include "host/scene/table.hpp"
 #include "host/scene/transform.hpp"
@@ -11,44 +12,6 @@
 namespace eyeray {
 
 namespace {
-
-constexpr Key checker_keys[] = {
-    {"even", KeyType::color, "Color of the check whose corner is the uv origin.", "", 0},
-    {"odd", KeyType::color, "Color of its neighbours.", "", 0},
-    {"size", KeyType::scale2, "Size of a check in uv.", "1", 0, Key::inf, true},
-};
-
-constexpr std::string_view filters[] = {"bilinear", "nearest"};
-constexpr std::string_view wraps[] = {"repeat", "mirror", "clamp"};
-constexpr std::string_view color_spaces[] = {"srgb", "linear"};
-
-constexpr Key image_keys[] = {
-    {.name = "image",
-     .type = KeyType::string,
-     .doc = "Name of a PNG or JPEG file, relative to the scene file that it stands in."},
-    {.name = "filter",
-     .type = KeyType::choice,
-     .doc = "Between four texels, or the one that holds the point.",
-     .fallback = "'bilinear'",
-     .choices = filters},
-    {.name = "wrap",
-     .type = KeyType::choice2,
-     .doc = "How the picture goes on beyond its edges.",
-     .fallback = "'repeat'",
-     .choices = wraps},
-    {.name = "color_space",
-     .type = KeyType::choice,
-     .doc = "What the file's codes mean: sRGB, or shares of 255 as they are.",
-     .fallback = "'srgb'",
-     .choices = color_spaces},
-    {.name = "scale",
-     .type = KeyType::scale2,
-     .doc = "Size of the whole picture in uv.",
-     .fallback = "1",
-     .min = 0,
-     .above_min = true},
-    {.name = "tint", .type = KeyType::color, .doc = "What the picture is multiplied by.", .fallback = "1"},
-};
 
 std::string describe_node(const toml::node& node) {
   if (const auto* text = node.as_string()) {
@@ -63,11 +26,17 @@ std::string describe_node(const toml::node& node) {
   return node.is_table() ? "a table" : "a date or time";
 }
 
+TexturePtr plain_texture(const Vec3& color, const ValueSources& sources) {
+  const auto plain = std::ranges::find_if(sources.textures, &TextureType::of_color);
+  CHECK(plain != sources.textures.end());
+  return (*plain)->of_color(color);
+}
+
 // Reads one value; keeps whether all of it was right.
 class Reader {
  public:
-  Reader(const Key& key, DiagnosticLog& log, ImageSource* images, FormulaSource* formulas)
-      : key_(key), log_(log), images_(images), formulas_(formulas) {}
+  Reader(const Key& key, DiagnosticLog& log, const ValueSources& sources)
+      : key_(key), log_(log), sources_(sources) {}
 
   bool ok() const { return ok_; }
   Value value(const toml::node& node);
@@ -85,9 +54,8 @@ class Reader {
   int64_t integer(const toml::node& node);
   int64_t choice(const toml::node& node);
   std::array<int64_t, 2> choice2(const toml::node& node);
-  Texture texture(const toml::node& node);
-  Texture checker(const toml::node& node, const toml::table& table);
-  Texture image(const toml::table& table);
+  TexturePtr texture(const toml::node& node);
+  TexturePtr texture(const TextureType& type, const toml::table& table);
   Mat4 matrix(const toml::node& node);
   template <int N>
   glm::vec<N, double> vector(const toml::node& node, bool or_one_number = false);
@@ -99,8 +67,7 @@ class Reader {
 
   const Key& key_;
   DiagnosticLog& log_;
-  ImageSource* images_;
-  FormulaSource* formulas_;
+  const ValueSources& sources_;
   bool ok_ = true;
 };
 
@@ -192,8 +159,9 @@ std::vector<std::vector<Vec3>> Reader::vector_lists(const toml::node& node) {
 
 FormulaText Reader::formula_file(const toml::node& node) {
   if (!node.is_string()) return mismatch(node), FormulaText{};
-  if (!formulas_) return fail(node, "only a scene in a file can name files of formulas"), FormulaText{};
-  auto text = formulas_->load(node.value_or(std::string()), position_of(node.source()));
+  if (!sources_.formulas)
+    return fail(node, "only a scene in a file can name files of formulas"), FormulaText{};
+  auto text = sources_.formulas->load(node.value_or(std::string()), position_of(node.source()));
   ok_ = text.has_value();
   return text.value_or(FormulaText{});
 }
@@ -222,45 +190,31 @@ std::vector<FormulaParameter> Reader::parameters(const toml::node& node) {
   return all;
 }
 
-Texture Reader::texture(const toml::node& node) {
+TexturePtr Reader::texture(const toml::node& node) {
   const toml::table* table = node.as_table();
-  if (!table) return {vector<3>(node, true), {}};
-  if (table->contains("image")) return image(*table);
-  const toml::node* checks = table->get("checker");
-  if (table->size() != 1 || !checks || !checks->is_table()) return mismatch(node), Texture{};
-  return checker(node, *checks->as_table());
+  if (!table) return plain_texture(vector<3>(node, true), sources_);
+  const TextureType* named = nullptr;
+  for (const TextureType* type : sources_.textures) {
+    if (!type->parse || !table->contains(type->name)) continue;
+    if (named) return mismatch(node), nullptr;
+    named = type;
+  }
+  if (named && named->is_flat()) return texture(*named, *table);
+  const toml::node* own = named ? table->get(named->name) : nullptr;
+  if (table->size() != 1 || !own || !own->is_table()) return mismatch(node), nullptr;
+  return texture(*named, *own->as_table());
 }
 
-Texture Reader::checker(const toml::node& node, const toml::table& table) {
-  TableReader reader = read_table({"checker", &table, {checker_keys}}, log_);
-  ok_ = ok_ && !reader.failed();
-  const Vec3 even = reader.color("even");
-  const Vec3 odd = reader.color("odd");
-  if (std::max({even.x, even.y, even.z, odd.x, odd.y, odd.z}) > key_.max) mismatch(node);
-  return {even, Checker{even, odd, reader.scale2("size")}};
-}
-
-Texture Reader::image(const toml::table& table) {
-  auto keys = std::to_array(image_keys);
-  keys.back().max = key_.max;  // no texel is above 1
-  TableReader reader = read_table({"an image texture", &table, {keys}}, log_);
-  ok_ = ok_ && !reader.failed();
-  Texture texture{reader.color("tint"), {}};
-  texture.image_size = reader.scale2("scale");
-
-  // Load it only if all is well so far: what is wrong with the file would hide what is wrong here.
-  if (!ok_) return texture;
-  const toml::node& name = *table.get("image");
-  if (!images_) return fail(name, "only a scene in a file can have images"), texture;
-  const auto [wrap_u, wrap_v] = reader.choice2("wrap");
-  ImageTexture wanted;
-  wanted.name = reader.string("image");
-  wanted.srgb = reader.choice("color_space") == 0;
-  wanted.filter = static_cast<Filter>(reader.choice("filter"));
-  wanted.wrap_u = static_cast<Wrap>(wrap_u);
-  wanted.wrap_v = static_cast<Wrap>(wrap_v);
-  texture.image = images_->load(std::move(wanted), position_of(name.source()));
-  ok_ = texture.image != nullptr;
+TexturePtr Reader::texture(const TextureType& type, const toml::table& table) {
+  // Its colors have the range of the texture's; of an image no texel is above 1.
+  std::vector<Key> keys(type.keys.begin(), type.keys.end());
+  for (Key& key : keys)
+    if (key.type == KeyType::color) key.max = std::min(key.max, key_.max);
+  const std::string title = fmt::format("{{ {} = … }}", type.name);
+  TableReader reader =
+      read_table({.title = title, .table = &table, .keys = {keys}, .sources = sources_}, log_);
+  TexturePtr texture = type.parse(reader);
+  ok_ = ok_ && texture && !reader.failed();
   return texture;
 }
 
@@ -332,25 +286,17 @@ Value Reader::value(const toml::node& node) {
 
 }  // namespace
 
-std::span<const Key> checker_table_keys() {
-  return checker_keys;
-}
-
-std::span<const Key> image_table_keys() {
-  return image_keys;
-}
-
 std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log,
-                                ImageSource* images, FormulaSource* formulas) {
+                                const ValueSources& sources) {
   Key ranged = key;
   if (key.type == KeyType::color || key.type == KeyType::texture) ranged.min = std::max(ranged.min, 0.0);
-  Reader reader(ranged, log, images, formulas);
+  Reader reader(ranged, log, sources);
   Value value = reader.value(node);
   if (!reader.ok()) return std::nullopt;
   return value;
 }
 
-Value stand_in(const Key& key) {
+Value stand_in(const Key& key, const ValueSources& sources) {
   // The number of the range that is nearest to 1.
   const double low = key.above_min ? std::nextafter(key.min, Key::inf) : key.min;
   const double high = key.below_max ? std::nextafter(key.max, -Key::inf) : key.max;
@@ -387,7 +333,7 @@ Value stand_in(const Key& key) {
     case KeyType::parameters:
       return std::vector<FormulaParameter>();
     case KeyType::texture:
-      return Texture{Vec3(number), {}};
+      return plain_texture(Vec3(number), sources);
     case KeyType::transform:
     case KeyType::rotation:
     case KeyType::matrix:

@@ -11,6 +11,7 @@
 #include "host/scene/formula_source.hpp"
 #include "host/scene/image_source.hpp"
 #include "host/scene/table_reader.hpp"
+#include "host/scene/texture.hpp"
 
 namespace eyeray {
 
@@ -18,19 +19,25 @@ namespace eyeray {
 // Vec3; scale2, scale3 Vec2, Vec3.
 using Value = std::variant<bool, int64_t, std::array<int64_t, 2>, double, std::string, Vec2, Vec3,
                            std::vector<Vec2>, std::vector<Vec3>, std::vector<std::vector<Vec3>>, FormulaText,
-                           std::vector<FormulaParameter>, Texture, Mat4>;
+                           std::vector<FormulaParameter>, TexturePtr, Mat4>;
+
+// What values are made of beside TOML.
+struct ValueSources {
+  FormulaSource* formulas = nullptr;                  // loads the files of formulas; null: none may be named
+  ImageSource* images = nullptr;                      // loads the images of textures; null: none may be named
+  std::span<const TextureType* const> textures = {};  // the kinds, one of plain colors among them
+};
 
 // Numbers beyond this have squares that float32 arithmetic cannot hold, and positive ones below its inverse
 // vanish.
 inline constexpr double largest_number = 1e15;
 
 // The value, or nothing, with an error in the log for each fault in it.
-// `images`, `formulas`: see TableSource.
 std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log,
-                                ImageSource* images = nullptr, FormulaSource* formulas = nullptr);
+                                const ValueSources& sources);
 
 // Some value of the key's type and range, for going on after an error.
-Value stand_in(const Key& key);
+Value stand_in(const Key& key, const ValueSources& sources);
 
 SourcePosition position_of(const toml::source_region& source);
 // Where the text begins that a string stands for, as far as that can be told: escapes are not looked at.

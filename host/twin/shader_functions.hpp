@@ -119,6 +119,7 @@ class Binding {
 #define FORMULA_NAME(part) bounded_##part
 #include "shaders/shapes/implicit/bounded_search.glsl"
 #undef FORMULA_NAME
+#include "textures/all.glsl"
 #include "shapes/all.glsl"
 #include "materials/all.glsl"
 #include "cameras/all.glsl"

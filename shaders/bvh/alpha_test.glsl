@@ -3,7 +3,7 @@
 #define ALPHA_TEST_GLSL
 #include "geometry/instance.glsl"
 #include "geometry/ray.glsl"
-#include "materials/texture.glsl"
+#include "textures/texture.glsl"
 
 SHADER_BEGIN
 

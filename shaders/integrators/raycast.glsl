@@ -4,7 +4,7 @@
 #include "integrators/interaction.glsl"
 #include "integrators/path.glsl"
 #include "lights/light.glsl"
-#include "materials/texture.glsl"
+#include "textures/texture.glsl"
 
 SHADER_BEGIN
 

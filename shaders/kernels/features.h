@@ -4,12 +4,6 @@
 #define FEATURES_H
 
 // ---- What the scene has. Default: everything; the twin takes it, and shaders ask the records as well ----------------
-#ifndef HAS_CHECKER  // a texture is a check
-#define HAS_CHECKER 1
-#endif
-#ifndef HAS_IMAGES  // a texture is an image
-#define HAS_IMAGES 1
-#endif
 #ifndef HAS_COLORS  // a mesh's vertices have colours
 #define HAS_COLORS 1
 #endif
@@ -76,6 +70,7 @@
 //   DEFERRED_SHAPES    those that rays wait with for each other (bvh/traverse.glsl)
 //   IMMEDIATE_SHAPES   those in BVHs that are not deferred
 //   ALPHA_TESTED_SHAPES  those of a material with an alpha
+//   TEXTURES
 //   MATERIALS
 //   CAMERAS
 //   CAMERA_IS          (number): whether that is the frame's

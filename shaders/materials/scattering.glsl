@@ -4,7 +4,7 @@
 #define SCATTERING_GLSL
 #include "math/math.glsl"
 #include "records.h"
-#include "materials/texture.glsl"
+#include "textures/texture.glsl"
 
 SHADER_BEGIN
 

@@ -17,7 +17,8 @@ const std::map<std::string, Links> layers = read_layers();
 const std::map<std::string, std::regex> visible_shaders = {
     {"records", std::regex(R"(shaders/(records\.h|[a-z]+/registry\.h))")},
     {"shapes", std::regex(R"(shaders/shapes/registry\.h)")},
-    {"scene", std::regex(R"(shaders/(integrators|samplers)/registry\.h)")},
+    {"scene", std::regex(R"(shaders/(integrators|samplers|textures)/registry\.h)")},
+    {"textures", std::regex(R"(shaders/textures/registry\.h)")},
     {"materials", std::regex(R"(shaders/materials/registry\.h)")},
     {"lights", std::regex(R"(shaders/lights/registry\.h)")},
     {"cameras", std::regex(R"(shaders/cameras/registry\.h)")},

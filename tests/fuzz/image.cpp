@@ -4,6 +4,7 @@
 
 #include "host/core/error.hpp"
 #include "host/scene/image_texture_file.hpp"
+#include "host/textures/make.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
@@ -13,9 +14,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (image->width < 1 || image->height < 1 ||
         image->texels.size() != size_t(image->width) * size_t(image->height))
       std::abort();
-    const eyeray::Texture texture{.value = eyeray::Vec3(1), .checker = {}, .image = image};
+    const eyeray::TexturePtr texture = eyeray::textures::make_image(image);
     for (const double u : {-1e9, 0.0, 0.3, 1.0, 1e9}) {
-      const eyeray::Vec3 color = texture.at({u, 1 - u});
+      const eyeray::Vec3 color = texture->at({u, 1 - u});
       for (int i = 0; i < 3; ++i)
         if (!(color[i] >= 0 && color[i] <= 1 + 1e-12)) std::abort();  // weights sum to 1 but for rounding
     }

@@ -5,6 +5,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
 #include "host/scene/table.hpp"
+#include "host/textures/registry.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -38,7 +39,7 @@ TEST_CASE("every default is a right value of its key") {
       CHECK_FALSE(key.doc.empty());
       if (key.fallback.empty()) continue;
       DiagnosticLog log;
-      CHECK(read_value(key, fallback_of(key), log).has_value());
+      CHECK(read_value(key, fallback_of(key), log, {.textures = textures::types()}).has_value());
       ++defaults;
     }
   };

@@ -57,7 +57,7 @@ TEST_CASE("a known picture stands upright") {
   scene.camera = looking_along_z(PerspectiveCamera{90});
   scene.render.integrator = IntegratorType::raycast;
   const auto ball = [&](const Vec3& center, const Vec3& color) {
-    add(scene, make_sphere(center, 0.6), add(scene, make_phong({.diffuse = {color, {}}})));
+    add(scene, make_sphere(center, 0.6), add(scene, make_phong({.diffuse = textures::make_constant(color)})));
   };
   ball({3, 0, 0}, {1, 0, 0});
   ball({0, 3, 0}, {0, 1, 0});

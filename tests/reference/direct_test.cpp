@@ -14,8 +14,8 @@ Scene floor_seen_from(const Vec3& eye, std::unique_ptr<Material> material) {
   return scene;
 }
 
-Texture gray(double value) {
-  return {Vec3(value), {}};
+TexturePtr gray(double value) {
+  return textures::make_constant(Vec3(value));
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ TEST_CASE("shadow rays lose their light to each shape that they hit") {
 }
 
 TEST_CASE("checks lie where uv say") {
-  const Texture checks{Vec3(0), Checker{Vec3(1, 0, 0), Vec3(0, 0, 1), Vec2(2, 1)}};
+  const TexturePtr checks = textures::make_checker(Vec3(1, 0, 0), Vec3(0, 0, 1), Vec2(2, 1));
   Scene scene = floor_seen_from({0, 1, 3}, make_phong({.diffuse = gray(0), .ambient = checks}));
   scene.render.ambient = Vec3(1);
   const auto at = [&](double x, double z) {

@@ -7,8 +7,8 @@ using namespace eyeray::test;
 
 namespace {
 
-Texture gray(double value) {
-  return {Vec3(value), {}};
+TexturePtr gray(double value) {
+  return textures::make_constant(Vec3(value));
 }
 
 // Light, shadow, a mirror, glass and a floor, for whatever is put between them.
@@ -75,7 +75,7 @@ TEST_CASE("an instance is the mesh with its vertices moved") {
     Mesh mesh = i % 2 == 0 ? cube() : globe(12, 7);
     Scene with_instance = studio(), baked = studio();
     for (Scene* scene : {&with_instance, &baked}) {
-      const Texture checks{Vec3(0), Checker{Vec3(0.9), Vec3(0.2), Vec2(0.25)}};
+      const TexturePtr checks = textures::make_checker(Vec3(0.9), Vec3(0.2), Vec2(0.25));
       const int paint = add(*scene, make_phong({.diffuse = checks, .reflectance = gray(0.2)}));
       if (scene == &with_instance) {
         add_instance(*scene, add(*scene, mesh), paint, map);

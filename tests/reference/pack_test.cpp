@@ -78,11 +78,12 @@ TEST_CASE("triangle record") {
 
 TEST_CASE("material records") {
   const auto color = [](const PackedScene& scene, uint32_t shader::Material::*texture) {
-    return scene.textures.at(scene.materials.at(0).*texture).even;
+    return scene.textures.at(scene.materials.at(0).*texture).color;
   };
-  const Highlight blinn{{Vec3(0.25), {}}, 50, true};
-  const PackedScene phong =
-      packed(*make_phong({.diffuse = {Vec3(0.5), {}}, .reflectance = {Vec3(0.125), {}}, .highlight = blinn}));
+  const Highlight blinn{textures::make_constant(Vec3(0.25)), 50, true};
+  const PackedScene phong = packed(*make_phong({.diffuse = textures::make_constant(Vec3(0.5)),
+                                                .reflectance = textures::make_constant(Vec3(0.125)),
+                                                .highlight = blinn}));
   CHECK(phong.materials.at(0).kind == shader::MATERIAL_phong);
   CHECK(phong.materials.at(0).flags == MATERIAL_BLINN);
   CHECK(phong.materials.at(0).medium == 0);
@@ -93,7 +94,7 @@ TEST_CASE("material records") {
   CHECK(color(phong, &shader::Material::reflected) == glm::vec3(0.125f));
   CHECK(color(phong, &shader::Material::ambient) == glm::vec3(0.5f));
 
-  const PackedScene mirror = packed(*make_mirror({.reflectance = {Vec3(0.75), {}}}));
+  const PackedScene mirror = packed(*make_mirror({.reflectance = textures::make_constant(Vec3(0.75))}));
   CHECK(mirror.materials.at(0).kind == shader::MATERIAL_mirror);
   CHECK(mirror.materials.at(0).optical_depth == OPTICAL_DEPTH_OPAQUE);
   CHECK(color(mirror, &shader::Material::base) == glm::vec3(0.75f));

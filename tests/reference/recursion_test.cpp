@@ -10,13 +10,13 @@ using namespace eyeray::test;
 
 namespace {
 
-Texture gray(double value) {
-  return {Vec3(value), {}};
+TexturePtr gray(double value) {
+  return textures::make_constant(Vec3(value));
 }
 
 // A surface that shows `color` under an ambient light of 1, and nothing else.
 std::unique_ptr<Material> glowing(const Vec3& color) {
-  return make_phong({.diffuse = gray(0), .ambient = Texture{color, {}}});
+  return make_phong({.diffuse = gray(0), .ambient = textures::make_constant(color)});
 }
 
 // Fresnel's equations as Fresnel wrote them, in angles; unpolarised.
@@ -58,7 +58,8 @@ TEST_CASE("Fresnel") {
 TEST_CASE("a mirror shows its reflectance of the surroundings") {
   Scene scene = one_pixel({0, 0, 5}, {0.3, 0.2, 0});
   scene.render.background = {0.5, 0.25, 1};
-  add(scene, make_sphere({0, 0, 0}, 1), add(scene, make_mirror({.reflectance = {Vec3(0.5, 1, 0.25), {}}})));
+  add(scene, make_sphere({0, 0, 0}, 1),
+      add(scene, make_mirror({.reflectance = textures::make_constant(Vec3(0.5, 1, 0.25))})));
   const PixelSample sample = look(scene);
   CHECK(sample.color == Vec3(0.25, 0.25, 0.25));
   CHECK(sample.rays == 2);
@@ -94,17 +95,17 @@ TEST_CASE("depth and weight end the recursion") {
 
 TEST_CASE("rounding that takes another check at each mirror stays within the darkest and the brightest") {
   // Between two walls that mirror a half, along a border of both their checks.
-  const auto look_with = [](double x, reference::TextureChoice textures) {
+  const auto look_with = [](double x, reference::TextureChoice choice) {
     Scene scene = one_pixel({x, 0.5, 0}, {x, 0.5, -1});
     scene.render.ambient = Vec3(1);
     scene.render.max_depth = 3;
     scene.render.min_throughput = 0;
-    const Texture checks{{}, Checker{Vec3(0.25, 1, 0), Vec3(1, 0.5, 0), Vec2(1)}};
+    const TexturePtr checks = textures::make_checker(Vec3(0.25, 1, 0), Vec3(1, 0.5, 0), Vec2(1));
     const int wall =
         add(scene, make_phong({.diffuse = gray(0), .ambient = checks, .reflectance = gray(0.5)}));
     add(scene, make_plane({0, 0, -1}, {0, 0, 1}), wall);
     add(scene, make_plane({0, 0, 1}, {0, 0, -1}), wall);
-    return reference::Renderer(scene).sample(0, 0, 0, {0, 0}, {1e-6, false, 0, textures}).color;
+    return reference::Renderer(scene).sample(0, 0, 0, {0, 0}, {1e-6, false, 0, choice}).color;
   };
   using enum reference::TextureChoice;
   for (const double x : {0.0, 1.0, -3.0}) {
@@ -139,7 +140,7 @@ TEST_CASE("the weight that ends the recursion counts absorption, and the greates
 TEST_CASE("glass of ior 1 cannot be seen") {
   Scene scene = one_pixel({0.3, 0.2, 5}, {0.1, -0.3, 0});
   scene.render.ambient = Vec3(1);
-  const Texture checks{Vec3(0), Checker{Vec3(1), Vec3(0.25), Vec2(1e-3)}};
+  const TexturePtr checks = textures::make_checker(Vec3(1), Vec3(0.25), Vec2(1e-3));
   add(scene, make_plane({0, 0, -20}, {0, 0, 1}),
       add(scene, make_phong({.diffuse = gray(0), .ambient = checks})));
   const int nothing = add(scene, make_dielectric({.ior = 1}));

@@ -75,10 +75,8 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Material, a)});
   check_struct(samples, "Medium", sizeof(shader::Medium), {MEMBER(Medium, absorption), MEMBER(Medium, ior)});
   check_struct(samples, "Texture", sizeof(shader::Texture),
-               {MEMBER(Texture, even), MEMBER(Texture, kind), MEMBER(Texture, odd), MEMBER(Texture, flags),
-                MEMBER(Texture, frequency_u), MEMBER(Texture, frequency_v), MEMBER(Texture, width),
-                MEMBER(Texture, height), MEMBER(Texture, first_texel), MEMBER(Texture, unused_0),
-                MEMBER(Texture, unused_1), MEMBER(Texture, unused_2)});
+               {MEMBER(Texture, color), MEMBER(Texture, kind), MEMBER(Texture, a), MEMBER(Texture, b),
+                MEMBER(Texture, c)});
   check_struct(samples, "Light", sizeof(shader::Light),
                {MEMBER(Light, intensity), MEMBER(Light, kind), MEMBER(Light, a), MEMBER(Light, b)});
   check_struct(samples, "Frame", sizeof(shader::Frame),

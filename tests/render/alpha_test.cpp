@@ -22,7 +22,7 @@ AlphaMask picture_mask(Filter filter) {
   image->height = 2;
   for (const int alpha : {255, 0, 140, 10, 200, 128}) image->texels.push_back({9, 9, 9, uint8_t(alpha)});
   image->filter = filter;
-  return {Texture{Vec3(1), {}, image}, 128.0 / 255};
+  return {textures::make_image(image), 128.0 / 255};
 }
 
 // Of three materials: with cutouts by checks, by a picture, by vertices and a factor; and one without.
@@ -31,9 +31,9 @@ Scene leafy_scene(Random& random, int count, int instances) {
   scene.camera.eye = Vec3(0);
   scene.camera.target = Vec3(0, 0, -1);
   for (int i = 0; i < 4; ++i) add(scene, make_phong({}));
-  scene.materials[0]->mask = AlphaMask{Texture{{}, Checker{Vec3(1), Vec3(0.2), Vec2(0.3)}}, 0.5};
+  scene.materials[0]->mask = AlphaMask{textures::make_checker(Vec3(1), Vec3(0.2), Vec2(0.3)), 0.5};
   scene.materials[1]->mask = picture_mask(Filter::bilinear);
-  scene.materials[2]->mask = AlphaMask{Texture{Vec3(0.8), {}}, 0.4};
+  scene.materials[2]->mask = AlphaMask{textures::make_constant(Vec3(0.8)), 0.4};
   for (int i = 0; i < count; ++i) {
     TriangleValues triangle;
     const Vec3 a = random.point(3);

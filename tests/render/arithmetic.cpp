@@ -39,8 +39,8 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver" 
       scene.frame.max_depth = 8;
       scene.media.push_back({});
       scene.lights.push_back({});
-      scene.textures[0].kind = TEXTURE_CHECKER;
-      scene.textures.emplace_back().kind = TEXTURE_IMAGE;
+      scene.textures[0].kind = shader::TEXTURE_checker;
+      scene.textures.emplace_back().kind = shader::TEXTURE_image;
       scene.texel_count = TEXELS_FIRST;
       for (const uint32_t material : {0u, 1u, 2u}) {
         scene.materials[0].kind = material;

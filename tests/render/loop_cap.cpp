@@ -127,7 +127,7 @@ TEST_CASE("more iterations in a BVH than a capped driver grants: every pixel is 
   scene.camera.eye = Vec3(0, 0, 5);
   scene.render.ambient = Vec3(1);
   test::add(scene, make_phong({}));
-  test::add(scene, make_phong({.diffuse = {Vec3(0), {}}}));
+  test::add(scene, make_phong({.diffuse = textures::make_constant(Vec3(0))}));
   for (int i = 0; i < count; ++i) test::add(scene, make_sphere(Vec3(0), 1), i == 0 ? 0 : 1);
   const auto gpu = make_executor(Backend::gpu, scene, {});
   const auto twin = make_executor(Backend::twin, scene, {});

@@ -1,4 +1,4 @@
-// A scene pays for the shapes it has: its kernels hold no code of any other.
+// A scene pays for the shapes and textures it has: its kernels hold no code of any other.
 #include <cctype>
 #include <filesystem>
 #include <set>
@@ -8,6 +8,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/pack/pack.hpp"
 #include "host/scene/shape.hpp"
+#include "host/scene/texture.hpp"
 #include "support.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -27,14 +28,15 @@ bool has_function(const std::vector<uint32_t>& spirv, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a kernel has the shapes of its scene, and no other's") {
+TEST_CASE("a kernel has the shapes and textures of its scene, and no other's") {
   for (const ShapeType* type : shape_types()) {
     const std::string file = "scenes/shapes/" + std::string(type->name) + ".toml";
     CAPTURE(file);
     const PackedScene packed = pack::pack(load_scene(file));
-    std::set<uint32_t> used;
+    std::set<uint32_t> used, textures;
     for (const shader::Primitive& primitive : packed.primitives) used.insert(kind_of(primitive));
     for (const auto& [kind, material] : packed.leaf_uses) used.insert(kind);
+    for (const shader::Texture& texture : packed.textures) textures.insert(texture.kind);
     for (const bool constants : {true, false}) {
       const std::vector<uint32_t> kernel =
           test::compile_entry("kernels/render.comp.glsl", packed, {.constants = constants});
@@ -42,6 +44,10 @@ TEST_CASE("a kernel has the shapes of its scene, and no other's") {
         CAPTURE(shape_types()[kind]->name);
         const std::string function = std::string(shape_types()[kind]->name) + "_intersect";
         CHECK(has_function(kernel, function) == used.contains(kind));
+      }
+      for (const TextureRow& row : texture_rows) {
+        CAPTURE(row.name);
+        CHECK(has_function(kernel, std::string(row.name) + "_color") == textures.contains(row.number));
       }
     }
   }

@@ -18,10 +18,11 @@ std::vector<std::filesystem::path> scene_files(const char* folder) {
   return files;
 }
 
-// The kinds of shapes that a scene has, and of materials on them.
+// The kinds of shapes that a scene has, and of materials on them and their textures.
 struct Kinds {
   std::set<uint32_t> shapes;
   std::set<uint32_t> materials;
+  std::set<uint32_t> textures;
 };
 
 Kinds kinds_of(const Scene& scene) {
@@ -31,6 +32,7 @@ Kinds kinds_of(const Scene& scene) {
     kinds.shapes.insert(shape);
     kinds.materials.insert(packed.materials[material].kind);
   }
+  for (const shader::Texture& texture : packed.textures) kinds.textures.insert(texture.kind);
   return kinds;
 }
 
@@ -48,23 +50,26 @@ TEST_CASE("every shape of the registry has a scene of its name, in which it is")
 }
 
 TEST_CASE(
-    "every material of the registry is on some shape of some scene, every light and camera in one, and no "
-    "scene warns") {
-  std::set<uint32_t> used;
+    "every material of the registry is on some shape of some scene, every texture, light and camera in one, "
+    "and no scene warns") {
+  Kinds used;
   std::set<const LightType*> lights;
   std::set<uint32_t> cameras;
   for (const std::filesystem::path& file : scene_files("scenes")) {
     CAPTURE(file);
     const Scene scene = load_scene(file);
     CHECK(scene.warnings.empty());
-    used.merge(kinds_of(scene).materials);
+    Kinds kinds = kinds_of(scene);
+    used.materials.merge(kinds.materials);
+    used.textures.merge(kinds.textures);
     for (const auto& light : scene.lights) lights.insert(light->type);
     cameras.insert(scene.camera.projection->kind());
   }
   for (uint32_t kind = 0; kind < material_types().size(); ++kind) {
     CAPTURE(material_types()[kind]->name);
-    CHECK(used.contains(kind));
+    CHECK(used.materials.contains(kind));
   }
+  for (const TextureRow& row : texture_rows) CHECK_MESSAGE(used.textures.contains(row.number), row.name);
   for (const LightType* type : light_types()) CHECK_MESSAGE(lights.contains(type), type->name);
   CHECK(cameras.size() == camera_types().size());
 }

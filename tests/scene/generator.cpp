@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/loader/sections.hpp"
+#include "host/textures/registry.hpp"
 #include "shaders/shapes/registry.h"
 
 namespace eyeray::test {
@@ -28,7 +29,10 @@ constexpr int materials = 3;
 
 class Writer {
  public:
-  Writer(Random& random, const Wildness& wildness) : random_(random), wildness_(wildness) {}
+  Writer(Random& random, const Wildness& wildness) : random_(random), wildness_(wildness) {
+    for (const TextureType* type : textures::types())
+      if (type->parse && !type->is_flat()) tables_.push_back(type);  // flat ones name files
+  }
 
   std::string write();
 
@@ -64,6 +68,7 @@ class Writer {
 
   Random& random_;
   const Wildness wildness_;
+  std::vector<const TextureType*> tables_;  // kinds of texture that have one
   std::string text_;
 };
 
@@ -118,10 +123,13 @@ std::string Writer::direction() {
 std::string Writer::texture(const Key& key) {
   if (chance(0.4)) return numbers(key, 3);
   if (chance(0.5)) return fmt::format("{}", number(key));
-  const Key size{.name = "size", .type = KeyType::scale2, .doc = "", .min = 0, .above_min = true};
-  const std::string text = chance(0.5) ? fmt::format("{}", number(size)) : numbers(size, 2);
-  return fmt::format("{{ checker = {{ even = {}, odd = {}, size = {} }} }}", numbers(key, 3), number(key),
-                     text);
+  const TextureType& type = one_of(std::span<const TextureType* const>(tables_));
+  std::vector<std::string> values;
+  for (Key own : type.keys) {
+    if (own.type == KeyType::color) own.max = std::min(own.max, key.max);
+    if (own.fallback.empty() || chance(0.7)) values.push_back(fmt::format("{} = {}", own.name, value(own)));
+  }
+  return fmt::format("{{ {} = {{ {} }} }}", type.name, fmt::join(values, ", "));
 }
 
 std::string Writer::transform() {
@@ -192,7 +200,7 @@ std::string Writer::value(const Key& key) {
     case KeyType::texture:
       return texture(key);
     case KeyType::scale2:
-      return numbers(key, 2);
+      return chance(0.5) ? numbers(key, 2) : fmt::format("{}", number(key));
     case KeyType::scale3:
       return numbers(key, 3);
     case KeyType::transform:

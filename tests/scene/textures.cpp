@@ -46,17 +46,14 @@ Scene patchwork(Random& random, int across, int down) {
   scene.lights.push_back(make_light(PointLight{.position = {3, 4, 9}, .intensity = Vec3(60)}));
   for (int y = 0; y < down; ++y) {
     for (int x = 0; x < across; ++x) {
-      Texture texture{Vec3(random.uniform(), random.uniform(), 1), {}};
-      texture.image = random_image(random);
-      texture.image_size = {random.log_uniform(0.5, 2), random.log_uniform(0.5, 2)};
-      PhongValues values{.diffuse = texture};
-      if (random.below(3) == 0) values.ambient = Texture{Vec3(0.5), {}};
+      const Vec3 tint{random.uniform(), random.uniform(), 1};
+      const auto image = random_image(random);
+      const Vec2 size{random.log_uniform(0.5, 2), random.log_uniform(0.5, 2)};
+      PhongValues values{.diffuse = textures::make_image(image, tint, size)};
+      if (random.below(3) == 0) values.ambient = textures::make_constant(Vec3(0.5));
       if (random.below(3) == 0)
-        values.highlight.specular = {Vec3(0.5), Checker{Vec3(1), Vec3(0.2), Vec2(0.3)}};
-      if (random.below(5) == 0) {
-        values.reflectance.value = Vec3(0.6);
-        values.reflectance.image = random_image(random);
-      }
+        values.highlight.specular = textures::make_checker(Vec3(1), Vec3(0.2), Vec2(0.3));
+      if (random.below(5) == 0) values.reflectance = textures::make_image(random_image(random), Vec3(0.6));
       scene.materials.push_back(make_phong(values));
 
       // About three images a square, some upside down or mirrored.
@@ -115,9 +112,7 @@ TEST_CASE("more texels than a storage buffer shows are read as texel buffers, or
   image->width = 1 << 13;
   image->height = (1 << 12) + 1;
   image->texels.resize(size_t(image->width) * size_t(image->height));
-  Texture texture{Vec3(1), {}};
-  texture.image = image;
-  scene.materials[0] = make_phong({.diffuse = texture});
+  scene.materials[0] = make_phong({.diffuse = textures::make_image(image)});
   image->texels.back() = {255, 128, 0, 255};
   const Frame twin = render_frame(scene, Backend::twin);
   for (const std::string loads : {"texels", "storage"}) {

@@ -1,8 +1,9 @@
-// materials/texture.glsl: which texels a point sees, how they are mixed, and what their codes stand for.
+// textures/image.glsl: which texels a point sees, how they are mixed, and what their codes stand for.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "host/textures/make.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "tests/support/random.hpp"
 
@@ -10,6 +11,7 @@
 
 using namespace eyeray;
 using test::Random;
+using textures::make_image;
 
 namespace {
 
@@ -31,16 +33,10 @@ std::shared_ptr<ImageTexture> linear_image(int width, int height, std::vector<Te
   return image;
 }
 
-Texture textured(std::shared_ptr<const ImageTexture> image) {
-  Texture texture{Vec3(1), {}};
-  texture.image = std::move(image);
-  return texture;
-}
-
 // The colour of `texture` by the shader.
-Vec3 shaded(const Texture& texture, const Vec2& uv) {
+Vec3 shaded(const TexturePtr& texture, const Vec2& uv) {
   Packer packer(Vec3(0));
-  const uint32_t index = packer.add_texture(texture);
+  const uint32_t index = texture->pack(packer);
   packer.write_texels();
   const shader::Binding binding(packer.scene);
   return Vec3(shader::texture_color(index, glm::vec2(uv)));
@@ -62,8 +58,8 @@ TEST_CASE("(0, 0) is the lower left corner, (1, 1) the upper right, and the file
   const auto check = [&](const Vec2& uv, const Vec3& color) {
     CAPTURE(uv.x);
     CAPTURE(uv.y);
-    CHECK(shaded(textured(image), uv) == color);
-    CHECK(textured(image).at(uv) == color);
+    CHECK(shaded(make_image(image), uv) == color);
+    CHECK(make_image(image)->at(uv) == color);
   };
   const Vec3 red(1, 0, 0), green(0, 1, 0), blue(0, 0, 1), white(1, 1, 1);
   check({0, 0}, blue);
@@ -97,12 +93,12 @@ TEST_CASE("a row of texels goes on beyond its edges as `wrap` says, and bilinear
       CAPTURE(int(wrap));
       CAPTURE(from + k);
       const auto check = [&](Filter filter, double place, double value) {
-        const Texture across = textured(linear_image(6, 1, row, filter, wrap));
-        const Texture upward = textured(linear_image(1, 6, column, filter, wrap));
+        const TexturePtr across = make_image(linear_image(6, 1, row, filter, wrap));
+        const TexturePtr upward = make_image(linear_image(1, 6, column, filter, wrap));
         CHECK(std::abs(shaded(across, {place, 0.3}).x - value) < 2e-6);
         CHECK(std::abs(shaded(upward, {0.3, place}).y - value) < 2e-6);
-        CHECK(std::abs(across.at({place, 0.3}).z - value) < 1e-14);
-        CHECK(std::abs(upward.at({0.3, place}).x - value) < 1e-14);
+        CHECK(std::abs(across->at({place, 0.3}).z - value) < 1e-14);
+        CHECK(std::abs(upward->at({0.3, place}).x - value) < 1e-14);
       };
       const double here = texels[size_t(k)] / 5.0, next = texels[size_t(k) + 1] / 5.0;
       check(Filter::nearest, centre, here);
@@ -120,7 +116,7 @@ TEST_CASE("a border belongs to the texel of the greater u or v, in mirrored copi
   for (const Wrap wrap : wraps) {
     std::vector<Texel> texels;
     for (int i = 0; i < 8 * 4; ++i) texels.push_back(random_texel(random));
-    const Texture texture = textured(linear_image(8, 4, texels, Filter::nearest, wrap));
+    const TexturePtr texture = make_image(linear_image(8, 4, texels, Filter::nearest, wrap));
     for (int i = -24; i < 24; ++i) {
       for (int j = -12; j < 12; ++j) {
         CAPTURE(int(wrap));
@@ -128,7 +124,7 @@ TEST_CASE("a border belongs to the texel of the greater u or v, in mirrored copi
         CAPTURE(j);
         const Vec2 border(i / 8.0, j / 4.0);
         CHECK(shaded(texture, border) == shaded(texture, border + Vec2(0.5 / 8, 0.5 / 4)));
-        CHECK(texture.at(border) == texture.at(border + Vec2(0.5 / 8, 0.5 / 4)));
+        CHECK(texture->at(border) == texture->at(border + Vec2(0.5 / 8, 0.5 / 4)));
       }
     }
   }
@@ -141,8 +137,8 @@ TEST_CASE("codes stand for what IEC 61966-2-1 says, or for shares of 255") {
       auto image =
           linear_image(1, 1, {{uint8_t(code), uint8_t(255 - code), 7, 0}}, Filter::nearest, Wrap::repeat);
       image->srgb = srgb;
-      const Vec3 color = shaded(textured(image), {0.3, 0.8});
-      CHECK(glm::vec3(color) == glm::vec3(textured(image).at({0.3, 0.8})));
+      const Vec3 color = shaded(make_image(image), {0.3, 0.8});
+      CHECK(glm::vec3(color) == glm::vec3(make_image(image)->at({0.3, 0.8})));
       CHECK(color.x > last.x);
       if (!srgb) CHECK(color.x == double(float(code / 255.0)));
       // Values of the standard's formula, worked out by hand.
@@ -173,23 +169,23 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
     auto image = linear_image(width, height, std::move(texels), filter, wraps[random.below(3)]);
     image->wrap_v = wraps[random.below(3)];
     image->srgb = random.below(2) == 0;
-    Texture texture = textured(image);
-    texture.value = {random.uniform(), random.uniform(), random.uniform()};
-    texture.image_size = {random.log_uniform(0.1, 10), random.log_uniform(0.1, 10)};
+    const Vec3 tint{random.uniform(), random.uniform(), random.uniform()};
+    const Vec2 size{random.log_uniform(0.1, 10), random.log_uniform(0.1, 10)};
+    const TexturePtr texture = make_image(image, tint, size);
 
     Packer packer(Vec3(0));
-    const uint32_t index = packer.add_texture(texture);
+    const uint32_t index = texture->pack(packer);
     packer.write_texels();
     const shader::Binding binding(packer.scene);
     const double reach = random.log_uniform(0.5, 1000);
     for (int i = 0; i < 500; ++i) {
       const glm::vec2 uv(random.uniform(-reach, reach), random.uniform(-reach, reach));
       // How far, in texels, three roundings of a float32 take the place, at most.
-      const Vec2 place = Vec2(uv) / texture.image_size * Vec2(width, height);
+      const Vec2 place = Vec2(uv) / size * Vec2(width, height);
       const Vec2 error = (glm::abs(place) + Vec2(width, height)) * 3.0 * 0x1p-24;
       const Vec2 to_border = glm::abs(place - glm::round(place));
       if (filter == Filter::nearest && (to_border.x <= error.x || to_border.y <= error.y)) continue;
-      const Vec3 difference = glm::abs(Vec3(shader::texture_color(index, uv)) - texture.at(Vec2(uv)));
+      const Vec3 difference = glm::abs(Vec3(shader::texture_color(index, uv)) - texture->at(Vec2(uv)));
       const double allowed = (filter == Filter::nearest ? 0 : error.x + error.y) + 1e-6;
       worst = std::max(worst, std::max({difference.x, difference.y, difference.z}) / allowed);
       ++compared;
@@ -215,13 +211,15 @@ TEST_CASE("no uv whatever leaves the image") {
       for (const auto& [width, height] : {std::pair{1, 1}, {3, 1}, {1, 5}, {7, 4}}) {
         const size_t count = size_t(width * height);
         Packer packer(Vec3(0));
-        packer.add_texture(textured(linear_image(
-            width, height + 1, std::vector<Texel>(count + size_t(width), {255, 0, 0, 0}), filter, wrap)));
+        make_image(linear_image(width, height + 1, std::vector<Texel>(count + size_t(width), {255, 0, 0, 0}),
+                                filter, wrap))
+            ->pack(packer);
         const auto image =
             linear_image(width, height, std::vector<Texel>(count, {0, 255, 51, 0}), filter, wrap);
-        const uint32_t index = packer.add_texture(textured(image));
-        packer.add_texture(textured(linear_image(
-            width, height + 2, std::vector<Texel>(count + 2 * size_t(width), {254, 0, 0, 0}), filter, wrap)));
+        const uint32_t index = make_image(image)->pack(packer);
+        make_image(linear_image(width, height + 2,
+                                std::vector<Texel>(count + 2 * size_t(width), {254, 0, 0, 0}), filter, wrap))
+            ->pack(packer);
         packer.write_texels();
         const shader::Binding binding(packer.scene);
         for (const float u : places)
@@ -231,7 +229,7 @@ TEST_CASE("no uv whatever leaves the image") {
             CAPTURE(v);
             REQUIRE(color == glm::vec3(0, 1, 0.2f));
             if (std::isfinite(u) && std::isfinite(v))
-              REQUIRE(glm::length(textured(image).at({u, v}) - Vec3(0, 1, 0.2)) < 1e-14);
+              REQUIRE(glm::length(make_image(image)->at({u, v}) - Vec3(0, 1, 0.2)) < 1e-14);
           }
       }
     }
@@ -244,17 +242,17 @@ TEST_CASE("images of the same texels share them; equal textures are one") {
   const auto same = linear_image(1, 2, texels, Filter::bilinear, Wrap::repeat);
   const auto other = linear_image(2, 1, {{1, 2, 3, 4}, {5, 6, 7, 9}}, Filter::nearest, Wrap::clamp);
   Packer packer(Vec3(0));
-  CHECK(packer.add_texture(textured(image)) == 0);
-  CHECK(packer.add_texture(textured(image)) == 0);
-  CHECK(packer.add_texture(textured(same)) == 1);
+  CHECK(make_image(image)->pack(packer) == 0);
+  CHECK(make_image(image)->pack(packer) == 0);
+  CHECK(make_image(same)->pack(packer) == 1);
   CHECK(packer.scene.texel_count == TEXELS_FIRST + 2);
-  CHECK(packer.add_texture(textured(other)) == 2);
+  CHECK(make_image(other)->pack(packer) == 2);
   CHECK(packer.scene.texels.empty());
   packer.write_texels();
   REQUIRE(packer.scene.texels.size() == TEXELS_FIRST + 4);
   CHECK(packer.scene.texels[TEXELS_FIRST + 3] == 0x09070605u);
-  CHECK(packer.scene.textures[2].width == 2);
-  CHECK(packer.scene.textures[2].height == 1);
-  CHECK(packer.scene.textures[2].first_texel == TEXELS_FIRST + 2);
-  CHECK(packer.scene.textures[2].flags == packer.scene.textures[0].flags);
+  CHECK(packer.scene.textures[2].c.x == 2);
+  CHECK(packer.scene.textures[2].c.y == 1);
+  CHECK(packer.scene.textures[2].c.z == TEXELS_FIRST + 2);
+  CHECK(packer.scene.textures[2].c.w == packer.scene.textures[0].c.w);
 }

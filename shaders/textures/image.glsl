@@ -1,18 +1,16 @@
-// Colours that vary over a surface.
-#ifndef TEXTURE_GLSL
-#define TEXTURE_GLSL
+// A picture. color = what it is multiplied by; b.xy = 1 / the size of the whole picture; c: see below.
+#ifndef IMAGE_GLSL
+#define IMAGE_GLSL
 #include "math/math.glsl"
 #include "records.h"
 
 SHADER_BEGIN
 
-// Whether the check that holds (u, v) is odd. The parity is taken in floats, where an int could overflow.
-bool odd_check(Texture texture, vec2 uv) {
-  float check = floor(uv.x * texture.frequency_u) + floor(uv.y * texture.frequency_v);
-  return check - 2.0f * floor(0.5f * check) != 0.0f;
-}
+uint image_width(Texture texture) { return texture.c.x; }
+uint image_height(Texture texture) { return texture.c.y; }
+uint image_first_texel(Texture texture) { return texture.c.z; }
+uint image_flags(Texture texture) { return texture.c.w; }
 
-#if HAS_IMAGES
 // x within the copy of the image that it lies in, in [0, 1] from the copy's first edge to its last. What is no number is 0.
 float within_copy(float x, uint wrap) {
   float within = wrap == WRAP_CLAMP ? x : x - floor(x);
@@ -36,12 +34,12 @@ uint copied_texel(int i, uint size, uint wrap, bool mirrored) {
 
 // The codes of the texel at `column` and `row`, counted from the lower left.
 uint texel_codes(Texture texture, uint column, uint row) {
-  return load_texel(texture.first_texel + (texture.height - 1u - row) * texture.width + column);
+  return load_texel(image_first_texel(texture) + (image_height(texture) - 1u - row) * image_width(texture) + column);
 }
 
 // Linear RGB of it.
 vec3 texel_color(Texture texture, uint column, uint row) {
-  uint table = (texture.flags & IMAGE_LINEAR) != 0u ? TEXELS_LINEAR : TEXELS_SRGB;
+  uint table = (image_flags(texture) & IMAGE_LINEAR) != 0u ? TEXELS_LINEAR : TEXELS_SRGB;
   uint texel = texel_codes(texture, column, row);
   return vec3(uintBitsToFloat(load_texel(table + (texel & 255u))),
               uintBitsToFloat(load_texel(table + ((texel >> 8u) & 255u))),
@@ -59,79 +57,49 @@ struct TexelQuad {
   float to_top;
 };
 
-TexelQuad image_place(Texture texture, vec2 uv) {
-  float u = uv.x * texture.frequency_u;
-  float v = uv.y * texture.frequency_v;
-  uint wrap_u = (texture.flags >> IMAGE_WRAP_U_SHIFT) & IMAGE_WRAP_MASK;
-  uint wrap_v = (texture.flags >> IMAGE_WRAP_V_SHIFT) & IMAGE_WRAP_MASK;
-  bool nearest = (texture.flags & IMAGE_NEAREST) != 0u;
+TexelQuad texels_at(Texture texture, vec2 uv) {
+  float u = uv.x * texture.b.x;
+  float v = uv.y * texture.b.y;
+  uint wrap_u = (image_flags(texture) >> IMAGE_WRAP_U_SHIFT) & IMAGE_WRAP_MASK;
+  uint wrap_v = (image_flags(texture) >> IMAGE_WRAP_V_SHIFT) & IMAGE_WRAP_MASK;
+  bool nearest = (image_flags(texture) & IMAGE_NEAREST) != 0u;
   float centre = nearest ? 0.0f : 0.5f;
-  float x = within_copy(u, wrap_u) * float(texture.width) - centre;
-  float y = within_copy(v, wrap_v) * float(texture.height) - centre;
+  float x = within_copy(u, wrap_u) * float(image_width(texture)) - centre;
+  float y = within_copy(v, wrap_v) * float(image_height(texture)) - centre;
   TexelQuad place;
   place.to_right = nearest ? 0.0f : x - floor(x);
   place.to_top = nearest ? 0.0f : y - floor(y);
 
   bool mirrored_u = mirrored_copy(u, wrap_u);
   bool mirrored_v = mirrored_copy(v, wrap_v);
-  place.left = copied_texel(int(floor(x)), texture.width, wrap_u, mirrored_u);
-  place.right = copied_texel(int(floor(x)) + 1, texture.width, wrap_u, mirrored_u);
-  place.bottom = copied_texel(int(floor(y)), texture.height, wrap_v, mirrored_v);
-  place.top = copied_texel(int(floor(y)) + 1, texture.height, wrap_v, mirrored_v);
+  place.left = copied_texel(int(floor(x)), image_width(texture), wrap_u, mirrored_u);
+  place.right = copied_texel(int(floor(x)) + 1, image_width(texture), wrap_u, mirrored_u);
+  place.bottom = copied_texel(int(floor(y)), image_height(texture), wrap_v, mirrored_v);
+  place.top = copied_texel(int(floor(y)) + 1, image_height(texture), wrap_v, mirrored_v);
   return place;
 }
 
 vec3 image_color(Texture texture, vec2 uv) {
-  TexelQuad at = image_place(texture, uv);
+  TexelQuad at = texels_at(texture, uv);
   vec3 bottom_left = texel_color(texture, at.left, at.bottom);
   vec3 top_left = texel_color(texture, at.left, at.top);
   vec3 lower = bottom_left + (texel_color(texture, at.right, at.bottom) - bottom_left) * at.to_right;
   vec3 upper = top_left + (texel_color(texture, at.right, at.top) - top_left) * at.to_right;
-  return lower + (upper - lower) * at.to_top;
+  return texture.color * (lower + (upper - lower) * at.to_top);
 }
 
-#if HAS_ALPHA_TEST
 float texel_alpha(Texture texture, uint column, uint row) {
   return uintBitsToFloat(load_texel(TEXELS_LINEAR + (texel_codes(texture, column, row) >> 24u)));
 }
 
 float image_alpha(Texture texture, vec2 uv) {
-  TexelQuad at = image_place(texture, uv);
+  TexelQuad at = texels_at(texture, uv);
   float bottom_left = texel_alpha(texture, at.left, at.bottom);
   float top_left = texel_alpha(texture, at.left, at.top);
   float lower = bottom_left + (texel_alpha(texture, at.right, at.bottom) - bottom_left) * at.to_right;
   float upper = top_left + (texel_alpha(texture, at.right, at.top) - top_left) * at.to_right;
-  return lower + (upper - lower) * at.to_top;
+  return texture.color.x * (lower + (upper - lower) * at.to_top);
 }
-#endif
-#endif
-
-vec3 texture_color(uint index, vec2 uv) {
-  Texture texture = load_texture(index);
-  vec3 color = texture.even;
-#if HAS_CHECKER
-  if (texture.kind == TEXTURE_CHECKER && odd_check(texture, uv)) color = texture.odd;
-#endif
-#if HAS_IMAGES
-  if (texture.kind == TEXTURE_IMAGE) color = color * image_color(texture, uv);
-#endif
-  return color;
-}
-
-#if HAS_ALPHA_TEST
-// A texture as an alpha: the first component of a constant or a check; an image's alpha times that.
-float texture_alpha(uint index, vec2 uv) {
-  Texture texture = load_texture(index);
-  float alpha = texture.even.x;
-#if HAS_CHECKER
-  if (texture.kind == TEXTURE_CHECKER && odd_check(texture, uv)) alpha = texture.odd.x;
-#endif
-#if HAS_IMAGES
-  if (texture.kind == TEXTURE_IMAGE) alpha = alpha * image_alpha(texture, uv);
-#endif
-  return alpha;
-}
-#endif
 
 SHADER_END
 #endif

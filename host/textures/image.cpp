@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host/image/srgb.hpp"
+#include "host/records/packer.hpp"
+#include "host/textures/make.hpp"
+
+namespace eyeray::textures {
+
+extern const TextureType image_type;
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(A picture, wherever a color may vary over a surface: (0, 0) in uv is its lower left corner, (`scale`, `scale`) its upper right. See [scene-file.md](scene-file.md#images).
+)";
+
+constexpr std::string_view filters[] = {"bilinear", "nearest"};
+constexpr std::string_view wraps[] = {"repeat", "mirror", "clamp"};
+constexpr std::string_view color_spaces[] = {"srgb", "linear"};
+
+constexpr Key keys[] = {
+    {.name = "image",
+     .type = KeyType::string,
+     .doc = "Name of a PNG or JPEG file, relative to the scene file that it stands in."},
+    {.name = "filter",
+     .type = KeyType::choice,
+     .doc = "Between four texels, or the one that holds the point.",
+     .fallback = "'bilinear'",
+     .choices = filters},
+    {.name = "wrap",
+     .type = KeyType::choice2,
+     .doc = "How the picture goes on beyond its edges.",
+     .fallback = "'repeat'",
+     .choices = wraps},
+    {.name = "color_space",
+     .type = KeyType::choice,
+     .doc = "What the file's codes mean: sRGB, or shares of 255 as they are.",
+     .fallback = "'srgb'",
+     .choices = color_spaces},
+    {.name = "scale",
+     .type = KeyType::scale2,
+     .doc = "Size of the whole picture in uv.",
+     .fallback = "1",
+     .min = 0,
+     .above_min = true},
+    {.name = "tint", .type = KeyType::color, .doc = "What the picture is multiplied by.", .fallback = "1"},
+};
+
+// i of the endless row of texels that an image of `size` is continued to, as one of its own.
+size_t wrapped(double i, int size, Wrap wrap) {
+  const double n = size;
+  double own = i;
+  if (wrap == Wrap::repeat) own = i - n * std::floor(i / n);
+  if (wrap == Wrap::mirror) {
+    own = i - 2 * n * std::floor(i / (2 * n));
+    if (own >= n) own = 2 * n - 1 - own;
+  }
+  return own > 0 ? static_cast<size_t>(std::min(own, n - 1)) : 0;  // and NaN is 0
+}
+
+// What a code stands for.
+double decoded(uint8_t code, bool srgb) {
+  static const auto curve = [] {
+    std::array<double, 256> values;
+    for (size_t i = 0; i < values.size(); ++i) values[i] = linear_from_srgb(static_cast<double>(i) / 255);
+    return values;
+  }();
+  return srgb ? curve[code] : code / 255.0;
+}
+
+// Linear RGB and alpha of texel (i, j), counted from the lower left, of the plane that the image is continued
+// to.
+Vec4 texel(const ImageTexture& image, double i, double j) {
+  const size_t row = static_cast<size_t>(image.height) - 1 - wrapped(j, image.height, image.wrap_v);
+  const size_t column = wrapped(i, image.width, image.wrap_u);
+  const auto& codes = image.texels[row * static_cast<size_t>(image.width) + column];
+  return {decoded(codes[0], image.srgb), decoded(codes[1], image.srgb), decoded(codes[2], image.srgb),
+          codes[3] / 255.0};
+}
+
+// `uv` in the image's own unit.
+Vec4 filtered(const ImageTexture& image, const Vec2& uv) {
+  const Vec2 place = uv * Vec2(image.width, image.height);
+  if (image.filter == Filter::nearest) return texel(image, std::floor(place.x), std::floor(place.y));
+
+  // Weigh each texel by how much of a texel's area around the place it covers; its centre is at a
+  // half-integer. Equal ones give that very value, which an alpha may be compared with.
+  const Vec2 corner = glm::floor(place - 0.5);
+  const Vec2 share = place - 0.5 - corner;
+  const auto row = [&](double j) {
+    const Vec4 left = texel(image, corner.x, j);
+    return left + (texel(image, corner.x + 1, j) - left) * share.x;
+  };
+  const Vec4 lower = row(corner.y);
+  return lower + (row(corner.y + 1) - lower) * share.y;
+}
+
+constexpr uint32_t wrap_codes[] = {WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP};  // by Wrap
+
+uint32_t flags_of(const ImageTexture& image) {
+  return (image.filter == Filter::nearest ? IMAGE_NEAREST : 0) | (image.srgb ? 0 : IMAGE_LINEAR) |
+         wrap_codes[size_t(image.wrap_u)] << IMAGE_WRAP_U_SHIFT |
+         wrap_codes[size_t(image.wrap_v)] << IMAGE_WRAP_V_SHIFT;
+}
+
+class Image final : public Texture {
+ public:
+  Image(std::shared_ptr<const ImageTexture> image, const Vec3& tint, const Vec2& size)
+      : image_(std::move(image)), tint_(tint), size_(size) {}
+
+  Vec3 at(const Vec2& uv) const override { return tint_ * Vec3(filtered(*image_, uv / size_)); }
+  double alpha_at(const Vec2& uv) const override { return tint_.x * filtered(*image_, uv / size_).w; }
+
+  uint32_t pack(Packer& packer) const override {
+    return packer.add(shader::Texture{.color = glm::vec3(tint_),
+                                      .kind = shader::TEXTURE_image,
+                                      .a = shader::vec4(0),
+                                      .b = shader::vec4(glm::vec2(1.0 / size_), 0, 0),
+                                      .c = {uint32_t(image_->width), uint32_t(image_->height),
+                                            packer.add_image(image_), flags_of(*image_)}});
+  }
+
+ private:
+  std::shared_ptr<const ImageTexture> image_;
+  Vec3 tint_;
+  Vec2 size_;
+};
+
+TexturePtr parse(TableReader& table) {
+  if (table.failed()) return nullptr;  // what is wrong with the file would hide what is wrong here
+  const auto [wrap_u, wrap_v] = table.choice2("wrap");
+  ImageTexture wanted;
+  wanted.name = table.string("image");
+  wanted.srgb = table.choice("color_space") == 0;
+  wanted.filter = static_cast<Filter>(table.choice("filter"));
+  wanted.wrap_u = static_cast<Wrap>(wrap_u);
+  wanted.wrap_v = static_cast<Wrap>(wrap_v);
+  auto image = table.load_image("image", std::move(wanted));
+  return image ? make_image(std::move(image), table.color("tint"), table.scale2("scale")) : nullptr;
+}
+
+}  // namespace
+
+extern const TextureType image_type{.name = "image", .manual = manual, .keys = keys, .parse = parse};
+
+TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tint, const Vec2& size) {
+  return std::make_shared<Image>(std::move(image), tint, size);
+}
+
+}  // namespace eyeray::textures

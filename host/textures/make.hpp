@@ -1,0 +1,20 @@
+// Textures built in code, by materials, importers and tests; a scene file's go through their TextureType.
+#pragma once
+
+#include "host/scene/image_texture.hpp"
+#include "host/scene/texture.hpp"
+
+namespace eyeray::textures {
+
+TexturePtr make_constant(const Vec3& color);
+
+// A checkerboard in uv: the check that holds (u, v) is `even` where floor(u / size.x) + floor(v / size.y) is
+// even.
+TexturePtr make_checker(const Vec3& even, const Vec3& odd, const Vec2& size);
+
+// A picture in uv, times `tint`: (0, 0) is its lower left corner, `size` its upper right. As an alpha, its
+// own times the first component of `tint`.
+TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tint = Vec3(1),
+                      const Vec2& size = Vec2(1));
+
+}  // namespace eyeray::textures

@@ -1,0 +1,17 @@
+#include "host/textures/registry.hpp"
+
+namespace eyeray::textures {
+
+// Each texture's .cpp defines its own; one that is missing is a link error that bears its name.
+#define X(name, ...) extern const TextureType name##_type;
+TEXTURES(X)
+#undef X
+
+std::span<const TextureType* const> types() {
+#define X(name, ...) &name##_type,
+  static constexpr const TextureType* types[] = {TEXTURES(X)};
+#undef X
+  return types;
+}
+
+}  // namespace eyeray::textures

@@ -1,0 +1,29 @@
+// From a texture and a place on a surface to its colour, or its alpha: asks the kind of texture.
+#ifndef TEXTURE_GLSL
+#define TEXTURE_GLSL
+#include "records.h"
+
+SHADER_BEGIN
+
+vec3 texture_color(uint index, vec2 uv) {
+  Texture texture = load_texture(index);
+  vec3 color = vec3(0.0f, 0.0f, 0.0f);
+#define COLOR_OF(name, number, varies) \
+  if (texture.kind == number) color = name##_color(texture, uv);
+  TEXTURES(COLOR_OF)
+  return color;
+}
+
+#if HAS_ALPHA_TEST
+float texture_alpha(uint index, vec2 uv) {
+  Texture texture = load_texture(index);
+  float alpha = 0.0f;
+#define ALPHA_OF(name, number, varies) \
+  if (texture.kind == number) alpha = name##_alpha(texture, uv);
+  TEXTURES(ALPHA_OF)
+  return alpha;
+}
+#endif
+
+SHADER_END
+#endif
