@@ -32,7 +32,8 @@ bool equal(const Vec3& value, const Vec3& reference) {
 }
 bool equal(const FirstHit& value, const FirstHit& reference) {
   return value.primitive == reference.primitive && value.material == reference.material &&
-         float(value.t) == float(reference.t) && equal(value.normal, reference.normal);
+         float(value.t) == float(reference.t) && equal(value.position, reference.position) &&
+         equal(value.normal, reference.normal) && glm::vec2(value.uv) == glm::vec2(reference.uv);
 }
 
 // Both frames and what was found so far, one judgement a pixel and gate.
@@ -43,7 +44,8 @@ class Judge {
         reference_(reference),
         tolerances_(tolerances),
         colors_(size_t(value.area.pixels())),
-        first_hits_(size_t(value.area.pixels())) {}
+        first_hits_(size_t(value.area.pixels())),
+        counts_(size_t(value.area.pixels())) {}
 
   // Decides the pixels that need no explanation; the others are left `unexamined`.
   void compare_values() {
@@ -54,6 +56,8 @@ class Judge {
             judge(color_excess(p.value, p.reference, tolerances_.color), equal(p.value, p.reference));
         first_hits_[index(x, y)] =
             judge(hit_excess(p.value_hit, p.reference_hit, tolerances_), equal(p.value_hit, p.reference_hit));
+        counts_[index(x, y)] =
+            judge(counts_excess(p.value_counts, p.reference_counts), p.value_counts == p.reference_counts);
       }
     });
   }
@@ -61,19 +65,20 @@ class Judge {
   // Looks into the pixels that differ, of each gate all of them, unless an even choice shows that they are
   // too many to pass.
   void explain(const Reference& probe) {
-    const std::vector<size_t> different = together(unsettled(colors_), unsettled(first_hits_));
+    const std::vector<size_t> different = of_outcome(Outcome::unexamined);
     const size_t parts = different.size() / examined_at_once + 1;
     for (size_t part = 0; part < parts && !hopeless(); ++part) {
       std::vector<size_t> chosen;
       for (size_t n = part; n < different.size(); n += parts) chosen.push_back(different[n]);
       look_at(chosen, probe, usual_angles, false);
     }
-    const std::vector<size_t> left = together(unexplained(colors_), unexplained(first_hits_));
+    const std::vector<size_t> left = of_outcome(Outcome::unexplained);
     if (left.size() <= few) look_at(left, probe, many_angles, true);
   }
 
   Tally count_colors() const { return tally(colors_); }
   Tally count_first_hits() const { return tally(first_hits_); }
+  Tally count_counts() const { return tally(counts_); }
 
  private:
   size_t index(int x, int y) const { return size_t(y) * size_t(value_.area.width) + size_t(x); }
@@ -89,6 +94,8 @@ class Judge {
     p.pixel = {value_.area.x + x, value_.area.y + y};
     p.value = color_at(value_.color, x, y);
     p.reference = color_at(reference_.color, x, y);
+    p.value_counts = counts_at(value_, x, y);
+    p.reference_counts = counts_at(reference_, x, y);
     p.value_hit = value_.first_hit(x, y);
     p.reference_hit = reference_.first_hit(x, y);
     return p;
@@ -104,25 +111,15 @@ class Judge {
     const auto failed = [](const Tally& tally) {
       return tally.capped_pixels() > tally.may_be_explained || tally.unexplained > int64_t(few);
     };
-    return failed(count_colors()) || failed(count_first_hits());
+    return failed(count_colors()) || failed(count_first_hits()) || failed(count_counts());
   }
 
-  static std::vector<size_t> unsettled(const std::vector<Judgement>& judgements) {
-    return of_outcome(judgements, Outcome::unexamined);
-  }
-  static std::vector<size_t> unexplained(const std::vector<Judgement>& judgements) {
-    return of_outcome(judgements, Outcome::unexplained);
-  }
-  static std::vector<size_t> of_outcome(const std::vector<Judgement>& judgements, Outcome outcome) {
+  // The pixels with that outcome of any gate.
+  std::vector<size_t> of_outcome(Outcome outcome) const {
     std::vector<size_t> pixels;
-    for (size_t i = 0; i < judgements.size(); ++i)
-      if (judgements[i].outcome == outcome) pixels.push_back(i);
-    return pixels;
-  }
-  static std::vector<size_t> together(std::vector<size_t> pixels, const std::vector<size_t>& more) {
-    pixels.insert(pixels.end(), more.begin(), more.end());
-    std::sort(pixels.begin(), pixels.end());
-    pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+    for (size_t i = 0; i < colors_.size(); ++i)
+      if (colors_[i].outcome == outcome || first_hits_[i].outcome == outcome || counts_[i].outcome == outcome)
+        pixels.push_back(i);
     return pixels;
   }
 
@@ -135,6 +132,10 @@ class Judge {
         settle(colors_[i], true, neighbourhood.cause(p.value, tolerances_));
       else
         settle(colors_[i], neighbourhood.explains_as_rounding(p.value, tolerances_), Cause::rounding);
+      if (neighbourhood.explains(p.value_counts))
+        settle(counts_[i], true, neighbourhood.cause(p.value_counts));
+      else
+        settle(counts_[i], neighbourhood.explains_as_rounding(p.value_counts), Cause::rounding);
       settle(first_hits_[i], neighbourhood.explains(p.value_hit, tolerances_),
              neighbourhood.cause(p.value_hit, tolerances_));
     });
@@ -192,6 +193,7 @@ class Judge {
   const Tolerances& tolerances_;
   std::vector<Judgement> colors_;
   std::vector<Judgement> first_hits_;
+  std::vector<Judgement> counts_;
 };
 
 }  // namespace
@@ -220,6 +222,7 @@ ReferenceComparison compare_with_reference(const Frame& value, const Frame& refe
   judge.explain(probe);
   result.colors = judge.count_colors();
   result.first_hits = judge.count_first_hits();
+  result.counts = judge.count_counts();
   return result;
 }
 

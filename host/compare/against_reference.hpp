@@ -1,5 +1,5 @@
-// Gates B and C: colours and first hits agree with the reference, pixel by pixel, or the reference explains
-// why not.
+// Gates B and C: colours, and first hits and counts, agree with the reference, pixel by pixel, or the
+// reference explains why not.
 #pragma once
 
 #include <array>
@@ -33,8 +33,11 @@ struct ReferenceComparison {
   std::string incomparable;  // why nothing was compared; empty when everything was
   Tally colors;              // gate B
   Tally first_hits;          // gate C
+  Tally counts;              // gate C
 
-  bool passes() const { return incomparable.empty() && colors.passes() && first_hits.passes(); }
+  bool passes() const {
+    return incomparable.empty() && colors.passes() && first_hits.passes() && counts.passes();
+  }
 };
 
 ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference, const Reference& probe,

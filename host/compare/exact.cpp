@@ -13,11 +13,11 @@ namespace {
 
 constexpr int64_t max_bound = 64;
 
-bool same_bits(float a, float b) {
-  return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
-}
 bool same_bits(double a, double b) {
   return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
+}
+bool same_bits(const Vec2& a, const Vec2& b) {
+  return same_bits(a.x, b.x) && same_bits(a.y, b.y);
 }
 bool same_bits(const Vec3& a, const Vec3& b) {
   return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
@@ -28,18 +28,17 @@ bool same_ids(const FirstHit& a, const FirstHit& b) {
 }
 bool same_bits(const FirstHit& a, const FirstHit& b) {
   return same_ids(a, b) && same_bits(a.t, b.t) && same_bits(a.position, b.position) &&
-         same_bits(a.normal, b.normal) && same_bits(a.uv.x, b.uv.x) && same_bits(a.uv.y, b.uv.y);
+         same_bits(a.normal, b.normal) && same_bits(a.uv, b.uv);
 }
 
 Seam first_seam(const FirstHit& a, const FirstHit& b, bool colors_differ) {
   if (a.primitive != b.primitive) return Seam::primitive;
   if (!same_bits(a.t, b.t)) return Seam::t;
-  if (!same_bits(a.position, b.position) || !same_bits(a.normal, b.normal) || !same_bits(a.uv.x, b.uv.x) ||
-      !same_bits(a.uv.y, b.uv.y)) {
-    return Seam::normal;
-  }
+  if (!same_bits(a.position, b.position)) return Seam::position;
+  if (!same_bits(a.normal, b.normal)) return Seam::normal;
+  if (!same_bits(a.uv, b.uv)) return Seam::uv;
   if (a.material != b.material) return Seam::material;
-  return colors_differ ? Seam::color : Seam::hits;
+  return colors_differ ? Seam::color : Seam::counts;
 }
 
 std::array<double, 9> values(const FirstHit& hit) {
@@ -81,26 +80,33 @@ ExactComparison compare_exactly(const Frame& value, const Frame& other) {
       ++result.pixels;
       const FirstHit &hit = value.first_hit(x, y), &other_hit = other.first_hit(x, y);
       const Vec3 color = color_at(value.color, x, y), other_color = color_at(other.color, x, y);
-      const float hits = value.hits.pixel(x, y)[0], other_hits = other.hits.pixel(x, y)[0];
+      const Counts counts = counts_at(value, x, y), other_counts = counts_at(other, x, y);
 
       // Count what differs.
       const bool colors_differ = !same_bits(color, other_color);
       const bool first_hits_differ = !same_bits(hit, other_hit);
-      if (!colors_differ && !first_hits_differ && same_bits(hits, other_hits)) continue;
+      if (!colors_differ && !first_hits_differ && same_bits(counts, other_counts)) continue;
       ++result.different_pixels;
       result.different_colors += colors_differ;
       result.different_first_hits += first_hits_differ;
       result.different_ids += !same_ids(hit, other_hit);
 
       // Measure how far.
-      int64_t ulp = ulp_distance(hits, other_hits);
+      int64_t ulp = 0;
+      for (int c = 0; c < 2; ++c) ulp = std::max(ulp, ulp_distance(float(counts[c]), float(other_counts[c])));
       for (int c = 0; c < 3; ++c) ulp = std::max(ulp, ulp_distance(float(color[c]), float(other_color[c])));
       const auto a = values(hit), b = values(other_hit);
       for (size_t i = 0; i < a.size(); ++i) ulp = std::max(ulp, ulp_distance(float(a[i]), float(b[i])));
       if (result.worst.seam == Seam::none || ulp > result.max_ulp) {
-        result.worst = {
-            {value.area.x + x, value.area.y + y},     color, other_color, hit, other_hit, double(ulp),
-            first_seam(hit, other_hit, colors_differ)};
+        result.worst = {{value.area.x + x, value.area.y + y},
+                        color,
+                        other_color,
+                        counts,
+                        other_counts,
+                        hit,
+                        other_hit,
+                        double(ulp),
+                        first_seam(hit, other_hit, colors_differ)};
       }
       result.max_ulp = std::max(result.max_ulp, ulp);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace eyeray::compare {
 
@@ -15,47 +16,80 @@ constexpr double radius_growth = 3;
 // strikes, to this at most.
 constexpr double most_reach = 8;
 
-// Whether low ≤ value ≤ high, each bound widened; false when any of them is NaN.
-bool within(double value, double low, double high, double below, double above) {
-  return value >= low - below && value <= high + above;
+// Surfaces struck.
+double hits_per_sample(const Probe& probe) {
+  double hits = 0;
+  for (const Probe::Sample& sample : probe.samples) hits += sample.counts.x;
+  return hits / double(probe.samples.size());
 }
 
-bool bounds_hold(std::span<const Probe> probes, const Vec3& value, const Tolerances& tolerances,
-                 bool rounded) {
-  // Each sample may fall on either side of its own edges, whatever the others do: the bounds of the mean are
-  // the means of the bounds.
-  const size_t samples = std::max(probes.front().sample_colors.size(), size_t{1});
-  const auto color = [&](const Probe& probe, size_t sample) {
-    return probe.sample_colors.empty() ? probe.color : probe.sample_colors[sample];
-  };
-  Vec3 low(0.0), high(0.0);
-  for (size_t i = 0; i < samples; ++i) {
-    Vec3 least = color(probes.front(), i), greatest = least;
-    for (const Probe& probe : probes) {
-      least = glm::min(least, color(probe, i));
-      greatest = glm::max(greatest, color(probe, i));
-      if (!rounded) continue;
-      const size_t of_each = probe.rounded_colors.size() / samples;
-      for (size_t k = i * of_each; k < (i + 1) * of_each; ++k) {
-        least = glm::min(least, probe.rounded_colors[k]);
-        greatest = glm::max(greatest, probe.rounded_colors[k]);
-      }
+// The least and the greatest of each component.
+template <int n>
+struct Bounds {
+  using Value = glm::vec<n, double>;
+  Value low{std::numeric_limits<double>::infinity()};
+  Value high{-std::numeric_limits<double>::infinity()};
+
+  void include(const Value& value) {
+    low = glm::min(low, value);
+    high = glm::max(high, value);
+  }
+  // Whether `value` lies within them, widened by `beyond` times their width, and by `margin` or by
+  // `tolerance` · max(1, |bound|); false where it is NaN.
+  bool hold(const Value& value, double margin, double beyond) const {
+    return hold(value, beyond, [&](double) { return margin; });
+  }
+  bool hold_relatively(const Value& value, double tolerance, double beyond = 0) const {
+    return hold(value, beyond, [&](double bound) { return tolerance * std::max(1.0, std::abs(bound)); });
+  }
+
+ private:
+  template <typename Margin>
+  bool hold(const Value& value, double beyond, const Margin& margin) const {
+    for (int c = 0; c < n; ++c) {
+      const double wider = beyond * (high[c] - low[c]);
+      if (!(value[c] >= low[c] - wider - margin(low[c]) && value[c] <= high[c] + wider + margin(high[c])))
+        return false;
     }
-    low += least / double(samples);
-    high += greatest / double(samples);
+    return true;
   }
-  for (int c = 0; c < 3; ++c) {
-    const double below = tolerances.color * std::max(1.0, std::abs(low[c]));
-    const double above = tolerances.color * std::max(1.0, std::abs(high[c]));
-    if (!within(value[c], low[c], high[c], below, above)) return false;
+};
+
+// Bounds of the mean of the samples' `member`. Each sample may fall on either side of its own edges, whatever
+// the others do: the bounds of the mean are the means of the bounds.
+template <int n>
+Bounds<n> bounds(std::span<const Probe> probes, glm::vec<n, double> Probe::Sample::*member, bool rounded) {
+  const size_t samples = probes.front().samples.size();
+  Bounds<n> mean{.low = {}, .high = {}};
+  for (size_t i = 0; i < samples; ++i) {
+    Bounds<n> sample;
+    for (const Probe& probe : probes) {
+      sample.include(probe.samples[i].*member);
+      if (!rounded) continue;
+      const size_t of_each = probe.rounded.size() / samples;
+      for (size_t k = i * of_each; k < (i + 1) * of_each; ++k) sample.include(probe.rounded[k].*member);
+    }
+    mean.low += sample.low / double(samples);
+    mean.high += sample.high / double(samples);
   }
-  return true;
+  return mean;
+}
+
+bool bounds_hold(std::span<const Probe> probes, const Vec3& color, const Tolerances& tolerances,
+                 bool rounded) {
+  return bounds(probes, &Probe::Sample::color, rounded).hold_relatively(color, tolerances.color);
+}
+
+bool bounds_hold(std::span<const Probe> probes, const Counts& counts, bool rounded) {
+  return bounds(probes, &Probe::Sample::counts, rounded).hold_relatively(counts, counts_tolerance);
 }
 
 bool bounds_hold(std::span<const Probe> probes, const FirstHit& value, const Tolerances& tolerances) {
   // Gather what is known of the primitive that was hit.
-  double t_low = 0, t_high = 0, tolerance = 0;
-  Vec3 normal_low(0.0), normal_high(0.0);
+  Bounds<1> t;
+  Bounds<2> uv;
+  Bounds<3> position, normal;
+  double tolerance = 0;
   bool found = false;
   bool silhouette = false;
   for (const Probe& probe : probes) {
@@ -64,26 +98,22 @@ bool bounds_hold(std::span<const Probe> probes, const FirstHit& value, const Tol
       silhouette = true;
       continue;
     }
-    t_low = found ? std::min(t_low, hit.t) : hit.t;
-    t_high = found ? std::max(t_high, hit.t) : hit.t;
+    t.include(glm::dvec1(hit.t));
+    position.include(hit.position);
+    normal.include(hit.normal);
+    uv.include(hit.uv);
     tolerance = std::max(tolerance, t_tolerance(hit, tolerances));
-    normal_low = found ? glm::min(normal_low, hit.normal) : hit.normal;
-    normal_high = found ? glm::max(normal_high, hit.normal) : hit.normal;
     found = true;
   }
   if (!found) return false;
 
   if (value.primitive < 0) return std::isinf(value.t) && value.t > 0;
-  // Towards a rim both run like a square root: it may lie as far beyond the last probe as the probes are
+  // Towards a rim all run like a square root: they may lie as far beyond the last probe as the probes are
   // apart.
   const double beyond = silhouette ? 1 : 0;
-  const double t_margin = beyond * (t_high - t_low) + tolerance;
-  if (!within(value.t, t_low, t_high, t_margin, t_margin)) return false;
-  for (int c = 0; c < 3; ++c) {
-    const double margin = beyond * (normal_high[c] - normal_low[c]) + tolerances.normal;
-    if (!within(value.normal[c], normal_low[c], normal_high[c], margin, margin)) return false;
-  }
-  return true;
+  return t.hold(glm::dvec1(value.t), tolerance, beyond) && position.hold(value.position, tolerance, beyond) &&
+         normal.hold(value.normal, tolerances.normal, beyond) &&
+         uv.hold_relatively(value.uv, tolerances.uv, beyond);
 }
 
 }  // namespace
@@ -112,7 +142,7 @@ Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles
   for (const bool coincident : {false, true})
     probes_.push_back(reference(pixel.x, pixel.y, Vec2(0.0), coincident));
   innermost_ = probes_.size();
-  const double reach = std::min(most_reach, 1 + probes_.front().hits_per_sample / 8);
+  const double reach = std::min(most_reach, 1 + hits_per_sample(probes_.front()) / 8);
 
   // What varies more quickly than from ring to ring, the rings within show: a caustic's rim may be a
   // hundred-thousandth of a pixel wide.
@@ -140,8 +170,16 @@ bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) co
   return bounds_hold(probes_, value, tolerances, false);
 }
 
+bool Neighbourhood::explains(const Counts& value) const {
+  return bounds_hold(probes_, value, false);
+}
+
 bool Neighbourhood::explains_as_rounding(const Vec3& value, const Tolerances& tolerances) const {
-  return !probes_.front().rounded_colors.empty() && bounds_hold(probes_, value, tolerances, true);
+  return !probes_.front().rounded.empty() && bounds_hold(probes_, value, tolerances, true);
+}
+
+bool Neighbourhood::explains_as_rounding(const Counts& value) const {
+  return !probes_.front().rounded.empty() && bounds_hold(probes_, value, true);
 }
 
 bool Neighbourhood::explains(const FirstHit& value, const Tolerances& tolerances) const {
@@ -149,20 +187,25 @@ bool Neighbourhood::explains(const FirstHit& value, const Tolerances& tolerances
 }
 
 Cause Neighbourhood::cause(const Vec3& value, const Tolerances& tolerances) const {
-  return bounds_hold(innermost(), value, tolerances, false) ? Cause::undecidable : cause_of_color();
+  return bounds_hold(innermost(), value, tolerances, false) ? Cause::undecidable : cause_of_samples();
+}
+
+Cause Neighbourhood::cause(const Counts& value) const {
+  return bounds_hold(innermost(), value, false) ? Cause::undecidable : cause_of_samples();
 }
 
 Cause Neighbourhood::cause(const FirstHit& value, const Tolerances& tolerances) const {
   return bounds_hold(innermost(), value, tolerances) ? Cause::undecidable : cause_of_first_hit();
 }
 
-Cause Neighbourhood::cause_of_color() const {
-  const auto varies = [&](auto member) {
-    return std::any_of(probes_.begin(), probes_.end(),
-                       [&](const Probe& probe) { return probe.*member != probes_.front().*member; });
+Cause Neighbourhood::cause_of_samples() const {
+  const auto varies = [&](const auto& of) {
+    return std::any_of(probes_.begin(), probes_.end(), [&](const Probe& probe) {
+      return std::invoke(of, probe) != std::invoke(of, probes_.front());
+    });
   };
   if (varies(&Probe::first_surfaces)) return Cause::silhouette;
-  if (varies(&Probe::hits)) return Cause::refraction_branch;
+  if (varies(hits_per_sample)) return Cause::refraction_branch;
   if (varies(&Probe::first_colors)) return Cause::texture_edge;
   const bool direct =
       std::all_of(probes_.begin(), probes_.end(), [](const Probe& probe) { return probe.direct; });

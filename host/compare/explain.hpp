@@ -12,13 +12,14 @@ namespace eyeray::compare {
 
 // The reference at one pixel, every ray of it moved by a fraction of a pixel.
 struct Probe {
-  Vec3 color{0.0};                  // the mean of the samples
-  std::vector<Vec3> sample_colors;  // of each sample, where there are several
+  struct Sample {
+    Vec3 color{0.0};
+    Counts counts{0.0};
+  };
+  std::vector<Sample> samples = {{}};
   // As many of each sample, one after the other, where rays leave surfaces as far off and aside as float32
   // may put them, or take the darkest or the brightest of a texture as near as that; may be empty.
-  std::vector<Vec3> rounded_colors;
-  uint64_t hits = 0;  // surfaces struck, all samples together
-  double hits_per_sample = 0;
+  std::vector<Sample> rounded;
   uint64_t first_surfaces = 0;  // a fingerprint of which primitive each sample's eye ray hits
   uint64_t first_colors = 0;    // a fingerprint of the surface's own colour where each hits it
   bool direct = true;           // nothing is seen by reflection or refraction
@@ -52,19 +53,23 @@ class Neighbourhood {
 
   // Whether `value` lies within [min, max] of the neighbourhood, each bound widened by the tolerance.
   bool explains(const Vec3& value, const Tolerances& tolerances) const;
-  // Whether `value` is a hit of a primitive that the neighbourhood hits, with t and normal within the bounds
-  // found there.
+  // Whether each count lies within those of the neighbourhood.
+  bool explains(const Counts& value) const;
+  // Whether `value` is a hit of a primitive that the neighbourhood hits, with t, position, normal and uv
+  // within the bounds found there.
   bool explains(const FirstHit& value, const Tolerances& tolerances) const;
   // The same, of a neighbourhood in which rays also start as far off surfaces and aside as float32 may put
   // them.
   bool explains_as_rounding(const Vec3& value, const Tolerances& tolerances) const;
+  bool explains_as_rounding(const Counts& value) const;
   // What it is in the neighbourhood that explains a value.
   Cause cause(const Vec3& value, const Tolerances& tolerances) const;
+  Cause cause(const Counts& value) const;
   Cause cause(const FirstHit& value, const Tolerances& tolerances) const;
 
  private:
   void add_ring(const Reference& reference, Pixel pixel, double radius, int angles, double turn);
-  Cause cause_of_color() const;
+  Cause cause_of_samples() const;
   Cause cause_of_first_hit() const;
   // The pixel itself, as it is and with coincident surfaces, and the ring of a rounding error.
   std::span<const Probe> innermost() const { return std::span(probes_).first(innermost_); }

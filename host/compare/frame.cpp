@@ -9,9 +9,10 @@ namespace {
 // Whether every part of a frame has the size that its area says.
 bool whole(const Frame& frame) {
   const Rect& area = frame.area;
-  return frame.color.width() == area.width && frame.color.height() == area.height &&
-         frame.color.channels() == 3 && frame.hits.width() == area.width &&
-         frame.hits.height() == area.height && frame.hits.channels() == 1 &&
+  const auto holds = [&](const Image& image, int channels) {
+    return image.width() == area.width && image.height() == area.height && image.channels() == channels;
+  };
+  return holds(frame.color, 3) && holds(frame.hits, 1) && holds(frame.rays_traced, 1) &&
          int64_t(frame.first_hits.size()) == area.pixels();
 }
 

@@ -16,9 +16,10 @@ struct Frame {
   Image color;                       // linear RGB, the mean of the samples
   std::vector<FirstHit> first_hits;  // row by row
   Image hits;                        // 1 channel: surfaces struck, the mean of the samples
-  uint64_t rays = 0;
-  uint64_t flagged_pixels = 0;  // pixels with any SampleFlag
-  uint32_t flags = 0;           // all SampleFlags seen
+  Image rays_traced;                 // 1 channel: eye, reflected, refracted and shadow rays, the mean
+  uint64_t rays = 0;                 // all of them
+  uint64_t flagged_pixels = 0;       // pixels with any SampleFlag
+  uint32_t flags = 0;                // all SampleFlags seen
 
   const FirstHit& first_hit(int x, int y) const {
     return first_hits[size_t(y) * size_t(area.width) + size_t(x)];
@@ -36,6 +37,13 @@ struct Pixel {
 inline Vec3 color_at(const Image& image, int x, int y) {
   const float* p = image.pixel(x, y);
   return image.channels() == 3 ? Vec3(double(p[0]), double(p[1]), double(p[2])) : Vec3(double(p[0]));
+}
+
+// Surfaces struck and rays traced for a pixel, the means of its samples.
+using Counts = Vec2;
+
+inline Counts counts_at(const Frame& frame, int x, int y) {
+  return {double(*frame.hits.pixel(x, y)), double(*frame.rays_traced.pixel(x, y))};
 }
 
 // Why two frames cannot be compared at all ("its picture is 95×72, not 96×72"); empty when they can.

@@ -64,6 +64,7 @@ std::vector<std::string> Report::failures() const {
       continue;
     }
     add_failures(failures, "C", result.value, c.first_hits);
+    add_failures(failures, "C", result.value, c.counts);
     add_failures(failures, "B", result.value, c.colors);
   }
   return failures;
@@ -79,7 +80,8 @@ std::optional<Pixel> Report::pixel_to_look_at() const {
   }
   for (const ReferenceResult& result : against_reference) {
     if (!result.comparison.incomparable.empty()) continue;
-    for (const Tally* tally : {&result.comparison.first_hits, &result.comparison.colors}) {
+    for (const Tally* tally :
+         {&result.comparison.first_hits, &result.comparison.counts, &result.comparison.colors}) {
       if (!tally->passes()) return tally->worst.pixel;
     }
   }
@@ -96,7 +98,8 @@ std::vector<FirstHit> Report::shown_hits() const {
     if (result.comparison.worst.seam != Seam::none) add(result.comparison.worst);
   }
   for (const ReferenceResult& result : against_reference) {
-    for (const Tally* tally : {&result.comparison.first_hits, &result.comparison.colors}) {
+    for (const Tally* tally :
+         {&result.comparison.first_hits, &result.comparison.counts, &result.comparison.colors}) {
       if (tally->worst.excess > 0) add(tally->worst);
     }
   }

@@ -20,12 +20,16 @@ Json json(const FirstHit& hit) {
           {"normal", json(hit.normal)}, {"position", json(hit.position)}, {"uv", {hit.uv.x, hit.uv.y}}};
 }
 
+Json side(const Vec3& color, const Counts& counts, const FirstHit& hit) {
+  return {{"color", json(color)}, {"hits", counts.x}, {"rays", counts.y}, {"first_hit", json(hit)}};
+}
+
 Json json(const WorstPixel& worst) {
   return {{"pixel", json(worst.pixel)},
           {"excess", worst.excess},
           {"seam", name(worst.seam)},
-          {"value", {{"color", json(worst.value)}, {"first_hit", json(worst.value_hit)}}},
-          {"reference", {{"color", json(worst.reference)}, {"first_hit", json(worst.reference_hit)}}}};
+          {"value", side(worst.value, worst.value_counts, worst.value_hit)},
+          {"reference", side(worst.reference, worst.reference_counts, worst.reference_hit)}};
 }
 
 Json json(const Tally& tally) {
@@ -83,9 +87,10 @@ Json json(const ReferenceResult& result) {
   }
   const Tolerances& t = result.tolerances;
   object["tolerances"] = {
-      {"color", t.color}, {"t", t.t}, {"normal", t.normal}, {"max_explained", t.max_explained}};
+      {"color", t.color}, {"t", t.t}, {"normal", t.normal}, {"uv", t.uv}, {"max_explained", t.max_explained}};
   object["colors"] = json(c.colors);
   object["first_hits"] = json(c.first_hits);
+  object["counts"] = json(c.counts);
   if (result.metrics) object["metrics"] = json(*result.metrics);
   return object;
 }

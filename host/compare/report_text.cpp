@@ -28,9 +28,10 @@ std::string in_words(const std::map<int32_t, std::string>& words, int32_t index)
 
 std::string describe(const FirstHit& hit, const Report& report) {
   if (hit.primitive < 0) return "hits nothing";
-  return fmt::format("primitive {}{}, material {}{}, t {:.9g}, normal {}", hit.primitive,
-                     in_words(report.primitives, hit.primitive), hit.material,
-                     in_words(report.materials, hit.material), hit.t, numbers(hit.normal));
+  return fmt::format("primitive {}{}, material {}{}, t {:.9g}, position {}, normal {}, uv {:.9g} {:.9g}",
+                     hit.primitive, in_words(report.primitives, hit.primitive), hit.material,
+                     in_words(report.materials, hit.material), hit.t, numbers(hit.position),
+                     numbers(hit.normal), hit.uv.x, hit.uv.y);
 }
 
 // "2 explained (silhouette 1, shadow edge 1)".
@@ -50,9 +51,13 @@ void add_worst(std::string& text, const Report& report, const WorstPixel& worst,
   const std::string error = std::isinf(worst.excess) ? "beyond all" : fmt::format("{:.3g}", worst.excess);
   line(text, "    worst pixel {},{}: {} {}{}", worst.pixel.x, worst.pixel.y, error, unit,
        worst.seam == Seam::none ? "" : fmt::format(", parts at {}", name(worst.seam)));
-  line(text, "      {:9} color {}; {}", value, numbers(worst.value), describe(worst.value_hit, report));
-  line(text, "      {:9} color {}; {}", reference, numbers(worst.reference),
-       describe(worst.reference_hit, report));
+  const auto side = [&](const std::string& who, const Vec3& color, const Counts& counts,
+                        const FirstHit& hit) {
+    line(text, "      {:9} color {}; {:.9g} surfaces, {:.9g} rays; {}", who, numbers(color), counts.x,
+         counts.y, describe(hit, report));
+  };
+  side(value, worst.value, worst.value_counts, worst.value_hit);
+  side(reference, worst.reference, worst.reference_counts, worst.reference_hit);
 }
 
 void add_tally(std::string& text, const Report& report, const char* gate, const char* what,
@@ -77,6 +82,7 @@ void add(std::string& text, const Report& report, const ExactResult& result) {
 
 void add(std::string& text, const Report& report, const ReferenceResult& result) {
   add_tally(text, report, "C", "first hits", result.value, result.comparison.first_hits);
+  add_tally(text, report, "C", "surfaces and rays", result.value, result.comparison.counts);
   add_tally(text, report, "B", "colours", result.value, result.comparison.colors);
   if (result.metrics) line(text, "    {}", to_text(*result.metrics));
 }

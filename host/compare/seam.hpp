@@ -5,12 +5,13 @@
 
 namespace eyeray::compare {
 
-enum class Seam { none, primitive, t, normal, material, color, hits };
+enum class Seam { none, primitive, t, position, normal, uv, material, color, counts };
 
 // A pixel that stands for a comparison in its report: both values, and the seam.
 struct WorstPixel {
   Pixel pixel;
   Vec3 value{0.0}, reference{0.0};
+  Counts value_counts{0.0}, reference_counts{0.0};
   FirstHit value_hit, reference_hit;
   double excess = 0;  // the largest error, in tolerances (or in ULP)
   Seam seam = Seam::none;

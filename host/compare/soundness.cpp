@@ -62,8 +62,9 @@ Soundness inspect(const Image& image) {
 
 Soundness inspect(const Frame& frame) {
   Soundness soundness = inspect(frame.color);
-  for_each_pixel(soundness, frame.hits.width(), frame.hits.height(),
-                 [&](int x, int y) { return count_pixel(soundness, frame.hits, x, y); });
+  for (const Image* counts : {&frame.hits, &frame.rays_traced})
+    for_each_pixel(soundness, counts->width(), counts->height(),
+                   [&](int x, int y) { return count_pixel(soundness, *counts, x, y); });
   for (size_t i = 0; i < frame.first_hits.size(); ++i) {
     const int width = std::max(frame.area.width, 1);
     if (!count_hit(soundness, frame.first_hits[i]) && soundness.first == Pixel{}) {

@@ -23,9 +23,26 @@ double t_excess(double value, const FirstHit& reference, const Tolerances& toler
   return ratio(std::abs(value - reference.t), t_tolerance(reference, tolerances));
 }
 
+double position_excess(const Vec3& value, const FirstHit& reference, const Tolerances& tolerances) {
+  if (value == reference.position) return 0;
+  return ratio(glm::distance(value, reference.position), t_tolerance(reference, tolerances));
+}
+
 double normal_excess(const Vec3& value, const Vec3& reference, double tolerance) {
   double worst = 0;
   for (int c = 0; c < 3; ++c) worst = std::max(worst, ratio(std::abs(value[c] - reference[c]), tolerance));
+  return worst;
+}
+
+// Of vectors whose components may be large.
+template <int n>
+double relative_excess(const glm::vec<n, double>& value, const glm::vec<n, double>& reference,
+                       double tolerance) {
+  double worst = 0;
+  for (int c = 0; c < n; ++c) {
+    const double allowed = tolerance * std::max(1.0, std::abs(reference[c]));
+    worst = std::max(worst, ratio(std::abs(value[c] - reference[c]), allowed));
+  }
   return worst;
 }
 
@@ -33,7 +50,7 @@ double normal_excess(const Vec3& value, const Vec3& reference, double tolerance)
 
 void Tolerances::check() const {
   for (const auto& [tolerance, cap] :
-       {std::pair{color, 1e-3}, {t, 1e-3}, {normal, 1e-3}, {max_explained, 0.05}}) {
+       {std::pair{color, 1e-3}, {t, 1e-3}, {normal, 1e-3}, {uv, 1e-3}, {max_explained, 0.05}}) {
     CHECK_LE(0.0, tolerance);
     CHECK_LE(tolerance, cap);
   }
@@ -44,29 +61,33 @@ double t_tolerance(const FirstHit& reference, const Tolerances& tolerances) {
 }
 
 double color_excess(const Vec3& value, const Vec3& reference, double tolerance) {
-  double worst = 0;
-  for (int c = 0; c < 3; ++c) {
-    const double allowed = tolerance * std::max(1.0, std::abs(reference[c]));
-    worst = std::max(worst, ratio(std::abs(value[c] - reference[c]), allowed));
-  }
-  return worst;
+  return relative_excess(value, reference, tolerance);
+}
+
+double counts_excess(const Counts& value, const Counts& reference) {
+  return relative_excess(value, reference, counts_tolerance);
 }
 
 double hit_excess(const FirstHit& value, const FirstHit& reference, const Tolerances& tolerances) {
   if (value.primitive != reference.primitive || value.material != reference.material) {
     return std::numeric_limits<double>::infinity();
   }
-  return std::max(t_excess(value.t, reference, tolerances),
-                  normal_excess(value.normal, reference.normal, tolerances.normal));
+  return std::max({t_excess(value.t, reference, tolerances),
+                   position_excess(value.position, reference, tolerances),
+                   normal_excess(value.normal, reference.normal, tolerances.normal),
+                   relative_excess(value.uv, reference.uv, tolerances.uv)});
 }
 
 Seam first_seam(const WorstPixel& pixel, const Tolerances& tolerances) {
   const FirstHit &value = pixel.value_hit, &reference = pixel.reference_hit;
   if (value.primitive != reference.primitive) return Seam::primitive;
   if (t_excess(value.t, reference, tolerances) > 1) return Seam::t;
+  if (position_excess(value.position, reference, tolerances) > 1) return Seam::position;
   if (normal_excess(value.normal, reference.normal, tolerances.normal) > 1) return Seam::normal;
+  if (relative_excess(value.uv, reference.uv, tolerances.uv) > 1) return Seam::uv;
   if (value.material != reference.material) return Seam::material;
-  return color_excess(pixel.value, pixel.reference, tolerances.color) > 1 ? Seam::color : Seam::none;
+  if (color_excess(pixel.value, pixel.reference, tolerances.color) > 1) return Seam::color;
+  return counts_excess(pixel.value_counts, pixel.reference_counts) > 1 ? Seam::counts : Seam::none;
 }
 
 const char* name(Seam seam) {
@@ -77,14 +98,18 @@ const char* name(Seam seam) {
       return "primitive";
     case Seam::t:
       return "t";
+    case Seam::position:
+      return "position";
     case Seam::normal:
       return "normal";
+    case Seam::uv:
+      return "uv";
     case Seam::material:
       return "material";
     case Seam::color:
       return "color";
-    case Seam::hits:
-      return "hits";
+    case Seam::counts:
+      return "counts";
   }
   return "none";
 }

@@ -9,6 +9,7 @@ struct Tolerances {
   double color = 1e-4;           // of each channel, × max(1, |reference|)
   double t = 1e-5;               // relative; see t_tolerance
   double normal = 1e-4;          // of each component
+  double uv = 1e-4;              // of each component, × max(1, |reference|)
   double max_explained = 0.005;  // the share of pixels that may differ for a reason (and four in any case)
 
   // A tolerance so wide that the gate could not fail is a defect of the caller: CHECK.
@@ -23,10 +24,14 @@ double t_tolerance(const FirstHit& reference, const Tolerances& tolerances);
 // is in it.
 double color_excess(const Vec3& value, const Vec3& reference, double tolerance);
 
-// The same for a first hit: infinite where ids differ.
+// The same for a first hit: infinite where ids differ. Its position may be as far off as t.
 double hit_excess(const FirstHit& value, const FirstHit& reference, const Tolerances& tolerances);
 
-// The first of primitive, t, normal, material, colour that is out of tolerance.
+// The same for counts, which are equal but for the rounding of their means to float32.
+inline constexpr double counts_tolerance = 0x1p-23;
+double counts_excess(const Counts& value, const Counts& reference);
+
+// The first value along the life of a ray, in the order of Seam, that is out of tolerance.
 Seam first_seam(const WorstPixel& pixel, const Tolerances& tolerances);
 
 }  // namespace eyeray::compare

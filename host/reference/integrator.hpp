@@ -15,7 +15,7 @@ namespace eyeray::reference {
 enum class TextureChoice { at_hit, darkest, brightest };
 
 // How float32 may round rays. They leave surfaces (crossings.hpp, departure) at least this far off, and up to
-// this far aside.
+// this far aside; a light as near to a surface's plane may lie on either side of it.
 struct RayOffset {
   double share = 0;  // off, of |n|·|position − eye|; aside, of |position − eye|
   bool along_normal = false;

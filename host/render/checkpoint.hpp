@@ -4,14 +4,15 @@
 //
 //   offset   bytes
 //   0        8       "EYERAYCP"
-//   8        4       version of this layout: 2
+//   8        4       version of this layout: 3
 //   12       4       n, at most 65536
 //   16       n       the identity: a line "name: value\n" for each of its parts
 //   16 + n   8 each  RenderPosition, in the order of its members
 //            4       CRC-32 of FILE.rows as far as finished_rows go
 //            4       CRC-32 of all above
-//            32 each the sums of the band's pixels, top row first: red, green, blue (float64), hits, flags
-//            (uint32) 4       CRC-32 of the sums
+//            40 each the sums of the band's pixels, top row first: red, green, blue (float64), hits, rays,
+//                    flags, 0 (uint32)
+//            4       CRC-32 of the sums
 //
 // FILE.rows holds the finished rows above the band (render/row_store.hpp); a picture of one band has none.
 #pragma once

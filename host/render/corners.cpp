@@ -62,6 +62,7 @@ FinishedRows CornerMean::add(const FinishedRows& corners) {
   rows.first = std::max(0, corners.first - 1);
   rows.color = between(last_color_, corners.color, mean);
   rows.hits = between(last_hits_, corners.hits, mean);
+  rows.rays_traced = between(last_rays_, corners.rays_traced, mean);
   rows.flagged = between(last_flagged_, corners.flagged, any_flag);
   rows.flagged_pixels = corners.flagged_pixels;
   rows.flags = corners.flags;

@@ -248,12 +248,14 @@ Rendering render(const Scene& scene, executors::Executor& executor, const Render
     if (rows.first == 0) {
       result.color = Image(crop.width, crop.height, 3);
       result.hits = Image(crop.width, crop.height, 1);
+      result.rays_traced = Image(crop.width, crop.height, 1);
     }
     copy_rows(rows.color, rows.first, result.color);
     copy_rows(rows.hits, rows.first, result.hits);
+    copy_rows(rows.rays_traced, rows.first, result.rays_traced);
   };
   static_cast<RenderTotals&>(result) = render_rows(scene, executor, options, collect);
-  if (result.samples_done == 0) result.color = result.hits = Image();
+  if (result.samples_done == 0) result.color = result.hits = result.rays_traced = Image();
   if (!options.first_hits || result.interrupted) return result;
 
   result.first_hits.resize(size_t(crop.pixels()));

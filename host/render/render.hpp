@@ -27,7 +27,7 @@ struct RenderOptions {
   Rect crop;                                      // in pixels of the whole picture; empty: all of it
   bool first_hits = false;                        // for render(): whether they are wanted
   std::function<void(const Progress&)> progress;  // called between tiles; may be empty
-  // How many bytes of sums to hold (32 a pixel). A larger picture is rendered in bands of rows: all samples
+  // How many bytes of sums to hold (40 a pixel). A larger picture is rendered in bands of rows: all samples
   // of one, then of the next. Else it is one band, and so one sample of the whole picture comes after the
   // other.
   size_t band_bytes = size_t{256} << 20;
@@ -73,7 +73,7 @@ bool trace_first_hits(executors::Executor& executor, const Rect& crop, const Fir
 struct Rendering : RenderTotals {
   Image color;                       // of the crop; linear RGB, the mean of the samples
   std::vector<FirstHit> first_hits;  // of the crop; empty unless asked for
-  Image hits;                        // 1 channel: surfaces struck a pixel, mean of the samples
+  Image hits, rays_traced;           // as in FinishedRows
 };
 
 // As render_rows; when interrupted, the images are empty unless samples_done > 0, and first_hits is empty.

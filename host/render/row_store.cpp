@@ -14,7 +14,7 @@
 namespace eyeray::render {
 namespace {
 
-using StoredPixel = std::array<float, 5>;
+using StoredPixel = std::array<float, 6>;
 
 [[noreturn]] void fail(const char* what, const std::filesystem::path& file, int error) {
   throw Error(ExitCode::file_io, "cannot {} {}: {}", what, file.string(),
@@ -43,11 +43,12 @@ FinishedRows RowStore::read(int first, int count, int width) {
   end_ += bytes.size();
   checksum_ = crc32(bytes, checksum_);
 
-  FinishedRows rows{first, Image(width, count, 3), Image(width, count, 1), Image(width, count, 1)};
+  FinishedRows rows(first, width, count);
   for (size_t i = 0; i < pixels.size(); ++i) {
     std::copy_n(pixels[i].begin(), 3, &rows.color.samples()[3 * i]);
     rows.hits.samples()[i] = pixels[i][3];
-    rows.flagged.samples()[i] = pixels[i][4];
+    rows.rays_traced.samples()[i] = pixels[i][4];
+    rows.flagged.samples()[i] = pixels[i][5];
   }
   return rows;
 }
@@ -62,7 +63,8 @@ void RowStore::append(const FinishedRows& rows) {
   for (size_t i = 0; i < pixels.size(); ++i) {
     std::copy_n(&rows.color.samples()[3 * i], 3, pixels[i].begin());
     pixels[i][3] = rows.hits.samples()[i];
-    pixels[i][4] = rows.flagged.samples()[i];
+    pixels[i][4] = rows.rays_traced.samples()[i];
+    pixels[i][5] = rows.flagged.samples()[i];
   }
   const auto bytes = std::as_bytes(std::span(pixels));
   for (size_t done = 0; done < bytes.size();) {

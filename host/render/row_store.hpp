@@ -10,7 +10,7 @@
 namespace eyeray::render {
 
 // Rows from the top down; of each its pixels from left to right, 20 bytes each: the mean colour, the mean
-// of `hits` and the flags, five float32, little-endian. Every failure is an Error (file_io).
+// of `hits`, `rays_traced` and the flags, six float32, little-endian. Every failure is an Error (file_io).
 class RowStore {
  public:
   // Touches nothing yet.

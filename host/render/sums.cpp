@@ -5,7 +5,7 @@
 
 namespace eyeray::render {
 
-static_assert(sizeof(PixelSums::Pixel) == 32, "checkpoints hold it as it lies in memory");
+static_assert(sizeof(PixelSums::Pixel) == 40, "checkpoints hold it as it lies in memory");
 
 void PixelSums::reset(int width, int height) {
   width_ = width;
@@ -21,18 +21,20 @@ void PixelSums::add(int first, std::span<const PixelSample> samples) {
     Pixel& pixel = pixels_[begin + size_t(i)];
     pixel.color += sample.color;
     pixel.hits += sample.hits;
+    pixel.rays += sample.rays;
     pixel.flags |= sample.flags;
   });
 }
 
 FinishedRows PixelSums::mean(int first, int count, int samples, int extra_rows) const {
-  FinishedRows rows{first, Image(width_, count, 3), Image(width_, count, 1), Image(width_, count, 1)};
+  FinishedRows rows(first, width_, count);
   for (int y = 0; y < count; ++y) {
     const double divisor = first + y < extra_rows ? samples + 1 : samples;
     for (int x = 0; x < width_; ++x) {
       const Pixel& pixel = pixels_[size_t(first + y) * size_t(width_) + size_t(x)];
       for (int c = 0; c < 3; ++c) rows.color.pixel(x, y)[c] = float(pixel.color[c] / divisor);
       *rows.hits.pixel(x, y) = float(double(pixel.hits) / divisor);
+      *rows.rays_traced.pixel(x, y) = float(double(pixel.rays) / divisor);
       *rows.flagged.pixel(x, y) = float(pixel.flags);
       rows.flags |= pixel.flags;
       rows.flagged_pixels += pixel.flags != 0;

@@ -11,10 +11,20 @@ namespace eyeray::render {
 
 // Finished rows of a picture; sinks get them from the top down, none twice.
 struct FinishedRows {
-  int first = 0;  // counted from the top of what is rendered
-  Image color;    // linear RGB, the mean of the samples
-  Image hits;     // 1 channel: surfaces struck a pixel, the mean of the samples
-  Image flagged;  // 1 channel: the SampleFlags of all samples of a pixel, as a number
+  FinishedRows() = default;
+  // All 0.
+  FinishedRows(int from, int width, int count)
+      : first(from),
+        color(width, count, 3),
+        hits(width, count, 1),
+        rays_traced(width, count, 1),
+        flagged(width, count, 1) {}
+
+  int first = 0;      // counted from the top of what is rendered
+  Image color;        // linear RGB, the mean of the samples
+  Image hits;         // 1 channel: surfaces struck a pixel, the mean of the samples
+  Image rays_traced;  // 1 channel: a pixel, the mean of the samples
+  Image flagged;      // 1 channel: the SampleFlags of all samples of a pixel, as a number
   uint64_t flagged_pixels = 0;
   uint32_t flags = 0;
 };
@@ -25,7 +35,9 @@ class PixelSums {
   struct Pixel {
     Vec3 color{0.0};
     uint32_t hits = 0;
+    uint32_t rays = 0;
     uint32_t flags = 0;
+    uint32_t unused = 0;
   };
 
   // All 0.

@@ -23,10 +23,15 @@ void add_first_hit(compare::Probe& probe, const Scene& scene, const FirstHit& hi
 // vertices (docs/numerics.md).
 constexpr double float32_ray_offset = 24 * 0x1p-24;
 
+compare::Probe::Sample of(const PixelSample& sample) {
+  return {sample.color, {double(sample.hits), double(sample.rays)}};
+}
+
 // All samples of pixel (x, y), every ray moved by `shift`; `coincident`: see RayOffset.
 compare::Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int y, const Vec2& shift,
                      bool coincident) {
   compare::Probe result;
+  result.samples.clear();
   const auto seed = uint32_t(mix(std::bit_cast<uint64_t>(shift.x), std::bit_cast<uint64_t>(shift.y)) >> 32);
   for (int i = 0; i < scene.image.samples; ++i) {
     const auto rendered = [&](reference::RayOffset ray_offset) {
@@ -35,22 +40,19 @@ compare::Probe probe(const Scene& scene, const reference::Renderer& renderer, in
     };
     // From the farther surface rays would strike the nearer one, did they start as the mathematics says.
     const PixelSample sample = coincident ? rendered({float32_ray_offset, true, seed}) : rendered({});
-    result.color += sample.color / double(scene.image.samples);
-    result.sample_colors.push_back(sample.color);
+    result.samples.push_back(of(sample));
     using reference::TextureChoice;
     const auto add_rounded = [&](bool along_normal, TextureChoice textures) {
-      result.rounded_colors.push_back(rendered({float32_ray_offset, along_normal, seed, textures}).color);
+      result.rounded.push_back(of(rendered({float32_ray_offset, along_normal, seed, textures})));
     };
     for (const bool along_normal : {false, true}) add_rounded(along_normal, TextureChoice::at_hit);
     if (shift == Vec2(0.0))
       for (const auto textures : {TextureChoice::darkest, TextureChoice::brightest})
         add_rounded(false, textures);
-    result.hits += sample.hits;
     result.direct = result.direct && sample.hits <= 1;
     const Vec2 place = reference::sample_position(scene.image, scene.render.seed, x, y, uint32_t(i));
     add_first_hit(result, scene, renderer.first_hit(x, y, place - 0.5 + shift, coincident));
   }
-  result.hits_per_sample = double(result.hits) / scene.image.samples;
   result.first_hit = renderer.first_hit(x, y, shift, coincident);
   result.rounding = renderer.rounding(x, y, result.first_hit.t);
   return result;

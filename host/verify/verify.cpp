@@ -24,6 +24,7 @@ compare::Frame render_frame(executors::Backend backend, executors::Executor& exe
   frame.color = std::move(rendering.color);
   frame.first_hits = std::move(rendering.first_hits);
   frame.hits = std::move(rendering.hits);
+  frame.rays_traced = std::move(rendering.rays_traced);
   frame.rays = rendering.rays;
   frame.flagged_pixels = rendering.flagged_pixels;
   frame.flags = rendering.flags;

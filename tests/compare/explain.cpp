@@ -28,9 +28,9 @@ Cause cause_of(const Change& change) {
 
 TEST_CASE("a cause is the first thing along the ray that changes") {
   const auto surface = [](Probe& p) { p.first_surfaces = 7; };
-  const auto branch = [](Probe& p) { p.hits = 3; };
+  const auto branch = [](Probe& p) { p.samples[0].counts.x = 3; };
   const auto texture = [](Probe& p) { p.first_colors = 7; };
-  const auto light = [](Probe& p) { p.color *= 0.5; };
+  const auto light = [](Probe& p) { p.samples[0].color *= 0.5; };
   CHECK(cause_of(surface) == Cause::silhouette);
   CHECK(cause_of(branch) == Cause::refraction_branch);
   CHECK(cause_of(texture) == Cause::texture_edge);
@@ -45,9 +45,8 @@ TEST_CASE("what float32's rounding of where rays start changes is explained as t
     return Neighbourhood(
         [=](int, int, const Vec2&, bool) {
           Probe probe;
-          probe.color = Vec3(near);
-          probe.sample_colors = {Vec3(near)};
-          if (far > 0) probe.rounded_colors = {Vec3(far)};
+          probe.samples = {{Vec3(near), {}}};
+          if (far > 0) probe.rounded = {{Vec3(far), {}}};
           return probe;
         },
         {0, 0}, 16);
@@ -63,7 +62,7 @@ TEST_CASE("of two surfaces that float32 cannot tell apart, it may show either") 
   const Neighbourhood neighbourhood(
       [](int, int, const Vec2&, bool coincident) {
         Probe probe;
-        probe.color = Vec3(coincident ? 0.7 : 0.2);
+        probe.samples[0].color = Vec3(coincident ? 0.7 : 0.2);
         probe.first_hit = {.t = 4, .normal = {0, 0, 1}, .primitive = coincident ? 3 : 2, .material = 0};
         return probe;
       },
@@ -125,7 +124,7 @@ TEST_CASE("a jump within a rounding error of the eye ray is undecidable") {
     const Reference reference = [=](int, int, const Vec2& shift, bool) {
       const bool beyond_edge = shift.y > edge;
       Probe probe;
-      probe.color = Vec3(beyond_edge ? 0.7 : 0.2);
+      probe.samples[0].color = Vec3(beyond_edge ? 0.7 : 0.2);
       probe.first_hit = {.t = 1, .normal = {0, 0, 1}, .primitive = beyond_edge, .material = 0};
       probe.first_surfaces = beyond_edge;
       probe.rounding = rounding;
@@ -149,7 +148,7 @@ TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what
   const auto colors = [](double rounding) {
     const Reference picture = [=](int, int y, const Vec2& shift, bool) {
       Probe probe;
-      probe.color = Vec3(y + shift.y > 30 + 5e-7 ? 0.7 : 0.2);
+      probe.samples[0].color = Vec3(y + shift.y > 30 + 5e-7 ? 0.7 : 0.2);
       probe.rounding = rounding;
       return probe;
     };
@@ -169,7 +168,7 @@ TEST_CASE("what is narrower than the first ring is found by the second look") {
   const Reference reference = [](int, int, const Vec2& shift, bool) {
     Probe probe;
     const double r = glm::length(shift);
-    probe.color = Vec3(r > 2e-5 && r < 4e-4 ? 0.7 : 0.2);
+    probe.samples[0].color = Vec3(r > 2e-5 && r < 4e-4 ? 0.7 : 0.2);
     probe.rounding = 1e-5;
     return probe;
   };
@@ -181,7 +180,7 @@ TEST_CASE("what is narrower than the first ring is found by the second look") {
 TEST_CASE("what is explained lies between the neighbours, a tolerance more at each end") {
   const Reference reference = [](int, int, const Vec2& shift, bool) {
     Probe probe;
-    probe.color = Vec3(shift.x > 0.002 ? 0.7 : 0.2, 10, 0);
+    probe.samples[0].color = Vec3(shift.x > 0.002 ? 0.7 : 0.2, 10, 0);
     probe.first_hit = {shift.x > 0.002 ? 50.0 : 40.0, {}, {0, 0, 1}, {}, 3, 1};
     return probe;
   };

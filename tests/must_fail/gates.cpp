@@ -119,6 +119,7 @@ TEST_CASE("gate A sees one bit, wherever it is") {
       [&](Frame& f) { hit_at(f, on_ball).material = 0; },
       [&](Frame& f) { hit_at(f, on_ball).primitive = 0; },
       [&](Frame& f) { flip(*f.hits.pixel(50, 30)); },
+      [&](Frame& f) { flip(*f.rays_traced.pixel(50, 30)); },
   };
   const Frame twin = honest_frame();
   CHECK(compare_exactly(twin, twin).passes(0));
@@ -283,7 +284,28 @@ TEST_CASE("a difference just over the tolerance fails, just below passes") {
     gpu = picture_frame();
     hit_at(gpu, on_ball).normal.y += factor * 1e-4;
     CHECK(compared(gpu).first_hits.passes() == passes);
+    gpu = picture_frame();
+    hit_at(gpu, on_ball).uv.y += factor * 1e-4;
+    CHECK(compared(gpu).first_hits.passes() == passes);
+    gpu = picture_frame();
+    hit_at(gpu, on_ball).position.x += factor * 1e-5 * hit_at(gpu, on_ball).t;
+    CHECK(compared(gpu).first_hits.passes() == passes);
   }
+}
+
+TEST_CASE("gate C sees one surface or one ray too many") {
+  for (const auto image : {&Frame::hits, &Frame::rays_traced}) {
+    Frame gpu = picture_frame();
+    *(gpu.*image).pixel(on_ball.x, on_ball.y) += 1;
+    const Tally counts = compared(gpu).counts;
+    CHECK(counts.unexplained == 1);
+    CHECK(counts.worst.pixel == on_ball);
+    CHECK(counts.worst.seam == Seam::counts);
+    CHECK(compared(gpu).colors.passes());
+  }
+  // At the mirror's edge they may be those of either side, and at its corner no others.
+  CHECK(compared(honest_frame()).counts.passes());
+  CHECK(compared(honest_frame()).counts.explained[size_t(Cause::silhouette)] == edge_pixels);
 }
 
 TEST_CASE("an edge does not excuse a value that is on neither side of it") {
@@ -305,7 +327,7 @@ TEST_CASE("too many explained pixels fail, all of them explained") {
   // The picture with an edge along a whole column.
   const Reference split = [](int x, int y, const Vec2& shift, bool) {
     Probe probe = picture_reference(x, y, shift);
-    if (x + 0.5 + shift.x >= 40.5 + beyond) probe.color *= 0.5;
+    if (x + 0.5 + shift.x >= 40.5 + beyond) probe.samples[0].color *= 0.5;
     return probe;
   };
   const Frame value = picture_frame(honest_shift, split), reference = picture_frame(Vec2(0.0), split);
@@ -324,7 +346,7 @@ TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
     const Reference wedge = [columns](int x, int y, const Vec2& shift, bool) {
       Probe probe = picture_reference(x, y, shift);
       const bool meets = std::fabs(std::atan2(shift.y, shift.x) - M_PI / 64) < M_PI / 200;
-      if (x < columns && y == 0 && meets) probe.color *= 2.0;
+      if (x < columns && y == 0 && meets) probe.samples[0].color *= 2.0;
       return probe;
     };
     Frame gpu = picture_frame();
@@ -342,7 +364,8 @@ TEST_CASE("what is not looked into fails, even where all that was looked into is
   const Reference stripes = [](int x, int y, const Vec2& shift, bool) {
     Probe probe;
     const double place = x + 0.5 + shift.x;
-    probe.color = Vec3(place < 70 && std::fmod(place - beyond, 1) >= 0.5 ? 0.5 : 0.2, y / 100.0, 0);
+    probe.samples[0].color =
+        Vec3(place < 70 && std::fmod(place - beyond, 1) >= 0.5 ? 0.5 : 0.2, y / 100.0, 0);
     return probe;
   };
   const Frame value = picture_frame(honest_shift, stripes), reference = picture_frame(Vec2(0.0), stripes);
@@ -363,12 +386,13 @@ TEST_CASE("noise cannot hide: pixels beyond the cap are not even looked into, an
 
 TEST_CASE("a picture of another size, place or shape fails, and so does none at all") {
   const Frame reference = picture_frame();
-  std::vector<Frame> wrong(6, honest_frame());
+  std::vector<Frame> wrong(7, honest_frame());
   wrong[0].color = Image(picture_width - 1, picture_height, 3);
   wrong[1].area.width = picture_width - 1;
   wrong[2].area.x = 1;
   wrong[3].first_hits.pop_back();
   wrong[4].hits = Image(picture_width, picture_height, 3);
+  wrong[6].rays_traced = Image(picture_width, picture_height + 1, 1);
   wrong[5].color = Image(picture_width, picture_height, 1);
   for (const Frame& frame : wrong) {
     CHECK_FALSE(compare_exactly(frame, reference).passes(64));

@@ -47,10 +47,7 @@ TEST_CASE("the pixels' centres are where the corners were, by every camera") {
 
 TEST_CASE("a pixel is the mean of its corners, however the rows come") {
   const int width = 4, height = 6;
-  FinishedRows all{.first = 0,
-                   .color = Image(width, height, 3),
-                   .hits = Image(width, height, 1),
-                   .flagged = Image(width, height, 1)};
+  FinishedRows all(0, width, height);
   *all.flagged.pixel(2, 3) = float(stack_overflow);
   *all.flagged.pixel(3, 3) = float(media_overflow);
   for (int y = 0; y < height; ++y) {
@@ -65,10 +62,7 @@ TEST_CASE("a pixel is the mean of its corners, however the rows come") {
     int next = 0;
     for (int first = 0; first < height; first += rows) {
       const int count = std::min(rows, height - first);
-      FinishedRows some{.first = first,
-                        .color = Image(width, count, 3),
-                        .hits = Image(width, count, 1),
-                        .flagged = Image(width, count, 1)};
+      FinishedRows some(first, width, count);
       std::copy_n(all.flagged.pixel(0, first), some.flagged.sample_count(), some.flagged.pixel(0, 0));
       std::copy_n(all.color.pixel(0, first), some.color.sample_count(), some.color.pixel(0, 0));
       std::copy_n(all.hits.pixel(0, first), some.hits.sample_count(), some.hits.pixel(0, 0));

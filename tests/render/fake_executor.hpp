@@ -68,7 +68,8 @@ inline bool same_bits(const Image& a, const Image& b) {
 
 // In everything but how long it took and whether it was resumed.
 inline bool same_rendering(const render::Rendering& a, const render::Rendering& b) {
-  return same_bits(a.color, b.color) && same_bits(a.hits, b.hits) && a.rays == b.rays && a.flags == b.flags &&
+  return same_bits(a.color, b.color) && same_bits(a.hits, b.hits) &&
+         same_bits(a.rays_traced, b.rays_traced) && a.rays == b.rays && a.flags == b.flags &&
          a.flagged_pixels == b.flagged_pixels && a.samples_done == b.samples_done;
 }
 

@@ -23,6 +23,7 @@ inline compare::Frame render_frame(const Scene& scene, executors::Executor& exec
           std::move(rendering.color),
           std::move(rendering.first_hits),
           std::move(rendering.hits),
+          std::move(rendering.rays_traced),
           rendering.rays,
           rendering.flagged_pixels,
           rendering.flags};
@@ -38,10 +39,10 @@ inline compare::ReferenceComparison compare_with_reference(const Scene& scene, c
   const reference::Renderer renderer(scene);
   const compare::Reference probe = [&](int x, int y, const Vec2& shift, bool coincident) {
     compare::Probe result;
+    result.samples.clear();
     for (int i = 0; i < scene.image.samples; ++i) {
       const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift, {.coincident = coincident});
-      result.color += sample.color / double(scene.image.samples);
-      result.hits_per_sample += double(sample.hits) / scene.image.samples;
+      result.samples.push_back({sample.color, {double(sample.hits), double(sample.rays)}});
     }
     result.first_hit = renderer.first_hit(x, y, shift, coincident);
     return result;

@@ -22,10 +22,11 @@ inline constexpr int edge_pixels = 8;
 inline compare::Probe picture_at(double x, double y) {
   const auto between = [](double value, double low, double high) { return value >= low && value < high; };
   compare::Probe probe;
-  probe.hits = 1;
+  compare::Probe::Sample& sample = probe.samples.front();
+  sample.counts = {1, 2};
 
   // The wall, lit a little unevenly.
-  probe.color = Vec3(0.5, 0.4, 0.3) * (1 + 0.1 * std::sin(x / 20) * std::cos(y / 20));
+  sample.color = Vec3(0.5, 0.4, 0.3) * (1 + 0.1 * std::sin(x / 20) * std::cos(y / 20));
   probe.first_hit = {1000, {x, -y, 0}, {0, 0, 1}, {x, y}, 0, 0};
 
   // The ball.
@@ -34,26 +35,26 @@ inline compare::Probe picture_at(double x, double y) {
     const double z = std::sqrt(radius * radius - r2);
     const Vec3 n = Vec3(dx, -dy, z) / radius;
     const double light = std::max(0.0, glm::dot(n, glm::normalize(Vec3(1, 2, 3))));
-    probe.color = Vec3(0.1) + light * Vec3(0.9, 0.5, 0.2);
+    sample.color = Vec3(0.1) + light * Vec3(0.9, 0.5, 0.2);
     probe.first_hit = {900 - z, {x, -y, z}, n, {n.x, n.y}, 1, 1};
   }
   // The opening, through which nothing is hit.
   if (between(x, 88.5 + beyond, 96) && between(y, 4, 4 + edge_pixels)) {
-    probe = {};
-    probe.color = Vec3(0.1, 0.2, 0.9);
+    sample = {.color = Vec3(0.1, 0.2, 0.9), .counts = {0, 1}};
+    probe.first_hit = {};
   }
   // The shadow.
-  if (between(y, 60.5 + beyond, 65) && between(x, 4, 4 + edge_pixels)) probe.color *= 0.4;
+  if (between(y, 60.5 + beyond, 65) && between(x, 4, 4 + edge_pixels)) sample.color *= 0.4;
   // The checker.
   if (between(x, 20.5 + beyond, 24) && between(y, 60, 60 + edge_pixels)) {
-    probe.color *= Vec3(0.2, 0.9, 0.2);
+    sample.color *= Vec3(0.2, 0.9, 0.2);
     probe.first_colors = 1;
   }
   // The mirror.
   if (between(x, 4, 4 + edge_pixels) && between(y, 4, 16)) {
-    probe.color = y < 10.5 + beyond ? Vec3(0.8, 0.1, 0.1) : Vec3(0.1, 0.1, 0.8);
+    sample.color = y < 10.5 + beyond ? Vec3(0.8, 0.1, 0.1) : Vec3(0.1, 0.1, 0.8);
     probe.first_hit = {800, {x, -y, 5}, {0, 0.6, 0.8}, {x, y}, 2, 2};
-    probe.hits = 2;
+    sample.counts = {2, 4};
     probe.direct = false;
   }
   probe.first_surfaces = uint64_t(probe.first_hit.primitive);
@@ -70,13 +71,15 @@ inline compare::Frame picture_frame(const Vec2& shift = Vec2(0.0),
   compare::Frame frame;
   frame.area = {0, 0, picture_width, picture_height};
   frame.color = Image(picture_width, picture_height, 3);
-  frame.hits = Image(picture_width, picture_height, 1);
+  frame.hits = frame.rays_traced = Image(picture_width, picture_height, 1);
   frame.rays = 2u * picture_width * picture_height;
   for (int y = 0; y < picture_height; ++y) {
     for (int x = 0; x < picture_width; ++x) {
       const compare::Probe probe = picture(x, y, shift, false);
-      for (int c = 0; c < 3; ++c) frame.color.pixel(x, y)[c] = float(probe.color[c]);
-      *frame.hits.pixel(x, y) = float(probe.hits);
+      const compare::Probe::Sample& sample = probe.samples.front();
+      for (int c = 0; c < 3; ++c) frame.color.pixel(x, y)[c] = float(sample.color[c]);
+      *frame.hits.pixel(x, y) = float(sample.counts.x);
+      *frame.rays_traced.pixel(x, y) = float(sample.counts.y);
       frame.first_hits.push_back(probe.first_hit);
     }
   }
