@@ -5,11 +5,14 @@
 
 #include "host/cli/command.hpp"
 #include "host/cli/within.hpp"
+#include "host/loader/scene_edit.hpp"
 
 namespace fs = std::filesystem;
 
 namespace eyeray::cli {
 namespace {
+
+constexpr double most_explained = 0.05;
 
 struct Command {
   SceneOptions scene_options;
@@ -18,7 +21,9 @@ struct Command {
   std::string keep;
   bool quiet = false;
   bool json = false;
+  bool record = false;
 
+  void record_allowance(compare::Report& report) const;
   ExitCode run();
   compare::Report report_on(const SceneOptions& scene_file) const;
   fs::path folder_for(const std::string& scene) const;
@@ -53,7 +58,22 @@ compare::Report Command::report_on(const SceneOptions& scene_file) const {
       {scene, scene_file.file(), scene_file.as_written(), folder_for(scene_file.file())}, options);
 }
 
+void Command::record_allowance(compare::Report& report) const {
+  const std::optional<double> allowance = report.healthy_allowance();
+  if (!allowance) return;
+  const std::string share = *allowance > 0 ? fmt::format("{:.5f}", *allowance) : "0";
+  loader::set_value(report.scene, "verify", "max_explained", share);
+  fmt::print(stderr, "eyeray: recorded max_explained = {} in {}\n", share, report.scene);
+}
+
 ExitCode Command::run() {
+  if (record) {
+    if (const std::string changed = scene_options.as_written();
+        !changed.empty() || options.crop.pixels() > 0 || options.max_explained)
+      throw Error(ExitCode::bad_input, "--record takes scenes as their files say: leave out{}",
+                  changed.empty() ? " --crop and --max-explained" : changed);
+    options.max_explained = most_explained;
+  }
   options.progress = [this] { return progress_reporter(quiet); };
   std::vector<std::string> files{scene_options.file()};
   files.insert(files.end(), more_scenes.begin(), more_scenes.end());
@@ -61,6 +81,7 @@ ExitCode Command::run() {
   std::vector<compare::Report> reports;
   for (const std::string& file : files) {
     reports.push_back(report_on(scene_options.for_file(file)));
+    if (record) record_allowance(reports.back());
     if (!json) fmt::print("{}", to_text(reports.back()));
   }
   if (json) {
@@ -90,10 +111,15 @@ void add_verify(CLI::App& app, Run& run) {
       ->option_text("LIST=gpu,twin")
       ->group("Device");
   command
-      ->add_option("--max-explained", how.tolerances.max_explained,
-                   "The share of pixels that may differ where the picture itself jumps.")
-      ->option_text(fmt::format("SHARE={}", how.tolerances.max_explained))
-      ->check(within(0, 0.05));
+      ->add_option(
+          "--max-explained", how.max_explained,
+          "The share of pixels that may differ where the picture itself jumps, each gate's. Default: "
+          "what the scene's [verify] says.")
+      ->option_text("SHARE")
+      ->check(within(0, most_explained));
+  command->add_flag("--record", options->record,
+                    "Where nothing else fails, write twice the share that is explained into the scene's "
+                    "[verify].");
   command
       ->add_option(
           "--ulp", how.ulp,
@@ -111,6 +137,7 @@ void add_verify(CLI::App& app, Run& run) {
       "Examples:\n"
       "  eyeray verify scenes/whitted.toml\n"
       "  eyeray verify scenes/*.toml -s 96x72 --json\n"
+      "  eyeray verify scenes/whitted.toml --record     after a change that is meant\n"
       "Exit code 0 when every gate passes, 1 when one fails.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }

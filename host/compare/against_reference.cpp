@@ -203,11 +203,17 @@ int64_t Tally::explained_pixels() const {
 }
 
 int64_t Tally::capped_pixels() const {
-  return explained_pixels() - explained[size_t(Cause::grazing)] - explained[size_t(Cause::undecidable)];
+  return explained_pixels() - explained[size_t(Cause::undecidable)];
 }
 
 bool Tally::passes() const {
   return pixels > 0 && unexplained == 0 && unexamined == 0 && capped_pixels() <= may_be_explained;
+}
+
+bool ReferenceComparison::passes() const {
+  return incomparable.empty() && std::ranges::all_of(tally_types, [&](const TallyType& type) {
+           return (this->*type.tally).passes();
+         });
 }
 
 ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference, const Reference& probe,

@@ -22,9 +22,8 @@ struct Tally {
   WorstPixel worst;  // the largest error among the unexplained; else the explained; else the matching
 
   int64_t explained_pixels() const;
-  // Those that count against the cap: all but the grazing ones, where the reference does not jump but runs
-  // steeply, along whole rows of a horizon, and the undecidable ones: an edge may run along the centres of a
-  // whole row of pixels.
+  // Those that count against the cap: all but the undecidable ones, since an edge may run along the centres
+  // of a whole row of pixels.
   int64_t capped_pixels() const;
   bool passes() const;
 };
@@ -35,9 +34,19 @@ struct ReferenceComparison {
   Tally first_hits;          // gate C
   Tally counts;              // gate C
 
-  bool passes() const {
-    return incomparable.empty() && colors.passes() && first_hits.passes() && counts.passes();
-  }
+  bool passes() const;
+};
+
+// Of a comparison, in the order in which a fault shows along a ray's life.
+struct TallyType {
+  const char* gate;
+  const char* of;  // "first hits"
+  Tally ReferenceComparison::*tally;
+};
+inline constexpr TallyType tally_types[] = {
+    {"C", "first hits", &ReferenceComparison::first_hits},
+    {"C", "surfaces and rays", &ReferenceComparison::counts},
+    {"B", "colours", &ReferenceComparison::colors},
 };
 
 ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference, const Reference& probe,

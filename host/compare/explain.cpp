@@ -10,6 +10,8 @@ namespace {
 
 constexpr int rings = 4;
 constexpr double radius_step = 0.001;  // pixels
+// By so much a normal differs at a crease.
+constexpr double least_crease = 0.01;
 // Rings between the innermost and those grow by this.
 constexpr double radius_growth = 3;
 // A rounding error grows from surface to surface: the neighbourhood of a path grows with the surfaces it
@@ -128,6 +130,8 @@ const char* name(Cause cause) {
       return "refraction branch";
     case Cause::shadow_edge:
       return "shadow edge";
+    case Cause::crease:
+      return "crease";
     case Cause::grazing:
       return "grazing";
     case Cause::rounding:
@@ -195,7 +199,7 @@ Cause Neighbourhood::cause(const Counts& value) const {
 }
 
 Cause Neighbourhood::cause(const FirstHit& value, const Tolerances& tolerances) const {
-  return bounds_hold(innermost(), value, tolerances) ? Cause::undecidable : cause_of_first_hit();
+  return bounds_hold(innermost(), value, tolerances) ? Cause::undecidable : cause_of_first_hit(tolerances);
 }
 
 Cause Neighbourhood::cause_of_samples() const {
@@ -212,11 +216,17 @@ Cause Neighbourhood::cause_of_samples() const {
   return direct ? Cause::shadow_edge : Cause::refraction_branch;
 }
 
-Cause Neighbourhood::cause_of_first_hit() const {
-  const int32_t primitive = probes_.front().first_hit.primitive;
-  const bool same = std::all_of(probes_.begin(), probes_.end(),
-                                [&](const Probe& probe) { return probe.first_hit.primitive == primitive; });
-  return same ? Cause::grazing : Cause::silhouette;
+Cause Neighbourhood::cause_of_first_hit(const Tolerances& tolerances) const {
+  const FirstHit& centre = probes_.front().first_hit;
+  Bounds<1> t;
+  Bounds<3> normal;
+  for (const Probe& probe : probes_) {
+    if (probe.first_hit.primitive != centre.primitive) return Cause::silhouette;
+    t.include(glm::dvec1(probe.first_hit.t));
+    normal.include(probe.first_hit.normal);
+  }
+  if (t.high.x - t.low.x > t_tolerance(centre, tolerances)) return Cause::grazing;
+  return glm::distance(normal.low, normal.high) > least_crease ? Cause::crease : Cause::texture_edge;
 }
 
 }  // namespace eyeray::compare

@@ -33,15 +33,16 @@ using Reference = std::function<Probe(int x, int y, const Vec2& shift, bool coin
 
 enum class Cause {
   silhouette,         // another primitive is hit first
-  texture_edge,       // the surface's own colour jumps
+  texture_edge,       // the surface's own colour jumps; of a first hit, uv
   refraction_branch,  // rays reflected or refracted on the way hit something else
   shadow_edge,        // none of these: it is the light that changes
   rounding,     // a ray that leaves a surface starts as close to another, or to an edge, as it is rounded
-  grazing,      // of a first hit alone: the same surface, hit at so small an angle that t or the normal races
+  crease,       // of a first hit alone: the same surface, whose normal jumps
+  grazing,      // of a first hit alone: the same surface, hit at so small an angle that t races
   undecidable,  // the jump is as near to the eye ray, or to a hit, as float32 rounds those: no float32
                 // renderer can tell
 };
-inline constexpr int cause_count = 7;
+inline constexpr int cause_count = 8;
 const char* name(Cause cause);
 
 // The reference in the neighbourhood of one pixel.
@@ -70,7 +71,7 @@ class Neighbourhood {
  private:
   void add_ring(const Reference& reference, Pixel pixel, double radius, int angles, double turn);
   Cause cause_of_samples() const;
-  Cause cause_of_first_hit() const;
+  Cause cause_of_first_hit(const Tolerances& tolerances) const;
   // The pixel itself, as it is and with coincident surfaces, and the ring of a rounding error.
   std::span<const Probe> innermost() const { return std::span(probes_).first(innermost_); }
 

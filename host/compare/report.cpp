@@ -3,26 +3,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace eyeray::compare {
 
 namespace {
 
-// "gate B: gpu against the reference: 14 of 6912 pixels are unexplained; the worst is 3,4 (parts at t)".
-void add_failures(std::vector<std::string>& failures, const char* gate, const std::string& value,
+// "gate B: gpu against the reference, colours: 14 of 6912 pixels differ unexplained; the worst is 3,4, which
+// parts at t".
+void add_failures(std::vector<std::string>& failures, const std::string& value, const TallyType& type,
                   const Tally& tally) {
-  if (tally.passes()) return;
-  const auto add = [&](int64_t count, const char* what) {
+  const auto add = [&](int64_t count, const std::string& what) {
     if (count <= 0) return;
-    failures.push_back(fmt::format(
-        "gate {}: {} against the reference: {} of {} pixels {}; the worst is {},{}, which parts at {}", gate,
-        value, count, tally.pixels, what, tally.worst.pixel.x, tally.worst.pixel.y, name(tally.worst.seam)));
+    failures.push_back(
+        fmt::format("gate {}: {} against the reference, {}: {} of {} pixels differ {}; the worst is {},{}, "
+                    "which parts at {}",
+                    type.gate, value, type.of, count, tally.pixels, what, tally.worst.pixel.x,
+                    tally.worst.pixel.y, name(tally.worst.seam)));
   };
-  add(tally.unexplained + tally.unexamined, "differ unexplained");
-  if (tally.capped_pixels() > tally.may_be_explained) {
-    add(tally.capped_pixels(),
-        fmt::format("differ explained, more than the {} allowed", tally.may_be_explained).c_str());
-  }
+  add(tally.unexplained + tally.unexamined, "unexplained");
+  if (tally.capped_pixels() > tally.may_be_explained)
+    add(tally.capped_pixels(), fmt::format("explained, more than the {} allowed", tally.may_be_explained));
 }
 
 std::string describe(const ExactResult& result) {
@@ -63,11 +64,24 @@ std::vector<std::string> Report::failures() const {
       failures.push_back(fmt::format("gate B: {} against the reference: {}", result.value, c.incomparable));
       continue;
     }
-    add_failures(failures, "C", result.value, c.first_hits);
-    add_failures(failures, "C", result.value, c.counts);
-    add_failures(failures, "B", result.value, c.colors);
+    for (const TallyType& type : tally_types) add_failures(failures, result.value, type, c.*type.tally);
   }
   return failures;
+}
+
+std::optional<double> Report::healthy_allowance() const {
+  Report uncapped = *this;
+  double share = 0;
+  for (ReferenceResult& result : uncapped.against_reference) {
+    ReferenceComparison& c = result.comparison;
+    for (const TallyType& type : tally_types) {
+      Tally& tally = c.*type.tally;
+      tally.may_be_explained = tally.pixels;
+      share = std::max(share, double(tally.capped_pixels()) / double(std::max(tally.pixels, int64_t{1})));
+    }
+  }
+  if (!uncapped.passes()) return std::nullopt;
+  return std::ceil(2 * share * 1e5) / 1e5;
 }
 
 std::optional<Pixel> Report::pixel_to_look_at() const {
@@ -80,9 +94,9 @@ std::optional<Pixel> Report::pixel_to_look_at() const {
   }
   for (const ReferenceResult& result : against_reference) {
     if (!result.comparison.incomparable.empty()) continue;
-    for (const Tally* tally :
-         {&result.comparison.first_hits, &result.comparison.counts, &result.comparison.colors}) {
-      if (!tally->passes()) return tally->worst.pixel;
+    for (const TallyType& type : tally_types) {
+      const Tally& tally = result.comparison.*type.tally;
+      if (!tally.passes()) return tally.worst.pixel;
     }
   }
   return std::nullopt;
@@ -98,9 +112,9 @@ std::vector<FirstHit> Report::shown_hits() const {
     if (result.comparison.worst.seam != Seam::none) add(result.comparison.worst);
   }
   for (const ReferenceResult& result : against_reference) {
-    for (const Tally* tally :
-         {&result.comparison.first_hits, &result.comparison.counts, &result.comparison.colors}) {
-      if (tally->worst.excess > 0) add(tally->worst);
+    for (const TallyType& type : tally_types) {
+      const Tally& tally = result.comparison.*type.tally;
+      if (tally.worst.excess > 0) add(tally.worst);
     }
   }
   return hits;

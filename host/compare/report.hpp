@@ -55,6 +55,9 @@ struct Report {
   // Everything that fails, a sentence each, the deepest cause first; empty when the scene passes.
   std::vector<std::string> failures() const;
   bool passes() const { return failures().empty(); }
+  // Twice the share of pixels that are explained and count against the cap, of the gate that has most,
+  // rounded up to 1e-5: what the scene is to be allowed. Nothing where more than the cap fails.
+  std::optional<double> healthy_allowance() const;
   // The pixel to look at: the worst of the first gate that fails; nothing when all pass.
   std::optional<Pixel> pixel_to_look_at() const;
   // The first hits that the report shows.

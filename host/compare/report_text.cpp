@@ -60,10 +60,10 @@ void add_worst(std::string& text, const Report& report, const WorstPixel& worst,
   side(reference, worst.reference, worst.reference_counts, worst.reference_hit);
 }
 
-void add_tally(std::string& text, const Report& report, const char* gate, const char* what,
-               const std::string& value, const Tally& tally) {
-  line(text, "  gate {} {} {} = reference, {}: {} equal, {} matching, {}, {} unexplained", gate,
-       tally.passes() ? "passed" : "FAILED", value, what, tally.equal, tally.matching, explained(tally),
+void add_tally(std::string& text, const Report& report, const std::string& value, const TallyType& type,
+               const Tally& tally) {
+  line(text, "  gate {} {} {} = reference, {}: {} equal, {} matching, {}, {} unexplained", type.gate,
+       tally.passes() ? "passed" : "FAILED", value, type.of, tally.equal, tally.matching, explained(tally),
        tally.unexplained);
   if (tally.unexamined > 0) {
     line(text, "    {} more differ and were not examined: at most {} may be explained", tally.unexamined,
@@ -81,9 +81,8 @@ void add(std::string& text, const Report& report, const ExactResult& result) {
 }
 
 void add(std::string& text, const Report& report, const ReferenceResult& result) {
-  add_tally(text, report, "C", "first hits", result.value, result.comparison.first_hits);
-  add_tally(text, report, "C", "surfaces and rays", result.value, result.comparison.counts);
-  add_tally(text, report, "B", "colours", result.value, result.comparison.colors);
+  for (const TallyType& type : tally_types)
+    add_tally(text, report, result.value, type, result.comparison.*type.tally);
   if (result.metrics) line(text, "    {}", to_text(*result.metrics));
 }
 

@@ -3,54 +3,173 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
+#include <vector>
 
 #include "host/core/error.hpp"
 
 namespace eyeray::executors {
+
+struct FaultType {
+  std::string_view name;
+  // A shader's text `from` becomes `to`.
+  std::string_view file = "", from = "", to = "";
+  void (*scene)(PackedScene&) = nullptr;
+  void (*samples)(std::span<PixelSample>) = nullptr;
+  uint32_t shift = 0;
+  bool contracts = false;
+};
+
 namespace {
 
-constexpr std::string_view names[] = {"",          "shift",  "nan", "black",       "ior",  "light",
-                                      "near_root", "normal", "ids", "contraction", "steps"};
+using shader::Primitive;
 
-// `text` with `from` replaced; a fault that no longer finds its place must not pass unseen.
-std::string replaced(std::string text, std::string_view from, std::string_view to) {
-  const size_t at = text.find(from);
-  CHECK(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
+constexpr FaultType types[] = {
+    // Geometry.
+    {.name = "near_root", .file = "shapes/sphere.glsl", .from = "ENTERS(ray, low) ? low : high", .to = "low"},
+    {.name = "edge",
+     .file = "shapes/triangle.glsl",
+     .from = "minimum(edges.u, minimum(edges.v, edges.w)) >= 0.0f",
+     .to = "minimum(edges.v, edges.w) >= 0.0f"},
+    {.name = "steps",
+     .file = "shapes/superellipsoid.glsl",
+     .from = "SUPERELLIPSOID_STEPS 64u",
+     .to = "SUPERELLIPSOID_STEPS 4u"},
+    {.name = "position",
+     .file = "kernels/pixel.glsl",
+     .from = "positive_zeros(surface.p)",
+     .to = "positive_zeros(surface.p * 1.0001f)"},
+    {.name = "normal",
+     .file = "geometry/surface.glsl",
+     .from = "  return surface;",
+     .to = "  surface.normal = -surface.normal;\n  return surface;"},
+    {.name = "uv",
+     .file = "geometry/surface.glsl",
+     .from = "  return surface;",
+     .to = "  surface.uv = vec2(surface.uv.y, surface.uv.x);\n  return surface;"},
+    {.name = "ids",
+     .file = "kernels/pixel.glsl",
+     .from = "result.primitive = hit.id;",
+     .to = "result.primitive = hit.id ^ 1u;"},
+    {.name = "camera",
+     .file = "cameras/camera.glsl",
+     .from = "* frame.pixel_width;",
+     .to = "* frame.pixel_width * 1.001f;"},
+    // Shading.
+    {.name = "shadow",
+     .file = "bvh/traverse.glsl",
+     .from = "return occluded >= OPTICAL_DEPTH_OPAQUE ? 0.0f :",
+     .to = "return occluded >= OPTICAL_DEPTH_OPAQUE ? 1.0f :"},
+    {.name = "fresnel",
+     .file = "materials/dielectric.glsl",
+     .from = "return 0.5f * (parallel * parallel + crossed * crossed);",
+     .to = "return 0.49f * (parallel * parallel + crossed * crossed);"},
+    {.name = "refraction",
+     .file = "integrators/whitted.glsl",
+     .from = "at.context.ior_from / at.context.ior_to",
+     .to = "at.context.ior_to / at.context.ior_from"},
+    {.name = "mirror",
+     .file = "integrators/whitted.glsl",
+     .from = "(2.0f * at.context.cos_view)",
+     .to = "(1.99f * at.context.cos_view)"},
+    {.name = "depth",
+     .file = "integrators/whitted.glsl",
+     .from = "path.depth < frame.max_depth",
+     .to = "path.depth + 1u < frame.max_depth"},
+    {.name = "checker",
+     .file = "materials/texture.glsl",
+     .from = "floor(uv.x * texture.frequency_u)",
+     .to = "ceil(uv.x * texture.frequency_u)"},
+    {.name = "counts",
+     .file = "integrators/vertex.glsl",
+     .from = "counts.y += struck ? 1u : 0u;",
+     .to = "counts.y += 1u;"},
+    {.name = "offset",
+     .file = "geometry/ray.glsl",
+     .from = "float side = cosine < 0.0f ? -s.offset : s.offset;",
+     .to = "float side = cosine < 0.0f ? s.offset : -s.offset;"},
+    // Random numbers.
+    {.name = "random", .file = "math/rng.glsl", .from = "2891336453u", .to = "2891336455u"},
+    // Packing.
+    {.name = "ior",
+     .scene =
+         [](PackedScene& scene) {
+           for (size_t i = 1; i < scene.media.size(); ++i) scene.media[i].ior *= 1.05f;
+         }},
+    {.name = "light",
+     .scene =
+         [](PackedScene& scene) {
+           for (shader::Light& light : scene.lights) light.intensity = shader::vec3(0);
+         }},
+    // Along the line to the eye, which is the origin.
+    {.name = "near_light",
+     .scene =
+         [](PackedScene& scene) {
+           for (shader::Light& light : scene.lights) light.a *= shader::vec4(0.999f, 0.999f, 0.999f, 1.0f);
+         }},
+    {.name = "materials",
+     .scene =
+         [](PackedScene& scene) {
+           for (Primitive& primitive : scene.primitives)
+             if (material_of(primitive) == 1) primitive.material_and_kind -= 1;
+         }},
+    {.name = "bit",
+     .scene =
+         [](PackedScene& scene) {
+           for (shader::Light& light : scene.lights)
+             light.a.x = std::bit_cast<float>(std::bit_cast<uint32_t>(light.a.x) ^ 1u);
+         }},
+    // Read-back.
+    {.name = "nan",
+     .samples =
+         [](std::span<PixelSample> samples) {
+           samples[samples.size() / 2].color.y = std::numeric_limits<double>::quiet_NaN();
+         }},
+    {.name = "black",
+     .samples =
+         [](std::span<PixelSample> samples) {
+           for (PixelSample& sample : samples) sample.color = Vec3(0.0);
+         }},
+    {.name = "stale", .samples = [](std::span<PixelSample> samples) { samples.back() = samples.front(); }},
+    // Which pixel, and the float policy.
+    {.name = "shift", .shift = 1},
+    {.name = "contraction", .contracts = true},
+};
 
 }  // namespace
 
-Fault::Fault(std::string name) : name_(std::move(name)) {
-  if (std::find(std::begin(names), std::end(names), name_) == std::end(names))
-    throw Error(ExitCode::bad_input, "no fault is called '{}'; known:{}", name_, fmt::join(names, " "));
+Fault::Fault(const std::string& name) {
+  if (name.empty()) return;
+  type_ = std::ranges::find(types, name, &FaultType::name);
+  if (type_ != std::end(types)) return;
+  std::vector<std::string_view> names;
+  for (const FaultType& type : types) names.push_back(type.name);
+  throw Error(ExitCode::bad_input, "no fault is called '{}'; there are {}", name, fmt::join(names, ", "));
 }
 
 void Fault::damage(PackedScene& scene) const {
-  if (is("ior"))
-    for (size_t i = 1; i < scene.media.size(); ++i) scene.media[i].ior *= 1.05f;
-  if (is("light") && !scene.lights.empty()) scene.lights[0].intensity = shader::vec3(0);
+  if (type_ && type_->scene) type_->scene(scene);
 }
 
 std::string Fault::damage(std::string_view file, std::string text) const {
-  if (is("near_root") && file == "shapes/sphere.glsl")
-    return replaced(std::move(text), "ENTERS(ray, low) ? low : high", "low");
-  if (is("normal") && file == "geometry/surface.glsl")
-    return replaced(std::move(text), "  return surface;",
-                    "  surface.normal = -surface.normal;\n  return surface;");
-  if (is("ids") && file == "kernels/pixel.glsl")
-    return replaced(std::move(text), "result.primitive = hit.id;", "result.primitive = hit.id ^ 1u;");
-  if (is("steps") && file == "shapes/superellipsoid.glsl")
-    return replaced(std::move(text), "SUPERELLIPSOID_STEPS 64u", "SUPERELLIPSOID_STEPS 4u");
-  return text;
+  if (!type_ || type_->file != file) return text;
+  // One that no longer finds its place must not pass unseen.
+  const size_t at = text.find(type_->from);
+  CHECK(at != std::string::npos);
+  return text.replace(at, type_->from.size(), type_->to);
 }
 
 void Fault::damage(std::span<PixelSample> samples) const {
-  if (is("nan") && !samples.empty())
-    samples[samples.size() / 2].color.y = std::numeric_limits<double>::quiet_NaN();
-  if (is("black"))
-    for (PixelSample& sample : samples) sample.color = Vec3(0.0);
+  if (type_ && type_->samples && !samples.empty()) type_->samples(samples);
+}
+
+uint32_t Fault::shift() const {
+  return type_ ? type_->shift : 0;
+}
+
+bool Fault::contracts() const {
+  return type_ && type_->contracts;
 }
 
 }  // namespace eyeray::executors

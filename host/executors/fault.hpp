@@ -11,24 +11,26 @@
 
 namespace eyeray::executors {
 
+struct FaultType;
+
+// docs/verification.md says what each fault does, and what the report says of it.
 class Fault {
  public:
   // "" is none. Error (bad_input) that lists the known names otherwise.
-  explicit Fault(std::string name);
+  explicit Fault(const std::string& name);
 
-  bool is(std::string_view name) const { return name_ == name; }
-  // ior: every medium's index is off by 5 %; light: the first light is dark.
   void damage(PackedScene& scene) const;
-  // near_root: a sphere's near root even behind the ray; normal: all normals flipped; ids: neighbours' ids
-  // swapped; steps: too few for many rays to find a superellipsoid.
+  // The text of a shader file.
   std::string damage(std::string_view file, std::string text) const;
-  // nan: one pixel is no number; black: all pixels are black.
+  // What was read back.
   void damage(std::span<PixelSample> samples) const;
-  // shift: the picture moves by one pixel. (And contraction: the executor leaves out the float policy.)
-  uint32_t shift() const { return is("shift") ? 1 : 0; }
+  // How many pixels the picture moves by.
+  uint32_t shift() const;
+  // Whether the driver may contract a·b + c.
+  bool contracts() const;
 
  private:
-  std::string name_;
+  const FaultType* type_ = nullptr;  // null: none
 };
 
 }  // namespace eyeray::executors

@@ -218,7 +218,7 @@ class GpuExecutor final : public Executor {
     };
     gpu::KernelOptions how{
         .strict = device_.info().float_modes, .optimise = options_.optimise, .flatten = profile_.flatten};
-    if (options_.fast_math || fault_.is("contraction")) how.strict = std::nullopt;
+    if (options_.fast_math || fault_.contracts()) how.strict = std::nullopt;
     const std::vector<uint32_t> spirv = times_.measure("shader compile", [&] {
       try {
         return gpu::compile_kernel(gpu::read_shader(read, entry), defines, how, cache_).spirv;

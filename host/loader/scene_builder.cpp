@@ -47,6 +47,8 @@ class Builder {
     scene_.camera = read_camera(*find_section("camera"), single("camera"), values_, log_);
     TableReader render = read_single("render");
     scene_.render = read_render(render);
+    TableReader verify = read_single("verify");
+    scene_.verify = read_verify(verify);
 
     for_each(root_, "light", [&](const Section& section, const toml::table& table) {
       if (++lights_ == most_lights + 1) {

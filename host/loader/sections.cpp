@@ -211,6 +211,7 @@ std::vector<Section> make_sections() {
       {image, "image", "[image]", "The picture.", image_keys()},
       {camera, "camera", "[camera]", "Where from and how the scene is seen.", camera_keys()},
       {render, "render", "[render]", "How the picture is computed.", render_keys()},
+      {verify, "verify", "[verify]", "What `eyeray verify` is told of the scene.", verify_keys()},
       {light, "light", "[[light]]", "A light.", light_keys()},
       {material, "material", "[[material]]", "What surfaces are made of.", material_keys()},
       {mesh, "mesh", "[[mesh]]", "The triangles of a file.", mesh_keys, nullptr, mesh_manual},

@@ -14,7 +14,7 @@
 namespace eyeray::loader {
 
 struct Section {
-  enum class Kind { image, camera, render, light, material, group, instance, mesh, shape };
+  enum class Kind { image, camera, render, verify, light, material, group, instance, mesh, shape };
 
   Kind kind;
   std::string_view name;

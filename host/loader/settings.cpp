@@ -83,6 +83,16 @@ constexpr Key render_table[] = {
      .fallback = "0"},
 };
 
+constexpr Key verify_table[] = {
+    {.name = "max_explained",
+     .type = KeyType::number,
+     .doc = "The share of pixels that may differ from the reference where the picture itself jumps, each "
+            "gate's; 4 pixels in any case. `eyeray verify --record` writes what the scene needs.",
+     .fallback = "0.005",
+     .min = 0,
+     .max = 0.05},
+};
+
 void check_samples(TableReader& table, int samples) {
   const int root = static_cast<int>(std::sqrt(static_cast<double>(samples)));
   if (root * root == samples) return;
@@ -97,6 +107,10 @@ std::span<const Key> image_keys() {
 }
 std::span<const Key> render_keys() {
   return render_table;
+}
+
+std::span<const Key> verify_keys() {
+  return verify_table;
 }
 
 ImageSettings read_image(TableReader& table) {
@@ -126,6 +140,10 @@ RenderSettings read_render(TableReader& table) {
   render.background = table.color("background");
   render.ambient = table.color("ambient");
   return render;
+}
+
+VerifySettings read_verify(TableReader& table) {
+  return {.max_explained = table.number("max_explained")};
 }
 
 }  // namespace eyeray::loader

@@ -41,6 +41,11 @@ struct RenderSettings {
   Vec3 ambient{0.0};                              // light that reaches every point from everywhere
 };
 
+// What `eyeray verify` is told of a scene.
+struct VerifySettings {
+  double max_explained = 0.005;  // the share of pixels that may differ for a reason
+};
+
 struct Scene {
   std::filesystem::path file;
   std::vector<std::filesystem::path> files;  // every file read, the scene first: what a watcher watches
@@ -48,6 +53,7 @@ struct Scene {
   ImageSettings image;
   Camera camera;
   RenderSettings render;
+  VerifySettings verify;
   std::vector<std::unique_ptr<Light>> lights;
   std::vector<std::unique_ptr<Material>> materials;
   // In registry order, within a kind in file order (an included file's where its name stands); then those of

@@ -44,14 +44,14 @@ void compare_backends(std::span<const compare::Frame> frames, const Options& opt
 
 // Gates B and C: every executor of the shaders with the reference, whose frame is the last.
 void compare_each_with_reference(std::span<const compare::Frame> frames, const compare::Reference& reference,
-                                 const Options& options, compare::Report& report) {
+                                 double max_explained, const Options& options, compare::Report& report) {
   const compare::Frame& reference_frame = frames.back();
+  const compare::Tolerances tolerances{.max_explained = max_explained};
   for (size_t i = 0; i < options.backends.size(); ++i) {
     compare::ReferenceResult result;
     result.value = report.participants[i].name;
-    result.tolerances = options.tolerances;
-    result.comparison =
-        compare::compare_with_reference(frames[i], reference_frame, reference, options.tolerances);
+    result.tolerances = tolerances;
+    result.comparison = compare::compare_with_reference(frames[i], reference_frame, reference, tolerances);
     if (result.comparison.incomparable.empty()) {
       result.metrics = compare::measure(frames[i].color, reference_frame.color);
       result.metrics->max_at.x += report.area.x;
@@ -99,7 +99,8 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   add_frame(executors::Backend::reference, executors::make_reference_executor(renderer));
 
   compare_backends(frames, options, report);
-  compare_each_with_reference(frames, probes(scene, *renderer), options, report);
+  compare_each_with_reference(frames, probes(scene, *renderer),
+                              options.max_explained.value_or(scene.verify.max_explained), options, report);
   name_hits(scene, report);
   if (!report.passes()) {
     keep_evidence(subject.evidence, frames, report);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct Options {
       executors::Backend::gpu, executors::Backend::twin};  // compared with the reference, in this order
   executors::ExecutorOptions executor;                     // of all of them; `fault` is injected here
   Rect crop;                                               // what is compared; empty: the whole picture
-  compare::Tolerances tolerances;                          // of gates B and C
+  std::optional<double> max_explained;                     // instead of the scene's
   int64_t ulp = 0;                                         // the bound of gate A
   // Asked before each executor renders, for what is told how far it has come; may be empty, and so may its
   // answer.

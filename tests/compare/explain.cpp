@@ -78,18 +78,20 @@ TEST_CASE("of two surfaces that float32 cannot tell apart, it may show either") 
   CHECK_FALSE(neighbourhood.explains(hit(4), {}));
 }
 
-TEST_CASE("a first hit that differs does so at a silhouette, or on a surface hit at a grazing angle") {
-  const auto cause = [](int32_t primitive) {
+TEST_CASE("a first hit differs at a silhouette, a crease, a seam of uv, or a grazing angle") {
+  const auto cause = [](const auto& change) {
     const Reference reference = [&](int x, int y, const Vec2& shift, bool) {
       Probe probe = picture_reference(x, y, shift);
       probe.first_colors = shift.x > 0;
-      if (shift.x > 0) probe.first_hit.primitive = primitive;
+      if (shift.x > 0) change(probe.first_hit);
       return probe;
     };
     return Neighbourhood(reference, {48, 30}, 16).cause(FirstHit{}, {});
   };
-  CHECK(cause(1) == Cause::grazing);
-  CHECK(cause(0) == Cause::silhouette);
+  CHECK(cause([](FirstHit& hit) { hit.primitive = 0; }) == Cause::silhouette);
+  CHECK(cause([](FirstHit& hit) { hit.normal = {1, 0, 0}; }) == Cause::crease);
+  CHECK(cause([](FirstHit& hit) { hit.uv.x += 1; }) == Cause::texture_edge);
+  CHECK(cause([](FirstHit& hit) { hit.t += 1; }) == Cause::grazing);
 }
 
 TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around, and the pixel itself") {

@@ -80,10 +80,10 @@ TEST_CASE("a failing report names the gate, the pixel, the seam, and the command
   const std::string text = to_text(report);
   CAPTURE(text);
   CHECK(text.starts_with("FAILED scenes/analytic.toml"));
-  CHECK(
-      contains(text,
-               "gate B: twin against the reference: 1 of 6912 pixels differ unexplained; the worst is 94,30, "
-               "which parts at t"));
+  CHECK(contains(
+      text,
+      "gate B: twin against the reference, colours: 1 of 6912 pixels differ unexplained; the worst is 94,30, "
+      "which parts at t"));
   CHECK(contains(text, "look closer: eyeray verify scenes/analytic.toml --crop 87,26,9,9\n"));
   CHECK(contains(text, "kept in analytic.verify"));
 }

@@ -1,4 +1,5 @@
 // Faults injected on the GPU side only: the program itself must notice, say why, and answer 1.
+#include <algorithm>
 #include <limits>
 
 #include "host/image/image_file.hpp"
@@ -11,16 +12,18 @@ using namespace eyeray::test;
 
 namespace {
 
-ProcessResult verify(const TemporaryFolder& folder, const std::string& fault) {
-  std::vector<std::string> arguments = {"verify", "scenes/whitted.toml", "-s", "96x72", "--quiet",
-                                        "--keep", folder / "kept"};
-  if (!fault.empty()) arguments.insert(arguments.end(), {"--inject-fault", fault});
-  return run_eyeray(arguments);
+ProcessResult verify(const TemporaryFolder& folder, const std::string& fault,
+                     std::vector<std::string> scene = {"scenes/whitted.toml"}) {
+  scene.insert(scene.begin(), "verify");
+  scene.insert(scene.end(), {"-s", "96x72", "--quiet", "--keep", folder / "kept"});
+  if (!fault.empty()) scene.insert(scene.end(), {"--inject-fault", fault});
+  return run_eyeray(scene);
 }
 
 struct Fault {
-  const char* name;
+  std::string name;
   std::vector<const char*> reasons;  // that the report must give
+  std::vector<std::string> scene = {"scenes/whitted.toml"};
 };
 
 }  // namespace
@@ -37,45 +40,67 @@ TEST_CASE("without a fault verify passes and keeps nothing") {
 
 TEST_CASE("every fault on the GPU's side is noticed, with its reason") {
   const char* bits = "gate A: gpu and twin";
-  const char* colors = "gate B: gpu against the reference";
-  const char* first_hits = "gate C: gpu against the reference";
+  const char* colors = "gate B: gpu against the reference, colours";
+  const char* first_hits = "gate C: gpu against the reference, first hits";
+  const char* counts = "gate C: gpu against the reference, surfaces and rays";
   const Fault faults[] = {
-      {"shift", {bits, colors, first_hits}},
-      {"nan", {"gpu: ", " NaN", bits}},
-      {"black", {bits, colors}},
-      {"near_root", {bits, colors}},
-      {"ior", {bits, colors}},
-      {"light", {bits, colors}},
-      {"normal", {bits, first_hits}},
+      {"near_root", {bits, counts, colors}},
+      {"edge", {bits, first_hits, counts, colors, "parts at primitive"}},
+      {"position", {bits, first_hits, "parts at position"}},
+      {"normal", {bits, first_hits, counts, colors, "parts at normal"}},
+      {"uv", {bits, first_hits, "parts at uv"}},
       {"ids", {bits, first_hits, "parts at primitive"}},
+      {"camera", {bits, first_hits, counts, colors}},
+      {"shadow", {bits, colors, "parts at color"}},
+      {"fresnel", {bits, colors, "parts at color"}},
+      {"refraction", {bits, counts, colors}},
+      {"mirror", {bits, counts, colors}},
+      {"depth", {bits, counts, colors}},
+      {"checker", {bits, colors}},
+      {"counts", {bits, counts, "parts at counts"}},
+      {"offset", {bits, counts, colors}},
+      {"ior", {bits, counts, colors}},
+      {"light", {bits, colors}},
+      {"near_light", {bits, colors, "explained, more than the 4 allowed"}},
+      {"materials", {bits, first_hits, counts, colors, "parts at material"}},
+      {"bit", {bits, "by at most 4 ULP"}},
+      {"nan", {"gpu: 1 NaN (first at ", bits, colors}},
+      {"black", {bits, colors}},
+      {"stale", {bits, counts, colors, "the worst is 95,71"}},
+      {"shift", {bits, first_hits, counts, colors}},
       {"contraction", {bits}},
+      {"random",
+       {bits, counts, colors},
+       {"scenes/whitted.toml", "--spp", "4", "-D", "image.pattern=jittered", "--max-explained", "0.02"}},
+      {"steps",
+       {" incomplete pixels: a shape was not found in the steps allowed", bits},
+       {"scenes/shapes/superellipsoid.toml"}},
   };
+  std::string all;
   for (const Fault& fault : faults) {
     CAPTURE(fault.name);
     const TemporaryFolder folder;
-    const ProcessResult result = verify(folder, fault.name);
+    const ProcessResult result = verify(folder, fault.name, fault.scene);
     CAPTURE(result.out);
     CAPTURE(result.err);
     CHECK(result.code == 1);
-    CHECK(result.out.starts_with("FAILED scenes/whitted.toml"));
+    CHECK(result.out.starts_with("FAILED " + fault.scene[0]));
     for (const char* reason : fault.reasons) {
       CAPTURE(reason);
       CHECK(result.out.find(reason) != std::string::npos);
     }
     CHECK(result.out.find("twin against the reference") == std::string::npos);
     CHECK(read_text(folder / "kept/command.txt").find(fault.name) != std::string::npos);
+    CHECK(read_text("docs/verification.md").find(fmt::format("\n| `{}` | ", fault.name)) !=
+          std::string::npos);
+    all += (all.empty() ? "" : ", ") + fault.name;
   }
-}
-
-TEST_CASE("a picture with rays whose steps ran out does not pass, and says why" *
-          doctest::test_suite("long")) {
+  // There are no others.
   const TemporaryFolder folder;
-  const ProcessResult result = run_eyeray({"verify", "scenes/shapes/superellipsoid.toml", "-s", "96x72",
-                                           "--quiet", "--inject-fault", "steps", "--keep", folder / "kept"});
-  CAPTURE(result.out);
-  CHECK(result.code == 1);
-  CHECK(result.out.find(" incomplete pixels: a shape was not found in the steps allowed") !=
-        std::string::npos);
+  const ProcessResult unknown = verify(folder, "none");
+  CHECK(unknown.code == 2);
+  for (const Fault& fault : faults) CHECK(unknown.err.find(fault.name) != std::string::npos);
+  CHECK(std::ranges::count(unknown.err, ',') == std::ranges::count(all, ','));
 }
 
 TEST_CASE("compare answers 1 to pictures of another size, too different, or not a number") {

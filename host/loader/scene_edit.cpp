@@ -1,0 +1,53 @@
+#include "host/loader/scene_edit.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "host/core/atomic_file.hpp"
+#include "host/core/error.hpp"
+
+namespace eyeray::loader {
+namespace {
+
+// Where line `line` of the text begins, from 1.
+size_t line_start(const std::string& text, uint32_t line) {
+  size_t at = 0;
+  for (; line > 1; --line) at = text.find('\n', at) + 1;
+  return at;
+}
+
+}  // namespace
+
+std::string with_value(std::string text, const std::string& table, const std::string& key,
+                       const std::string& value) {
+  const toml::table root = toml::parse(text);
+  const toml::table* const found = root[table].as_table();
+  if (!found) {
+    if (!text.empty() && !text.ends_with('\n')) text += '\n';
+    return text + fmt::format("\n[{}]\n{} = {}\n", table, key, value);
+  }
+  const toml::node* const old = found->get(key);
+  if (!old) {
+    if (found->is_inline() || !text.substr(line_start(text, found->source().begin.line)).starts_with('['))
+      throw Error(ExitCode::bad_input,
+                  "write {} = {} into `{}` by hand: it is no table with a line of its own", key, value,
+                  table);
+    const size_t header_end = text.find('\n', line_start(text, found->source().begin.line));
+    const std::string line = fmt::format("\n{} = {}", key, value);
+    return header_end == std::string::npos ? text + line + '\n' : text.insert(header_end, line);
+  }
+
+  // The value ends where the line goes on with something else.
+  const size_t name = text.find(key, line_start(text, old->source().begin.line));
+  const size_t begin = text.find_first_not_of(" \t=", name + key.size());
+  const size_t end = std::min(text.find_first_of(" \t\r\n,}#", begin), text.size());
+  return text.replace(begin, end - begin, value);
+}
+
+void set_value(const std::filesystem::path& file, const std::string& table, const std::string& key,
+               const std::string& value) {
+  const std::string text = with_value(read_file(file), table, key, value);
+  write_file_atomically(file, text);
+}
+
+}  // namespace eyeray::loader
