@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
 
 namespace eyeray::executors {
@@ -78,9 +79,9 @@ constexpr FaultType types[] = {
      .from = "path.depth < frame.max_depth",
      .to = "path.depth + 1u < frame.max_depth"},
     {.name = "checker",
-     .file = "materials/texture.glsl",
-     .from = "floor(uv.x * texture.frequency_u)",
-     .to = "ceil(uv.x * texture.frequency_u)"},
+     .file = "textures/checker.glsl",
+     .from = "floor(uv.x * texture.b.x)",
+     .to = "ceil(uv.x * texture.b.x)"},
     {.name = "counts",
      .file = "integrators/vertex.glsl",
      .from = "counts.y += struck ? 1u : 0u;",
@@ -142,10 +143,15 @@ constexpr FaultType types[] = {
 Fault::Fault(const std::string& name) {
   if (name.empty()) return;
   type_ = std::ranges::find(types, name, &FaultType::name);
-  if (type_ != std::end(types)) return;
-  std::vector<std::string_view> names;
-  for (const FaultType& type : types) names.push_back(type.name);
-  throw Error(ExitCode::bad_input, "no fault is called '{}'; there are {}", name, fmt::join(names, ", "));
+  if (type_ == std::end(types)) {
+    std::vector<std::string_view> names;
+    for (const FaultType& type : types) names.push_back(type.name);
+    throw Error(ExitCode::bad_input, "no fault is called '{}'; there are {}", name, fmt::join(names, ", "));
+  }
+  // One that has lost its file must not pass unseen, as one that has lost its place in it does not.
+  if (!type_->file.empty())
+    CHECK(std::ranges::find(embedded_shaders(), type_->file, &EmbeddedShader::name) !=
+          embedded_shaders().end());
 }
 
 void Fault::damage(PackedScene& scene) const {
@@ -154,7 +160,6 @@ void Fault::damage(PackedScene& scene) const {
 
 std::string Fault::damage(std::string_view file, std::string text) const {
   if (!type_ || type_->file != file) return text;
-  // One that no longer finds its place must not pass unseen.
   const size_t at = text.find(type_->from);
   CHECK(at != std::string::npos);
   return text.replace(at, type_->from.size(), type_->to);

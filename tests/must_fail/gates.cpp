@@ -9,8 +9,8 @@
 #include <functional>
 #include <limits>
 
+#include "honest_frame.hpp"
 #include "host/compare/report.hpp"
-#include "tests/support/analytic_picture.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -22,21 +22,6 @@ namespace {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-// As float32 would see the picture: off by less than the offsets that explain.
-const Vec2 honest_shift(5e-5, 5e-5);
-const Pixel on_ball{50, 30};
-
-Frame honest_frame() {
-  return picture_frame(honest_shift);
-}
-FirstHit& hit_at(Frame& frame, Pixel p) {
-  return frame.first_hits[size_t(p.y * picture_width + p.x)];
-}
-
-ReferenceComparison compared(const Frame& value, const Frame& reference = picture_frame()) {
-  return compare_with_reference(value, reference, picture_reference);
-}
 
 // What the whole of verify says about a frame that stands for the GPU's, with an honest twin.
 Report verify(const Frame& gpu) {
@@ -78,12 +63,6 @@ bool aborts(const std::function<void()>& action) {
   int status = 0;
   waitpid(child, &status, 0);
   return WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT;
-}
-
-void for_each_pixel(Frame& frame, const std::function<void(float* color, FirstHit& hit)>& change) {
-  for (int y = 0; y < picture_height; ++y) {
-    for (int x = 0; x < picture_width; ++x) change(frame.color.pixel(x, y), hit_at(frame, {x, y}));
-  }
 }
 
 }  // namespace
@@ -307,82 +286,6 @@ TEST_CASE("gate C sees one surface or one ray too many") {
   // At the mirror's edge they may be those of either side, and at its corner no others.
   CHECK(compared(honest_frame()).counts.passes());
   CHECK(compared(honest_frame()).counts.explained[size_t(Cause::silhouette)] == edge_pixels);
-}
-
-TEST_CASE("an edge does not excuse a value that is on neither side of it") {
-  // At the opening's edge, the shadow's, the checker's and the mirror's.
-  for (const Pixel p : {Pixel{88, 6}, {6, 60}, {20, 63}, {6, 10}}) {
-    Frame gpu = honest_frame();
-    gpu.color.pixel(p.x, p.y)[1] = 0.97f;
-    const ReferenceComparison comparison = compared(gpu);
-    CHECK(comparison.colors.unexplained == 1);
-    CHECK(comparison.colors.worst.pixel == p);
-  }
-  // A hit of the right primitive with another's t.
-  Frame gpu = honest_frame();
-  hit_at(gpu, {88, 6}) = {900, {}, {0, 0, 1}, {}, 0, 0};
-  CHECK(compared(gpu).first_hits.unexplained == 1);
-}
-
-TEST_CASE("too many explained pixels fail, all of them explained") {
-  // The picture with an edge along a whole column.
-  const Reference split = [](int x, int y, const Vec2& shift, bool) {
-    Probe probe = picture_reference(x, y, shift);
-    if (x + 0.5 + shift.x >= 40.5 + beyond) probe.samples[0].color *= 0.5;
-    return probe;
-  };
-  const Frame value = picture_frame(honest_shift, split), reference = picture_frame(Vec2(0.0), split);
-  const ReferenceComparison comparison = compare_with_reference(value, reference, split);
-  CHECK(comparison.colors.unexplained == 0);
-  CHECK(comparison.colors.unexamined == 0);
-  CHECK(comparison.colors.explained_pixels() > comparison.colors.may_be_explained);
-  CHECK_FALSE(comparison.colors.passes());
-  // With a cap that allows them, they pass.
-  CHECK(compare_with_reference(value, reference, split, {.max_explained = 0.05}).colors.passes());
-}
-
-TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
-  // Left of a column the picture is twice as bright in a direction that lies between two of the 64.
-  const auto unexplained = [](int columns) {
-    const Reference wedge = [columns](int x, int y, const Vec2& shift, bool) {
-      Probe probe = picture_reference(x, y, shift);
-      const bool meets = std::fabs(std::atan2(shift.y, shift.x) - M_PI / 64) < M_PI / 200;
-      if (x < columns && y == 0 && meets) probe.samples[0].color *= 2.0;
-      return probe;
-    };
-    Frame gpu = picture_frame();
-    for_each_pixel(gpu, [&, i = 0](float* color, FirstHit&) mutable {
-      if (i++ < columns) color[0] *= 1.9f;
-    });
-    return compare_with_reference(gpu, picture_frame(), wedge).colors.unexplained;
-  };
-  CHECK(unexplained(3) == 0);
-  CHECK(unexplained(40) == 40);
-}
-
-TEST_CASE("what is not looked into fails, even where all that was looked into is explained") {
-  // Seventy columns with an edge each: more than are looked into.
-  const Reference stripes = [](int x, int y, const Vec2& shift, bool) {
-    Probe probe;
-    const double place = x + 0.5 + shift.x;
-    probe.samples[0].color =
-        Vec3(place < 70 && std::fmod(place - beyond, 1) >= 0.5 ? 0.5 : 0.2, y / 100.0, 0);
-    return probe;
-  };
-  const Frame value = picture_frame(honest_shift, stripes), reference = picture_frame(Vec2(0.0), stripes);
-  const Tally tally = compare_with_reference(value, reference, stripes, {.max_explained = 0.05}).colors;
-  CHECK(tally.unexplained == 0);
-  CHECK(tally.unexamined > 0);
-  CHECK_FALSE(tally.passes());
-}
-
-TEST_CASE("noise cannot hide: pixels beyond the cap are not even looked into, and fail") {
-  Frame gpu = honest_frame();
-  for_each_pixel(gpu, [](float* color, FirstHit& hit) { color[0] += hit.primitive == 0 ? 1e-3f : 0.0f; });
-  const Tally tally = compared(gpu).colors;
-  CHECK(tally.unexamined > 0);
-  CHECK(tally.unexplained > 0);
-  CHECK_FALSE(tally.passes());
 }
 
 TEST_CASE("a picture of another size, place or shape fails, and so does none at all") {

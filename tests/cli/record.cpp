@@ -1,0 +1,34 @@
+// verify --record.
+#include "scene.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+TEST_CASE("verify records what a healthy scene needs, and nothing of one that fails") {
+  const SceneFolder folder;
+  const std::string before = read_text(folder.scene());
+  const auto verify = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"verify", folder.scene(), "--quiet", "--keep", folder / "kept"});
+    return run_eyeray(options);
+  };
+
+  // Of another picture than the file's, or with a fault, nothing is written.
+  CHECK(verify({"--record", "-s", "8x6"}).err ==
+        "eyeray: error: --record takes scenes as their files say: leave out -s 8x6\n");
+  CHECK(verify({"--record", "--crop", "0,0,8,6"}).code == 2);
+  CHECK(verify({"--record", "--inject-fault", "light"}).code == 1);
+  CHECK(read_text(folder.scene()) == before);
+
+  const ProcessResult recorded = verify({"--record"});
+  CHECK(recorded.code == 0);
+  CHECK(recorded.err == fmt::format("eyeray: recorded max_explained = 0 in {}\n", folder.scene()));
+  CHECK(read_text(folder.scene()) == before + "\n[verify]\nmax_explained = 0\n");
+  CHECK(verify({}).code == 0);
+
+  // Again, over what stands there; the cap itself is no reason to refuse.
+  write_text(folder.scene(), before + "\n[verify]\nmax_explained = 0.02 # too much\n");
+  CHECK(verify({"--record"}).code == 0);
+  CHECK(read_text(folder.scene()) == before + "\n[verify]\nmax_explained = 0 # too much\n");
+}
