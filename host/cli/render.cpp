@@ -71,7 +71,7 @@ void add_long_render_options(CLI::App& command, LongRender& options) {
   add("--checkpoint-every", options.checkpoint_seconds, "SECONDS=30", "How often the checkpoint is written.")
       ->check(within(0.01, 1e6));
   add("--band-memory", options.band_mebibytes, "MIB=256",
-      "A picture whose sums (32 bytes a pixel) need more is rendered in bands of rows.")
+      "A picture whose sums (40 bytes a pixel) need more is rendered in bands of rows.")
       ->check(CLI::Range(1, 1 << 20));
 }
 

@@ -123,7 +123,7 @@ TEST_CASE("the GPU resumes as well, and says in JSON what it had") {
   CAPTURE(rest.err);
   REQUIRE(rest.code == 0);
   const auto report = nlohmann::json::parse(rest.out);
-  CHECK(report.at("bands") == 2);
+  CHECK(report.at("bands") == 3);
   CHECK(report.at("resumed").at("samples") > 0);
   CHECK(report.at("rays") > report.at("resumed").at("rays"));
   CHECK_FALSE(report.contains("checkpoint"));
@@ -210,7 +210,7 @@ TEST_CASE("Ctrl-C in a picture of several bands keeps nothing, and says what wou
   CHECK(
       (result.err == "eyeray: error: interrupted\n" ||
        result.err ==
-           "eyeray: error: interrupted, and a picture of 2 bands is whole only at its end; nothing was kept "
+           "eyeray: error: interrupted, and a picture of 3 bands is whole only at its end; nothing was kept "
            "(--checkpoint FILE would)\n"));
   CHECK(folder.names() == std::set<std::string>{"scene.toml"});
 }

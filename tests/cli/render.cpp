@@ -77,7 +77,7 @@ TEST_CASE("AOVs hold what the eye rays hit") {
   REQUIRE(result.code == 0);
   std::set<std::string> expected{"scene.toml", "a.png"};
   for (const std::string name :
-       {"depth", "position", "normal", "uv", "primitive", "material", "hits", "flags"})
+       {"depth", "position", "normal", "uv", "primitive", "material", "hits", "rays", "flags"})
     expected.insert({"a." + name + ".pfm", "a." + name + ".png"});
   expected.insert({"a.primitive.json", "a.material.json"});
   CHECK(folder.names() == expected);
