@@ -2,10 +2,14 @@
 #include "host/verify/verify.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 
 #include "host/cli/command.hpp"
 #include "host/cli/within.hpp"
+#include "host/core/atomic_file.hpp"
 #include "host/loader/scene_edit.hpp"
+#include "host/loader/suite.hpp"
 
 namespace fs = std::filesystem;
 
@@ -22,9 +26,16 @@ struct Command {
   bool quiet = false;
   bool json = false;
   bool record = false;
+  std::string junit;
+  bool github = false;
+  std::vector<std::string> may_stay_unverified;
+  std::vector<std::string> files = {};  // the scenes
 
-  void record_allowance(compare::Report& report) const;
   ExitCode run();
+  void find_files();
+  compare::Report report_on_one_of_many(const std::string& file) const;
+  void record_allowance(const compare::Report& report) const;
+  void write_reports(std::span<const compare::Report> reports) const;
   compare::Report report_on(const SceneOptions& scene_file) const;
   fs::path folder_for(const std::string& scene) const;
 };
@@ -46,9 +57,29 @@ std::vector<executors::Backend> parse_backends(const std::string& list) {
 }
 
 fs::path Command::folder_for(const std::string& scene) const {
-  const std::string stem = fs::path(scene).stem().string();
-  if (keep.empty()) return stem + ".verify";
-  return more_scenes.empty() ? fs::path(keep) : fs::path(keep) / stem;
+  const fs::path file = fs::path(scene).lexically_normal();
+  if (files.size() == 1) return keep.empty() ? file.stem().string() + ".verify" : keep;
+  // Two folders may have a scene of one name.
+  std::string name = fs::path(file).replace_extension("").relative_path().string();
+  std::ranges::replace(name, '/', '-');
+  return keep.empty() ? fs::path(name + ".verify") : fs::path(keep) / name;
+}
+
+// Every scene that was named, or lies in a folder that was.
+void Command::find_files() {
+  std::vector<std::string> named{scene_options.file()};
+  named.insert(named.end(), more_scenes.begin(), more_scenes.end());
+  for (const std::string& name : named) {
+    if (!fs::is_directory(name)) {
+      files.push_back(name);
+      continue;
+    }
+    for (const fs::path& scene : loader::scenes_below(name))
+      files.push_back(scene.lexically_normal().string());
+  }
+  for (const std::string& name : may_stay_unverified)
+    if (std::ranges::find(files, name) == files.end())
+      throw Error(ExitCode::bad_input, "--allow-unverified {}: that is none of the scenes", name);
 }
 
 compare::Report Command::report_on(const SceneOptions& scene_file) const {
@@ -58,7 +89,21 @@ compare::Report Command::report_on(const SceneOptions& scene_file) const {
       {scene, scene_file.file(), scene_file.as_written(), folder_for(scene_file.file())}, options);
 }
 
-void Command::record_allowance(compare::Report& report) const {
+// One of several: that it cannot be rendered is no reason to leave out the others.
+compare::Report Command::report_on_one_of_many(const std::string& file) const {
+  try {
+    return report_on(scene_options.for_file(file));
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::interrupted || error.code() == ExitCode::no_device) throw;
+    compare::Report report;
+    report.scene = file;
+    report.not_verified = error.what();
+    report.may_stay_unverified = std::ranges::find(may_stay_unverified, file) != may_stay_unverified.end();
+    return report;
+  }
+}
+
+void Command::record_allowance(const compare::Report& report) const {
   const std::optional<double> allowance = report.healthy_allowance();
   if (!allowance) return;
   const std::string share = *allowance > 0 ? fmt::format("{:.5f}", *allowance) : "0";
@@ -66,32 +111,53 @@ void Command::record_allowance(compare::Report& report) const {
   fmt::print(stderr, "eyeray: recorded max_explained = {} in {}\n", share, report.scene);
 }
 
+// What was found, beside standard output's text or JSON.
+void Command::write_reports(std::span<const compare::Report> reports) const {
+  if (!junit.empty()) write_file_atomically(junit, to_junit(reports));
+  if (!github) return;
+  fmt::print("{}", to_annotations(reports));
+  if (const char* summary = std::getenv("GITHUB_STEP_SUMMARY")) {
+    std::ofstream file(summary, std::ios::app);
+    file << to_markdown(reports);
+    if (!file.flush()) throw Error(ExitCode::file_io, "cannot write {}", summary);
+  }
+}
+
 ExitCode Command::run() {
   if (record) {
-    if (const std::string changed = scene_options.as_written();
-        !changed.empty() || options.crop.pixels() > 0 || options.max_explained)
+    const std::string changed = scene_options.as_written();
+    if (!changed.empty() || options.crop.pixels() > 0 || options.max_explained)
       throw Error(ExitCode::bad_input, "--record takes scenes as their files say: leave out{}",
                   changed.empty() ? " --crop and --max-explained" : changed);
     options.max_explained = most_explained;
   }
   options.progress = [this] { return progress_reporter(quiet); };
-  std::vector<std::string> files{scene_options.file()};
-  files.insert(files.end(), more_scenes.begin(), more_scenes.end());
+  find_files();
+  if (!junit.empty()) {
+    if (const fs::path parent = fs::path(junit).parent_path(); !parent.empty())
+      fs::create_directories(parent);
+    check_writable(junit);
+  }
 
+  size_t width = 0;
+  for (const std::string& file : files) width = std::max(width, file.size());
   std::vector<compare::Report> reports;
   for (const std::string& file : files) {
-    reports.push_back(report_on(scene_options.for_file(file)));
-    if (record) record_allowance(reports.back());
-    if (!json) fmt::print("{}", to_text(reports.back()));
+    reports.push_back(files.size() == 1 ? report_on(scene_options.for_file(file))
+                                        : report_on_one_of_many(file));
+    const compare::Report& report = reports.back();
+    if (record) record_allowance(report);
+    if (json) continue;
+    if (files.size() > 1) fmt::print("{}", to_row(report, width));
+    if (files.size() == 1 || !report.passes()) fmt::print("{}", to_text(report));
+    std::fflush(stdout);
   }
-  if (json) {
+  if (json)
     fmt::print("{}", to_json(reports));
-  } else if (reports.size() > 1) {
+  else if (reports.size() > 1)
     fmt::print("{}", summary(reports));
-  }
-  const bool passed =
-      std::all_of(reports.begin(), reports.end(), [](const compare::Report& r) { return r.passes(); });
-  return passed ? ExitCode::ok : ExitCode::comparison_failed;
+  write_reports(reports);
+  return std::ranges::all_of(reports, &compare::Report::passes) ? ExitCode::ok : ExitCode::comparison_failed;
 }
 
 }  // namespace
@@ -102,7 +168,9 @@ void add_verify(CLI::App& app, Run& run) {
   const auto options = std::make_shared<Command>();
   verify::Options& how = options->options;
   options->scene_options.add_to(*command);
-  command->add_option("MORE", options->more_scenes, "Further scenes, under the same options.")
+  command
+      ->add_option("MORE", options->more_scenes,
+                   "Further scenes, or folders of them, under the same options.")
       ->option_text(" ");
   add_crop_option(*command, how.crop);
   add_executor_options(*command, how.executor);
@@ -133,10 +201,21 @@ void add_verify(CLI::App& app, Run& run) {
       ->option_text("DIR");
   command->add_flag("-q,--quiet", options->quiet, "No progress.");
   command->add_flag("--json", options->json, "Report as JSON.");
+  command->add_option("--junit", options->junit, "Write the report as JUnit's XML, too; its folder is made.")
+      ->option_text("FILE");
+  command->add_flag(
+      "--github", options->github,
+      "Print failures as annotations for GitHub Actions, and add a table to the step's summary.");
+  command
+      ->add_option("--allow-unverified", options->may_stay_unverified,
+                   "A scene of several that may fail to render. May be repeated.")
+      ->option_text("SCENE")
+      ->allow_extra_args(false)
+      ->take_all();
   command->footer(
       "Examples:\n"
       "  eyeray verify scenes/whitted.toml\n"
-      "  eyeray verify scenes/*.toml -s 96x72 --json\n"
+      "  eyeray verify scenes/ -s 96x72 --junit report.xml\n"
       "  eyeray verify scenes/whitted.toml --record     after a change that is meant\n"
       "Exit code 0 when every gate passes, 1 when one fails.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });

@@ -43,6 +43,9 @@ std::string describe(const ExactResult& result) {
 }  // namespace
 
 std::vector<std::string> Report::failures() const {
+  if (!not_verified.empty())
+    return may_stay_unverified ? std::vector<std::string>{}
+                               : std::vector<std::string>{"not verified: " + not_verified};
   std::vector<std::string> failures;
   if (participants.size() < 2) failures.push_back("nothing was compared");
 
@@ -128,17 +131,15 @@ std::string Report::command_to_look() const {
   return fmt::format("eyeray verify {}{} --crop {},{},{},{}", scene, options, x, y, w, h);
 }
 
-std::string summary(std::span<const Report> reports) {
-  int64_t failed = 0;
-  std::string names;
-  for (const Report& report : reports) {
-    if (report.passes()) continue;
-    ++failed;
-    names += (names.empty() ? "" : ", ") + report.scene;
-  }
-  const int64_t passed = int64_t(reports.size()) - failed;
-  if (failed == 0) return fmt::format("{} scenes: all passed\n", reports.size());
-  return fmt::format("{} scenes: {} passed, {} failed ({})\n", reports.size(), passed, failed, names);
+std::string_view Report::verdict() const {
+  return !passes() ? "failed" : not_verified.empty() ? "passed" : "skipped";
+}
+
+int64_t Report::count(int64_t (*of)(const Tally&)) const {
+  int64_t most = 0;
+  for (const ReferenceResult& result : against_reference)
+    for (const TallyType& type : tally_types) most = std::max(most, of(result.comparison.*type.tally));
+  return most;
 }
 
 }  // namespace eyeray::compare

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/compare/against_reference.hpp"
@@ -40,6 +41,10 @@ struct ReferenceResult {
 };
 
 struct Report {
+  // Why there was nothing to compare, where a scene of several could not be rendered; else empty.
+  std::string not_verified;
+  bool may_stay_unverified = false;  // whether that is no failure
+  double seconds = 0;                // that it took to render and compare everything
   std::string options;  // of the command line that change the picture, each with a space before it
   std::string scene;
   int width = 0, height = 0;  // of the whole picture
@@ -55,6 +60,13 @@ struct Report {
   // Everything that fails, a sentence each, the deepest cause first; empty when the scene passes.
   std::vector<std::string> failures() const;
   bool passes() const { return failures().empty(); }
+  // "passed", "failed", or "skipped", of what may stay unverified and did.
+  std::string_view verdict() const;
+  // Where to look for the fault, a sentence: the first value that differs, and on whose side. Empty where
+  // nothing tells.
+  std::string diagnosis() const;
+  // Of all gates' counts the largest.
+  int64_t count(int64_t (*of)(const Tally&)) const;
   // Twice the share of pixels that are explained and count against the cap, of the gate that has most,
   // rounded up to 1e-5: what the scene is to be allowed. Nothing where more than the cap fails.
   std::optional<double> healthy_allowance() const;
@@ -68,10 +80,18 @@ struct Report {
 
 // Verdict first, then counts, worst pixels and the command that shows them; lines, each ended.
 std::string to_text(const Report& report);
-// "3 scenes: 2 passed, 1 failed (scenes/b.toml)", for several.
+// "passed scenes/b.toml …", a line of a table whose names are `width` characters wide.
+std::string to_row(const Report& report, size_t width);
+// "3 scenes in 4.2 s: 2 passed, 1 failed (scenes/b.toml)", for several.
 std::string summary(std::span<const Report> reports);
 // All of it as one JSON document on one line; NaN and infinities are null.
 std::string to_json(std::span<const Report> reports);
+
+// JUnit's XML, a test case a scene: the first failure as its message, the whole report as its text.
+std::string to_junit(std::span<const Report> reports);
+// For GitHub Actions: each failure as an annotation ("::error file=…"), and a table in Markdown.
+std::string to_annotations(std::span<const Report> reports);
+std::string to_markdown(std::span<const Report> reports);
 
 // "RMSE 1e-05, PSNR 100.0 dB, …".
 std::string to_text(const Metrics& metrics);

@@ -109,9 +109,18 @@ Json json(const std::map<int32_t, std::string>& words) {
 }
 
 Json json(const Report& report) {
+  if (!report.not_verified.empty())
+    return {{"scene", report.scene},
+            {"verdict", report.verdict()},
+            {"passed", report.passes()},
+            {"failures", report.failures()},
+            {"not_verified", report.not_verified}};
   return {{"scene", report.scene},
+          {"verdict", report.verdict()},
+          {"seconds", report.seconds},
           {"passed", report.passes()},
           {"failures", report.failures()},
+          {"diagnosis", report.diagnosis()},
           {"size", {report.width, report.height}},
           {"area", {report.area.x, report.area.y, report.area.width, report.area.height}},
           {"samples", report.samples},

@@ -69,7 +69,7 @@ void add_tally(std::string& text, const Report& report, const std::string& value
     line(text, "    {} more differ and were not examined: at most {} may be explained", tally.unexamined,
          tally.may_be_explained);
   }
-  if (tally.worst.excess > 0) add_worst(text, report, tally.worst, value, "reference", "tolerances");
+  if (!tally.passes()) add_worst(text, report, tally.worst, value, "reference", "tolerances");
 }
 
 void add(std::string& text, const Report& report, const ExactResult& result) {
@@ -107,10 +107,17 @@ std::string to_text(const Report& report) {
   // The verdict and its reasons.
   const std::vector<std::string> failures = report.failures();
   std::string text;
+  if (!report.not_verified.empty()) {
+    line(text, "{} {}", failures.empty() ? "SKIPPED" : "FAILED", report.scene);
+    line(text, "  not verified: {}", report.not_verified);
+    return text;
+  }
   line(text, "{} {} ({}×{} of {}×{} pixels, {} sample{} a pixel)", failures.empty() ? "PASSED" : "FAILED",
        report.scene, report.area.width, report.area.height, report.width, report.height, report.samples,
        report.samples == 1 ? "" : "s");
   for (const std::string& failure : failures) line(text, "  {}", failure);
+  if (const std::string diagnosis = report.diagnosis(); !diagnosis.empty())
+    line(text, "  diagnosis: {}", diagnosis);
 
   // Who took part, and every gate in detail.
   for (const Participant& p : report.participants) {

@@ -1,5 +1,6 @@
 #include "host/verify/verify.hpp"
 
+#include "host/core/stopwatch.hpp"
 #include "host/executors/executors.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/scene/objects.hpp"
@@ -79,6 +80,7 @@ void name_hits(const Scene& scene, compare::Report& report) {
 
 compare::Report verify_scene(const Subject& subject, const Options& options) {
   const Scene& scene = subject.scene;
+  const Stopwatch watch;
   compare::Report report;
   report.scene = subject.file;
   report.options = subject.written_options;
@@ -102,6 +104,7 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   compare_each_with_reference(frames, probes(scene, *renderer),
                               options.max_explained.value_or(scene.verify.max_explained), options, report);
   name_hits(scene, report);
+  report.seconds = watch.seconds();
   if (!report.passes()) {
     keep_evidence(subject.evidence, frames, report);
     report.kept = subject.evidence.string();

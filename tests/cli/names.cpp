@@ -86,9 +86,10 @@ TEST_CASE("beside the pictures of ids lies what they stand for") {
 TEST_CASE("verify says by name what differing pixels hit") {
   const NamedScene folder;
   const ProcessResult result =
-      run_eyeray({"verify", folder.scene(), "--crop", "30,22,4,4", "--backends", "twin", "--quiet"});
+      run_eyeray({"verify", folder.scene(), "--crop", "30,22,4,4", "--backends", "gpu", "--quiet",
+                  "--inject-fault", "light", "--keep", folder / "kept"});
   CAPTURE(result.out);
-  CHECK(result.code == 0);
+  CHECK(result.code == 1);
   CHECK(result.out.find("primitive 0 (sphere \"left eye\", " + folder.scene() +
                         ":24), material 0 (\"matte\"), t ") != std::string::npos);
 }

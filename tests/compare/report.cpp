@@ -110,8 +110,9 @@ TEST_CASE("JSON says the same, and a NaN in it is null") {
 
 TEST_CASE("the summary of several scenes names those that failed") {
   const Report good = report_on(picture_frame()), bad = report_on(picture_frame(Vec2(1, 0)));
-  CHECK(summary(std::vector<Report>{good, good}) == "2 scenes: all passed\n");
-  CHECK(summary(std::vector<Report>{good, bad}) == "2 scenes: 1 passed, 1 failed (scenes/analytic.toml)\n");
+  CHECK(summary(std::vector<Report>{good, good}) == "2 scenes in 0.0 s: all passed\n");
+  CHECK(summary(std::vector<Report>{good, bad}) ==
+        "2 scenes in 0.0 s: 1 passed, 1 failed (scenes/analytic.toml)\n");
 }
 
 TEST_CASE("ULP distances count floats") {

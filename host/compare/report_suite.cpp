@@ -1,0 +1,161 @@
+// What is said of several scenes: a table, JUnit's XML, GitHub's annotations.
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "host/compare/report.hpp"
+#include "host/core/diagnostic.hpp"
+
+namespace eyeray::compare {
+
+namespace {
+
+// The share of one test case, and of all together.
+double seconds(std::span<const Report> reports) {
+  double sum = 0;
+  for (const Report& report : reports) sum += report.seconds;
+  return sum;
+}
+
+int64_t count(std::span<const Report> reports, std::string_view verdict) {
+  return std::ranges::count(reports, verdict, &Report::verdict);
+}
+
+// Of any bytes, what XML can hold.
+std::string xml(std::string_view text) {
+  std::string escaped;
+  std::istringstream lines{std::string(text)};
+  for (std::string line; std::getline(lines, line);) {
+    if (!escaped.empty()) escaped += '\n';
+    for (const char c : printable(line)) {
+      switch (c) {
+        case '&':
+          escaped += "&amp;";
+          break;
+        case '<':
+          escaped += "&lt;";
+          break;
+        case '>':
+          escaped += "&gt;";
+          break;
+        case '"':
+          escaped += "&quot;";
+          break;
+        default:
+          escaped += c;
+      }
+    }
+  }
+  return escaped;
+}
+
+// Of any bytes, what a command of GitHub's can hold: a property's end at , and : too.
+std::string command_text(std::string_view text, bool property) {
+  std::string escaped;
+  for (const char c : printable(text)) {
+    if (c == '%' || (property && (c == ':' || c == ',')))
+      escaped += fmt::format("%{:02X}", c);
+    else
+      escaped += c;
+  }
+  return escaped;
+}
+
+int64_t explained(const Tally& tally) {
+  return tally.explained_pixels();
+}
+int64_t unexplained(const Tally& tally) {
+  return tally.unexplained + tally.unexamined;
+}
+
+// Of a report, in a cell of a table: the first thing that fails.
+std::string first_failure(const Report& report) {
+  const std::vector<std::string> failures = report.failures();
+  const std::string text = failures.empty() ? report.not_verified : failures.front();
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
+std::string to_row(const Report& report, size_t width) {
+  // The name is padded by hand: fmt counts bytes of what is no UTF-8.
+  const std::string name = printable(report.scene);
+  const std::string start = fmt::format("{:<7} {}{}", report.verdict(), name,
+                                        std::string(width - std::min(width, name.size()), ' '));
+  if (!report.not_verified.empty()) return fmt::format("{}  {}\n", start, first_failure(report));
+  return fmt::format("{}  {:>5}×{:<5} {:>7} explained {:>7} unexplained {:>8.2f} s\n", start,
+                     report.area.width, report.area.height, report.count(explained),
+                     report.count(unexplained), report.seconds);
+}
+
+std::string summary(std::span<const Report> reports) {
+  std::string text = fmt::format("{} scene{} in {:.1f} s: ", reports.size(), reports.size() == 1 ? "" : "s",
+                                 seconds(reports));
+  const int64_t failed = count(reports, "failed"), skipped = count(reports, "skipped");
+  if (failed + skipped == 0) return text + "all passed\n";
+  text += fmt::format("{} passed", count(reports, "passed"));
+  const auto add = [&](int64_t number, std::string_view verdict) {
+    if (number == 0) return;
+    text += fmt::format(", {} {} (", number, verdict);
+    const char* comma = "";
+    for (const Report& report : reports) {
+      if (report.verdict() != verdict) continue;
+      text += comma + printable(report.scene);
+      comma = ", ";
+    }
+    text += ')';
+  };
+  add(failed, "failed");
+  add(skipped, "skipped");
+  return text + '\n';
+}
+
+std::string to_junit(std::span<const Report> reports) {
+  const std::string totals =
+      fmt::format(R"(tests="{}" failures="{}" errors="0" skipped="{}" time="{:.3f}")", reports.size(),
+                  count(reports, "failed"), count(reports, "skipped"), seconds(reports));
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"eyeray verify\" {0}>\n"
+      "<testsuite name=\"eyeray verify\" {0}>\n",
+      totals);
+  for (const Report& report : reports) {
+    const std::string name = xml(report.scene);
+    text += fmt::format(R"(<testcase classname="eyeray.verify" name="{0}" file="{0}" time="{1:.3f}">)", name,
+                        report.seconds);
+    if (report.verdict() == "failed")
+      text += fmt::format("\n<failure message=\"{}\">{}</failure>", xml(first_failure(report)),
+                          xml(to_text(report)));
+    else if (report.verdict() == "skipped")
+      text += fmt::format("\n<skipped message=\"{}\"/>", xml(first_failure(report)));
+    else
+      text += fmt::format("\n<system-out>{}</system-out>", xml(to_text(report)));
+    text += "\n</testcase>\n";
+  }
+  return text + "</testsuite>\n</testsuites>\n";
+}
+
+std::string to_annotations(std::span<const Report> reports) {
+  std::string text;
+  for (const Report& report : reports)
+    for (const std::string& failure : report.failures())
+      text += fmt::format("::error file={},title=eyeray verify::{}\n", command_text(report.scene, true),
+                          command_text(failure.substr(0, failure.find('\n')), false));
+  return text;
+}
+
+std::string to_markdown(std::span<const Report> reports) {
+  std::string text = fmt::format("### eyeray verify\n\n{}\n", summary(reports));
+  text += "| scene | verdict | pixels | explained | unexplained | seconds | first failure |\n";
+  text += "| --- | --- | ---: | ---: | ---: | ---: | --- |\n";
+  for (const Report& report : reports) {
+    std::string failure = first_failure(report);
+    for (size_t at = 0; (at = failure.find('|', at)) != std::string::npos; at += 2)
+      failure.insert(at, 1, '\\');
+    text += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {} |\n", printable(report.scene),
+                        report.verdict(), report.area.pixels(), report.count(explained),
+                        report.count(unexplained), report.seconds, printable(failure));
+  }
+  return text;
+}
+
+}  // namespace eyeray::compare

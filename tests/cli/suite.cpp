@@ -1,0 +1,58 @@
+// verify with a folder of scenes.
+#include <nlohmann/json.hpp>
+
+#include "scene.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+TEST_CASE("verify takes a folder: every scene in it and below, and no part of another") {
+  const SceneFolder folder;
+  std::filesystem::create_directories(folder / "sub/parts");
+  write_text(folder / "sub/parts/ball.toml", small_scene);
+  write_text(folder / "sub/whole.toml", "include = [\"parts/ball.toml\"]\n");
+  write_text(folder / "notes.txt", "no scene");
+  const auto verify = [&](std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {"verify", folder.path(), "-s", "16x12", "--quiet", "--keep", folder / "kept"});
+    return run_eyeray(options);
+  };
+  const ProcessResult passed = verify({"--junit", folder / "report.xml"});
+  CAPTURE(passed.out);
+  CHECK(passed.code == 0);
+  CHECK(passed.out.starts_with("passed  " + folder.scene()));
+  CHECK(passed.out.find(folder / "sub/whole.toml") != std::string::npos);
+  CHECK(passed.out.find("ball.toml") == std::string::npos);
+  CHECK(passed.out.find("\n2 scenes in ") != std::string::npos);
+  CHECK(read_text(folder / "report.xml").find("tests=\"2\" failures=\"0\"") != std::string::npos);
+
+  // One that cannot be rendered fails; the others are verified all the same.
+  write_text(folder / "bad.toml", "sphere = 3\n");
+  const ProcessResult failed = verify({"--json"});
+  CHECK(failed.code == 1);
+  const auto report = nlohmann::json::parse(failed.out);
+  CHECK(report.at("scenes").size() == 3);
+  CHECK(report.at("scenes")[0].at("verdict") == "failed");
+  CHECK(report.at("scenes")[1].at("verdict") == "passed");
+  CHECK(verify({"--allow-unverified", folder / "bad.toml"}).code == 0);
+  CHECK(verify({"--allow-unverified", folder / "none.toml"}).code == 2);
+
+  // Alone, it is the error that it is; a folder without scenes is one, too.
+  CHECK(run_eyeray({"verify", folder / "bad.toml"}).code == 2);
+  std::filesystem::create_directories(folder / "empty");
+  CHECK(run_eyeray({"verify", folder / "empty"}).err ==
+        "eyeray: error: there is no scene in " + (folder / "empty") + "\n");
+}
+
+TEST_CASE("verify --github annotates failures and adds to the step's summary") {
+  const SceneFolder folder;
+  write_text(folder / "summary.md", "before\n");
+  const ProcessResult result = run_eyeray({"verify", folder.scene(), "-s", "16x12", "--quiet", "--keep",
+                                           folder / "kept", "--inject-fault", "light", "--github"},
+                                          {{"GITHUB_STEP_SUMMARY", folder / "summary.md"}});
+  CHECK(result.code == 1);
+  CHECK(result.out.find("\n::error file=") != std::string::npos);
+  CHECK(read_text(folder / "summary.md").starts_with("before\n### eyeray verify\n\n1 scene in "));
+}
