@@ -59,12 +59,9 @@ Comparison compare(const Command& command, const Image& a, const Image& b) {
 Json to_json(const Comparison& result) {
   Json json{{"passed", result.failures.empty()}, {"failures", result.failures}};
   if (!result.metrics) return json;
-  const compare::Metrics& m = *result.metrics;
   json["pixels"] = result.pixels;
   json["different"] = result.different;
-  json["metrics"] = {{"rmse", m.rmse},  {"psnr", m.psnr}, {"p99", m.p99},
-                     {"p99.9", m.p999}, {"max", m.max},   {"max_at", {m.max_at.x, m.max_at.y}},
-                     {"ssim", m.ssim},  {"flip", m.flip}};
+  json["metrics"] = compare::metrics_json(*result.metrics);
   return json;
 }
 
@@ -92,9 +89,10 @@ ExitCode Command::run() const {
     fmt::print("{} {} {}\n", result.failures.empty() ? "PASSED" : "FAILED", a, b);
     for (const std::string& failure : result.failures) fmt::print("  {}\n", failure);
     if (result.metrics) {
-      fmt::print("  {} of {} pixels differ by more than {} · max(1, |b|)\n", result.different, result.pixels,
-                 tolerance);
-      fmt::print("  {}\n", to_text(*result.metrics));
+      if (result.different <= max_different)
+        fmt::print("  {} of {} pixels differ by more than {} · max(1, |b|)\n", result.different,
+                   result.pixels, tolerance);
+      fmt::print("{}", to_lines(*result.metrics, "  "));
     }
   }
   return result.failures.empty() ? ExitCode::ok : ExitCode::comparison_failed;

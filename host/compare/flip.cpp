@@ -7,6 +7,7 @@
 #include "host/compare/frame.hpp"
 #include "host/compare/plane.hpp"
 #include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
 
 namespace eyeray::compare {
 
@@ -61,14 +62,14 @@ struct Planes {
 Planes to_planes(const Image& image) {
   Planes planes{
       {image.width(), image.height()}, {image.width(), image.height()}, {image.width(), image.height()}};
-  for (int y = 0; y < image.height(); ++y) {
+  parallel_for(0, image.height(), [&](int y) {
     for (int x = 0; x < image.width(); ++x) {
       const Vec3 p = ycxcz_from_rgb(glm::clamp(color_at(image, x, y), 0.0, 1.0));
       planes.y.at(x, y) = p.x;
       planes.cx.at(x, y) = p.y;
       planes.cz.at(x, y) = p.z;
     }
-  }
+  });
   return planes;
 }
 
@@ -104,10 +105,12 @@ std::vector<Vec3> perceived_colors(const Planes& planes) {
   const Plane cx = filter(planes.cx, {{1, 0.0053}});
   const Plane cz = filter(planes.cz, {{34.1, 0.04}, {13.5, 0.025}});
   std::vector<Vec3> colors(y.values.size());
-  for (size_t i = 0; i < colors.size(); ++i) {
-    const Vec3 rgb = rgb_from_ycxcz({y.values[i], cx.values[i], cz.values[i]});
-    colors[i] = hunt(lab_from_rgb(glm::clamp(rgb, 0.0, 1.0)));
-  }
+  parallel_for(0, planes.y.height, [&](int row) {
+    for (size_t i = size_t(row) * size_t(y.width); i < size_t(row + 1) * size_t(y.width); ++i) {
+      const Vec3 rgb = rgb_from_ycxcz({y.values[i], cx.values[i], cz.values[i]});
+      colors[i] = hunt(lab_from_rgb(glm::clamp(rgb, 0.0, 1.0)));
+    }
+  });
   return colors;
 }
 
@@ -148,7 +151,7 @@ Plane features(const Plane& luminance, Feature feature) {
 
 }  // namespace
 
-double mean_flip(const Image& a, const Image& b) {
+std::vector<double> flip_map(const Image& a, const Image& b) {
   CHECK(a.same_size(b));
   CHECK_LE(1u, a.sample_count());
   Planes planes_a = to_planes(a), planes_b = to_planes(b);
@@ -162,14 +165,22 @@ double mean_flip(const Image& a, const Image& b) {
   const Plane points_a = features(planes_a.y, Feature::point),
               points_b = features(planes_b.y, Feature::point);
 
-  double sum = 0;
-  for (size_t i = 0; i < colors_a.size(); ++i) {
-    const double edge = std::abs(edges_a.values[i] - edges_b.values[i]);
-    const double point = std::abs(points_a.values[i] - points_b.values[i]);
-    const double feature_error = std::pow(std::max(edge, point) / std::sqrt(2.0), feature_exponent);
-    sum += std::pow(color_error(colors_a[i], colors_b[i]), 1 - feature_error);
-  }
-  return sum / double(colors_a.size());
+  std::vector<double> map(colors_a.size());
+  parallel_for(0, a.height(), [&](int y) {
+    for (size_t i = size_t(y) * size_t(a.width()); i < size_t(y + 1) * size_t(a.width()); ++i) {
+      const double edge = std::abs(edges_a.values[i] - edges_b.values[i]);
+      const double point = std::abs(points_a.values[i] - points_b.values[i]);
+      const double feature_error = std::pow(std::max(edge, point) / std::sqrt(2.0), feature_exponent);
+      map[i] = std::pow(color_error(colors_a[i], colors_b[i]), 1 - feature_error);
+    }
+  });
+  return map;
+}
+
+Flip flip(const Image& a, const Image& b) {
+  std::vector<double> map = flip_map(a, b);
+  const double mean = std::accumulate(map.begin(), map.end(), 0.0) / double(map.size());
+  return {.mean = mean, .p95 = percentile(map, 0.95), .p99 = percentile(map, 0.99)};
 }
 
 }  // namespace eyeray::compare

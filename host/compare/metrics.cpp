@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
-#include "host/compare/flip.hpp"
 #include "host/compare/plane.hpp"
 #include "host/compare/tolerance.hpp"
 #include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
 #include "host/image/srgb.hpp"
 
 namespace eyeray::compare {
@@ -24,15 +25,20 @@ double difference(const Vec3& a, const Vec3& b) {
   return worst;
 }
 
+// As a display shows it.
+Vec3 encoded(const Vec3& color) {
+  Vec3 result;
+  for (int c = 0; c < 3; ++c) result[c] = srgb_from_linear(std::clamp(color[c], 0.0, 1.0));
+  return result;
+}
+
 Plane luma(const Image& image) {
   Plane plane(image.width(), image.height());
-  for (int y = 0; y < image.height(); ++y) {
+  parallel_for(0, image.height(), [&](int y) {
     for (int x = 0; x < image.width(); ++x) {
-      Vec3 color = glm::clamp(color_at(image, x, y), 0.0, 1.0);
-      for (int c = 0; c < 3; ++c) color[c] = srgb_from_linear(color[c]);
-      plane.at(x, y) = glm::dot(color, Vec3(0.2126, 0.7152, 0.0722));
+      plane.at(x, y) = glm::dot(encoded(color_at(image, x, y)), Vec3(0.2126, 0.7152, 0.0722));
     }
-  }
+  });
   return plane;
 }
 
@@ -63,14 +69,6 @@ double mean_ssim(const Image& image_a, const Image& image_b) {
   return sum / double(a.values.size());
 }
 
-// The least value that `share` of `values` do not exceed; reorders them.
-double percentile(std::vector<double>& values, double share) {
-  const size_t rank =
-      std::min(values.size() - 1, size_t(std::max(0.0, std::ceil(share * double(values.size())) - 1)));
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(rank), values.end());
-  return values[rank];
-}
-
 }  // namespace
 
 Metrics measure(const Image& a, const Image& b) {
@@ -78,29 +76,47 @@ Metrics measure(const Image& a, const Image& b) {
   CHECK_LE(1u, a.sample_count());
   Metrics metrics;
 
-  // One pass for the sums and the greatest difference.
-  std::vector<double> differences;
-  double squares = 0;
-  metrics.max = -1;
-  for (int y = 0; y < a.height(); ++y) {
+  // Each pixel by itself; what is no number is infinite.
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const size_t pixels = size_t(a.width()) * size_t(a.height());
+  std::vector<double> worst(pixels), square(pixels), relative(pixels), shown(pixels);
+  parallel_for(0, a.height(), [&](int y) {
     for (int x = 0; x < a.width(); ++x) {
       const Vec3 color_a = color_at(a, x, y), color_b = color_at(b, x, y);
-      const double worst = difference(color_a, color_b);
-      differences.push_back(worst);
-      squares += std::isinf(worst) ? worst : glm::dot(color_a - color_b, color_a - color_b);
-      if (worst > metrics.max) {
-        metrics.max = worst;
-        metrics.max_at = {x, y};
-      }
+      const size_t i = size_t(y) * size_t(a.width()) + size_t(x);
+      worst[i] = difference(color_a, color_b);
+      square[i] = relative[i] = shown[i] = infinity;
+      if (std::isinf(worst[i])) continue;
+      const Vec3 apart = color_a - color_b, share = apart / (color_b + 0.01);
+      square[i] = glm::dot(apart, apart);
+      relative[i] = glm::dot(share, share);
+      shown[i] = worst[i] > 0 ? 255 * difference(encoded(color_a), encoded(color_b)) : 0;
     }
-  }
-  metrics.rmse = std::sqrt(squares / (3.0 * double(differences.size())));
+  });
+
+  const auto mean = [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / (3.0 * double(values.size()));
+  };
+  metrics.rmse = std::sqrt(mean(square));
   metrics.psnr = -20 * std::log10(metrics.rmse);
-  metrics.p99 = percentile(differences, 0.99);
-  metrics.p999 = percentile(differences, 0.999);
+  metrics.relative_mse = mean(relative);
+  for (size_t i = 0; i < display_steps.size(); ++i)
+    metrics.display_over[i] = std::ranges::count_if(shown, [&](double s) { return s > display_steps[i]; });
+  for (const double each : worst) {
+    const double decade = each > 0 ? std::floor(std::log10(each)) - first_decade + 1 : 0;
+    ++metrics.decades[size_t(std::clamp(decade, 0.0, double(metrics.decades.size() - 1)))];
+  }
+  const size_t greatest = size_t(std::ranges::max_element(worst) - worst.begin());
+  metrics.max = worst[greatest];
+  metrics.max_at = {int(greatest % size_t(a.width())), int(greatest / size_t(a.width()))};
+  metrics.max_a = color_at(a, metrics.max_at.x, metrics.max_at.y);
+  metrics.max_b = color_at(b, metrics.max_at.x, metrics.max_at.y);
+  metrics.p95 = percentile(worst, 0.95);
+  metrics.p99 = percentile(worst, 0.99);
+  metrics.p999 = percentile(worst, 0.999);
 
   metrics.ssim = mean_ssim(a, b);
-  metrics.flip = mean_flip(a, b);
+  metrics.flip = flip(a, b);
   return metrics;
 }
 

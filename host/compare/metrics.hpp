@@ -1,21 +1,34 @@
 // How far two pictures are apart, in the numbers that people quote. They are reported; they are not the gate.
 #pragma once
 
+#include <array>
+
+#include "host/compare/flip.hpp"
 #include "host/compare/frame.hpp"
 
 namespace eyeray::compare {
 
+// Differences are of linear values, a pixel's that of its worst channel, unless said otherwise.
 struct Metrics {
-  double rmse = 0;  // over all channels
-  double psnr = 0;  // dB against a peak of 1; infinite for equal pictures
-  double p99 = 0;   // 99 % of the pixels differ by no more than this (in their worst channel)
+  double rmse = 0;          // over all channels
+  double psnr = 0;          // dB against a peak of 1; infinite for equal pictures
+  double relative_mse = 0;  // the mean of (a − b)² / (b + 0.01)², as pbrt's imgtool has it
+  double p95 = 0;           // 95 % of the pixels differ by no more than this
+  double p99 = 0;
   double p999 = 0;
   double max = 0;
   Pixel max_at;
-  double ssim =
-      1;  // mean, on the sRGB-encoded luma clipped to [0, 1] (Wang et al. 2004: 11 × 11 Gaussian, σ 1.5)
-  double flip = 0;  // mean LDR-FLIP
+  Vec3 max_a{0.0}, max_b{0.0};  // both colours there
+  // Pixels that a display shows more than 1, 2, 4, 8, 16 of 255 apart (sRGB-encoded, clipped to [0, 1]).
+  std::array<int64_t, 5> display_over{};
+  // Pixels that differ by less than 1e-7, then from each power of ten to the next, at last by 1 or more.
+  std::array<int64_t, 9> decades{};
+  // Mean, on the sRGB-encoded luma clipped to [0, 1] (Wang et al. 2004: 11 × 11 Gaussian, σ 1.5).
+  double ssim = 1;
+  Flip flip;
 };
+inline constexpr std::array<int, 5> display_steps = {1, 2, 4, 8, 16};
+inline constexpr int first_decade = -7;
 
 // Of two 1- or 3-channel linear pictures of one size, at least one pixel. A value that is not finite counts
 // as an infinite difference.

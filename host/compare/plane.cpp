@@ -40,4 +40,11 @@ Plane convolve(const Plane& plane, const Kernel& horizontal, const Kernel& verti
   return result;
 }
 
+double percentile(std::vector<double>& values, double share) {
+  const double rank = std::max(0.0, std::ceil(share * double(values.size())) - 1);
+  const auto at = values.begin() + std::ptrdiff_t(std::min(values.size() - 1, size_t(rank)));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 }  // namespace eyeray::compare

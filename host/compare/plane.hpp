@@ -25,4 +25,7 @@ Kernel gaussian(double sigma, int radius);
 // `plane` filtered by `horizontal`, then by `vertical`; beyond the border the border's values go on.
 Plane convolve(const Plane& plane, const Kernel& horizontal, const Kernel& vertical);
 
+// The least of `values` that `share` of them do not exceed; reorders them.
+double percentile(std::vector<double>& values, double share);
+
 }  // namespace eyeray::compare

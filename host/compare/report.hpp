@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -93,7 +94,10 @@ std::string to_junit(std::span<const Report> reports);
 std::string to_annotations(std::span<const Report> reports);
 std::string to_markdown(std::span<const Report> reports);
 
-// "RMSE 1e-05, PSNR 100.0 dB, …".
+// "RMSE 1e-05, PSNR 100.0 dB, …", on one line without its end.
 std::string to_text(const Metrics& metrics);
+// All of them, lines that start with `indent`, each ended.
+std::string to_lines(const Metrics& metrics, const std::string& indent);
+nlohmann::ordered_json metrics_json(const Metrics& metrics);
 
 }  // namespace eyeray::compare

@@ -1,12 +1,13 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "host/compare/report.hpp"
 
 namespace eyeray::compare {
 
-namespace {
-
 using Json = nlohmann::ordered_json;
+
+namespace {
 
 Json json(const Pixel& pixel) {
   return Json::array({pixel.x, pixel.y});
@@ -44,11 +45,6 @@ Json json(const Tally& tally) {
           {"unexplained", tally.unexplained},
           {"unexamined", tally.unexamined},
           {"worst", json(tally.worst)}};
-}
-
-Json json(const Metrics& m) {
-  return {{"rmse", m.rmse}, {"psnr", m.psnr},           {"p99", m.p99},   {"p99.9", m.p999},
-          {"max", m.max},   {"max_at", json(m.max_at)}, {"ssim", m.ssim}, {"flip", m.flip}};
 }
 
 Json json(const Participant& p) {
@@ -91,7 +87,7 @@ Json json(const ReferenceResult& result) {
   object["colors"] = json(c.colors);
   object["first_hits"] = json(c.first_hits);
   object["counts"] = json(c.counts);
-  if (result.metrics) object["metrics"] = json(*result.metrics);
+  if (result.metrics) object["metrics"] = metrics_json(*result.metrics);
   return object;
 }
 
@@ -134,6 +130,28 @@ Json json(const Report& report) {
 }
 
 }  // namespace
+
+Json metrics_json(const Metrics& m) {
+  Json display = Json::object(), histogram = Json::array();
+  for (size_t i = 0; i < display_steps.size(); ++i)
+    display[std::to_string(display_steps[i])] = m.display_over[i];
+  for (size_t i = 0; i < m.decades.size(); ++i)
+    histogram.push_back(
+        {{"from", i == 0 ? 0 : std::pow(10.0, first_decade + int(i) - 1)}, {"pixels", m.decades[i]}});
+  return {{"rmse", m.rmse},
+          {"psnr", m.psnr},
+          {"relative_mse", m.relative_mse},
+          {"p95", m.p95},
+          {"p99", m.p99},
+          {"p99.9", m.p999},
+          {"max", m.max},
+          {"max_at", json(m.max_at)},
+          {"max_values", {json(m.max_a), json(m.max_b)}},
+          {"display_over", display},
+          {"histogram", histogram},
+          {"ssim", m.ssim},
+          {"flip", {{"mean", m.flip.mean}, {"p95", m.flip.p95}, {"p99", m.flip.p99}}}};
+}
 
 std::string to_json(std::span<const Report> reports) {
   Json scenes = Json::array();

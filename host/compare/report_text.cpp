@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,7 +100,19 @@ bool same_as_first(const Report& report, const ReferenceResult& result) {
 std::string to_text(const Metrics& m) {
   return fmt::format(
       "RMSE {:.3g}, PSNR {:.1f} dB, p99 {:.3g}, p99.9 {:.3g}, max {:.3g} at {},{}, SSIM {:.6f}, FLIP {:.3g}",
-      m.rmse, m.psnr, m.p99, m.p999, m.max, m.max_at.x, m.max_at.y, m.ssim, m.flip);
+      m.rmse, m.psnr, m.p99, m.p999, m.max, m.max_at.x, m.max_at.y, m.ssim, m.flip.mean);
+}
+
+std::string to_lines(const Metrics& m, const std::string& indent) {
+  std::string text;
+  line(text, "{}RMSE {:.3g}, PSNR {:.1f} dB, relative MSE {:.3g}, SSIM {:.6f}", indent, m.rmse, m.psnr,
+       m.relative_mse, m.ssim);
+  line(text, "{}differences: p95 {:.3g}, p99 {:.3g}, p99.9 {:.3g}, max {:.3g} at {},{}: {} against {}",
+       indent, m.p95, m.p99, m.p999, m.max, m.max_at.x, m.max_at.y, numbers(m.max_a), numbers(m.max_b));
+  line(text, "{}FLIP: mean {:.3g}, p95 {:.3g}, p99 {:.3g}", indent, m.flip.mean, m.flip.p95, m.flip.p99);
+  line(text, "{}shown apart by more than {} of 255: {} pixels", indent, fmt::join(display_steps, ", "),
+       fmt::join(m.display_over, ", "));
+  return text;
 }
 
 std::string to_text(const Report& report) {

@@ -44,7 +44,7 @@ TEST_CASE("a picture is at no distance from itself") {
   CHECK(m.p99 == 0);
   CHECK(m.max == 0);
   CHECK(m.ssim == doctest::Approx(1));
-  CHECK(m.flip == 0);
+  CHECK(m.flip.mean == 0);
 }
 
 TEST_CASE("one pixel's difference, in numbers worked out by hand") {
@@ -64,8 +64,18 @@ TEST_CASE("one pixel's difference, in numbers worked out by hand") {
   b.pixel(3, 3)[0] += 0.125f;
   CHECK(measure(a, b).p99 == doctest::Approx(0.125));
   CHECK(m.ssim < 1);
-  CHECK(m.flip > 0);
-  CHECK(count_different(a, b, 1e-4) == 3);
+  CHECK(m.flip.mean > 0);
+  CHECK(m.flip.p99 >= m.flip.p95);
+  CHECK(m.max_a == Vec3(0.5));
+  CHECK(m.max_b == Vec3(0.5, 0.75, 0.5));
+  CHECK(m.relative_mse == doctest::Approx(0.0625 / (0.76 * 0.76) / 600));
+  // sRGB of 0.5 is 187.5 of 255, of 0.75 it is 224.7.
+  CHECK(m.display_over == std::array<int64_t, 5>{1, 1, 1, 1, 1});
+  CHECK(m.decades == std::array<int64_t, 9>{199, 0, 0, 0, 0, 0, 0, 1, 0});
+  b.pixel(4, 4)[0] += 0.01f;
+  CHECK(measure(a, b).display_over == std::array<int64_t, 5>{4, 3, 3, 3, 3});
+  CHECK(measure(a, b).p95 == 0);
+  CHECK(count_different(a, b, 1e-4) == 4);
   CHECK(count_different(a, b, 0.3) == 0);
   CHECK(*log_difference(a, b).pixel(13, 7) == doctest::Approx(std::log10(0.25)));
   CHECK(*log_difference(a, b).pixel(0, 0) == -8.0f);
@@ -78,6 +88,8 @@ TEST_CASE("what is not finite is infinitely far") {
   const Metrics m = measure(a, b);
   CHECK(std::isinf(m.max));
   CHECK(std::isinf(m.rmse));
+  CHECK(m.display_over[4] == 1);
+  CHECK(m.decades.back() == 1);
   CHECK(m.max_at == Pixel{2, 3});
 }
 
@@ -99,10 +111,10 @@ TEST_CASE("FLIP of constant greys is the paper's redistributed HyAB distance") {
     return error < knee ? error * 0.95 / knee : 0.95 + (error - knee) / (greatest - knee) * 0.05;
   };
   for (const auto& [a, b] : {std::pair{0.0, 1.0}, {0.2, 0.25}, {0.001, 0.002}, {0.5, 0.9}}) {
-    const double flip = mean_flip(constant(30, 30, Vec3(a)), constant(30, 30, Vec3(b)));
+    const double flip = compare::flip(constant(30, 30, Vec3(a)), constant(30, 30, Vec3(b))).mean;
     CHECK(flip == doctest::Approx(expected(a, b)).epsilon(1e-3));
   }
-  CHECK(mean_flip(constant(30, 30, Vec3(0)), constant(30, 30, Vec3(1))) ==
+  CHECK(compare::flip(constant(30, 30, Vec3(0)), constant(30, 30, Vec3(1))).mean ==
         doctest::Approx(0.9674).epsilon(1e-3));
 }
 
@@ -120,19 +132,19 @@ TEST_CASE("FLIP agrees with the authors' program, filtered directly in two dimen
   const Image pattern = paint([](int x, int y, int c) { return (x * 7 + y * 13 + c * 5) % 17 / 16.0; });
   const Image other =
       paint([](int x, int y, int c) { return (x * 7 + y * 11 + c * 5 + x * y / 9) % 17 / 16.0; });
-  CHECK(mean_flip(pattern, other) == doctest::Approx(0.246853).epsilon(1e-4));
+  CHECK(compare::flip(pattern, other).mean == doctest::Approx(0.246853).epsilon(1e-4));
   const Image plain = constant(24, 20, Vec3(0.3));
   const Image bar =
       paint([](int x, int, int c) { return 0.3 + (x >= 8 && x < 14 ? 0.4 : 0.0) * (c == 1 ? 1 : 0.5); });
-  CHECK(mean_flip(plain, bar) == doctest::Approx(0.336658).epsilon(1e-4));
+  CHECK(compare::flip(plain, bar).mean == doctest::Approx(0.336658).epsilon(1e-4));
 }
 
 TEST_CASE("FLIP is symmetric, within [0, 1], and clips") {
   const Image a = noise(50, 40, 3), b = noise(50, 40, 4'000'000);
-  CHECK(mean_flip(a, b) == doctest::Approx(mean_flip(b, a)));
-  CHECK(mean_flip(a, b) > 0.1);
-  CHECK(mean_flip(a, b) < 1);
-  CHECK(mean_flip(constant(9, 9, Vec3(1)), constant(9, 9, Vec3(50))) == 0);
+  CHECK(compare::flip(a, b).mean == doctest::Approx(compare::flip(b, a).mean));
+  CHECK(compare::flip(a, b).mean > 0.1);
+  CHECK(compare::flip(a, b).mean < 1);
+  CHECK(compare::flip(constant(9, 9, Vec3(1)), constant(9, 9, Vec3(50))).mean == 0);
 }
 
 TEST_CASE("separable filters: constants stay, an impulse becomes the kernels' product, borders go on") {
