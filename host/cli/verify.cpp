@@ -26,6 +26,7 @@ struct Command {
   bool quiet = false;
   bool json = false;
   bool record = false;
+  bool keep_passed = false;
   std::string junit;
   bool github = false;
   std::vector<std::string> may_stay_unverified;
@@ -86,7 +87,8 @@ compare::Report Command::report_on(const SceneOptions& scene_file) const {
   const Scene scene = scene_file.load();
   check_crop(options.crop, scene.image);
   return verify::verify_scene(
-      {scene, scene_file.file(), scene_file.as_written(), folder_for(scene_file.file())}, options);
+      {scene, scene_file.file(), scene_file.as_written(), folder_for(scene_file.file()), keep_passed},
+      options);
 }
 
 // One of several: that it cannot be rendered is no reason to leave out the others.
@@ -199,6 +201,7 @@ void add_verify(CLI::App& app, Run& run) {
       ->add_option("--keep", options->keep,
                    "Where pictures are left when a gate fails. Default: SCENE.verify here.")
       ->option_text("DIR");
+  command->add_flag("--keep-passed", options->keep_passed, "Leave them when no gate fails, too.");
   command->add_flag("-q,--quiet", options->quiet, "No progress.");
   command->add_flag("--json", options->json, "Report as JSON.");
   command->add_option("--junit", options->junit, "Write the report as JUnit's XML, too; its folder is made.")

@@ -10,12 +10,7 @@ namespace eyeray::compare {
 
 namespace {
 
-// How a pixel came out, the worse the greater.
-enum class Outcome : uint8_t { equal, matching, explained, unexplained, unexamined };
-
-struct Judgement {
-  Outcome outcome = Outcome::equal;
-  Cause cause = Cause::silhouette;  // of an explained pixel
+struct Judgement : PixelOutcome {
   double excess = 0;
 };
 
@@ -80,6 +75,14 @@ class Judge {
   Tally count_first_hits() const { return tally(first_hits_); }
   Tally count_counts() const { return tally(counts_); }
 
+  std::vector<PixelOutcome> worst_outcomes() const {
+    std::vector<PixelOutcome> worst(first_hits_.begin(), first_hits_.end());
+    for (const std::vector<Judgement>* judgements : {&counts_, &colors_})
+      for (size_t i = 0; i < worst.size(); ++i)
+        if ((*judgements)[i].outcome > worst[i].outcome) worst[i] = (*judgements)[i];
+    return worst;
+  }
+
  private:
   size_t index(int x, int y) const { return size_t(y) * size_t(value_.area.width) + size_t(x); }
   int64_t cap() const {
@@ -102,8 +105,8 @@ class Judge {
   }
 
   static Judgement judge(double excess, bool equal) {
-    if (!(excess <= 1)) return {Outcome::unexamined, {}, excess};
-    return {equal ? Outcome::equal : Outcome::matching, {}, excess};
+    const Outcome outcome = !(excess <= 1) ? Outcome::unexamined : equal ? Outcome::equal : Outcome::matching;
+    return {{outcome, {}}, excess};
   }
 
   // Whether a gate has failed, whatever else is found.
@@ -217,7 +220,8 @@ bool ReferenceComparison::passes() const {
 }
 
 ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference, const Reference& probe,
-                                           const Tolerances& tolerances) {
+                                           const Tolerances& tolerances,
+                                           std::vector<PixelOutcome>* outcomes) {
   tolerances.check();
   ReferenceComparison result;
   result.incomparable = why_incomparable(value, reference);
@@ -229,6 +233,7 @@ ReferenceComparison compare_with_reference(const Frame& value, const Frame& refe
   result.colors = judge.count_colors();
   result.first_hits = judge.count_first_hits();
   result.counts = judge.count_counts();
+  if (outcomes) *outcomes = judge.worst_outcomes();
   return result;
 }
 

@@ -3,10 +3,18 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "host/compare/explain.hpp"
 
 namespace eyeray::compare {
+
+// How a pixel came out, the worse the greater; the cause of an explained one.
+enum class Outcome : uint8_t { equal, matching, explained, unexplained, unexamined };
+struct PixelOutcome {
+  Outcome outcome = Outcome::equal;
+  Cause cause = Cause::silhouette;
+};
 
 // How the pixels of one gate came out; the counts add up to `pixels`.
 struct Tally {
@@ -49,7 +57,9 @@ inline constexpr TallyType tally_types[] = {
     {"B", "colours", &ReferenceComparison::colors},
 };
 
+// `outcomes`, where it is asked for: of every pixel, row by row, the worst of its tallies.
 ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference, const Reference& probe,
-                                           const Tolerances& tolerances = {});
+                                           const Tolerances& tolerances = {},
+                                           std::vector<PixelOutcome>* outcomes = nullptr);
 
 }  // namespace eyeray::compare

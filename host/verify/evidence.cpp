@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "host/compare/cause_picture.hpp"
 #include "host/core/error.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image_file.hpp"
@@ -37,6 +38,7 @@ std::string own_command_line() {
 }  // namespace
 
 void keep_evidence(const fs::path& folder, std::span<const compare::Frame> frames,
+                   std::span<const std::vector<compare::PixelOutcome>> outcomes,
                    const compare::Report& report) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -49,10 +51,12 @@ void keep_evidence(const fs::path& folder, std::span<const compare::Frame> frame
     const Image& picture = frames[i].color;
     if (!image_size_allowed(picture.width(), picture.height())) continue;
     write_image(folder / (name + ".pfm"), picture);
-    if (i + 1 < frames.size() && picture.same_size(reference.color)) {
-      write_image(folder / (name + "-difference.png"),
-                  false_color(compare::log_difference(picture, reference.color), FalseColor::scalar));
-    }
+    if (i + 1 == frames.size() || !picture.same_size(reference.color)) continue;
+    write_image(folder / (name + "-difference.png"),
+                false_color(compare::log_difference(picture, reference.color), FalseColor::scalar));
+    if (outcomes[i].empty()) continue;
+    write_image(folder / (name + "-causes.png"), compare::cause_picture(reference.color, outcomes[i]));
+    write_file_atomically(folder / (name + "-causes.json"), compare::cause_legend(outcomes[i]));
   }
   write_file_atomically(folder / "command.txt", own_command_line() + "\n");
 }

@@ -43,16 +43,20 @@ void compare_backends(std::span<const compare::Frame> frames, const Options& opt
   }
 }
 
-// Gates B and C: every executor of the shaders with the reference, whose frame is the last.
-void compare_each_with_reference(std::span<const compare::Frame> frames, const compare::Reference& reference,
-                                 double max_explained, const Options& options, compare::Report& report) {
+// Gates B and C: every executor of the shaders with the reference, whose frame is the last. Returns each
+// one's outcomes, pixel by pixel.
+std::vector<std::vector<compare::PixelOutcome>> compare_each_with_reference(
+    std::span<const compare::Frame> frames, const compare::Reference& reference, double max_explained,
+    const Options& options, compare::Report& report) {
   const compare::Frame& reference_frame = frames.back();
   const compare::Tolerances tolerances{.max_explained = max_explained};
+  std::vector<std::vector<compare::PixelOutcome>> outcomes(options.backends.size());
   for (size_t i = 0; i < options.backends.size(); ++i) {
     compare::ReferenceResult result;
     result.value = report.participants[i].name;
     result.tolerances = tolerances;
-    result.comparison = compare::compare_with_reference(frames[i], reference_frame, reference, tolerances);
+    result.comparison =
+        compare::compare_with_reference(frames[i], reference_frame, reference, tolerances, &outcomes[i]);
     if (result.comparison.incomparable.empty()) {
       result.metrics = compare::measure(frames[i].color, reference_frame.color);
       result.metrics->max_at.x += report.area.x;
@@ -60,6 +64,7 @@ void compare_each_with_reference(std::span<const compare::Frame> frames, const c
     }
     report.against_reference.push_back(std::move(result));
   }
+  return outcomes;
 }
 
 // Says what the report's first hits hit, in the words of the scene.
@@ -101,12 +106,13 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   add_frame(executors::Backend::reference, executors::make_reference_executor(renderer));
 
   compare_backends(frames, options, report);
-  compare_each_with_reference(frames, probes(scene, *renderer),
-                              options.max_explained.value_or(scene.verify.max_explained), options, report);
+  const auto outcomes = compare_each_with_reference(
+      frames, probes(scene, *renderer), options.max_explained.value_or(scene.verify.max_explained), options,
+      report);
   name_hits(scene, report);
   report.seconds = watch.seconds();
-  if (!report.passes()) {
-    keep_evidence(subject.evidence, frames, report);
+  if (subject.keep_always || !report.passes()) {
+    keep_evidence(subject.evidence, frames, outcomes, report);
     report.kept = subject.evidence.string();
   }
   return report;

@@ -31,7 +31,8 @@ struct Subject {
   const Scene& scene;
   std::string file;                // Report::scene
   std::string written_options;     // Report::options
-  std::filesystem::path evidence;  // the folder where pictures are left when a gate fails (evidence.hpp)
+  std::filesystem::path evidence;  // the folder where pictures are left when a gate fails (evidence.hpp) …
+  bool keep_always = false;        // … or when none does, too
 };
 
 // Renders the scene by each backend and at last by the reference. Gate A compares each backend with the

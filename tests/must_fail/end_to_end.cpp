@@ -91,6 +91,9 @@ TEST_CASE("every fault on the GPU's side is noticed, with its reason") {
     }
     CHECK(result.out.find("twin against the reference") == std::string::npos);
     CHECK(read_text(folder / "kept/command.txt").find(fault.name) != std::string::npos);
+    const std::string causes = read_text(folder / "kept/gpu-causes.json");
+    if (std::string(fault.reasons.back()).find("gate B") != std::string::npos)
+      CHECK(causes.find("unexplained") != std::string::npos);
     CHECK(read_text("docs/verification.md").find(fmt::format("\n| `{}` | ", fault.name)) !=
           std::string::npos);
     all += (all.empty() ? "" : ", ") + fault.name;
