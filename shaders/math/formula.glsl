@@ -22,8 +22,9 @@ float fn_round(float x) { return floor(x + 0.5f); }
 float fn_fract(float x) { return x - floor(x); }
 float fn_sqrt(float x) { return sqrt(x); }
 float fn_inversesqrt(float x) { return 1.0f / sqrt(x); }
-float fn_radians(float x) { return x * (PI / 180.0f); }
-float fn_degrees(float x) { return x * (180.0f / PI); }
+// Written out: glslang divides constants in double precision.
+float fn_radians(float x) { return x * 0.0174532925f; }
+float fn_degrees(float x) { return x * 57.2957795f; }
 
 // The sine of `quarters` quarter turns and x, up to |x| of some ten thousand; what lies beyond is no angle but within [−1, 1]. Cody and Waite's
 // reduction, polynomials of degree 7 and 8.

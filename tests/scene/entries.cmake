@@ -19,9 +19,11 @@ function(eyeray_verify name label)
   set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 3600)
 endfunction()
 
-# Every scene, small; but for the edge scenes, which have one size, and the slowest: each of those is a test below.
+# Every scene, small; but for the edge scenes, which have one size, and the slowest: each of those is a test below. Formulas take seconds to
+# compile, and are the same in any mode.
 set(EDGES ${SCENES})
 list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
+list(FILTER EDGES EXCLUDE REGEX "/(formulas|intervals)")
 set(quick ${SCENES})
 list(FILTER quick EXCLUDE REGEX "^scenes/edges/|/(gallery|group_shapes|mandelbulb|sculpture)")
 eyeray_verify(scenes.small scene QUICK ${quick} -s 48x36)
@@ -100,6 +102,7 @@ eyeray_verify(mode.caustic-rim-wide mode scenes/shapes/gallery.toml -s 96x54 --c
 eyeray_verify(mode.plane-of-symmetry mode scenes/whitted.toml -s 333x250 --crop 162,69,9,9)
 eyeray_verify(mode.plane-of-symmetry-walls mode scenes/whitted.toml -s 309x231 --crop 154,163,1,1 --backends twin)
 eyeray_verify(mode.empty-csg mode tests/loader/warned/empty_csg.toml)
+eyeray_verify(mode.unlit mode QUICK tests/loader/warned/unlit.toml)
 eyeray_verify(mode.crop mode QUICK ${some} -s 200x150 --crop 51,37,83,71)
 eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --spp 4 -D image.pattern=jittered)
 
