@@ -10,6 +10,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/loader/scene_edit.hpp"
 #include "host/loader/suite.hpp"
+#include "host/verify/page.hpp"
 
 namespace fs = std::filesystem;
 
@@ -28,13 +29,15 @@ struct Command {
   bool record = false;
   bool keep_passed = false;
   std::string junit;
+  std::string page_folder;
+  verify::Page page;
   bool github = false;
   std::vector<std::string> may_stay_unverified;
   std::vector<std::string> files = {};  // the scenes
 
   ExitCode run();
   void find_files();
-  compare::Report report_on_one_of_many(const std::string& file) const;
+  compare::Report report_on_one_of_many(const std::string& file);
   void record_allowance(const compare::Report& report) const;
   void write_reports(std::span<const compare::Report> reports) const;
   compare::Report report_on(const SceneOptions& scene_file) const;
@@ -92,7 +95,7 @@ compare::Report Command::report_on(const SceneOptions& scene_file) const {
 }
 
 // One of several: that it cannot be rendered is no reason to leave out the others.
-compare::Report Command::report_on_one_of_many(const std::string& file) const {
+compare::Report Command::report_on_one_of_many(const std::string& file) {
   try {
     return report_on(scene_options.for_file(file));
   } catch (const Error& error) {
@@ -101,6 +104,7 @@ compare::Report Command::report_on_one_of_many(const std::string& file) const {
     report.scene = file;
     report.not_verified = error.what();
     report.may_stay_unverified = std::ranges::find(may_stay_unverified, file) != may_stay_unverified.end();
+    page.add(report);
     return report;
   }
 }
@@ -116,6 +120,11 @@ void Command::record_allowance(const compare::Report& report) const {
 // What was found, beside standard output's text or JSON.
 void Command::write_reports(std::span<const compare::Report> reports) const {
   if (!junit.empty()) write_file_atomically(junit, to_junit(reports));
+  if (!page_folder.empty()) {
+    std::string sum = summary(reports);
+    sum.pop_back();
+    write_file_atomically(fs::path(page_folder) / "index.html", page.html(sum));
+  }
   if (!github) return;
   fmt::print("{}", to_annotations(reports));
   if (const char* summary = std::getenv("GITHUB_STEP_SUMMARY")) {
@@ -135,6 +144,12 @@ ExitCode Command::run() {
   }
   options.progress = [this] { return progress_reporter(quiet); };
   find_files();
+  if (!page_folder.empty()) {
+    fs::create_directories(page_folder);
+    check_writable(fs::path(page_folder) / "index.html");
+    if (keep.empty()) keep = (fs::path(page_folder) / "kept").string();
+    options.witness = [this](const auto&... seen) { page.add(seen...); };
+  }
   if (!junit.empty()) {
     if (const fs::path parent = fs::path(junit).parent_path(); !parent.empty())
       fs::create_directories(parent);
@@ -204,6 +219,10 @@ void add_verify(CLI::App& app, Run& run) {
   command->add_flag("--keep-passed", options->keep_passed, "Leave them when no gate fails, too.");
   command->add_flag("-q,--quiet", options->quiet, "No progress.");
   command->add_flag("--json", options->json, "Report as JSON.");
+  command
+      ->add_option("--report", options->page_folder,
+                   "Write a page with all pictures, DIR/index.html; what failing scenes leave goes below.")
+      ->option_text("DIR");
   command->add_option("--junit", options->junit, "Write the report as JUnit's XML, too; its folder is made.")
       ->option_text("FILE");
   command->add_flag(

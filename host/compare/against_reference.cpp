@@ -57,17 +57,17 @@ class Judge {
     });
   }
 
-  // Looks into the pixels that differ, of each gate all of them, unless an even choice shows that they are
-  // too many to pass.
+  // Looks into the pixels that differ, some thousands at a time, spread over the picture: those of each gate
+  // until that has failed, whatever else is found.
   void explain(const Reference& probe) {
-    const std::vector<size_t> different = of_outcome(Outcome::unexamined);
-    const size_t parts = different.size() / examined_at_once + 1;
-    for (size_t part = 0; part < parts && !hopeless(); ++part) {
+    const size_t parts = of_outcome(Outcome::unexamined, true).size() / examined_at_once + 1;
+    for (size_t part = 0; part < parts; ++part) {
       std::vector<size_t> chosen;
-      for (size_t n = part; n < different.size(); n += parts) chosen.push_back(different[n]);
+      for (const size_t i : of_outcome(Outcome::unexamined, false))
+        if (i % parts == part) chosen.push_back(i);
       look_at(chosen, probe, usual_angles, false);
     }
-    const std::vector<size_t> left = of_outcome(Outcome::unexplained);
+    const std::vector<size_t> left = of_outcome(Outcome::unexplained, true);
     if (left.size() <= few) look_at(left, probe, many_angles, true);
   }
 
@@ -109,19 +109,17 @@ class Judge {
     return {{outcome, {}}, excess};
   }
 
-  // Whether a gate has failed, whatever else is found.
-  bool hopeless() const {
-    const auto failed = [](const Tally& tally) {
-      return tally.capped_pixels() > tally.may_be_explained || tally.unexplained > int64_t(few);
-    };
-    return failed(count_colors()) || failed(count_first_hits()) || failed(count_counts());
-  }
-
-  // The pixels with that outcome of any gate.
-  std::vector<size_t> of_outcome(Outcome outcome) const {
+  // The pixels with that outcome of any gate, or of those that have not failed for certain.
+  std::vector<size_t> of_outcome(Outcome outcome, bool of_all) const {
+    std::vector<const std::vector<Judgement>*> asked;
+    for (const std::vector<Judgement>* judgements : {&first_hits_, &counts_, &colors_}) {
+      const Tally tally = this->tally(*judgements);
+      const bool failed = tally.capped_pixels() > tally.may_be_explained || tally.unexplained > int64_t(few);
+      if (of_all || !failed) asked.push_back(judgements);
+    }
     std::vector<size_t> pixels;
     for (size_t i = 0; i < colors_.size(); ++i)
-      if (colors_[i].outcome == outcome || first_hits_[i].outcome == outcome || counts_[i].outcome == outcome)
+      if (std::ranges::any_of(asked, [&](const auto* j) { return (*j)[i].outcome == outcome; }))
         pixels.push_back(i);
     return pixels;
   }

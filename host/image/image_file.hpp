@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "host/core/atomic_file.hpp"
 #include "host/image/image.hpp"
@@ -22,6 +23,9 @@ bool image_size_allowed(int64_t width, int64_t height);
 
 // Writes a 1- or 3-channel image atomically.
 void write_image(const std::filesystem::path& path, const Image& image);
+
+// The bytes of a .png of it.
+std::string encode_png(const Image& image);
 
 // Reads a picture as linear float32 (a PNG through the inverse sRGB curve). Sizes up to 65536 × 65536 and
 // 2^28 pixels; Error (file_io) for anything unreadable or malformed.

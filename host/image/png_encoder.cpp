@@ -2,6 +2,7 @@
 #include <png.h>
 
 #include <csetjmp>
+#include <functional>
 #include <new>
 #include <string>
 #include <vector>
@@ -75,7 +76,9 @@ class PngStream {
 
 class PngEncoder final : public RowEncoder {
  public:
-  PngEncoder(AtomicFile& file, int width, int height, int channels) : file_(file) {
+  // `sink` takes the file's bytes, one part after the other.
+  PngEncoder(std::function<void(std::string_view)> sink, int width, int height, int channels)
+      : sink_(std::move(sink)) {
     check(png_.begin(width, height, channels));
   }
 
@@ -101,11 +104,11 @@ class PngEncoder final : public RowEncoder {
     if (!done) throw std::bad_alloc();
   }
   void flush() {
-    file_.write(png_.bytes);
+    sink_(png_.bytes);
     png_.bytes.clear();
   }
 
-  AtomicFile& file_;
+  std::function<void(std::string_view)> sink_;
   PngStream png_;
   std::vector<unsigned char> codes_;
 };
@@ -113,7 +116,17 @@ class PngEncoder final : public RowEncoder {
 }  // namespace
 
 std::unique_ptr<RowEncoder> png_encoder(AtomicFile& file, int width, int height, int channels) {
-  return std::make_unique<PngEncoder>(file, width, height, channels);
+  return std::make_unique<PngEncoder>([&file](std::string_view bytes) { file.write(bytes); }, width, height,
+                                      channels);
+}
+
+std::string encode_png(const Image& image) {
+  std::string file;
+  PngEncoder encoder([&](std::string_view bytes) { file += bytes; }, image.width(), image.height(),
+                     image.channels());
+  encoder.write(image);
+  encoder.finish();
+  return file;
 }
 
 }  // namespace eyeray

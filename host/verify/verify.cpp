@@ -115,6 +115,7 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
     keep_evidence(subject.evidence, frames, outcomes, report);
     report.kept = subject.evidence.string();
   }
+  if (options.witness) options.witness(report, frames, outcomes);
   return report;
 }
 

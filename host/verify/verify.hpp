@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct Options {
   Rect crop;                                               // what is compared; empty: the whole picture
   std::optional<double> max_explained;                     // instead of the scene's
   int64_t ulp = 0;                                         // the bound of gate A
+  // Is shown what was compared, at last: as Page::add. May be empty.
+  std::function<void(const compare::Report&, std::span<const compare::Frame>,
+                     std::span<const std::vector<compare::PixelOutcome>>)>
+      witness;
   // Asked before each executor renders, for what is told how far it has come; may be empty, and so may its
   // answer.
   std::function<std::function<void(const render::Progress&)>()> progress;

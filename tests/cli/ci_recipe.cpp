@@ -47,5 +47,6 @@ TEST_CASE("the CI recipe verifies on lavapipe, and leaves a report whatever come
   CHECK(failed.code == 1);
   CHECK(failed.out.find("\n::error file=") != std::string::npos);
   CHECK(read_text(folder / "summary.md").find("| failed |") != std::string::npos);
-  CHECK(std::filesystem::exists(folder / "report/gpu-causes.png"));
+  CHECK(std::filesystem::exists(folder / "report/index.html"));
+  CHECK(std::filesystem::exists(folder / "report/kept/gpu-causes.png"));
 }

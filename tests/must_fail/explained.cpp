@@ -76,6 +76,18 @@ TEST_CASE("what is not looked into fails, even where all that was looked into is
   CHECK_FALSE(tally.passes());
 }
 
+TEST_CASE("a gate that has failed keeps no other one from being examined") {
+  // Colours are wrong everywhere; first hits differ at honest edges alone.
+  Frame gpu = honest_frame();
+  for_each_pixel(gpu, [](float* color, FirstHit&) { color[0] += 0.3f; });
+  gpu.color.pixel(0, 0)[0] -= 0.3f;  // so that the first thousands leave out the edges' columns
+  const ReferenceComparison comparison = compared(gpu);
+  CHECK_FALSE(comparison.colors.passes());
+  CHECK(comparison.first_hits.passes());
+  CHECK(comparison.counts.passes());
+  CHECK(comparison.first_hits.explained[size_t(Cause::silhouette)] == edge_pixels);
+}
+
 TEST_CASE("noise cannot hide: pixels beyond the cap are not even looked into, and fail") {
   Frame gpu = honest_frame();
   for_each_pixel(gpu, [](float* color, FirstHit& hit) { color[0] += hit.primitive == 0 ? 1e-3f : 0.0f; });
