@@ -69,7 +69,7 @@ eyeray_verify(mode.brute-force mode ${searched} --acceleration brute-force)
 # Without a BVH a ray hits each triangle as often as it is shown: more rays in a row, or patches, are more loops than Mesa 22.3.6 grants.
 eyeray_verify(mode.brute-force.groups mode scenes/group_instances.toml -s 48x36 --acceleration brute-force --max-depth 0)
 eyeray_verify(mode.splits mode ${searched} ${groups} --acceleration bvh --splits)
-eyeray_verify(mode.profile-gpu mode ${views} scenes/shapes/polygon.toml scenes/shapes/torus.toml --profile gpu)
+eyeray_verify(mode.profile-gpu mode ${views} scenes/shapes/polygon.toml scenes/shapes/torus.toml scenes/edges/twisted.toml --profile gpu)
 eyeray_verify(mode.packets mode ${small} --acceleration bvh --no-constants --rays packets)
 set(bounces scenes/sphereflake.toml scenes/cornell.toml scenes/textures.toml)
 eyeray_verify(mode.cooperative mode QUICK ${bounces} -s 48x36 --acceleration bvh --no-constants --rays packets --incoherent cooperative)
@@ -131,3 +131,8 @@ eyeray_verify(validation.core validation ${set} ${SHAPE_SCENES} --validate core)
 eyeray_verify(validation.core.no-constants validation ${set} ${SHAPE_SCENES} --validate core --no-constants)
 eyeray_verify(validation.sync validation QUICK ${set} --validate sync)
 eyeray_verify(validation.sync.no-constants validation ${set} --validate sync --no-constants)
+
+# Mutants of the shaders, three that gates B and C tell (docs/verification.md, mutants).
+add_test(NAME mutate COMMAND python3 scripts/mutate --files math/rng.glsl --count 3 --jobs 1 --least 1 --eyeray $<TARGET_FILE:eyeray>
+  WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+set_tests_properties(mutate PROPERTIES LABELS "scene;full" TIMEOUT 3600)
