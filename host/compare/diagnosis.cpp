@@ -1,4 +1,6 @@
 // Where a fault is to be looked for, from which executors part and at which value.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "host/compare/report.hpp"

@@ -1,6 +1,7 @@
 // What is said of several scenes: a table, JUnit's XML, GitHub's annotations.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "host/compare/report.hpp"

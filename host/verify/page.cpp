@@ -1,5 +1,7 @@
 #include "host/verify/page.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
