@@ -106,6 +106,54 @@ TEST_CASE("every fault on the GPU's side is noticed, with its reason") {
   CHECK(std::ranges::count(unknown.err, ',') == std::ranges::count(all, ','));
 }
 
+TEST_CASE("what could not be finished fails, and GPU and twin say it of as many pixels") {
+  const TemporaryFolder folder;
+  const std::string start =
+      "[camera]\neye = [0, 0, 6]\n[[light]]\ntype = 'directional'\ndirection = [-1, -1, -1]\n";
+  write_text(folder / "media.toml", start + R"(
+[[material]]
+name = "glass"
+type = "dielectric"
+ior = 1.1
+[[sphere]]
+center = [0, 0, 0]
+batch = { radius = [1.5, 1.2, 0.9, 0.6, 0.3] }
+material = "glass"
+)");
+  // No number on one side of a ball.
+  write_text(folder / "march.toml", start + R"(
+[[material]]
+name = "red"
+type = "phong"
+[[implicit]]
+code = """
+float f(vec3 p) { return p.x > 0.0 ? sqrt(-1.0 - p.y * p.y) : length(p) - 0.9; }
+"""
+lipschitz = 1
+min = [-1, -1, -1]
+max = [1, 1, 1]
+material = "red"
+)");
+  struct Unfinished {
+    const char* name;
+    const char* reason;
+  };
+  for (const Unfinished& scene : {Unfinished{"media.toml", "more than four media nested"},
+                                  {"march.toml", "a shape was not found in the steps allowed"}}) {
+    const ProcessResult result = verify(folder, "", {folder / scene.name});
+    CAPTURE(result.out);
+    CHECK(result.code == 1);
+    const auto said_by = [&](const std::string& who) {
+      const size_t at = result.out.find("\n  " + who + ": ");
+      return at == std::string::npos ? who
+                                     : result.out.substr(at + who.size() + 5,
+                                                         result.out.find('\n', at + 1) - at - who.size() - 5);
+    };
+    CHECK(said_by("gpu").ends_with(scene.reason));
+    CHECK(said_by("gpu") == said_by("twin"));
+  }
+}
+
 TEST_CASE("compare answers 1 to pictures of another size, too different, or not a number") {
   const TemporaryFolder folder;
   Image picture(8, 6, 3);
