@@ -26,24 +26,13 @@ struct Fault {
   std::vector<std::string> scene = {"scenes/whitted.toml"};
 };
 
-}  // namespace
-
-TEST_CASE("without a fault verify passes and keeps nothing") {
-  const TemporaryFolder folder;
-  const ProcessResult result = verify(folder, "");
-  CAPTURE(result.out);
-  CAPTURE(result.err);
-  CHECK(result.code == 0);
-  CHECK(result.out.starts_with("PASSED scenes/whitted.toml"));
-  CHECK(folder.names().empty());
-}
-
-TEST_CASE("every fault on the GPU's side is noticed, with its reason") {
+// All faults that there are.
+std::vector<Fault> faults() {
   const char* bits = "gate A: gpu and twin";
   const char* colors = "gate B: gpu against the reference, colours";
   const char* first_hits = "gate C: gpu against the reference, first hits";
   const char* counts = "gate C: gpu against the reference, surfaces and rays";
-  const Fault faults[] = {
+  return {
       {"near_root", {bits, counts, colors}},
       {"edge", {bits, first_hits, counts, colors, "parts at primitive"}},
       {"position", {bits, first_hits, "parts at position"}},
@@ -76,82 +65,59 @@ TEST_CASE("every fault on the GPU's side is noticed, with its reason") {
        {" incomplete pixels: a shape was not found in the steps allowed", bits},
        {"scenes/shapes/superellipsoid.toml"}},
   };
-  std::string all;
-  for (const Fault& fault : faults) {
-    CAPTURE(fault.name);
-    const TemporaryFolder folder;
-    const ProcessResult result = verify(folder, fault.name, fault.scene);
-    CAPTURE(result.out);
-    CAPTURE(result.err);
-    CHECK(result.code == 1);
-    CHECK(result.out.starts_with("FAILED " + fault.scene[0]));
-    for (const char* reason : fault.reasons) {
-      CAPTURE(reason);
-      CHECK(result.out.find(reason) != std::string::npos);
-    }
-    CHECK(result.out.find("twin against the reference") == std::string::npos);
-    CHECK(read_text(folder / "kept/command.txt").find(fault.name) != std::string::npos);
-    const std::string causes = read_text(folder / "kept/gpu-causes.json");
-    if (std::string(fault.reasons.back()).find("gate B") != std::string::npos)
-      CHECK(causes.find("unexplained") != std::string::npos);
+}
+
+// Verifies a scene with the fault, and looks for what the report must say.
+void expect_noticed(const Fault& fault) {
+  CAPTURE(fault.name);
+  const TemporaryFolder folder;
+  const ProcessResult result = verify(folder, fault.name, fault.scene);
+  CAPTURE(result.out);
+  CAPTURE(result.err);
+  CHECK(result.code == 1);
+  CHECK(result.out.starts_with("FAILED " + fault.scene[0]));
+  for (const char* reason : fault.reasons) {
+    CAPTURE(reason);
+    CHECK(result.out.find(reason) != std::string::npos);
+  }
+  CHECK(result.out.find("twin against the reference") == std::string::npos);
+  CHECK(read_text(folder / "kept/command.txt").find(fault.name) != std::string::npos);
+  const std::string causes = read_text(folder / "kept/gpu-causes.json");
+  if (std::string(fault.reasons.back()).find("gate B") != std::string::npos)
+    CHECK(causes.find("unexplained") != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("without a fault verify passes and keeps nothing") {
+  const TemporaryFolder folder;
+  const ProcessResult result = verify(folder, "");
+  CAPTURE(result.out);
+  CAPTURE(result.err);
+  CHECK(result.code == 0);
+  CHECK(result.out.starts_with("PASSED scenes/whitted.toml"));
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("a fault in geometry, in packing and in one bit are noticed, each with its reason") {
+  for (const Fault& fault : faults())
+    for (const char* name : {"edge", "near_light", "bit"})
+      if (fault.name == name) expect_noticed(fault);
+}
+
+TEST_CASE("every fault on the GPU's side is noticed, with its reason, and is in the documents" *
+          doctest::test_suite("long")) {
+  for (const Fault& fault : faults()) {
+    expect_noticed(fault);
     CHECK(read_text("docs/verification.md").find(fmt::format("\n| `{}` | ", fault.name)) !=
           std::string::npos);
-    all += (all.empty() ? "" : ", ") + fault.name;
   }
   // There are no others.
   const TemporaryFolder folder;
   const ProcessResult unknown = verify(folder, "none");
   CHECK(unknown.code == 2);
-  for (const Fault& fault : faults) CHECK(unknown.err.find(fault.name) != std::string::npos);
-  CHECK(std::ranges::count(unknown.err, ',') == std::ranges::count(all, ','));
-}
-
-TEST_CASE("what could not be finished fails, and GPU and twin say it of as many pixels") {
-  const TemporaryFolder folder;
-  const std::string start =
-      "[camera]\neye = [0, 0, 6]\n[[light]]\ntype = 'directional'\ndirection = [-1, -1, -1]\n";
-  write_text(folder / "media.toml", start + R"(
-[[material]]
-name = "glass"
-type = "dielectric"
-ior = 1.1
-[[sphere]]
-center = [0, 0, 0]
-batch = { radius = [1.5, 1.2, 0.9, 0.6, 0.3] }
-material = "glass"
-)");
-  // No number on one side of a ball.
-  write_text(folder / "march.toml", start + R"(
-[[material]]
-name = "red"
-type = "phong"
-[[implicit]]
-code = """
-float f(vec3 p) { return p.x > 0.0 ? sqrt(-1.0 - p.y * p.y) : length(p) - 0.9; }
-"""
-lipschitz = 1
-min = [-1, -1, -1]
-max = [1, 1, 1]
-material = "red"
-)");
-  struct Unfinished {
-    const char* name;
-    const char* reason;
-  };
-  for (const Unfinished& scene : {Unfinished{"media.toml", "more than four media nested"},
-                                  {"march.toml", "a shape was not found in the steps allowed"}}) {
-    const ProcessResult result = verify(folder, "", {folder / scene.name});
-    CAPTURE(result.out);
-    CHECK(result.code == 1);
-    const auto said_by = [&](const std::string& who) {
-      const size_t at = result.out.find("\n  " + who + ": ");
-      return at == std::string::npos ? who
-                                     : result.out.substr(at + who.size() + 5,
-                                                         result.out.find('\n', at + 1) - at - who.size() - 5);
-    };
-    CHECK(said_by("gpu").ends_with(scene.reason));
-    CHECK(said_by("gpu") == said_by("twin"));
-  }
+  for (const Fault& fault : faults()) CHECK(unknown.err.find(fault.name) != std::string::npos);
+  CHECK(std::ranges::count(unknown.err, ',') + 1 == std::ptrdiff_t(faults().size()));
 }
 
 TEST_CASE("compare answers 1 to pictures of another size, too different, or not a number") {
