@@ -225,9 +225,10 @@ void add_verify(CLI::App& app, Run& run) {
       ->option_text("DIR");
   command->add_option("--junit", options->junit, "Write the report as JUnit's XML, too; its folder is made.")
       ->option_text("FILE");
-  command->add_flag(
-      "--github", options->github,
-      "Print failures as annotations for GitHub Actions, and add a table to the step's summary.");
+  command
+      ->add_flag("--github", options->github,
+                 "Print failures as annotations for GitHub Actions, and add a table to the step's summary.")
+      ->excludes("--json");
   command
       ->add_option("--allow-unverified", options->may_stay_unverified,
                    "A scene of several that may fail to render. May be repeated.")

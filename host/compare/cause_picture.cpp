@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -17,31 +18,21 @@ struct Class {
   uint32_t color;  // sRGB, 0xrrggbb
 };
 
+constexpr std::pair<Cause, uint32_t> colors[] = {
+    {Cause::silhouette, 0x0072b2},  {Cause::texture_edge, 0x56b4e9}, {Cause::refraction_branch, 0xcc79a7},
+    {Cause::shadow_edge, 0xf0e442}, {Cause::rounding, 0x009e73},     {Cause::crease, 0xe69f00},
+    {Cause::grazing, 0xd55e00},     {Cause::undecidable, 0xffffff},
+};
+static_assert(std::size(colors) == cause_count);
+
 // Of a pixel that does not match.
 std::optional<Class> class_of(const PixelOutcome& pixel) {
   if (pixel.outcome == Outcome::unexamined) return Class{"unexamined", 0x800000};
   if (pixel.outcome == Outcome::unexplained) return Class{"unexplained", 0xff0000};
   if (pixel.outcome != Outcome::explained) return std::nullopt;
-  const auto colored = [&](uint32_t color) { return Class{name(pixel.cause), color}; };
-  switch (pixel.cause) {
-    case Cause::silhouette:
-      return colored(0x0072b2);
-    case Cause::texture_edge:
-      return colored(0x56b4e9);
-    case Cause::refraction_branch:
-      return colored(0xcc79a7);
-    case Cause::shadow_edge:
-      return colored(0xf0e442);
-    case Cause::rounding:
-      return colored(0x009e73);
-    case Cause::crease:
-      return colored(0xe69f00);
-    case Cause::grazing:
-      return colored(0xd55e00);
-    case Cause::undecidable:
-      return colored(0xffffff);
-  }
-  return std::nullopt;
+  const auto color = std::ranges::find(colors, pixel.cause, &std::pair<Cause, uint32_t>::first);
+  CHECK(color != std::end(colors));
+  return Class{name(pixel.cause), color->second};
 }
 
 }  // namespace
@@ -52,7 +43,7 @@ Image cause_picture(const Image& background, const std::vector<PixelOutcome>& ou
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       const auto found = class_of(outcomes[size_t(y) * size_t(picture.width()) + size_t(x)]);
-      const double grey = 0.2 * glm::dot(color_at(background, x, y), Vec3(0.2126, 0.7152, 0.0722));
+      const double grey = 0.2 * glm::dot(color_at(background, x, y), luma_weights);
       for (int c = 0; c < 3; ++c)
         picture.pixel(x, y)[c] =
             float(found ? linear_from_srgb(double(found->color >> (16 - 8 * c) & 255) / 255) : grey);

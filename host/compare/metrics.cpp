@@ -36,7 +36,7 @@ Plane luma(const Image& image) {
   Plane plane(image.width(), image.height());
   parallel_for(0, image.height(), [&](int y) {
     for (int x = 0; x < image.width(); ++x) {
-      plane.at(x, y) = glm::dot(encoded(color_at(image, x, y)), Vec3(0.2126, 0.7152, 0.0722));
+      plane.at(x, y) = glm::dot(encoded(color_at(image, x, y)), luma_weights);
     }
   });
   return plane;

@@ -20,7 +20,13 @@ size_t line_start(const std::string& text, uint32_t line) {
 
 std::string with_value(std::string text, const std::string& table, const std::string& key,
                        const std::string& value) {
-  const toml::table root = toml::parse(text);
+  toml::table root;
+  try {
+    root = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw Error(ExitCode::bad_input, "{} = {} cannot be written into what is no scene: {}", key, value,
+                error.description());
+  }
   const toml::table* const found = root[table].as_table();
   if (!found) {
     if (!text.empty() && !text.ends_with('\n')) text += '\n';

@@ -7,8 +7,8 @@
 namespace eyeray::loader {
 
 // Writes `key = value` of [table] into the scene file: over the value that stands there, or as a new line.
-// InputError where the file is no TOML; Error (bad_input) where the value stands so that it cannot be found,
-// Error (file_io) where the file cannot be read or written. It is replaced whole or not at all.
+// Error (bad_input) where the file is no TOML or the value stands so that it cannot be found, Error (file_io)
+// where the file cannot be read or written. It is replaced whole or not at all.
 void set_value(const std::filesystem::path& file, const std::string& table, const std::string& key,
                const std::string& value);
 

@@ -1,13 +1,11 @@
 #include "host/loader/suite.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <set>
 
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/loader/sections.hpp"
+#include "host/loader/toml_file.hpp"
 
 namespace fs = std::filesystem;
 
@@ -21,16 +19,18 @@ std::vector<fs::path> included_by(const fs::path& scene) {
     if (const auto name = node.value<std::string>())
       files.push_back(fs::weakly_canonical(scene.parent_path() / *name));
   };
+  toml::table tree;
   try {
-    const toml::table tree = toml::parse(read_file(scene));
-    const toml::node* const include = tree.get(include_key);
-    if (!include) return files;
-    add(*include);
-    if (const toml::array* list = include->as_array())
-      for (const toml::node& node : *list) add(node);
-  } catch (const toml::parse_error&) {
+    DiagnosticLog log;
+    TreeBudget budget;
+    tree = parse_toml(read_scene_text(scene), scene.string(), budget, log);
   } catch (const Error&) {
   }
+  const toml::node* const include = tree.get(include_key);
+  if (!include) return files;
+  add(*include);
+  if (const toml::array* list = include->as_array())
+    for (const toml::node& node : *list) add(node);
   return files;
 }
 

@@ -39,6 +39,12 @@ TEST_CASE("verify takes a folder: every scene in it and below, and no part of an
   CHECK(verify({"--allow-unverified", folder / "bad.toml"}).code == 0);
   CHECK(verify({"--allow-unverified", folder / "none.toml"}).code == 2);
 
+  // Nor does one that no stack could follow end the program.
+  write_text(folder / "deep.toml", "a = " + std::string(200'000, '['));
+  CHECK(verify({}).out.find("failed  " + (folder / "deep.toml")) != std::string::npos);
+  std::filesystem::remove(folder / "deep.toml");
+  CHECK(verify({"--json", "--github"}).code == 2);
+
   // Alone, it is the error that it is; a folder without scenes is one, too.
   CHECK(run_eyeray({"verify", folder / "bad.toml"}).code == 2);
   std::filesystem::create_directories(folder / "empty");

@@ -36,6 +36,10 @@ TEST_CASE("a value that is not there is a new line of its table, or a new table 
   CHECK(parse_scene(edited("[image]\nwidth = 8\n[verify]\n"), "scene.toml").verify.max_explained == 0.00042);
 }
 
+TEST_CASE("what is no TOML is told, and not touched") {
+  CHECK_THROWS_AS(edited("v 1 2 3\nf 1 2 3\n"), Error);
+}
+
 TEST_CASE("a table that has no line of its own is left to its author") {
   CHECK_THROWS_WITH_AS(edited("verify = {}\n"),
                        "write max_explained = 0.00042 into `verify` by hand: it is no table with a line of "
