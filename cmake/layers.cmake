@@ -16,19 +16,21 @@ if(EYERAY_FUZZ)
 endif()
 
 # What most files include is parsed once for each set of options. In the release build only: the others see to it that a file
-# includes what it uses. eyeray_precompiled(TARGET [OPTION …]), options such as -O0 where the target has some of its own.
+# includes what it uses. eyeray_precompiled(TARGET [OPTIONS -O0 …] [HEADERS …] [LINK …]): a target's own options, what its files
+# include beside, and the libraries that have it.
 function(eyeray_precompiled target)
   if(NOT EYERAY_PRECOMPILED)
     return()
   endif()
-  string(REPLACE ";" "" owner "precompiled${ARGN}")
+  cmake_parse_arguments(arg "" "" "OPTIONS;HEADERS;LINK" ${ARGN})
+  string(REPLACE ";" "" owner "headers${arg_OPTIONS}")
   if(NOT TARGET ${owner})
     file(CONFIGURE OUTPUT ${owner}.cpp CONTENT "")
     add_library(${owner} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${owner}.cpp)
-    target_link_libraries(${owner} PRIVATE eyeray_warnings fmt::fmt glm::glm)
-    target_compile_options(${owner} PRIVATE ${ARGN})
+    target_link_libraries(${owner} PRIVATE eyeray_warnings fmt::fmt glm::glm ${arg_LINK})
+    target_compile_options(${owner} PRIVATE ${arg_OPTIONS})
     target_precompile_headers(${owner} PRIVATE <algorithm> <array> <atomic> <cmath> <filesystem> <fstream> <functional> <map> <memory>
-      <optional> <set> <span> <string> <string_view> <variant> <vector> <fmt/format.h> <fmt/ranges.h> <glm/glm.hpp>)
+      <optional> <set> <span> <string> <string_view> <variant> <vector> <fmt/format.h> <fmt/ranges.h> <glm/glm.hpp> ${arg_HEADERS})
   endif()
   target_precompile_headers(${target} REUSE_FROM ${owner})
 endfunction()

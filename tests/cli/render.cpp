@@ -94,7 +94,8 @@ TEST_CASE("AOVs hold what the eye rays hit") {
 
 TEST_CASE(
     "where steps run out a warning counts the pixels, and an AOV shows them: all that are wrong, also in "
-    "shadow") {
+    "shadow" *
+    doctest::test_suite("long")) {
   const SceneFolder folder;
   const auto render = [&](const std::string& name, std::vector<std::string> options) {
     options.insert(options.begin(), {"render", "scenes/shapes/superellipsoid.toml", "-s", "120x80", "--json",

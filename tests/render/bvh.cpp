@@ -154,7 +154,7 @@ TEST_CASE("10 000 hard scenes on the twin: the BVH finds what brute force finds,
 }
 
 TEST_CASE("hard scenes on the GPU: a BVH finds what the twin finds by brute force, whatever the profile") {
-  hard_scenes_on_the_gpu(8);
+  hard_scenes_on_the_gpu(3);
 }
 
 TEST_CASE("hard scenes on the GPU: many more" * doctest::test_suite("long")) {

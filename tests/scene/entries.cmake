@@ -25,7 +25,7 @@ set(EDGES ${SCENES})
 list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
 list(FILTER EDGES EXCLUDE REGEX "/(formulas|intervals)")
 set(quick ${SCENES})
-list(FILTER quick EXCLUDE REGEX "^scenes/edges/|/(gallery|group_shapes|mandelbulb|sculpture)")
+list(FILTER quick EXCLUDE REGEX "^scenes/edges/|/(gallery|group_shapes|mandelbulb|sculpture|shapes/csg|shapes/implicit)")
 eyeray_verify(scenes.small scene QUICK ${quick} -s 48x36)
 eyeray_verify(scenes.edges scene QUICK ${EDGES})
 
