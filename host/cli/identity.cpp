@@ -1,24 +1,12 @@
 #include "host/cli/identity.hpp"
 
-#include "host/core/atomic_file.hpp"
+#include <array>
+
 #include "host/core/content_hash.hpp"
 
 namespace fs = std::filesystem;
 
 namespace eyeray::cli {
-namespace {
-
-// Of the contents; where the files lie does not matter.
-std::string hash_of(const std::vector<fs::path>& files) {
-  ContentHash hash;
-  for (const fs::path& file : files) {
-    std::error_code ignored;
-    if (fs::is_regular_file(file, ignored)) hash.add(read_file(file));
-  }
-  return hash.hex();
-}
-
-}  // namespace
 
 std::vector<render::IdentityPart> identity_of(const PictureRequest& request, const Scene& scene,
                                               const executors::Executor& executor) {
@@ -32,14 +20,14 @@ std::vector<render::IdentityPart> identity_of(const PictureRequest& request, con
       {"backend", std::string(executors::backend_name(request.backend))},
       // The processors' executors compute the same wherever the same program runs.
       {"device", gpu ? executor.description() : "none"},
-      {"scene", hash_of(scene.files), false},
+      {"scene", hash_of_files(scene.files), false},
       {"options laid over the scene", ContentHash().add(request.scene.as_written()).hex(), false},
-      {"shaders of --shaders", hash_of(executor.source_files()), false},
+      {"shaders of --shaders", hash_of_files(executor.source_files()), false},
       {"--fast-math", request.executor.fast_math ? "on" : "off"},
       {"--inject-fault", request.executor.fault},
       {"--band-memory", std::to_string(request.long_render.band_mebibytes)},
       {"version of eyeray", EYERAY_VERSION},
-      {"build of eyeray", hash_of({"/proc/self/exe"}), false},
+      {"build of eyeray", hash_of_files(std::array{fs::path("/proc/self/exe")}), false},
   };
 }
 

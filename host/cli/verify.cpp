@@ -33,6 +33,8 @@ struct Command {
   verify::Page page;
   bool github = false;
   std::vector<std::string> may_stay_unverified;
+  std::string against;
+  verify::Update update = verify::Update::never;
   std::vector<std::string> files = {};  // the scenes
 
   ExitCode run();
@@ -41,7 +43,10 @@ struct Command {
   void record_allowance(const compare::Report& report) const;
   void write_reports(std::span<const compare::Report> reports) const;
   compare::Report report_on(const SceneOptions& scene_file) const;
+  std::string name_in_folder(const std::string& scene) const;
   fs::path folder_for(const std::string& scene) const;
+  std::optional<verify::Golden> golden_of(const std::string& scene) const;
+  void check_options() const;
 };
 
 // "gpu,twin".
@@ -60,13 +65,26 @@ std::vector<executors::Backend> parse_backends(const std::string& list) {
   return backends;
 }
 
-fs::path Command::folder_for(const std::string& scene) const {
+// Two folders may have a scene of one name.
+std::string Command::name_in_folder(const std::string& scene) const {
   const fs::path file = fs::path(scene).lexically_normal();
-  if (files.size() == 1) return keep.empty() ? file.stem().string() + ".verify" : keep;
-  // Two folders may have a scene of one name.
   std::string name = fs::path(file).replace_extension("").relative_path().string();
   std::ranges::replace(name, '/', '-');
+  return name;
+}
+
+fs::path Command::folder_for(const std::string& scene) const {
+  if (files.size() == 1) return keep.empty() ? fs::path(scene).stem().string() + ".verify" : keep;
+  const std::string name = name_in_folder(scene);
   return keep.empty() ? fs::path(name + ".verify") : fs::path(keep) / name;
+}
+
+// In a folder, FOLDER/scenes-whitted.pfm.
+std::optional<verify::Golden> Command::golden_of(const std::string& scene) const {
+  if (against.empty()) return std::nullopt;
+  const bool is_picture = fs::path(against).extension() == ".pfm";
+  return verify::Golden{is_picture ? fs::path(against) : fs::path(against) / (name_in_folder(scene) + ".pfm"),
+                        update, EYERAY_VERSION};
 }
 
 // Every scene that was named, or lies in a folder that was.
@@ -89,9 +107,9 @@ void Command::find_files() {
 compare::Report Command::report_on(const SceneOptions& scene_file) const {
   const Scene scene = scene_file.load();
   check_crop(options.crop, scene.image);
-  return verify::verify_scene(
-      {scene, scene_file.file(), scene_file.as_written(), folder_for(scene_file.file()), keep_passed},
-      options);
+  return verify::verify_scene({scene, scene_file.file(), scene_file.as_written(),
+                               folder_for(scene_file.file()), keep_passed, golden_of(scene_file.file())},
+                              options);
 }
 
 // One of several: that it cannot be rendered is no reason to leave out the others.
@@ -134,6 +152,17 @@ void Command::write_reports(std::span<const compare::Report> reports) const {
   }
 }
 
+// What CLI11 cannot tell.
+void Command::check_options() const {
+  if (update != verify::Update::never && against.empty())
+    throw Error(ExitCode::bad_input, "--update needs --against: which picture is to be updated?");
+  if (update != verify::Update::never && options.crop.pixels() > 0)
+    throw Error(ExitCode::bad_input, "--update stores whole pictures: leave out --crop");
+  if (fs::path(against).extension() == ".pfm" && files.size() > 1)
+    throw Error(ExitCode::bad_input, "--against {}: {} scenes need a folder of pictures", against,
+                files.size());
+}
+
 ExitCode Command::run() {
   if (record) {
     const std::string changed = scene_options.as_written();
@@ -144,6 +173,7 @@ ExitCode Command::run() {
   }
   options.progress = [this] { return progress_reporter(quiet); };
   find_files();
+  check_options();
   if (!page_folder.empty()) {
     fs::create_directories(page_folder);
     check_writable(fs::path(page_folder) / "index.html");
@@ -202,6 +232,16 @@ void add_verify(CLI::App& app, Run& run) {
           "what the scene's [verify] says.")
       ->option_text("SHARE")
       ->check(within(0, most_explained));
+  command
+      ->add_option("--against", options->against,
+                   "A golden picture, .pfm, that the scene's must equal too; or a folder of them.")
+      ->option_text("FILE");
+  command
+      ->add_flag("--update{failing}", options->update,
+                 "Where nothing else fails, store the scene's picture as the golden one: of scenes that "
+                 "differ from it or have none; with =force, of all.")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, verify::Update>{
+          {"failing", verify::Update::failing}, {"force", verify::Update::all}}));
   command->add_flag("--record", options->record,
                     "Where nothing else fails, write twice the share that is explained into the scene's "
                     "[verify].");

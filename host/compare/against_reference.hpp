@@ -57,6 +57,9 @@ inline constexpr TallyType tally_types[] = {
     {"B", "colours", &ReferenceComparison::colors},
 };
 
+// What gate G looks at of one whose value is a golden picture (report.hpp).
+inline constexpr TallyType golden_type{"G", "colours", &ReferenceComparison::colors};
+
 // `outcomes`, where it is asked for: of every pixel, row by row, the worst of its tallies.
 ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference, const Reference& probe,
                                            const Tolerances& tolerances = {},

@@ -86,6 +86,9 @@ std::string Report::diagnosis() const {
   if (passes() || !not_verified.empty()) return "";
   for (const ExactResult& result : exact)
     if (!result.comparison.incomparable.empty()) return "";
+  if (own_gates_pass())
+    return "the scene's own gates pass: what it should look like has changed, in the scene or in how all "
+           "executors see it; --update keeps the new picture";
   std::string text = side(*this);
   for (const ReferenceResult& result : against_reference) {
     const std::string found = place(result);

@@ -11,14 +11,13 @@ namespace {
 
 // "gate B: gpu against the reference, colours: 14 of 6912 pixels differ unexplained; the worst is 3,4, which
 // parts at t".
-void add_failures(std::vector<std::string>& failures, const std::string& value, const TallyType& type,
+void add_failures(std::vector<std::string>& failures, const std::string& sides, const TallyType& type,
                   const Tally& tally) {
   const auto add = [&](int64_t count, const std::string& what) {
     if (count <= 0) return;
     failures.push_back(
-        fmt::format("gate {}: {} against the reference, {}: {} of {} pixels differ {}; the worst is {},{}, "
-                    "which parts at {}",
-                    type.gate, value, type.of, count, tally.pixels, what, tally.worst.pixel.x,
+        fmt::format("gate {}: {}, {}: {} of {} pixels differ {}; the worst is {},{}, which parts at {}",
+                    type.gate, sides, type.of, count, tally.pixels, what, tally.worst.pixel.x,
                     tally.worst.pixel.y, name(tally.worst.seam)));
   };
   add(tally.unexplained + tally.unexamined, "unexplained");
@@ -67,9 +66,23 @@ std::vector<std::string> Report::failures() const {
       failures.push_back(fmt::format("gate B: {} against the reference: {}", result.value, c.incomparable));
       continue;
     }
-    for (const TallyType& type : tally_types) add_failures(failures, result.value, type, c.*type.tally);
+    for (const TallyType& type : tally_types)
+      add_failures(failures, result.value + " against the reference", type, c.*type.tally);
+  }
+  if (golden && !golden->passes()) {
+    if (!golden->incomparable.empty())
+      failures.push_back(fmt::format("gate G: {}: {}", golden->file, golden->incomparable));
+    else
+      add_failures(failures, golden->value + " against " + golden->file, golden_type, golden->colors);
+    if (!golden->refused.empty()) failures.back() += "; it was not updated: " + golden->refused;
   }
   return failures;
+}
+
+bool Report::own_gates_pass() const {
+  Report own = *this;
+  own.golden.reset();
+  return own.passes();
 }
 
 std::optional<double> Report::healthy_allowance() const {
@@ -102,6 +115,7 @@ std::optional<Pixel> Report::pixel_to_look_at() const {
       if (!tally.passes()) return tally.worst.pixel;
     }
   }
+  if (golden && golden->incomparable.empty() && !golden->passes()) return golden->colors.worst.pixel;
   return std::nullopt;
 }
 

@@ -41,6 +41,20 @@ struct ReferenceResult {
       metrics;  // absent where the pictures could not be compared; max_at in the whole picture
 };
 
+// Gate G: a golden picture against the first executor's.
+struct GoldenResult {
+  std::string file;
+  std::string value;         // the executor
+  std::string incomparable;  // why nothing was compared; empty when everything was
+  Tally colors;              // the golden picture's, as if the executor's were the reference
+  std::optional<Metrics> metrics;
+  std::vector<std::string> changed;  // what the picture was made of and is no more: "scene hash", "executor"
+  bool updated = false;              // whether the executor's picture has taken its place since
+  std::string refused;               // why it has not, though asked for
+
+  bool passes() const { return updated || (incomparable.empty() && colors.passes()); }
+};
+
 struct Report {
   // Why there was nothing to compare, where a scene of several could not be rendered; else empty.
   std::string not_verified;
@@ -54,6 +68,7 @@ struct Report {
   std::vector<Participant> participants;
   std::vector<ExactResult> exact;
   std::vector<ReferenceResult> against_reference;
+  std::optional<GoldenResult> golden;
   // What indices in first hits stand for, by `sphere "left eye", scene.toml:12`; those that a report names.
   std::map<int32_t, std::string> primitives, materials;
   std::string kept;  // the folder where the evidence lies; empty when nothing was kept
@@ -61,6 +76,8 @@ struct Report {
   // Everything that fails, a sentence each, the deepest cause first; empty when the scene passes.
   std::vector<std::string> failures() const;
   bool passes() const { return failures().empty(); }
+  // Whether all passes but gate G, which compares with what the scene once was.
+  bool own_gates_pass() const;
   // "passed", "failed", or "skipped", of what may stay unverified and did.
   std::string_view verdict() const;
   // Where to look for the fault, a sentence: the first value that differs, and on whose side. Empty where

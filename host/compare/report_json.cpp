@@ -91,6 +91,18 @@ Json json(const ReferenceResult& result) {
   return object;
 }
 
+Json json(const GoldenResult& result) {
+  Json object = {{"file", result.file},       {"value", result.value},     {"passed", result.passes()},
+                 {"changed", result.changed}, {"updated", result.updated}, {"refused", result.refused}};
+  if (!result.incomparable.empty()) {
+    object["incomparable"] = result.incomparable;
+    return object;
+  }
+  object["colors"] = json(result.colors);
+  if (result.metrics) object["metrics"] = metrics_json(*result.metrics);
+  return object;
+}
+
 template <typename Item>
 Json list(const std::vector<Item>& items) {
   Json array = Json::array();
@@ -123,6 +135,7 @@ Json json(const Report& report) {
           {"executors", list(report.participants)},
           {"gate_a", list(report.exact)},
           {"gates_b_c", list(report.against_reference)},
+          {"gate_g", report.golden ? json(*report.golden) : Json()},
           {"primitives", json(report.primitives)},
           {"materials", json(report.materials)},
           {"look_closer", report.command_to_look()},

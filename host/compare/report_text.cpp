@@ -60,16 +60,16 @@ void add_worst(std::string& text, const Report& report, const WorstPixel& worst,
   side(reference, worst.reference, worst.reference_counts, worst.reference_hit);
 }
 
-void add_tally(std::string& text, const Report& report, const std::string& value, const TallyType& type,
-               const Tally& tally) {
-  line(text, "  gate {} {} {} = reference, {}: {} equal, {} matching, {}, {} unexplained", type.gate,
-       tally.passes() ? "passed" : "FAILED", value, type.of, tally.equal, tally.matching, explained(tally),
-       tally.unexplained);
+void add_tally(std::string& text, const Report& report, const std::string& value,
+               const std::string& reference, const TallyType& type, const Tally& tally) {
+  line(text, "  gate {} {} {} = {}, {}: {} equal, {} matching, {}, {} unexplained", type.gate,
+       tally.passes() ? "passed" : "FAILED", value, reference, type.of, tally.equal, tally.matching,
+       explained(tally), tally.unexplained);
   if (tally.unexamined > 0) {
     line(text, "    {} more differ and were not examined: at most {} may be explained", tally.unexamined,
          tally.may_be_explained);
   }
-  if (!tally.passes()) add_worst(text, report, tally.worst, value, "reference", "tolerances");
+  if (!tally.passes()) add_worst(text, report, tally.worst, value, reference, "tolerances");
 }
 
 void add(std::string& text, const Report& report, const ExactResult& result) {
@@ -82,8 +82,18 @@ void add(std::string& text, const Report& report, const ExactResult& result) {
 
 void add(std::string& text, const Report& report, const ReferenceResult& result) {
   for (const TallyType& type : tally_types)
-    add_tally(text, report, result.value, type, result.comparison.*type.tally);
+    add_tally(text, report, result.value, "reference", type, result.comparison.*type.tally);
   if (result.metrics) line(text, "    {}", to_text(*result.metrics));
+}
+
+void add(std::string& text, const Report& report, const GoldenResult& result) {
+  if (result.incomparable.empty()) {
+    add_tally(text, report, "golden", result.value, golden_type, result.colors);
+    if (result.metrics) line(text, "    {}", to_text(*result.metrics));
+  }
+  if (!result.changed.empty())
+    line(text, "    since the golden picture was made have changed: {}", fmt::join(result.changed, ", "));
+  if (result.updated) line(text, "  updated {}", result.file);
 }
 
 // Whether gate A found every bit of this executor equal to the first one's, so that there is nothing new to
@@ -147,6 +157,7 @@ std::string to_text(const Report& report) {
       add(text, report, result);
     }
   }
+  if (report.golden) add(text, report, *report.golden);
 
   // What to do next.
   if (const std::string command = report.command_to_look(); !command.empty())

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "host/core/atomic_file.hpp"
+
 namespace eyeray {
 
 ContentHash& ContentHash::add(std::span<const std::byte> bytes) {
@@ -22,6 +24,15 @@ void ContentHash::add_byte(uint8_t byte) {
 
 std::string ContentHash::hex() const {
   return fmt::format("{:016x}{:016x}", high_, low_);
+}
+
+std::string hash_of_files(std::span<const std::filesystem::path> files) {
+  ContentHash hash;
+  for (const std::filesystem::path& file : files) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(file, ignored)) hash.add(read_file(file));
+  }
+  return hash.hex();
 }
 
 }  // namespace eyeray

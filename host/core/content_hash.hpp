@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,5 +26,9 @@ class ContentHash {
   uint64_t high_ = 0x6c62272e07bb0142;
   uint64_t low_ = 0x62b821756295c58d;
 };
+
+// Of the contents of files, wherever they lie; those that are none count for nothing. Error (file_io) when one
+// cannot be read.
+std::string hash_of_files(std::span<const std::filesystem::path> files);
 
 }  // namespace eyeray

@@ -58,6 +58,12 @@ void keep_evidence(const fs::path& folder, std::span<const compare::Frame> frame
     write_image(folder / (name + "-causes.png"), compare::cause_picture(reference.color, outcomes[i]));
     write_file_atomically(folder / (name + "-causes.json"), compare::cause_legend(outcomes[i]));
   }
+  if (report.golden && report.golden->incomparable.empty()) {
+    const Image golden = read_image(report.golden->file);
+    if (golden.same_size(frames[0].color))
+      write_image(folder / "golden-difference.png",
+                  false_color(compare::log_difference(golden, frames[0].color), FalseColor::scalar));
+  }
   write_file_atomically(folder / "command.txt", own_command_line() + "\n");
 }
 

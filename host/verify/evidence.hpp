@@ -10,7 +10,8 @@ namespace eyeray::verify {
 
 // Writes into `folder` (made where missing) every frame as NAME.pfm, its difference from the last frame as
 // NAME-difference.png in false colour, why its pixels differ as NAME-causes.png and .json
-// (cause_picture.hpp), and the command line as command.txt. `frames` are those of the report's participants;
+// (cause_picture.hpp), golden-difference.png where there is a golden picture, and the command line as
+// command.txt. `frames` are those of the report's participants;
 // `outcomes` those of all but the last, empty where there was nothing to compare. Error (file_io) when that
 // fails.
 void keep_evidence(const std::filesystem::path& folder, std::span<const compare::Frame> frames,

@@ -46,10 +46,9 @@ void compare_backends(std::span<const compare::Frame> frames, const Options& opt
 // Gates B and C: every executor of the shaders with the reference, whose frame is the last. Returns each
 // one's outcomes, pixel by pixel.
 std::vector<std::vector<compare::PixelOutcome>> compare_each_with_reference(
-    std::span<const compare::Frame> frames, const compare::Reference& reference, double max_explained,
-    const Options& options, compare::Report& report) {
+    std::span<const compare::Frame> frames, const compare::Reference& reference,
+    const compare::Tolerances& tolerances, const Options& options, compare::Report& report) {
   const compare::Frame& reference_frame = frames.back();
-  const compare::Tolerances tolerances{.max_explained = max_explained};
   std::vector<std::vector<compare::PixelOutcome>> outcomes(options.backends.size());
   for (size_t i = 0; i < options.backends.size(); ++i) {
     const std::string& value = report.participants[i].name;
@@ -114,9 +113,14 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   add_frame(executors::Backend::reference, executors::make_reference_executor(renderer));
 
   compare_backends(frames, options, report);
-  const auto outcomes = compare_each_with_reference(
-      frames, probes(scene, *renderer), options.max_explained.value_or(scene.verify.max_explained), options,
-      report);
+  const compare::Reference reference = probes(scene, *renderer);
+  const compare::Tolerances tolerances{.max_explained =
+                                           options.max_explained.value_or(scene.verify.max_explained)};
+  const auto outcomes = compare_each_with_reference(frames, reference, tolerances, options, report);
+  if (subject.golden) {
+    report.golden = compare_with_golden(*subject.golden, scene, frames[0], reference, tolerances, report);
+    bless(*subject.golden, scene, frames[0], report);
+  }
   name_hits(scene, report);
   report.seconds = watch.seconds();
   if (subject.keep_always || !report.passes()) {

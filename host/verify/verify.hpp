@@ -11,6 +11,7 @@
 #include "host/compare/report.hpp"
 #include "host/executors/executor.hpp"
 #include "host/render/render.hpp"
+#include "host/verify/golden.hpp"
 
 namespace eyeray::verify {
 
@@ -38,12 +39,13 @@ struct Subject {
   std::string written_options;     // Report::options
   std::filesystem::path evidence;  // the folder where pictures are left when a gate fails (evidence.hpp) …
   bool keep_always = false;        // … or when none does, too
+  std::optional<Golden> golden;    // what gate G compares with
 };
 
 // Renders the scene by each backend and at last by the reference. Gate A compares each backend with the
-// first, gates B and C compare each with the reference. The report says which of them pass. Error
-// (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be written, and what make_executor and
-// render throw.
+// first, gates B and C compare each with the reference, gate G the first with a golden picture. The report
+// says which of them pass. Error (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be
+// written, and what make_executor and render throw.
 compare::Report verify_scene(const Subject& subject, const Options& options);
 
 }  // namespace eyeray::verify

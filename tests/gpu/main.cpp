@@ -1,9 +1,11 @@
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <cstdio>
 #include <string_view>
 
 #include "child.hpp"
 #include "host/core/termination.hpp"
+//
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <doctest/doctest.h>
 
 // doctest's tests; or, as `test_gpu child NAME`, one piece of work in a process of its own that ends as
 // eyeray would.
