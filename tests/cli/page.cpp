@@ -87,3 +87,15 @@ TEST_CASE("a browser shows the page, and the view that its link names" * doctest
   for (const char* button : {"twin", "split", "reference"})
     CHECK(linked.find(pressed(button)) != std::string::npos);
 }
+
+TEST_CASE("the page's keys, slider, split, zoom and read-out do what the manual says" *
+          doctest::test_suite("long")) {
+  const SceneFolder folder;
+  REQUIRE(report_on(folder, {"--inject-fault", "light"}).code == 1);
+  const ProcessResult result =
+      run_process({"node", "tests/cli/page/drive.mjs", folder / "report/index.html", folder.path()}, {}, 900);
+  CAPTURE(result.err);
+  CHECK(result.code == 0);
+  for (const char* picture : {"light.png", "dark.png"})
+    CHECK(std::filesystem::file_size(folder / picture) > 10'000);
+}
