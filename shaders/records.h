@@ -244,16 +244,22 @@ INLINE uint refracted_of(SampleResult result) { return result.flags >> REFRACTED
 INLINE uint reflected_of(SampleResult result) { return result.iterations & ((1u << TOTAL_SHIFT) - 1u); }
 INLINE uint total_reflections_of(SampleResult result) { return result.iterations >> TOTAL_SHIFT; }
 
-// The first hit of one pixel, 48 bytes. A miss has primitive = material = NONE and t = T_MISS.
+// The first hit of one pixel, 80 bytes. A miss has primitive = material = NONE and t = T_MISS.
 struct HitResult {
   vec3 position;  // relative to the eye
   float t;
   vec3 normal;
   float u;
+  vec3 normal_geometric;
   float v;
+  float cosine;  // of the angle between normal_geometric and the way back along the ray
   uint primitive;
   uint material;
   uint flags;
+  uint nodes;  // with SEARCH_COST, also of a miss: of BVHs, visited …
+  uint tests;  // … and primitives tested
+  uint unused_0;
+  uint unused_1;
 };
 // kernels/query.comp.glsl: a ray, 32 bytes.
 struct QueryRay {
@@ -315,7 +321,7 @@ static_assert(sizeof(eyeray::shader::Light) == 48);
 static_assert(sizeof(eyeray::shader::Frame) == 128);
 static_assert(sizeof(eyeray::shader::Dispatch) == 32);
 static_assert(sizeof(eyeray::shader::SampleResult) == 32);
-static_assert(sizeof(eyeray::shader::HitResult) == 48);
+static_assert(sizeof(eyeray::shader::HitResult) == 80);
 static_assert(sizeof(eyeray::shader::QueryRay) == 32);
 static_assert(sizeof(eyeray::shader::QueryHit) == 16);
 static_assert(sizeof(eyeray::shader::PacketHit) == 32);

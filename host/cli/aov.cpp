@@ -3,12 +3,28 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "host/core/diagnostic.hpp"
 #include "host/core/error.hpp"
 
 namespace eyeray::cli {
 namespace {
+
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+// A count, where there is one.
+Vec3 count(int64_t value) {
+  return Vec3(value < 0 ? no_value : double(value));
+}
+
+// Rays followed from surface to surface, of `kinds`.
+Image bounces(const Image& kinds) {
+  Image sums(kinds.width(), kinds.height(), 1);
+  for (size_t i = 0; i < sums.sample_count(); ++i)
+    sums.samples()[i] = kinds.samples()[3 * i] + kinds.samples()[3 * i + 1];
+  return sums;
+}
 
 // docs/command-line.md says what each holds.
 constexpr AovType types[] = {
@@ -24,15 +40,28 @@ constexpr AovType types[] = {
      .channels = 3,
      .shown_as = FalseColor::direction,
      .values = [](const FirstHit& hit) { return hit.normal; }},
+    {.name = "normal_geometric",
+     .channels = 3,
+     .shown_as = FalseColor::direction,
+     .values = [](const FirstHit& hit) { return hit.normal_geometric; }},
+    {.name = "front",
+     .channels = 1,
+     .shown_as = FalseColor::scalar,
+     .values = [](const FirstHit& hit) { return Vec3(hit.primitive < 0 ? no_value : hit.cosine > 0); }},
     {.name = "uv",
      .channels = 3,
      .shown_as = FalseColor::position,
      .values = [](const FirstHit& hit) { return Vec3(hit.uv, 0); }},
+    {.name = "shape",
+     .channels = 1,
+     .shown_as = FalseColor::ids,
+     .values = EntryOfLegend{},
+     .legend = legend_of_shapes},
     {.name = "primitive",
      .channels = 1,
      .shown_as = FalseColor::ids,
      .values = [](const FirstHit& hit) { return Vec3(hit.primitive); },
-     .legend = legend_of_objects},
+     .legend = legend_of_primitives},
     {.name = "material",
      .channels = 1,
      .shown_as = FalseColor::ids,
@@ -41,15 +70,35 @@ constexpr AovType types[] = {
     {.name = "hits",
      .channels = 1,
      .shown_as = FalseColor::scalar,
-     .values = [](const render::FinishedRows& rows) -> const Image& { return rows.hits; }},
+     .values = [](const render::FinishedRows& rows) { return rows.hits; }},
+    {.name = "bounces",
+     .channels = 1,
+     .shown_as = FalseColor::scalar,
+     .values = [](const render::FinishedRows& rows) { return bounces(rows.kinds); },
+     .needs = AovNeeds::ray_kinds},
     {.name = "rays",
      .channels = 1,
      .shown_as = FalseColor::scalar,
-     .values = [](const render::FinishedRows& rows) -> const Image& { return rows.rays_traced; }},
+     .values = [](const render::FinishedRows& rows) { return rows.rays_traced; }},
+    {.name = "ray_kinds",
+     .channels = 3,
+     .shown_as = FalseColor::position,
+     .values = [](const render::FinishedRows& rows) { return rows.kinds; },
+     .needs = AovNeeds::ray_kinds},
+    {.name = "nodes",
+     .channels = 1,
+     .shown_as = FalseColor::scalar,
+     .values = [](const FirstHit& hit) { return count(hit.cost.nodes); },
+     .needs = AovNeeds::search_cost},
+    {.name = "tests",
+     .channels = 1,
+     .shown_as = FalseColor::scalar,
+     .values = [](const FirstHit& hit) { return count(hit.cost.tests); },
+     .needs = AovNeeds::search_cost},
     {.name = "flags",
      .channels = 1,
      .shown_as = FalseColor::scalar,
-     .values = [](const render::FinishedRows& rows) -> const Image& { return rows.flagged; }},
+     .values = [](const render::FinishedRows& rows) { return rows.flagged; }},
 };
 
 std::vector<std::string_view> names() {
@@ -94,14 +143,21 @@ bool need_first_hits(const std::vector<Aov>& aovs) {
   return std::ranges::any_of(aovs, &AovType::is_of_first_hits);
 }
 
-Image aov_image(Aov aov, std::span<const FirstHit> hits, int width) {
-  const ValueOfHit value_of = std::get<ValueOfHit>(aov->values);
+bool any_needs(const std::vector<Aov>& aovs, AovNeeds what) {
+  return std::ranges::find(aovs, what, &AovType::needs) != aovs.end();
+}
+
+Image aov_image(Aov aov, std::span<const FirstHit> hits, int width, const LegendEntries* entries) {
   Image image(width, int(hits.size()) / width, aov->channels);
   CHECK_EQ(hits.size() * size_t(aov->channels), image.sample_count());
   float* sample = image.samples().data();
-  for (const FirstHit& hit : hits) {
-    const Vec3 value = value_of(hit);
-    for (int channel = 0; channel < aov->channels; ++channel) *sample++ = float(value[channel]);
+  if (const ValueOfHit* value_of = std::get_if<ValueOfHit>(&aov->values)) {
+    for (const FirstHit& hit : hits) {
+      const Vec3 value = (*value_of)(hit);
+      for (int channel = 0; channel < aov->channels; ++channel) *sample++ = float(value[channel]);
+    }
+  } else {
+    for (const FirstHit& hit : hits) *sample++ = hit.primitive < 0 ? -1.0f : float(entries->of(hit));
   }
   return image;
 }

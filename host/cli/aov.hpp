@@ -18,19 +18,24 @@
 namespace eyeray::cli {
 
 // Where an AOV's values come from: the first hit of a pixel's centre, of whose three as many count as it has
-// channels, or what was summed over its samples.
+// channels; the legend's entry that it is of; or what was summed over the pixel's samples.
 using ValueOfHit = Vec3 (*)(const FirstHit& hit);
-using ValuesOfRows = const Image& (*)(const render::FinishedRows& rows);
+struct EntryOfLegend {};
+using ValuesOfRows = Image (*)(const render::FinishedRows& rows);
+
+// What executors count only where it is asked for.
+enum class AovNeeds { nothing, ray_kinds, search_cost };
 
 struct AovType {
   std::string_view name;
   int channels;         // 1 or 3
   FalseColor shown_as;  // in its picture for people
-  std::variant<ValueOfHit, ValuesOfRows> values;
+  std::variant<ValueOfHit, EntryOfLegend, ValuesOfRows> values;
+  AovNeeds needs = AovNeeds::nothing;
   // Of ids: what they stand for; `scene` must outlive it. Else null.
   std::unique_ptr<LegendEntries> (*legend)(const Scene& scene) = nullptr;
 
-  bool is_of_first_hits() const { return std::holds_alternative<ValueOfHit>(values); }
+  bool is_of_first_hits() const { return !std::holds_alternative<ValuesOfRows>(values); }
 };
 
 using Aov = const AovType*;
@@ -44,8 +49,9 @@ std::string aov_names();
 std::vector<Aov> parse_aovs(const std::string& list);
 
 bool need_first_hits(const std::vector<Aov>& aovs);
+bool any_needs(const std::vector<Aov>& aovs, AovNeeds what);
 
-// Rows of an AOV that is made of first hits; `width` pixels each.
-Image aov_image(Aov aov, std::span<const FirstHit> hits, int width);
+// Rows of an AOV that is made of first hits; `width` pixels each. `entries` of its legend, where it has one.
+Image aov_image(Aov aov, std::span<const FirstHit> hits, int width, const LegendEntries* entries);
 
 }  // namespace eyeray::cli

@@ -24,14 +24,16 @@ std::string color_of(int64_t id) {
 
 class ObjectEntries final : public LegendEntries {
  public:
-  explicit ObjectEntries(const Scene& scene) : scene_(scene), objects_(scene) {}
+  ObjectEntries(const Scene& scene, bool by_primitives)
+      : scene_(scene), objects_(scene), by_primitives_(by_primitives) {}
 
   size_t size() const override { return objects_.size(); }
   size_t of(const FirstHit& hit) const override { return objects_.of(uint64_t(hit.primitive)); }
 
   Json entry(size_t index) const override {
     const Object object = objects_[index];
-    Json json{{"first", object.first}, {"last", object.first + object.count - 1}, {"kind", object.kind}};
+    const uint64_t first = by_primitives_ ? object.first : index, count = by_primitives_ ? object.count : 1;
+    Json json{{"first", first}, {"last", first + count - 1}, {"kind", object.kind}};
     if (const std::string name = path(object, scene_.names); !name.empty())
       json[object.name.own ? "name" : "group"] = name;
     if (!object.mesh.empty()) json["mesh"] = object.mesh;
@@ -40,13 +42,14 @@ class ObjectEntries final : public LegendEntries {
       json["line"] = object.position->line;
     }
     // Every triangle of a mesh has its own.
-    if (object.count == 1) json["color"] = color_of(int64_t(object.first));
+    if (count == 1) json["color"] = color_of(int64_t(first));
     return json;
   }
 
  private:
   const Scene& scene_;
   Objects objects_;
+  bool by_primitives_;
 };
 
 class MaterialEntries final : public LegendEntries {
@@ -74,8 +77,12 @@ std::string text_of(const Json& json) {
 
 }  // namespace
 
-std::unique_ptr<LegendEntries> legend_of_objects(const Scene& scene) {
-  return std::make_unique<ObjectEntries>(scene);
+std::unique_ptr<LegendEntries> legend_of_shapes(const Scene& scene) {
+  return std::make_unique<ObjectEntries>(scene, false);
+}
+
+std::unique_ptr<LegendEntries> legend_of_primitives(const Scene& scene) {
+  return std::make_unique<ObjectEntries>(scene, true);
 }
 
 std::unique_ptr<LegendEntries> legend_of_materials(const Scene& scene) {

@@ -24,8 +24,10 @@ class LegendEntries {
   virtual Json entry(size_t index) const = 0;
 };
 
-// Of `primitive` the shapes and meshes, of `material` the materials. `scene` must outlive them.
-std::unique_ptr<LegendEntries> legend_of_objects(const Scene& scene);
+// The shapes and meshes, by their own numbers (AOV `shape`) or by those of their primitives (`primitive`),
+// and the materials. `scene` must outlive them.
+std::unique_ptr<LegendEntries> legend_of_shapes(const Scene& scene);
+std::unique_ptr<LegendEntries> legend_of_primitives(const Scene& scene);
 std::unique_ptr<LegendEntries> legend_of_materials(const Scene& scene);
 
 // Takes first hits, and lists what they hit, each with its pixels.
@@ -33,6 +35,7 @@ class Legend {
  public:
   explicit Legend(std::unique_ptr<LegendEntries> entries);
 
+  const LegendEntries& entries() const { return *entries_; }
   void see(std::span<const FirstHit> hits);
   // Writes NAME.json for a picture NAME.png; Error (file_io) when it cannot be written. Its name.
   std::filesystem::path write(const std::filesystem::path& picture) const;

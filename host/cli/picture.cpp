@@ -97,9 +97,9 @@ void PictureRequest::add_to(CLI::App& command) {
 
 void PictureRequest::check_outputs() {
   if (classic && need_first_hits(aovs))
-    throw Error(
-        ExitCode::bad_input,
-        "--classic sends no rays through the centres of pixels, of which AOVs but hits and flags are made");
+    throw Error(ExitCode::bad_input,
+                "--classic sends no rays through the centres of pixels, of which AOVs but hits, bounces, "
+                "rays, ray_kinds and flags are made");
   if (outputs.empty())
     outputs.push_back(fs::path(scene.file()).filename().replace_extension(".png").string());
   for (const std::string& output : outputs) {
@@ -123,7 +123,9 @@ Picture make_picture(const PictureRequest& request,
   const Rect crop = request.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : request.crop;
   if (request.classic) make_classic(scene);
   executors::ExecutorOptions executor_options = request.executor;
-  executor_options.ray_kinds = request.ray_kinds;
+  const bool pixel_kinds = any_needs(request.aovs, AovNeeds::ray_kinds);
+  executor_options.ray_kinds = request.ray_kinds || pixel_kinds;
+  executor_options.search_cost = any_needs(request.aovs, AovNeeds::search_cost);
   const std::unique_ptr<executors::Executor> executor =
       executors::make_executor(request.backend, scene, executor_options);
   std::optional<render::Checkpoint> checkpoint = checkpoint_of(request, scene, *executor);
@@ -132,6 +134,7 @@ Picture make_picture(const PictureRequest& request,
   render::RenderOptions options;
   options.crop = request.classic ? render::corners_of(crop) : crop;
   options.ray_kinds = request.ray_kinds;
+  options.pixel_kinds = pixel_kinds;
   options.band_bytes = size_t(request.long_render.band_mebibytes) << 20;
   options.checkpoint = checkpoint ? &*checkpoint : nullptr;
   options.progress = [&, warned = false](const render::Progress& now) mutable {

@@ -51,7 +51,7 @@ void AovFiles::write(const render::FinishedRows& rows) {
 
 void AovFiles::write(std::span<const FirstHit> hits) {
   if (!aov_->is_of_first_hits()) return;
-  write(aov_image(aov_, hits, width_));
+  write(aov_image(aov_, hits, width_, legend_ ? &legend_->entries() : nullptr));
   if (legend_) legend_->see(hits);
 }
 

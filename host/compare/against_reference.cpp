@@ -28,7 +28,8 @@ bool equal(const Vec3& value, const Vec3& reference) {
 bool equal(const FirstHit& value, const FirstHit& reference) {
   return value.primitive == reference.primitive && value.material == reference.material &&
          float(value.t) == float(reference.t) && equal(value.position, reference.position) &&
-         equal(value.normal, reference.normal) && glm::vec2(value.uv) == glm::vec2(reference.uv);
+         equal(value.normal, reference.normal) && equal(value.normal_geometric, reference.normal_geometric) &&
+         float(value.cosine) == float(reference.cosine) && glm::vec2(value.uv) == glm::vec2(reference.uv);
 }
 
 // Both frames and what was found so far, one judgement a pixel and gate.

@@ -56,6 +56,7 @@ std::string place(const ReferenceResult& result) {
       return "eye rays hit the right primitive at the wrong distance: its intersection";
     case Seam::position:
     case Seam::normal:
+    case Seam::geometric_normal:
     case Seam::uv:
       return fmt::format("eye rays hit the right place, and its {} is wrong: the shape's surface",
                          name(tally.worst.seam));

@@ -28,7 +28,8 @@ bool same_ids(const FirstHit& a, const FirstHit& b) {
 }
 bool same_bits(const FirstHit& a, const FirstHit& b) {
   return same_ids(a, b) && same_bits(a.t, b.t) && same_bits(a.position, b.position) &&
-         same_bits(a.normal, b.normal) && same_bits(a.uv, b.uv);
+         same_bits(a.normal, b.normal) && same_bits(a.normal_geometric, b.normal_geometric) &&
+         same_bits(a.cosine, b.cosine) && same_bits(a.uv, b.uv);
 }
 
 Seam first_seam(const FirstHit& a, const FirstHit& b, bool colors_differ) {
@@ -36,14 +37,16 @@ Seam first_seam(const FirstHit& a, const FirstHit& b, bool colors_differ) {
   if (!same_bits(a.t, b.t)) return Seam::t;
   if (!same_bits(a.position, b.position)) return Seam::position;
   if (!same_bits(a.normal, b.normal)) return Seam::normal;
+  if (!same_bits(a.normal_geometric, b.normal_geometric) || !same_bits(a.cosine, b.cosine))
+    return Seam::geometric_normal;
   if (!same_bits(a.uv, b.uv)) return Seam::uv;
   if (a.material != b.material) return Seam::material;
   return colors_differ ? Seam::color : Seam::counts;
 }
 
-std::array<double, 9> values(const FirstHit& hit) {
-  return {hit.t,        hit.position.x, hit.position.y, hit.position.z, hit.normal.x,
-          hit.normal.y, hit.normal.z,   hit.uv.x,       hit.uv.y};
+std::array<double, 13> values(const FirstHit& hit) {
+  const Vec3 &p = hit.position, &n = hit.normal, &g = hit.normal_geometric;
+  return {hit.t, p.x, p.y, p.z, n.x, n.y, n.z, g.x, g.y, g.z, hit.cosine, hit.uv.x, hit.uv.y};
 }
 
 }  // namespace

@@ -88,9 +88,9 @@ bool bounds_hold(std::span<const Probe> probes, const Counts& counts, bool round
 
 bool bounds_hold(std::span<const Probe> probes, const FirstHit& value, const Tolerances& tolerances) {
   // Gather what is known of the primitive that was hit.
-  Bounds<1> t;
+  Bounds<1> t, cosine;
   Bounds<2> uv;
-  Bounds<3> position, normal;
+  Bounds<3> position, normal, normal_geometric;
   double tolerance = 0;
   bool found = false;
   bool silhouette = false;
@@ -103,6 +103,8 @@ bool bounds_hold(std::span<const Probe> probes, const FirstHit& value, const Tol
     t.include(glm::dvec1(hit.t));
     position.include(hit.position);
     normal.include(hit.normal);
+    normal_geometric.include(hit.normal_geometric);
+    cosine.include(glm::dvec1(hit.cosine));
     uv.include(hit.uv);
     tolerance = std::max(tolerance, t_tolerance(hit, tolerances));
     found = true;
@@ -115,6 +117,8 @@ bool bounds_hold(std::span<const Probe> probes, const FirstHit& value, const Tol
   const double beyond = silhouette ? 1 : 0;
   return t.hold(glm::dvec1(value.t), tolerance, beyond) && position.hold(value.position, tolerance, beyond) &&
          normal.hold(value.normal, tolerances.normal, beyond) &&
+         normal_geometric.hold(value.normal_geometric, tolerances.normal, beyond) &&
+         cosine.hold(glm::dvec1(value.cosine), tolerances.normal, beyond) &&
          uv.hold_relatively(value.uv, tolerances.uv, beyond);
 }
 

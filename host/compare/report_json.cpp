@@ -17,8 +17,14 @@ Json json(const Vec3& v) {
 }
 
 Json json(const FirstHit& hit) {
-  return {{"primitive", hit.primitive}, {"material", hit.material},       {"t", hit.t},
-          {"normal", json(hit.normal)}, {"position", json(hit.position)}, {"uv", {hit.uv.x, hit.uv.y}}};
+  return {{"primitive", hit.primitive},
+          {"material", hit.material},
+          {"t", hit.t},
+          {"normal", json(hit.normal)},
+          {"geometric_normal", json(hit.normal_geometric)},
+          {"front", hit.cosine > 0},
+          {"position", json(hit.position)},
+          {"uv", {hit.uv.x, hit.uv.y}}};
 }
 
 Json side(const Vec3& color, const Counts& counts, const FirstHit& hit) {

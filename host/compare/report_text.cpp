@@ -28,10 +28,11 @@ std::string in_words(const std::map<int32_t, std::string>& words, int32_t index)
 
 std::string describe(const FirstHit& hit, const Report& report) {
   if (hit.primitive < 0) return "hits nothing";
-  return fmt::format("primitive {}{}, material {}{}, t {:.9g}, position {}, normal {}, uv {:.9g} {:.9g}",
-                     hit.primitive, in_words(report.primitives, hit.primitive), hit.material,
-                     in_words(report.materials, hit.material), hit.t, numbers(hit.position),
-                     numbers(hit.normal), hit.uv.x, hit.uv.y);
+  return fmt::format(
+      "primitive {}{}, material {}{}, t {:.9g}, position {}, normal {}, geometric {}, uv {:.9g} {:.9g}",
+      hit.primitive, in_words(report.primitives, hit.primitive), hit.material,
+      in_words(report.materials, hit.material), hit.t, numbers(hit.position), numbers(hit.normal),
+      numbers(hit.normal_geometric), hit.uv.x, hit.uv.y);
 }
 
 // "2 explained (silhouette 1, shadow edge 1)".

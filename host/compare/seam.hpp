@@ -5,7 +5,7 @@
 
 namespace eyeray::compare {
 
-enum class Seam { none, primitive, t, position, normal, uv, material, color, counts };
+enum class Seam { none, primitive, t, position, normal, geometric_normal, uv, material, color, counts };
 
 // A pixel that stands for a comparison in its report: both values, and the seam.
 struct WorstPixel {

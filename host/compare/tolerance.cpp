@@ -34,6 +34,12 @@ double normal_excess(const Vec3& value, const Vec3& reference, double tolerance)
   return worst;
 }
 
+// Of the geometric normal, and of how it faces the ray.
+double geometric_excess(const FirstHit& value, const FirstHit& reference, double tolerance) {
+  return std::max(normal_excess(value.normal_geometric, reference.normal_geometric, tolerance),
+                  ratio(std::abs(value.cosine - reference.cosine), tolerance));
+}
+
 // Of vectors whose components may be large.
 template <int n>
 double relative_excess(const glm::vec<n, double>& value, const glm::vec<n, double>& reference,
@@ -75,6 +81,7 @@ double hit_excess(const FirstHit& value, const FirstHit& reference, const Tolera
   return std::max({t_excess(value.t, reference, tolerances),
                    position_excess(value.position, reference, tolerances),
                    normal_excess(value.normal, reference.normal, tolerances.normal),
+                   geometric_excess(value, reference, tolerances.normal),
                    relative_excess(value.uv, reference.uv, tolerances.uv)});
 }
 
@@ -84,6 +91,7 @@ Seam first_seam(const WorstPixel& pixel, const Tolerances& tolerances) {
   if (t_excess(value.t, reference, tolerances) > 1) return Seam::t;
   if (position_excess(value.position, reference, tolerances) > 1) return Seam::position;
   if (normal_excess(value.normal, reference.normal, tolerances.normal) > 1) return Seam::normal;
+  if (geometric_excess(value, reference, tolerances.normal) > 1) return Seam::geometric_normal;
   if (relative_excess(value.uv, reference.uv, tolerances.uv) > 1) return Seam::uv;
   if (value.material != reference.material) return Seam::material;
   if (color_excess(pixel.value, pixel.reference, tolerances.color) > 1) return Seam::color;
@@ -102,6 +110,8 @@ const char* name(Seam seam) {
       return "position";
     case Seam::normal:
       return "normal";
+    case Seam::geometric_normal:
+      return "geometric normal";
     case Seam::uv:
       return "uv";
     case Seam::material:

@@ -30,11 +30,20 @@ enum SampleFlag : uint32_t {
   endless = 1u << 4,  // a formula's loops did not end: whoever reads samples fails (executors/samples.hpp)
 };
 
+// Of one ray's search for its closest hit; −1 from an executor that does not count it.
+struct SearchCost {
+  int64_t nodes = -1;  // of BVHs, visited
+  int64_t tests = -1;  // primitives tested
+};
+
 // What the eye ray through the centre of a pixel hits first.
 struct FirstHit {
   double t = std::numeric_limits<double>::infinity();  // infinity where nothing is hit
   Vec3 position{0.0};                                  // world
   Vec3 normal{0.0};                                    // world, unit, shading normal as the shape defines it
+  Vec3 normal_geometric{0.0};                          // the same of the geometric normal
+  // Of the angle between normal_geometric and the way back along the ray: above 0 the front is seen.
+  double cosine = 0;
   Vec2 uv{0.0};
   int32_t primitive = -1;  // index, see Scene::primitive_count; −1 where nothing is hit
   int32_t material = -1;   // index in Scene::materials
@@ -42,6 +51,7 @@ struct FirstHit {
   // The largest coordinate, relative to the eye, that t was computed from, over the cosine of incidence: what
   // the rounding of coordinates moves t by is in proportion to it. Known to the reference; 0 elsewhere.
   double t_scale = 0;
+  SearchCost cost{};  // the search's own, whatever is hit: gates do not compare it
 };
 
 }  // namespace eyeray

@@ -62,7 +62,7 @@ class TwinExecutor final : public Executor {
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     for_each_pixel(tile, out, [&](int x, int y) {
-      return to_first_hit(twin::first_hit(packed_, uint32_t(x), uint32_t(y)), eye_);
+      return to_first_hit(twin::first_hit(packed_, uint32_t(x), uint32_t(y)), eye_, true);
     });
   }
 

@@ -61,6 +61,7 @@ struct ExecutorOptions {
   pack::PackOptions pack;               // all: `acceleration`; gpu and twin: the rest
   ProfileOptions profile;               // gpu
   bool ray_kinds = false;               // gpu: count reflected and refracted rays; the others always do
+  bool search_cost = false;             // gpu: FirstHit::cost; the twin always counts, the reference never
   bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
   bool optimise = true;                 // gpu: give the driver an optimised kernel
   std::string fault;                    // gpu, tests only: a fault to inject (docs/verification.md)

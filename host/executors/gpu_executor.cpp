@@ -99,7 +99,7 @@ class GpuExecutor final : public Executor {
     for_bands<shader::HitResult>(tile, 0, trace, [&](size_t first, auto results) {
       for (size_t i = 0; i < results.size(); ++i) {
         check_traced(results[i].flags);
-        out[first + i] = to_first_hit(results[i], eye_);
+        out[first + i] = to_first_hit(results[i], eye_, options_.search_cost);
       }
     });
   }
@@ -157,6 +157,7 @@ class GpuExecutor final : public Executor {
     specialisation.constants = options_.constants && profile_.constants;
     specialisation.profile = profile_;
     specialisation.ray_kinds = options_.ray_kinds;
+    specialisation.search_cost = options_.search_cost;
     const uint32_t lanes = device_.info().limits.subgroup_size;
     const bool worth_it = packed.primitives.size() <= most_in_packets || options_.profile.rays == "packets";
     packets_ = profile_.packets && worth_it && packed.has_bvh && packed.quantised_nodes &&

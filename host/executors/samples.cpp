@@ -28,14 +28,17 @@ QueryHit to_query_hit(const shader::QueryHit& result) {
   return {t, result.primitive == NONE ? -1 : int64_t{result.primitive}, result.flags};
 }
 
-FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye) {
+FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye, bool search_cost) {
   check_ended(result.flags);
   FirstHit hit;
   hit.flags = result.flags;
+  if (search_cost) hit.cost = {int64_t{result.nodes}, int64_t{result.tests}};
   if (result.primitive == NONE) return hit;
   hit.t = double(result.t);
   hit.position = eye + Vec3(result.position);
   hit.normal = Vec3(result.normal);
+  hit.normal_geometric = Vec3(result.normal_geometric);
+  hit.cosine = double(result.cosine);
   hit.uv = {double(result.u), double(result.v)};
   hit.primitive = int32_t(result.primitive);
   hit.material = int32_t(result.material);

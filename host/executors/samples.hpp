@@ -27,7 +27,7 @@ inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds)
 shader::QueryRay to_query_ray(const Query& ray, const Vec3& eye);
 QueryHit to_query_hit(const shader::QueryHit& result);
 
-// `eye`: the origin of the shaders' world.
-FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye);
+// `eye`: the origin of the shaders' world; `search_cost`: whether the kernel counted it.
+FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye, bool search_cost);
 
 }  // namespace eyeray::executors

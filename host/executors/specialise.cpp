@@ -321,6 +321,8 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
   text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_END(name) END_##name\n";
   // Whoever looks at first hits looks at uv too.
   text += "#ifdef FIRST_HITS\n#define UV_OF(name) true\n#else\n#define UV_OF(name) UV_##name\n#endif\n";
+  text += fmt::format("#ifdef FIRST_HITS\n#define SEARCH_COST {}\n#else\n#define SEARCH_COST 0\n#endif\n",
+                      int(options.search_cost));
   const std::set<uint32_t> slow = deferred_kinds(scene);
   define("HAS_DEFERRED_SHAPES", int(!slow.empty()));
   text += "#include \"kernels/features.h\"\n#include \"kernels/bindings.glsl\"\n";

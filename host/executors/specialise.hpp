@@ -18,6 +18,7 @@ struct Specialisation {
   pack::PacketBvh packet_bvh = {};
   uint32_t group_stride = 1;  // kernels/render.comp.glsl: runs of workgroups
   bool ray_kinds = false;     // count reflected and refracted rays
+  bool search_cost = false;   // of first hits
 };
 
 // How often a path may go on: 0 where no material sends rays on, or the integrator none.

@@ -28,11 +28,17 @@ FirstHit Renderer::first_hit(int x, int y, Vec2 shift, bool coincident) const {
   const auto hit = tracer_.trace(ray, result.flags, coincident);
   if (!hit) return result;
   const SurfacePoint surface = tracer_.surface(ray, *hit);
+  result.t = hit->at.t;
+  result.position = surface.position;
+  result.normal = surface.normal;
+  result.normal_geometric = surface.normal_geometric;
+  result.cosine = -glm::dot(ray.d, surface.normal_geometric);
+  result.uv = surface.uv;
+  result.primitive = int32_t(hit->primitive);
+  result.material = hit->material;
   // Towards grazing incidence t runs away from any bound; the gates explain it there by its neighbourhood.
-  const double cosine = std::max(0.01, std::abs(glm::dot(ray.d, surface.normal_geometric)));
-  const double t_scale = tracer_.reach(*hit, scene_.camera.eye) / cosine;
-  return {hit->at.t,     surface.position, surface.normal, surface.uv, int32_t(hit->primitive),
-          hit->material, result.flags,     t_scale};
+  result.t_scale = tracer_.reach(*hit, scene_.camera.eye) / std::max(0.01, std::abs(result.cosine));
+  return result;
 }
 
 double Renderer::rounding(int x, int y, double t) const {

@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 static_assert(sizeof(RenderPosition) == 48, "the file holds it as it lies in memory");
 
 constexpr std::string_view magic = "EYERAYCP";
-constexpr uint32_t version = 3;
+constexpr uint32_t version = 4;
 constexpr uint32_t longest_identity = 65536;
 
 std::filesystem::path rows_of(const std::filesystem::path& file) {
@@ -123,14 +123,17 @@ void Checkpoint::read_header() {
 }
 
 void Checkpoint::read_sums(PixelSums& sums) {
-  const std::span<std::byte> bytes = sums.bytes();
-  const auto begin = uint64_t(input_->tellg());
-  if (input_bytes_ < begin + bytes.size() + sizeof(uint32_t)) damaged("it ends too early");
-  if (input_bytes_ > begin + bytes.size() + sizeof(uint32_t)) damaged("it goes on after its end");
-  if (!input_->read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size())))
-    damaged("it ends too early");
-  uint32_t ignored = 0;
-  if (take<uint32_t>(ignored) != crc32(bytes)) damaged("it is damaged: its checksum is wrong");
+  uint64_t end = uint64_t(input_->tellg()) + sizeof(uint32_t);
+  for (const std::span<std::byte> bytes : sums.parts()) end += bytes.size();
+  if (input_bytes_ < end) damaged("it ends too early");
+  if (input_bytes_ > end) damaged("it goes on after its end");
+  uint32_t checksum = 0, ignored = 0;
+  for (const std::span<std::byte> bytes : sums.parts()) {
+    if (!input_->read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size())))
+      damaged("it ends too early");
+    checksum = crc32(bytes, checksum);
+  }
+  if (take<uint32_t>(ignored) != checksum) damaged("it is damaged: its checksum is wrong");
 }
 
 void Checkpoint::check_rows() const {
@@ -162,8 +165,12 @@ void Checkpoint::save(const RenderPosition& position, const PixelSums& sums) {
     header += raw(crc32_of(header));
     AtomicFile file(file_);
     file.write(header);
-    file.write(sums.bytes());
-    file.write(raw(crc32(sums.bytes())));
+    uint32_t checksum = 0;
+    for (const std::span<const std::byte> bytes : sums.parts()) {
+      file.write(bytes);
+      checksum = crc32(bytes, checksum);
+    }
+    file.write(raw(checksum));
     file.commit();
     saved_ = true;
   } catch (const Error& error) {

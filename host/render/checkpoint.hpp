@@ -4,7 +4,7 @@
 //
 //   offset   bytes
 //   0        8       "EYERAYCP"
-//   8        4       version of this layout: 3
+//   8        4       version of this layout: 4
 //   12       4       n, at most 65536
 //   16       n       the identity: a line "name: value\n" for each of its parts
 //   16 + n   8 each  RenderPosition, in the order of its members
@@ -12,6 +12,8 @@
 //            4       CRC-32 of all above
 //            40 each the sums of the band's pixels, top row first: red, green, blue (float64), hits, rays,
 //                    flags, 0 (uint32)
+//            8 each  where rays are counted by kind (the identity says it), of the same pixels: reflected,
+//                    refracted (uint32)
 //            4       CRC-32 of the sums
 //
 // FILE.rows holds the finished rows above the band (render/row_store.hpp); a picture of one band has none.
@@ -62,7 +64,9 @@ class Checkpoint {
   // (file_io) when damaged; where that is found out after rows were given, check_rows says it.
   const RenderPosition& position() const { return position_; }
   void read_sums(PixelSums& sums);
-  FinishedRows read_rows(int first, int count, int width) { return rows_->read(first, count, width); }
+  FinishedRows read_rows(int first, int count, int width, bool kinds) {
+    return rows_->read(first, count, width, kinds);
+  }
   void check_rows() const;
   [[noreturn]] void damaged(const std::string& why) const;
 

@@ -14,7 +14,8 @@ void sample_corners(Scene& scene);
 // The corners of some pixels, as a part of that picture.
 Rect corners_of(const Rect& pixels);
 
-// Rows of corners to rows of pixels, one fewer: means of colours, hits and rays, and the flags of all four.
+// Rows of corners to rows of pixels, one fewer: means of colours, hits, rays and their kinds, and the flags
+// of all four.
 class CornerMean {
  public:
   // The rows of pixels that are whole with the next rows of corners, from the top down; images without height
@@ -22,8 +23,8 @@ class CornerMean {
   FinishedRows add(const FinishedRows& corners);
 
  private:
-  Image last_color_, last_hits_, last_rays_,
-      last_flagged_;  // the last row of corners so far; empty at the start
+  // The last row of corners so far; empty at the start.
+  Image last_color_, last_hits_, last_rays_, last_kinds_, last_flagged_;
 };
 
 }  // namespace eyeray::render

@@ -81,7 +81,7 @@ class Driver {
     position_.samples = 0;
     position_.extra_rows = 0;
     progress_.band = row / band_rows_;
-    sums_.reset(crop_.width, std::min(band_rows_, crop_.height - row));
+    sums_.reset(crop_.width, std::min(band_rows_, crop_.height - row), options_.pixel_kinds);
   }
 
   // Goes on where the checkpoint stands. Returns false when interrupted.
@@ -107,7 +107,7 @@ class Driver {
     for (int row = 0; row < int(position.finished_rows);) {
       if (interrupted()) return false;
       const int count = std::min(rows_of(most_handed_on, crop_.width), int(position.finished_rows) - row);
-      sink_(checkpoint.read_rows(row, count, crop_.width));
+      sink_(checkpoint.read_rows(row, count, crop_.width, options_.pixel_kinds));
       row += count;
     }
     checkpoint.check_rows();

@@ -31,7 +31,10 @@ struct RenderOptions {
   // of one, then of the next. Else it is one band, and so one sample of the whole picture comes after the
   // other.
   size_t band_bytes = size_t{256} << 20;
-  bool ray_kinds = false;            // count rays by kind; the executor must (ExecutorOptions::ray_kinds)
+  // Count rays by kind, in all and in FinishedRows (8 bytes of sums a pixel more): for either the executor
+  // must (ExecutorOptions::ray_kinds).
+  bool ray_kinds = false;
+  bool pixel_kinds = false;
   Checkpoint* checkpoint = nullptr;  // kept and resumed from; see render_rows
 };
 

@@ -14,7 +14,15 @@
 namespace eyeray::render {
 namespace {
 
-using StoredPixel = std::array<float, 6>;
+// The images that hold what is stored of a pixel, in this order.
+template <typename Rows>
+auto stored_images(Rows& rows) {
+  return std::array{&rows.color, &rows.hits, &rows.rays_traced, &rows.flagged, &rows.kinds};
+}
+
+size_t floats_of_pixel(const FinishedRows& rows) {
+  return rows.has_kinds() ? 9 : 6;
+}
 
 [[noreturn]] void fail(const char* what, const std::filesystem::path& file, int error) {
   throw Error(ExitCode::file_io, "cannot {} {}: {}", what, file.string(),
@@ -27,12 +35,14 @@ RowStore::~RowStore() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-FinishedRows RowStore::read(int first, int count, int width) {
+FinishedRows RowStore::read(int first, int count, int width, bool kinds) {
   if (descriptor_ < 0) descriptor_ = ::open(file_.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor_ < 0) fail("read", file_, errno);
 
-  std::vector<StoredPixel> pixels(size_t(count) * size_t(width));
-  const auto bytes = std::as_writable_bytes(std::span(pixels));
+  FinishedRows rows(first, width, count);
+  if (kinds) rows.kinds = Image(width, count, 3);
+  std::vector<float> stored(floats_of_pixel(rows) * rows.hits.sample_count());
+  const auto bytes = std::as_writable_bytes(std::span(stored));
   for (size_t done = 0; done < bytes.size();) {
     const ssize_t got = ::pread(descriptor_, &bytes[done], bytes.size() - done, off_t(end_ + done));
     if (got < 0 && errno == EINTR) continue;
@@ -43,12 +53,14 @@ FinishedRows RowStore::read(int first, int count, int width) {
   end_ += bytes.size();
   checksum_ = crc32(bytes, checksum_);
 
-  FinishedRows rows(first, width, count);
-  for (size_t i = 0; i < pixels.size(); ++i) {
-    std::copy_n(pixels[i].begin(), 3, &rows.color.samples()[3 * i]);
-    rows.hits.samples()[i] = pixels[i][3];
-    rows.rays_traced.samples()[i] = pixels[i][4];
-    rows.flagged.samples()[i] = pixels[i][5];
+  const float* next = stored.data();
+  for (size_t i = 0; i < rows.hits.sample_count(); ++i) {
+    for (Image* image : stored_images(rows)) {
+      if (image->sample_count() == 0) continue;
+      const auto channels = size_t(image->channels());
+      std::copy_n(next, channels, &image->samples()[channels * i]);
+      next += channels;
+    }
   }
   return rows;
 }
@@ -59,14 +71,16 @@ void RowStore::append(const FinishedRows& rows) {
   if (!dropped_rest_ && ::ftruncate(descriptor_, off_t(end_)) != 0) fail("write", file_, errno);
   dropped_rest_ = true;
 
-  std::vector<StoredPixel> pixels(rows.hits.sample_count());
-  for (size_t i = 0; i < pixels.size(); ++i) {
-    std::copy_n(&rows.color.samples()[3 * i], 3, pixels[i].begin());
-    pixels[i][3] = rows.hits.samples()[i];
-    pixels[i][4] = rows.rays_traced.samples()[i];
-    pixels[i][5] = rows.flagged.samples()[i];
+  std::vector<float> stored;
+  stored.reserve(floats_of_pixel(rows) * rows.hits.sample_count());
+  for (size_t i = 0; i < rows.hits.sample_count(); ++i) {
+    for (const Image* image : stored_images(rows)) {
+      if (image->sample_count() == 0) continue;
+      const float* first = &image->samples()[size_t(image->channels()) * i];
+      stored.insert(stored.end(), first, first + image->channels());
+    }
   }
-  const auto bytes = std::as_bytes(std::span(pixels));
+  const auto bytes = std::as_bytes(std::span(stored));
   for (size_t done = 0; done < bytes.size();) {
     const ssize_t put = ::pwrite(descriptor_, &bytes[done], bytes.size() - done, off_t(end_ + done));
     if (put < 0 && errno == EINTR) continue;

@@ -1,6 +1,7 @@
 // What a picture is while it is rendered: sums over samples.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,10 +21,13 @@ struct FinishedRows {
         rays_traced(width, count, 1),
         flagged(width, count, 1) {}
 
+  bool has_kinds() const { return kinds.height() > 0; }
+
   int first = 0;      // counted from the top of what is rendered
   Image color;        // linear RGB, the mean of the samples
   Image hits;         // 1 channel: surfaces struck a pixel, the mean of the samples
   Image rays_traced;  // 1 channel: a pixel, the mean of the samples
+  Image kinds;        // 3 channels: of these the reflected, refracted and shadow rays; empty unless asked for
   Image flagged;      // 1 channel: the SampleFlags of all samples of a pixel, as a number
   uint64_t flagged_pixels = 0;
   uint32_t flags = 0;
@@ -39,9 +43,14 @@ class PixelSums {
     uint32_t flags = 0;
     uint32_t unused = 0;
   };
+  // Of the rays those of a kind.
+  struct Kinds {
+    uint32_t reflected = 0;
+    uint32_t refracted = 0;
+  };
 
-  // All 0.
-  void reset(int width, int height);
+  // All 0. Without `kinds` there are none, and none in the mean.
+  void reset(int width, int height, bool kinds);
   int width() const { return width_; }
   int height() const { return height_; }
 
@@ -51,14 +60,19 @@ class PixelSums {
   // the others `samples` > 0.
   FinishedRows mean(int first, int count, int samples, int extra_rows) const;
 
-  // As a checkpoint keeps them, row by row (render/checkpoint.hpp).
-  std::span<std::byte> bytes() { return std::as_writable_bytes(std::span(pixels_)); }
-  std::span<const std::byte> bytes() const { return std::as_bytes(std::span(pixels_)); }
+  // As a checkpoint keeps them, one after the other, each row by row (render/checkpoint.hpp).
+  std::array<std::span<std::byte>, 2> parts() {
+    return {std::as_writable_bytes(std::span(pixels_)), std::as_writable_bytes(std::span(kinds_))};
+  }
+  std::array<std::span<const std::byte>, 2> parts() const {
+    return {std::as_bytes(std::span(pixels_)), std::as_bytes(std::span(kinds_))};
+  }
 
  private:
   int width_ = 0;
   int height_ = 0;
   std::vector<Pixel> pixels_;
+  std::vector<Kinds> kinds_;  // as many, or none
 };
 
 }  // namespace eyeray::render

@@ -18,7 +18,20 @@ struct TraversalState {
 #if MAY_REACH_ITERATION_LIMIT
   float sure_until;  // the least t at which the steps of a shape's search ran out; T_MISS if none's did
 #endif
+#if SEARCH_COST
+  uint nodes;  // of BVHs, visited so far
+  uint tests;  // primitives tested so far
+#endif
 };
+
+// Kernels that are not asked for what a search costs hold nothing of this.
+#if SEARCH_COST
+#define COUNT_NODE(state) state.nodes += 1u
+#define COUNT_TEST(state) state.tests += 1u
+#else
+#define COUNT_NODE(state)
+#define COUNT_TEST(state)
+#endif
 
 // Takes note of a shape that gave up.
 void note_iteration_limit(INOUT(TraversalState) state, float t, vec2 uv) {
@@ -100,6 +113,7 @@ void intersect_slot(INOUT(TraversalState) state, uint slot, LocalRay local, bool
   Primitive primitive = load_primitive(slot);
   vec2 uv = vec2(0.0f, 0.0f);
   float t = -1.0f;
+  COUNT_TEST(state);
   IMMEDIATE_SHAPES(INTERSECT_KIND)
   record_in_bvh(state, t, uv, slot, primitive, HAS_DEFERRED_SHAPES == 0 && kind_of(primitive) == KIND_csg, local, any);
 }
@@ -109,6 +123,7 @@ void intersect_deferred(INOUT(TraversalState) state, uint slot, LocalRay local, 
   Primitive primitive = load_primitive(slot);
   vec2 uv = vec2(0.0f, 0.0f);
   float t = -1.0f;
+  COUNT_TEST(state);
   DEFERRED_SHAPES(INTERSECT_KIND)
   record_in_bvh(state, t, uv, slot, primitive, kind_of(primitive) == KIND_csg, local, any);
 }
@@ -137,6 +152,7 @@ void traverse(INOUT(TraversalState) state, LocalRay world, bool any) {
 #endif
       // Go down to a leaf, nearer child first. Back from an instance or a deferred shapes, a leaf may be next.
       if (HAS_INSTANCES + HAS_DEFERRED_SHAPES == 0 || at < LEAF) do {
+        COUNT_NODE(state);
         Child a = load_child(at, 0u, boxes);
         Child b = load_child(at, 1u, boxes);
         int limit = floatBitsToInt(state.hit.t);
@@ -211,6 +227,10 @@ TraversalState traversal_state(float t_max) {
 #if MAY_REACH_ITERATION_LIMIT
   state.sure_until = T_MISS;
 #endif
+#if SEARCH_COST
+  state.nodes = 0u;
+  state.tests = 0u;
+#endif
   return state;
 }
 
@@ -220,6 +240,7 @@ void intersect_linear_list(INOUT(TraversalState) state, Ray ray, bool any) {
 #ifdef SCENE_PRIMITIVES
 #define INTERSECT_CONSTANT(name, index, constants)                                                    \
   {                                                                                         \
+    COUNT_TEST(state);                                                                      \
     float t = name##_intersect(constants, ray, uv);                                         \
     t = alpha_test(constants, NONE, ray, t, uv);                                        \
     record_in_order(state, t, uv, index, constants.id, constants.optical_depth, any);            \
@@ -231,6 +252,7 @@ void intersect_linear_list(INOUT(TraversalState) state, Ray ray, bool any) {
   if (KIND_FIRST(name) < KIND_END(name))                                                         \
     for (uint i = KIND_FIRST(name); i < KIND_END(name) && state.occluded < OPTICAL_DEPTH_OPAQUE; i++) { \
       Primitive primitive = load_primitive(i);                                                   \
+      COUNT_TEST(state);                                                                         \
       float t = name##_intersect(primitive, ray, uv);                                            \
       t = alpha_test(primitive, NONE, ray, t, uv);                                           \
       uint optical_depth = optical_depth_of(primitive, number == KIND_csg, ray, state.hit.t, any);     \

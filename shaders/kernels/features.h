@@ -119,6 +119,9 @@
 #ifndef RAY_KINDS  // whether rays are counted by their kinds (records.h, SampleResult)
 #define RAY_KINDS 1
 #endif
+#ifndef SEARCH_COST  // whether first hits say what their search cost (records.h, HitResult)
+#define SEARCH_COST 1
+#endif
 #ifndef GROUP_STRIDE  // runs of workgroups (kernels/tile.glsl)
 #define GROUP_STRIDE 1u
 #endif

@@ -21,17 +21,28 @@ SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
 HitResult first_hit(Frame frame, uint x, uint y) {
   Ray ray = camera_ray(frame, vec2(float(x) + 0.5f, float(y) + 0.5f));
   uint flags = 0u;
-  Hit hit = trace(ray, flags);
-  flags = flags | loops_cut_off(LOOP_PROBE);
+  TraversalState state = search(ray, T_MISS, false);
+  Hit hit = state.hit;
+  flags = flags | iteration_limit(state) | loops_cut_off(LOOP_PROBE);
   HitResult result;
   result.position = vec3(0.0f, 0.0f, 0.0f);
   result.t = T_MISS;
   result.normal = vec3(0.0f, 0.0f, 0.0f);
   result.u = 0.0f;
+  result.normal_geometric = vec3(0.0f, 0.0f, 0.0f);
   result.v = 0.0f;
+  result.cosine = 0.0f;
   result.primitive = NONE;
   result.material = NONE;
   result.flags = flags;
+  result.nodes = 0u;
+  result.tests = 0u;
+  result.unused_0 = 0u;
+  result.unused_1 = 0u;
+#if SEARCH_COST
+  result.nodes = state.nodes;
+  result.tests = state.tests;
+#endif
   if (hit.slot != NONE) {
     Primitive primitive = primitive_at(hit);
     Surface surface = surface_at(primitive, ray, hit);
@@ -39,7 +50,9 @@ HitResult first_hit(Frame frame, uint x, uint y) {
     result.t = hit.t;
     result.normal = positive_zeros(surface.normal);
     result.u = positive_zero(surface.uv.x);
+    result.normal_geometric = positive_zeros(surface.normal_geometric);
     result.v = positive_zero(surface.uv.y);
+    result.cosine = positive_zero(-dot3(ray.d, surface.normal_geometric));
     result.primitive = hit.id;
     result.material = material_of(primitive);
   }

@@ -77,9 +77,10 @@ TEST_CASE("AOVs hold what the eye rays hit") {
   REQUIRE(result.code == 0);
   std::set<std::string> expected{"scene.toml", "a.png"};
   for (const std::string name :
-       {"depth", "position", "normal", "uv", "primitive", "material", "hits", "rays", "flags"})
+       {"depth", "position", "normal", "normal_geometric", "front", "uv", "shape", "primitive", "material",
+        "hits", "bounces", "rays", "ray_kinds", "nodes", "tests", "flags"})
     expected.insert({"a." + name + ".pfm", "a." + name + ".png"});
-  expected.insert({"a.primitive.json", "a.material.json"});
+  expected.insert({"a.shape.json", "a.primitive.json", "a.material.json"});
   CHECK(folder.names() == expected);
 
   // A unit sphere at distance 4, seen through the pixel just beside its middle.
@@ -90,6 +91,12 @@ TEST_CASE("AOVs hold what the eye rays hit") {
   CHECK(*read_image(folder / "a.primitive.pfm").pixel(0, 0) == -1);
   CHECK(*read_image(folder / "a.hits.pfm").pixel(32, 24) == 1);
   CHECK(*read_image(folder / "a.hits.pfm").pixel(0, 0) == 0);
+  CHECK(*read_image(folder / "a.front.pfm").pixel(32, 24) == 1);
+  CHECK(std::isnan(*read_image(folder / "a.front.pfm").pixel(0, 0)));
+  CHECK(*read_image(folder / "a.shape.pfm").pixel(32, 24) == 0);
+  CHECK(*read_image(folder / "a.shape.pfm").pixel(0, 0) == -1);
+  CHECK(*read_image(folder / "a.tests.pfm").pixel(0, 0) == 1);
+  CHECK(*read_image(folder / "a.nodes.pfm").pixel(0, 0) == 0);
 }
 
 TEST_CASE(

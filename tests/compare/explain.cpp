@@ -183,7 +183,8 @@ TEST_CASE("what is explained lies between the neighbours, a tolerance more at ea
   const Reference reference = [](int, int, const Vec2& shift, bool) {
     Probe probe;
     probe.samples[0].color = Vec3(shift.x > 0.002 ? 0.7 : 0.2, 10, 0);
-    probe.first_hit = {shift.x > 0.002 ? 50.0 : 40.0, {}, {0, 0, 1}, {}, 3, 1};
+    probe.first_hit = {
+        .t = shift.x > 0.002 ? 50.0 : 40.0, .normal = {0, 0, 1}, .primitive = 3, .material = 1};
     return probe;
   };
   const Neighbourhood neighbourhood(reference, {0, 0}, 16);
@@ -195,7 +196,7 @@ TEST_CASE("what is explained lies between the neighbours, a tolerance more at ea
   CHECK_FALSE(neighbourhood.explains(Vec3(0.2, 10 + 1.1e-3, 0), tolerances));
   CHECK_FALSE(neighbourhood.explains(Vec3(0.2, std::nan(""), 0), tolerances));
 
-  const FirstHit hit{45, {}, {0, 0, 1}, {}, 3, 1};
+  const FirstHit hit{.t = 45, .normal = {0, 0, 1}, .primitive = 3, .material = 1};
   const auto changed = [&](auto member, auto value) {
     FirstHit other = hit;
     other.*member = value;

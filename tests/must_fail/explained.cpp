@@ -20,7 +20,7 @@ TEST_CASE("an edge does not excuse a value that is on neither side of it") {
   }
   // A hit of the right primitive with another's t.
   Frame gpu = honest_frame();
-  hit_at(gpu, {88, 6}) = {900, {}, {0, 0, 1}, {}, 0, 0};
+  hit_at(gpu, {88, 6}) = hit_of(900, {}, {0, 0, 1}, {}, 0);
   CHECK(compared(gpu).first_hits.unexplained == 1);
 }
 

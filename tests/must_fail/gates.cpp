@@ -94,6 +94,8 @@ TEST_CASE("gate A sees one bit, wherever it is") {
       [&](Frame& f) { flip_double(hit_at(f, on_ball).t); },
       [&](Frame& f) { flip_double(hit_at(f, on_ball).position.y); },
       [&](Frame& f) { flip_double(hit_at(f, on_ball).normal.z); },
+      [&](Frame& f) { flip_double(hit_at(f, on_ball).normal_geometric.z); },
+      [&](Frame& f) { flip_double(hit_at(f, on_ball).cosine); },
       [&](Frame& f) { flip_double(hit_at(f, on_ball).uv.x); },
       [&](Frame& f) { hit_at(f, on_ball).material = 0; },
       [&](Frame& f) { hit_at(f, on_ball).primitive = 0; },
@@ -242,6 +244,21 @@ TEST_CASE("flipped normals fail at the seam 'normal'") {
   CHECK(comparison.first_hits.worst.seam == Seam::normal);
 }
 
+TEST_CASE("geometric normals that are the shading normal's, or a front that is a back, fail at their seam") {
+  for (const bool turned : {false, true}) {
+    Frame gpu = honest_frame();
+    for_each_pixel(gpu, [&](float*, FirstHit& hit) {
+      if (turned)
+        hit.cosine = -hit.cosine;
+      else
+        hit.normal_geometric = glm::normalize(hit.normal_geometric + Vec3(0.01, 0, 0));
+    });
+    const ReferenceComparison comparison = compared(gpu);
+    CHECK_FALSE(comparison.first_hits.passes());
+    CHECK(comparison.first_hits.worst.seam == Seam::geometric_normal);
+  }
+}
+
 TEST_CASE("a missing light fails at the seam 'color'") {
   Frame gpu = honest_frame();
   for_each_pixel(gpu, [](float* color, FirstHit& hit) {
@@ -263,6 +280,9 @@ TEST_CASE("a difference just over the tolerance fails, just below passes") {
     CHECK(compared(gpu).first_hits.passes() == passes);
     gpu = picture_frame();
     hit_at(gpu, on_ball).normal.y += factor * 1e-4;
+    CHECK(compared(gpu).first_hits.passes() == passes);
+    gpu = picture_frame();
+    hit_at(gpu, on_ball).normal_geometric.y += factor * 1e-4;
     CHECK(compared(gpu).first_hits.passes() == passes);
     gpu = picture_frame();
     hit_at(gpu, on_ball).uv.y += factor * 1e-4;

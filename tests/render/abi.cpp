@@ -114,8 +114,10 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
       gpu::reflect(test::compile_entry("kernels/render.comp.glsl", scene, {}, "#define FIRST_HITS\n"));
   check_struct(hits, "HitResult", sizeof(shader::HitResult),
                {MEMBER(HitResult, position), MEMBER(HitResult, t), MEMBER(HitResult, normal),
-                MEMBER(HitResult, u), MEMBER(HitResult, v), MEMBER(HitResult, primitive),
-                MEMBER(HitResult, material), MEMBER(HitResult, flags)});
+                MEMBER(HitResult, u), MEMBER(HitResult, normal_geometric), MEMBER(HitResult, v),
+                MEMBER(HitResult, cosine), MEMBER(HitResult, primitive), MEMBER(HitResult, material),
+                MEMBER(HitResult, flags), MEMBER(HitResult, nodes), MEMBER(HitResult, tests),
+                MEMBER(HitResult, unused_0), MEMBER(HitResult, unused_1)});
   const gpu::Reflection query = gpu::reflect(test::compile_entry("kernels/query.comp.glsl", scene, {}));
   check_struct(query, "QueryRay", sizeof(shader::QueryRay),
                {MEMBER(QueryRay, origin), MEMBER(QueryRay, unused), MEMBER(QueryRay, direction),

@@ -16,6 +16,18 @@ inline constexpr double beyond = 3e-5;
 // Pixels along each of the four edges.
 inline constexpr int edge_pixels = 8;
 
+// What a ray along −z hits of a primitive that has the material of its number.
+inline FirstHit hit_of(double t, const Vec3& position, const Vec3& normal, const Vec2& uv, int32_t number) {
+  return {.t = t,
+          .position = position,
+          .normal = normal,
+          .normal_geometric = normal,
+          .cosine = normal.z,
+          .uv = uv,
+          .primitive = number,
+          .material = number};
+}
+
 // The picture at a point in pixels from its top left corner: a ball (primitive 1) before a wall (primitive
 // 0), an opening in the wall, a shadow and a checker's edge on it, and a mirror (primitive 2) in which two
 // colours hit.
@@ -27,7 +39,7 @@ inline compare::Probe picture_at(double x, double y) {
 
   // The wall, lit a little unevenly.
   sample.color = Vec3(0.5, 0.4, 0.3) * (1 + 0.1 * std::sin(x / 20) * std::cos(y / 20));
-  probe.first_hit = {1000, {x, -y, 0}, {0, 0, 1}, {x, y}, 0, 0};
+  probe.first_hit = hit_of(1000, {x, -y, 0}, {0, 0, 1}, {x, y}, 0);
 
   // The ball.
   const double radius = 25, dx = x - 48, dy = y - 34, r2 = dx * dx + dy * dy;
@@ -36,7 +48,7 @@ inline compare::Probe picture_at(double x, double y) {
     const Vec3 n = Vec3(dx, -dy, z) / radius;
     const double light = std::max(0.0, glm::dot(n, glm::normalize(Vec3(1, 2, 3))));
     sample.color = Vec3(0.1) + light * Vec3(0.9, 0.5, 0.2);
-    probe.first_hit = {900 - z, {x, -y, z}, n, {n.x, n.y}, 1, 1};
+    probe.first_hit = hit_of(900 - z, {x, -y, z}, n, {n.x, n.y}, 1);
   }
   // The opening, through which nothing is hit.
   if (between(x, 88.5 + beyond, 96) && between(y, 4, 4 + edge_pixels)) {
@@ -53,7 +65,7 @@ inline compare::Probe picture_at(double x, double y) {
   // The mirror.
   if (between(x, 4, 4 + edge_pixels) && between(y, 4, 16)) {
     sample.color = y < 10.5 + beyond ? Vec3(0.8, 0.1, 0.1) : Vec3(0.1, 0.1, 0.8);
-    probe.first_hit = {800, {x, -y, 5}, {0, 0.6, 0.8}, {x, y}, 2, 2};
+    probe.first_hit = hit_of(800, {x, -y, 5}, {0, 0.6, 0.8}, {x, y}, 2);
     sample.counts = {2, 4};
     probe.direct = false;
   }
