@@ -30,6 +30,7 @@ Image bounces(const Image& kinds) {
 constexpr AovType types[] = {
     {.name = "depth",
      .channels = 1,
+     .components = {"Z"},
      .shown_as = FalseColor::depth,
      .values = [](const FirstHit& hit) { return Vec3(hit.t); }},
     {.name = "position",
@@ -50,6 +51,7 @@ constexpr AovType types[] = {
      .values = [](const FirstHit& hit) { return Vec3(hit.primitive < 0 ? no_value : hit.cosine > 0); }},
     {.name = "uv",
      .channels = 3,
+     .components = {"U", "V"},
      .shown_as = FalseColor::position,
      .values = [](const FirstHit& hit) { return Vec3(hit.uv, 0); }},
     {.name = "shape",
@@ -82,6 +84,7 @@ constexpr AovType types[] = {
      .values = [](const render::FinishedRows& rows) { return rows.rays_traced; }},
     {.name = "ray_kinds",
      .channels = 3,
+     .components = {"reflected", "refracted", "shadow"},
      .shown_as = FalseColor::position,
      .values = [](const render::FinishedRows& rows) { return rows.kinds; },
      .needs = AovNeeds::ray_kinds},
@@ -113,6 +116,16 @@ std::span<const AovType> aov_types() {
   return types;
 }
 
+std::vector<std::string> layer_channels(Aov aov) {
+  std::array<std::string_view, 3> components = aov->components;
+  if (components[0].empty() && aov->channels == 1) components = {"V"};
+  if (components[0].empty()) components = {"X", "Y", "Z"};
+  std::vector<std::string> names;
+  for (const std::string_view component : components)
+    if (!component.empty()) names.push_back(fmt::format("{}.{}", aov->name, component));
+  return names;
+}
+
 std::string aov_names() {
   return fmt::format("{}", fmt::join(names(), ", "));
 }
@@ -137,6 +150,10 @@ std::vector<Aov> parse_aovs(const std::string& list) {
   std::ranges::sort(aovs);
   aovs.erase(std::unique(aovs.begin(), aovs.end()), aovs.end());
   return aovs;
+}
+
+std::filesystem::path aov_file(std::filesystem::path output, Aov aov, std::string_view ending) {
+  return output.replace_extension(fmt::format("{}.{}", aov->name, ending));
 }
 
 bool need_first_hits(const std::vector<Aov>& aovs) {

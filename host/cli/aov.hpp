@@ -2,6 +2,8 @@
 // aov.cpp.
 #pragma once
 
+#include <array>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -28,7 +30,9 @@ enum class AovNeeds { nothing, ray_kinds, search_cost };
 
 struct AovType {
   std::string_view name;
-  int channels;         // 1 or 3
+  int channels;  // 1 or 3
+  // Its channels in its layer of an .exr; where none is named, V or X, Y and Z.
+  std::array<std::string_view, 3> components{};
   FalseColor shown_as;  // in its picture for people
   std::variant<ValueOfHit, EntryOfLegend, ValuesOfRows> values;
   AovNeeds needs = AovNeeds::nothing;
@@ -42,11 +46,17 @@ using Aov = const AovType*;
 
 // All, in the order in which they are listed.
 std::span<const AovType> aov_types();
+// The channels of its layer of an .exr: "normal.X" and so on; no more than it has, and fewer where its last
+// says nothing.
+std::vector<std::string> layer_channels(Aov aov);
 // "depth, position, …".
 std::string aov_names();
 
 // "depth,normal" or "all"; Error (bad_input) for an unknown name.
 std::vector<Aov> parse_aovs(const std::string& list);
+
+// NAME.AOV.ENDING for an output NAME.….
+std::filesystem::path aov_file(std::filesystem::path output, Aov aov, std::string_view ending);
 
 bool need_first_hits(const std::vector<Aov>& aovs);
 bool any_needs(const std::vector<Aov>& aovs, AovNeeds what);

@@ -16,6 +16,7 @@ struct Command {
   std::string a, b;
   double tolerance = compare::Tolerances{}.color;
   int64_t max_different = 0;
+  std::string layer;
   std::string diff;
   bool json = false;
 
@@ -34,11 +35,21 @@ std::string describe_size(const Image& image) {
                      image.channels() == 1 ? "" : "s");
 }
 
+// Of data, unlike colours, any value may be right. What is not finite and the same in both counts as equal.
+void take_as_data(Image& a, Image& b) {
+  if (!a.same_size(b)) return;
+  for (size_t i = 0; i < a.sample_count(); ++i) {
+    float &x = a.samples()[i], &y = b.samples()[i];
+    if (!std::isfinite(x) && (x == y || (std::isnan(x) && std::isnan(y)))) x = y = 0;
+  }
+}
+
 Comparison compare(const Command& command, const Image& a, const Image& b) {
   Comparison result;
   for (const auto& [name, image] : {std::pair{&command.a, &a}, {&command.b, &b}}) {
     const compare::Soundness soundness = compare::inspect(*image);
-    if (!soundness.ok()) result.failures.push_back(fmt::format("{}: {}", *name, describe(soundness)));
+    if (!soundness.ok() && command.layer.empty())
+      result.failures.push_back(fmt::format("{}: {}", *name, describe(soundness)));
   }
   if (!a.same_size(b)) {
     result.failures.push_back(fmt::format("wrong size: {} against {}", describe_size(a), describe_size(b)));
@@ -75,11 +86,16 @@ ExitCode Command::run() const {
         throw Error(ExitCode::bad_input, "{} is compared, and --diff would overwrite it", diff);
     }
   }
-  const Image image_a = read_image(a), image_b = read_image(b);
+  // Of a layer and a file of its own, as --aov writes them, either may be the .exr.
+  if (!layer.empty() && image_format(a) != ImageFormat::exr && image_format(b) != ImageFormat::exr)
+    throw Error(ExitCode::bad_input, "--layer {}: neither {} nor {} is an .exr", layer, a, b);
+  Image image_a = read_image(a, layer), image_b = read_image(b, layer);
+  if (!layer.empty()) take_as_data(image_a, image_b);
   const Comparison result = compare(*this, image_a, image_b);
   if (!diff.empty() && result.metrics) {
     const Image difference = compare::log_difference(image_a, image_b);
-    const bool as_data = image_format(diff) == ImageFormat::pfm;
+    const ImageFormat format = image_format(diff);
+    const bool as_data = format == ImageFormat::pfm || format == ImageFormat::exr;
     write_image(diff, as_data ? difference : false_color(difference, FalseColor::scalar));
   }
 
@@ -103,7 +119,7 @@ ExitCode Command::run() const {
 void add_compare(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("compare", "Compare two picture files.");
   const auto options = std::make_shared<Command>();
-  command->add_option("A", options->a, "A picture: .pfm, .png or .hdr.")->required()->option_text(" ");
+  command->add_option("A", options->a, "A picture: .pfm, .png, .hdr or .exr.")->required()->option_text(" ");
   command->add_option("B", options->b, "The picture that it should be.")->required()->option_text(" ");
   command
       ->add_option("--tolerance", options->tolerance,
@@ -113,7 +129,12 @@ void add_compare(CLI::App& app, Run& run) {
   command->add_option("--max-different", options->max_different, "How many pixels may differ by more.")
       ->option_text("N=0")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--diff", options->diff, "Write the difference: a false-colour .png, or log10 as .pfm.")
+  command
+      ->add_option("--layer", options->layer, "The layer of an .exr that is compared. Default: its picture.")
+      ->option_text("NAME");
+  command
+      ->add_option("--diff", options->diff,
+                   "Write the difference: a false-colour .png, or log10 as .pfm or .exr.")
       ->option_text("FILE");
   command->add_flag("--json", options->json, "Report as JSON.");
   command->footer(

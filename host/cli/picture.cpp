@@ -77,8 +77,9 @@ std::optional<render::Checkpoint> checkpoint_of(const PictureRequest& request, c
 void PictureRequest::add_to(CLI::App& command) {
   scene.add_to(command);
   command
-      .add_option("-o,--output", outputs,
-                  "Where the picture goes: .png, .pfm or .hdr. May be repeated. Default: SCENE.png here.")
+      .add_option(
+          "-o,--output", outputs,
+          "Where the picture goes: .png, .pfm, .hdr or .exr. May be repeated. Default: SCENE.png here.")
       ->option_text("FILE")
       ->allow_extra_args(false)
       ->take_all();
@@ -87,9 +88,11 @@ void PictureRequest::add_to(CLI::App& command) {
       .add_option_function<std::string>(
           "--aov", parse,
           fmt::format("Also write {}, or all of them: each as data (FILE.NAME.pfm) and in false colour "
-                      "(FILE.NAME.png), ids with what they stand for (FILE.NAME.json).",
+                      "(FILE.NAME.png), or of a FILE.exr as its layers; ids with what they stand for "
+                      "(FILE.NAME.json).",
                       aov_names()))
       ->option_text("LIST");
+  command.add_flag("--half", half, "Write the colours of an .exr in 16 bits a channel, not 32.");
   add_crop_option(command, crop);
   add_backend_option(command, backend);
   add_executor_options(command, executor);
@@ -150,7 +153,8 @@ Picture make_picture(const PictureRequest& request,
   const render::RenderTotals totals =
       render::render_rows(scene, *executor, options, [&](const render::FinishedRows& rows) {
         encoding.measure("encode", [&] {
-          if (!files) files.emplace(request.outputs, request.aovs, crop.width, crop.height, scene);
+          if (!files)
+            files.emplace(request.outputs, request.aovs, crop.width, crop.height, request.half, scene);
           files->write(request.classic ? corners.add(rows) : rows);
         });
       });
@@ -171,7 +175,10 @@ Picture make_picture(const PictureRequest& request,
           encoding.measure("encode", [&] { files->write(hits); });
         });
   }
-  if (!picture.interrupted) encoding.measure("encode", [&] { files->finish_aovs(picture.files); });
+  encoding.measure("encode", [&] {
+    if (!picture.interrupted) files->finish_aovs(picture.files);
+    if (picture.interrupted && totals.samples_done > 0) files->finish_without_aovs(picture.files);
+  });
   if (checkpoint && !picture.interrupted) checkpoint->remove();
   if (checkpoint && picture.interrupted && checkpoint->on_disk()) picture.checkpoint = checkpoint->file();
 

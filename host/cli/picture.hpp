@@ -28,7 +28,8 @@ struct PictureRequest {
   executors::ExecutorOptions executor;
   Rect crop;
   std::vector<std::string> outputs;  // none: the scene's name with .png, in the current folder
-  std::vector<Aov> aovs;             // each as NAME.aov.pfm and NAME.aov.png, NAME from the first output
+  std::vector<Aov> aovs;             // as files NAME.AOV.* or layers, NAME from the first output
+  bool half = false;                 // the picture in each .exr
   LongRender long_render;
   bool ray_kinds = false;  // count rays by kind
   bool classic = false;    // sample as the published statistics of Haines' databases do

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/core/error.hpp"
+#include "host/image/image_file.hpp"
 #include "host/image/pfm_file.hpp"
 
 namespace fs = std::filesystem;
@@ -13,8 +14,8 @@ namespace {
 // How many pixels are painted at a time.
 constexpr int painted_pixels = 1 << 20;
 
-fs::path aov_file(fs::path output, Aov aov, std::string_view ending) {
-  return output.replace_extension(fmt::format("{}.{}", aov->name, ending));
+bool is_exr(const std::string& output) {
+  return image_format(output) == ImageFormat::exr;
 }
 
 }  // namespace
@@ -22,8 +23,10 @@ fs::path aov_file(fs::path output, Aov aov, std::string_view ending) {
 std::vector<fs::path> files_written(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs) {
   std::vector<fs::path> files(outputs.begin(), outputs.end());
   for (const Aov aov : aovs) {
-    files.push_back(aov_file(outputs[0], aov, "pfm"));
-    files.push_back(aov_file(outputs[0], aov, "png"));
+    if (!is_exr(outputs[0])) {
+      files.push_back(aov_file(outputs[0], aov, "pfm"));
+      files.push_back(aov_file(outputs[0], aov, "png"));
+    }
     if (aov->legend) files.push_back(aov_file(outputs[0], aov, "json"));
   }
   return files;
@@ -72,30 +75,45 @@ void AovFiles::finish(std::vector<fs::path>& files) {
 }
 
 PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width,
-                           int height, const Scene& scene)
-    : outputs_(outputs) {
-  for (const std::string& output : outputs) writers_.emplace_back(output, width, height, 3);
+                           int height, bool half, const Scene& scene) {
+  for (const std::string& output : outputs) {
+    const bool exr = is_exr(output);
+    if (exr && &output == &outputs[0] && !aovs.empty())
+      layered_.emplace(output, aovs, width, height, half, scene);
+    else if (exr)
+      writers_.emplace_back(output, ImageWriter(output, width, height, exr_channels(3, half)));
+    else
+      writers_.emplace_back(output, ImageWriter(output, width, height, 3));
+  }
+  if (layered_) return;
   for (const Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height, scene);
 }
 
 void PictureFiles::write(const render::FinishedRows& rows) {
-  for (ImageWriter& writer : writers_) writer.write(rows.color);
+  for (auto& [name, writer] : writers_) writer.write(rows.color);
   for (AovFiles& files : aovs_) files.write(rows);
+  if (layered_) layered_->write(rows);
 }
 
 void PictureFiles::write(std::span<const FirstHit> hits) {
   for (AovFiles& files : aovs_) files.write(hits);
+  if (layered_) layered_->write(hits);
 }
 
 void PictureFiles::finish_picture(std::vector<fs::path>& files) {
-  for (size_t i = 0; i < writers_.size(); ++i) {
-    writers_[i].finish();
-    files.emplace_back(outputs_[i]);
+  for (auto& [name, writer] : writers_) {
+    writer.finish();
+    files.emplace_back(name);
   }
 }
 
 void PictureFiles::finish_aovs(std::vector<fs::path>& files) {
   for (AovFiles& each : aovs_) each.finish(files);
+  if (layered_) layered_->finish(files, true);
+}
+
+void PictureFiles::finish_without_aovs(std::vector<fs::path>& files) {
+  if (layered_) layered_->finish(files, false);
 }
 
 }  // namespace eyeray::cli

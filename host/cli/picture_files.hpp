@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/cli/aov.hpp"
+#include "host/cli/layered_file.hpp"
 #include "host/cli/legend.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image_writer.hpp"
@@ -48,21 +49,24 @@ class AovFiles {
 // Nothing of it is seen before its finish_…; Error (file_io) when a file cannot be written.
 class PictureFiles {
  public:
-  // `scene`, of which the AOVs are, must outlive it.
+  // AOVs are layers of the first output where that is an .exr, else files of their own. `half`: whether the
+  // picture is, in each .exr. `scene`, of which the AOVs are, must outlive it.
   PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width, int height,
-               const Scene& scene);
+               bool half, const Scene& scene);
 
   // The next rows, from the top down, of the picture and of the AOVs that are made of them.
   void write(const render::FinishedRows& rows);
   // The same of those that are made of first hits.
   void write(std::span<const FirstHit> hits);
-  // After the last rows. They add the names of what was written to `files`.
+  // After the last rows: the picture, then the AOVs, or what is there without them where hits were
+  // interrupted. They add the names of what was written to `files`.
   void finish_picture(std::vector<std::filesystem::path>& files);
   void finish_aovs(std::vector<std::filesystem::path>& files);
+  void finish_without_aovs(std::vector<std::filesystem::path>& files);
 
  private:
-  std::vector<std::string> outputs_;
-  std::vector<ImageWriter> writers_;  // one an output
+  std::vector<std::pair<std::string, ImageWriter>> writers_;  // one an output that is not layered_
+  std::optional<LayeredFile> layered_;
   std::vector<AovFiles> aovs_;
 };
 

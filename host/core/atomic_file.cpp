@@ -63,7 +63,7 @@ AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
   part_ = stem;
   UnfinishedFiles unfinished;
   for (int i = 1; file_ < 0; ++i) {
-    file_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    file_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ < 0 && errno != EEXIST) fail("write", part_, errno);
     if (file_ < 0) part_ = stem + "." + std::to_string(i);
   }
@@ -88,6 +88,17 @@ void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
     const ssize_t count = ::pwrite(file_, bytes.data(), bytes.size(), off_t(offset));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail("write", part_, errno);
+    bytes = bytes.subspan(size_t(count));
+    offset += uint64_t(count);
+  }
+}
+
+void AtomicFile::read_at(uint64_t offset, std::span<std::byte> bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t count = ::pread(file_, bytes.data(), bytes.size(), off_t(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail("read", part_, errno);
+    if (count == 0) fail("read", part_, EIO);
     bytes = bytes.subspan(size_t(count));
     offset += uint64_t(count);
   }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "host/core/error.hpp"
+#include "host/image/exr_file.hpp"
 #include "host/image/image_writer.hpp"
 #include "host/image/pfm_file.hpp"
 #include "host/image/radiance_file.hpp"
@@ -90,7 +91,9 @@ ImageFormat image_format(const fs::path& path) {
   if (ending == ".png") return ImageFormat::png;
   if (ending == ".pfm") return ImageFormat::pfm;
   if (ending == ".hdr") return ImageFormat::hdr;
-  throw Error(ExitCode::bad_input, "{}: a picture's name must end in .png, .pfm or .hdr", path.string());
+  if (ending == ".exr") return ImageFormat::exr;
+  throw Error(ExitCode::bad_input, "{}: a picture's name must end in .png, .pfm, .hdr or .exr",
+              path.string());
 }
 
 void write_image(const fs::path& path, const Image& image) {
@@ -99,7 +102,7 @@ void write_image(const fs::path& path, const Image& image) {
   writer.finish();
 }
 
-Image read_image(const fs::path& path) {
+Image read_image(const fs::path& path, const std::string& layer) {
   const ImageFormat format = image_format(path);
   const std::string bytes = read_file(path);
   switch (format) {
@@ -109,6 +112,8 @@ Image read_image(const fs::path& path) {
       return decode_pfm(bytes, path.string());
     case ImageFormat::hdr:
       return decode_radiance(bytes, path.string());
+    case ImageFormat::exr:
+      return decode_exr(bytes, path.string(), layer);
   }
   CHECK(false);
 }

@@ -2,6 +2,7 @@
 //   .png  8-bit sRGB, the true curve, round half up; clipped to [0, 1]; NaN and negatives become 0
 //   .pfm  float32, linear, unclipped, 1 or 3 channels, little-endian
 //   .hdr  Radiance RGBE, linear; NaN and negatives become 0
+//   .exr  OpenEXR, float32, linear, unclipped, in layers (image/exr_file.hpp)
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace eyeray {
 
-enum class ImageFormat { png, pfm, hdr };
+enum class ImageFormat { png, pfm, hdr, exr };
 
 // The format that a file name's ending asks for; Error (bad_input) that lists the known endings otherwise.
 ImageFormat image_format(const std::filesystem::path& path);
@@ -27,9 +28,9 @@ void write_image(const std::filesystem::path& path, const Image& image);
 // The bytes of a .png of it.
 std::string encode_png(const Image& image);
 
-// Reads a picture as linear float32 (a PNG through the inverse sRGB curve). Sizes up to 65536 × 65536 and
-// 2^28 pixels; Error (file_io) for anything unreadable or malformed.
-Image read_image(const std::filesystem::path& path);
+// Reads a picture as linear float32 (a PNG through the inverse sRGB curve), of an .exr that layer. Sizes up
+// to 65536 × 65536 and 2^28 pixels; Error (file_io) for anything unreadable or malformed.
+Image read_image(const std::filesystem::path& path, const std::string& layer = "");
 
 // Linear [0, 1] to an 8-bit sRGB code (IEC 61966-2-1), round half up.
 unsigned char srgb8(float linear);

@@ -17,6 +17,8 @@ std::unique_ptr<RowEncoder> make_encoder(ImageFormat format, AtomicFile& file, i
       return pfm_encoder(file, width, height, channels);
     case ImageFormat::hdr:
       return radiance_encoder(file, width, height, channels);
+    case ImageFormat::exr:
+      return exr_encoder(file, width, height, exr_channels(channels, false));
   }
   CHECK(false);
 }
@@ -30,6 +32,15 @@ ImageWriter::ImageWriter(const std::filesystem::path& path, int width, int heigh
   const ImageFormat format = image_format(path);
   file_ = std::make_unique<AtomicFile>(path);
   encoder_ = make_encoder(format, *file_, width, height, channels);
+}
+
+ImageWriter::ImageWriter(const std::filesystem::path& path, int width, int height,
+                         std::vector<ExrChannel> channels)
+    : width_(width), channels_(int(channels.size())), rows_left_(height) {
+  CHECK(image_size_allowed(width, height));
+  CHECK(image_format(path) == ImageFormat::exr);
+  file_ = std::make_unique<AtomicFile>(path);
+  encoder_ = exr_encoder(*file_, width, height, std::move(channels));
 }
 
 ImageWriter::~ImageWriter() = default;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "host/image/exr_file.hpp"
 #include "host/image/image.hpp"
 
 namespace eyeray {
@@ -17,6 +18,8 @@ class ImageWriter {
   // Size as image_size_allowed, 1 or 3 channels; Error (bad_input) for an unknown ending, Error (file_io)
   // here and below when it cannot be written.
   ImageWriter(const std::filesystem::path& path, int width, int height, int channels);
+  // An .exr of those channels, at least one.
+  ImageWriter(const std::filesystem::path& path, int width, int height, std::vector<ExrChannel> channels);
   // Leaves no trace unless finish() has been called.
   ~ImageWriter();
   ImageWriter(ImageWriter&&) noexcept;

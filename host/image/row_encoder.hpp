@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "host/core/atomic_file.hpp"
+#include "host/image/exr_file.hpp"
 #include "host/image/image.hpp"
 
 namespace eyeray {
@@ -22,5 +23,8 @@ class RowEncoder {
 std::unique_ptr<RowEncoder> png_encoder(AtomicFile& file, int width, int height, int channels);
 std::unique_ptr<RowEncoder> pfm_encoder(AtomicFile& file, int width, int height, int channels);
 std::unique_ptr<RowEncoder> radiance_encoder(AtomicFile& file, int width, int height, int channels);
+// Of those channels.
+std::unique_ptr<RowEncoder> exr_encoder(AtomicFile& file, int width, int height,
+                                        std::vector<ExrChannel> channels);
 
 }  // namespace eyeray

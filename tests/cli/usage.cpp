@@ -66,7 +66,7 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
        "no AOV 'dept'; did you mean 'depth'? There are depth, position, normal, normal_geometric, front, "
        "uv, shape, primitive, material, hits, bounces, rays, ray_kinds, nodes, tests, flags and all"},
       {{"render", scene, "-o", folder / "x.gif"},
-       folder / "x.gif" + ": a picture's name must end in .png, .pfm or .hdr"},
+       folder / "x.gif" + ": a picture's name must end in .png, .pfm, .hdr or .exr"},
       {{"shaders", "--print", "sphere.glsl"}, "no shader 'sphere.glsl' (see eyeray shaders --list)"},
       {{"check"}, "no scene given (see eyeray check --help)"},
   };

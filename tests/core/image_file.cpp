@@ -85,6 +85,7 @@ TEST_CASE("the ending decides the format, in either case") {
   CHECK(image_format("a/b.png") == ImageFormat::png);
   CHECK(image_format("b.PFM") == ImageFormat::pfm);
   CHECK(image_format("b.c.hdr") == ImageFormat::hdr);
+  CHECK(image_format("b.exr") == ImageFormat::exr);
   for (const char* name : {"b", "b.jpg", "png", ".png", "b.png/"}) {
     CHECK_THROWS_AS(image_format(name), Error);
   }

@@ -1,0 +1,101 @@
+#include "host/cli/layered_file.hpp"
+
+#include <algorithm>
+
+#include "host/image/image_writer.hpp"
+
+namespace fs = std::filesystem;
+
+namespace eyeray::cli {
+namespace {
+
+// How many values are put together at a time.
+constexpr int assembled_samples = 1 << 22;
+
+}  // namespace
+
+LayeredFile::LayeredFile(fs::path path, const std::vector<Aov>& aovs, int width, int height, bool half,
+                         const Scene& scene)
+    : path_(std::move(path)), width_(width), height_(height), waiting_(path_) {
+  add(nullptr, exr_channels(3, half), scene);
+  for (const Aov aov : aovs) {
+    std::vector<ExrChannel> channels;
+    for (std::string& name : layer_channels(aov)) channels.push_back({std::move(name)});
+    add(aov, std::move(channels), scene);
+  }
+}
+
+uint64_t LayeredFile::row_bytes(const Layer& layer) const {
+  return uint64_t(width_) * layer.channels.size() * sizeof(float);
+}
+
+void LayeredFile::add(Aov aov, std::vector<ExrChannel> channels, const Scene& scene) {
+  const uint64_t begin =
+      layers_.empty() ? 0 : layers_.back().begin + row_bytes(layers_.back()) * uint64_t(height_);
+  Layer& layer = layers_.emplace_back(Layer{aov, std::move(channels), begin, 0, {}});
+  if (aov && aov->legend) layer.legend.emplace(aov->legend(scene));
+}
+
+void LayeredFile::write(Layer& layer, const Image& rows) {
+  // Of an image's channels the first ones.
+  const size_t kept = layer.channels.size(), channels = size_t(rows.channels());
+  std::vector<float> samples(size_t(width_) * size_t(rows.height()) * kept);
+  for (size_t i = 0; i < samples.size(); ++i) samples[i] = rows.samples()[i / kept * channels + i % kept];
+  waiting_.write_at(layer.begin + uint64_t(layer.rows) * row_bytes(layer), std::as_bytes(std::span(samples)));
+  layer.rows += rows.height();
+}
+
+void LayeredFile::write(const render::FinishedRows& rows) {
+  for (Layer& layer : layers_) {
+    if (!layer.aov)
+      write(layer, rows.color);
+    else if (const ValuesOfRows* values = std::get_if<ValuesOfRows>(&layer.aov->values))
+      write(layer, (*values)(rows));
+  }
+}
+
+void LayeredFile::write(std::span<const FirstHit> hits) {
+  for (Layer& layer : layers_) {
+    if (!layer.aov || !layer.aov->is_of_first_hits()) continue;
+    write(layer, aov_image(layer.aov, hits, width_, layer.legend ? &layer.legend->entries() : nullptr));
+    if (layer.legend) layer.legend->see(hits);
+  }
+}
+
+// Its rows from `first` on, as the channels of `rows` from `channel` on.
+void LayeredFile::read(const Layer& layer, int first, Image& rows, size_t channel) const {
+  const size_t kept = layer.channels.size(), channels = size_t(rows.channels());
+  std::vector<float> samples(size_t(width_) * size_t(rows.height()) * kept);
+  waiting_.read_at(layer.begin + uint64_t(first) * row_bytes(layer),
+                   std::as_writable_bytes(std::span(samples)));
+  for (size_t i = 0; i < samples.size(); ++i)
+    rows.samples()[i / kept * channels + channel + i % kept] = samples[i];
+}
+
+void LayeredFile::finish(std::vector<fs::path>& files, bool with_aovs) {
+  const std::span layers = std::span(layers_).first(with_aovs ? layers_.size() : 1);
+  std::vector<ExrChannel> channels;
+  for (const Layer& layer : layers) {
+    CHECK_EQ(layer.rows, height_);
+    channels.insert(channels.end(), layer.channels.begin(), layer.channels.end());
+  }
+
+  ImageWriter writer(path_, width_, height_, channels);
+  for (int row = 0; row < height_;) {
+    const int some = std::max(1, assembled_samples / (width_ * int(channels.size())));
+    Image rows(width_, std::min(some, height_ - row), int(channels.size()));
+    size_t channel = 0;
+    for (const Layer& layer : layers) {
+      read(layer, row, rows, channel);
+      channel += layer.channels.size();
+    }
+    writer.write(rows);
+    row += rows.height();
+  }
+  writer.finish();
+  files.push_back(path_);
+  for (const Layer& layer : layers)
+    if (layer.legend) files.push_back(layer.legend->write(aov_file(path_, layer.aov, "json")));
+}
+
+}  // namespace eyeray::cli

@@ -1,0 +1,194 @@
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfPartType.h>
+#include <ImfTileDescriptionAttribute.h>
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <set>
+
+#include "host/core/error.hpp"
+#include "host/image/exr_file.hpp"
+#include "host/image/image_file.hpp"
+
+namespace eyeray {
+
+namespace {
+
+// How many bytes one of a file can stand for. Deflate makes 1032 at most (RFC 1951), runs and plain data
+// fewer; wavelets and cosines hold a flat picture in next to nothing.
+constexpr uint64_t most_deflated = 1032;
+constexpr uint64_t most_transformed = 1 << 16;
+// Of a tile, pixels.
+constexpr int64_t most_in_tile = 1 << 24;
+
+class MemoryStream final : public Imf::IStream {
+ public:
+  MemoryStream(std::string_view bytes, const std::string& name) : Imf::IStream(name.c_str()), bytes_(bytes) {}
+
+  bool read(char to[], int count) override {
+    if (count < 0 || at_ > bytes_.size() || size_t(count) > bytes_.size() - at_)
+      throw std::runtime_error("it ends too early");
+    std::memcpy(to, bytes_.data() + at_, size_t(count));
+    at_ += size_t(count);
+    return at_ < bytes_.size();
+  }
+  uint64_t tellg() override { return at_; }
+  void seekg(uint64_t at) override { at_ = at; }
+
+ private:
+  std::string_view bytes_;
+  uint64_t at_ = 0;
+};
+
+struct Channel {
+  int part;
+  std::string name;       // in its part
+  std::string layer;      // "" of the picture itself
+  std::string component;  // the name without the layer
+};
+
+class ExrReader {
+ public:
+  ExrReader(std::string_view bytes, const std::string& name)
+      : name_(name), size_(bytes.size()), stream_(bytes, name), file_(stream_, 0, false) {
+    for (int part = 0; part < file_.parts(); ++part) {
+      const Imf::Header& header = file_.header(part);
+      if (header.hasType() && Imf::isDeepData(header.type())) fail("it holds deep data");
+      const std::string part_name = header.hasName() ? header.name() : "";
+      for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+        const std::string full = it.name();
+        const size_t dot = full.rfind('.');
+        Channel channel{part, full, "", dot == std::string::npos ? full : full.substr(dot + 1)};
+        if (dot != std::string::npos) channel.layer = full.substr(0, dot);
+        if (channel.layer.empty() && part > 0) channel.layer = part_name;
+        if (part == 0) first_part_ = part_name;
+        channels_.push_back(std::move(channel));
+      }
+    }
+  }
+
+  Image read(const std::string& layer) {
+    const std::vector<Channel> chosen = choose(layer);
+    const Imf::Header& header = file_.header(chosen[0].part);
+    const Imath::Box2i window = header.dataWindow();
+    const int64_t width = int64_t{window.max.x} - window.min.x + 1,
+                  height = int64_t{window.max.y} - window.min.y + 1;
+    check_size(header, width, height);
+
+    Image image(int(width), int(height), chosen.size() == 1 ? 1 : 3);
+    const size_t stride = size_t(image.channels()) * sizeof(float);
+    Imf::FrameBuffer buffer;
+    for (size_t c = 0; c < chosen.size(); ++c)
+      buffer.insert(chosen[c].name, Imf::Slice::Make(Imf::FLOAT, image.samples().data() + c, window, stride,
+                                                     stride * size_t(width)));
+    Imf::InputPart part(file_, chosen[0].part);
+    part.setFrameBuffer(buffer);
+    part.readPixels(window.min.y, window.max.y);
+    return image;
+  }
+
+  [[noreturn]] void fail(const std::string& why) const {
+    throw Error(ExitCode::file_io, "cannot read {} as EXR: {}", name_, why);
+  }
+
+ private:
+  std::vector<Channel> in_layer(const std::string& layer) const {
+    std::vector<Channel> found;
+    for (const Channel& channel : channels_)
+      if ((channel.layer == layer || (channel.layer.empty() && layer == first_part_)) &&
+          (found.empty() || found[0].part == channel.part))
+        found.push_back(channel);
+    return found;
+  }
+
+  std::string layers() const {
+    std::set<std::string> names;
+    for (const Channel& channel : channels_) names.insert(channel.layer);
+    names.erase("");
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+
+  // The channels of the layer that make a picture, in their order.
+  std::vector<Channel> choose(const std::string& layer) const {
+    std::vector<Channel> all = in_layer(layer);
+    if (all.empty() && layer.empty() && !channels_.empty()) {
+      all = in_layer(channels_[0].layer);
+      if (all.size() < channels_.size()) fail(fmt::format("which of its layers? There are {}", layers()));
+    }
+    if (all.empty())
+      fail(layer.empty() ? "it has no channels"
+                         : fmt::format("it has no layer '{}'{}", layer,
+                                       layers().empty() ? "" : "; there are " + layers()));
+    const auto find = [&](std::string_view component) {
+      return std::ranges::find(all, component, &Channel::component);
+    };
+    const auto has = [&](std::string_view component) { return find(component) != all.end(); };
+    if (has("RY") || has("BY")) fail("it holds luminance and chroma, not red, green and blue");
+    for (const auto& names : {std::array{"R", "G", "B"}, {"X", "Y", "Z"}}) {
+      const auto missing = std::ranges::find_if_not(names, has);
+      if (missing == names.end()) return {*find(names[0]), *find(names[1]), *find(names[2])};
+      if (names[0][0] == 'R' && std::ranges::any_of(names, has))
+        fail(fmt::format("it lacks the channel {}", *missing));
+    }
+    if (has("Y") && !has("X")) return {*find("Y")};
+    std::erase_if(all, [](const Channel& channel) { return channel.component == "A"; });
+    if (all.empty() || all.size() > 3)
+      fail(fmt::format("a picture has one to three channels, and this {}", all.size()));
+    return all;
+  }
+
+  void check_size(const Imf::Header& header, int64_t width, int64_t height) const {
+    if (!image_size_allowed(width, height)) fail("its size is out of range");
+    uint64_t pixel = 0;
+    for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+      if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
+        fail(fmt::format("its channel {} is subsampled", it.name()));
+      pixel += it.channel().type == Imf::HALF ? 2 : 4;
+    }
+    if (header.hasTileDescription()) {
+      const Imf::TileDescription& tile = header.tileDescription();
+      if (int64_t{tile.xSize} * tile.ySize > most_in_tile) fail("its tiles are too large");
+    }
+    const Imf::Compression kind = header.compression();
+    const bool deflated = kind <= Imf::ZIP_COMPRESSION || kind == Imf::PXR24_COMPRESSION;
+    const uint64_t share = deflated ? most_deflated : most_transformed;
+    if (uint64_t(width) * uint64_t(height) * pixel / share > size_) fail("it ends too early");
+  }
+
+  const std::string& name_;
+  size_t size_;
+  MemoryStream stream_;
+  Imf::MultiPartInputFile file_;
+  std::vector<Channel> channels_;
+  std::string first_part_;  // its name: another for the layer ""
+};
+
+}  // namespace
+
+Image decode_exr(std::string_view bytes, const std::string& name, const std::string& layer) {
+  // Before the library takes memory for what a header promises.
+  static const bool limited = [] {
+    Imf::Header::setMaxImageSize(65536, 65536);
+    Imf::Header::setMaxTileSize(65536, 65536);
+    return true;
+  }();
+  CHECK(limited);
+  try {
+    return ExrReader(bytes, name).read(layer);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Error(ExitCode::file_io, "cannot read {} as EXR: {}", name, error.what());
+  }
+}
+
+}  // namespace eyeray

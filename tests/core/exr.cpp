@@ -1,0 +1,170 @@
+// OpenEXR: what is written comes back, and files that others wrote are read or refused with a clear sentence.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "host/core/error.hpp"
+#include "host/image/image_file.hpp"
+#include "host/image/image_writer.hpp"
+#include "tests/support/process.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// Written by the library's own tools: 9 × 5 pixels, of which channel c (in the order of its file's list) of
+// (x, y) is (x + 10 y + 100 c) / 4.
+const std::string corpus = "tests/fuzz/corpus/exr/";
+
+float value(int channel, int x, int y) {
+  return float(x + 10 * y + 100 * channel) / 4;
+}
+
+// Whether it is the picture above of these channels, each value within `error`.
+bool holds(const Image& image, const std::vector<int>& channels, float error = 0) {
+  if (image.width() != 9 || image.height() != 5 || image.channels() != int(channels.size())) return false;
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < 9; ++x)
+      for (size_t c = 0; c < channels.size(); ++c) {
+        const float expected = channels[c] < 0 ? 0 : value(channels[c], x, y);
+        if (!(std::abs(image.pixel(x, y)[c] - expected) <= error)) return false;
+      }
+  return true;
+}
+
+std::string refusal(const std::string& file, const std::string& layer = "") {
+  try {
+    read_image(file, layer);
+    return "";
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::file_io);
+    const std::string begin = "cannot read " + file + " as EXR: ", text = error.what();
+    REQUIRE(text.starts_with(begin));
+    return text.substr(begin.size());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("an EXR keeps every bit, of one and three channels, at any size") {
+  const TemporaryFolder folder;
+  for (const auto& [width, height] : {std::pair{1, 1}, {7, 5}, {3, 40}, {16384, 1}, {1, 20000}}) {
+    for (const int channels : {1, 3}) {
+      Image image(width, height, channels);
+      for (size_t i = 0; i < image.sample_count(); ++i) image.samples()[i] = float(i) * 1.7f - 30;
+      image.samples()[0] = std::numeric_limits<float>::quiet_NaN();
+      image.samples().back() = -std::numeric_limits<float>::infinity();
+      write_image(folder / "a.exr", image);
+      const Image read = read_image(folder / "a.exr");
+      REQUIRE(read.same_size(image));
+      CHECK(std::ranges::equal(read.samples(), image.samples(), [](float a, float b) {
+        return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+      }));
+    }
+  }
+  CHECK(folder.names() == std::set<std::string>{"a.exr"});
+}
+
+TEST_CASE("half channels are as near as a half is, and what is finite stays so") {
+  const TemporaryFolder folder;
+  Image image(4, 2, 4);
+  for (size_t i = 0; i < image.sample_count(); ++i) image.samples()[i] = float(i) / 7;
+  image.samples()[0] = 1e9f;
+  image.samples()[1] = -1e9f;
+  image.samples()[2] = std::numeric_limits<float>::infinity();
+  image.samples()[3] = 1e9f;
+  ImageWriter writer(folder / "a.exr", 4, 2, {{"R", true}, {"G", true}, {"B", true}, {"depth.Z"}});
+  writer.write(image);
+  writer.finish();
+  const Image color = read_image(folder / "a.exr"), depth = read_image(folder / "a.exr", "depth");
+  CHECK(color.pixel(0, 0)[0] == 65504);
+  CHECK(color.pixel(0, 0)[1] == -65504);
+  CHECK(std::isinf(color.pixel(0, 0)[2]));
+  CHECK(depth.pixel(0, 0)[0] == 1e9f);
+  for (int y = 0; y < 2; ++y)
+    for (int x = y == 0; x < 4; ++x) {
+      for (int c = 0; c < 3; ++c)
+        CHECK(color.pixel(x, y)[c] == doctest::Approx(image.pixel(x, y)[c]).epsilon(1e-3));
+      CHECK(*depth.pixel(x, y) == image.pixel(x, y)[3]);
+    }
+}
+
+TEST_CASE("each way to compress, tiles, mipmaps and windows are read") {
+  for (const char* name : {"plain", "rle", "zips", "zip", "piz", "tiled", "window"}) {
+    CAPTURE(name);
+    CHECK(holds(read_image(corpus + name + ".exr"), {0, 1, 2}));
+  }
+  CHECK(holds(read_image(corpus + "pxr24.exr"), {0, 1, 2}));
+  for (const char* name : {"b44", "b44a", "dwaa", "dwab"}) {
+    CAPTURE(name);
+    CHECK(holds(read_image(corpus + name + ".exr"), {0, 1, 2}, 4));
+  }
+  CHECK(holds(read_image(corpus + "grey.exr"), {0}));
+}
+
+TEST_CASE("layers are chosen by name, and parts are layers") {
+  const std::string layers = corpus + "layers.exr", parts = corpus + "parts.exr";
+  CHECK(holds(read_image(layers), {0, 1, 2}));
+  CHECK(holds(read_image(layers, "depth"), {4}));
+  CHECK(holds(read_image(layers, "normal"), {5, 6, 7}));
+  CHECK(holds(read_image(layers, "uv"), {8, 9, -1}));
+  CHECK(holds(read_image(layers, "id"), {10}, 0.75f));  // whole numbers
+  CHECK(holds(read_image(parts), {0, 1, 2}));
+  CHECK(holds(read_image(parts, "beauty"), {0, 1, 2}));
+  CHECK(holds(read_image(parts, "normal"), {0, 1, 2}));
+  CHECK(holds(read_image(parts, "depth"), {0}));
+  CHECK(holds(read_image(corpus + "one_layer.exr"), {0, 1, 2}));
+  CHECK(holds(read_image(corpus + "one_layer.exr", "beauty"), {0, 1, 2}));
+}
+
+TEST_CASE("what is no picture is refused, each with its own words") {
+  CHECK(refusal(corpus + "layers.exr", "nrmal") ==
+        "it has no layer 'nrmal'; there are depth, id, normal, uv");
+  CHECK(refusal(corpus + "grey.exr", "id") == "it has no layer 'id'");
+  CHECK(refusal(corpus + "only_layers.exr") == "which of its layers? There are depth, id");
+  CHECK(refusal(corpus + "lacks_green.exr") == "it lacks the channel G");
+  CHECK(refusal(corpus + "many.exr") == "a picture has one to three channels, and this 4");
+  CHECK(refusal(corpus + "deep.exr") == "it holds deep data");
+  CHECK(refusal(corpus + "chroma.exr") == "it holds luminance and chroma, not red, green and blue");
+  CHECK(refusal(corpus + "subsampled.exr") == "its channel B is subsampled");
+}
+
+TEST_CASE("a file that ends early, or promises more than it holds, is refused") {
+  const TemporaryFolder folder;
+  const std::string file = folder / "a.exr";
+  for (const char* name : {"zip", "parts", "tiled", "piz"}) {
+    CAPTURE(name);
+    const std::string whole = read_text(corpus + name + ".exr");
+    for (const size_t length : {size_t{0}, size_t{3}, size_t{8}, size_t{100}, whole.size() / 2}) {
+      CAPTURE(length);
+      write_text(file, whole.substr(0, length));
+      CHECK(refusal(file) != "");
+    }
+  }
+  write_text(file,
+             read_text(corpus + "zip.exr").substr(0, std::filesystem::file_size(corpus + "zip.exr") - 1));
+  CHECK(refusal(file) != "");
+  // The windows' far corners.
+  std::string huge = read_text(corpus + "zip.exr");
+  const std::string window = std::string("dataWindow") + '\0' + "box2i" + '\0' + std::string("\x10\0\0\0", 4);
+  const size_t at = huge.find(window);
+  REQUIRE(at != std::string::npos);
+  const auto with_corner = [&](int x, int y) {
+    std::string changed = huge;
+    for (int i = 0; i < 4; ++i) {
+      changed[at + window.size() + 8 + size_t(i)] = char(x >> 8 * i);
+      changed[at + window.size() + 12 + size_t(i)] = char(y >> 8 * i);
+    }
+    return changed;
+  };
+  for (const auto& [x, y] :
+       {std::pair{16383, 16383}, {65535, 65535}, {0x7fffffff, 0x7fffffff}, {8, 0x7ffffffe}, {-2, 4}}) {
+    CAPTURE(x);
+    write_text(file, with_corner(x, y));
+    CHECK(refusal(file) != "");
+  }
+}
