@@ -1,4 +1,6 @@
 // eyeray compare: two picture files, pixel by pixel.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -17,10 +19,14 @@ struct Command {
   double tolerance = compare::Tolerances{}.color;
   int64_t max_different = 0;
   std::string layer;
-  std::string diff;
+  std::string diff, flip, exposures;
+  bool hdr = false;
   bool json = false;
 
   ExitCode run() const;
+
+ private:
+  void write_maps(const Image& image_a, const Image& image_b, const compare::Metrics& metrics) const;
 };
 
 struct Comparison {
@@ -56,7 +62,11 @@ Comparison compare(const Command& command, const Image& a, const Image& b) {
     return result;
   }
 
-  result.metrics = compare::measure(a, b);
+  const auto beyond_display = [](const Image& image) {
+    return std::ranges::any_of(image.samples(), [](float value) { return value > 1; });
+  };
+  const bool hdr = command.layer.empty() && (beyond_display(a) || beyond_display(b));
+  result.metrics = compare::measure(a, b, hdr || command.hdr);
   result.pixels = int64_t{a.width()} * a.height();
   result.different = compare::count_different(a, b, command.tolerance);
   if (result.different > command.max_different) {
@@ -65,6 +75,23 @@ Comparison compare(const Command& command, const Image& a, const Image& b) {
                                           command.max_different));
   }
   return result;
+}
+
+// As data, or for people in false colour from `low` to `high`, or without these over its own range.
+void write_map(const std::string& file, const Image& map, std::span<const float> range = {}) {
+  const ImageFormat format = image_format(file);
+  if (format == ImageFormat::pfm || format == ImageFormat::exr) return write_image(file, map);
+  FalseColorPainter painter(FalseColor::scalar, 1);
+  Image seen(int(range.size()), 1, 1);
+  std::ranges::copy(range, seen.samples().begin());
+  painter.see(range.empty() ? map : seen);
+  write_image(file, painter.paint(map));
+}
+
+Image map_of(const Image& like, std::vector<float> values) {
+  Image map(like.width(), like.height(), 1);
+  map.samples() = std::move(values);
+  return map;
 }
 
 Json to_json(const Comparison& result) {
@@ -76,14 +103,32 @@ Json to_json(const Comparison& result) {
   return json;
 }
 
+void Command::write_maps(const Image& image_a, const Image& image_b, const compare::Metrics& metrics) const {
+  if (!diff.empty()) write_map(diff, compare::log_difference(image_a, image_b));
+  const std::optional<compare::HdrFlip>& hdr_flip = metrics.hdr_flip;
+  if (!flip.empty()) {
+    const std::vector<double> ldr = hdr_flip ? std::vector<double>() : compare::flip_map(image_a, image_b);
+    write_map(flip, map_of(image_a, hdr_flip ? hdr_flip->map : std::vector<float>(ldr.begin(), ldr.end())),
+              std::array{0.0f, 1.0f});
+  }
+  if (exposures.empty()) return;
+  if (!hdr_flip)
+    throw Error(ExitCode::bad_input, "--exposures {}: HDR-FLIP was not measured; --hdr asks for it",
+                exposures);
+  write_map(exposures, map_of(image_a, hdr_flip->exposure),
+            std::array{float(hdr_flip->exposures.start), float(hdr_flip->exposures.stop)});
+}
+
 ExitCode Command::run() const {
-  if (!diff.empty()) {
-    image_format(diff);
-    check_writable(diff);
+  for (const auto& [option, file] :
+       {std::pair{"--diff", diff}, {"--flip", flip}, {"--exposures", exposures}}) {
+    if (file.empty()) continue;
+    image_format(file);
+    check_writable(file);
     for (const std::string& read : {a, b}) {
       std::error_code absent;
-      if (std::filesystem::equivalent(diff, read, absent))
-        throw Error(ExitCode::bad_input, "{} is compared, and --diff would overwrite it", diff);
+      if (std::filesystem::equivalent(file, read, absent))
+        throw Error(ExitCode::bad_input, "{} is compared, and {} would overwrite it", file, option);
     }
   }
   // Of a layer and a file of its own, as --aov writes them, either may be the .exr.
@@ -92,12 +137,7 @@ ExitCode Command::run() const {
   Image image_a = read_image(a, layer), image_b = read_image(b, layer);
   if (!layer.empty()) take_as_data(image_a, image_b);
   const Comparison result = compare(*this, image_a, image_b);
-  if (!diff.empty() && result.metrics) {
-    const Image difference = compare::log_difference(image_a, image_b);
-    const ImageFormat format = image_format(diff);
-    const bool as_data = format == ImageFormat::pfm || format == ImageFormat::exr;
-    write_image(diff, as_data ? difference : false_color(difference, FalseColor::scalar));
-  }
+  if (result.metrics) write_maps(image_a, image_b, *result.metrics);
 
   if (json) {
     print_json(to_json(result));
@@ -135,6 +175,18 @@ void add_compare(CLI::App& app, Run& run) {
   command
       ->add_option("--diff", options->diff,
                    "Write the difference: a false-colour .png, or log10 as .pfm or .exr.")
+      ->option_text("FILE");
+  command->add_flag("--hdr", options->hdr,
+                    "Measure HDR-FLIP too. Without it, where a picture has values above 1.");
+  command
+      ->add_option(
+          "--flip", options->flip,
+          "Write the errors of FLIP, of HDR-FLIP where that is measured: false colour from 0 to 1, or "
+          "data.")
+      ->option_text("FILE");
+  command
+      ->add_option("--exposures", options->exposures,
+                   "Write the exposure at which HDR-FLIP finds each of its errors, in stops.")
       ->option_text("FILE");
   command->add_flag("--json", options->json, "Report as JSON.");
   command->footer(

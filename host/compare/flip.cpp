@@ -178,7 +178,10 @@ std::vector<double> flip_map(const Image& a, const Image& b) {
 }
 
 Flip flip(const Image& a, const Image& b) {
-  std::vector<double> map = flip_map(a, b);
+  return summary(flip_map(a, b));
+}
+
+Flip summary(std::vector<double> map) {
   const double mean = std::accumulate(map.begin(), map.end(), 0.0) / double(map.size());
   return {.mean = mean, .p95 = percentile(map, 0.95), .p99 = percentile(map, 0.99)};
 }

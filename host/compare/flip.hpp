@@ -19,5 +19,7 @@ struct Flip {
 // pixels a degree, as the paper does: a 0.7 m wide display of 3840 pixels, 0.7 m away.
 std::vector<double> flip_map(const Image& a, const Image& b);
 Flip flip(const Image& a, const Image& b);
+// Of such a map.
+Flip summary(std::vector<double> map);
 
 }  // namespace eyeray::compare

@@ -71,7 +71,7 @@ double mean_ssim(const Image& image_a, const Image& image_b) {
 
 }  // namespace
 
-Metrics measure(const Image& a, const Image& b) {
+Metrics measure(const Image& a, const Image& b, bool hdr) {
   CHECK(a.same_size(b));
   CHECK_LE(1u, a.sample_count());
   Metrics metrics;
@@ -117,6 +117,7 @@ Metrics measure(const Image& a, const Image& b) {
 
   metrics.ssim = mean_ssim(a, b);
   metrics.flip = flip(a, b);
+  if (hdr) metrics.hdr_flip = hdr_flip(a, b);
   return metrics;
 }
 

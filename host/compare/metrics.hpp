@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "host/compare/flip.hpp"
 #include "host/compare/frame.hpp"
+#include "host/compare/hdr_flip.hpp"
 
 namespace eyeray::compare {
 
@@ -26,13 +28,16 @@ struct Metrics {
   // Mean, on the sRGB-encoded luma clipped to [0, 1] (Wang et al. 2004: 11 × 11 Gaussian, σ 1.5).
   double ssim = 1;
   Flip flip;
+  std::optional<HdrFlip> hdr_flip;  // where it was asked for
 };
 inline constexpr std::array<int, 5> display_steps = {1, 2, 4, 8, 16};
 inline constexpr int first_decade = -7;
 
 // Of two 1- or 3-channel linear pictures of one size, at least one pixel. A value that is not finite counts
 // as an infinite difference.
-Metrics measure(const Image& a, const Image& b);
+// `hdr`: whether HDR-FLIP is measured, with b the reference; it takes as long as FLIP for each of its
+// exposures.
+Metrics measure(const Image& a, const Image& b, bool hdr = false);
 
 // The pixels that do not match within `tolerance` · max(1, |b|) in every channel, as verify's gate B has it.
 int64_t count_different(const Image& a, const Image& b, double tolerance);

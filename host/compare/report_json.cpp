@@ -157,19 +157,27 @@ Json metrics_json(const Metrics& m) {
   for (size_t i = 0; i < m.decades.size(); ++i)
     histogram.push_back(
         {{"from", i == 0 ? 0 : std::pow(10.0, first_decade + int(i) - 1)}, {"pixels", m.decades[i]}});
-  return {{"rmse", m.rmse},
-          {"psnr", m.psnr},
-          {"relative_mse", m.relative_mse},
-          {"p95", m.p95},
-          {"p99", m.p99},
-          {"p99.9", m.p999},
-          {"max", m.max},
-          {"max_at", json(m.max_at)},
-          {"max_values", {json(m.max_a), json(m.max_b)}},
-          {"display_over", display},
-          {"histogram", histogram},
-          {"ssim", m.ssim},
-          {"flip", {{"mean", m.flip.mean}, {"p95", m.flip.p95}, {"p99", m.flip.p99}}}};
+  const auto flip = [](const Flip& f) { return Json{{"mean", f.mean}, {"p95", f.p95}, {"p99", f.p99}}; };
+  Json metrics{{"rmse", m.rmse},
+               {"psnr", m.psnr},
+               {"relative_mse", m.relative_mse},
+               {"p95", m.p95},
+               {"p99", m.p99},
+               {"p99.9", m.p999},
+               {"max", m.max},
+               {"max_at", json(m.max_at)},
+               {"max_values", {json(m.max_a), json(m.max_b)}},
+               {"display_over", display},
+               {"histogram", histogram},
+               {"ssim", m.ssim},
+               {"flip", flip(m.flip)}};
+  if (m.hdr_flip) {
+    const Exposures& exposures = m.hdr_flip->exposures;
+    metrics["hdr_flip"] = flip(m.hdr_flip->flip);
+    metrics["hdr_flip"]["exposures"] = {
+        {"start", exposures.start}, {"stop", exposures.stop}, {"count", exposures.count}};
+  }
+  return metrics;
 }
 
 std::string to_json(std::span<const Report> reports) {

@@ -121,6 +121,10 @@ std::string to_lines(const Metrics& m, const std::string& indent) {
   line(text, "{}differences: p95 {:.3g}, p99 {:.3g}, p99.9 {:.3g}, max {:.3g} at {},{}: {} against {}",
        indent, m.p95, m.p99, m.p999, m.max, m.max_at.x, m.max_at.y, numbers(m.max_a), numbers(m.max_b));
   line(text, "{}FLIP: mean {:.3g}, p95 {:.3g}, p99 {:.3g}", indent, m.flip.mean, m.flip.p95, m.flip.p99);
+  if (const std::optional<HdrFlip>& hdr = m.hdr_flip)
+    line(text, "{}HDR-FLIP: mean {:.3g}, p95 {:.3g}, p99 {:.3g}, {} exposures from {:.4g} to {:.4g} stops",
+         indent, hdr->flip.mean, hdr->flip.p95, hdr->flip.p99, hdr->exposures.count, hdr->exposures.start,
+         hdr->exposures.stop);
   line(text, "{}shown apart by more than {} of 255: {} pixels", indent, fmt::join(display_steps, ", "),
        fmt::join(m.display_over, ", "));
   return text;

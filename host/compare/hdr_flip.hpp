@@ -1,0 +1,41 @@
+// HDR-FLIP (Andersson, Nilsson, Shirley, Akenine-Möller: "Visualizing Errors in Rendered High Dynamic Range
+// Images", Eurographics 2021): the greatest LDR-FLIP over the exposures at which the reference shows
+// something.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host/compare/flip.hpp"
+
+namespace eyeray::compare {
+
+// In stops: from where the brightest of the reference comes out at 0.85 of white, to where its median does.
+struct Exposures {
+  double start = 0;
+  double stop = 0;
+  int count = 2;  // as far apart as a stop, or less
+
+  double at(int index) const { return start + index * (stop - start) / (count - 1); }
+};
+
+// Of a black reference both are 0. Where the median is black, it is that of the luminances above 0 alone: the
+// paper leaves this open.
+Exposures exposures_of(const Image& reference);
+
+// What a display shows of linear colours at an exposure: tone mapped (ACES, as Narkowicz fits it), linear, in
+// [0, 1]. Negative colours count as black.
+Image exposed(const Image& image, double exposure);
+
+struct HdrFlip {
+  Exposures exposures;
+  Flip flip;
+  std::vector<float> map;       // of each pixel, row by row: the greatest error …
+  std::vector<float> exposure;  // … and the first exposure at which it is found, in stops
+};
+
+// Of two linear 1- or 3-channel pictures of one size, of which `b` is the reference. None where a value is
+// not finite.
+std::optional<HdrFlip> hdr_flip(const Image& a, const Image& b);
+
+}  // namespace eyeray::compare
