@@ -50,9 +50,14 @@ Vec3 hunt(const Vec3& lab) {
   return {lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z};
 }
 
+// Of values that are neither huge nor tiny, for which std::hypot takes its time.
+double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+
 // HyAB (Abasi 2020), for large colour differences.
 double hyab(const Vec3& a, const Vec3& b) {
-  return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
+  return std::abs(a.x - b.x) + length(a.y - b.y, a.z - b.z);
 }
 
 struct Planes {
@@ -93,10 +98,14 @@ Plane filter(const Plane& plane, std::initializer_list<Sensitivity> sensitivitie
     const double peak = kernel[size_t(radius)];
     const double share = s.weight() / (peak * peak);  // the sum of the unnormalised weights in two dimensions
     const Plane part = convolve(plane, kernel, kernel);
-    for (size_t i = 0; i < result.values.size(); ++i) result.values[i] += share * part.values[i];
+    parallel_for(0, plane.height, [&](int y) {
+      for (int x = 0; x < plane.width; ++x) result.at(x, y) += share * part.at(x, y);
+    });
     total += share;
   }
-  for (double& value : result.values) value /= total;
+  parallel_for(0, plane.height, [&](int y) {
+    for (int x = 0; x < plane.width; ++x) result.at(x, y) /= total;
+  });
   return result;
 }
 
@@ -118,6 +127,7 @@ std::vector<Vec3> perceived_colors(const Planes& planes) {
 double color_error(const Vec3& a, const Vec3& b) {
   static const double greatest =
       std::pow(hyab(hunt(lab_from_rgb({0, 1, 0})), hunt(lab_from_rgb({0, 0, 1}))), color_exponent);
+  if (a == b) return 0;
   const double error = std::pow(hyab(a, b), color_exponent);
   if (error < knee * greatest) return error * knee_error / (knee * greatest);
   return knee_error + (error - knee * greatest) / (greatest - knee * greatest) * (1 - knee_error);
@@ -144,8 +154,9 @@ Plane features(const Plane& luminance, Feature feature) {
 
   Plane result = convolve(luminance, derivative, smooth);
   const Plane vertical = convolve(luminance, smooth, derivative);
-  for (size_t i = 0; i < result.values.size(); ++i)
-    result.values[i] = std::hypot(result.values[i], vertical.values[i]);
+  parallel_for(0, result.height, [&](int y) {
+    for (int x = 0; x < result.width; ++x) result.at(x, y) = length(result.at(x, y), vertical.at(x, y));
+  });
   return result;
 }
 
@@ -170,8 +181,10 @@ std::vector<double> flip_map(const Image& a, const Image& b) {
     for (size_t i = size_t(y) * size_t(a.width()); i < size_t(y + 1) * size_t(a.width()); ++i) {
       const double edge = std::abs(edges_a.values[i] - edges_b.values[i]);
       const double point = std::abs(points_a.values[i] - points_b.values[i]);
+      const double color = color_error(colors_a[i], colors_b[i]);
+      if (color == 0) continue;
       const double feature_error = std::pow(std::max(edge, point) / std::sqrt(2.0), feature_exponent);
-      map[i] = std::pow(color_error(colors_a[i], colors_b[i]), 1 - feature_error);
+      map[i] = std::pow(color, 1 - feature_error);
     }
   });
   return map;

@@ -57,8 +57,13 @@ Image decode_png(std::string_view bytes, const std::string& name) {
     return decode(bytes, name, stbi_load_16_from_memory,
                   [](stbi_us code) { return float(linear_from_srgb(code / 65535.0)); });
   }
-  return decode(bytes, name, stbi_load_from_memory,
-                [](stbi_uc code) { return float(linear_from_srgb(code / 255.0)); });
+  static const std::array<float, 256> linear = [] {
+    std::array<float, 256> values{};
+    for (size_t code = 0; code < values.size(); ++code)
+      values[code] = float(linear_from_srgb(double(code) / 255));
+    return values;
+  }();
+  return decode(bytes, name, stbi_load_from_memory, [](stbi_uc code) { return linear[code]; });
 }
 
 // The least linear value that a code stands for, for codes 1 … 255: where srgb · 255 rounds up to it.
