@@ -15,18 +15,19 @@
 
 #include "host/core/error.hpp"
 #include "host/image/exr_file.hpp"
+#include "host/image/exr_header.hpp"
 #include "host/image/image_file.hpp"
 
 namespace eyeray {
 
 namespace {
 
-// How many bytes one of a file can stand for. Deflate makes 1032 at most (RFC 1951), runs and plain data
-// fewer; wavelets and cosines hold a flat picture in next to nothing.
+// How many bytes one of a file can stand for. Deflate makes 1032 at most (RFC 1951), all else that is
+// compressed fewer; but DWA holds an even block of 8 · 8 halves in two, and deflates these.
 constexpr uint64_t most_deflated = 1032;
-constexpr uint64_t most_transformed = 1 << 16;
+constexpr uint64_t most_of_cosines = 64 * most_deflated;
 // Of a tile, pixels.
-constexpr int64_t most_in_tile = 1 << 24;
+constexpr uint64_t most_in_tile = 1 << 24;
 
 class MemoryStream final : public Imf::IStream {
  public:
@@ -154,11 +155,11 @@ class ExrReader {
     }
     if (header.hasTileDescription()) {
       const Imf::TileDescription& tile = header.tileDescription();
-      if (int64_t{tile.xSize} * tile.ySize > most_in_tile) fail("its tiles are too large");
+      if (uint64_t{tile.xSize} * tile.ySize > most_in_tile) fail("its tiles are too large");
     }
     const Imf::Compression kind = header.compression();
-    const bool deflated = kind <= Imf::ZIP_COMPRESSION || kind == Imf::PXR24_COMPRESSION;
-    const uint64_t share = deflated ? most_deflated : most_transformed;
+    const bool cosines = kind == Imf::DWAA_COMPRESSION || kind == Imf::DWAB_COMPRESSION;
+    const uint64_t share = cosines ? most_of_cosines : most_deflated;
     if (uint64_t(width) * uint64_t(height) * pixel / share > size_) fail("it ends too early");
   }
 
@@ -180,6 +181,8 @@ Image decode_exr(std::string_view bytes, const std::string& name, const std::str
     return true;
   }();
   CHECK(limited);
+  if (!exr_header_sound(bytes))
+    throw Error(ExitCode::file_io, "cannot read {} as EXR: its header is damaged, or ends too early", name);
   try {
     return ExrReader(bytes, name).read(layer);
   } catch (const Error&) {

@@ -1,0 +1,12 @@
+// What is asked of an OpenEXR file before the library reads it.
+#pragma once
+
+#include <string_view>
+
+namespace eyeray {
+
+// Whether every attribute of every header has the size that its type has, and fits in the file. The library
+// believes each, takes memory for what it claims, and reads on from where it ends.
+bool exr_header_sound(std::string_view bytes);
+
+}  // namespace eyeray
