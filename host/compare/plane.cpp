@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <span>
 
@@ -19,16 +20,28 @@ Kernel gaussian(double sigma, int radius) {
 
 namespace {
 
-// Of each of `width` places the sum over `taps`, each weighted, in their order. Several places at a time stay
-// in registers, and compilers do them together.
+// Two places, as GCC and Clang have them in a register.
+using Pair = double __attribute__((vector_size(16)));
+
+Pair load(const double* from) {
+  Pair pair;
+  std::memcpy(&pair, from, sizeof pair);
+  return pair;
+}
+
+// Of each of `width` places the sum over `taps`, each weighted, in their order.
 void weigh(const Kernel& kernel, std::span<const double* const> taps, int width, double* sums) {
-  constexpr int lanes = 8;
   int x = 0;
-  for (; x + lanes <= width; x += lanes) {
-    double sum[lanes] = {};
-    for (size_t i = 0; i < kernel.size(); ++i)
-      for (int k = 0; k < lanes; ++k) sum[k] += kernel[i] * taps[i][x + k];
-    std::copy_n(sum, lanes, sums + x);
+  for (; x + 8 <= width; x += 8) {
+    Pair sum[4] = {};
+    for (size_t i = 0; i < kernel.size(); ++i) {
+      const double* const from = taps[i] + x;
+      sum[0] += kernel[i] * load(from);
+      sum[1] += kernel[i] * load(from + 2);
+      sum[2] += kernel[i] * load(from + 4);
+      sum[3] += kernel[i] * load(from + 6);
+    }
+    std::memcpy(sums + x, sum, sizeof sum);
   }
   for (; x < width; ++x) {
     double sum = 0;
