@@ -28,6 +28,7 @@ SHADER_BEGIN
 #define BINDING_LIST 16
 #define BINDING_NEXT_LIST 17
 #define BINDING_BVH4_NODES 18
+#define BINDING_PROBE 19
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
@@ -301,6 +302,26 @@ struct PathState {
   float unused_2;
 };
 
+// What a pixel's rays show to a probe, 32 bytes a value. The first of the buffer says in `name` how many there would be if all had room.
+struct ProbeRecord {
+  uint name;  // PROBED_name (features.h), or PROBE_OPENS_RAY, PROBE_RETURNS
+  uint line;  // of the shader's file
+  uint type;
+  uint size;    // components
+  uvec4 value;  // the bits of each; of a ray kind, number and depth
+};
+#define PROBE_OPENS_RAY 0xffffffffu
+#define PROBE_RETURNS 0xfffffffeu
+#define PROBE_FLOAT 0u
+#define PROBE_INT 1u
+#define PROBE_UINT 2u
+#define PROBE_BOOL 3u
+// Kinds of rays; core/ray_tree.hpp names them for the host.
+#define RAY_EYE 1u
+#define RAY_REFLECTED 2u
+#define RAY_REFRACTED 3u
+#define RAY_SHADOW 4u
+
 // Bits of the flags of results; core/pixel.hpp names them for the host.
 #define FLAG_MEDIA_OVERFLOW 1u
 #define FLAG_STACK_OVERFLOW 2u
@@ -326,5 +347,6 @@ static_assert(sizeof(eyeray::shader::QueryRay) == 32);
 static_assert(sizeof(eyeray::shader::QueryHit) == 16);
 static_assert(sizeof(eyeray::shader::PacketHit) == 32);
 static_assert(sizeof(eyeray::shader::PathState) == 48);
+static_assert(sizeof(eyeray::shader::ProbeRecord) == 32);
 #endif
 #endif

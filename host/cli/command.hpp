@@ -27,6 +27,7 @@ using Run = std::function<ExitCode()>;
 void add_render(CLI::App& app, Run& run);
 void add_verify(CLI::App& app, Run& run);
 void add_compare(CLI::App& app, Run& run);
+void add_probe(CLI::App& app, Run& run);
 void add_check(CLI::App& app, Run& run);
 void add_devices(CLI::App& app, Run& run);
 void add_bench(CLI::App& app, Run& run);
@@ -67,12 +68,18 @@ class SceneOptions {
 // "640x480" as {640, 480}; Error (bad_input) for anything else.
 std::pair<int, int> parse_size(const std::string& text);
 
+// "3,4" as {3, 4}; the same.
+std::pair<int, int> parse_pixel(const std::string& text);
+
 // "auto", "bvh", "brute-force"; Error (bad_input) for another name.
 Acceleration parse_acceleration(const std::string& name);
 
 // --device, --shaders, --fast-math, --validate, --timeout, --no-constants, --no-optimiser, --acceleration,
 // --splits, --profile, --loads, --stack, and the hidden --inject-fault.
 void add_executor_options(CLI::App& command, executors::ExecutorOptions& options);
+
+// "gpu,twin", none of them twice; Error (bad_input) for anything else.
+std::vector<executors::Backend> parse_backends(const std::string& list);
 
 // --backend gpu|twin|reference.
 void add_backend_option(CLI::App& command, executors::Backend& backend);

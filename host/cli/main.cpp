@@ -107,6 +107,7 @@ int run_command_line(int argc, char** argv) {
   add_render(app, run);
   add_verify(app, run);
   add_compare(app, run);
+  add_probe(app, run);
   add_check(app, run);
   add_dev(app, run);
   add_devices(app, run);

@@ -52,6 +52,24 @@ std::pair<int, int> parse_size(const std::string& text) {
   return {size[0], size[1]};
 }
 
+std::pair<int, int> parse_pixel(const std::string& text) {
+  int pixel[2];
+  if (!parse_integers(text, ',', pixel))
+    throw Error(ExitCode::bad_input, "a pixel is X,Y, as 320,240, not '{}'", text);
+  return {pixel[0], pixel[1]};
+}
+
+std::vector<executors::Backend> parse_backends(const std::string& list) {
+  std::vector<executors::Backend> backends;
+  for (size_t begin = 0; begin <= list.size();) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    const executors::Backend backend = executors::parse_backend(list.substr(begin, end - begin));
+    begin = end + 1;
+    if (std::find(backends.begin(), backends.end(), backend) == backends.end()) backends.push_back(backend);
+  }
+  return backends;
+}
+
 void SceneOptions::add_to(CLI::App& command) {
   const std::string group = "Scene";
   command

@@ -49,22 +49,6 @@ struct Command {
   void check_options() const;
 };
 
-// "gpu,twin".
-std::vector<executors::Backend> parse_backends(const std::string& list) {
-  std::vector<executors::Backend> backends;
-  for (size_t begin = 0; begin <= list.size();) {
-    const size_t end = std::min(list.find(',', begin), list.size());
-    const executors::Backend backend = executors::parse_backend(list.substr(begin, end - begin));
-    begin = end + 1;
-    if (backend == executors::Backend::reference) {
-      throw Error(ExitCode::bad_input,
-                  "--backends names what is compared with the reference: gpu, twin or gpu,twin");
-    }
-    if (std::find(backends.begin(), backends.end(), backend) == backends.end()) backends.push_back(backend);
-  }
-  return backends;
-}
-
 // Two folders may have a scene of one name.
 std::string Command::name_in_folder(const std::string& scene) const {
   const fs::path file = fs::path(scene).lexically_normal();
@@ -221,7 +205,12 @@ void add_verify(CLI::App& app, Run& run) {
       ->option_text(" ");
   add_crop_option(*command, how.crop);
   add_executor_options(*command, how.executor);
-  const auto parse = [&how](const std::string& list) { how.backends = parse_backends(list); };
+  const auto parse = [&how](const std::string& list) {
+    how.backends = parse_backends(list);
+    if (std::ranges::find(how.backends, executors::Backend::reference) != how.backends.end())
+      throw Error(ExitCode::bad_input,
+                  "--backends names what is compared with the reference: gpu, twin or gpu,twin");
+  };
   command->add_option_function<std::string>("--backends", parse, "What is compared with the reference.")
       ->option_text("LIST=gpu,twin")
       ->group("Device");

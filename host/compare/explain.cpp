@@ -146,32 +146,38 @@ const char* name(Cause cause) {
   return "unknown";
 }
 
-Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between) {
-  for (const bool coincident : {false, true})
-    probes_.push_back(reference(pixel.x, pixel.y, Vec2(0.0), coincident));
-  innermost_ = probes_.size();
-  const double reach = std::min(most_reach, 1 + hits_per_sample(probes_.front()) / 8);
+Places places_around(double rounding, double surfaces, int angles, bool between) {
+  Places places;
+  const auto add_ring = [&](double radius, int count, double turn) {
+    for (int step = 0; step < count; ++step) {
+      const double angle = 2 * M_PI * (step + turn) / count;
+      places.all.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
+    }
+  };
+  const double reach = std::min(most_reach, 1 + surfaces / 8);
 
   // What varies more quickly than from ring to ring, the rings within show: a caustic's rim may be a
   // hundred-thousandth of a pixel wide.
-  if (const double rounding = std::min(probes_.front().rounding, radius_step); rounding > 0) {
-    add_ring(reference, pixel, rounding, angles, 0.25);
-    innermost_ = probes_.size();
+  if (const double least = std::min(rounding, radius_step); least > 0) {
+    add_ring(least, angles, 0.25);
+    places.innermost = places.all.size();
     if (between)
-      for (double radius = radius_growth * rounding; radius < radius_step; radius *= radius_growth)
-        add_ring(reference, pixel, radius * reach, angles / 2, 0.25);
+      for (double radius = radius_growth * least; radius < radius_step; radius *= radius_growth)
+        add_ring(radius * reach, angles / 2, 0.25);
   }
   // Each ring is turned a little, so that no direction is looked at twice.
   for (int ring = 1; ring <= rings; ++ring)
-    add_ring(reference, pixel, ring * radius_step * reach, angles, (ring - 1.0) / rings);
+    add_ring(ring * radius_step * reach, angles, (ring - 1.0) / rings);
+  return places;
 }
 
-void Neighbourhood::add_ring(const Reference& reference, Pixel pixel, double radius, int angles,
-                             double turn) {
-  for (int step = 0; step < angles; ++step) {
-    const double angle = 2 * M_PI * (step + turn) / angles;
-    probes_.push_back(reference(pixel.x, pixel.y, radius * Vec2(std::cos(angle), std::sin(angle)), false));
-  }
+Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between) {
+  for (const bool coincident : {false, true})
+    probes_.push_back(reference(pixel.x, pixel.y, Vec2(0.0), coincident));
+  const Places places =
+      places_around(probes_.front().rounding, hits_per_sample(probes_.front()), angles, between);
+  innermost_ = probes_.size() + places.innermost;
+  for (const Vec2& place : places.all) probes_.push_back(reference(pixel.x, pixel.y, place, false));
 }
 
 bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) const {

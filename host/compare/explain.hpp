@@ -31,6 +31,15 @@ struct Probe {
 // float32 cannot tell apart, rays hit the farther one.
 using Reference = std::function<Probe(int x, int y, const Vec2& shift, bool coincident)>;
 
+// Places around a pixel's own, in pixels: `angles` on each of four rings, and before them on one as wide as a
+// rounding error, where that is known. Of a pixel whose rays strike so many surfaces. `between`: half as many on
+// each ring between that and the four as well.
+struct Places {
+  std::vector<Vec2> all;
+  size_t innermost = 0;  // those of a rounding error
+};
+Places places_around(double rounding, double surfaces, int angles, bool between = false);
+
 enum class Cause {
   silhouette,         // another primitive is hit first
   texture_edge,       // the surface's own colour jumps; of a first hit, uv
@@ -48,8 +57,7 @@ const char* name(Cause cause);
 // The reference in the neighbourhood of one pixel.
 class Neighbourhood {
  public:
-  // `angles`: how many places on each of four rings, and on one within them, as wide as a rounding error.
-  // `between`: half as many on each ring between that and the four as well.
+  // `angles`, `between`: see places_around.
   Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between = false);
 
   // Whether `value` lies within [min, max] of the neighbourhood, each bound widened by the tolerance.
@@ -69,7 +77,6 @@ class Neighbourhood {
   Cause cause(const FirstHit& value, const Tolerances& tolerances) const;
 
  private:
-  void add_ring(const Reference& reference, Pixel pixel, double radius, int angles, double turn);
   Cause cause_of_samples() const;
   Cause cause_of_first_hit(const Tolerances& tolerances) const;
   // The pixel itself, as it is and with coincident surfaces, and the ring of a rounding error.

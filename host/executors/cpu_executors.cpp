@@ -3,11 +3,13 @@
 
 #include <thread>
 
+#include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 #include "host/core/termination.hpp"
 #include "host/executors/executors.hpp"
 #include "host/executors/samples.hpp"
+#include "host/executors/shader_probe.hpp"
 #include "host/pack/pack.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/twin/twin.hpp"
@@ -66,6 +68,16 @@ class TwinExecutor final : public Executor {
     });
   }
 
+  Probed probe(int x, int y, uint32_t index) override {
+    RayRecorder recorder;
+    const PixelSample sample =
+        to_sample(twin::sample(packed_, uint32_t(x), uint32_t(y), index, &recorder), true);
+    std::map<std::string, std::string, std::less<>> files;
+    for (const EmbeddedShader& shader : embedded_shaders()) files.emplace(shader.name, shader.text);
+    ShaderProbe(files).name_files(recorder.tree());
+    return {sample, std::move(recorder.tree())};
+  }
+
   double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
     return timed_queries(batch.rays, hits, [&](const Query& ray) {
       return to_query_hit(twin::query(packed_, to_query_ray(ray, eye_), batch.kind == QueryKind::any));
@@ -94,6 +106,12 @@ class ReferenceExecutor final : public Executor {
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     for_each_pixel(tile, out, [&](int x, int y) { return renderer_->first_hit(x, y); });
+  }
+
+  Probed probe(int x, int y, uint32_t index) override {
+    RayRecorder recorder;
+    const PixelSample sample = renderer_->sample(x, y, index, {0, 0}, {}, &recorder);
+    return {sample, std::move(recorder.tree())};
   }
 
   double query(const QueryBatch& batch, std::span<QueryHit> hits) override {

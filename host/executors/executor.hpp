@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/core/pixel.hpp"
+#include "host/core/ray_tree.hpp"
 #include "host/core/rect.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/executors/profile_options.hpp"
@@ -23,6 +24,12 @@ enum class Backend { gpu, twin, reference };
 Backend parse_backend(std::string_view name);
 std::string_view backend_name(Backend backend);
 
+// A sample, and how it came about.
+struct Probed {
+  PixelSample sample;
+  RayTree rays;
+};
+
 // Produces samples of pixels of one scene. Not thread-safe; parallel inside.
 class Executor {
  public:
@@ -33,6 +40,10 @@ class Executor {
   virtual bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) = 0;
   // What the ray through the centre of every pixel of `tile` hits; out.size() = tile.pixels().
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
+
+  // Sample `index` of one pixel, and what is to be seen along its rays. Positions are the shaders', relative to
+  // the eye, but the reference's. Only where ExecutorOptions::ray_kinds.
+  virtual Probed probe(int x, int y, uint32_t index) = 0;
 
   // What each ray hits, and the seconds that tracing alone took: by the device's clock where it has one,
   // without the copying of rays and hits. hits.size() = batch.rays.size().

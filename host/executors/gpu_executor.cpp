@@ -14,6 +14,7 @@
 #include "host/executors/samples.hpp"
 #include "host/executors/scene_buffers.hpp"
 #include "host/executors/shader_files.hpp"
+#include "host/executors/shader_probe.hpp"
 #include "host/executors/specialise.hpp"
 #include "host/executors/wavefront.hpp"
 #include "host/executors/workgroups.hpp"
@@ -37,9 +38,6 @@ constexpr size_t most_in_packets = 1 << 20;
 // so many primitives.
 constexpr int64_t least_samples_in_wavefront = 1 << 22;
 constexpr size_t most_in_wavefront = 1 << 18;
-// Of the 65 535 iterations that a capped driver grants an invocation, what we count on (docs/lavapipe.md).
-constexpr uint64_t granted_iterations = 60000;
-
 // How many pixels to dispatch at a time, learnt from how long the last ones took.
 class DispatchSize {
  public:
@@ -102,6 +100,27 @@ class GpuExecutor final : public Executor {
         out[first + i] = to_first_hit(results[i], eye_, options_.search_cost);
       }
     });
+  }
+
+  // By the loop, whatever makes the picture: so has the wavefront the same bits.
+  Probed probe(int x, int y, uint32_t index) override {
+    CHECK(options_.ray_kinds);
+    const std::string entry = "kernels/render.comp.glsl";
+    const ShaderProbe probe(read_shader(entry).files);
+    const std::unique_ptr<gpu::Kernel> kernel = make_kernel(entry, probe.defines());
+    gpu::Buffer records(device_, ShaderProbe::capacity * sizeof(shader::ProbeRecord), "probe");
+    kernel->set_buffer(BINDING_PROBE, records);
+    const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
+      return dispatch(*kernel, push, output);
+    };
+    Probed result;
+    for_bands<shader::SampleResult>({x, y, 1, 1}, index, trace, [&](size_t, auto results) {
+      result.sample = to_sample(results[0], true);
+      fault_.damage(std::span(&result.sample, 1));
+    });
+    stop_if_interrupted();
+    result.rays = probe.tree(records.read_records<shader::ProbeRecord>(ShaderProbe::capacity));
+    return result;
   }
 
   double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
@@ -172,21 +191,7 @@ class GpuExecutor final : public Executor {
     if (packets_)
       specialisation.packet_bvh =
           times_.measure("collapse", [&] { return pack::add_packet_bvh(packed, lanes); });
-    if (facts_.loop_cap) {
-      // One ray with its shadow rays must fit whatever came before it. In a BVH it makes far fewer
-      // iterations than there are primitives; where it does not, the shader sees that the driver stopped it.
-      const uint64_t one_ray = (trace_iterations(packed, false) + 1) * (packed.lights.size() + 1);
-      if (one_ray >= granted_iterations)
-        throw Error(ExitCode::no_device,
-                    "{} ends loops after 65 535 iterations and says nothing, too few for {} primitives{} and "
-                    "{} lights without a BVH: use a newer driver, or --backend twin",
-                    device_.info().driver_version, packed.primitives.size(),
-                    packed.shape_iterations > 0
-                        ? fmt::format(" ({} iterations round their outlines)", packed.shape_iterations)
-                        : "",
-                    packed.lights.size());
-      specialisation.loop_budget = uint32_t(granted_iterations - one_ray);
-    }
+    if (facts_.loop_cap) specialisation.loop_budget = loop_budget_of(packed, device_.info().driver_version);
     workgroups_.subgroup = lanes;
     if (device_.info().type == gpu::DeviceType::cpu)
       workgroups_.stride = std::max(1u, std::thread::hardware_concurrency());
@@ -212,17 +217,21 @@ class GpuExecutor final : public Executor {
     buffers_.emplace_back(source.binding, std::move(buffer));
   }
 
-  std::unique_ptr<gpu::Kernel> make_kernel(const std::string& entry, const std::string& defines) {
+  gpu::ShaderSource read_shader(const std::string& entry) {
     const auto read = [&](std::string_view name) {
       auto text = shaders_.read(name);
       return text ? std::optional(fault_.damage(name, std::move(*text))) : std::nullopt;
     };
+    return gpu::read_shader(read, entry);
+  }
+
+  std::unique_ptr<gpu::Kernel> make_kernel(const std::string& entry, const std::string& defines) {
     gpu::KernelOptions how{
         .strict = device_.info().float_modes, .optimise = options_.optimise, .flatten = profile_.flatten};
     if (options_.fast_math || fault_.contracts()) how.strict = std::nullopt;
     const std::vector<uint32_t> spirv = times_.measure("shader compile", [&] {
       try {
-        return gpu::compile_kernel(gpu::read_shader(read, entry), defines, how, cache_).spirv;
+        return gpu::compile_kernel(read_shader(entry), defines, how, cache_).spirv;
       } catch (const InputError& error) {
         std::vector<Diagnostic> diagnostics = error.diagnostics();
         for (Diagnostic& d : diagnostics) d.position.file = shaders_.shown(d.position.file);

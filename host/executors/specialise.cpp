@@ -10,6 +10,7 @@
 #include <set>
 #include <string_view>
 
+#include "host/core/error.hpp"
 #include "host/expression/emit.hpp"
 #include "host/formula/formula.hpp"
 #include "host/scene/integrator.hpp"
@@ -21,6 +22,8 @@ namespace {
 // Above this many records of a kind the code outgrows what it saves, and its compilation what a frame saves.
 constexpr size_t most_records = 24;
 constexpr size_t most_vertices = 96;
+// Of the 65 535 iterations that a capped driver grants an invocation, what we count on (docs/lavapipe.md).
+constexpr uint64_t granted_iterations = 60000;
 
 struct Row {
   std::string_view name;
@@ -249,6 +252,21 @@ uint64_t trace_iterations(const PackedScene& scene, bool unrolled) {
   return scene.has_bvh ? 0 : (unrolled ? 0 : scene.primitives.size()) + scene.shape_iterations;
 }
 
+uint32_t loop_budget_of(const PackedScene& scene, std::string_view driver) {
+  // One ray with its shadow rays must fit whatever came before it. In a BVH it makes far fewer iterations than
+  // there are primitives; where it does not, the shader sees that the driver stopped it.
+  const uint64_t one_ray = (trace_iterations(scene, false) + 1) * (scene.lights.size() + 1);
+  if (one_ray < granted_iterations) return uint32_t(granted_iterations - one_ray);
+  throw Error(ExitCode::no_device,
+              "{} ends loops after 65 535 iterations and says nothing, too few for {} primitives{} and "
+              "{} lights without a BVH: use a newer driver, or --backend twin",
+              driver, scene.primitives.size(),
+              scene.shape_iterations > 0
+                  ? fmt::format(" ({} iterations round their outlines)", scene.shape_iterations)
+                  : "",
+              scene.lights.size());
+}
+
 // Each define that is written here has its meaning in shaders/kernels/features.h.
 std::string specialise(const PackedScene& scene, const Specialisation& options) {
   std::set<uint32_t> shapes_used, leaves_used, materials_used, material_kinds, kinds_with_uv,
@@ -319,8 +337,10 @@ std::string specialise(const PackedScene& scene, const Specialisation& options) 
     define(fmt::format("UV_{}", shape.name), kinds_with_uv.contains(shape.number) ? "true" : "false");
   }
   text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_END(name) END_##name\n";
-  // Whoever looks at first hits looks at uv too.
-  text += "#ifdef FIRST_HITS\n#define UV_OF(name) true\n#else\n#define UV_OF(name) UV_##name\n#endif\n";
+  // Whoever looks at hits looks at uv too.
+  text +=
+      "#if defined FIRST_HITS || defined PROBING\n#define UV_OF(name) true\n#else\n#define UV_OF(name) "
+      "UV_##name\n#endif\n";
   text += fmt::format("#ifdef FIRST_HITS\n#define SEARCH_COST {}\n#else\n#define SEARCH_COST 0\n#endif\n",
                       int(options.search_cost));
   const std::set<uint32_t> slow = deferred_kinds(scene);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "host/executors/profile.hpp"
 #include "host/pack/collapse.hpp"
@@ -28,6 +29,10 @@ bool casts_shadow_rays(const PackedScene& scene);  // the scene's integrator
 // How many loop iterations a ray takes at most through what is in no BVH. Through a BVH it takes far fewer
 // than there are primitives, nobody knows how many.
 uint64_t trace_iterations(const PackedScene& scene, bool unrolled);
+
+// Specialisation::loop_budget where the driver ends loops and says nothing (docs/lavapipe.md). Error
+// (no_device), which names it, where one ray may need more than it grants.
+uint32_t loop_budget_of(const PackedScene& scene, std::string_view driver);
 
 std::string specialise(const PackedScene& scene, const Specialisation& options);
 

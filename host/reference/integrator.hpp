@@ -6,6 +6,7 @@
 
 #include "host/core/pixel.hpp"
 #include "host/reference/media.hpp"
+#include "host/reference/observer.hpp"
 #include "host/reference/tracer.hpp"
 
 namespace eyeray::reference {
@@ -24,11 +25,16 @@ struct RayOffset {
   bool coincident = false;  // of two surfaces that float32 cannot tell apart, the farther one is hit
 };
 
+// RayOffset::share of what is rendered in float32: of a triangle, 8 ε for each of its three vertices
+// (docs/numerics.md).
+inline constexpr double float32_ray_offset = 24 * 0x1p-24;
+
 struct Integrator {
   std::string_view manual;  // Markdown
-  // What the eye's ray, its direction unit, sees, starting in `media`.
+  // What the eye's ray, its direction unit, sees, starting in `media`. `observer` has been told of that ray, and
+  // is told the rest.
   PixelSample (*sample)(const Tracer& tracer, const Ray& ray, const MediaStack& media,
-                        const RayOffset& ray_offset);
+                        const RayOffset& ray_offset, const Observer& observer);
 };
 
 const Integrator& integrator(IntegratorType type);

@@ -10,13 +10,18 @@ constexpr std::string_view manual =
     "Eye rays only: the first surface in its own colour, lit without shadows, or, in a scene without lights, "
     "by a lamp at the eye.";
 
-PixelSample raycast(const Tracer& tracer, const Ray& ray, const MediaStack&, const RayOffset& ray_offset) {
+PixelSample raycast(const Tracer& tracer, const Ray& ray, const MediaStack&, const RayOffset& ray_offset,
+                    const Observer& observer) {
   const Scene& scene = tracer.scene();
   uint32_t flags = 0;
   const auto hit = tracer.trace(ray, flags, ray_offset.coincident);
-  if (!hit) return {.color = scene.render.background, .rays = 1, .flags = flags};
+  if (!hit) {
+    observer.miss(Vec3(1), scene.render.background);
+    return {.color = scene.render.background, .rays = 1, .flags = flags};
+  }
 
   const SurfacePoint surface = tracer.surface(ray, *hit);
+  observer.hit(tracer, ray, *hit, surface);
   const bool front = glm::dot(ray.d, surface.normal_geometric) < 0;
   const Vec3 n = front ? surface.normal : -surface.normal;
 
@@ -32,6 +37,7 @@ PixelSample raycast(const Tracer& tracer, const Ray& ray, const MediaStack&, con
     }
   }
   const Vec3 base = scene.materials[size_t(hit->material)]->base_color(surface.uv) * surface.color;
+  observer.value("light", base * light);
   return {.color = base * light, .rays = 1, .hits = 1, .flags = flags};
 }
 

@@ -13,11 +13,13 @@ Renderer::Renderer(const Scene& scene, Acceleration acceleration)
     if (!media_.push(material)) flags_ |= media_overflow;
 }
 
-PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset) const {
+PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset,
+                             const Observer& observer) const {
   const Vec2 place = sample_position(scene_.image, scene_.render.seed, x, y, index);
   const Ray ray = camera_.ray(Vec2(x, y) + place + shift);
   const IntegratorType type = scene_.render.integrator;
-  PixelSample sample = integrator(type).sample(tracer_, ray, media_, ray_offset);
+  observer.ray(RayKind::eye, ray, 0);
+  PixelSample sample = integrator(type).sample(tracer_, ray, media_, ray_offset, observer);
   if (traits_of(type).scatters) sample.flags |= flags_;
   return sample;
 }
@@ -36,8 +38,7 @@ FirstHit Renderer::first_hit(int x, int y, Vec2 shift, bool coincident) const {
   result.uv = surface.uv;
   result.primitive = int32_t(hit->primitive);
   result.material = hit->material;
-  // Towards grazing incidence t runs away from any bound; the gates explain it there by its neighbourhood.
-  result.t_scale = tracer_.reach(*hit, scene_.camera.eye) / std::max(0.01, std::abs(result.cosine));
+  result.t_scale = tracer_.t_scale(ray, *hit, surface);
   return result;
 }
 

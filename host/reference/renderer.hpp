@@ -16,8 +16,8 @@ class Renderer {
 
   // Sample `index` of pixel (x, y), by the scene's integrator. `shift`, in pixels, is added to the sample's
   // place; `ray_offset`: see integrator.hpp.
-  PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0},
-                     const RayOffset& ray_offset = {}) const;
+  PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0}, const RayOffset& ray_offset = {},
+                     const Observer& observer = {}) const;
   // What the ray through the pixel's centre + `shift` hits; `coincident`: see RayOffset.
   FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}, bool coincident = false) const;
   // How many pixels aside float32 may take the ray through the pixel's centre, where it has come to `t`.

@@ -105,6 +105,12 @@ double Tracer::reach(const Hit& hit, const Vec3& eye) const {
   return hit.group < 0 ? world_->reach(object, eye) : groups_[size_t(hit.group)].reach(object, eye);
 }
 
+double Tracer::t_scale(const Ray& ray, const Hit& hit, const SurfacePoint& surface) const {
+  // Towards grazing incidence t runs away from any bound; the gates explain it there by its neighbourhood.
+  const double cosine = std::max(0.01, std::abs(glm::dot(ray.d, surface.normal_geometric)));
+  return reach(hit, scene_.camera.eye) / cosine;
+}
+
 double Tracer::transmittance(const Ray& ray, double t_end, uint32_t& flags) const {
   // Collect the shares first: a product depends on the order of its factors.
   std::vector<Objects::Share> shares;

@@ -36,6 +36,8 @@ class Tracer {
   // The largest coordinate, relative to `eye`, of the terms that what was hit is made of; 0 for unbounded
   // shapes.
   double reach(const Hit& hit, const Vec3& eye) const;
+  // FirstHit::t_scale of a hit, and the surface there.
+  double t_scale(const Ray& ray, const Hit& hit, const SurfacePoint& surface) const;
 
   // The share of light that comes through all that the ray hits at 0 < t < t_end. `flags` as for trace.
   double transmittance(const Ray& ray, double t_end, uint32_t& flags) const;

@@ -36,8 +36,8 @@ struct View {
 
 class Recursion {
  public:
-  Recursion(const Tracer& tracer, const RayOffset& ray_offset)
-      : tracer_(tracer), scene_(tracer.scene()), ray_offset_(ray_offset) {}
+  Recursion(const Tracer& tracer, const RayOffset& ray_offset, const Observer& observer)
+      : tracer_(tracer), scene_(tracer.scene()), ray_offset_(ray_offset), observer_(observer) {}
 
   Vec3 radiance(const Path& path);
 
@@ -49,18 +49,20 @@ class Recursion {
   uint32_t total_reflections = 0;
 
  private:
-  Vec3 direct(const View& view, const Scattering& scattering);
-  Vec3 child(const Path& path, const View& view, const Vec3& d, const MediaStack& media, const Vec3& share,
-             uint32_t& count);
+  Vec3 direct(const View& view, const Scattering& scattering, int depth);
+  Vec3 child(RayKind kind, const Path& path, const View& view, const Vec3& d, const MediaStack& media,
+             const Vec3& share);
   Scattering scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
                         ScatteringContext context) const;
   Medium medium(const MediaStack& media) const;
+  void observe(const Vec2& ior, const Scattering& scattering, const Vec3& throughput) const;
   Ray spawn_ray(const SurfacePoint& point, const Vec3& d);
   double tilt(const SurfacePoint& point, double distance) const;
 
   const Tracer& tracer_;
   const Scene& scene_;
   RayOffset ray_offset_;
+  const Observer& observer_;
   uint32_t departures_ = 0;
 };
 
@@ -136,11 +138,15 @@ Vec3 Recursion::radiance(const Path& path) {
   stop_if_interrupted();
   ++rays;
   const auto hit = tracer_.trace(path.ray, flags, ray_offset_.coincident);
-  if (!hit) return scene_.render.background;
+  if (!hit) {
+    observer_.miss(path.throughput, scene_.render.background);
+    return scene_.render.background;
+  }
   ++hits;
 
   // Turn the surface to the viewer.
   View view{tracer_.surface(path.ray, *hit), path.ray.d, 0};
+  observer_.hit(tracer_, path.ray, *hit, view.surface);
   const bool front = glm::dot(view.d, view.surface.normal_geometric) < 0;
   if (!front) {
     view.surface.normal_geometric = -view.surface.normal_geometric;
@@ -168,52 +174,72 @@ Vec3 Recursion::radiance(const Path& path) {
   Path arrived = path;
   const Vec3 dimming = glm::exp(-before.absorption * hit->at.t);
   arrived.throughput *= dimming;
-  Vec3 color = direct(view, scattering);
+  observe(Vec2(before.ior, ior_beyond), scattering, arrived.throughput);
+  Vec3 color = direct(view, scattering, path.depth);
+  observer_.value("light", color);
   const Vec3 mirrored = view.d + 2 * view.cos_view * view.surface.normal;
-  color += child(arrived, view, glm::normalize(mirrored), path.media, scattering.reflected, reflected);
+  color += child(RayKind::reflected, arrived, view, glm::normalize(mirrored), path.media, scattering.reflected);
   if (scattering.transmitted != Vec3(0))
-    color += child(arrived, view, refract(view, before.ior, ior_beyond), beyond, scattering.transmitted,
-                   refracted);
+    color += child(RayKind::refracted, arrived, view, refract(view, before.ior, ior_beyond), beyond,
+                   scattering.transmitted);
   else if (material.medium() && path.depth < scene_.render.max_depth)
     ++total_reflections;
   return dimming * color;
 }
 
+void Recursion::observe(const Vec2& ior, const Scattering& scattering, const Vec3& throughput) const {
+  observer_.value("ior", ior);
+  observer_.value("ambient", scattering.ambient);
+  observer_.value("diffuse", scattering.diffuse);
+  observer_.value("specular", scattering.specular);
+  observer_.value("reflected", scattering.reflected);
+  observer_.value("transmitted", scattering.transmitted);
+  observer_.value("emitted", scattering.emitted);
+  observer_.value("throughput", throughput);
+}
+
 // The part of a surface's colour that comes from the ray's child into direction d; black when it is cut off.
-// `count`: of the rays of its kind.
-Vec3 Recursion::child(const Path& path, const View& view, const Vec3& d, const MediaStack& media,
-                      const Vec3& share, uint32_t& count) {
+Vec3 Recursion::child(RayKind kind, const Path& path, const View& view, const Vec3& d,
+                      const MediaStack& media, const Vec3& share) {
   const Vec3 throughput = path.throughput * share;
   const double most = std::max({throughput.x, throughput.y, throughput.z});
   if (path.depth >= scene_.render.max_depth || !(most > scene_.render.min_throughput)) return Vec3(0);
-  ++count;
-  return share * radiance({spawn_ray(view.surface, d), media, path.depth + 1, throughput});
+  ++(kind == RayKind::reflected ? reflected : refracted);
+  const Path next{spawn_ray(view.surface, d), media, path.depth + 1, throughput};
+  observer_.ray(kind, next.ray, next.depth);
+  return share * radiance(next);
 }
 
 // Its own light, the scene's ambient one, and that of each light which stands before the surface and is seen
 // from it.
-Vec3 Recursion::direct(const View& view, const Scattering& scattering) {
+Vec3 Recursion::direct(const View& view, const Scattering& scattering, int depth) {
   const Vec3 n = view.surface.normal;
   Vec3 color = scattering.emitted + scattering.ambient * scene_.render.ambient;
-  for (const auto& light : scene_.lights) {
-    const auto [l, arriving, distance] = light->illuminate(view.surface.position);
+  for (size_t i = 0; i < scene_.lights.size(); ++i) {
+    const auto [l, arriving, distance] = scene_.lights[i]->illuminate(view.surface.position);
     const double cosine = glm::dot(n, l), tilt = this->tilt(view.surface, distance);
     if (!(cosine + tilt > 0 && glm::dot(view.surface.normal_geometric, l) + tilt > 0)) continue;
     ++rays;
-    const double seen = tracer_.transmittance(spawn_ray(view.surface, l), distance, flags);
-    if (seen == 0) continue;
+    const Ray ray = spawn_ray(view.surface, l);
+    const double seen = tracer_.transmittance(ray, distance, flags);
+    if (seen == 0 && !observer_) continue;
 
     const double lobe =
         scattering.blinn ? glm::dot(n, glm::normalize(l - view.d)) : glm::dot(2 * cosine * n - l, -view.d);
     const double highlight = lobe > 0 ? std::pow(lobe, scattering.shininess) : 0;
-    color += seen * arriving * (scattering.diffuse * std::max(0.0, cosine) + scattering.specular * highlight);
+    const Vec3 scattered = scattering.diffuse * std::max(0.0, cosine) + scattering.specular * highlight;
+    color += seen * arriving * scattered;
+    observer_.ray(RayKind::shadow, ray, depth, i);
+    observer_.value("contribution", arriving * scattered);
+    observer_.value("visibility", seen);
+    observer_.back(depth);
   }
   return color;
 }
 
 PixelSample whitted(const Tracer& tracer, const Ray& ray, const MediaStack& media,
-                    const RayOffset& ray_offset) {
-  Recursion recursion(tracer, ray_offset);
+                    const RayOffset& ray_offset, const Observer& observer) {
+  Recursion recursion(tracer, ray_offset, observer);
   const Vec3 color = recursion.radiance({ray, media, 0, Vec3(1)});
   return {color,
           recursion.rays,

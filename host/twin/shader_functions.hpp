@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "host/core/ray_tree.hpp"
 #include "host/core/termination.hpp"
 #include "host/formula/formula.hpp"
 #include "host/records/packer.hpp"
@@ -13,12 +14,20 @@ namespace eyeray::shader {
 namespace {
 
 thread_local const PackedScene* bound_scene = nullptr;
+thread_local RayRecorder* bound_recorder = nullptr;
 
-// Lets shader functions on this thread read `scene` for its lifetime.
+// Lets shader functions on this thread read `scene` for its lifetime, and show what they PROBE to `recorder`,
+// if there is one.
 class Binding {
  public:
-  explicit Binding(const PackedScene& scene) { bound_scene = &scene; }
-  ~Binding() { bound_scene = nullptr; }
+  explicit Binding(const PackedScene& scene, RayRecorder* recorder = nullptr) {
+    bound_scene = &scene;
+    bound_recorder = recorder;
+  }
+  ~Binding() {
+    bound_scene = nullptr;
+    bound_recorder = nullptr;
+  }
   Binding(const Binding&) = delete;
   Binding& operator=(const Binding&) = delete;
 };
@@ -102,6 +111,14 @@ class Binding {
 #define FORMULA_GRADIENT(it, p) load_formula_gradient(it.formula, p)
 #define FORMULA_BOUND(it, x, y, z) load_formula_bound(it.formula, x, y, z)
 #define FORMULA_DUAL(it, p) load_formula_dual(it.formula, p)
+
+#undef PROBE
+#undef PROBE_RAY
+#undef PROBE_BACK
+#define PROBE(name, shown) (bound_recorder ? bound_recorder->value(#name, __LINE__, shown) : void())
+#define PROBE_RAY(kind, number, depth) \
+  (bound_recorder ? bound_recorder->ray(RayKind(kind), number, depth) : void())
+#define PROBE_BACK(depth) (bound_recorder ? bound_recorder->back(depth) : void())
 
 #include "shaders/kernels/features.h"
 

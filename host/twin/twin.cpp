@@ -4,8 +4,9 @@
 
 namespace eyeray::twin {
 
-shader::SampleResult sample(const PackedScene& scene, uint32_t x, uint32_t y, uint32_t index) {
-  const shader::Binding binding(scene);
+shader::SampleResult sample(const PackedScene& scene, uint32_t x, uint32_t y, uint32_t index,
+                            RayRecorder* recorder) {
+  const shader::Binding binding(scene, recorder);
   return shader::render_sample(scene.frame, x, y, index);
 }
 

@@ -3,12 +3,15 @@
 // its numerics.
 #pragma once
 
+#include "host/core/ray_tree.hpp"
 #include "host/records/packer.hpp"
 
 namespace eyeray::twin {
 
-// What kernels/render.comp.glsl computes for one pixel of the whole picture. Thread-safe.
-shader::SampleResult sample(const PackedScene& scene, uint32_t x, uint32_t y, uint32_t index);
+// What kernels/render.comp.glsl computes for one pixel of the whole picture. Thread-safe. `recorder`: is shown
+// what the shaders PROBE; null: nobody looks.
+shader::SampleResult sample(const PackedScene& scene, uint32_t x, uint32_t y, uint32_t index,
+                            RayRecorder* recorder = nullptr);
 shader::HitResult first_hit(const PackedScene& scene, uint32_t x, uint32_t y);
 // What kernels/query.comp.glsl computes for one ray.
 shader::QueryHit query(const PackedScene& scene, const shader::QueryRay& ray, bool any);

@@ -19,10 +19,6 @@ void add_first_hit(compare::Probe& probe, const Scene& scene, const FirstHit& hi
   for (int c = 0; c < 3; ++c) probe.first_colors = mix(probe.first_colors, std::bit_cast<uint64_t>(color[c]));
 }
 
-// How far off surfaces, and at most aside, float32 rays start: of a triangle, 8 ε for each of its three
-// vertices (docs/numerics.md).
-constexpr double float32_ray_offset = 24 * 0x1p-24;
-
 compare::Probe::Sample of(const PixelSample& sample) {
   return {sample.color, {double(sample.hits), double(sample.rays)}};
 }
@@ -39,11 +35,11 @@ compare::Probe probe(const Scene& scene, const reference::Renderer& renderer, in
       return renderer.sample(x, y, uint32_t(i), shift, ray_offset);
     };
     // From the farther surface rays would strike the nearer one, did they start as the mathematics says.
-    const PixelSample sample = coincident ? rendered({float32_ray_offset, true, seed}) : rendered({});
+    const PixelSample sample = coincident ? rendered({reference::float32_ray_offset, true, seed}) : rendered({});
     result.samples.push_back(of(sample));
     using reference::TextureChoice;
     const auto add_rounded = [&](bool along_normal, TextureChoice textures) {
-      result.rounded.push_back(of(rendered({float32_ray_offset, along_normal, seed, textures})));
+      result.rounded.push_back(of(rendered({reference::float32_ray_offset, along_normal, seed, textures})));
     };
     for (const bool along_normal : {false, true}) add_rounded(along_normal, TextureChoice::at_hit);
     if (shift == Vec2(0.0))

@@ -27,6 +27,13 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   at.surface = surface_at(primitive, ray, hit);
   bool front = dot3(ray.d, at.surface.normal_geometric) < 0.0f;
   at.seen = face_viewer(at.surface, front);
+  PROBE(t, hit.t);
+  PROBE(position, at.surface.p);
+  PROBE(normal_geometric, at.surface.normal_geometric);
+  PROBE(normal, at.surface.normal);
+  PROBE(uv, at.surface.uv);
+  PROBE(front, front);
+  PROBE(material, int(material));
 
   at.context.uv = at.surface.uv;
   at.context.color = vec3(1.0f, 1.0f, 1.0f);
@@ -43,7 +50,14 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   at.context.ior_from = load_medium(innermost_medium(media)).ior;
   at.context.ior_to = load_medium(innermost_medium(at.media_behind)).ior;
 #endif
+  PROBE(ior, vec2(at.context.ior_from, at.context.ior_to));
   at.scattering = scattering_of(material, at.material, at.context);
+  PROBE(ambient, at.scattering.ambient);
+  PROBE(diffuse, at.scattering.diffuse);
+  PROBE(specular, at.scattering.specular);
+  PROBE(reflected, at.scattering.reflected);
+  PROBE(transmitted, at.scattering.transmitted);
+  PROBE(emitted, at.scattering.emitted);
   return at;
 }
 

@@ -21,6 +21,9 @@ vec3 radiance(Frame frame, Ray camera_ray, INOUT(uvec4) counts) {
   bool going = true;
   for (; going;) {
     Ray ray = make_ray(path.o, path.d);
+    PROBE_RAY(path.depth == 0u ? RAY_EYE : path.refracted ? RAY_REFRACTED : RAY_REFLECTED, 0u, path.depth);
+    PROBE(origin, ray.o);
+    PROBE(direction, ray.d);
     Hit hit = trace(ray, counts.z);
     Continuations all = shade(frame, path, ray, hit, color, counts);
     going = all.count > 0u;
@@ -65,6 +68,9 @@ vec3 radiance(Frame frame, Ray camera_ray, INOUT(uvec4) counts) {
 // No path goes on: there is nothing to loop for.
 vec3 radiance(Frame frame, Ray camera_ray, INOUT(uvec4) counts) {
   vec3 color = vec3(0.0f, 0.0f, 0.0f);
+  PROBE_RAY(RAY_EYE, 0u, 0u);
+  PROBE(origin, camera_ray.o);
+  PROBE(direction, camera_ray.d);
   Hit hit = trace(camera_ray, counts.z);
   shade(frame, begin(frame, camera_ray), camera_ray, hit, color, counts);
 #if RAY_KINDS

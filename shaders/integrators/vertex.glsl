@@ -13,13 +13,17 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
   counts.x += 1u;
   counts.y += struck ? 1u : 0u;
   counts.w += TRACE_ITERATIONS + 1u;
+  PROBE(primitive, struck ? int(hit.id) : -1);
   if (!struck) {
+    PROBE(throughput, path.throughput);
+    PROBE(light, missed(frame));
     color = color + path.throughput * missed(frame);
   } else {
     Interaction at = interaction_at(ray, hit, path.media, counts.z);
 #if HAS_ABSORPTION
     path.throughput = path.throughput * medium_transmittance(path.media, hit.t);
 #endif
+    PROBE(throughput, path.throughput);
     vec3 light = emitted(frame, at);
     // Tested at the bottom: Mesa 22.3.6 would go round once more, with all lanes idle.
     uint i = 0u;
@@ -30,15 +34,22 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
       vec3 contribution;
       if (shadow_ray(frame, at, i, to_light, distance, contribution)) {
         counts.x += 1u;
+        PROBE_RAY(RAY_SHADOW, i, path.depth);
+        PROBE(origin, to_light.o);
+        PROBE(direction, to_light.d);
+        PROBE(contribution, contribution);
 #if STORED_HITS
         uint occluded = load_occlusion(i);
 #else
         uint occluded = occlusion(to_light, distance, counts.z);
 #endif
+        PROBE(visibility, visibility(occluded));
+        PROBE_BACK(path.depth);
         light = light + contribution * visibility(occluded);
       }
       i += 1u;
     } while (i < shadow_rays());
+    PROBE(light, light);
     color = color + path.throughput * light;
 #if HAS_SECONDARY
     all = scatter(frame, path, at);

@@ -3,6 +3,9 @@
 #ifndef BINDINGS_GLSL
 #define BINDINGS_GLSL
 #include "records.h"
+#ifdef PROBING
+#include "kernels/probe.glsl"
+#endif
 
 layout(push_constant) uniform PushConstants { Dispatch dispatch; };
 #if TEXEL_BUFFERS

@@ -148,5 +148,11 @@
 //   BOUNCE_HITS           kernels/cooperative/bvh4.comp.glsl traces the rays of a bounce …
 //   BOUNCE_SHADOW         … or those to the lights from what they hit
 //   BVH4_STACK_SIZE       of kernels/cooperative/bvh4.comp.glsl
+//   PROBING               what shaders PROBE is recorded (kernels/probe.glsl) …
+//   PROBE_CAPACITY        … so many of it at most, …
+//   PROBED_name           … each name by its number
+//   PROBE                 (name, value), PROBE_RAY, PROBE_BACK: language.h has them empty, kernels/probe.glsl and the twin as they record
+//   PROBE_RAY             (kind, number, depth)
+//   PROBE_BACK            (depth)
 
 #endif

@@ -3,6 +3,7 @@
 #include <map>
 #include <regex>
 
+#include "host/executors/shader_probe.hpp"
 #include "host/gpu/reflect.hpp"
 #include "random_scene.hpp"
 #include "support.hpp"
@@ -98,6 +99,13 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
   check_struct(samples, "SampleResult", sizeof(shader::SampleResult),
                {MEMBER(SampleResult, color), MEMBER(SampleResult, written), MEMBER(SampleResult, rays),
                 MEMBER(SampleResult, hits), MEMBER(SampleResult, flags), MEMBER(SampleResult, iterations)});
+  const std::string probing =
+      executors::ShaderProbe(test::entry_source("kernels/render.comp.glsl", scene, {}).files).defines();
+  check_struct(gpu::reflect(test::compile_entry("kernels/render.comp.glsl", scene, {.ray_kinds = true},
+                                                probing.c_str())),
+               "ProbeRecord", sizeof(shader::ProbeRecord),
+               {MEMBER(ProbeRecord, name), MEMBER(ProbeRecord, line), MEMBER(ProbeRecord, type),
+                MEMBER(ProbeRecord, size), MEMBER(ProbeRecord, value)});
   CHECK(samples.push_constant_bytes == sizeof(shader::Dispatch));
 
   const gpu::Reflection wavefront =

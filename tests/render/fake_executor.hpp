@@ -32,6 +32,7 @@ class FakeExecutor final : public executors::Executor {
     }
     return true;
   }
+  executors::Probed probe(int, int, uint32_t) override { return {}; }
   double query(const QueryBatch&, std::span<QueryHit>) override { return 0; }
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     for (size_t i = 0; i < out.size(); ++i) {

@@ -38,6 +38,7 @@ class StoppingExecutor final : public Executor {
     return true;
   }
   void first_hits(const Rect&, std::span<FirstHit>) override { asked_first_hits = true; }
+  Probed probe(int, int, uint32_t) override { return {}; }
   double query(const QueryBatch&, std::span<QueryHit>) override {
     FAIL("a picture asks for samples");
     return 0;

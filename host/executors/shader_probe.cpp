@@ -1,0 +1,93 @@
+#include "host/executors/shader_probe.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <regex>
+#include <sstream>
+
+namespace eyeray::executors {
+namespace {
+
+// The host names the shaders' kinds of rays where it knows no records (core/ray_tree.hpp).
+static_assert(uint32_t(RayKind::eye) == RAY_EYE && uint32_t(RayKind::reflected) == RAY_REFLECTED);
+static_assert(uint32_t(RayKind::refracted) == RAY_REFRACTED && uint32_t(RayKind::shadow) == RAY_SHADOW);
+
+double number(uint32_t type, uint32_t bits) {
+  switch (type) {
+    case PROBE_FLOAT:
+      return double(std::bit_cast<float>(bits));
+    case PROBE_INT:
+      return double(int32_t(bits));
+    default:
+      return double(bits);
+  }
+}
+
+ProbedValue::Type type_of(uint32_t type) {
+  using enum ProbedValue::Type;
+  return type == PROBE_FLOAT ? real : type == PROBE_BOOL ? boolean : integer;
+}
+
+}  // namespace
+
+ShaderProbe::ShaderProbe(const std::map<std::string, std::string, std::less<>>& files) {
+  static const std::regex probe(R"(\bPROBE\s*\(\s*([A-Za-z]\w*)\s*,)");
+  for (const auto& [file, text] : files) {
+    std::istringstream lines(text);
+    uint32_t number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      if (line.find("PROBE") == std::string::npos) continue;
+      for (std::sregex_iterator it(line.begin(), line.end(), probe), end; it != end; ++it)
+        places_[(*it)[1]].push_back({file, number});
+    }
+  }
+}
+
+std::string ShaderProbe::defines() const {
+  std::string text = fmt::format("#define PROBING\n#define PROBE_CAPACITY {}u\n", RayRecorder::most);
+  uint32_t number = 0;
+  for (const auto& [name, places] : places_)
+    text += fmt::format("#define {} {}u\n", fmt::format("PROBED_{}", name), number++);
+  return text;
+}
+
+RayTree ShaderProbe::tree(std::span<const shader::ProbeRecord> records) const {
+  const uint32_t asked = records[0].name, kept = std::min(asked, uint32_t(records.size() - 1));
+  std::vector<std::string_view> names;
+  for (const auto& [name, places] : places_) names.push_back(name);
+
+  RayRecorder recorder;
+  for (const shader::ProbeRecord& record : records.subspan(1, kept)) {
+    if (record.name == PROBE_OPENS_RAY) {
+      recorder.ray(RayKind(record.value.x), record.value.y, record.value.z);
+    } else if (record.name == PROBE_RETURNS) {
+      recorder.back(record.value.x);
+    } else if (record.name < names.size()) {
+      ProbedValue value{.name = std::string(names[record.name]),
+                        .type = type_of(record.type),
+                        .size = std::clamp(int(record.size), 1, 4),
+                        .line = record.line};
+      for (int i = 0; i < value.size; ++i) value.numbers[size_t(i)] = number(record.type, record.value[i]);
+      recorder.value(std::move(value));
+    }
+  }
+  recorder.lose(asked - kept);
+  name_files(recorder.tree());
+  return std::move(recorder.tree());
+}
+
+void ShaderProbe::name_files(RayTree& tree) const {
+  for (ProbedRay& ray : tree.rays) {
+    for (ProbedValue& value : ray.values) {
+      const auto found = places_.find(value.name);
+      if (found == places_.end()) continue;
+      const auto place = std::ranges::find(found->second, value.line, &Place::line);
+      if (place != found->second.end()) value.file = place->file;
+    }
+  }
+}
+
+}  // namespace eyeray::executors

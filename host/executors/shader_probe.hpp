@@ -1,0 +1,38 @@
+// PROBE in shaders: how a kernel is made that records, and what its records mean.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/core/ray_tree.hpp"
+#include "host/records/packer.hpp"
+
+namespace eyeray::executors {
+
+// Every PROBE in shader files.
+class ShaderProbe {
+ public:
+  // `files`: name → text.
+  explicit ShaderProbe(const std::map<std::string, std::string, std::less<>>& files);
+
+  // What makes of kernels/render.comp.glsl one that records.
+  std::string defines() const;
+  // How many records BINDING_PROBE's buffer has.
+  static constexpr size_t capacity = size_t{RayRecorder::most} + 1;
+  // The tree that they tell.
+  RayTree tree(std::span<const shader::ProbeRecord> records) const;
+
+  // Says of each value from which file it comes, as its name and line tell.
+  void name_files(RayTree& tree) const;
+
+ private:
+  struct Place {
+    std::string file;
+    uint32_t line;
+  };
+  std::map<std::string, std::vector<Place>, std::less<>> places_;  // by name
+};
+
+}  // namespace eyeray::executors

@@ -1,0 +1,90 @@
+// The ray trees of one sample by several executors, laid over each other: a ray is known by its way through
+// the tree and a value by its name, whatever the order in which they came.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/core/ray_tree.hpp"
+
+namespace eyeray::probe {
+
+// Why values, or which of the executors have a ray, are as they are: `explained` is as in verify, the
+// reference itself is as far apart within a few thousandths of a pixel.
+enum class Verdict { agrees, explained, differs };
+
+// What the reference shows around the pixel.
+struct Range {
+  std::array<double, 4> low, high;
+  std::vector<double> whole;  // of whole numbers and truths, each that occurs
+
+  explicit Range(const ProbedValue& value);
+  void include(const ProbedValue& value);
+};
+
+struct Line {
+  std::string name;
+  std::vector<std::optional<ProbedValue>> values;  // of each executor
+  std::optional<Range> range = {};
+  Verdict verdict = Verdict::agrees;
+  std::string difference = {};  // "gpu and twin: 3 ULP"; empty where they agree
+};
+
+struct Ray {
+  RayKind kind;
+  uint32_t number;           // see ProbedRay
+  size_t parent;             // in Overlay::rays
+  size_t place;              // how many of the parent's lines come before it
+  std::vector<bool> traced;  // by each executor
+  std::vector<size_t> children = {};
+  std::vector<Line> lines = {};
+  bool missed_around = false;         // whether the reference has no such ray somewhere around the pixel …
+  bool traced_around = false;         // … and whether it has
+  Verdict verdict = Verdict::agrees;  // of `traced`
+  std::string difference = {};
+};
+
+class Overlay {
+ public:
+  explicit Overlay(size_t executors);
+
+  // The tree of an executor; all of them come before what is around.
+  void add(size_t executor, const RayTree& tree);
+  // The reference's at the pixel, and at a place around it.
+  void add_around(const RayTree& tree);
+
+  // The pixel first, each ray after its parent.
+  std::vector<Ray>& rays() { return rays_; }
+  const std::vector<Ray>& rays() const { return rays_; }
+
+  // Calls ray(i) and line(i, k) for everything, in the order of a ray's life: its lines with its shadow rays
+  // among them, then what it leads to.
+  template <typename OnRay, typename OnLine>
+  void in_order(const OnRay& ray, const OnLine& line, size_t from = 0) const {
+    ray(from);
+    const std::vector<size_t> below = children_by_place(from);
+    size_t next = 0;
+    for (size_t k = 0; k <= rays_[from].lines.size(); ++k) {
+      for (; next < below.size() && rays_[below[next]].place <= k; ++next) in_order(ray, line, below[next]);
+      if (k < rays_[from].lines.size()) line(from, k);
+    }
+    for (; next < below.size(); ++next) in_order(ray, line, below[next]);
+  }
+  // How many rays lead to it; 0 for the eye's.
+  int depth(size_t ray) const;
+
+ private:
+  std::vector<size_t> children_by_place(size_t ray) const;
+
+  size_t executors_;
+  std::vector<Ray> rays_;
+};
+
+// The line of a ray with that name, or null.
+const Line* find_line(const Ray& ray, std::string_view name);
+
+}  // namespace eyeray::probe

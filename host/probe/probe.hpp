@@ -1,0 +1,64 @@
+// Looks into one sample of one pixel, by several executors (docs/verification.md, the probe).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/executors/executor.hpp"
+#include "host/probe/overlay.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray::probe {
+
+struct Options {
+  std::vector<executors::Backend> backends{executors::Backend::gpu, executors::Backend::twin,
+                                           executors::Backend::reference};
+  executors::ExecutorOptions executor;
+  int x = 0, y = 0;
+  std::optional<uint32_t> sample;  // none: the first whose colours differ, or the first
+};
+
+// One executor that took part.
+struct Participant {
+  executors::Backend backend;
+  std::string description;
+  PixelSample sample;
+};
+
+struct Findings {
+  std::string scene;  // its file
+  int width = 0, height = 0;
+  int x = 0, y = 0;
+  uint32_t sample = 0;  // of `samples`
+  int samples = 1;
+  Vec3 eye{0.0};  // that points in the overlay are relative to
+  std::vector<Participant> participants;
+  std::vector<std::string> notes;  // what is to be known beside, a sentence each
+  Overlay overlay{0};
+  std::vector<std::string> hits;  // what each ray of the overlay hits, by `sphere "left eye", scene.toml:12`
+
+  // What differs first, in the order of a ray's life: a ray that not all have, or a line of it; none.
+  struct Place {
+    size_t ray;
+    std::optional<size_t> line;
+  };
+  std::optional<Place> first_difference() const;
+  // "eye ray / refracted ray / shadow ray to light 0".
+  std::string way_to(size_t ray) const;
+};
+
+// Error (bad_input) where the picture has no such pixel or the pixel no such sample, and what make_executor
+// throws.
+Findings probe_pixel(const Scene& scene, const Options& options);
+
+// For people, lines each ended; `colored` by the codes of terminals.
+std::string to_text(const Findings& findings, bool colored);
+// One JSON document on one line.
+std::string to_json(const Findings& findings);
+
+// "reflected ray", "shadow ray to light 2".
+std::string describe(const Ray& ray);
+
+}  // namespace eyeray::probe
