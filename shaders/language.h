@@ -49,10 +49,10 @@ inline float uintBitsToFloat(uint x) { return __builtin_bit_cast(float, x); }
 
 #endif
 
-// PROBE shows a value to `eyeray probe`, as a line `name = value` of the ray that is traced: a float, int, uint, bool or vector of floats. It may
-// stand wherever a statement may. PROBE_RAY: the lines that follow belong to a new ray (records.h, RAY_…), of a shadow ray the light's number, at
-// so many reflections and refractions; PROBE_BACK: to the last one there again, with NONE to the pixel. Nothing is left of them where nobody looks; kernels/probe.glsl and
-// the twin have them otherwise.
+// PROBE shows a value to `eyeray probe`, as a line `name = value` of the ray that is traced: a float, int, uint, bool or vector of
+// floats. It may stand wherever a statement may. PROBE_RAY: what follows belongs to a new ray (records.h, RAY_…), of a shadow ray with
+// its light's number, after so many reflections and refractions; PROBE_BACK: to the last one there again, with NONE to the pixel.
+// Where nobody looks nothing is left of them; kernels/probe.glsl and the twin define them otherwise.
 #ifndef PROBE
 #define PROBE(name, value)
 #define PROBE_RAY(kind, number, depth)

@@ -91,7 +91,9 @@ void Command::find_files() {
 compare::Report Command::report_on(const SceneOptions& scene_file) const {
   const Scene scene = scene_file.load();
   check_crop(options.crop, scene.image);
-  return verify::verify_scene({scene, scene_file.file(), scene_file.as_written(),
+  const fs::path& folder = options.executor.shader_folder;
+  const std::string shaders = folder.empty() ? "" : fmt::format(" --shaders '{}'", folder.string());
+  return verify::verify_scene({scene, scene_file.file(), scene_file.as_written() + shaders,
                                folder_for(scene_file.file()), keep_passed, golden_of(scene_file.file())},
                               options);
 }

@@ -145,6 +145,11 @@ std::string Report::command_to_look() const {
   return fmt::format("eyeray verify {}{} --crop {},{},{},{}", scene, options, x, y, w, h);
 }
 
+std::string Report::command_to_probe() const {
+  const std::optional<Pixel> pixel = pixel_to_look_at();
+  return pixel ? fmt::format("eyeray probe {} {},{}{}", scene, pixel->x, pixel->y, options) : "";
+}
+
 std::string_view Report::verdict() const {
   return !passes() ? "failed" : not_verified.empty() ? "passed" : "skipped";
 }

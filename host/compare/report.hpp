@@ -94,6 +94,8 @@ struct Report {
   std::vector<FirstHit> shown_hits() const;
   // "eyeray verify SCENE --crop X,Y,9,9", nine pixels around that one.
   std::string command_to_look() const;
+  // "eyeray probe SCENE X,Y", that pixel's rays; both "" when all gates pass.
+  std::string command_to_probe() const;
 };
 
 // Verdict first, then counts, worst pixels and the command that shows them; lines, each ended.

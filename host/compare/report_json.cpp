@@ -145,6 +145,7 @@ Json json(const Report& report) {
           {"primitives", json(report.primitives)},
           {"materials", json(report.materials)},
           {"look_closer", report.command_to_look()},
+          {"probe", report.command_to_probe()},
           {"kept", report.kept}};
 }
 

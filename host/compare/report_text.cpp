@@ -166,7 +166,7 @@ std::string to_text(const Report& report) {
 
   // What to do next.
   if (const std::string command = report.command_to_look(); !command.empty())
-    line(text, "  look closer: {}", command);
+    line(text, "  look closer: {}\n  its rays: {}", command, report.command_to_probe());
   if (!report.kept.empty()) line(text, "  pictures and the command line are kept in {}", report.kept);
   return text;
 }

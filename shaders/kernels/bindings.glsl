@@ -4,6 +4,7 @@
 #define BINDINGS_GLSL
 #include "records.h"
 #ifdef PROBING
+layout(std430, binding = BINDING_PROBE) writeonly restrict buffer ProbeRecords { ProbeRecord probe_records[]; };
 #include "kernels/probe.glsl"
 #endif
 

@@ -1,9 +1,8 @@
-// What shaders PROBE, into a buffer: for a dispatch of one pixel. The values of a kernel's other invocations would be lost among them.
+// What shaders PROBE, into the buffer of kernels/bindings.glsl: for a dispatch of one pixel, since every invocation begins at its start.
 #ifndef PROBE_GLSL
 #define PROBE_GLSL
 #include "records.h"
 
-layout(std430, binding = BINDING_PROBE) writeonly restrict buffer ProbeRecords { ProbeRecord probe_records[]; };
 uint probe_count = 0u;
 
 void probe_record(uint name, uint line, uint type, uint size, uvec4 value) {

@@ -39,7 +39,7 @@ const Library libraries[] = {
      {"gpu", "formula"}},
     {std::regex(R"(toml\+\+/.*)"), {"scene", "loader"}, {"scene", "loader"}},
     {std::regex(R"(nlohmann/json\.hpp)"),
-     {"bench", "cli", "compare", "importers", "loader", "verify"},
+     {"bench", "cli", "compare", "importers", "loader", "verify", "probe"},
      {"importers"}},
     {std::regex(R"(tiny_.*)"), {"importers"}, {}},
     {std::regex(R"(CLI/.*)"), {"cli"}, {"cli"}},

@@ -88,7 +88,7 @@ TEST_CASE("without a command the help is shown, as words") {
 
 TEST_CASE("every command explains itself with an example, in lines that fit") {
   for (const std::string command :
-       {"render", "verify", "compare", "check", "dev", "devices", "bench", "generate", "shaders"}) {
+       {"render", "verify", "compare", "probe", "check", "dev", "devices", "bench", "generate", "shaders"}) {
     CAPTURE(command);
     const ProcessResult result = run_eyeray({command, "--help"});
     CHECK(result.code == 0);

@@ -85,6 +85,7 @@ TEST_CASE("a failing report names the gate, the pixel, the seam, and the command
       "gate B: twin against the reference, colours: 1 of 6912 pixels differ unexplained; the worst is 94,30, "
       "which parts at t"));
   CHECK(contains(text, "look closer: eyeray verify scenes/analytic.toml --crop 87,26,9,9\n"));
+  CHECK(contains(text, "its rays: eyeray probe scenes/analytic.toml 94,30\n"));
   CHECK(contains(text, "kept in analytic.verify"));
 }
 

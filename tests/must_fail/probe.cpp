@@ -1,0 +1,76 @@
+// The probe finds each fault of the GPU's side at the value where it is.
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "tests/support/process.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+struct Fault {
+  std::string name;
+  std::string pixel;
+  std::string ray;    // the last of its way
+  std::string value;  // "" where a ray is missing
+  std::vector<std::string> scene = {"scenes/whitted.toml"};
+};
+
+void expect_found(const Fault& fault) {
+  CAPTURE(fault.name);
+  std::vector<std::string> arguments = {"probe"};
+  arguments.insert(arguments.end(), fault.scene.begin(), fault.scene.end());
+  arguments.insert(arguments.end(), {fault.pixel, "-s", "96x72", "--json", "--inject-fault", fault.name});
+  const ProcessResult result = run_eyeray(arguments);
+  CAPTURE(result.err);
+  REQUIRE(result.code == 1);
+  const auto first = nlohmann::json::parse(result.out).at("first_difference");
+  CAPTURE(first.dump());
+  CHECK(first.at("way").get<std::string>().ends_with(fault.ray));
+  CHECK(first.value("name", "") == fault.value);
+}
+
+const Fault faults[] = {
+    {"ior", "56,22", "eye ray", "ior"},
+    {"shadow", "31,60", "shadow ray to light 0", "visibility"},
+    {"bit", "47,30", "shadow ray to light 0", "direction"},
+    {"near_root", "43,21", "shadow ray to light 0", "visibility"},
+    {"edge", "22,42", "eye ray", "primitive"},
+    {"position", "10,48", "pixel", "first_hit_position"},
+    {"ids", "44,20", "pixel", "first_hit_primitive"},
+    {"normal", "13,46", "eye ray", "normal"},
+    {"uv", "1,48", "eye ray", "uv"},
+    {"camera", "4,62", "eye ray", "direction"},
+    {"fresnel", "41,28", "eye ray", "reflected"},
+    {"refraction", "48,45", "refracted ray", "origin"},
+    {"mirror", "41,50", "reflected ray", "direction"},
+    {"depth", "43,21", "ray", ""},
+    {"checker", "13,46", "eye ray", "ambient"},
+    {"counts", "0,0", "pixel", "hits"},
+    {"offset", "39,22", "ray", "origin"},
+    {"light", "30,43", "shadow ray to light 0", "contribution"},
+    {"near_light", "47,29", "shadow ray to light 0", "direction"},
+    {"materials", "32,43", "eye ray", "material"},
+    {"nan", "0,36", "pixel", "color"},
+    {"black", "47,30", "pixel", "color"},
+    {"shift", "58,47", "eye ray", "direction"},
+    {"contraction", "21,52", "eye ray", "direction"},
+    {"random",
+     "43,21",
+     "eye ray",
+     "direction",
+     {"scenes/whitted.toml", "--spp", "4", "-D", "image.pattern=jittered"}},
+};
+
+}  // namespace
+
+TEST_CASE("the probe finds a wrong index of refraction, a missing shadow and a flipped bit where they are") {
+  for (const Fault& fault : std::span(faults).first(3)) expect_found(fault);
+}
+
+TEST_CASE("… and every fault that a pixel's kernel has" * doctest::test_suite("long")) {
+  for (const Fault& fault : faults) expect_found(fault);
+}
