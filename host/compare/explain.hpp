@@ -32,8 +32,8 @@ struct Probe {
 using Reference = std::function<Probe(int x, int y, const Vec2& shift, bool coincident)>;
 
 // Places around a pixel's own, in pixels: `angles` on each of four rings, and before them on one as wide as a
-// rounding error, where that is known. Of a pixel whose rays strike so many surfaces. `between`: half as many on
-// each ring between that and the four as well.
+// rounding error, where that is known. Of a pixel whose rays strike so many surfaces. `between`: half as many
+// on each ring between that and the four as well.
 struct Places {
   std::vector<Vec2> all;
   size_t innermost = 0;  // those of a rounding error

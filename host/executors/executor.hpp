@@ -41,8 +41,8 @@ class Executor {
   // What the ray through the centre of every pixel of `tile` hits; out.size() = tile.pixels().
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
 
-  // Sample `index` of one pixel, and what is to be seen along its rays. Positions are the shaders', relative to
-  // the eye, but the reference's. Only where ExecutorOptions::ray_kinds.
+  // Sample `index` of one pixel, and what is to be seen along its rays. Positions are the shaders', relative
+  // to the eye, but the reference's. Only where ExecutorOptions::ray_kinds.
   virtual Probed probe(int x, int y, uint32_t index) = 0;
 
   // What each ray hits, and the seconds that tracing alone took: by the device's clock where it has one,

@@ -31,8 +31,8 @@ inline constexpr double float32_ray_offset = 24 * 0x1p-24;
 
 struct Integrator {
   std::string_view manual;  // Markdown
-  // What the eye's ray, its direction unit, sees, starting in `media`. `observer` has been told of that ray, and
-  // is told the rest.
+  // What the eye's ray, its direction unit, sees, starting in `media`. `observer` has been told of that ray,
+  // and is told the rest.
   PixelSample (*sample)(const Tracer& tracer, const Ray& ray, const MediaStack& media,
                         const RayOffset& ray_offset, const Observer& observer);
 };

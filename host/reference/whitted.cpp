@@ -178,7 +178,8 @@ Vec3 Recursion::radiance(const Path& path) {
   Vec3 color = direct(view, scattering, path.depth);
   observer_.value("light", color);
   const Vec3 mirrored = view.d + 2 * view.cos_view * view.surface.normal;
-  color += child(RayKind::reflected, arrived, view, glm::normalize(mirrored), path.media, scattering.reflected);
+  color +=
+      child(RayKind::reflected, arrived, view, glm::normalize(mirrored), path.media, scattering.reflected);
   if (scattering.transmitted != Vec3(0))
     color += child(RayKind::refracted, arrived, view, refract(view, before.ior, ior_beyond), beyond,
                    scattering.transmitted);

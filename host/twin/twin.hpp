@@ -8,8 +8,8 @@
 
 namespace eyeray::twin {
 
-// What kernels/render.comp.glsl computes for one pixel of the whole picture. Thread-safe. `recorder`: is shown
-// what the shaders PROBE; null: nobody looks.
+// What kernels/render.comp.glsl computes for one pixel of the whole picture. Thread-safe. `recorder`: is
+// shown what the shaders PROBE; null: nobody looks.
 shader::SampleResult sample(const PackedScene& scene, uint32_t x, uint32_t y, uint32_t index,
                             RayRecorder* recorder = nullptr);
 shader::HitResult first_hit(const PackedScene& scene, uint32_t x, uint32_t y);

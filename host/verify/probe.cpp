@@ -35,7 +35,8 @@ compare::Probe probe(const Scene& scene, const reference::Renderer& renderer, in
       return renderer.sample(x, y, uint32_t(i), shift, ray_offset);
     };
     // From the farther surface rays would strike the nearer one, did they start as the mathematics says.
-    const PixelSample sample = coincident ? rendered({reference::float32_ray_offset, true, seed}) : rendered({});
+    const PixelSample sample =
+        coincident ? rendered({reference::float32_ray_offset, true, seed}) : rendered({});
     result.samples.push_back(of(sample));
     using reference::TextureChoice;
     const auto add_rounded = [&](bool along_normal, TextureChoice textures) {
