@@ -85,11 +85,13 @@ void hard_scenes_on_the_gpu(int count) {
   INFO(tally.shown());
   CHECK(tally.different == 0);
   CHECK(tally.hits > 400 * count);
-  CHECK(tally.dimmed > 40 * count);
   CHECK(quantised > count / 3);
-  if (count > 8) CHECK(quantised < bvhs);  // few have nodes that cannot be quantised
   CHECK(with_splits > 0);
   CHECK(with_instances > count / 6);
+  if (count <= 8) return;
+  // What few scenes have.
+  CHECK(tally.dimmed > 40 * count);
+  CHECK(quantised < bvhs);  // nodes that cannot be quantised
   CHECK(together > count / 6);
 }
 
