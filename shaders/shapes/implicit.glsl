@@ -104,7 +104,7 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
   vec2 face = itself ? vec2(axis, toward < 0.0f ? -1.0f : 1.0f) : hit.uv;
   Surface surface = object_surface(s, p, gradient, cube_uv(p, face));
 
-  // How far f's own rounding reaches nobody knows: try where rays will start.
+  // How far f's own rounding reaches nobody knows: try it. Rays start farther off by what the maps round.
   vec3 out_step = into_object(s, surface.normal_geometric) * surface.offset;
   float factor = 1.0f;
 #define RAY_OFFSET_OF(number, name)                                       \
@@ -114,7 +114,7 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
     factor = wanted ? found : factor;                                    \
   }
   FORMULAS(RAY_OFFSET_OF)
-  surface.offset = itself ? surface.offset * (2.0f * factor + 1.0f) : surface.offset;
+  surface.offset = itself ? surface.offset * (factor + 1.0f) : surface.offset;
   return surface;
 }
 

@@ -96,15 +96,24 @@ eyeray_verify(mode.contact mode scenes/shapes/box.toml -s 640x427 --crop 476,250
 foreach(size 126x63 160x79)
   eyeray_verify(mode.edge-row-${size} mode scenes/edges/grazing.toml -s ${size})
 endforeach()
+eyeray_verify(mode.edge-on mode QUICK scenes/edges/continued.toml -s 160x79 --backends twin)
 eyeray_verify(mode.edge-row-horizon mode scenes/shapes/algebraic.toml -s 110x73 --crop 0,0,110,6 --backends twin)
 eyeray_verify(mode.caustic-rim mode scenes/shapes/gallery.toml -s 96x72 --crop 75,38,9,9 --backends twin)
 eyeray_verify(mode.caustic-rim-wide mode scenes/shapes/gallery.toml -s 96x54 --crop 75,29,9,9 --backends twin)
 eyeray_verify(mode.plane-of-symmetry mode scenes/whitted.toml -s 333x250 --crop 162,69,9,9)
 eyeray_verify(mode.plane-of-symmetry-walls mode scenes/whitted.toml -s 309x231 --crop 154,163,1,1 --backends twin)
+# Rays that skim a formula's surface, leave it beside a ridge, and leave the wall of a gyroid (docs/numerics.md, affine bounds).
+eyeray_verify(mode.skimmed-formula mode QUICK scenes/shapes/mandelbulb.toml -s 160x79 --crop 40,33,12,32 --backends twin)
+eyeray_verify(mode.skimmed-gyroid mode QUICK scenes/shapes/sculpture.toml -s 333x250 --crop 63,243,1,1 --backends twin)
 eyeray_verify(mode.empty-csg mode tests/loader/warned/empty_csg.toml)
 eyeray_verify(mode.unlit mode QUICK tests/loader/warned/unlit.toml)
 eyeray_verify(mode.crop mode QUICK ${some} -s 200x150 --crop 51,37,83,71)
 eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --spp 4 -D image.pattern=jittered)
+
+# Nothing is broken, whatever the seed; scripts/false-alarms asks more.
+foreach(seed 1 2 3)
+  eyeray_verify(mode.seed-${seed} mode ${quick} ${EDGES} -s 48x36 --spp 4 -D image.pattern=jittered --seed ${seed} --max-explained 0.02 --backends twin)
+endforeach()
 
 # A second driver with a compiler of its own: SwiftShader (docs/lavapipe.md, another driver), within 8 GiB. None takes 60 s
 # of a processor; how long that is depends on what else the machine does.

@@ -2,8 +2,8 @@
 // with. Whoever marches asks for the function's affine bound on march_middle(march) ± march_half(march) until march.over.
 // A root is where the sign changes. No change is overlooked but within a piece that is passed over, because it is as short as can be or its
 // affine bound hardly sharper than that of a point in it: there the function is zero up to what float32 may round at worst. The sign is then taken
-// from the line, where that is as far off zero as float32 rounds in fact; if it is another than before, the root is where the first line
-// among those pieces is zero, or the last; else in the middle.
+// from the line, where that is as far off zero as float32 rounds in fact; if it is another than before, the root among those pieces is narrowed down by
+// the signs that f has in float32: its bound there says what rounding may come to at worst, which is hundreds of times more.
 #ifndef ENCLOSURE_MARCH_GLSL
 #define ENCLOSURE_MARCH_GLSL
 #include "math/affine_bound.glsl"
@@ -28,10 +28,12 @@ struct March {
   float noise;    // e of a point nearby; 0 where it is not known
   float pass;     // the h of a piece that may be passed over
   float waiting;  // while a point is asked for its e: h of the piece after that; else 0
-  float root;     // once found; before that where a line was zero
+  float root;     // once found
+  float low;      // while that is narrowed down among pieces that were passed over: before it, …
+  float high;     // … and past it
   float past;     // from where on it is passed, where it was found within a piece; else before t
   float beyond;   // the sign past it
-  bool found;
+  bool found;     // not over yet: narrowed down
   bool over;
 };
 
@@ -48,7 +50,9 @@ March march_begin(float start, float end, float sign, float finest) {
   march.noise = 0.0f;
   march.pass = MARCH_FIRST_PASS * finest;
   march.waiting = 0.0f;
-  march.root = start - 1.0f;
+  march.root = start;
+  march.low = start;
+  march.high = start;
   march.past = start;
   march.beyond = 0.0f;
   march.found = false;
@@ -56,13 +60,21 @@ March march_begin(float start, float end, float sign, float finest) {
   return march;
 }
 
-float march_middle(March march) { return march.t + march.h; }
+float march_middle(March march) { return march.found ? 0.5f * (march.low + march.high) : march.t + march.h; }
 // A little more than h, so that no root falls between two pieces.
 float march_half(March march) { return march.h + 4.0f * EPSILON * (abs(march.t) + 2.0f * march.h); }
 
 // The march after the piece on which the function is a + b·s ± e.
 March march_on(March march, vec3 f) {
   March next = march;
+  if (march.found) {
+    bool before = (f.x < 0.0f) != (march.beyond < 0.0f);
+    next.low = before ? march_middle(march) : march.low;
+    next.high = before ? march.high : march_middle(march);
+    next.root = march_middle(next);
+    next.over = !(next.high - next.low > 2.0f * march.finest);
+    return next;
+  }
   if (march.waiting > 0.0f) {
     next.noise = maximum(f.z, 1.0e-30f);
     next.h = march.waiting;
@@ -93,12 +105,11 @@ March march_on(March march, vec3 f) {
 
   next.sign = known || likely ? sign : march.sign;
   next.found = changed || narrow;
-  bool guessed = march.root >= march.unknown && march.root <= march.t;
-  float behind = guessed ? march.root
-                 : known ? 0.5f * (march.unknown + march.t) : maximum(march.unknown, minimum(middle + h * centre, middle));
+  next.low = march.unknown;
+  next.high = known ? march.t : minimum(middle, march.end);
   next.past = changed ? march.t : right;
   next.beyond = changed ? sign : f.y < 0.0f ? -1.0f : 1.0f;
-  next.root = changed ? behind : narrow || (passes && !guessed && abs(centre) <= 1.0f) ? middle + h * centre : march.root;
+  next.root = changed ? 0.5f * (next.low + next.high) : middle + h * centre;
   next.t = none || passes ? middle + march.h : maximum(march.t, left);
   bool sure = march.unknown == march.t;
   next.unknown = none ? next.t : known ? maximum(march.t, left) : sure && !passes ? next.t : march.unknown;
@@ -114,8 +125,8 @@ March march_on(March march, vec3 f) {
            : crosses && doubt ? march.h : blunt ? march.pass : closer;
   next.h = minimum(maximum(next.h, march.finest), maximum(0.5f * (march.end - next.t), march.finest));
   next.waiting = doubt ? next.h : 0.0f;
-  next.h = doubt ? march.finest : next.h;
-  next.over = next.found || next.t >= march.end;
+  next.h = doubt || changed ? march.finest : next.h;
+  next.over = next.found ? !changed || !(next.high - next.low > 2.0f * march.finest) : next.t >= march.end;
   bool outside = next.found && !(next.root < march.end);
   next.found = next.found && !outside;
   next.sign = outside ? march.sign : next.sign;

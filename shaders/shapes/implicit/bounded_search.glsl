@@ -40,12 +40,12 @@ vec4 FORMULA_NAME(slope)(Implicit it, vec3 q, bool wanted) {
   return vec4(at.x * it.extent.x, at.y * it.extent.y, at.z * it.extent.z, at.w);
 }
 
-// By how much the step `out` has to be multiplied for f to be off 0 for certain there, as far as the slope tells.
+// By how much the step `out` has to be multiplied for the march to believe the sign of f there, as far as the slope tells.
 float FORMULA_NAME(ray_offset)(Implicit it, vec3 q, vec3 out_step, bool wanted) {
   float factor = 1.0f;
   if (wanted) {
     vec3 at = FORMULA_NAME(bound)(it, q, out_step, 0.0f, 1.0f);
-    float needed = 2.0f * (abs(at.x) + at.z) / abs(at.y);
+    float needed = 2.0f * (abs(at.x) + MARCH_LIKELY * at.z) / abs(at.y);
     factor = needed < 1.0f ? 1.0f : needed < IMPLICIT_MOST_RAY_OFFSET ? needed : IMPLICIT_MOST_RAY_OFFSET;
   }
   return factor;
