@@ -18,9 +18,9 @@ enum class TextureChoice { at_hit, darkest, brightest };
 // How float32 may round rays. They leave surfaces (crossings.hpp, departure) at least this far off, and up to
 // this far aside; a light as near to a surface's plane may lie on either side of it.
 struct RayOffset {
-  double share = 0;  // off, of |n|·|position − eye|; aside, of |position − eye|
-  bool along_normal = false;
-  uint32_t seed = 0;  // of where aside
+  double share = 0;           // off, of |n|·|position − eye|; aside, of |position − eye|
+  bool along_normal = false;  // they always leave along it; and what a ray runs along shows its other side
+  uint32_t seed = 0;          // of where aside
   TextureChoice textures = TextureChoice::at_hit;
   bool coincident = false;  // of two surfaces that float32 cannot tell apart, the farther one is hit
 };

@@ -57,7 +57,7 @@ class Recursion {
   Medium medium(const MediaStack& media) const;
   void observe(const Vec2& ior, const Scattering& scattering, const Vec3& throughput) const;
   Ray spawn_ray(const SurfacePoint& point, const Vec3& d);
-  double tilt(const SurfacePoint& point, double distance) const;
+  double cosine_rounding(const SurfacePoint& point, double distance) const;
 
   const Tracer& tracer_;
   const Scene& scene_;
@@ -86,12 +86,10 @@ Ray Recursion::spawn_ray(const SurfacePoint& point, const Vec3& d) {
   return ray;
 }
 
-// What float32 may add to the cosine of a light, at random: one in the plane of a surface may be before or
-// behind it.
-double Recursion::tilt(const SurfacePoint& point, double distance) const {
+// What float32 may add at most to the cosine between a surface and what lies at that distance from it.
+double Recursion::cosine_rounding(const SurfacePoint& point, double distance) const {
   if (ray_offset_.share == 0) return 0;
-  const double most = ray_offset_.share * (1 + glm::length(point.position - scene_.camera.eye) / distance);
-  return most * (2 * random(ray_offset_.seed, departures_, 3, 0) - 1);
+  return ray_offset_.share * (1 + glm::length(point.position - scene_.camera.eye) / distance);
 }
 
 // A ray may run along the border of two checks through many walls of glass, and be rounded to either side at
@@ -144,10 +142,12 @@ Vec3 Recursion::radiance(const Path& path) {
   }
   ++hits;
 
-  // Turn the surface to the viewer.
+  // Turn the surface to the viewer. Float32 may see either side of one that the ray runs along.
   View view{tracer_.surface(path.ray, *hit), path.ray.d, 0};
   observer_.hit(tracer_, path.ray, *hit, view.surface);
-  const bool front = glm::dot(view.d, view.surface.normal_geometric) < 0;
+  const double cosine = glm::dot(view.d, view.surface.normal_geometric);
+  const bool along = std::abs(cosine) < cosine_rounding(view.surface, hit->at.t);
+  const bool front = (cosine < 0) != (along && ray_offset_.along_normal);
   if (!front) {
     view.surface.normal_geometric = -view.surface.normal_geometric;
     view.surface.normal = -view.surface.normal;
@@ -218,7 +218,10 @@ Vec3 Recursion::direct(const View& view, const Scattering& scattering, int depth
   Vec3 color = scattering.emitted + scattering.ambient * scene_.render.ambient;
   for (size_t i = 0; i < scene_.lights.size(); ++i) {
     const auto [l, arriving, distance] = scene_.lights[i]->illuminate(view.surface.position);
-    const double cosine = glm::dot(n, l), tilt = this->tilt(view.surface, distance);
+    // A light in the plane of the surface may be before or behind it.
+    const double cosine = glm::dot(n, l);
+    const double tilt =
+        cosine_rounding(view.surface, distance) * (2 * random(ray_offset_.seed, departures_, 3, 0) - 1);
     if (!(cosine + tilt > 0 && glm::dot(view.surface.normal_geometric, l) + tilt > 0)) continue;
     ++rays;
     const Ray ray = spawn_ray(view.surface, l);
