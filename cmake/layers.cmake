@@ -35,6 +35,12 @@ function(eyeray_precompiled target)
   target_precompile_headers(${target} REUSE_FROM ${owner})
 endfunction()
 
+# Where a library's templates take most of a compiler's time, some files are compiled at a time. In the release build only, as above:
+# names in anonymous namespaces may not be the same in two files of such a target.
+function(eyeray_in_batches target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${EYERAY_PRECOMPILED} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
 # eyeray_layer(NAME [COMPUTES] LINK …): the static library of every host/NAME/*.cpp. With sanitizers in the code, optimising takes a
 # compiler longer than all else it does, and pays only for layers that compute, and for fuzzers.
 function(eyeray_layer name)

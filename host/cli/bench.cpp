@@ -14,7 +14,7 @@
 namespace eyeray::cli {
 namespace {
 
-struct Command {
+struct BenchCommand {
   bench::Options options;
   std::string plot;
   std::string older;
@@ -23,7 +23,7 @@ struct Command {
   ExitCode run() const;
 };
 
-ExitCode Command::run() const {
+ExitCode BenchCommand::run() const {
   // Look at everything that may be wrong before measuring for minutes.
   for (const std::string& backend : options.pictures.backends) executors::parse_backend(backend);
   if (!plot.empty()) check_writable(plot);
@@ -50,7 +50,7 @@ ExitCode Command::run() const {
 
 void add_bench(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("bench", "Measure rays a second and whole pictures.");
-  const auto options = std::make_shared<Command>();
+  const auto options = std::make_shared<BenchCommand>();
   bench::Options& what = options->options;
   bench::PictureOptions& pictures = what.pictures;
   std::string names;

@@ -12,7 +12,7 @@
 namespace eyeray::cli {
 namespace {
 
-struct Command {
+struct CheckCommand {
   SceneOptions scene;
   bool schema = false;
   bool manual = false;
@@ -35,12 +35,12 @@ struct Inventory {
 };
 
 template <typename Types>
-Counts count_kinds(const Types& types, const std::vector<uint32_t>& kinds) {
-  std::vector<size_t> count(types.size());
+Counts count_kinds(const Types& all, const std::vector<uint32_t>& kinds) {
+  std::vector<size_t> count(all.size());
   for (const uint32_t kind : kinds) ++count.at(kind);
   Counts counts;
-  for (size_t kind = 0; kind < types.size(); ++kind) {
-    if (count[kind] > 0) counts.emplace_back(types[kind]->name, count[kind]);
+  for (size_t kind = 0; kind < all.size(); ++kind) {
+    if (count[kind] > 0) counts.emplace_back(all[kind]->name, count[kind]);
   }
   return counts;
 }
@@ -156,11 +156,11 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   for (const auto& file : scene.files) line("read", file.string());
 }
 
-Json to_json(const Vec3& v) {
+Json json_of(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-Json to_json(const Counts& counts) {
+Json json_of(const Counts& counts) {
   Json json = Json::object();
   for (const auto& [name, count] : counts) json[name] = count;
   return json;
@@ -168,10 +168,10 @@ Json to_json(const Counts& counts) {
 
 Json as_json(const Scene& scene, const Inventory& inventory) {
   const CameraAxes camera = camera_axes(scene.camera);
-  Json view{{"eye", to_json(camera.eye)},
-            {"u", to_json(camera.u)},
-            {"v", to_json(camera.v)},
-            {"w", to_json(camera.w)},
+  Json view{{"eye", json_of(camera.eye)},
+            {"u", json_of(camera.u)},
+            {"v", json_of(camera.v)},
+            {"w", json_of(camera.w)},
             {"type", camera_name(scene)}};
   for (const CameraFact& fact : scene.camera.projection->facts(scene.image.size()))
     for (const auto& [name, number] : fact.numbers) view[std::string(name)] = number;
@@ -179,7 +179,7 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
       {"image",
        {{"width", scene.image.width}, {"height", scene.image.height}, {"samples", scene.image.samples}}},
       {"camera", view},
-      {"shapes", to_json(inventory.shapes)},
+      {"shapes", json_of(inventory.shapes)},
       {"meshes",
        {{"count", scene.meshes.size()},
         {"triangles", inventory.mesh_triangles},
@@ -190,17 +190,17 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
         {"instances", scene.group_instances.size()},
         {"shapes_shown", shapes_in_groups(scene)}}},
       {"names", {{"count", inventory.named}, {"first", inventory.names}}},
-      {"materials", to_json(inventory.materials)},
-      {"lights", to_json(inventory.lights)},
+      {"materials", json_of(inventory.materials)},
+      {"lights", json_of(inventory.lights)},
       {"scene_bytes", inventory.bytes},
       {"files", Json::array()},
       {"warnings", Json::array()}};
   for (const auto& file : scene.files) json["files"].push_back(file.string());
-  for (const Diagnostic& warning : scene.warnings) json["warnings"].push_back(cli::to_json(warning));
+  for (const Diagnostic& warning : scene.warnings) json["warnings"].push_back(to_json(warning));
   return json;
 }
 
-ExitCode Command::run() const {
+ExitCode CheckCommand::run() const {
   if (schema || manual) {
     fmt::print("{}", schema ? loader::scene_schema() : loader::scene_manual());
     return ExitCode::ok;
@@ -221,7 +221,7 @@ ExitCode Command::run() const {
 void add_check(CLI::App& app, Run& run) {
   CLI::App* const command =
       app.add_subcommand("check", "Check a scene without rendering, and print what follows from it.");
-  const auto options = std::make_shared<Command>();
+  const auto options = std::make_shared<CheckCommand>();
   options->scene.add_to(*command);
   command->get_option("SCENE")->required(false);
   command->add_flag("--schema", options->schema, "Print the JSON Schema of scene files, for editors.");

@@ -14,7 +14,7 @@
 namespace eyeray::cli {
 namespace {
 
-struct Command {
+struct CompareCommand {
   std::string a, b;
   double tolerance = compare::Tolerances{}.color;
   int64_t max_different = 0;
@@ -50,7 +50,7 @@ void take_as_data(Image& a, Image& b) {
   }
 }
 
-Comparison compare(const Command& command, const Image& a, const Image& b) {
+Comparison compare(const CompareCommand& command, const Image& a, const Image& b) {
   Comparison result;
   for (const auto& [name, image] : {std::pair{&command.a, &a}, {&command.b, &b}}) {
     const compare::Soundness soundness = compare::inspect(*image);
@@ -94,7 +94,7 @@ Image map_of(const Image& like, std::vector<float> values) {
   return map;
 }
 
-Json to_json(const Comparison& result) {
+Json json_of(const Comparison& result) {
   Json json{{"passed", result.failures.empty()}, {"failures", result.failures}};
   if (!result.metrics) return json;
   json["pixels"] = result.pixels;
@@ -103,7 +103,8 @@ Json to_json(const Comparison& result) {
   return json;
 }
 
-void Command::write_maps(const Image& image_a, const Image& image_b, const compare::Metrics& metrics) const {
+void CompareCommand::write_maps(const Image& image_a, const Image& image_b,
+                                const compare::Metrics& metrics) const {
   if (!diff.empty()) write_map(diff, compare::log_difference(image_a, image_b));
   const std::optional<compare::HdrFlip>& hdr_flip = metrics.hdr_flip;
   if (!flip.empty()) {
@@ -119,7 +120,7 @@ void Command::write_maps(const Image& image_a, const Image& image_b, const compa
             std::array{float(hdr_flip->exposures.start), float(hdr_flip->exposures.stop)});
 }
 
-ExitCode Command::run() const {
+ExitCode CompareCommand::run() const {
   for (const auto& [option, file] :
        {std::pair{"--diff", diff}, {"--flip", flip}, {"--exposures", exposures}}) {
     if (file.empty()) continue;
@@ -140,7 +141,7 @@ ExitCode Command::run() const {
   if (result.metrics) write_maps(image_a, image_b, *result.metrics);
 
   if (json) {
-    print_json(to_json(result));
+    print_json(json_of(result));
   } else {
     fmt::print("{} {} {}\n", result.failures.empty() ? "PASSED" : "FAILED", a, b);
     for (const std::string& failure : result.failures) fmt::print("  {}\n", failure);
@@ -158,7 +159,7 @@ ExitCode Command::run() const {
 
 void add_compare(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("compare", "Compare two picture files.");
-  const auto options = std::make_shared<Command>();
+  const auto options = std::make_shared<CompareCommand>();
   command->add_option("A", options->a, "A picture: .pfm, .png, .hdr or .exr.")->required()->option_text(" ");
   command->add_option("B", options->b, "The picture that it should be.")->required()->option_text(" ");
   command

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace eyeray::cli {
 namespace {
 
-struct Command {
+struct DevCommand {
   PictureRequest request;
   bool json = false;
 
@@ -58,14 +58,14 @@ Json answer(const PictureRequest& request) {
   }
 }
 
-dev::WatchList Command::watch_list() const {
+dev::WatchList DevCommand::watch_list() const {
   dev::WatchList list{sources_, {}, {".glsl", ".h"}};
   list.files.emplace_back(request.scene.file());
   if (!request.executor.shader_folder.empty()) list.folders.push_back(request.executor.shader_folder);
   return list;
 }
 
-void Command::report_picture(const Json& answer) {
+void DevCommand::report_picture(const Json& answer) {
   if (json) print_json({{"picture", answer["picture"]}});
   const std::string device = answer["picture"]["device"];
   if (device != device_) fmt::print(stderr, "{}\n", device);
@@ -73,13 +73,13 @@ void Command::report_picture(const Json& answer) {
   fmt::print(stderr, "{}\n", answer["line"].get<std::string>());
 }
 
-ExitCode Command::report_fault(ExitCode code, const std::string& text, const Json& error) {
+ExitCode DevCommand::report_fault(ExitCode code, const std::string& text, const Json& error) {
   if (json) print_json({{"error", error}});
   fmt::print(stderr, "{}\n{} stays as it was\n", text, request.outputs[0]);
   return code;
 }
 
-std::optional<ExitCode> Command::render_once(dev::Worker& worker) {
+std::optional<ExitCode> DevCommand::render_once(dev::Worker& worker) {
   const auto fault = [this](ExitCode code, const std::string& message) {
     return report_fault(code, "eyeray: error: " + message, to_json(Error(code, message)));
   };
@@ -113,7 +113,7 @@ std::optional<ExitCode> Command::render_once(dev::Worker& worker) {
   return report_fault(code, answer["text"], answer["error"]);
 }
 
-ExitCode Command::run() {
+ExitCode DevCommand::run() {
   request.check_outputs();
   if (!fs::exists(request.scene.file())) request.scene.load();  // throws, with the loader's own words
 
@@ -141,7 +141,7 @@ ExitCode Command::run() {
 void add_dev(CLI::App& app, Run& run) {
   CLI::App* const command =
       app.add_subcommand("dev", "Render, and again on every save of the scene or a shader.");
-  const auto options = std::make_shared<Command>();
+  const auto options = std::make_shared<DevCommand>();
   options->request.executor.timeout_seconds = 20;
   options->request.add_to(*command);
   command->add_flag("--json", options->json, "Say each result as a line of JSON on standard output.");

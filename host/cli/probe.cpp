@@ -11,7 +11,7 @@
 namespace eyeray::cli {
 namespace {
 
-struct Command {
+struct ProbeCommand {
   SceneOptions scene_options;
   probe::Options options;
   std::string pixel;
@@ -20,7 +20,7 @@ struct Command {
   ExitCode run();
 };
 
-ExitCode Command::run() {
+ExitCode ProbeCommand::run() {
   std::tie(options.x, options.y) = parse_pixel(pixel);
   const Scene scene = scene_options.load();
   const probe::Findings findings = probe::probe_pixel(scene, options);
@@ -34,7 +34,7 @@ ExitCode Command::run() {
 void add_probe(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand(
       "probe", "Show all rays of one pixel, by GPU, twin and reference, and what differs first.");
-  const auto options = std::make_shared<Command>();
+  const auto options = std::make_shared<ProbeCommand>();
   options->scene_options.add_to(*command);
   command->add_option("PIXEL", options->pixel, "X,Y, from the picture's top left, as verify names it.")
       ->required()

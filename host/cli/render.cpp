@@ -8,7 +8,7 @@
 namespace eyeray::cli {
 namespace {
 
-struct Command {
+struct RenderCommand {
   PictureRequest request;
   bool stats = false;
   bool quiet = false;
@@ -75,7 +75,7 @@ void add_long_render_options(CLI::App& command, LongRender& options) {
       ->check(CLI::Range(1, 1 << 20));
 }
 
-ExitCode Command::run() {
+ExitCode RenderCommand::run() {
   request.check_outputs();
   request.ray_kinds = stats;
   const Picture picture = make_picture(request, progress_reporter(quiet));
@@ -97,7 +97,7 @@ ExitCode Command::run() {
 
 void add_render(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("render", "Render a scene to picture files.");
-  const auto options = std::make_shared<Command>();
+  const auto options = std::make_shared<RenderCommand>();
   options->request.add_to(*command);
   add_long_render_options(*command, options->request.long_render);
   command->add_flag(

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace eyeray::cli {
 namespace {
 
-struct Command {
+struct ShadersCommand {
   std::string folder;
   std::string name;
   bool listed = false;
@@ -28,7 +28,7 @@ struct Command {
   void write() const;
 };
 
-void Command::list() const {
+void ShadersCommand::list() const {
   Json names = Json::array();
   for (const EmbeddedShader& shader : embedded_shaders()) {
     names.push_back(shader.name);
@@ -37,7 +37,7 @@ void Command::list() const {
   if (json) print_json({{"shaders", names}});
 }
 
-void Command::print() const {
+void ShadersCommand::print() const {
   std::vector<std::string_view> names;
   for (const EmbeddedShader& shader : embedded_shaders()) {
     names.push_back(shader.name);
@@ -54,7 +54,7 @@ void Command::print() const {
               nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
 }
 
-void Command::write() const {
+void ShadersCommand::write() const {
   // Look before writing anything: a file that somebody has changed is not to be lost.
   std::vector<std::string> changed;
   for (const EmbeddedShader& shader : embedded_shaders()) {
@@ -77,7 +77,7 @@ void Command::write() const {
   if (json) print_json({{"folder", folder}, {"files", written}});
 }
 
-ExitCode Command::run() const {
+ExitCode ShadersCommand::run() const {
   if (!folder.empty()) {
     write();
   } else if (!name.empty()) {
@@ -93,7 +93,7 @@ ExitCode Command::run() const {
 void add_shaders(CLI::App& app, Run& run) {
   CLI::App* const command =
       app.add_subcommand("shaders", "List, print or export the shaders inside the program.");
-  const auto options = std::make_shared<Command>();
+  const auto options = std::make_shared<ShadersCommand>();
   CLI::Option* const list =
       command->add_flag("--list", options->listed, "Print the names (the default).")->option_text(" ");
   CLI::Option* const print =

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double most_explained = 0.05;
 
-struct Command {
+struct VerifyCommand {
   SceneOptions scene_options;
   std::vector<std::string> more_scenes;
   verify::Options options;
@@ -50,21 +50,21 @@ struct Command {
 };
 
 // Two folders may have a scene of one name.
-std::string Command::name_in_folder(const std::string& scene) const {
+std::string VerifyCommand::name_in_folder(const std::string& scene) const {
   const fs::path file = fs::path(scene).lexically_normal();
   std::string name = fs::path(file).replace_extension("").relative_path().string();
   std::ranges::replace(name, '/', '-');
   return name;
 }
 
-fs::path Command::folder_for(const std::string& scene) const {
+fs::path VerifyCommand::folder_for(const std::string& scene) const {
   if (files.size() == 1) return keep.empty() ? fs::path(scene).stem().string() + ".verify" : keep;
   const std::string name = name_in_folder(scene);
   return keep.empty() ? fs::path(name + ".verify") : fs::path(keep) / name;
 }
 
 // In a folder, FOLDER/scenes-whitted.pfm.
-std::optional<verify::Golden> Command::golden_of(const std::string& scene) const {
+std::optional<verify::Golden> VerifyCommand::golden_of(const std::string& scene) const {
   if (against.empty()) return std::nullopt;
   const bool is_picture = fs::path(against).extension() == ".pfm";
   return verify::Golden{is_picture ? fs::path(against) : fs::path(against) / (name_in_folder(scene) + ".pfm"),
@@ -72,7 +72,7 @@ std::optional<verify::Golden> Command::golden_of(const std::string& scene) const
 }
 
 // Every scene that was named, or lies in a folder that was.
-void Command::find_files() {
+void VerifyCommand::find_files() {
   std::vector<std::string> named{scene_options.file()};
   named.insert(named.end(), more_scenes.begin(), more_scenes.end());
   for (const std::string& name : named) {
@@ -88,7 +88,7 @@ void Command::find_files() {
       throw Error(ExitCode::bad_input, "--allow-unverified {}: that is none of the scenes", name);
 }
 
-compare::Report Command::report_on(const SceneOptions& scene_file) const {
+compare::Report VerifyCommand::report_on(const SceneOptions& scene_file) const {
   const Scene scene = scene_file.load();
   check_crop(options.crop, scene.image);
   const fs::path& folder = options.executor.shader_folder;
@@ -99,7 +99,7 @@ compare::Report Command::report_on(const SceneOptions& scene_file) const {
 }
 
 // One of several: that it cannot be rendered is no reason to leave out the others.
-compare::Report Command::report_on_one_of_many(const std::string& file) {
+compare::Report VerifyCommand::report_on_one_of_many(const std::string& file) {
   try {
     return report_on(scene_options.for_file(file));
   } catch (const Error& error) {
@@ -113,7 +113,7 @@ compare::Report Command::report_on_one_of_many(const std::string& file) {
   }
 }
 
-void Command::record_allowance(const compare::Report& report) const {
+void VerifyCommand::record_allowance(const compare::Report& report) const {
   const std::optional<double> allowance = report.healthy_allowance();
   if (!allowance) return;
   const std::string share = *allowance > 0 ? fmt::format("{:.5f}", *allowance) : "0";
@@ -122,7 +122,7 @@ void Command::record_allowance(const compare::Report& report) const {
 }
 
 // What was found, beside standard output's text or JSON.
-void Command::write_reports(std::span<const compare::Report> reports) const {
+void VerifyCommand::write_reports(std::span<const compare::Report> reports) const {
   if (!junit.empty()) write_file_atomically(junit, to_junit(reports));
   if (!page_folder.empty()) {
     std::string sum = summary(reports);
@@ -139,7 +139,7 @@ void Command::write_reports(std::span<const compare::Report> reports) const {
 }
 
 // What CLI11 cannot tell.
-void Command::check_options() const {
+void VerifyCommand::check_options() const {
   if (update != verify::Update::never && against.empty())
     throw Error(ExitCode::bad_input, "--update needs --against: which picture is to be updated?");
   if (update != verify::Update::never && options.crop.pixels() > 0)
@@ -149,7 +149,7 @@ void Command::check_options() const {
                 files.size());
 }
 
-ExitCode Command::run() {
+ExitCode VerifyCommand::run() {
   if (record) {
     const std::string changed = scene_options.as_written();
     if (!changed.empty() || options.crop.pixels() > 0 || options.max_explained)
@@ -198,7 +198,7 @@ ExitCode Command::run() {
 void add_verify(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand(
       "verify", "Check the GPU's pixels against the CPU, bit by bit and against the reference.");
-  const auto options = std::make_shared<Command>();
+  const auto options = std::make_shared<VerifyCommand>();
   verify::Options& how = options->options;
   options->scene_options.add_to(*command);
   command

@@ -13,7 +13,7 @@ namespace eyeray::importers {
 
 namespace {
 
-constexpr uint32_t none = 0xffffffff;
+constexpr uint32_t no_vertex = 0xffffffff;
 
 uint64_t hash(const Vec3& p) {
   uint64_t sum = 0;
@@ -27,13 +27,14 @@ uint64_t hash(const Vec3& p) {
 // The number of each vertex's point: vertices at the same place have the same.
 std::pair<std::vector<uint32_t>, uint32_t> weld(const std::vector<Vec3>& positions) {
   std::vector<uint32_t> points(positions.size());
-  std::vector<uint32_t> table(std::bit_ceil(2 * positions.size() + 1), none);  // first vertices of points
+  std::vector<uint32_t> table(std::bit_ceil(2 * positions.size() + 1),
+                              no_vertex);  // first vertices of points
   uint32_t count = 0;
   for (uint32_t vertex = 0; vertex < positions.size(); ++vertex) {
     size_t slot = hash(positions[vertex]) & (table.size() - 1);
-    while (table[slot] != none && positions[table[slot]] != positions[vertex])
+    while (table[slot] != no_vertex && positions[table[slot]] != positions[vertex])
       slot = (slot + 1) & (table.size() - 1);
-    if (table[slot] == none) {
+    if (table[slot] == no_vertex) {
       table[slot] = vertex;
       points[vertex] = count++;
     } else {
@@ -179,8 +180,8 @@ void add_smooth_normals(Mesh& mesh, std::span<const Vec3> faces, double degrees)
   // Split each vertex into one for each surface that it is on. (Where surfaces and seams of uv cross, a
   // vertex may be made more than once.) The smoother looks at a corner of the mesh before that corner
   // changes.
-  std::vector<uint32_t> made(smoother.surfaces(), none);  // the last vertex made for a surface …
-  std::vector<uint32_t> from;                             // … and which vertex each was made from
+  std::vector<uint32_t> made(smoother.surfaces(), no_vertex);  // the last vertex made for a surface …
+  std::vector<uint32_t> from;                                  // … and which vertex each was made from
   from.reserve(mesh.positions.size());
   std::vector<Vec3> normals;
   normals.reserve(mesh.positions.size());
@@ -189,7 +190,7 @@ void add_smooth_normals(Mesh& mesh, std::span<const Vec3> faces, double degrees)
       uint32_t& vertex = mesh.triangles[face][i];
       const uint32_t surface = smoother.surface(3 * face + i);
       const bool right = glm::dot(smoother.normal(surface), faces[face]) > least_normal_cosine;
-      if (right && made[surface] != none && from[made[surface]] == vertex) {
+      if (right && made[surface] != no_vertex && from[made[surface]] == vertex) {
         vertex = made[surface];
         continue;
       }

@@ -14,10 +14,6 @@ Scene floor_seen_from(const Vec3& eye, std::unique_ptr<Material> material) {
   return scene;
 }
 
-TexturePtr gray(double value) {
-  return textures::make_constant(Vec3(value));
-}
-
 }  // namespace
 
 TEST_CASE("a ray that hits nothing sees the background") {

@@ -7,10 +7,6 @@ using namespace eyeray::test;
 
 namespace {
 
-TexturePtr gray(double value) {
-  return textures::make_constant(Vec3(value));
-}
-
 // Light, shadow, a mirror, glass and a floor, for whatever is put between them.
 Scene studio() {
   Scene scene;

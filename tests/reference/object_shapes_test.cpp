@@ -6,12 +6,6 @@
 using namespace eyeray;
 using namespace eyeray::test;
 
-namespace {
-
-const Mat4 identity(1.0);
-
-}  // namespace
-
 TEST_CASE("box: from outside, inside, behind, beside, and along a face") {
   const auto box = make_box({-1, 0, 2}, {1, 4, 3});
   CHECK(near(distance(*box, {{0, 1, 9}, {0, 0, -1}}), 6, 1e-14));
@@ -108,6 +102,6 @@ TEST_CASE("an axis keeps u = ½ towards the world's +x, and outside is outside u
     const auto cylinder = make_cylinder({0, 0, 0}, to, 0.5, true);
     CHECK(near(struck(*cylinder, {to * 0.5 + Vec3(9, 0, 0), {-1, 0, 0}}).uv.x, 0.5, 1e-15));
   }
-  const auto mirrored = make_cone({0, 0, 0}, {0, 2, 0}, 1, 0, false, glm::scale(identity, Vec3(1, -1, 1)));
+  const auto mirrored = make_cone({0, 0, 0}, {0, 2, 0}, 1, 0, false, glm::scale(Mat4(1.0), Vec3(1, -1, 1)));
   CHECK(near(struck(*mirrored, {{9, -1, 0}, {-1, 0, 0}}).normal, glm::normalize(Vec3(2, -1, 0)), 1e-14));
 }

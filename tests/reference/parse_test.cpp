@@ -28,8 +28,8 @@ std::string refused(const std::string& shape) {
 }
 
 // Where the eye's ray strikes.
-FirstHit struck(Scene scene, const Vec3& eye, const Vec3& target) {
-  const Scene one = one_pixel(eye, target);
+FirstHit struck(Scene scene, const Vec3& from, const Vec3& target) {
+  const Scene one = one_pixel(from, target);
   scene.image = one.image;
   scene.camera = one.camera;
   return reference::Renderer(scene).first_hit(0, 0);

@@ -10,10 +10,6 @@ using namespace eyeray::test;
 
 namespace {
 
-TexturePtr gray(double value) {
-  return textures::make_constant(Vec3(value));
-}
-
 // A surface that shows `color` under an ambient light of 1, and nothing else.
 std::unique_ptr<Material> glowing(const Vec3& color) {
   return make_phong({.diffuse = gray(0), .ambient = textures::make_constant(color)});

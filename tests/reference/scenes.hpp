@@ -11,6 +11,10 @@
 
 namespace eyeray::test {
 
+inline TexturePtr gray(double value) {
+  return textures::make_constant(Vec3(value));
+}
+
 inline int add(Scene& scene, std::unique_ptr<Material> material) {
   scene.materials.push_back(std::move(material));
   return int(scene.materials.size()) - 1;

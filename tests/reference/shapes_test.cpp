@@ -4,12 +4,6 @@
 using namespace eyeray;
 using namespace eyeray::test;
 
-namespace {
-
-const Mat4 identity(1.0);
-
-}  // namespace
-
 TEST_CASE("sphere: from outside, inside, behind and beside") {
   const auto sphere = make_sphere({1, 2, 3}, 2);
   CHECK(distance(*sphere, {{1, 2, 10}, {0, 0, -1}}) == 5);
@@ -60,11 +54,11 @@ TEST_CASE("sphere: uv run eastward and northward") {
   CHECK(near(uv(*sphere, {1, 0, 0}).y, 0.5, 1e-15));
 
   // The map turns, and is mirrored, with the sphere.
-  const auto turned = make_sphere({0, 0, 0}, 1, glm::rotate(identity, glm::radians(90.0), Vec3(0, 1, 0)));
+  const auto turned = make_sphere({0, 0, 0}, 1, glm::rotate(Mat4(1.0), glm::radians(90.0), Vec3(0, 1, 0)));
   CHECK(near(uv(*turned, {0, 0, -1}).x, 0.5, 1e-15));
-  const auto mirrored = make_sphere({0, 0, 0}, 1, glm::scale(identity, Vec3(1, 1, -1)));
+  const auto mirrored = make_sphere({0, 0, 0}, 1, glm::scale(Mat4(1.0), Vec3(1, 1, -1)));
   CHECK(near(uv(*mirrored, {0, 0, -1}).x, 0.25, 1e-15));
-  const auto moved = make_sphere({1, 0, 0}, 1, glm::scale(identity, Vec3(3)));
+  const auto moved = make_sphere({1, 0, 0}, 1, glm::scale(Mat4(1.0), Vec3(3)));
   CHECK(near(struck(*moved, {{3, 0, 9}, {0, 0, -1}}).position, Vec3(3, 0, 3), 1e-14));
 }
 
@@ -91,26 +85,26 @@ TEST_CASE("plane: uv are right-handed, upright and in its own units") {
   CHECK(uv(*wall, {3, 7, 0}, {0, 0, 1}) == Vec2(3, 7));
   const auto side = make_plane({0, 0, 0}, {-2, 0, 0});
   CHECK(uv(*side, {0, 7, 4}, {-1, 0, 0}) == Vec2(4, 7));
-  const auto diagonal = make_plane({0, 0, 0}, {0, 1, 0}, identity, Vec3(1, 5, 1));
+  const auto diagonal = make_plane({0, 0, 0}, {0, 1, 0}, Mat4(1.0), Vec3(1, 5, 1));
   CHECK(near(uv(*diagonal, {1, 0, 1}, {0, 1, 0}).x, std::sqrt(2.0), 1e-15));
   CHECK(near(uv(*diagonal, {1, 0, 1}, {0, 1, 0}).y, 0, 1e-15));
 
   // Scaled by 2 along x only: a point twice as far has the same u; moved: the origin moves along.
   const auto stretched =
-      make_plane({1, 0, 0}, {0, 1, 0}, glm::scale(glm::translate(identity, Vec3(0, 4, 0)), Vec3(2, 1, 1)));
+      make_plane({1, 0, 0}, {0, 1, 0}, glm::scale(glm::translate(Mat4(1.0), Vec3(0, 4, 0)), Vec3(2, 1, 1)));
   CHECK(near(struck(*stretched, {{6, 9, 5}, {0, -1, 0}}).position, Vec3(6, 4, 5), 1e-14));
   CHECK(uv(*stretched, {6, 4, 5}, {0, 1, 0}) == Vec2(2, -5));
 }
 
 TEST_CASE("a normal maps by the inverse transpose, and outside stays outside under a mirror") {
-  const Mat4 stretch = glm::scale(identity, Vec3(1, 2, 1));
+  const Mat4 stretch = glm::scale(Mat4(1.0), Vec3(1, 2, 1));
   const Vec3 expected = glm::normalize(Vec3(2, 1, 0));
   CHECK(near(struck(*make_plane({0, 0, 0}, {1, 1, 0}, stretch), {{5, 5, 0}, {-1, -1, 0}}).normal, expected,
              1e-15));
   const TriangleValues slope{.vertices = {Vec3(1, 0, -9), Vec3(0, 1, 0), Vec3(1, 0, 9)}};
   CHECK(near(struck(*make_triangle(slope, stretch), {{5, 5, 0}, {-4.5, -4, 0}}).normal, expected, 1e-15));
 
-  const Mat4 mirror = glm::scale(identity, Vec3(-1, 1, 1));
+  const Mat4 mirror = glm::scale(Mat4(1.0), Vec3(-1, 1, 1));
   const TriangleValues wall{.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}};
   const SurfacePoint point = struck(*make_triangle(wall, mirror), {{-0.25, 0.5, 1}, {0, 0, -1}});
   CHECK(point.normal_geometric == Vec3(0, 0, 1));
@@ -125,7 +119,7 @@ TEST_CASE("triangle: attributes belong to their corners") {
                               .uv = {{Vec2(10, 20), Vec2(30, 20), Vec2(10, 60)}}};
   for (const bool mirrored : {false, true}) {
     const double side = mirrored ? -1 : 1;
-    const auto triangle = make_triangle(values, glm::scale(identity, Vec3(side, 1, 1)));
+    const auto triangle = make_triangle(values, glm::scale(Mat4(1.0), Vec3(side, 1, 1)));
     const SurfacePoint corner = struck(*triangle, {{side * 2, 0, 3}, {0, 0, -1}});
     CHECK(near(corner.normal, tilted * Vec3(side, 1, 1), 1e-15));
     CHECK(corner.normal_geometric == Vec3(0, 0, 1));
@@ -155,8 +149,8 @@ TEST_CASE("triangle: no ray passes between neighbours") {
   int leaks = 0;
   for (int round = 0; round < 200; ++round) {
     const Vec3 center = dice.in_box(round % 2 ? 1e5 : 1);
-    const Mat4 turn = glm::rotate(identity, dice.between(0, 6), dice.direction()) *
-                      glm::scale(identity, Vec3(dice.scale(-2, 2)));
+    const Mat4 turn = glm::rotate(Mat4(1.0), dice.between(0, 6), dice.direction()) *
+                      glm::scale(Mat4(1.0), Vec3(dice.scale(-2, 2)));
     std::vector<Vec3> mesh;
     for (const Vec3& corner : corners) mesh.push_back(center + Vec3(turn * glm::dvec4(corner, 0)));
     const double edge = glm::length(Vec3(turn * glm::dvec4(0, 2, 0, 0)));
@@ -207,9 +201,9 @@ TEST_CASE("polygon: concave and with a hole, from both sides; uv in its own unit
   CHECK(distance(*polygon, {{-1, 0.5, 0}, {1, 0, 0}}) == -1);
   CHECK(struck(*polygon, {{3, 1, -5}, {0, 0, 1}}).normal == Vec3(0, 0, 1));
   CHECK(struck(*polygon, {{3, 1, 5}, {0, 0, -1}}).uv == Vec2(3, 1));
-  CHECK(struck(*make_polygon(region, identity, Vec3(0, 2, 9)), {{3, 1, 5}, {0, 0, -1}}).uv == Vec2(1, -3));
+  CHECK(struck(*make_polygon(region, Mat4(1.0), Vec3(0, 2, 9)), {{3, 1, 5}, {0, 0, -1}}).uv == Vec2(1, -3));
 
-  const auto mirrored = make_polygon(region, glm::scale(identity, Vec3(-2, 1, 1)));
+  const auto mirrored = make_polygon(region, glm::scale(Mat4(1.0), Vec3(-2, 1, 1)));
   const SurfacePoint point = struck(*mirrored, {{-6, 1, 5}, {0, 0, -1}});
   CHECK(point.normal_geometric == Vec3(0, 0, 1));
   CHECK(point.uv == Vec2(3, 1));
@@ -226,7 +220,7 @@ TEST_CASE("parallelogram: its edges, its uv, a mirror") {
   CHECK(near(point.uv.y, 0.75, 1e-15));
   CHECK(point.normal == Vec3(0, 0, 1));
   const auto mirrored =
-      make_parallelogram({1, 0, 0}, {2, 0, 0}, {0.5, 1, 0}, glm::scale(identity, Vec3(-1, 1, 1)));
+      make_parallelogram({1, 0, 0}, {2, 0, 0}, {0.5, 1, 0}, glm::scale(Mat4(1.0), Vec3(-1, 1, 1)));
   CHECK(struck(*mirrored, {{-2.375, 0.75, 4}, {0, 0, -2}}).normal == Vec3(0, 0, 1));
 }
 
@@ -256,7 +250,7 @@ TEST_CASE("prism: caps and walls, from outside, inside and through its notch") {
   CHECK(distance(*prism, {{-1, 3, 0.5}, {1, 0, 0}}) == -1);
 
   // Swept down the body is below, and outside stays outside; so it does in a hole, and under a mirror.
-  const auto sunk = make_prism(region, {0, -2, 0}, glm::scale(identity, Vec3(-1, 1, 1)));
+  const auto sunk = make_prism(region, {0, -2, 0}, glm::scale(Mat4(1.0), Vec3(-1, 1, 1)));
   CHECK(near(struck(*sunk, {{-1, 5, 0.5}, {0, -1, 0}}).normal, Vec3(0, 1, 0), 1e-15));
   CHECK(near(distance(*sunk, {{-1, 5, 0.5}, {0, -1, 0}}), 5, 1e-14));
   CHECK(near(struck(*sunk, {{1, -1, 0.5}, {-1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-15));

@@ -60,8 +60,8 @@ class LongTriangles {
   std::vector<shader::QueryRay> rays(size_t count) {
     std::vector<shader::QueryRay> rays(count);
     for (shader::QueryRay& ray : rays) {
-      const auto& corners = corners_[size_t(random_.below(int(corners_.size())))];
-      const Vec3 a(corners[0]), b(corners[1]), c(corners[2]);
+      const auto& triangle = corners_[size_t(random_.below(int(corners_.size())))];
+      const Vec3 a(triangle[0]), b(triangle[1]), c(triangle[2]);
       const auto in_plane = [&](double reach) {
         return a + (b - a) * random_.uniform(-reach, 1 + reach) +
                (c - a) * random_.uniform(-reach, 1 + reach);
