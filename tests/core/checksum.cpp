@@ -1,0 +1,14 @@
+#include "host/core/checksum.hpp"
+
+#include <string_view>
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+
+TEST_CASE("checksums go on where another ended, past nothing too") {
+  const auto bytes = [](std::string_view text) { return std::as_bytes(std::span(text)); };
+  CHECK(crc32(bytes("123456789")) == 0xcbf43926);  // the check value of CRC-32/ISO-HDLC
+  CHECK(crc32(bytes("6789"), crc32(bytes("12345"))) == 0xcbf43926);
+  CHECK(crc32({}, 0xcbf43926) == 0xcbf43926);
+}
