@@ -74,7 +74,7 @@ TEST_CASE("HDR-FLIP is the papers': its exposures, and its errors at every pixel
       CHECK(exposure >= hdr->exposures.start - 1e-5);
       CHECK(exposure <= hdr->exposures.stop + 1e-5);
       CHECK(flip_map(exposed(a, exposure), exposed(b, exposure))[i] ==
-            doctest::Approx(hdr->map[i]).epsilon(1e-4));
+            doctest::Approx(double(hdr->map[i])).epsilon(1e-4));
     }
   }
 }
