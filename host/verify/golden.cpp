@@ -40,8 +40,7 @@ Json origin(const Golden& golden, const Scene& scene, const compare::Report& rep
           {"seed", scene.render.seed},
           {"integrator", integrator_names[size_t(scene.render.integrator)]},
           {"executor", report.participants.front().description},
-          {"eyeray", golden.version},
-          {"commit", commit_at(golden.picture)}};
+          {"eyeray", golden.version}};
 }
 
 // Which of these are not what they were.
@@ -52,7 +51,7 @@ std::vector<std::string> changes(const Golden& golden, const Json& now) {
   if (!then.is_object()) return {"whatever it was made of: " + file.string() + " is not JSON"};
   std::vector<std::string> changed;
   for (const auto& [name, value] : now.items())
-    if (name != "scene" && name != "commit" && then.value(name, Json()) != value) changed.push_back(name);
+    if (name != "scene" && then.value(name, Json()) != value) changed.push_back(name);
   return changed;
 }
 
@@ -110,7 +109,9 @@ void bless(const Golden& golden, const Scene& scene, const compare::Frame& frame
 
   if (const fs::path folder = golden.picture.parent_path(); !folder.empty()) fs::create_directories(folder);
   write_image(golden.picture, frame.color);
-  write_file_atomically(sidecar(golden.picture), origin(golden, scene, report).dump(2) + "\n");
+  Json origin_now = origin(golden, scene, report);
+  origin_now["commit"] = commit_at(golden.picture);
+  write_file_atomically(sidecar(golden.picture), origin_now.dump(2) + "\n");
   result.updated = true;
 }
 
