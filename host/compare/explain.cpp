@@ -172,12 +172,15 @@ Places places_around(double rounding, double surfaces, int angles, bool between)
 }
 
 Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between) {
-  for (const bool coincident : {false, true})
-    probes_.push_back(reference(pixel.x, pixel.y, Vec2(0.0), coincident));
+  const auto look = [&](const Vec2& shift, Chance chance) {
+    probes_.push_back(reference(pixel.x, pixel.y, shift, chance));
+  };
+  for (const Chance chance : {Chance::none, Chance::coincident}) look(Vec2(0.0), chance);
   const Places places =
       places_around(probes_.front().rounding, hits_per_sample(probes_.front()), angles, between);
+  for (size_t i = 0; i < places.innermost; ++i) look(places.all[i], Chance::turned);
   innermost_ = probes_.size() + places.innermost;
-  for (const Vec2& place : places.all) probes_.push_back(reference(pixel.x, pixel.y, place, false));
+  for (const Vec2& place : places.all) look(place, Chance::none);
 }
 
 bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) const {

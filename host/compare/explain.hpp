@@ -27,9 +27,15 @@ struct Probe {
   double rounding = 0;          // as many pixels as float32's arithmetic may move the eye ray; 0 if unknown
 };
 
-// (x, y): a pixel of the whole picture; called from many threads at once. `coincident`: of two surfaces that
-// float32 cannot tell apart, rays hit the farther one.
-using Reference = std::function<Probe(int x, int y, const Vec2& shift, bool coincident)>;
+// What else float32 may make of a ray.
+enum class Chance {
+  none,
+  coincident,  // of two surfaces that float32 cannot tell apart, it hits the farther one
+  turned,  // an eye ray is aside as far as it is moved before what it hits, and behind it on the other side
+};
+
+// (x, y): a pixel of the whole picture; called from many threads at once.
+using Reference = std::function<Probe(int x, int y, const Vec2& shift, Chance chance)>;
 
 // Places around a pixel's own, in pixels: `angles` on each of four rings, and before them on one as wide as a
 // rounding error, where that is known. Of a pixel whose rays strike so many surfaces. `between`: half as many
@@ -79,7 +85,7 @@ class Neighbourhood {
  private:
   Cause cause_of_samples() const;
   Cause cause_of_first_hit(const Tolerances& tolerances) const;
-  // The pixel itself, as it is and with coincident surfaces, and the ring of a rounding error.
+  // The pixel itself, as it is and with coincident surfaces, and the ring of a rounding error, turned too.
   std::span<const Probe> innermost() const { return std::span(probes_).first(innermost_); }
 
   std::vector<Probe> probes_;

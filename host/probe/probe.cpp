@@ -144,7 +144,7 @@ class Pixel {
       RayRecorder recorder;
       const PixelSample sample = renderer_->sample(options_.x, options_.y, index_, shift, offset, &recorder);
       hits = std::max(hits, sample.hits);
-      const FirstHit hit = renderer_->first_hit(options_.x, options_.y, shift, offset.coincident);
+      const FirstHit hit = renderer_->first_hit(options_.x, options_.y, shift, offset);
       overlay.add_around(finished(std::move(recorder.tree()), sample, hit, Backend::reference));
     };
     using reference::float32_ray_offset, reference::TextureChoice;
@@ -159,8 +159,10 @@ class Pixel {
     const double t = renderer_->first_hit(options_.x, options_.y).t;
     const double rounding = renderer_->rounding(options_.x, options_.y, t);
     uint32_t seed = 0;
-    for (const Vec2& place : compare::places_around(rounding, hits, angles, true).all)
-      add_place(place, ++seed);
+    const compare::Places places = compare::places_around(rounding, hits, angles, true);
+    for (const Vec2& place : places.all) add_place(place, ++seed);
+    for (size_t i = 0; i < places.innermost; ++i)
+      add(places.all[i], {.pivot = renderer_->pivot(options_.x, options_.y, uint32_t(i))});
   }
 
   void note_changed_shaders(Findings& findings) const {

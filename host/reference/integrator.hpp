@@ -23,6 +23,7 @@ struct RayOffset {
   uint32_t seed = 0;          // of where aside
   TextureChoice textures = TextureChoice::at_hit;
   bool coincident = false;  // of two surfaces that float32 cannot tell apart, the farther one is hit
+  double pivot = 0;  // unless 0, the eye's ray is turned: so far along it stays, and before that it is aside
 };
 
 // RayOffset::share of what is rendered in float32: of a triangle, 8 ε for each of its three vertices

@@ -13,10 +13,19 @@ Renderer::Renderer(const Scene& scene, Acceleration acceleration)
     if (!media_.push(material)) flags_ |= media_overflow;
 }
 
+Ray Renderer::eye_ray(const Vec2& place, const Vec2& shift, double pivot) const {
+  const Ray moved = camera_.ray(place + shift);
+  if (pivot == 0) return moved;
+  const Ray ray = camera_.ray(place);
+  const Vec3 stays = ray.o + pivot * ray.d;
+  const Vec3 start = ray.o + (moved.o + pivot * moved.d - stays);
+  return {start, glm::normalize(stays - start)};
+}
+
 PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset,
                              const Observer& observer) const {
   const Vec2 place = sample_position(scene_.image, scene_.render.seed, x, y, index);
-  const Ray ray = camera_.ray(Vec2(x, y) + place + shift);
+  const Ray ray = eye_ray(Vec2(x, y) + place, shift, ray_offset.pivot);
   const IntegratorType type = scene_.render.integrator;
   observer.ray(RayKind::eye, ray, 0);
   PixelSample sample = integrator(type).sample(tracer_, ray, media_, ray_offset, observer);
@@ -24,10 +33,10 @@ PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const Ray
   return sample;
 }
 
-FirstHit Renderer::first_hit(int x, int y, Vec2 shift, bool coincident) const {
-  const Ray ray = camera_.ray(Vec2(x, y) + Vec2(0.5) + shift);
+FirstHit Renderer::first_hit(int x, int y, Vec2 shift, const RayOffset& ray_offset) const {
+  const Ray ray = eye_ray(Vec2(x, y) + Vec2(0.5), shift, ray_offset.pivot);
   FirstHit result;
-  const auto hit = tracer_.trace(ray, result.flags, coincident);
+  const auto hit = tracer_.trace(ray, result.flags, ray_offset.coincident);
   if (!hit) return result;
   const SurfacePoint surface = tracer_.surface(ray, *hit);
   result.t = hit->at.t;
@@ -49,6 +58,11 @@ double Renderer::rounding(int x, int y, double t) const {
   const double distance = std::isfinite(t) ? t : 1;
   const Vec3 place = ray.o + distance * ray.d;
   return roundings * glm::length(place - scene_.camera.eye) / glm::length(next.o + distance * next.d - place);
+}
+
+double Renderer::pivot(int x, int y, uint32_t which) const {
+  const double t = first_hit(x, y).t;
+  return std::isfinite(t) ? t * (1 + std::ldexp(1.0, -1 - int(which % 8))) : 0;
 }
 
 }  // namespace eyeray::reference

@@ -14,18 +14,24 @@ class Renderer {
   // `scene` must outlive the renderer. The pixels do not depend on `acceleration`.
   explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
 
-  // Sample `index` of pixel (x, y), by the scene's integrator. `shift`, in pixels, is added to the sample's
-  // place; `ray_offset`: see integrator.hpp.
+  // Sample `index` of pixel (x, y), by the scene's integrator. The ray is `shift` pixels aside, at
+  // ray_offset.pivot before that (integrator.hpp).
   PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0}, const RayOffset& ray_offset = {},
                      const Observer& observer = {}) const;
-  // What the ray through the pixel's centre + `shift` hits; `coincident`: see RayOffset.
-  FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}, bool coincident = false) const;
+  // What the ray through the pixel's centre hits, `shift` aside. Of `ray_offset`, its pivot and `coincident`
+  // count.
+  FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}, const RayOffset& ray_offset = {}) const;
   // How many pixels aside float32 may take the ray through the pixel's centre, where it has come to `t`.
   double rounding(int x, int y, double t) const;
+  // A RayOffset::pivot a little behind what that ray hits: `which` of eight, modulo 8; 0 where it hits
+  // nothing.
+  double pivot(int x, int y, uint32_t which) const;
 
   const Tracer& tracer() const { return tracer_; }
 
  private:
+  Ray eye_ray(const Vec2& place, const Vec2& shift, double pivot) const;
+
   const Scene& scene_;
   Tracer tracer_;
   CameraRays camera_;

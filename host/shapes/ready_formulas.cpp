@@ -106,6 +106,7 @@ double steepest_distance(Parameters) {
 // White and Nylander's bulb: z → z⁸ + p, eight times both angles of spherical coordinates about y; they are
 // doubled thrice, by polynomials. It is where |z| ≤ 1 after so many rounds. |z|'s slope has no useful bound:
 // intervals find it. What min, max and clamp say is so in real numbers anyway; intervals know it from them.
+// Each says it with some room: float32 rounds by less, and so never takes the slope of a bound for that of f.
 constexpr std::string_view mandelbulb = R"glsl(
 float f(vec3 p) {
   float origin = length(p);
@@ -124,8 +125,8 @@ float f(vec3 p) {
     float sine8 = 8.0 * z.y * cosine2 * cosine4;
 
     float share = 1.0 / max(across2, 1.0e-12);
-    float c = clamp((z.x * z.x - z.z * z.z) * share, -1.0, 1.0);
-    float s = clamp(2.0 * z.x * z.z * share, -1.0, 1.0);
+    float c = clamp((z.x * z.x - z.z * z.z) * share, -1.000001, 1.000001);
+    float s = clamp(2.0 * z.x * z.z * share, -1.000001, 1.000001);
     for (int k = 0; k < 2; k++) {
       s = 2.0 * c * s;
       c = 2.0 * c * c - 1.0;
@@ -133,7 +134,7 @@ float f(vec3 p) {
     z = vec3(sqrt(across2) * sine8 * vec2(c, s), cosine8).xzy + p;
     float least = max(r8 - origin, 0.0);
     float most = r8 + origin;
-    r2 = clamp(dot(z, z), least * least, most * most);
+    r2 = clamp(dot(z, z), 0.99999 * least * least, 1.00001 * most * most);
   }
   return r2 - 1.0;
 }

@@ -23,15 +23,18 @@ compare::Probe::Sample of(const PixelSample& sample) {
   return {sample.color, {double(sample.hits), double(sample.rays)}};
 }
 
-// All samples of pixel (x, y), every ray moved by `shift`; `coincident`: see RayOffset.
+// All samples of pixel (x, y), every ray moved by `shift`.
 compare::Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int y, const Vec2& shift,
-                     bool coincident) {
+                     compare::Chance chance) {
   compare::Probe result;
   result.samples.clear();
   const auto seed = uint32_t(mix(std::bit_cast<uint64_t>(shift.x), std::bit_cast<uint64_t>(shift.y)) >> 32);
+  const bool coincident = chance == compare::Chance::coincident;
+  const double pivot = chance == compare::Chance::turned ? renderer.pivot(x, y, seed) : 0;
   for (int i = 0; i < scene.image.samples; ++i) {
     const auto rendered = [&](reference::RayOffset ray_offset) {
       ray_offset.coincident = coincident;
+      ray_offset.pivot = pivot;
       return renderer.sample(x, y, uint32_t(i), shift, ray_offset);
     };
     // From the farther surface rays would strike the nearer one, did they start as the mathematics says.
@@ -48,9 +51,9 @@ compare::Probe probe(const Scene& scene, const reference::Renderer& renderer, in
         add_rounded(false, textures);
     result.direct = result.direct && sample.hits <= 1;
     const Vec2 place = reference::sample_position(scene.image, scene.render.seed, x, y, uint32_t(i));
-    add_first_hit(result, scene, renderer.first_hit(x, y, place - 0.5 + shift, coincident));
+    add_first_hit(result, scene, renderer.first_hit(x, y, place - 0.5 + shift, {.coincident = coincident}));
   }
-  result.first_hit = renderer.first_hit(x, y, shift, coincident);
+  result.first_hit = renderer.first_hit(x, y, shift, {.coincident = coincident, .pivot = pivot});
   result.rounding = renderer.rounding(x, y, result.first_hit.t);
   return result;
 }
@@ -58,8 +61,8 @@ compare::Probe probe(const Scene& scene, const reference::Renderer& renderer, in
 }  // namespace
 
 compare::Reference probes(const Scene& scene, const reference::Renderer& renderer) {
-  return [&](int x, int y, const Vec2& shift, bool coincident) {
-    return probe(scene, renderer, x, y, shift, coincident);
+  return [&](int x, int y, const Vec2& shift, compare::Chance chance) {
+    return probe(scene, renderer, x, y, shift, chance);
   };
 }
 

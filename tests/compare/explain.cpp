@@ -16,7 +16,7 @@ namespace {
 // The cause found at a pixel where `change` is made to everything right of the pixel's centre.
 template <typename Change>
 Cause cause_of(const Change& change) {
-  const Reference reference = [&](int x, int y, const Vec2& shift, bool) {
+  const Reference reference = [&](int x, int y, const Vec2& shift, Chance) {
     Probe probe = picture_reference(x, y, shift);
     if (shift.x > 0) change(probe);
     return probe;
@@ -43,7 +43,7 @@ TEST_CASE("a cause is the first thing along the ray that changes") {
 TEST_CASE("what float32's rounding of where rays start changes is explained as that, and not otherwise") {
   const auto neighbourhood = [](double near, double far) {
     return Neighbourhood(
-        [=](int, int, const Vec2&, bool) {
+        [=](int, int, const Vec2&, Chance) {
           Probe probe;
           probe.samples = {{Vec3(near), {}}};
           if (far > 0) probe.rounded = {{Vec3(far), {}}};
@@ -60,8 +60,9 @@ TEST_CASE("what float32's rounding of where rays start changes is explained as t
 
 TEST_CASE("of two surfaces that float32 cannot tell apart, it may show either") {
   const Neighbourhood neighbourhood(
-      [](int, int, const Vec2&, bool coincident) {
+      [](int, int, const Vec2&, Chance chance) {
         Probe probe;
+        const bool coincident = chance == Chance::coincident;
         probe.samples[0].color = Vec3(coincident ? 0.7 : 0.2);
         probe.first_hit = {.t = 4, .normal = {0, 0, 1}, .primitive = coincident ? 3 : 2, .material = 0};
         return probe;
@@ -80,7 +81,7 @@ TEST_CASE("of two surfaces that float32 cannot tell apart, it may show either") 
 
 TEST_CASE("a first hit differs at a silhouette, a crease, a seam of uv, or a grazing angle") {
   const auto cause = [](const auto& change) {
-    const Reference reference = [&](int x, int y, const Vec2& shift, bool) {
+    const Reference reference = [&](int x, int y, const Vec2& shift, Chance) {
       Probe probe = picture_reference(x, y, shift);
       probe.first_colors = shift.x > 0;
       if (shift.x > 0) change(probe.first_hit);
@@ -97,10 +98,10 @@ TEST_CASE("a first hit differs at a silhouette, a crease, a seam of uv, or a gra
 TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around, and the pixel itself") {
   std::vector<Vec2> shifts;
   int coincident = 0;
-  const Reference reference = [&](int x, int y, const Vec2& shift, bool farther) {
+  const Reference reference = [&](int x, int y, const Vec2& shift, Chance chance) {
     CHECK(x == 5);
     CHECK(y == 7);
-    if (farther) {
+    if (chance == Chance::coincident) {
       ++coincident;
       CHECK(shift == Vec2(0.0));
     } else {
@@ -123,7 +124,7 @@ TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around,
 
 TEST_CASE("a jump within a rounding error of the eye ray is undecidable") {
   const auto cause = [](double edge, double rounding) {
-    const Reference reference = [=](int, int, const Vec2& shift, bool) {
+    const Reference reference = [=](int, int, const Vec2& shift, Chance) {
       const bool beyond_edge = shift.y > edge;
       Probe probe;
       probe.samples[0].color = Vec3(beyond_edge ? 0.7 : 0.2);
@@ -146,9 +147,27 @@ TEST_CASE("a jump within a rounding error of the eye ray is undecidable") {
   CHECK(cause(1.5e-3, 1) == Cause::silhouette);
 }
 
+TEST_CASE("what a ray shows that is turned by a rounding error is undecidable") {
+  const auto neighbourhood = [](double rounding) {
+    return Neighbourhood(
+        [=](int, int, const Vec2& shift, Chance chance) {
+          CHECK((chance != Chance::turned || glm::length(shift) < 1.001 * rounding));
+          Probe probe;
+          probe.samples[0].color = Vec3(chance == Chance::turned && shift.x > 0 ? 0.7 : 0.2);
+          probe.rounding = rounding;
+          return probe;
+        },
+        {0, 0}, 16);
+  };
+  CHECK(neighbourhood(1e-5).explains(Vec3(0.7), {}));
+  CHECK(neighbourhood(1e-5).cause(Vec3(0.7), {}) == Cause::undecidable);
+  CHECK_FALSE(neighbourhood(1e-5).explains(Vec3(0.8), {}));
+  CHECK_FALSE(neighbourhood(0).explains(Vec3(0.7), {}));
+}
+
 TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what may be explained") {
   const auto colors = [](double rounding) {
-    const Reference picture = [=](int, int y, const Vec2& shift, bool) {
+    const Reference picture = [=](int, int y, const Vec2& shift, Chance) {
       Probe probe;
       probe.samples[0].color = Vec3(y + shift.y > 30 + 5e-7 ? 0.7 : 0.2);
       probe.rounding = rounding;
@@ -167,7 +186,7 @@ TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what
 }
 
 TEST_CASE("what is narrower than the first ring is found by the second look") {
-  const Reference reference = [](int, int, const Vec2& shift, bool) {
+  const Reference reference = [](int, int, const Vec2& shift, Chance) {
     Probe probe;
     const double r = glm::length(shift);
     probe.samples[0].color = Vec3(r > 2e-5 && r < 4e-4 ? 0.7 : 0.2);
@@ -180,7 +199,7 @@ TEST_CASE("what is narrower than the first ring is found by the second look") {
 }
 
 TEST_CASE("what is explained lies between the neighbours, a tolerance more at each end") {
-  const Reference reference = [](int, int, const Vec2& shift, bool) {
+  const Reference reference = [](int, int, const Vec2& shift, Chance) {
     Probe probe;
     probe.samples[0].color = Vec3(shift.x > 0.002 ? 0.7 : 0.2, 10, 0);
     probe.first_hit = {
@@ -234,7 +253,7 @@ TEST_CASE("t may be off by the rounding of the coordinates that it comes from, a
 
 TEST_CASE("a neighbourhood is as wide as the rounding of its coordinates") {
   const auto explained = [](double t_scale) {
-    const Reference reference = [&](int x, int y, const Vec2& shift, bool) {
+    const Reference reference = [&](int x, int y, const Vec2& shift, Chance) {
       Probe probe = picture_reference(x, y, shift);
       probe.first_hit.t_scale = t_scale;
       return probe;

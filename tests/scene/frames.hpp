@@ -37,14 +37,15 @@ inline compare::Frame render_frame(const Scene& scene, executors::Backend backen
 // Gates B and C.
 inline compare::ReferenceComparison compare_with_reference(const Scene& scene, const compare::Frame& value) {
   const reference::Renderer renderer(scene);
-  const compare::Reference probe = [&](int x, int y, const Vec2& shift, bool coincident) {
+  const compare::Reference probe = [&](int x, int y, const Vec2& shift, compare::Chance chance) {
     compare::Probe result;
     result.samples.clear();
+    const reference::RayOffset ray_offset{.coincident = chance == compare::Chance::coincident};
     for (int i = 0; i < scene.image.samples; ++i) {
-      const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift, {.coincident = coincident});
+      const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift, ray_offset);
       result.samples.push_back({sample.color, {double(sample.hits), double(sample.rays)}});
     }
-    result.first_hit = renderer.first_hit(x, y, shift, coincident);
+    result.first_hit = renderer.first_hit(x, y, shift, ray_offset);
     return result;
   };
   return compare::compare_with_reference(value, render_frame(scene, executors::Backend::reference), probe);

@@ -73,7 +73,8 @@ inline compare::Probe picture_at(double x, double y) {
   return probe;
 }
 
-inline compare::Probe picture_reference(int x, int y, const Vec2& shift, bool = false) {
+inline compare::Probe picture_reference(int x, int y, const Vec2& shift,
+                                        compare::Chance = compare::Chance::none) {
   return picture_at(x + 0.5 + shift.x, y + 0.5 + shift.y);
 }
 
@@ -87,7 +88,7 @@ inline compare::Frame picture_frame(const Vec2& shift = Vec2(0.0),
   frame.rays = 2u * picture_width * picture_height;
   for (int y = 0; y < picture_height; ++y) {
     for (int x = 0; x < picture_width; ++x) {
-      const compare::Probe probe = picture(x, y, shift, false);
+      const compare::Probe probe = picture(x, y, shift, compare::Chance::none);
       const compare::Probe::Sample& sample = probe.samples.front();
       for (int c = 0; c < 3; ++c) frame.color.pixel(x, y)[c] = float(sample.color[c]);
       *frame.hits.pixel(x, y) = float(sample.counts.x);
