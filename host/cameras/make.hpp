@@ -3,9 +3,9 @@
 
 #include "host/scene/camera.hpp"
 
-namespace eyeray {
+namespace eyeray::cameras {
 
 std::shared_ptr<const Projection> make_projection(const PerspectiveCamera& values);
 std::shared_ptr<const Projection> make_projection(const OrthographicCamera& values);
 
-}  // namespace eyeray
+}  // namespace eyeray::cameras

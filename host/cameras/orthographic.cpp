@@ -3,9 +3,9 @@
 #include "host/cameras/make.hpp"
 #include "host/records/records.hpp"
 
-namespace eyeray {
+namespace eyeray::cameras {
 
-extern const CameraType orthographic_camera;
+extern const CameraType orthographic_type;
 
 namespace {
 
@@ -65,11 +65,11 @@ std::shared_ptr<const Projection> parse(TableReader& table) {
 
 }  // namespace
 
-extern const CameraType orthographic_camera{
+extern const CameraType orthographic_type{
     .name = "orthographic", .manual = manual, .keys = keys, .parse = parse};
 
 std::shared_ptr<const Projection> make_projection(const OrthographicCamera& values) {
   return std::make_shared<Orthographic>(values);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::cameras

@@ -7,9 +7,9 @@
 #include "host/cameras/make.hpp"
 #include "host/records/records.hpp"
 
-namespace eyeray {
+namespace eyeray::cameras {
 
-extern const CameraType perspective_camera;
+extern const CameraType perspective_type;
 
 namespace {
 
@@ -114,11 +114,11 @@ std::shared_ptr<const Projection> parse(TableReader& table) {
 
 }  // namespace
 
-extern const CameraType perspective_camera{
+extern const CameraType perspective_type{
     .name = "perspective", .manual = manual, .keys = keys, .parse = parse};
 
 std::shared_ptr<const Projection> make_projection(const PerspectiveCamera& values) {
   return std::make_shared<Perspective>(values);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::cameras

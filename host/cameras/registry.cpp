@@ -1,23 +1,19 @@
+#include "host/cameras/registry.hpp"
+
 #include "shaders/cameras/registry.h"
 
-#include "host/cameras/make.hpp"
-
-namespace eyeray {
+namespace eyeray::cameras {
 
 // Each camera's .cpp defines its own; one that is missing is a link error that bears its name.
-#define X(name, number) extern const CameraType name##_camera;
+#define X(name, number) extern const CameraType name##_type;
 CAMERAS(X)
 #undef X
 
-std::span<const CameraType* const> camera_types() {
-#define X(name, number) &name##_camera,
+std::span<const CameraType* const> types() {
+#define X(name, number) &name##_type,
   static constexpr const CameraType* types[] = {CAMERAS(X)};
 #undef X
   return types;
 }
 
-std::shared_ptr<const Projection> default_projection() {
-  return make_projection(PerspectiveCamera{});
-}
-
-}  // namespace eyeray
+}  // namespace eyeray::cameras

@@ -19,8 +19,8 @@ Vec3 count(int64_t value) {
 }
 
 // Rays followed from surface to surface, of `kinds`.
-Image bounces(const Image& kinds) {
-  Image sums(kinds.width(), kinds.height(), 1);
+image::Image bounces(const image::Image& kinds) {
+  image::Image sums(kinds.width(), kinds.height(), 1);
   for (size_t i = 0; i < sums.sample_count(); ++i)
     sums.samples()[i] = kinds.samples()[3 * i] + kinds.samples()[3 * i + 1];
   return sums;
@@ -31,76 +31,76 @@ constexpr AovType types[] = {
     {.name = "depth",
      .channels = 1,
      .components = {"Z"},
-     .shown_as = FalseColor::depth,
+     .shown_as = image::FalseColor::depth,
      .values = [](const FirstHit& hit) { return Vec3(hit.t); }},
     {.name = "position",
      .channels = 3,
-     .shown_as = FalseColor::position,
+     .shown_as = image::FalseColor::position,
      .values = [](const FirstHit& hit) { return hit.position; }},
     {.name = "normal",
      .channels = 3,
-     .shown_as = FalseColor::direction,
+     .shown_as = image::FalseColor::direction,
      .values = [](const FirstHit& hit) { return hit.normal; }},
     {.name = "normal_geometric",
      .channels = 3,
-     .shown_as = FalseColor::direction,
+     .shown_as = image::FalseColor::direction,
      .values = [](const FirstHit& hit) { return hit.normal_geometric; }},
     {.name = "front",
      .channels = 1,
-     .shown_as = FalseColor::scalar,
+     .shown_as = image::FalseColor::scalar,
      .values = [](const FirstHit& hit) { return Vec3(hit.primitive < 0 ? no_value : hit.cosine > 0); }},
     {.name = "uv",
      .channels = 3,
      .components = {"U", "V"},
-     .shown_as = FalseColor::position,
+     .shown_as = image::FalseColor::position,
      .values = [](const FirstHit& hit) { return Vec3(hit.uv, 0); }},
     {.name = "shape",
      .channels = 1,
-     .shown_as = FalseColor::ids,
+     .shown_as = image::FalseColor::ids,
      .values = EntryOfLegend{},
      .legend = legend_of_shapes},
     {.name = "primitive",
      .channels = 1,
-     .shown_as = FalseColor::ids,
+     .shown_as = image::FalseColor::ids,
      .values = [](const FirstHit& hit) { return Vec3(hit.primitive); },
      .legend = legend_of_primitives},
     {.name = "material",
      .channels = 1,
-     .shown_as = FalseColor::ids,
+     .shown_as = image::FalseColor::ids,
      .values = [](const FirstHit& hit) { return Vec3(hit.material); },
      .legend = legend_of_materials},
     {.name = "hits",
      .channels = 1,
-     .shown_as = FalseColor::scalar,
+     .shown_as = image::FalseColor::scalar,
      .values = [](const render::FinishedRows& rows) { return rows.hits; }},
     {.name = "bounces",
      .channels = 1,
-     .shown_as = FalseColor::scalar,
+     .shown_as = image::FalseColor::scalar,
      .values = [](const render::FinishedRows& rows) { return bounces(rows.kinds); },
      .needs = AovNeeds::ray_kinds},
     {.name = "rays",
      .channels = 1,
-     .shown_as = FalseColor::scalar,
+     .shown_as = image::FalseColor::scalar,
      .values = [](const render::FinishedRows& rows) { return rows.rays_traced; }},
     {.name = "ray_kinds",
      .channels = 3,
      .components = {"reflected", "refracted", "shadow"},
-     .shown_as = FalseColor::position,
+     .shown_as = image::FalseColor::position,
      .values = [](const render::FinishedRows& rows) { return rows.kinds; },
      .needs = AovNeeds::ray_kinds},
     {.name = "nodes",
      .channels = 1,
-     .shown_as = FalseColor::scalar,
+     .shown_as = image::FalseColor::scalar,
      .values = [](const FirstHit& hit) { return count(hit.cost.nodes); },
      .needs = AovNeeds::search_cost},
     {.name = "tests",
      .channels = 1,
-     .shown_as = FalseColor::scalar,
+     .shown_as = image::FalseColor::scalar,
      .values = [](const FirstHit& hit) { return count(hit.cost.tests); },
      .needs = AovNeeds::search_cost},
     {.name = "flags",
      .channels = 1,
-     .shown_as = FalseColor::scalar,
+     .shown_as = image::FalseColor::scalar,
      .values = [](const render::FinishedRows& rows) { return rows.flagged; }},
 };
 
@@ -164,8 +164,8 @@ bool any_needs(const std::vector<Aov>& aovs, AovNeeds what) {
   return std::ranges::find(aovs, what, &AovType::needs) != aovs.end();
 }
 
-Image aov_image(Aov aov, std::span<const FirstHit> hits, int width, const LegendEntries* entries) {
-  Image image(width, int(hits.size()) / width, aov->channels);
+image::Image aov_image(Aov aov, std::span<const FirstHit> hits, int width, const LegendEntries* entries) {
+  image::Image image(width, int(hits.size()) / width, aov->channels);
   CHECK_EQ(hits.size() * size_t(aov->channels), image.sample_count());
   float* sample = image.samples().data();
   if (const ValueOfHit* value_of = std::get_if<ValueOfHit>(&aov->values)) {

@@ -23,7 +23,7 @@ namespace eyeray::cli {
 // channels; the legend's entry that it is of; or what was summed over the pixel's samples.
 using ValueOfHit = Vec3 (*)(const FirstHit& hit);
 struct EntryOfLegend {};
-using ValuesOfRows = Image (*)(const render::FinishedRows& rows);
+using ValuesOfRows = image::Image (*)(const render::FinishedRows& rows);
 
 // What executors count only where it is asked for.
 enum class AovNeeds { nothing, ray_kinds, search_cost };
@@ -33,7 +33,7 @@ struct AovType {
   int channels;  // 1 or 3
   // Its channels in its layer of an .exr; where none is named, V or X, Y and Z.
   std::array<std::string_view, 3> components{};
-  FalseColor shown_as;  // in its picture for people
+  image::FalseColor shown_as;  // in its picture for people
   std::variant<ValueOfHit, EntryOfLegend, ValuesOfRows> values;
   AovNeeds needs = AovNeeds::nothing;
   // Of ids: what they stand for; `scene` must outlive it. Else null.
@@ -62,6 +62,6 @@ bool need_first_hits(const std::vector<Aov>& aovs);
 bool any_needs(const std::vector<Aov>& aovs, AovNeeds what);
 
 // Rows of an AOV that is made of first hits; `width` pixels each. `entries` of its legend, where it has one.
-Image aov_image(Aov aov, std::span<const FirstHit> hits, int width, const LegendEntries* entries);
+image::Image aov_image(Aov aov, std::span<const FirstHit> hits, int width, const LegendEntries* entries);
 
 }  // namespace eyeray::cli

@@ -70,7 +70,7 @@ void add_bench(CLI::App& app, Run& run) {
       ->allow_extra_args(false);
   const auto parse = [options](const std::string& text) {
     std::tie(options->options.pictures.width, options->options.pictures.height) = parse_size(text);
-    if (!image_size_allowed(options->options.pictures.width, options->options.pictures.height))
+    if (!image::image_size_allowed(options->options.pictures.width, options->options.pictures.height))
       throw Error(ExitCode::bad_input, "--size {}: a picture has 1 to 65536 pixels a side, 2^28 in all",
                   text);
   };

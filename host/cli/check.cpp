@@ -3,11 +3,15 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "host/cameras/registry.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
+#include "host/lights/registry.hpp"
 #include "host/loader/scene_file.hpp"
+#include "host/materials/registry.hpp"
 #include "host/pack/pack.hpp"
 #include "host/scene/objects.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -75,18 +79,18 @@ void list_names(const Scene& scene, Inventory& inventory) {
 }
 
 Inventory take_inventory(const Scene& scene) {
-  const PackedScene packed = pack::pack_without_texels(scene);
+  const records::PackedScene packed = pack::pack_without_texels(scene);
   Inventory inventory;
   std::vector<uint32_t> kinds;
   for (const auto& shape : scene.shapes)
-    kinds.push_back(uint32_t(std::ranges::find(shape_types(), shape->type) - shape_types().begin()));
-  inventory.shapes = count_kinds(shape_types(), kinds);
+    kinds.push_back(uint32_t(std::ranges::find(shapes::types(), shape->type) - shapes::types().begin()));
+  inventory.shapes = count_kinds(shapes::types(), kinds);
   kinds.clear();
   for (const shader::Material& material : packed.materials) kinds.push_back(material.kind);
-  inventory.materials = count_kinds(material_types(), kinds);
+  inventory.materials = count_kinds(materials::types(), kinds);
   kinds.clear();
   for (const shader::Light& light : packed.lights) kinds.push_back(light.kind);
-  inventory.lights = count_kinds(light_types(), kinds);
+  inventory.lights = count_kinds(lights::types(), kinds);
   list_names(scene, inventory);
   for (const Mesh& mesh : scene.meshes) inventory.mesh_triangles += mesh.triangles.size();
   inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.nodes) +
@@ -108,7 +112,7 @@ std::string format_counts(const Counts& counts) {
 }
 
 std::string_view camera_name(const Scene& scene) {
-  return camera_types()[scene.camera.projection->kind()]->name;
+  return cameras::types()[scene.camera.projection->kind()]->name;
 }
 
 void print_text(const Scene& scene, const Inventory& inventory) {

@@ -26,7 +26,8 @@ struct CompareCommand {
   ExitCode run() const;
 
  private:
-  void write_maps(const Image& image_a, const Image& image_b, const compare::Metrics& metrics) const;
+  void write_maps(const image::Image& image_a, const image::Image& image_b,
+                  const compare::Metrics& metrics) const;
 };
 
 struct Comparison {
@@ -36,13 +37,13 @@ struct Comparison {
   int64_t different = 0;
 };
 
-std::string describe_size(const Image& image) {
+std::string describe_size(const image::Image& image) {
   return fmt::format("{}×{} in {} channel{}", image.width(), image.height(), image.channels(),
                      image.channels() == 1 ? "" : "s");
 }
 
 // Of data, unlike colours, any value may be right. What is not finite and the same in both counts as equal.
-void take_as_data(Image& a, Image& b) {
+void take_as_data(image::Image& a, image::Image& b) {
   if (!a.same_size(b)) return;
   for (size_t i = 0; i < a.sample_count(); ++i) {
     float &x = a.samples()[i], &y = b.samples()[i];
@@ -50,7 +51,7 @@ void take_as_data(Image& a, Image& b) {
   }
 }
 
-Comparison compare(const CompareCommand& command, const Image& a, const Image& b) {
+Comparison compare(const CompareCommand& command, const image::Image& a, const image::Image& b) {
   Comparison result;
   for (const auto& [name, image] : {std::pair{&command.a, &a}, {&command.b, &b}}) {
     const compare::Soundness soundness = compare::inspect(*image);
@@ -62,7 +63,7 @@ Comparison compare(const CompareCommand& command, const Image& a, const Image& b
     return result;
   }
 
-  const auto beyond_display = [](const Image& image) {
+  const auto beyond_display = [](const image::Image& image) {
     return std::ranges::any_of(image.samples(), [](float value) { return value > 1; });
   };
   const bool hdr = command.layer.empty() && (beyond_display(a) || beyond_display(b));
@@ -78,18 +79,19 @@ Comparison compare(const CompareCommand& command, const Image& a, const Image& b
 }
 
 // As data, or for people in false colour from `low` to `high`, or without these over its own range.
-void write_map(const std::string& file, const Image& map, std::span<const float> range = {}) {
-  const ImageFormat format = image_format(file);
-  if (format == ImageFormat::pfm || format == ImageFormat::exr) return write_image(file, map);
-  FalseColorPainter painter(FalseColor::scalar, 1);
-  Image seen(int(range.size()), 1, 1);
+void write_map(const std::string& file, const image::Image& map, std::span<const float> range = {}) {
+  const image::ImageFormat format = image::image_format(file);
+  if (format == image::ImageFormat::pfm || format == image::ImageFormat::exr)
+    return image::write_image(file, map);
+  image::FalseColorPainter painter(image::FalseColor::scalar, 1);
+  image::Image seen(int(range.size()), 1, 1);
   std::ranges::copy(range, seen.samples().begin());
   painter.see(range.empty() ? map : seen);
-  write_image(file, painter.paint(map));
+  image::write_image(file, painter.paint(map));
 }
 
-Image map_of(const Image& like, std::vector<float> values) {
-  Image map(like.width(), like.height(), 1);
+image::Image map_of(const image::Image& like, std::vector<float> values) {
+  image::Image map(like.width(), like.height(), 1);
   map.samples() = std::move(values);
   return map;
 }
@@ -103,7 +105,7 @@ Json json_of(const Comparison& result) {
   return json;
 }
 
-void CompareCommand::write_maps(const Image& image_a, const Image& image_b,
+void CompareCommand::write_maps(const image::Image& image_a, const image::Image& image_b,
                                 const compare::Metrics& metrics) const {
   if (!diff.empty()) write_map(diff, compare::log_difference(image_a, image_b));
   const std::optional<compare::HdrFlip>& hdr_flip = metrics.hdr_flip;
@@ -124,7 +126,7 @@ ExitCode CompareCommand::run() const {
   for (const auto& [option, file] :
        {std::pair{"--diff", diff}, {"--flip", flip}, {"--exposures", exposures}}) {
     if (file.empty()) continue;
-    image_format(file);
+    image::image_format(file);
     check_writable(file);
     for (const std::string& read : {a, b}) {
       std::error_code absent;
@@ -133,9 +135,10 @@ ExitCode CompareCommand::run() const {
     }
   }
   // Of a layer and a file of its own, as --aov writes them, either may be the .exr.
-  if (!layer.empty() && image_format(a) != ImageFormat::exr && image_format(b) != ImageFormat::exr)
+  if (!layer.empty() && image::image_format(a) != image::ImageFormat::exr &&
+      image::image_format(b) != image::ImageFormat::exr)
     throw Error(ExitCode::bad_input, "--layer {}: neither {} nor {} is an .exr", layer, a, b);
-  Image image_a = read_image(a, layer), image_b = read_image(b, layer);
+  image::Image image_a = image::read_image(a, layer), image_b = image::read_image(b, layer);
   if (!layer.empty()) take_as_data(image_a, image_b);
   const Comparison result = compare(*this, image_a, image_b);
   if (result.metrics) write_maps(image_a, image_b, *result.metrics);

@@ -17,9 +17,9 @@ constexpr int assembled_samples = 1 << 22;
 LayeredFile::LayeredFile(fs::path path, const std::vector<Aov>& aovs, int width, int height, bool half,
                          const Scene& scene)
     : path_(std::move(path)), width_(width), height_(height), waiting_(path_) {
-  add(nullptr, exr_channels(3, half), scene);
+  add(nullptr, image::exr_channels(3, half), scene);
   for (const Aov aov : aovs) {
-    std::vector<ExrChannel> channels;
+    std::vector<image::ExrChannel> channels;
     for (std::string& name : layer_channels(aov)) channels.push_back({std::move(name)});
     add(aov, std::move(channels), scene);
   }
@@ -29,14 +29,14 @@ uint64_t LayeredFile::row_bytes(const Layer& layer) const {
   return uint64_t(width_) * layer.channels.size() * sizeof(float);
 }
 
-void LayeredFile::add(Aov aov, std::vector<ExrChannel> channels, const Scene& scene) {
+void LayeredFile::add(Aov aov, std::vector<image::ExrChannel> channels, const Scene& scene) {
   const uint64_t begin =
       layers_.empty() ? 0 : layers_.back().begin + row_bytes(layers_.back()) * uint64_t(height_);
   Layer& layer = layers_.emplace_back(Layer{aov, std::move(channels), begin, 0, {}});
   if (aov && aov->legend) layer.legend.emplace(aov->legend(scene));
 }
 
-void LayeredFile::write(Layer& layer, const Image& rows) {
+void LayeredFile::write(Layer& layer, const image::Image& rows) {
   // Of an image's channels the first ones.
   const size_t kept = layer.channels.size(), channels = size_t(rows.channels());
   std::vector<float> samples(size_t(width_) * size_t(rows.height()) * kept);
@@ -63,7 +63,7 @@ void LayeredFile::write(std::span<const FirstHit> hits) {
 }
 
 // Its rows from `first` on, as the channels of `rows` from `channel` on.
-void LayeredFile::read(const Layer& layer, int first, Image& rows, size_t channel) const {
+void LayeredFile::read(const Layer& layer, int first, image::Image& rows, size_t channel) const {
   const size_t kept = layer.channels.size(), channels = size_t(rows.channels());
   std::vector<float> samples(size_t(width_) * size_t(rows.height()) * kept);
   waiting_.read_at(layer.begin + uint64_t(first) * row_bytes(layer),
@@ -74,16 +74,16 @@ void LayeredFile::read(const Layer& layer, int first, Image& rows, size_t channe
 
 void LayeredFile::finish(std::vector<fs::path>& files, bool with_aovs) {
   const std::span layers = std::span(layers_).first(with_aovs ? layers_.size() : 1);
-  std::vector<ExrChannel> channels;
+  std::vector<image::ExrChannel> channels;
   for (const Layer& layer : layers) {
     CHECK_EQ(layer.rows, height_);
     channels.insert(channels.end(), layer.channels.begin(), layer.channels.end());
   }
 
-  ImageWriter writer(path_, width_, height_, channels);
+  image::ImageWriter writer(path_, width_, height_, channels);
   for (int row = 0; row < height_;) {
     const int some = std::max(1, assembled_samples / (width_ * int(channels.size())));
-    Image rows(width_, std::min(some, height_ - row), int(channels.size()));
+    image::Image rows(width_, std::min(some, height_ - row), int(channels.size()));
     size_t channel = 0;
     for (const Layer& layer : layers) {
       read(layer, row, rows, channel);

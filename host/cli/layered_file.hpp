@@ -33,15 +33,15 @@ class LayeredFile {
  private:
   struct Layer {
     Aov aov;  // null of the picture itself
-    std::vector<ExrChannel> channels;
+    std::vector<image::ExrChannel> channels;
     uint64_t begin;  // of its rows in the waiting file
     int rows = 0;    // that have come
     std::optional<Legend> legend;
   };
   uint64_t row_bytes(const Layer& layer) const;
-  void add(Aov aov, std::vector<ExrChannel> channels, const Scene& scene);
-  void write(Layer& layer, const Image& rows);
-  void read(const Layer& layer, int first, Image& rows, size_t channel) const;
+  void add(Aov aov, std::vector<image::ExrChannel> channels, const Scene& scene);
+  void write(Layer& layer, const image::Image& rows);
+  void read(const Layer& layer, int first, image::Image& rows, size_t channel) const;
 
   std::filesystem::path path_;
   int width_;

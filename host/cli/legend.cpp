@@ -15,10 +15,10 @@ constexpr size_t piece = 1 << 20;
 
 // The colour that the picture shows an id in, "#rrggbb".
 std::string color_of(int64_t id) {
-  Image data(1, 1, 1);
+  image::Image data(1, 1, 1);
   data.samples()[0] = float(id);
-  const Image shown = false_color(data, FalseColor::ids);
-  const auto code = [&](int channel) { return unsigned{srgb8(shown.pixel(0, 0)[channel])}; };
+  const image::Image shown = image::false_color(data, image::FalseColor::ids);
+  const auto code = [&](int channel) { return unsigned{image::srgb8(shown.pixel(0, 0)[channel])}; };
   return fmt::format("#{:02x}{:02x}{:02x}", code(0), code(1), code(2));
 }
 

@@ -106,7 +106,7 @@ void PictureRequest::check_outputs() {
   if (outputs.empty())
     outputs.push_back(fs::path(scene.file()).filename().replace_extension(".png").string());
   for (const std::string& output : outputs) {
-    image_format(output);
+    image::image_format(output);
     check_writable(output);
     // A checkpoint is removed when the picture is there.
     for (const std::string& file : {long_render.checkpoint, long_render.resume}) {

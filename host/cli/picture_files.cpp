@@ -15,7 +15,7 @@ namespace {
 constexpr int painted_pixels = 1 << 20;
 
 bool is_exr(const std::string& output) {
-  return image_format(output) == ImageFormat::exr;
+  return image::image_format(output) == image::ImageFormat::exr;
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ AovFiles::AovFiles(Aov aov, fs::path output, int width, int height, const Scene&
   if (aov->legend) legend_.emplace(aov->legend(scene));
 }
 
-void AovFiles::write(const Image& rows) {
+void AovFiles::write(const image::Image& rows) {
   painter_.see(rows);
   data_.write(rows);
 }
@@ -62,8 +62,8 @@ void AovFiles::finish(std::vector<fs::path>& files) {
   data_.finish();
   files.push_back(data_name_);
 
-  PfmRows data(data_name_, width_, height_, aov_->channels);
-  ImageWriter picture(picture_name_, width_, height_, 3);
+  image::PfmRows data(data_name_, width_, height_, aov_->channels);
+  image::ImageWriter picture(picture_name_, width_, height_, 3);
   for (int row = 0; row < height_;) {
     const int count = std::min(std::max(1, painted_pixels / width_), height_ - row);
     picture.write(painter_.paint(data.read(row, count)));
@@ -81,9 +81,9 @@ PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::v
     if (exr && &output == &outputs[0] && !aovs.empty())
       layered_.emplace(output, aovs, width, height, half, scene);
     else if (exr)
-      writers_.emplace_back(output, ImageWriter(output, width, height, exr_channels(3, half)));
+      writers_.emplace_back(output, image::ImageWriter(output, width, height, image::exr_channels(3, half)));
     else
-      writers_.emplace_back(output, ImageWriter(output, width, height, 3));
+      writers_.emplace_back(output, image::ImageWriter(output, width, height, 3));
   }
   if (layered_) return;
   for (const Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height, scene);

@@ -34,15 +34,15 @@ class AovFiles {
   void finish(std::vector<std::filesystem::path>& files);
 
  private:
-  void write(const Image& rows);
+  void write(const image::Image& rows);
 
   Aov aov_;
   int width_;
   int height_;
   std::filesystem::path data_name_;
   std::filesystem::path picture_name_;
-  ImageWriter data_;
-  FalseColorPainter painter_;
+  image::ImageWriter data_;
+  image::FalseColorPainter painter_;
   std::optional<Legend> legend_;
 };
 
@@ -65,7 +65,7 @@ class PictureFiles {
   void finish_without_aovs(std::vector<std::filesystem::path>& files);
 
  private:
-  std::vector<std::pair<std::string, ImageWriter>> writers_;  // one an output that is not layered_
+  std::vector<std::pair<std::string, image::ImageWriter>> writers_;  // one an output that is not layered_
   std::optional<LayeredFile> layered_;
   std::vector<AovFiles> aovs_;
 };

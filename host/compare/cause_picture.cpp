@@ -37,16 +37,16 @@ std::optional<Class> class_of(const PixelOutcome& pixel) {
 
 }  // namespace
 
-Image cause_picture(const Image& background, const std::vector<PixelOutcome>& outcomes) {
+image::Image cause_picture(const image::Image& background, const std::vector<PixelOutcome>& outcomes) {
   CHECK_EQ(outcomes.size(), size_t(background.width()) * size_t(background.height()));
-  Image picture(background.width(), background.height(), 3);
+  image::Image picture(background.width(), background.height(), 3);
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       const auto found = class_of(outcomes[size_t(y) * size_t(picture.width()) + size_t(x)]);
       const double grey = 0.2 * glm::dot(color_at(background, x, y), luma_weights);
       for (int c = 0; c < 3; ++c)
         picture.pixel(x, y)[c] =
-            float(found ? linear_from_srgb(double(found->color >> (16 - 8 * c) & 255) / 255) : grey);
+            float(found ? image::linear_from_srgb(double(found->color >> (16 - 8 * c) & 255) / 255) : grey);
     }
   }
   return picture;

@@ -12,7 +12,7 @@ namespace eyeray::compare {
 // `background`, linear, dark and grey, and over it each pixel that does not match in the colour of its cause:
 // unexplained ones red, others as Okabe and Ito choose for all kinds of eyes (docs/verification.md). One
 // outcome a pixel.
-Image cause_picture(const Image& background, const std::vector<PixelOutcome>& outcomes);
+image::Image cause_picture(const image::Image& background, const std::vector<PixelOutcome>& outcomes);
 
 // What is in such a picture, as JSON: {"silhouette": {"color": "#0072b2", "pixels": 8}, …}.
 std::string cause_legend(const std::vector<PixelOutcome>& outcomes);

@@ -64,7 +64,7 @@ struct Planes {
   Plane y, cx, cz;
 };
 
-Planes to_planes(const Image& image) {
+Planes to_planes(const image::Image& image) {
   Planes planes{
       {image.width(), image.height()}, {image.width(), image.height()}, {image.width(), image.height()}};
   parallel_for(0, image.height(), [&](int y) {
@@ -162,7 +162,7 @@ Plane features(const Plane& luminance, Feature feature) {
 
 }  // namespace
 
-std::vector<double> flip_map(const Image& a, const Image& b) {
+std::vector<double> flip_map(const image::Image& a, const image::Image& b) {
   CHECK(a.same_size(b));
   CHECK_LE(1u, a.sample_count());
   Planes planes_a = to_planes(a), planes_b = to_planes(b);
@@ -190,7 +190,7 @@ std::vector<double> flip_map(const Image& a, const Image& b) {
   return map;
 }
 
-Flip flip(const Image& a, const Image& b) {
+Flip flip(const image::Image& a, const image::Image& b) {
   return summary(flip_map(a, b));
 }
 

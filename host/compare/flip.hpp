@@ -17,8 +17,8 @@ struct Flip {
 
 // Of each pixel of two linear 1- or 3-channel pictures of one size, clipped to [0, 1], row by row. Seen at 67
 // pixels a degree, as the paper does: a 0.7 m wide display of 3840 pixels, 0.7 m away.
-std::vector<double> flip_map(const Image& a, const Image& b);
-Flip flip(const Image& a, const Image& b);
+std::vector<double> flip_map(const image::Image& a, const image::Image& b);
+Flip flip(const image::Image& a, const image::Image& b);
 // Of such a map.
 Flip summary(std::vector<double> map);
 

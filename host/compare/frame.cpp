@@ -9,7 +9,7 @@ namespace {
 // Whether every part of a frame has the size that its area says.
 bool whole(const Frame& frame) {
   const Rect& area = frame.area;
-  const auto holds = [&](const Image& image, int channels) {
+  const auto holds = [&](const image::Image& image, int channels) {
     return image.width() == area.width && image.height() == area.height && image.channels() == channels;
   };
   return holds(frame.color, 3) && holds(frame.hits, 1) && holds(frame.rays_traced, 1) &&

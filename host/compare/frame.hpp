@@ -13,10 +13,10 @@ namespace eyeray::compare {
 
 struct Frame {
   Rect area;                         // the pixels of the whole picture that it holds
-  Image color;                       // linear RGB, the mean of the samples
+  image::Image color;                // linear RGB, the mean of the samples
   std::vector<FirstHit> first_hits;  // row by row
-  Image hits;                        // 1 channel: surfaces struck, the mean of the samples
-  Image rays_traced;                 // 1 channel: eye, reflected, refracted and shadow rays, the mean
+  image::Image hits;                 // 1 channel: surfaces struck, the mean of the samples
+  image::Image rays_traced;          // 1 channel: eye, reflected, refracted and shadow rays, the mean
   uint64_t rays = 0;                 // all of them
   uint64_t flagged_pixels = 0;       // pixels with any SampleFlag
   uint32_t flags = 0;                // all SampleFlags seen
@@ -34,7 +34,7 @@ struct Pixel {
 };
 
 // The colour of pixel (x, y) of a 1- or 3-channel image.
-inline Vec3 color_at(const Image& image, int x, int y) {
+inline Vec3 color_at(const image::Image& image, int x, int y) {
   const float* p = image.pixel(x, y);
   return image.channels() == 3 ? Vec3(double(p[0]), double(p[1]), double(p[2])) : Vec3(double(p[0]));
 }

@@ -35,13 +35,13 @@ double median(std::vector<double>& values) {
   return (*std::max_element(values.begin(), middle) + *middle) / 2;
 }
 
-bool finite(const Image& image) {
+bool finite(const image::Image& image) {
   return std::ranges::all_of(image.samples(), [](float value) { return std::isfinite(value); });
 }
 
 }  // namespace
 
-Exposures exposures_of(const Image& reference) {
+Exposures exposures_of(const image::Image& reference) {
   std::vector<double> luminances;
   luminances.reserve(size_t(reference.width()) * size_t(reference.height()));
   for (int y = 0; y < reference.height(); ++y)
@@ -59,9 +59,9 @@ Exposures exposures_of(const Image& reference) {
   return exposures;
 }
 
-Image exposed(const Image& image, double exposure) {
+image::Image exposed(const image::Image& image, double exposure) {
   const double factor = std::exp2(exposure);
-  Image result(image.width(), image.height(), image.channels());
+  image::Image result(image.width(), image.height(), image.channels());
   const size_t row = size_t(image.width()) * size_t(image.channels());
   parallel_for(0, image.height(), [&](int y) {
     for (size_t i = size_t(y) * row; i < size_t(y + 1) * row; ++i)
@@ -70,7 +70,7 @@ Image exposed(const Image& image, double exposure) {
   return result;
 }
 
-std::optional<HdrFlip> hdr_flip(const Image& a, const Image& b) {
+std::optional<HdrFlip> hdr_flip(const image::Image& a, const image::Image& b) {
   CHECK(a.same_size(b));
   CHECK_LE(1u, a.sample_count());
   if (!finite(a) || !finite(b)) return std::nullopt;

@@ -21,11 +21,11 @@ struct Exposures {
 
 // Of a black reference both are 0. Where the median is black, it is that of the luminances above 0 alone: the
 // paper leaves this open.
-Exposures exposures_of(const Image& reference);
+Exposures exposures_of(const image::Image& reference);
 
 // What a display shows of linear colours at an exposure: tone mapped (ACES, as Narkowicz fits it), linear, in
 // [0, 1]. Negative colours count as black.
-Image exposed(const Image& image, double exposure);
+image::Image exposed(const image::Image& image, double exposure);
 
 struct HdrFlip {
   Exposures exposures;
@@ -36,6 +36,6 @@ struct HdrFlip {
 
 // Of two linear 1- or 3-channel pictures of one size, of which `b` is the reference. None where a value is
 // not finite.
-std::optional<HdrFlip> hdr_flip(const Image& a, const Image& b);
+std::optional<HdrFlip> hdr_flip(const image::Image& a, const image::Image& b);
 
 }  // namespace eyeray::compare

@@ -28,11 +28,11 @@ double difference(const Vec3& a, const Vec3& b) {
 // As a display shows it.
 Vec3 encoded(const Vec3& color) {
   Vec3 result;
-  for (int c = 0; c < 3; ++c) result[c] = srgb_from_linear(std::clamp(color[c], 0.0, 1.0));
+  for (int c = 0; c < 3; ++c) result[c] = image::srgb_from_linear(std::clamp(color[c], 0.0, 1.0));
   return result;
 }
 
-Plane luma(const Image& image) {
+Plane luma(const image::Image& image) {
   Plane plane(image.width(), image.height());
   parallel_for(0, image.height(), [&](int y) {
     for (int x = 0; x < image.width(); ++x) {
@@ -49,7 +49,7 @@ Plane product(const Plane& a, const Plane& b) {
   return result;
 }
 
-double mean_ssim(const Image& image_a, const Image& image_b) {
+double mean_ssim(const image::Image& image_a, const image::Image& image_b) {
   constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
   const Kernel window = gaussian(1.5, 5);
   const auto blur = [&](const Plane& plane) { return convolve(plane, window, window); };
@@ -71,7 +71,7 @@ double mean_ssim(const Image& image_a, const Image& image_b) {
 
 }  // namespace
 
-Metrics measure(const Image& a, const Image& b, bool hdr) {
+Metrics measure(const image::Image& a, const image::Image& b, bool hdr) {
   CHECK(a.same_size(b));
   CHECK_LE(1u, a.sample_count());
   Metrics metrics;
@@ -121,7 +121,7 @@ Metrics measure(const Image& a, const Image& b, bool hdr) {
   return metrics;
 }
 
-int64_t count_different(const Image& a, const Image& b, double tolerance) {
+int64_t count_different(const image::Image& a, const image::Image& b, double tolerance) {
   CHECK(a.same_size(b));
   CHECK_LE(0.0, tolerance);
   CHECK_LE(tolerance, 1.0);
@@ -134,9 +134,9 @@ int64_t count_different(const Image& a, const Image& b, double tolerance) {
   return count;
 }
 
-Image log_difference(const Image& a, const Image& b) {
+image::Image log_difference(const image::Image& a, const image::Image& b) {
   CHECK(a.same_size(b));
-  Image result(a.width(), a.height(), 1);
+  image::Image result(a.width(), a.height(), 1);
   for (int y = 0; y < a.height(); ++y) {
     for (int x = 0; x < a.width(); ++x) {
       const double worst = difference(color_at(a, x, y), color_at(b, x, y));

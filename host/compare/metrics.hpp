@@ -37,12 +37,12 @@ inline constexpr int first_decade = -7;
 // as an infinite difference.
 // `hdr`: whether HDR-FLIP is measured, with b the reference; it takes as long as FLIP for each of its
 // exposures.
-Metrics measure(const Image& a, const Image& b, bool hdr = false);
+Metrics measure(const image::Image& a, const image::Image& b, bool hdr = false);
 
 // The pixels that do not match within `tolerance` · max(1, |b|) in every channel, as verify's gate B has it.
-int64_t count_different(const Image& a, const Image& b, double tolerance);
+int64_t count_different(const image::Image& a, const image::Image& b, double tolerance);
 
 // For a false-colour picture: log10 of each pixel's worst |difference|, no less than −8; 1 channel.
-Image log_difference(const Image& a, const Image& b);
+image::Image log_difference(const image::Image& a, const image::Image& b);
 
 }  // namespace eyeray::compare

@@ -23,7 +23,7 @@ bool count(Soundness& soundness, double value, bool may_be_negative) {
   return false;
 }
 
-bool count_pixel(Soundness& soundness, const Image& image, int x, int y) {
+bool count_pixel(Soundness& soundness, const image::Image& image, int x, int y) {
   bool sound = true;
   for (int c = 0; c < image.channels(); ++c) sound &= count(soundness, double(image.pixel(x, y)[c]), false);
   return sound;
@@ -53,7 +53,7 @@ void for_each_pixel(Soundness& soundness, int width, int height, const CountPixe
 
 }  // namespace
 
-Soundness inspect(const Image& image) {
+Soundness inspect(const image::Image& image) {
   Soundness soundness;
   for_each_pixel(soundness, image.width(), image.height(),
                  [&](int x, int y) { return count_pixel(soundness, image, x, y); });
@@ -62,7 +62,7 @@ Soundness inspect(const Image& image) {
 
 Soundness inspect(const Frame& frame) {
   Soundness soundness = inspect(frame.color);
-  for (const Image* counts : {&frame.hits, &frame.rays_traced})
+  for (const image::Image* counts : {&frame.hits, &frame.rays_traced})
     for_each_pixel(soundness, counts->width(), counts->height(),
                    [&](int x, int y) { return count_pixel(soundness, *counts, x, y); });
   for (size_t i = 0; i < frame.first_hits.size(); ++i) {

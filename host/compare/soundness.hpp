@@ -16,7 +16,7 @@ struct Soundness {
   bool ok() const { return nan == 0 && infinite == 0 && negative == 0 && flagged_pixels == 0 && flags == 0; }
 };
 
-Soundness inspect(const Image& image);
+Soundness inspect(const image::Image& image);
 // Colours, first hits, counts and flags; `first` is a pixel of the whole picture.
 Soundness inspect(const Frame& frame);
 

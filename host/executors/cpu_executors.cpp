@@ -89,7 +89,7 @@ class TwinExecutor final : public Executor {
   }
 
  private:
-  PackedScene packed_;
+  records::PackedScene packed_;
   Vec3 eye_;
 };
 

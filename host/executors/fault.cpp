@@ -16,7 +16,7 @@ struct FaultType {
   std::string_view name;
   // A shader's text `from` becomes `to`.
   std::string_view file = "", from = "", to = "";
-  void (*scene)(PackedScene&) = nullptr;
+  void (*scene)(records::PackedScene&) = nullptr;
   void (*samples)(std::span<PixelSample>) = nullptr;
   uint32_t shift = 0;
   bool contracts = false;
@@ -95,29 +95,29 @@ constexpr FaultType types[] = {
     // Packing.
     {.name = "ior",
      .scene =
-         [](PackedScene& scene) {
+         [](records::PackedScene& scene) {
            for (size_t i = 1; i < scene.media.size(); ++i) scene.media[i].ior *= 1.05f;
          }},
     {.name = "light",
      .scene =
-         [](PackedScene& scene) {
+         [](records::PackedScene& scene) {
            for (shader::Light& light : scene.lights) light.intensity = shader::vec3(0);
          }},
     // Along the line to the eye, which is the origin.
     {.name = "near_light",
      .scene =
-         [](PackedScene& scene) {
+         [](records::PackedScene& scene) {
            for (shader::Light& light : scene.lights) light.a *= shader::vec4(0.999f, 0.999f, 0.999f, 1.0f);
          }},
     {.name = "materials",
      .scene =
-         [](PackedScene& scene) {
+         [](records::PackedScene& scene) {
            for (Primitive& primitive : scene.primitives)
              if (material_of(primitive) == 1) primitive.material_and_kind -= 1;
          }},
     {.name = "bit",
      .scene =
-         [](PackedScene& scene) {
+         [](records::PackedScene& scene) {
            for (shader::Light& light : scene.lights)
              light.a.x = std::bit_cast<float>(std::bit_cast<uint32_t>(light.a.x) ^ 1u);
          }},
@@ -154,7 +154,7 @@ Fault::Fault(const std::string& name) {
           embedded_shaders().end());
 }
 
-void Fault::damage(PackedScene& scene) const {
+void Fault::damage(records::PackedScene& scene) const {
   if (type_ && type_->scene) type_->scene(scene);
 }
 

@@ -19,7 +19,7 @@ class Fault {
   // "" is none. Error (bad_input) that lists the known names otherwise.
   explicit Fault(const std::string& name);
 
-  void damage(PackedScene& scene) const;
+  void damage(records::PackedScene& scene) const;
   // The text of a shader file.
   std::string damage(std::string_view file, std::string text) const;
   // What was read back.

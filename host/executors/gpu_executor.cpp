@@ -64,7 +64,7 @@ class GpuExecutor final : public Executor {
       return gpu::self_test(
           device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_);
     });
-    PackedScene packed = times_.measure("pack", [&] { return pack::pack(scene, options.pack); });
+    records::PackedScene packed = times_.measure("pack", [&] { return pack::pack(scene, options.pack); });
     fault_.damage(packed);
     specialise_for(packed);
     times_.measure("upload", [&] { upload(packed); });
@@ -165,13 +165,13 @@ class GpuExecutor final : public Executor {
                   device_.info().driver_version);
   }
 
-  bool worth_wavefront(const ImageSettings& image, const PackedScene& packed) const {
+  bool worth_wavefront(const ImageSettings& image, const records::PackedScene& packed) const {
     const int64_t samples = int64_t{image.width} * image.height * image.samples;
     return options_.profile.rays == "packets" ||
            (samples >= least_samples_in_wavefront && packed.primitives.size() <= most_in_wavefront);
   }
 
-  void specialise_for(PackedScene& packed) {
+  void specialise_for(records::PackedScene& packed) {
     Specialisation specialisation;
     specialisation.constants = options_.constants && profile_.constants;
     specialisation.profile = profile_;
@@ -199,7 +199,7 @@ class GpuExecutor final : public Executor {
     shaders_ = ShaderFiles(options_.shader_folder, specialise(packed, specialisation));
   }
 
-  void upload(const PackedScene& packed) {
+  void upload(const records::PackedScene& packed) {
     for (const SceneBuffer& buffer : scene_buffers(packed)) add_buffer(buffer);
   }
 
@@ -283,7 +283,7 @@ class GpuExecutor final : public Executor {
         .seconds;
   }
 
-  void make_wavefront(const PackedScene& packed) {
+  void make_wavefront(const records::PackedScene& packed) {
     WavefrontOptions options;
     options.shadow_rays = casts_shadow_rays(packed) ? uint32_t(packed.lights.size()) : 0;
     options.bounces = most_bounces(packed);

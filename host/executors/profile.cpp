@@ -57,7 +57,8 @@ Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& dev
           small};
 }
 
-Rays incoherent_rays(const Profile& profile, const PackedScene& scene, bool packets, uint32_t subgroup_size) {
+Rays incoherent_rays(const Profile& profile, const records::PackedScene& scene, bool packets,
+                     uint32_t subgroup_size) {
   const bool meshes = scene.bvh_kinds == std::set<uint32_t>{shader::KIND_triangle};
   // Up to here BVHs are so shallow that a ray is best alone (docs/performance.md).
   const bool few = scene.primitives.size() <= (meshes ? 1 << 9 : 1 << 10);
@@ -68,7 +69,7 @@ Rays incoherent_rays(const Profile& profile, const PackedScene& scene, bool pack
   return possible ? wanted : Rays::lanes;
 }
 
-Rays bounced_rays(const Profile& profile, const PackedScene& scene, Rays incoherent) {
+Rays bounced_rays(const Profile& profile, const records::PackedScene& scene, Rays incoherent) {
   // Most rays that leave a mesh hit no more of it: not worth kernels of their own (docs/performance.md).
   const bool meshes = scene.bvh_kinds == std::set<uint32_t>{shader::KIND_triangle};
   return meshes && !profile.incoherent ? Rays::lanes : incoherent;

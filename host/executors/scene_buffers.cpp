@@ -15,7 +15,7 @@ SceneBuffer buffer(uint32_t binding, const char* name, std::span<const Record> r
 
 }  // namespace
 
-std::array<SceneBuffer, 11> scene_buffers(const PackedScene& scene) {
+std::array<SceneBuffer, 11> scene_buffers(const records::PackedScene& scene) {
   using enum Kind;
   using enum Part;
   const auto some = [](const auto& records) { return std::span(records); };

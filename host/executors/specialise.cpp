@@ -112,19 +112,20 @@ std::string constant_loader(std::string_view type, std::string_view name, const 
   return text + "  return r;\n}\n";
 }
 
-bool few_shading_records(const PackedScene& scene) {
+bool few_shading_records(const records::PackedScene& scene) {
   return std::max({scene.materials.size(), scene.textures.size(), scene.media.size(), scene.lights.size()}) <=
          most_records;
 }
 
-bool few_primitives(const PackedScene& scene) {
+bool few_primitives(const records::PackedScene& scene) {
   return !scene.has_bvh && scene.instances.empty() && scene.leaf_uses.empty() &&
          scene.primitives.size() <= most_records && scene.vertices.size() <= most_vertices;
 }
 
 // Everything but geometry and texels as constants, and the list of materials that materials/material.glsl
 // unrolls. Not of images: each of them is far more code than what chooses between them.
-std::string shading_as_constants(const PackedScene& scene, const std::set<uint32_t>& materials_used) {
+std::string shading_as_constants(const records::PackedScene& scene,
+                                 const std::set<uint32_t>& materials_used) {
   std::string text = constant_loader("Material", "material", scene.materials) +
                      constant_loader("Texture", "texture", scene.textures) +
                      constant_loader("Medium", "medium", scene.media) +
@@ -145,7 +146,7 @@ std::string frame_as_constant(const shader::Frame& f) {
 
 // Geometry as constants, and the list of primitives that bvh/traverse.glsl unrolls, in the order of their
 // ids.
-std::string primitives_as_constants(const PackedScene& scene) {
+std::string primitives_as_constants(const records::PackedScene& scene) {
   std::string text = constant_loader("uvec4", "vertex", scene.vertices) +
                      constant_loader("Primitive", "primitive", scene.primitives) +
                      "#define SCENE_PRIMITIVES(X)";
@@ -157,10 +158,10 @@ std::string primitives_as_constants(const PackedScene& scene) {
 }
 
 // What shapes/implicit.glsl marches along: each formula that the scene has, and its own march.
-std::string formulas(const PackedScene& scene) {
+std::string formulas(const records::PackedScene& scene) {
   if (scene.formulas.empty()) return "#define FORMULAS(X)\n";
   std::string text = "#include \"shapes/implicit/search.glsl\"\n";
-  const auto loops = [](const PackedFormula& f) { return !f.by_bounds && f.formula->loops(); };
+  const auto loops = [](const records::PackedFormula& f) { return !f.by_bounds && f.formula->loops(); };
   if (std::ranges::any_of(scene.formulas, loops))
     text +=
         "uint formula_turns = 0u;\nbool formula_overran = false;\n#define FORMULA_OVERRAN formula_overran\n"
@@ -169,7 +170,7 @@ std::string formulas(const PackedScene& scene) {
         "!formula_overran;\n}\n";
   std::string rows;
   for (size_t i = 0; i < scene.formulas.size(); ++i) {
-    const Formula& formula = *scene.formulas[i].formula;
+    const formula::Formula& formula = *scene.formulas[i].formula;
     const std::string name = fmt::format("f{}_", i);
     rows += fmt::format(" X({0}u, formula{0})", i);
     if (scene.formulas[i].by_bounds) {
@@ -200,7 +201,7 @@ std::string formulas(const PackedScene& scene) {
 }
 
 // The kinds that rays wait with in BVHs: none where all are slow, or nothing is in a BVH.
-std::set<uint32_t> deferred_kinds(const PackedScene& scene) {
+std::set<uint32_t> deferred_kinds(const records::PackedScene& scene) {
   std::set<uint32_t> slow;
   for (const Row& row : deferred_shapes)
     if (scene.has_bvh && scene.bvh_kinds.contains(row.number)) slow.insert(row.number);
@@ -212,7 +213,7 @@ bool varies(const shader::Texture& texture) {
 }
 
 // Whether any texture of the material varies over a surface.
-bool varies(const PackedScene& scene, const shader::Material& material) {
+bool varies(const records::PackedScene& scene, const shader::Material& material) {
   return std::ranges::any_of(std::array{material.base, material.specular, material.reflected,
                                         material.ambient, material.emission, material.alpha},
                              [&](uint32_t texture) { return varies(scene.textures[texture]); });
@@ -222,14 +223,14 @@ bool is_black(const shader::Texture& texture) {
   return !varies(texture) && texture.color == shader::vec3(0);
 }
 
-bool any_emits(const PackedScene& scene) {
+bool any_emits(const records::PackedScene& scene) {
   return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
     return !is_black(scene.textures[material.emission]);
   });
 }
 
 // Whether any material may send rays on.
-bool any_reflects(const PackedScene& scene) {
+bool any_reflects(const records::PackedScene& scene) {
   return scene.media.size() > 1 ||
          std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
            return !is_black(scene.textures[material.reflected]);
@@ -238,21 +239,21 @@ bool any_reflects(const PackedScene& scene) {
 
 }  // namespace
 
-uint32_t most_bounces(const PackedScene& scene) {
+uint32_t most_bounces(const records::PackedScene& scene) {
   return traits_of(IntegratorType(scene.frame.integrator)).scatters && any_reflects(scene)
              ? scene.frame.max_depth
              : 0;
 }
 
-bool casts_shadow_rays(const PackedScene& scene) {
+bool casts_shadow_rays(const records::PackedScene& scene) {
   return traits_of(IntegratorType(scene.frame.integrator)).shadow_rays && !scene.lights.empty();
 }
 
-uint64_t trace_iterations(const PackedScene& scene, bool unrolled) {
+uint64_t trace_iterations(const records::PackedScene& scene, bool unrolled) {
   return scene.has_bvh ? 0 : (unrolled ? 0 : scene.primitives.size()) + scene.shape_iterations;
 }
 
-uint32_t loop_budget_of(const PackedScene& scene, std::string_view driver) {
+uint32_t loop_budget_of(const records::PackedScene& scene, std::string_view driver) {
   // One ray with its shadow rays must fit whatever came before it. In a BVH it makes far fewer iterations
   // than there are primitives; where it does not, the shader sees that the driver stopped it.
   const uint64_t one_ray = (trace_iterations(scene, false) + 1) * (scene.lights.size() + 1);
@@ -268,7 +269,7 @@ uint32_t loop_budget_of(const PackedScene& scene, std::string_view driver) {
 }
 
 // Each define that is written here has its meaning in shaders/kernels/features.h.
-std::string specialise(const PackedScene& scene, const Specialisation& options) {
+std::string specialise(const records::PackedScene& scene, const Specialisation& options) {
   std::set<uint32_t> shapes_used, leaves_used, materials_used, material_kinds, kinds_with_uv,
       alpha_tested_kinds;
   const auto take_note = [&](const auto& uses, std::set<uint32_t>& kinds) {

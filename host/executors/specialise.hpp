@@ -23,17 +23,17 @@ struct Specialisation {
 };
 
 // How often a path may go on: 0 where no material sends rays on, or the integrator none.
-uint32_t most_bounces(const PackedScene& scene);
-bool casts_shadow_rays(const PackedScene& scene);  // the scene's integrator
+uint32_t most_bounces(const records::PackedScene& scene);
+bool casts_shadow_rays(const records::PackedScene& scene);  // the scene's integrator
 
 // How many loop iterations a ray takes at most through what is in no BVH. Through a BVH it takes far fewer
 // than there are primitives, nobody knows how many.
-uint64_t trace_iterations(const PackedScene& scene, bool unrolled);
+uint64_t trace_iterations(const records::PackedScene& scene, bool unrolled);
 
 // Specialisation::loop_budget where the driver ends loops and says nothing (docs/lavapipe.md). Error
 // (no_device), which names it, where one ray may need more than it grants.
-uint32_t loop_budget_of(const PackedScene& scene, std::string_view driver);
+uint32_t loop_budget_of(const records::PackedScene& scene, std::string_view driver);
 
-std::string specialise(const PackedScene& scene, const Specialisation& options);
+std::string specialise(const records::PackedScene& scene, const Specialisation& options);
 
 }  // namespace eyeray::executors

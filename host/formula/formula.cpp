@@ -18,9 +18,7 @@
 #include "host/formula/vocabulary.hpp"
 #include "host/gpu/shader_compiler.hpp"
 
-namespace eyeray {
-
-namespace formula {
+namespace eyeray::formula {
 
 struct Compiled {
   Text text;
@@ -30,12 +28,7 @@ struct Compiled {
   std::optional<Machine> gradient;
 };
 
-}  // namespace formula
-
 namespace {
-
-using formula::Fault;
-using formula::user_prefix;
 
 // Of straight-line code: each is a call in kernels, and drivers take more than a second for a hundred.
 constexpr size_t most_steps = 512;
@@ -62,7 +55,7 @@ constexpr const char* entry = "formula.comp";
 constexpr const char* text_file = "text";
 
 // What glslang compiles: main calls what is to be kept.
-std::vector<uint32_t> spirv_of(const formula::Text& text, const std::vector<FormulaParameter>& parameters) {
+std::vector<uint32_t> spirv_of(const Text& text, const std::vector<FormulaParameter>& parameters) {
   gpu::ShaderSource source{entry, {}};
   source.files[text_file] = text.glsl();
   source.files[entry] = fmt::format(
@@ -112,27 +105,26 @@ std::string without_prefix(std::string_view message) {
 }
 
 // The same text with the same parameters is compiled once for as long as somebody has it.
-std::shared_ptr<const formula::Compiled> compiled(const formula::Text& text,
-                                                  const std::vector<FormulaParameter>& parameters,
-                                                  std::vector<Fault>& faults) {
+std::shared_ptr<const Compiled> compiled(const Text& text, const std::vector<FormulaParameter>& parameters,
+                                         std::vector<Fault>& faults) {
   static std::mutex mutex;
-  static std::map<std::string, std::weak_ptr<const formula::Compiled>> known;
+  static std::map<std::string, std::weak_ptr<const Compiled>> known;
   const std::string key = constants(parameters) + text.glsl();
   const std::scoped_lock lock(mutex);
   std::erase_if(known, [](const auto& known_text) { return known_text.second.expired(); });
   if (const auto found = known.find(key); found != known.end()) return found->second.lock();
 
-  formula::Module module(spirv_of(text, parameters));
-  formula::ir::Program program = formula::lower(module, value_name, gradient_name);
-  if (std::string why = formula::limit(program); !why.empty()) {
+  Module module(spirv_of(text, parameters));
+  ir::Program program = lower(module, value_name, gradient_name);
+  if (std::string why = limit(program); !why.empty()) {
     faults.push_back({1, 1, std::move(why)});
     return nullptr;
   }
-  formula::Machine value(program, program.value);
-  std::optional<formula::Machine> gradient;
+  Machine value(program, program.value);
+  std::optional<Machine> gradient;
   if (!program.gradient.empty()) gradient.emplace(program, program.gradient[0]);
-  const std::shared_ptr<const formula::Compiled> result(new formula::Compiled{
-      text, std::move(module), std::move(program), std::move(value), std::move(gradient)});
+  const std::shared_ptr<const Compiled> result(
+      new Compiled{text, std::move(module), std::move(program), std::move(value), std::move(gradient)});
   known[key] = result;
   return result;
 }
@@ -142,7 +134,7 @@ std::shared_ptr<const formula::Compiled> compiled(const formula::Text& text,
 Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std::string title)
     : text_(std::move(text)), parameters_(std::move(parameters)), title_(std::move(title)) {
   std::vector<Fault> faults;
-  formula::Text judged = formula::read_text(text_.text, faults);
+  Text judged = read_text(text_.text, faults);
   for (const FormulaParameter& parameter : parameters_)
     for (const double value : parameter.values)
       if (!std::isfinite(float(value)))
@@ -165,13 +157,13 @@ Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std
 Formula::~Formula() = default;
 
 // What a compiler said of Text::glsl() as said of the user's text.
-std::vector<Diagnostic> Formula::in_text(const InputError& error, const formula::Text& text) const {
+std::vector<Diagnostic> Formula::in_text(const InputError& error, const Text& text) const {
   std::vector<Diagnostic> diagnostics;
   for (const Diagnostic& said : error.diagnostics()) {
     // The last token that begins no farther right.
     const auto [line, column] = std::pair(std::max(said.position.line, 1), said.position.column);
     int source_column = 0;
-    for (const formula::Text::Place& place : text.places())
+    for (const Text::Place& place : text.places())
       if (place.line == line && place.column <= column) source_column = place.source_column;
     diagnostics.push_back(located(text_, line, source_column, without_prefix(said.message)));
     diagnostics.back().severity = said.severity;
@@ -188,11 +180,11 @@ bool Formula::has_gradient() const {
 }
 
 double Formula::instructions() const {
-  return formula::size_of(compiled_->program).instructions;
+  return size_of(compiled_->program).instructions;
 }
 
 std::string Formula::kernel(const std::string& name) const {
-  return formula::kernel_text(compiled_->program, name);
+  return kernel_text(compiled_->program, name);
 }
 
 bool Formula::loops() const {
@@ -203,7 +195,7 @@ const expression::StraightLine& Formula::straight_line() const {
   std::call_once(straightened_, [&] {
     try {
       expression::Expression expression;
-      formula::Execution execution(compiled_->module, expression);
+      Execution execution(compiled_->module, expression);
       straight_line_ = expression::straight_line(expression, execution.run(value_name));
       if (straight_line_.size() > most_steps)
         throw InputError(
@@ -251,8 +243,7 @@ bool is_formula_name(const std::string& name) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
   };
   return !name.empty() && !(name[0] >= '0' && name[0] <= '9') && std::ranges::all_of(name, is_part) &&
-         name != "f" && !name.starts_with("gl_") && !formula::is_type(name) && !formula::is_keyword(name) &&
-         !formula::is_refused(name);
+         name != "f" && !name.starts_with("gl_") && !is_type(name) && !is_keyword(name) && !is_refused(name);
 }
 
 std::string endless_formula(const std::string& title) {
@@ -262,4 +253,4 @@ std::string endless_formula(const std::string& title) {
       title);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::formula

@@ -13,12 +13,10 @@
 #include "host/core/diagnostic.hpp"
 #include "host/expression/expression.hpp"
 
-namespace eyeray {
+namespace eyeray::formula {
 
-namespace formula {
 struct Compiled;
 struct Text;
-}  // namespace formula
 
 // The text as a person wrote it, and where: `start` is the place of its first character. Without a line (0)
 // nobody knows.
@@ -73,12 +71,12 @@ class Formula {
 
  private:
   [[noreturn]] void endless() const;
-  std::vector<Diagnostic> in_text(const InputError& error, const formula::Text& text) const;
+  std::vector<Diagnostic> in_text(const InputError& error, const Text& text) const;
 
   FormulaText text_;
   std::vector<FormulaParameter> parameters_;
   std::string title_;
-  std::shared_ptr<const formula::Compiled> compiled_;
+  std::shared_ptr<const Compiled> compiled_;
   mutable std::once_flag straightened_;
   mutable expression::StraightLine straight_line_;
 };
@@ -89,4 +87,4 @@ bool is_formula_name(const std::string& name);
 // What is said of a formula whose loops do not end.
 std::string endless_formula(const std::string& title);
 
-}  // namespace eyeray
+}  // namespace eyeray::formula

@@ -7,7 +7,7 @@
 
 #include "host/image/png_rows.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 namespace {
 
@@ -81,4 +81,4 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
   return image;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::image

@@ -10,7 +10,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 struct CodedImage {
   int width = 0;
@@ -41,4 +41,4 @@ struct PixelBudget {
 // size; and no more is decoded than is taken from the budget.
 CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name, PixelBudget& budget);
 
-}  // namespace eyeray
+}  // namespace eyeray::image

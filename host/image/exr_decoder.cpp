@@ -18,7 +18,7 @@
 #include "host/image/exr_header.hpp"
 #include "host/image/image_file.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 namespace {
 
@@ -194,4 +194,4 @@ Image decode_exr(std::string_view bytes, const std::string& name, const std::str
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::image

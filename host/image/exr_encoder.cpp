@@ -10,7 +10,7 @@
 #include "host/core/error.hpp"
 #include "host/image/row_encoder.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 namespace {
 
@@ -108,4 +108,4 @@ std::unique_ptr<RowEncoder> exr_encoder(AtomicFile& file, int width, int height,
   return std::make_unique<ExrEncoder>(file, width, height, std::move(channels));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::image

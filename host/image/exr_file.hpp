@@ -7,7 +7,7 @@
 
 #include "host/image/image.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 // One channel of a file to be written.
 struct ExrChannel {
@@ -26,4 +26,4 @@ std::vector<ExrChannel> exr_channels(int channels, bool half);
 // file that ends early or is too short for the pixels that it promises.
 Image decode_exr(std::string_view bytes, const std::string& name, const std::string& layer);
 
-}  // namespace eyeray
+}  // namespace eyeray::image

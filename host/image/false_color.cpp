@@ -7,7 +7,7 @@
 #include "host/core/parallel_for.hpp"
 #include "host/image/srgb.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 namespace {
 
@@ -112,4 +112,4 @@ Image false_color(const Image& data, FalseColor kind) {
   return painter.paint(data);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::image

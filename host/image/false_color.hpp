@@ -7,7 +7,7 @@
 #include "host/core/vec.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 enum class FalseColor {
   scalar,     // 1 channel: viridis from the least to the greatest finite value
@@ -46,4 +46,4 @@ class FalseColorPainter {
   std::vector<Range> ranges_;  // one a channel
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::image

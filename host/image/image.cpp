@@ -2,7 +2,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 Image::Image(int width, int height, int channels) : width_(width), height_(height), channels_(channels) {
   CHECK_LE(0, width);
@@ -15,4 +15,4 @@ bool Image::same_size(const Image& other) const {
   return width_ == other.width_ && height_ == other.height_ && channels_ == other.channels_;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::image

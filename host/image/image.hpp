@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::image {
 
 class Image {
  public:
@@ -34,4 +34,4 @@ class Image {
   std::vector<float> samples_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::image

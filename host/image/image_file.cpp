@@ -16,7 +16,7 @@
 #include "host/image/radiance_file.hpp"
 #include "host/image/srgb.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 namespace {
 
@@ -123,4 +123,4 @@ Image read_image(const fs::path& path, const std::string& layer) {
   CHECK(false);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::image

@@ -12,7 +12,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 enum class ImageFormat { png, pfm, hdr, exr };
 
@@ -35,4 +35,4 @@ Image read_image(const std::filesystem::path& path, const std::string& layer = "
 // Linear [0, 1] to an 8-bit sRGB code (IEC 61966-2-1), round half up.
 unsigned char srgb8(float linear);
 
-}  // namespace eyeray
+}  // namespace eyeray::image

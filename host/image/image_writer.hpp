@@ -8,8 +8,11 @@
 #include "host/image/image.hpp"
 
 namespace eyeray {
-
 class AtomicFile;
+}
+
+namespace eyeray::image {
+
 class RowEncoder;
 
 class ImageWriter {
@@ -37,4 +40,4 @@ class ImageWriter {
   std::unique_ptr<RowEncoder> encoder_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::image

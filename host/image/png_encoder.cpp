@@ -12,7 +12,7 @@
 #include "host/image/image_file.hpp"
 #include "host/image/row_encoder.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 namespace {
 
@@ -129,4 +129,4 @@ std::string encode_png(const Image& image) {
   return file;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::image

@@ -9,7 +9,7 @@
 #include "host/image/image_file.hpp"
 #include "host/image/row_encoder.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 namespace {
 
@@ -186,4 +186,4 @@ Image decode_radiance(std::string_view bytes, const std::string& name) {
   return image;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::image

@@ -7,10 +7,10 @@
 
 #include "host/image/image.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 
 // A 3-channel picture, top row first; flat and run-length encoded rows. Strict: Error (file_io), with `name`
 // in it, for anything else, and for a byte too few or too many.
 Image decode_radiance(std::string_view bytes, const std::string& name);
 
-}  // namespace eyeray
+}  // namespace eyeray::image

@@ -15,7 +15,7 @@ struct MeshFile {
   std::string bytes;
   std::optional<double> smooth;  // degrees, see ImportOptions
   AssetFiles assets;
-  PixelBudget* pixels;
+  image::PixelBudget* pixels;
 };
 
 // Each fills all but `files`. InputError for what is wrong in the file, Error for what it refers to.

@@ -66,7 +66,7 @@ GltfUv uv_of(const GltfObject& reference) {
 
 std::unique_ptr<Material> make_glass(const GltfObject& material) {
   const auto ior = material.extension("KHR_materials_ior");
-  DielectricValues glass;
+  materials::DielectricValues glass;
   glass.ior = std::clamp(ior ? ior->number("ior", 1.5) : 1.5, 1.0, 4.0);
   if (const auto volume = material.extension("KHR_materials_volume")) {
     // Beer's law, from the colour that is left at a distance.
@@ -74,7 +74,7 @@ std::unique_ptr<Material> make_glass(const GltfObject& material) {
     const Vec3 color = share(volume->numbers("attenuationColor", {1, 1, 1}));
     if (distance > 1e-12) glass.absorption = -glm::log(glm::max(color, Vec3(1e-6))) / distance;
   }
-  return make_dielectric(glass);
+  return materials::make_dielectric(glass);
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ GltfMaterials::GltfMaterials(const GltfObject& document, GltfBuffers& buffers, T
                              GltfLeftOut& left_out, GltfBreaches& breaches)
     : document_(document), buffers_(buffers), textures_(textures), left_out_(left_out), breaches_(breaches) {}
 
-ImageTexture GltfMaterials::decode_image(size_t index, PixelBudget& budget) {
+ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budget) {
   const GltfObject image = document_.element("images", index);
   std::string data;
   std::string_view bytes;
@@ -154,7 +154,7 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
   settings.wrap_v = wrap(wrap_t);
   const std::string name = fmt::format("{} {} {} {} {}", *source, srgb, static_cast<int>(settings.filter),
                                        static_cast<int>(settings.wrap_u), static_cast<int>(settings.wrap_v));
-  return textures_.load(name, [&](PixelBudget& budget) {
+  return textures_.load(name, [&](image::PixelBudget& budget) {
     ImageTexture image = decode_image(*source, budget);
     image.srgb = settings.srgb;
     image.filter = settings.filter;
@@ -218,7 +218,8 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
     made = make_glass(source);
   } else if (source.extension("KHR_materials_unlit")) {
     const Surface s = surface(source);
-    made = make_phong({.diffuse = textures::make_constant(Vec3(0)), .emission = textured(s.base, s.image)});
+    made = materials::make_phong(
+        {.diffuse = textures::make_constant(Vec3(0)), .emission = textured(s.base, s.image)});
   } else {
     const Surface s = surface(source);
     const double smooth = (1 - s.roughness) * (1 - s.roughness);
@@ -226,15 +227,15 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
     const bool mirrors = std::max({mirrored.x, mirrored.y, mirrored.z}) >= least_reflectance;
     const double exponent = std::clamp(2 / std::max(1e-4, std::pow(s.roughness, 4)) - 2, 1.0, 10000.0);
     const Vec3 lobe = glm::mix(Vec3(0.04), s.base, s.metalness) * ((exponent + 2) / 8);
-    const Highlight highlight{textures::make_constant(glm::min(lobe, Vec3(1))), exponent, true};
+    const materials::Highlight highlight{textures::make_constant(glm::min(lobe, Vec3(1))), exponent, true};
     // Only what a metal mirrors has the colour of its picture.
     const TexturePtr reflectance =
         textured(mirrors ? mirrored : Vec3(0), mirrors && s.metalness > 0.5 ? s.image : nullptr);
     const TexturePtr diffuse = textured(s.base * (1 - s.metalness * smooth), s.image);
     if (s.metalness * smooth > 0.95) {
-      made = make_mirror({.reflectance = reflectance, .highlight = highlight});
+      made = materials::make_mirror({.reflectance = reflectance, .highlight = highlight});
     } else {
-      made = make_phong(
+      made = materials::make_phong(
           {.diffuse = diffuse, .reflectance = reflectance, .emission = s.emission, .highlight = highlight});
     }
   }

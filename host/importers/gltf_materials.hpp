@@ -51,7 +51,7 @@ class GltfMaterials {
   TexturePtr emission(const GltfObject& material);
   std::optional<AlphaMask> mask(const GltfObject& material);
   std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, bool srgb);
-  ImageTexture decode_image(size_t index, PixelBudget& budget);
+  ImageTexture decode_image(size_t index, image::PixelBudget& budget);
   static std::optional<GltfObject> base_texture(const GltfObject& material);
   void note_rest(const GltfObject& material);
   // Numbers that are shares, from 0 to 1.

@@ -45,7 +45,7 @@ ImportedScene read_mesh_file(MeshFile& file) {
   ImportedScene scene;
   try {
     scene = read(file);
-  } catch (const TooManyPixels& error) {
+  } catch (const image::TooManyPixels& error) {
     throw malformed(file.name, error.what());
   }
   drop_empty(scene);
@@ -64,7 +64,7 @@ bool is_mesh_file(const std::filesystem::path& file) {
 }
 
 ImportedScene import_file(const std::filesystem::path& file, const ImportOptions& options) {
-  PixelBudget own;
+  image::PixelBudget own;
   MeshFile source{file.string(), read_input_file(file, "the mesh", most_mesh_bytes), options.smooth,
                   AssetFiles(file, options.allowed_folders), options.pixels ? options.pixels : &own};
   ImportedScene scene = read_mesh_file(source);
@@ -74,13 +74,13 @@ ImportedScene import_file(const std::filesystem::path& file, const ImportOptions
 }
 
 ImportedScene import_bytes(std::string bytes, const std::string& name, const ImportOptions& options) {
-  PixelBudget own;
+  image::PixelBudget own;
   MeshFile source{name, std::move(bytes), options.smooth, {}, options.pixels ? options.pixels : &own};
   return read_mesh_file(source);
 }
 
 std::unique_ptr<Material> plain_material(bool colored) {
-  auto material = make_phong({.diffuse = textures::make_constant(Vec3(colored ? 1.0 : 0.75))});
+  auto material = materials::make_phong({.diffuse = textures::make_constant(Vec3(colored ? 1.0 : 0.75))});
   material->name = colored ? "colored" : "plain";
   return material;
 }

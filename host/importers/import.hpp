@@ -11,7 +11,7 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::image {
 struct PixelBudget;  // image/coded_image.hpp
 }
 
@@ -24,7 +24,7 @@ struct ImportOptions {
   // Where what the file names (materials, buffers, pictures) may lie beside the file's own folder tree.
   std::vector<std::filesystem::path> allowed_folders = {};
   // Of the pictures of the scene that the file is for; null: it is for none.
-  PixelBudget* pixels = nullptr;
+  image::PixelBudget* pixels = nullptr;
 };
 
 struct ImportedCamera {

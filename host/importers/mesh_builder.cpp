@@ -46,12 +46,12 @@ Vec3 color_from_display(const Vec3& rgb) {
   // Nearly all are codes of 8 bits, and a power takes its time.
   static const std::vector<double> codes = [] {
     std::vector<double> table;
-    for (int code = 0; code < 256; ++code) table.push_back(linear_from_srgb(code / 255.0));
+    for (int code = 0; code < 256; ++code) table.push_back(image::linear_from_srgb(code / 255.0));
     return table;
   }();
   const auto linear = [](double value) {
     const double code = value * 255;
-    return code == std::floor(code) ? codes[static_cast<size_t>(code)] : linear_from_srgb(value);
+    return code == std::floor(code) ? codes[static_cast<size_t>(code)] : image::linear_from_srgb(value);
   };
   const Vec3 sound = sound_color(rgb);
   return {linear(sound.x), linear(sound.y), linear(sound.z)};

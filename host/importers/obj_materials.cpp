@@ -31,7 +31,7 @@ bool refracts(int illum) {
   return illum == 4 || illum == 6 || illum == 7 || illum == 9;
 }
 
-Highlight highlight(const tinyobj::material_t& source) {
+materials::Highlight highlight(const tinyobj::material_t& source) {
   constexpr int no_highlight = 1;
   if (source.illum == no_highlight) return {};
   // `Ns` is the exponent of Blinn's lobe (Alias: Object Files, B1).
@@ -43,13 +43,15 @@ std::unique_ptr<Material> convert(const tinyobj::material_t& source,
                                   std::shared_ptr<const ImageTexture> image) {
   if (refracts(source.illum)) {
     const double ior = source.ior >= 1 && source.ior <= 4 ? source.ior : 1.5;
-    return make_dielectric({.ior = ior, .highlight = highlight(source)});
+    return materials::make_dielectric({.ior = ior, .highlight = highlight(source)});
   }
   const TexturePtr diffuse = textured(color(source.diffuse), std::move(image));
-  if (!mirrors(source.illum)) return make_phong({.diffuse = diffuse, .highlight = highlight(source)});
+  if (!mirrors(source.illum))
+    return materials::make_phong({.diffuse = diffuse, .highlight = highlight(source)});
   const TexturePtr reflectance = textures::make_constant(color(source.specular));
-  if (color(source.diffuse) == Vec3(0)) return make_mirror({.reflectance = reflectance});
-  return make_phong({.diffuse = diffuse, .reflectance = reflectance, .highlight = highlight(source)});
+  if (color(source.diffuse) == Vec3(0)) return materials::make_mirror({.reflectance = reflectance});
+  return materials::make_phong(
+      {.diffuse = diffuse, .reflectance = reflectance, .highlight = highlight(source)});
 }
 
 // What a material says that ours cannot; the words for a warning.

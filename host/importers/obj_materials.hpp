@@ -15,7 +15,7 @@ namespace eyeray::importers {
 
 class ObjMaterials {
  public:
-  ObjMaterials(AssetFiles& assets, PixelBudget& pixels)
+  ObjMaterials(AssetFiles& assets, image::PixelBudget& pixels)
       : assets_(assets), textures_(assets, pixels, warnings) {}
 
   // Reads the .mtl files of an `mtllib` statement, which are parted by spaces or one whose name has some. One

@@ -10,16 +10,17 @@ TexturePtr textured(const Vec3& color, std::shared_ptr<const ImageTexture> pictu
 }
 
 std::shared_ptr<const ImageTexture> TextureFiles::load(const std::string& name) {
-  return load(name, [&](PixelBudget& budget) { return load_image_texture(assets_.locate(name), budget); });
+  return load(name,
+              [&](image::PixelBudget& budget) { return load_image_texture(assets_.locate(name), budget); });
 }
 
 std::shared_ptr<const ImageTexture> TextureFiles::load(
-    const std::string& name, const std::function<ImageTexture(PixelBudget&)>& decode) {
+    const std::string& name, const std::function<ImageTexture(image::PixelBudget&)>& decode) {
   const auto [entry, fresh] = known_.try_emplace(name);
   if (!fresh) return entry->second;
   try {
     entry->second = std::make_shared<const ImageTexture>(decode(budget_));
-  } catch (const TooManyPixels&) {
+  } catch (const image::TooManyPixels&) {
     throw;
   } catch (const Error& error) {
     warnings_.push_back(std::string("a picture was left out: ") + error.what());

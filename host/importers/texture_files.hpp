@@ -18,18 +18,18 @@ TexturePtr textured(const Vec3& color, std::shared_ptr<const ImageTexture> pictu
 
 class TextureFiles {
  public:
-  TextureFiles(AssetFiles& assets, PixelBudget& budget, std::vector<std::string>& warnings)
+  TextureFiles(AssetFiles& assets, image::PixelBudget& budget, std::vector<std::string>& warnings)
       : assets_(assets), budget_(budget), warnings_(warnings) {}
 
   // The picture in a file; null, with a warning, where it cannot be had. TooManyPixels beyond the budget.
   std::shared_ptr<const ImageTexture> load(const std::string& name);
   // The same for a picture that `decode` makes the first time that `name` is asked for; it may throw Error.
   std::shared_ptr<const ImageTexture> load(const std::string& name,
-                                           const std::function<ImageTexture(PixelBudget&)>& decode);
+                                           const std::function<ImageTexture(image::PixelBudget&)>& decode);
 
  private:
   AssetFiles& assets_;
-  PixelBudget& budget_;
+  image::PixelBudget& budget_;
   std::vector<std::string>& warnings_;
   std::map<std::string, std::shared_ptr<const ImageTexture>> known_;
 };

@@ -3,7 +3,7 @@
 #include "host/lights/make.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray {
+namespace eyeray::lights {
 
 extern const LightType directional_type;
 
@@ -32,10 +32,10 @@ class Directional final : public Light {
     return {values_.to_light, values_.intensity, std::numeric_limits<double>::infinity()};
   }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     packer.add(shader::Light{.intensity = glm::vec3(values_.intensity),
                              .kind = shader::LIGHT_directional,
-                             .a = to_vec4(values_.to_light),
+                             .a = records::to_vec4(values_.to_light),
                              .b = shader::vec4(0)});
   }
 
@@ -62,4 +62,4 @@ std::unique_ptr<Light> make_light(const DirectionalLight& values) {
   return std::make_unique<Directional>(values);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::lights

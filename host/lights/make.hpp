@@ -3,9 +3,9 @@
 
 #include "host/scene/light.hpp"
 
-namespace eyeray {
+namespace eyeray::lights {
 
 std::unique_ptr<Light> make_light(const PointLight& values);
 std::unique_ptr<Light> make_light(const DirectionalLight& values);
 
-}  // namespace eyeray
+}  // namespace eyeray::lights

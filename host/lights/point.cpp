@@ -1,7 +1,7 @@
 #include "host/lights/make.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray {
+namespace eyeray::lights {
 
 extern const LightType point_type;
 
@@ -40,10 +40,10 @@ class Point final : public Light {
             distance};
   }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     packer.add(shader::Light{.intensity = glm::vec3(values_.intensity),
                              .kind = shader::LIGHT_point,
-                             .a = to_vec4(packer.relative(values_.position), falls_off() ? 1 : 0),
+                             .a = records::to_vec4(packer.relative(values_.position), falls_off() ? 1 : 0),
                              .b = shader::vec4(0)});
   }
 
@@ -70,4 +70,4 @@ std::unique_ptr<Light> make_light(const PointLight& values) {
   return std::make_unique<Point>(values);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::lights

@@ -1,19 +1,19 @@
+#include "host/lights/registry.hpp"
+
 #include "shaders/lights/registry.h"
 
-#include "host/scene/light.hpp"
-
-namespace eyeray {
+namespace eyeray::lights {
 
 // Each light's .cpp defines its own; one that is missing is a link error that bears its name.
 #define X(name, number) extern const LightType name##_type;
 LIGHTS(X)
 #undef X
 
-std::span<const LightType* const> light_types() {
+std::span<const LightType* const> types() {
 #define X(name, number) &name##_type,
   static constexpr const LightType* types[] = {LIGHTS(X)};
 #undef X
   return types;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::lights

@@ -1,5 +1,6 @@
 #include "host/loader/cameras.hpp"
 
+#include "host/cameras/registry.hpp"
 #include "host/loader/kinds.hpp"
 
 namespace eyeray::loader {
@@ -31,7 +32,7 @@ void check_view(TableReader& table, const Camera& camera) {
 
 Camera read_camera(const Section& section, const toml::table* table, const ValueSources& sources,
                    DiagnosticLog& log) {
-  auto [type, reader] = read_kind(section, table, camera_types(), sources, log);
+  auto [type, reader] = read_kind(section, table, cameras::types(), sources, log);
   const Camera camera{.eye = reader.vec3("eye"),
                       .target = reader.vec3("target"),
                       .up = reader.vec3("up"),

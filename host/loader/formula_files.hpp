@@ -17,7 +17,7 @@ class FormulaFiles final : public FormulaSource {
   FormulaFiles(const AllowedFolders& folders, std::vector<std::filesystem::path> sources, DiagnosticLog& log)
       : folders_(folders), sources_(std::move(sources)), log_(log) {}
 
-  std::optional<FormulaText> load(const std::string& name, const SourcePosition& position) override;
+  std::optional<formula::FormulaText> load(const std::string& name, const SourcePosition& position) override;
 
   // Every file that was to be read, in the order in which they were first named.
   const std::vector<std::filesystem::path>& files() const { return files_; }

@@ -16,8 +16,8 @@ class ImageFiles final : public ImageSource {
  public:
   // Names in `scene` or in one of the other `sources`, which it includes, are relative to the folder of the
   // file that they stand in; names that stand in no file (an override) are relative to the scene's.
-  ImageFiles(const AllowedFolders& folders, std::vector<std::filesystem::path> sources, PixelBudget& budget,
-             DiagnosticLog& log)
+  ImageFiles(const AllowedFolders& folders, std::vector<std::filesystem::path> sources,
+             image::PixelBudget& budget, DiagnosticLog& log)
       : folders_(folders), sources_(std::move(sources)), budget_(budget), log_(log) {}
 
   std::shared_ptr<const ImageTexture> load(ImageTexture wanted, const SourcePosition& position) override;
@@ -28,7 +28,7 @@ class ImageFiles final : public ImageSource {
  private:
   const AllowedFolders& folders_;
   std::vector<std::filesystem::path> sources_;  // the scene first
-  PixelBudget& budget_;
+  image::PixelBudget& budget_;
   DiagnosticLog& log_;
   std::vector<std::filesystem::path> files_;
   struct Entry {

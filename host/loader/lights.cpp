@@ -1,12 +1,13 @@
 #include "host/loader/lights.hpp"
 
+#include "host/lights/registry.hpp"
 #include "host/loader/kinds.hpp"
 
 namespace eyeray::loader {
 
 std::unique_ptr<Light> read_light(const Section& section, const toml::table& table,
                                   const ValueSources& sources, DiagnosticLog& log) {
-  auto [type, reader] = read_kind(section, &table, light_types(), sources, log);
+  auto [type, reader] = read_kind(section, &table, lights::types(), sources, log);
   return type ? type->parse(reader) : nullptr;
 }
 

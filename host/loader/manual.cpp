@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include "host/cameras/registry.hpp"
+#include "host/lights/registry.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
+#include "host/materials/registry.hpp"
 #include "host/reference/integrator.hpp"
 #include "host/reference/sampler.hpp"
 #include "host/scene/table.hpp"
@@ -86,10 +89,10 @@ std::string scene_manual() {
     if (section.kind == render)
       text += values_manual("integrator", integrator_names,
                             [](uint32_t i) { return reference::integrator(IntegratorType(i)).manual; });
-    if (section.kind == camera) text += kinds_manual(camera_types());
-    if (section.kind == light) text += kinds_manual(light_types());
+    if (section.kind == camera) text += kinds_manual(cameras::types());
+    if (section.kind == light) text += kinds_manual(lights::types());
     if (section.kind != material) continue;
-    text += kinds_manual(material_types());
+    text += kinds_manual(materials::types());
     text += textures_manual();
   }
   text +=

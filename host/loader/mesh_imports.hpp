@@ -18,7 +18,7 @@ class MeshImports {
   // that they stand in; names that stand in no file (an override) are relative to the scene's. `trees`: where
   // what the mesh files name may lie.
   MeshImports(const AllowedFolders& folders, std::vector<std::filesystem::path> trees,
-              std::vector<std::filesystem::path> sources, PixelBudget& budget)
+              std::vector<std::filesystem::path> sources, image::PixelBudget& budget)
       : folders_(folders), trees_(std::move(trees)), sources_(std::move(sources)), budget_(budget) {}
 
   struct Loaded {
@@ -48,7 +48,7 @@ class MeshImports {
   const AllowedFolders& folders_;
   std::vector<std::filesystem::path> trees_;
   std::vector<std::filesystem::path> sources_;
-  PixelBudget& budget_;
+  image::PixelBudget& budget_;
   std::vector<std::filesystem::path> files_;
   std::map<std::pair<std::filesystem::path, std::optional<double>>, Entry> entries_;  // by canonical path
 };

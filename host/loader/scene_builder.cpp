@@ -13,6 +13,7 @@
 #include "host/loader/mesh_placement.hpp"
 #include "host/loader/sections.hpp"
 #include "host/loader/settings.hpp"
+#include "host/materials/registry.hpp"
 #include "host/scene/affine.hpp"
 #include "host/scene/table.hpp"
 #include "host/textures/registry.hpp"
@@ -151,7 +152,7 @@ class Builder {
 };
 
 void Builder::add_material(const Section& section, const toml::table& table) {
-  auto [type, reader] = read_kind(section, &table, material_types(), values_, log_);
+  auto [type, reader] = read_kind(section, &table, materials::types(), values_, log_);
   std::unique_ptr<Material> material = type ? type->parse(reader) : nullptr;
 
   // Enter the name even after an error, so that its users are not reported too.

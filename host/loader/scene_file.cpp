@@ -43,7 +43,7 @@ Document read_mesh(const fs::path& file, MeshImports& meshes, DiagnosticLog& log
 Scene load_scene(const fs::path& file, std::span<const Override> overrides, const Trust& trust) {
   DiagnosticLog log;
   const AllowedFolders folders(file, trust.folders);
-  PixelBudget pixels;
+  image::PixelBudget pixels;
   std::vector<fs::path> trees = trust.folders;
   trees.push_back(file.parent_path());
   if (importers::is_mesh_file(file)) {

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/cameras/registry.hpp"
+#include "host/lights/registry.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
+#include "host/materials/registry.hpp"
 #include "host/scene/table.hpp"
 #include "host/textures/registry.hpp"
 
@@ -226,9 +229,9 @@ Json placed_schema(const Section& section) {
 
 Json section_schema(const Section& section) {
   if (section.is_placed()) return list_schema(world_ray(section));
-  if (section.kind == Section::Kind::material) return list_schema(kinds_schema(section, material_types()));
-  if (section.kind == Section::Kind::camera) return kinds_schema(section, camera_types());
-  if (section.kind == Section::Kind::light) return list_schema(kinds_schema(section, light_types()));
+  if (section.kind == Section::Kind::material) return list_schema(kinds_schema(section, materials::types()));
+  if (section.kind == Section::Kind::camera) return kinds_schema(section, cameras::types());
+  if (section.kind == Section::Kind::light) return list_schema(kinds_schema(section, lights::types()));
   return section.many() ? list_schema(table_schema(section.keys)) : table_schema(section.keys);
 }
 

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/cameras/registry.hpp"
 #include "host/core/diagnostic.hpp"
+#include "host/lights/registry.hpp"
 #include "host/loader/settings.hpp"
+#include "host/materials/registry.hpp"
 #include "host/scene/foreign_words.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::loader {
 
@@ -19,7 +23,7 @@ std::vector<std::string_view> names_of(std::span<const Type* const> types) {
 }
 
 std::span<const Key> camera_keys() {
-  static const std::vector<std::string_view> names = names_of(camera_types());
+  static const std::vector<std::string_view> names = names_of(cameras::types());
   static const Key keys[] = {
       {.name = "type",
        .type = KeyType::choice,
@@ -40,7 +44,7 @@ std::span<const Key> camera_keys() {
 }
 
 std::span<const Key> light_keys() {
-  static const std::vector<std::string_view> names = names_of(light_types());
+  static const std::vector<std::string_view> names = names_of(lights::types());
   static const Key keys[] = {
       {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = names},
       {.name = "intensity",
@@ -52,7 +56,7 @@ std::span<const Key> light_keys() {
 }
 
 std::span<const Key> material_keys() {
-  static const std::vector<std::string_view> names = names_of(material_types());
+  static const std::vector<std::string_view> names = names_of(materials::types());
   static const Key keys[] = {
       {.name = "name",
        .type = KeyType::string,
@@ -216,7 +220,7 @@ std::vector<Section> make_sections() {
       {material, "material", "[[material]]", "What surfaces are made of.", material_keys()},
       {mesh, "mesh", "[[mesh]]", "The triangles of a file.", mesh_keys, nullptr, mesh_manual},
   };
-  for (const ShapeType* type : shape_types()) {
+  for (const ShapeType* type : shapes::types()) {
     const std::span<const Key> keys = type->combine ? part_keys() : shape_keys;
     all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", keys, type});
   }

@@ -3,7 +3,7 @@
 #include "host/materials/highlight.hpp"
 #include "host/materials/make.hpp"
 
-namespace eyeray {
+namespace eyeray::materials {
 
 namespace {
 
@@ -88,7 +88,7 @@ class Dielectric final : public Material {
     return values_.shadow.value_or(1 - r * r);
   }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_dielectric, values_.highlight, shadow_transmittance(), packer);
     record.medium = packer.add_medium(values_.ior, values_.absorption);
     record.base = record.reflected = textures::make_constant(Vec3(1))->pack(packer);
@@ -117,4 +117,4 @@ std::unique_ptr<Material> make_dielectric(const DielectricValues& values) {
   return std::make_unique<Dielectric>(values);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::materials

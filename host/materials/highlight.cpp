@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace eyeray {
+namespace eyeray::materials {
 
 void Highlight::apply(const Vec2& uv, Scattering& scattering) const {
   scattering.specular = specular->at(uv);
@@ -22,7 +22,7 @@ static uint32_t optical_depth_of(double transmittance) {
 }
 
 shader::Material make_record(uint32_t kind, const Highlight& highlight, double shadow_transmittance,
-                             Packer& packer) {
+                             records::Packer& packer) {
   const uint32_t black = textures::make_constant(Vec3(0))->pack(packer);
   return {.kind = kind,
           .flags = highlight.blinn ? MATERIAL_BLINN : 0u,
@@ -39,4 +39,4 @@ shader::Material make_record(uint32_t kind, const Highlight& highlight, double s
           .a = shader::vec4(0)};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::materials

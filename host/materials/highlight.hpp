@@ -6,7 +6,7 @@
 #include "host/scene/table_reader.hpp"
 #include "host/textures/make.hpp"
 
-namespace eyeray {
+namespace eyeray::materials {
 
 struct Highlight {
   TexturePtr specular = textures::make_constant(Vec3(0));
@@ -38,6 +38,6 @@ Highlight read_highlight(const TableReader& table);
 // The record of a material of `kind`, with its highlight and its optical depth; base, reflected, ambient
 // and emission are black, and it has no medium.
 shader::Material make_record(uint32_t kind, const Highlight& highlight, double shadow_transmittance,
-                             Packer& packer);
+                             records::Packer& packer);
 
-}  // namespace eyeray
+}  // namespace eyeray::materials

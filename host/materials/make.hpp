@@ -8,7 +8,7 @@
 #include "host/materials/highlight.hpp"
 #include "host/scene/material.hpp"
 
-namespace eyeray {
+namespace eyeray::materials {
 
 struct PhongValues {
   TexturePtr diffuse = textures::make_constant(Vec3(0.8));
@@ -33,4 +33,4 @@ struct DielectricValues {
 };
 std::unique_ptr<Material> make_dielectric(const DielectricValues& values);
 
-}  // namespace eyeray
+}  // namespace eyeray::materials

@@ -1,7 +1,7 @@
 #include "host/materials/highlight.hpp"
 #include "host/materials/make.hpp"
 
-namespace eyeray {
+namespace eyeray::materials {
 
 namespace {
 
@@ -48,7 +48,7 @@ class Mirror final : public Material {
 
   Vec3 base_color(const Vec2& uv) const override { return values_.reflectance->at(uv); }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_mirror, values_.highlight, shadow_transmittance(), packer);
     record.base = record.reflected = values_.reflectance->pack(packer);
     packer.add(record);
@@ -72,4 +72,4 @@ std::unique_ptr<Material> make_mirror(const MirrorValues& values) {
   return std::make_unique<Mirror>(values);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::materials

@@ -1,7 +1,7 @@
 #include "host/materials/highlight.hpp"
 #include "host/materials/make.hpp"
 
-namespace eyeray {
+namespace eyeray::materials {
 
 namespace {
 
@@ -69,7 +69,7 @@ class Phong final : public Material {
     return values_.diffuse->at(uv) + values_.emission->at(uv);
   }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_phong, values_.highlight, shadow_transmittance(), packer);
     record.base = values_.diffuse->pack(packer);
     record.reflected = values_.reflectance->pack(packer);
@@ -102,4 +102,4 @@ std::unique_ptr<Material> make_phong(const PhongValues& values) {
   return std::make_unique<Phong>(values);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::materials

@@ -1,19 +1,19 @@
+#include "host/materials/registry.hpp"
+
 #include "shaders/materials/registry.h"
 
-#include "host/scene/material.hpp"
-
-namespace eyeray {
+namespace eyeray::materials {
 
 // Each material's .cpp defines its own; one that is missing is a link error that bears its name.
 #define X(name, number) extern const MaterialType name##_type;
 MATERIALS(X)
 #undef X
 
-std::span<const MaterialType* const> material_types() {
+std::span<const MaterialType* const> types() {
 #define X(name, number) &name##_type,
   static constexpr const MaterialType* types[] = {MATERIALS(X)};
 #undef X
   return types;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::materials

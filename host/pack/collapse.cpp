@@ -226,7 +226,7 @@ CollapsedBvh collapse(std::span<const shader::uvec4> nodes, const shader::Bvh& b
   return Collapser<16>(nodes, bvh).run();
 }
 
-PacketBvh add_packet_bvh(PackedScene& scene, uint32_t lanes) {
+PacketBvh add_packet_bvh(records::PackedScene& scene, uint32_t lanes) {
   CHECK(scene.has_bvh && scene.quantised_nodes && scene.instances.empty());
   const CollapsedBvh bvh = collapse(scene.nodes, scene.bvhs[0], lanes);
   const PacketBvh place{uint32_t(scene.nodes.size()), bvh.stack_size};

@@ -31,6 +31,6 @@ struct PacketBvh {
 
 // Appends that BVH, of as many children a node as a subgroup has `lanes`, to the nodes of a scene that has a
 // quantised BVH and no instances.
-PacketBvh add_packet_bvh(PackedScene& scene, uint32_t lanes);
+PacketBvh add_packet_bvh(records::PackedScene& scene, uint32_t lanes);
 
 }  // namespace eyeray::pack

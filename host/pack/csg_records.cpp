@@ -2,7 +2,7 @@
 
 namespace eyeray::pack {
 
-void finish_csg(shader::Primitive& csg, PackedScene& packed) {
+void finish_csg(shader::Primitive& csg, records::PackedScene& packed) {
   const shader::uvec4 head = packed.vertices[csg.extra];
   const uint32_t first = csg.extra + 1 + head.x;
   constexpr uint32_t leaf_words = 6;

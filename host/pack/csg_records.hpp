@@ -8,6 +8,6 @@ namespace eyeray::pack {
 
 // Fills in what the leaves weaken a shadow ray by, takes note of their kinds and materials, and gives the
 // CSG object the material of the densest.
-void finish_csg(shader::Primitive& csg, PackedScene& packed);
+void finish_csg(shader::Primitive& csg, records::PackedScene& packed);
 
 }  // namespace eyeray::pack

@@ -30,7 +30,7 @@ Vec3 middle(const Bounds& bounds) {
 
 class GeometryPacker {
  public:
-  GeometryPacker(const Scene& scene, const PackOptions& options, Packer& packer)
+  GeometryPacker(const Scene& scene, const PackOptions& options, records::Packer& packer)
       : scene_(scene), options_(options), packer_(packer), packed_(packer.scene) {}
 
   void run() {
@@ -182,9 +182,9 @@ class GeometryPacker {
     record.material = material;
     record.depth_or_triangle = depth_or_triangle;
     for (int row = 0; row < 3; ++row) {
-      record.to_local[row] = to_vec4({inverse[0][row], inverse[1][row], inverse[2][row]});
-      record.to_world[row] =
-          to_vec4({map.linear[0][row], map.linear[1][row], map.linear[2][row]}, to_world_offset[row]);
+      record.to_local[row] = records::to_vec4({inverse[0][row], inverse[1][row], inverse[2][row]});
+      record.to_world[row] = records::to_vec4({map.linear[0][row], map.linear[1][row], map.linear[2][row]},
+                                              to_world_offset[row]);
     }
     packed_.instances.push_back(record);
   }
@@ -341,8 +341,8 @@ class GeometryPacker {
 
   const Scene& scene_;
   const PackOptions& options_;
-  Packer& packer_;
-  PackedScene& packed_;
+  records::Packer& packer_;
+  records::PackedScene& packed_;
   const PrimitiveIds ids_{scene_};
   std::vector<uint32_t> uses_;  // by mesh
   BlasRecords world_;
@@ -354,7 +354,7 @@ class GeometryPacker {
 
 }  // namespace
 
-void pack_geometry(const Scene& scene, const PackOptions& options, Packer& packer) {
+void pack_geometry(const Scene& scene, const PackOptions& options, records::Packer& packer) {
   GeometryPacker(scene, options, packer).run();
 }
 

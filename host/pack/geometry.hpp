@@ -8,6 +8,6 @@ namespace eyeray::pack {
 // Fills in everything of packer.scene that traversal reads. Materials are packed already. A mesh with one
 // instance, or of one triangle, becomes primitives of the world; any other keeps a space and a BVH of its
 // own.
-void pack_geometry(const Scene& scene, const PackOptions& options, Packer& packer);
+void pack_geometry(const Scene& scene, const PackOptions& options, records::Packer& packer);
 
 }  // namespace eyeray::pack

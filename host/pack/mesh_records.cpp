@@ -16,7 +16,7 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
   const bool normals = !mesh.normals.empty();
   const bool uv = !mesh.uv.empty();
   const bool colors = !mesh.colors.empty();
-  first_ = Packer::primitive(shader::KIND_triangle, material, {}, {}, {});
+  first_ = records::Packer::primitive(shader::KIND_triangle, material, {}, {}, {});
   first_.id = first_id;
   first_.optical_depth = optical_depth;
   if (!normals && !uv && !colors) return;
@@ -32,9 +32,10 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
   parallel_for(0, int(mesh.positions.size()), [&](int i) {
     const Vec3 normal = normals ? map_normal(mesh.normals[size_t(i)]) : Vec3(0);
     shader::uvec4* vertex = &vertices[first_vertex + size_t(i) * vertex_records];
-    vertex[0] = to_bits(to_vec4(normal, uv ? mesh.uv[size_t(i)].x : 0.0));
+    vertex[0] = records::to_bits(records::to_vec4(normal, uv ? mesh.uv[size_t(i)].x : 0.0));
     if (colors)
-      vertex[1] = to_bits(to_vec4(mesh.colors[size_t(i)], mesh.alphas.empty() ? 1 : mesh.alphas[size_t(i)]));
+      vertex[1] = records::to_bits(
+          records::to_vec4(mesh.colors[size_t(i)], mesh.alphas.empty() ? 1 : mesh.alphas[size_t(i)]));
   });
   parallel_for(0, int(mesh.triangles.size()), [&](int i) {
     const auto& [v0, v1, v2] = mesh.triangles[size_t(i)];
@@ -42,7 +43,7 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
     corners[0] = {first_vertex + v0 * vertex_records, first_vertex + v1 * vertex_records,
                   first_vertex + v2 * vertex_records,
                   (normals ? CORNERS_NORMALS : 0u) | (uv ? CORNERS_UV : 0u) | (colors ? CORNERS_COLORS : 0u)};
-    if (uv) corners[1] = to_bits(to_vec4({mesh.uv[v0].y, mesh.uv[v1].y, mesh.uv[v2].y}));
+    if (uv) corners[1] = records::to_bits(records::to_vec4({mesh.uv[v0].y, mesh.uv[v1].y, mesh.uv[v2].y}));
   });
 }
 
@@ -52,9 +53,9 @@ shader::Primitive MeshRecords::record(uint32_t triangle) const {
   shader::Primitive record = first_;
   record.id += triangle;
   record.extra += triangle * corner_records_;
-  record.a = to_vec4(at[0] - origin_, outward.x);
-  record.b = to_vec4(at[1] - origin_, outward.y);
-  record.c = to_vec4(at[2] - origin_, outward.z);
+  record.a = records::to_vec4(at[0] - origin_, outward.x);
+  record.b = records::to_vec4(at[1] - origin_, outward.y);
+  record.c = records::to_vec4(at[2] - origin_, outward.z);
   return record;
 }
 

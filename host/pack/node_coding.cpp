@@ -68,7 +68,7 @@ bool quantising_is_harmless(const bvh::Bvh& bvh) {
   return sum.y <= 1.1 * sum.x;
 }
 
-void add_bvh(const bvh::Bvh& bvh, uint32_t first_slot, uint32_t first_instance, PackedScene& scene) {
+void add_bvh(const bvh::Bvh& bvh, uint32_t first_slot, uint32_t first_instance, records::PackedScene& scene) {
   const size_t width = scene.quantised_nodes ? 2 : 4;  // uvec4 a node
   const Grid grid(bvh.box);
   const size_t begin = scene.nodes.size();
@@ -92,9 +92,9 @@ void add_bvh(const bvh::Bvh& bvh, uint32_t first_slot, uint32_t first_instance, 
       if (scene.quantised_nodes) {
         *code++ = quantised(child.box, grid, reference(child));
       } else {
-        *code = to_bits(shader::vec4(child.box.lower, 0.0f));
+        *code = records::to_bits(shader::vec4(child.box.lower, 0.0f));
         code++->w = reference(child);
-        *code++ = to_bits(shader::vec4(child.box.upper, 0.0f));
+        *code++ = records::to_bits(shader::vec4(child.box.upper, 0.0f));
       }
     }
   });

@@ -12,6 +12,6 @@ bool quantising_is_harmless(const bvh::Bvh& bvh);
 
 // Appends the nodes of `bvh`, as scene.quantised_nodes has them, and its BVH record. Bvh::order begins at
 // `first_slot`; a lone item is an instance, of which the first is `first_instance`.
-void add_bvh(const bvh::Bvh& bvh, uint32_t first_slot, uint32_t first_instance, PackedScene& scene);
+void add_bvh(const bvh::Bvh& bvh, uint32_t first_slot, uint32_t first_instance, records::PackedScene& scene);
 
 }  // namespace eyeray::pack

@@ -10,7 +10,7 @@ namespace eyeray::pack {
 namespace {
 
 // The media around the eye as materials/media.glsl stacks them: a byte each, the innermost lowest.
-uint32_t pack_media(const Scene& scene, const PackedScene& packed) {
+uint32_t pack_media(const Scene& scene, const records::PackedScene& packed) {
   const std::vector<int> media = reference::media_at(scene, scene.camera.eye);
   if (media.size() > 4)
     throw Error(ExitCode::bad_input, "the camera's eye is inside {} media at once; at most 4 may nest",
@@ -20,7 +20,7 @@ uint32_t pack_media(const Scene& scene, const PackedScene& packed) {
   return stack;
 }
 
-shader::Frame pack_frame(const Scene& scene, const PackedScene& packed) {
+shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed) {
   const CameraFrame camera = camera_frame(scene.camera, scene.image.size());
   shader::Frame frame{};
   frame.width = uint32_t(scene.image.width);
@@ -47,8 +47,8 @@ shader::Frame pack_frame(const Scene& scene, const PackedScene& packed) {
   return frame;
 }
 
-Packer pack_records(const Scene& scene, const PackOptions& options) {
-  Packer packer(scene.camera.eye);
+records::Packer pack_records(const Scene& scene, const PackOptions& options) {
+  records::Packer packer(scene.camera.eye);
   for (const auto& material : scene.materials) {
     material->pack(packer);
     if (material->mask) {
@@ -65,13 +65,13 @@ Packer pack_records(const Scene& scene, const PackOptions& options) {
 
 }  // namespace
 
-PackedScene pack(const Scene& scene, const PackOptions& options) {
-  Packer packer = pack_records(scene, options);
+records::PackedScene pack(const Scene& scene, const PackOptions& options) {
+  records::Packer packer = pack_records(scene, options);
   packer.write_texels();
   return std::move(packer.scene);
 }
 
-PackedScene pack_without_texels(const Scene& scene) {
+records::PackedScene pack_without_texels(const Scene& scene) {
   return pack_records(scene, {}).scene;
 }
 

@@ -8,8 +8,8 @@
 namespace eyeray::pack {
 
 // Hits do not depend on the options. Error (bad_input) with the numbers for more than records can count.
-PackedScene pack(const Scene& scene, const PackOptions& options = {});
+records::PackedScene pack(const Scene& scene, const PackOptions& options = {});
 // The same without the images' texels, for what counts and does not render.
-PackedScene pack_without_texels(const Scene& scene);
+records::PackedScene pack_without_texels(const Scene& scene);
 
 }  // namespace eyeray::pack

@@ -10,7 +10,7 @@
 #include "host/formula/formula.hpp"
 #include "host/image/srgb.hpp"
 
-namespace eyeray {
+namespace eyeray::records {
 
 namespace {
 
@@ -26,7 +26,7 @@ uint32_t Packer::add_vertices(std::span<const shader::uvec4> data) {
   return first;
 }
 
-uint32_t Packer::add_formula(const std::shared_ptr<const Formula>& formula, bool by_bounds) {
+uint32_t Packer::add_formula(const std::shared_ptr<const formula::Formula>& formula, bool by_bounds) {
   auto& all = scene.formulas;
   for (size_t i = 0; i < all.size(); ++i)
     if (formula->same(*all[i].formula) && all[i].by_bounds == by_bounds) return uint32_t(i);
@@ -67,7 +67,7 @@ void Packer::write_texels() {
   // The tables of the two colour spaces stand before the first image.
   for (const bool srgb : {true, false})
     for (int code = 0; code < 256; ++code) {
-      const double value = srgb ? linear_from_srgb(code / 255.0) : code / 255.0;
+      const double value = srgb ? image::linear_from_srgb(code / 255.0) : code / 255.0;
       scene.texels.push_back(std::bit_cast<uint32_t>(float(value)));
     }
   for (const auto& [image, first] : images_) {
@@ -90,4 +90,4 @@ uint32_t Packer::add(const shader::Texture& record) {
   return uint32_t(scene.textures.size() - 1);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::records

@@ -16,12 +16,14 @@
 #include "host/scene/bounds.hpp"
 #include "host/scene/image_texture.hpp"
 
-namespace eyeray {
-
+namespace eyeray::formula {
 class Formula;  // formula/formula.hpp
+}
+
+namespace eyeray::records {
 
 struct PackedFormula {
-  std::shared_ptr<const Formula> formula;
+  std::shared_ptr<const formula::Formula> formula;
   bool by_bounds;  // instead of stepped along by a Lipschitz constant
 };
 
@@ -100,7 +102,7 @@ class Packer {
   // Writes the texels of all images: a second copy of them, which only executors need.
   void write_texels();
   // The number of a formula; equal formulas share one. `enclosed`: rays find its surface by affine bounds.
-  uint32_t add_formula(const std::shared_ptr<const Formula>& formula, bool by_bounds);
+  uint32_t add_formula(const std::shared_ptr<const formula::Formula>& formula, bool by_bounds);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
   uint32_t add_medium(double ior, const Vec3& absorption);
 
@@ -129,4 +131,4 @@ inline shader::uvec4 to_bits(const shader::vec4& v) {
   return std::bit_cast<shader::uvec4>(v);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::records

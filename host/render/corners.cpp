@@ -16,7 +16,7 @@ float any_flag(float a, float b, float c, float d) {
 using Combine = float (*)(float, float, float, float);
 
 // A row of pixels from the rows of corners above and below it.
-void combine_corners(const float* above, const float* below, Combine combine, Image& pixels, int row) {
+void combine_corners(const float* above, const float* below, Combine combine, image::Image& pixels, int row) {
   const int channels = pixels.channels();
   for (int x = 0; x < pixels.width(); ++x) {
     float* pixel = pixels.pixel(x, row);
@@ -28,15 +28,15 @@ void combine_corners(const float* above, const float* below, Combine combine, Im
 }
 
 // All rows of pixels between the rows of corners, of which `last` is the one before; and the new last one.
-Image between(Image& last, const Image& corners, Combine combine) {
+image::Image between(image::Image& last, const image::Image& corners, Combine combine) {
   const int above = last.height();
-  Image pixels(corners.width() - 1, corners.height() - 1 + above, corners.channels());
+  image::Image pixels(corners.width() - 1, corners.height() - 1 + above, corners.channels());
   for (int row = 0; row < pixels.height(); ++row) {
     const int upper = row - above;
     combine_corners(upper < 0 ? last.pixel(0, 0) : corners.pixel(0, upper), corners.pixel(0, upper + 1),
                     combine, pixels, row);
   }
-  last = Image(corners.width(), 1, corners.channels());
+  last = image::Image(corners.width(), 1, corners.channels());
   const float* row = corners.pixel(0, corners.height() - 1);
   std::copy(row, row + last.sample_count(), last.pixel(0, 0));
   return pixels;

@@ -24,7 +24,7 @@ class CornerMean {
 
  private:
   // The last row of corners so far; empty at the start.
-  Image last_color_, last_hits_, last_rays_, last_kinds_, last_flagged_;
+  image::Image last_color_, last_hits_, last_rays_, last_kinds_, last_flagged_;
 };
 
 }  // namespace eyeray::render

@@ -214,7 +214,7 @@ class Driver {
   std::optional<Saving> saving_;  // from the first tile on there is something to lose
 };
 
-void copy_rows(const Image& rows, int first, Image& picture) {
+void copy_rows(const image::Image& rows, int first, image::Image& picture) {
   std::copy(rows.samples().begin(), rows.samples().end(), picture.pixel(0, first));
 }
 
@@ -246,16 +246,16 @@ Rendering render(const Scene& scene, executors::Executor& executor, const Render
   Rendering result;
   const auto collect = [&](const FinishedRows& rows) {
     if (rows.first == 0) {
-      result.color = Image(crop.width, crop.height, 3);
-      result.hits = Image(crop.width, crop.height, 1);
-      result.rays_traced = Image(crop.width, crop.height, 1);
+      result.color = image::Image(crop.width, crop.height, 3);
+      result.hits = image::Image(crop.width, crop.height, 1);
+      result.rays_traced = image::Image(crop.width, crop.height, 1);
     }
     copy_rows(rows.color, rows.first, result.color);
     copy_rows(rows.hits, rows.first, result.hits);
     copy_rows(rows.rays_traced, rows.first, result.rays_traced);
   };
   static_cast<RenderTotals&>(result) = render_rows(scene, executor, options, collect);
-  if (result.samples_done == 0) result.color = result.hits = result.rays_traced = Image();
+  if (result.samples_done == 0) result.color = result.hits = result.rays_traced = image::Image();
   if (!options.first_hits || result.interrupted) return result;
 
   result.first_hits.resize(size_t(crop.pixels()));

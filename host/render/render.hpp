@@ -74,9 +74,9 @@ bool trace_first_hits(executors::Executor& executor, const Rect& crop, const Fir
 
 // What was rendered, all at once.
 struct Rendering : RenderTotals {
-  Image color;                       // of the crop; linear RGB, the mean of the samples
+  image::Image color;                // of the crop; linear RGB, the mean of the samples
   std::vector<FirstHit> first_hits;  // of the crop; empty unless asked for
-  Image hits, rays_traced;           // as in FinishedRows
+  image::Image hits, rays_traced;    // as in FinishedRows
 };
 
 // As render_rows; when interrupted, the images are empty unless samples_done > 0, and first_hits is empty.

@@ -40,7 +40,7 @@ FinishedRows RowStore::read(int first, int count, int width, bool kinds) {
   if (descriptor_ < 0) fail("read", file_, errno);
 
   FinishedRows rows(first, width, count);
-  if (kinds) rows.kinds = Image(width, count, 3);
+  if (kinds) rows.kinds = image::Image(width, count, 3);
   std::vector<float> stored(floats_of_pixel(rows) * rows.hits.sample_count());
   const auto bytes = std::as_writable_bytes(std::span(stored));
   for (size_t done = 0; done < bytes.size();) {
@@ -55,7 +55,7 @@ FinishedRows RowStore::read(int first, int count, int width, bool kinds) {
 
   const float* next = stored.data();
   for (size_t i = 0; i < rows.hits.sample_count(); ++i) {
-    for (Image* image : stored_images(rows)) {
+    for (image::Image* image : stored_images(rows)) {
       if (image->sample_count() == 0) continue;
       const auto channels = size_t(image->channels());
       std::copy_n(next, channels, &image->samples()[channels * i]);
@@ -74,7 +74,7 @@ void RowStore::append(const FinishedRows& rows) {
   std::vector<float> stored;
   stored.reserve(floats_of_pixel(rows) * rows.hits.sample_count());
   for (size_t i = 0; i < rows.hits.sample_count(); ++i) {
-    for (const Image* image : stored_images(rows)) {
+    for (const image::Image* image : stored_images(rows)) {
       if (image->sample_count() == 0) continue;
       const float* first = &image->samples()[size_t(image->channels()) * i];
       stored.insert(stored.end(), first, first + image->channels());

@@ -33,7 +33,7 @@ void PixelSums::add(int first, std::span<const PixelSample> samples) {
 
 FinishedRows PixelSums::mean(int first, int count, int samples, int extra_rows) const {
   FinishedRows rows(first, width_, count);
-  if (!kinds_.empty()) rows.kinds = Image(width_, count, 3);
+  if (!kinds_.empty()) rows.kinds = image::Image(width_, count, 3);
   for (int y = 0; y < count; ++y) {
     const int taken = first + y < extra_rows ? samples + 1 : samples;
     for (int x = 0; x < width_; ++x) {

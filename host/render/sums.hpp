@@ -23,12 +23,13 @@ struct FinishedRows {
 
   bool has_kinds() const { return kinds.height() > 0; }
 
-  int first = 0;      // counted from the top of what is rendered
-  Image color;        // linear RGB, the mean of the samples
-  Image hits;         // 1 channel: surfaces struck a pixel, the mean of the samples
-  Image rays_traced;  // 1 channel: a pixel, the mean of the samples
-  Image kinds;        // 3 channels: of these the reflected, refracted and shadow rays; empty unless asked for
-  Image flagged;      // 1 channel: the SampleFlags of all samples of a pixel, as a number
+  int first = 0;             // counted from the top of what is rendered
+  image::Image color;        // linear RGB, the mean of the samples
+  image::Image hits;         // 1 channel: surfaces struck a pixel, the mean of the samples
+  image::Image rays_traced;  // 1 channel: a pixel, the mean of the samples
+  image::Image
+      kinds;  // 3 channels: of these the reflected, refracted and shadow rays; empty unless asked for
+  image::Image flagged;  // 1 channel: the SampleFlags of all samples of a pixel, as a number
   uint64_t flagged_pixels = 0;
   uint32_t flags = 0;
 };

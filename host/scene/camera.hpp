@@ -70,16 +70,11 @@ struct CameraType {
   std::shared_ptr<const Projection> (*parse)(TableReader& table);  // null after an error, which is reported
 };
 
-// Every kind of camera, in registry order.
-std::span<const CameraType* const> camera_types();
-// That of a scene whose file says nothing.
-std::shared_ptr<const Projection> default_projection();
-
 struct Camera {
   Vec3 eye{0, 0, 5};
   Vec3 target{0, 0, 0};
   Vec3 up{0, 1, 0};
-  std::shared_ptr<const Projection> projection = default_projection();
+  std::shared_ptr<const Projection> projection;  // there is one in every scene that is whole
 };
 
 // By docs/conventions.md.

@@ -16,7 +16,8 @@ class FormulaSource {
 
   // The text of the file that `name` stands for, as it was written at `position`. Nothing, with an error in
   // the log, where that cannot be had.
-  virtual std::optional<FormulaText> load(const std::string& name, const SourcePosition& position) = 0;
+  virtual std::optional<formula::FormulaText> load(const std::string& name,
+                                                   const SourcePosition& position) = 0;
 };
 
 }  // namespace eyeray

@@ -10,7 +10,7 @@ namespace eyeray {
 
 namespace fs = std::filesystem;
 
-ImageTexture load_image_texture(const fs::path& path, PixelBudget& budget) {
+ImageTexture load_image_texture(const fs::path& path, image::PixelBudget& budget) {
   const auto fail = [&](const std::string& why) {
     return Error(ExitCode::file_io, "cannot read {}: {}", path.string(), why);
   };
@@ -21,15 +21,15 @@ ImageTexture load_image_texture(const fs::path& path, PixelBudget& budget) {
   if (error) throw fail(error.message());
   if (fs::is_directory(status)) throw fail("it is a folder");
   if (!fs::is_regular_file(status)) throw fail("it is not a regular file");
-  if (const auto size = fs::file_size(path, error); !error && size > most_coded_bytes)
-    throw fail(fmt::format("it has {} bytes; the most is {} (1 GiB)", size, most_coded_bytes));
+  if (const auto size = fs::file_size(path, error); !error && size > image::most_coded_bytes)
+    throw fail(fmt::format("it has {} bytes; the most is {} (1 GiB)", size, image::most_coded_bytes));
   const std::string bytes = read_file(path);
   return decode_image_texture(std::as_bytes(std::span(bytes)), path.string(), budget);
 }
 
 ImageTexture decode_image_texture(std::span<const std::byte> bytes, const std::string& name,
-                                  PixelBudget& budget) {
-  CodedImage image = decode_coded_image(bytes, name, budget);
+                                  image::PixelBudget& budget) {
+  image::CodedImage image = image::decode_coded_image(bytes, name, budget);
   return {.name = name, .width = image.width, .height = image.height, .texels = std::move(image.pixels)};
 }
 

@@ -14,10 +14,10 @@ namespace eyeray {
 // The picture in a regular file of at most 1 GiB and 16384 pixels a side, named after the path; filter, wrap
 // and colour space are an ImageTexture's defaults. Error (file_io), one sentence with the path and the
 // reason, where it cannot be read or the budget has fewer pixels left.
-ImageTexture load_image_texture(const std::filesystem::path& path, PixelBudget& budget);
+ImageTexture load_image_texture(const std::filesystem::path& path, image::PixelBudget& budget);
 
 // The same from memory; `name` stands in messages.
 ImageTexture decode_image_texture(std::span<const std::byte> bytes, const std::string& name,
-                                  PixelBudget& budget);
+                                  image::PixelBudget& budget);
 
 }  // namespace eyeray

@@ -12,7 +12,9 @@
 
 namespace eyeray {
 
+namespace records {
 class Packer;  // records/packer.hpp
+}
 struct LightType;
 
 // A light as a point sees it.
@@ -46,7 +48,7 @@ class Light {
   // The light that arrives at `point`, were nothing between. The reference's half: no float32.
   virtual Illumination illuminate(const Vec3& point) const = 0;
   // Appends the light's one record.
-  virtual void pack(Packer& packer) const = 0;
+  virtual void pack(records::Packer& packer) const = 0;
   virtual LightForm form() const { return {}; }
 
   const LightType* type = nullptr;
@@ -58,8 +60,5 @@ struct LightType {
   std::span<const Key> keys;                            // beside `type` and `intensity`
   std::unique_ptr<Light> (*parse)(TableReader& table);  // null after an error, which is reported to the table
 };
-
-// Every kind of light, in registry order.
-std::span<const LightType* const> light_types();
 
 }  // namespace eyeray

@@ -14,7 +14,9 @@
 
 namespace eyeray {
 
+namespace records {
 class Packer;  // records/packer.hpp
+}
 
 // What fills a closed shape.
 struct Medium {
@@ -65,7 +67,7 @@ class Material {
   // The share of a shadow ray's light that passes a shape of this material, however often it crosses it.
   virtual double shadow_transmittance() const { return 0.0; }
   // Appends the material's one record (and its textures).
-  virtual void pack(Packer& packer) const = 0;
+  virtual void pack(records::Packer& packer) const = 0;
 
   std::string name;
   std::optional<AlphaMask> mask;  // never where there is a medium
@@ -77,8 +79,5 @@ struct MaterialType {
   std::span<const Key> keys;  // beside `name` and `type`
   std::unique_ptr<Material> (*parse)(TableReader& table);
 };
-
-// Every kind of material, in registry order.
-std::span<const MaterialType* const> material_types();
 
 }  // namespace eyeray

@@ -20,8 +20,12 @@
 
 namespace eyeray {
 
+namespace formula {
 class Formula;  // formula/formula.hpp
-class Packer;   // records/packer.hpp
+}
+namespace records {
+class Packer;  // records/packer.hpp
+}
 struct ShapeType;
 
 // Where a ray hits a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
@@ -120,7 +124,7 @@ using ShapeForm =
 
 // A formula that bounds a shape: negative within, on one side of a box of its own space.
 struct FormulaUse {
-  std::shared_ptr<const Formula> formula;
+  std::shared_ptr<const formula::Formula> formula;
   Bounds box;
   double lipschitz;       // as steep as it is said to be; 0 where nothing is said
   bool declared = false;  // by the user, who may be wrong
@@ -154,7 +158,7 @@ class Shape {
   // How often a line crosses it at most, as far as that is known. Rounding may find more.
   virtual int most_crossings() const { return 1 << 20; }
   // Appends the shape's one Primitive (and what it refers to), or several, each with its bounds.
-  virtual void pack(Packer& packer) const = 0;
+  virtual void pack(records::Packer& packer) const = 0;
 
   int material = 0;                 // index in Scene::materials
   const ShapeType* type = nullptr;  // its kind; null where no file made it
@@ -188,8 +192,5 @@ struct ShapeType {
   // Whether a ray hits it once at most, so that it may be of a material with holes.
   bool flat = false;
 };
-
-// Every kind of shape, in registry order: the order of Scene::shapes, hence of primitive indices.
-std::span<const ShapeType* const> shape_types();
 
 }  // namespace eyeray

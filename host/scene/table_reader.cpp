@@ -167,11 +167,11 @@ std::vector<Vec3> TableReader::vec3_list(std::string_view key) const {
 std::vector<std::vector<Vec3>> TableReader::outlines(std::string_view key) const {
   return table_->get<std::vector<std::vector<Vec3>>>(key);
 }
-FormulaText TableReader::formula(std::string_view key) const {
-  return table_->get<FormulaText>(key);
+formula::FormulaText TableReader::formula(std::string_view key) const {
+  return table_->get<formula::FormulaText>(key);
 }
-std::vector<FormulaParameter> TableReader::parameters(std::string_view key) const {
-  return table_->get<std::vector<FormulaParameter>>(key);
+std::vector<formula::FormulaParameter> TableReader::parameters(std::string_view key) const {
+  return table_->get<std::vector<formula::FormulaParameter>>(key);
 }
 Vec3 TableReader::color(std::string_view key) const {
   return table_->get<Vec3>(key);

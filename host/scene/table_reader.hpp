@@ -16,8 +16,10 @@
 
 namespace eyeray {
 
+namespace formula {
 struct FormulaText;  // formula/formula.hpp
 struct FormulaParameter;
+}  // namespace formula
 class Texture;  // scene/texture.hpp
 using TexturePtr = std::shared_ptr<const Texture>;
 struct ImageTexture;  // scene/image_texture.hpp
@@ -84,8 +86,8 @@ class TableReader {
   std::vector<Vec2> vec2_list(std::string_view key) const;
   std::vector<Vec3> vec3_list(std::string_view key) const;
   std::vector<std::vector<Vec3>> outlines(std::string_view key) const;
-  FormulaText formula(std::string_view key) const;  // of formula and formula_file
-  std::vector<FormulaParameter> parameters(std::string_view key) const;
+  formula::FormulaText formula(std::string_view key) const;  // of formula and formula_file
+  std::vector<formula::FormulaParameter> parameters(std::string_view key) const;
   Vec3 color(std::string_view key) const;
   TexturePtr texture(std::string_view key) const;
   // `wanted` with the texels of the file that the key names; null where it cannot be had, which is an error

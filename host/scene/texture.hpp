@@ -13,7 +13,9 @@
 
 namespace eyeray {
 
+namespace records {
 class Packer;  // records/packer.hpp
+}
 
 class Texture {
  public:
@@ -24,7 +26,7 @@ class Texture {
   // As an alpha.
   virtual double alpha_at(const Vec2& uv) const { return at(uv).x; }
   // The index of the texture's record, which is added unless there is an equal one.
-  virtual uint32_t pack(Packer& packer) const = 0;
+  virtual uint32_t pack(records::Packer& packer) const = 0;
 };
 
 struct TextureType {

@@ -62,8 +62,8 @@ class Reader {
   template <int N>
   std::vector<glm::vec<N, double>> vector_list(const toml::node& node);
   std::vector<std::vector<Vec3>> vector_lists(const toml::node& node);
-  FormulaText formula_file(const toml::node& node);
-  std::vector<FormulaParameter> parameters(const toml::node& node);
+  formula::FormulaText formula_file(const toml::node& node);
+  std::vector<formula::FormulaParameter> parameters(const toml::node& node);
 
   const Key& key_;
   DiagnosticLog& log_;
@@ -157,22 +157,22 @@ std::vector<std::vector<Vec3>> Reader::vector_lists(const toml::node& node) {
   return values;
 }
 
-FormulaText Reader::formula_file(const toml::node& node) {
-  if (!node.is_string()) return mismatch(node), FormulaText{};
+formula::FormulaText Reader::formula_file(const toml::node& node) {
+  if (!node.is_string()) return mismatch(node), formula::FormulaText{};
   if (!sources_.formulas)
-    return fail(node, "only a scene in a file can name files of formulas"), FormulaText{};
+    return fail(node, "only a scene in a file can name files of formulas"), formula::FormulaText{};
   auto text = sources_.formulas->load(node.value_or(std::string()), position_of(node.source()));
   ok_ = text.has_value();
-  return text.value_or(FormulaText{});
+  return text.value_or(formula::FormulaText{});
 }
 
-std::vector<FormulaParameter> Reader::parameters(const toml::node& node) {
-  std::vector<FormulaParameter> all;
+std::vector<formula::FormulaParameter> Reader::parameters(const toml::node& node) {
+  std::vector<formula::FormulaParameter> all;
   const toml::table* table = node.as_table();
   if (!table) return mismatch(node), all;
   for (const auto& [key, value] : *table) {
-    FormulaParameter parameter{std::string(key.str()), {}};
-    if (!is_formula_name(parameter.name)) {
+    formula::FormulaParameter parameter{std::string(key.str()), {}};
+    if (!formula::is_formula_name(parameter.name)) {
       ok_ = false;
       log_.error(position_of(key.source()),
                  fmt::format("\"{}\" cannot be the name of a constant in GLSL", parameter.name));
@@ -256,8 +256,8 @@ Value Reader::value(const toml::node& node) {
     case KeyType::outlines:
       return vector_lists(node);
     case KeyType::formula:
-      if (!node.is_string()) return mismatch(node), FormulaText{};
-      return FormulaText{node.value_or(std::string()), start_of_text(node)};
+      if (!node.is_string()) return mismatch(node), formula::FormulaText{};
+      return formula::FormulaText{node.value_or(std::string()), start_of_text(node)};
     case KeyType::formula_file:
       return formula_file(node);
     case KeyType::parameters:
@@ -329,9 +329,9 @@ Value stand_in(const Key& key, const ValueSources& sources) {
       return std::vector<std::vector<Vec3>>();
     case KeyType::formula:
     case KeyType::formula_file:
-      return FormulaText();
+      return formula::FormulaText();
     case KeyType::parameters:
-      return std::vector<FormulaParameter>();
+      return std::vector<formula::FormulaParameter>();
     case KeyType::texture:
       return plain_texture(Vec3(number), sources);
     case KeyType::transform:

@@ -8,7 +8,7 @@
 #include "host/shapes/bezier_clipping.hpp"
 #include "host/shapes/make.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -102,7 +102,7 @@ class Bezier final : public Shape {
 
   double thickness_margin() const override { return thickness(net_) / least_thickness; }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     // What all pieces share.
     Bounds all = bounds();
     const Vec3 middle = (all.min + all.max) * 0.5;
@@ -115,8 +115,8 @@ class Bezier final : public Shape {
     }
     std::vector<shader::uvec4> words;
     for (size_t i = 0; i < 48; i += 4)
-      words.push_back(to_bits({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]}));
-    words.push_back(to_bits(to_vec4(packer.relative(middle), radius)));
+      words.push_back(records::to_bits({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]}));
+    words.push_back(records::to_bits(records::to_vec4(packer.relative(middle), radius)));
     const uint32_t extra = packer.add_vertices(words);
 
     for (const BezierPiece& piece : bezier_pieces(net_)) {
@@ -126,12 +126,12 @@ class Bezier final : public Shape {
       // Both ends; of 24 arcs, each with its middle and its next end; of 4 roots.
       packer.add_iterations(2 * 4 + 24 * (1 + 4 + 4) + 4 * 40);
       packer.add_iteration_limit();
-      packer.add_piece(
-          Packer::primitive(shader::KIND_bezier, material,
-                            shader::vec4(float(from.x), float(to.x), float(from.y), float(to.y)),
-                            to_vec4(packer.relative(piece.middle), piece.radius + room),
-                            to_vec4(piece.normal, mirrored_ ? -piece.beyond : piece.beyond), extra),
-          {piece.bounds.min - room, piece.bounds.max + room});
+      packer.add_piece(records::Packer::primitive(
+                           shader::KIND_bezier, material,
+                           shader::vec4(float(from.x), float(to.x), float(from.y), float(to.y)),
+                           records::to_vec4(packer.relative(piece.middle), piece.radius + room),
+                           records::to_vec4(piece.normal, mirrored_ ? -piece.beyond : piece.beyond), extra),
+                       {piece.bounds.min - room, piece.bounds.max + room});
     }
   }
 
@@ -195,4 +195,4 @@ std::unique_ptr<Shape> make_bezier(const std::array<Vec3, 16>& net, const Mat4& 
   return std::make_unique<Bezier>(transformed(net, map), map.mirrors());
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

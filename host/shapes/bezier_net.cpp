@@ -6,7 +6,7 @@
 
 #include "host/scene/affine.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 namespace {
 
 constexpr double flat_enough = 0.3;
@@ -177,4 +177,4 @@ std::vector<BezierPiece> bezier_pieces(const BezierNet& net) {
   return pieces;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

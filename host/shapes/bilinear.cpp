@@ -8,7 +8,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -107,11 +107,12 @@ class Bilinear final : public Shape {
 
   double thickness_margin() const override { return thickness(corners_) / least_thickness; }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     const Vec3 last = packer.relative(p(2));
-    packer.add(Packer::primitive(shader::KIND_bilinear, material, to_vec4(packer.relative(p(0)), last.x),
-                                 to_vec4(packer.relative(p(1)), last.y),
-                                 to_vec4(packer.relative(p(3)), last.z), mirrored_ ? 1 : 0));
+    packer.add(records::Packer::primitive(
+        shader::KIND_bilinear, material, records::to_vec4(packer.relative(p(0)), last.x),
+        records::to_vec4(packer.relative(p(1)), last.y), records::to_vec4(packer.relative(p(3)), last.z),
+        mirrored_ ? 1 : 0));
   }
 
  private:
@@ -165,4 +166,4 @@ std::unique_ptr<Shape> make_bilinear(const std::array<Vec3, 4>& corners, const M
   return std::make_unique<Bilinear>(transformed(corners, map), map.mirrors());
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

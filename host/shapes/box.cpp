@@ -4,7 +4,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::unique_ptr<Shape> make_box(const Vec3& min, const Vec3& max, const Mat4& tr
   return std::make_unique<Box>(transform * cube::placed(min, max));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -7,7 +7,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -134,4 +134,4 @@ std::unique_ptr<Shape> make_capsule(const Vec3& from, const Vec3& to, double rad
   return std::make_unique<Capsule>(transform * placed(from, to, radius), half_length(from, to, radius));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -12,12 +12,12 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/spans.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
 uint32_t kind_of(const Shape& shape) {
-  Packer packer(Vec3(0));
+  records::Packer packer(Vec3(0));
   shape.pack(packer);
   return shader::kind_of(packer.scene.primitives[0]);
 }
@@ -91,7 +91,7 @@ std::vector<Span> Solid::spans(const Ray& ray) const {
   for (size_t i = 1; i < operand_count(); ++i) {
     const std::vector<Span> other = look_at(i);
     spans = i >= operands_.size() ? subtract(spans, other)
-            : all_                ? eyeray::intersect(spans, other)
+            : all_                ? shapes::intersect(spans, other)
                                   : unite(spans, other);
   }
   // Where the search for an operand gave up, nothing is known any more.
@@ -187,7 +187,7 @@ Solid::Node Solid::node(bool complement) const {
   return node_of(!complement, std::move(whole));
 }
 
-void Solid::pack(Packer& packer) const {
+void Solid::pack(records::Packer& packer) const {
   // The nodes, each after those that are its operands.
   std::vector<shader::uvec4> nodes;
   const auto add = [&](const Node& node, const auto& self) -> uint32_t {
@@ -214,8 +214,10 @@ void Solid::pack(Packer& packer) const {
     packer.scene.primitives.pop_back();
     CHECK_EQ(shader::kind_of(leaf), leaves_[i].kind);
     const auto [center, half] = center_and_half(leaves_[i].shape->bounds());
-    leaves.insert(leaves.end(), {shader::head_of(leaf), to_bits(leaf.a), to_bits(leaf.b), to_bits(leaf.c),
-                                 to_bits(to_vec4(packer.relative(center))), to_bits(to_vec4(half))});
+    leaves.insert(leaves.end(),
+                  {shader::head_of(leaf), records::to_bits(leaf.a), records::to_bits(leaf.b),
+                   records::to_bits(leaf.c), records::to_bits(records::to_vec4(packer.relative(center))),
+                   records::to_bits(records::to_vec4(half))});
     removed |= leaves_[i].removed ? 1u << i : 0;
     deferred |= is_deferred(leaves_[i].kind) ? 1u << i : 0;
   }
@@ -227,8 +229,8 @@ void Solid::pack(Packer& packer) const {
   // Once round all leaves a crossing; most are crossed twice. Before, each is looked at and asked.
   packer.add_iterations((2 * leaves_.size() + 1) * (leaves_.size() + nodes.size() + 2) + 2 * leaves_.size());
   const auto [center, half] = center_and_half(bounds());
-  packer.add(Packer::primitive(shader::KIND_csg, material, to_vec4(packer.relative(center)), to_vec4(half),
-                               shader::vec4(0), extra));
+  packer.add(records::Packer::primitive(shader::KIND_csg, material, records::to_vec4(packer.relative(center)),
+                                        records::to_vec4(half), shader::vec4(0), extra));
 }
 
 namespace {
@@ -322,4 +324,4 @@ std::unique_ptr<Shape> make_csg(bool all, std::vector<std::unique_ptr<Shape>> op
   return std::make_unique<Solid>(all, std::move(operands), std::move(removed));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

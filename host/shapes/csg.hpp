@@ -6,7 +6,7 @@
 
 #include "host/scene/shape.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 // A CSG object's leaves, those of its operands and of theirs, are bits of a word in the shaders.
 inline constexpr size_t most_csg_leaves = 32;
@@ -29,7 +29,7 @@ class Solid final : public Shape {
   bool is_closed() const override { return true; }
   std::vector<Span> spans(const Ray& ray) const override;
   ShapeForm form() const override;
-  void pack(Packer& packer) const override;
+  void pack(records::Packer& packer) const override;
 
  private:
   // A shape that is no CSG object, of this one or of one in it; by kind in registry order, then as the
@@ -68,4 +68,4 @@ class Solid final : public Shape {
   std::vector<std::vector<uint32_t>> parts_;  // by operand, removed ones last: what their parts are here
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -6,7 +6,7 @@
 
 #include "host/scene/shape.hpp"
 
-namespace eyeray::cube {
+namespace eyeray::shapes::cube {
 
 // A face by its number: 2 · axis, and 1 more for the upper.
 struct Crossing {
@@ -30,4 +30,4 @@ Vec3 onto(int face, const Vec3& near);
 // is −z, and of the bottom face +z.
 Vec2 uv(int face, const Vec3& p);
 
-}  // namespace eyeray::cube
+}  // namespace eyeray::shapes::cube

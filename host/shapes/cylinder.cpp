@@ -3,7 +3,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/revolution.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::unique_ptr<Shape> make_cylinder(const Vec3& from, const Vec3& to, double ra
   return std::make_unique<Cylinder>(transform * along_axis(from, to, radius, -1, 1), open);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -5,7 +5,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::unique_ptr<Shape> make_disk(const Vec3& center, const Vec3& normal, double 
   return std::make_unique<Disk>(transform * placed(center, normal, radius), inner_radius / radius);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -6,7 +6,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -95,4 +95,4 @@ std::unique_ptr<Shape> make_ellipsoid(const Vec3& center, const Vec3& radii, con
   return std::make_unique<Ellipsoid>(transform * placed(center, radii));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -6,7 +6,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/revolution.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::unique_ptr<Shape> make_hyperboloid(const Vec3& from, const Vec3& to, double
                                        open);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -10,7 +10,7 @@
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/ready_formulas.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -117,7 +117,7 @@ class Implicit final : public ObjectShape {
   bool is_closed() const override { return !open_; }
   const FormulaUse* formula_use() const override { return &use_; }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     const Vec3 center = (use_.box.max + use_.box.min) * 0.5, extent = (use_.box.max - use_.box.min) * 0.5;
     pack_with(packer, {float(center.x), float(center.y), float(center.z),
                        float(packer.add_formula(use_.formula, use_.lipschitz == 0)), float(extent.x),
@@ -191,7 +191,7 @@ class Implicit final : public ObjectShape {
 
 // The text and its parameters, from whichever key has them; null after an error. A ready one knows its
 // `lipschitz`, if it has one.
-std::shared_ptr<const Formula> read_formula(TableReader& table, double& lipschitz) {
+std::shared_ptr<const formula::Formula> read_formula(TableReader& table, double& lipschitz) {
   constexpr std::string_view sources[] = {"code", "file", "ready"};
   if (const auto given = std::ranges::count_if(sources, [&](auto key) { return table.has(key); });
       given != 1) {
@@ -202,14 +202,14 @@ std::shared_ptr<const Formula> read_formula(TableReader& table, double& lipschit
         return nullptr;
       }
   }
-  std::vector<FormulaParameter> parameters =
-      table.has("parameters") ? table.parameters("parameters") : std::vector<FormulaParameter>();
+  std::vector<formula::FormulaParameter> parameters =
+      table.has("parameters") ? table.parameters("parameters") : std::vector<formula::FormulaParameter>();
   const SourcePosition at = table.position();
   const std::string title = fmt::format("the function of [[implicit]] at {}:{}", at.file, at.line);
   if (!table.has("ready")) {
-    const FormulaText text = table.formula(table.has("code") ? "code" : "file");
+    const formula::FormulaText text = table.formula(table.has("code") ? "code" : "file");
     try {
-      return std::make_shared<const Formula>(text, std::move(parameters), title);
+      return std::make_shared<const formula::Formula>(text, std::move(parameters), title);
     } catch (const InputError& faults) {
       table.error(faults);
       return nullptr;
@@ -218,12 +218,12 @@ std::shared_ptr<const Formula> read_formula(TableReader& table, double& lipschit
 
   // Lay what is given over the defaults.
   const ReadyFormula& ready = ready_formulas()[size_t(table.choice("ready"))];
-  std::vector<FormulaParameter> all = ready.parameters;
-  for (FormulaParameter& given : parameters) {
-    const auto known = std::ranges::find(all, given.name, &FormulaParameter::name);
+  std::vector<formula::FormulaParameter> all = ready.parameters;
+  for (formula::FormulaParameter& given : parameters) {
+    const auto known = std::ranges::find(all, given.name, &formula::FormulaParameter::name);
     if (known == all.end()) {
       std::vector<std::string_view> names;
-      for (const FormulaParameter& parameter : all) names.push_back(parameter.name);
+      for (const formula::FormulaParameter& parameter : all) names.push_back(parameter.name);
       const std::string nearest = nearest_name(given.name, names);
       table.error("parameters",
                   fmt::format("\"{}\" has no parameter `{}`{}", ready.name, given.name,
@@ -244,8 +244,8 @@ std::shared_ptr<const Formula> read_formula(TableReader& table, double& lipschit
     table.error("parameters", fmt::format("with these parameters \"{}\" has no surface", ready.name));
     return nullptr;
   }
-  return std::make_shared<const Formula>(
-      FormulaText{std::string(ready.text), {std::string(ready.name), 0, 0}}, std::move(all), title);
+  return std::make_shared<const formula::Formula>(
+      formula::FormulaText{std::string(ready.text), {std::string(ready.name), 0, 0}}, std::move(all), title);
 }
 
 std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
@@ -272,4 +272,4 @@ std::unique_ptr<Shape> make_implicit(FormulaUse use, bool open, const Mat4& tran
   return std::make_unique<Implicit>(to_world, std::move(use), open);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

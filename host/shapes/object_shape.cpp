@@ -7,7 +7,7 @@
 
 #include "host/records/packer.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -110,28 +110,28 @@ Bounds ObjectShape::bounds() const {
   return bounds;
 }
 
-void ObjectShape::pack(Packer& packer) const {
+void ObjectShape::pack(records::Packer& packer) const {
   pack_with(packer, parameters_);
 }
 
-void ObjectShape::pack_with(Packer& packer, const std::vector<float>& parameters) const {
+void ObjectShape::pack_with(records::Packer& packer, const std::vector<float>& parameters) const {
   const auto row = [](const Affine& map, int i, const Vec3& offset) {
-    return to_vec4({map.linear[0][i], map.linear[1][i], map.linear[2][i]}, offset[i]);
+    return records::to_vec4({map.linear[0][i], map.linear[1][i], map.linear[2][i]}, offset[i]);
   };
   const Vec3 center = packer.relative(to_world_.offset);
-  const uint32_t extra =
-      packer.add_vertices({to_bits(row(to_world_, 0, center)), to_bits(row(to_world_, 1, center)),
-                           to_bits(row(to_world_, 2, center))});
+  const uint32_t extra = packer.add_vertices({records::to_bits(row(to_world_, 0, center)),
+                                              records::to_bits(row(to_world_, 1, center)),
+                                              records::to_bits(row(to_world_, 2, center))});
   for (size_t i = 0; i < parameters.size(); i += 4) {
     shader::vec4 some(0);
     for (size_t k = 0; k < 4 && i + k < parameters.size(); ++k) some[int(k)] = parameters[i + k];
-    packer.add_vertices({to_bits(some)});
+    packer.add_vertices({records::to_bits(some)});
   }
   packer.add_iterations(steps_);
   if (steps_ > 0) packer.add_iteration_limit();
   packer.add_map_growth(growth(to_world_, to_object_));
-  packer.add(Packer::primitive(kind_, material, row(to_object_, 0, center), row(to_object_, 1, center),
-                               row(to_object_, 2, center), extra));
+  packer.add(records::Packer::primitive(kind_, material, row(to_object_, 0, center),
+                                        row(to_object_, 1, center), row(to_object_, 2, center), extra));
 }
 
 Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, double high) {
@@ -169,4 +169,4 @@ std::vector<double> quadratic_roots(double a, double b, double c) {
   return roots;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

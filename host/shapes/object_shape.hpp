@@ -7,7 +7,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/shape.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 class ObjectShape : public Shape {
  public:
@@ -15,7 +15,7 @@ class ObjectShape : public Shape {
   SurfacePoint surface(const Ray& ray, const Intersection& hit) const final;
   std::vector<Span> spans(const Ray& ray) const final;
   Bounds bounds() const override;
-  void pack(Packer& packer) const override;
+  void pack(records::Packer& packer) const override;
 
  protected:
   // Where a line hits the shape, in any order. u and v are the shape's own.
@@ -41,7 +41,7 @@ class ObjectShape : public Shape {
 
   const Affine& to_world() const { return to_world_; }
   // Packs it with parameters that only the packer knows.
-  void pack_with(Packer& packer, const std::vector<float>& parameters) const;
+  void pack_with(records::Packer& packer, const std::vector<float>& parameters) const;
 
  private:
   // All in object space. The ray starts near the shape; its t may be negative.
@@ -76,4 +76,4 @@ bool out_of_range(TableReader& table, const Mat4& to_world);
 // The real roots of a·t² + 2b·t + c = 0, without cancellation; none where all of a, b and c are 0.
 std::vector<double> quadratic_roots(double a, double b, double c);
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

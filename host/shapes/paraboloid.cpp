@@ -2,7 +2,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/revolution.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::unique_ptr<Shape> make_paraboloid(const Vec3& tip, const Vec3& to, double r
   return std::make_unique<Paraboloid>(transform * along_axis(tip, to, radius, 0, 1), open);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

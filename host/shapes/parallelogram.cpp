@@ -5,7 +5,7 @@
 #include "host/scene/triangle.hpp"
 #include "host/shapes/make.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -86,12 +86,14 @@ class Parallelogram final : public Shape {
     return PolygonForm{{{origin_, origin_ + edge_u_, origin_ + edge_u_ + edge_v_, origin_ + edge_v_}}};
   }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     const Vec3 origin = packer.relative(origin_);
-    const uint32_t opposite = packer.add_vertices({to_bits(to_vec4(origin + edge_u_ + edge_v_))});
-    packer.add(Packer::primitive(shader::KIND_parallelogram, material, to_vec4(origin, normal_.x),
-                                 to_vec4(origin + edge_u_, normal_.y), to_vec4(origin + edge_v_, normal_.z),
-                                 opposite));
+    const uint32_t opposite =
+        packer.add_vertices({records::to_bits(records::to_vec4(origin + edge_u_ + edge_v_))});
+    packer.add(records::Packer::primitive(shader::KIND_parallelogram, material,
+                                          records::to_vec4(origin, normal_.x),
+                                          records::to_vec4(origin + edge_u_, normal_.y),
+                                          records::to_vec4(origin + edge_v_, normal_.z), opposite));
   }
 
  private:
@@ -143,4 +145,4 @@ std::unique_ptr<Shape> make_parallelogram(const Vec3& origin, const Vec3& edge_u
                                          map.normal(normal));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -75,4 +75,4 @@ int winding(std::span<const Vec2> outline, const Vec2& point) {
   return turns;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

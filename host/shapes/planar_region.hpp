@@ -10,7 +10,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/table_reader.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 // Vertices in order, either way round; the last is joined to the first.
 using Outline = std::vector<Vec3>;
@@ -60,4 +60,4 @@ inline constexpr Key holes_key{.name = "holes",
 // other.
 std::optional<PlanarRegion> read_region(TableReader& table);
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -5,7 +5,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/plane_axes.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -70,11 +70,12 @@ class Plane final : public Shape {
 
   ShapeForm form() const override { return PlaneForm{point_, normal_}; }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     const Vec3 point = packer.relative(point_);
-    packer.add(Packer::primitive(shader::KIND_plane, material, to_vec4(normal_, glm::dot(normal_, point)),
-                                 to_vec4(u_gradient_, -glm::dot(u_gradient_, point)),
-                                 to_vec4(v_gradient_, -glm::dot(v_gradient_, point))));
+    packer.add(records::Packer::primitive(shader::KIND_plane, material,
+                                          records::to_vec4(normal_, glm::dot(normal_, point)),
+                                          records::to_vec4(u_gradient_, -glm::dot(u_gradient_, point)),
+                                          records::to_vec4(v_gradient_, -glm::dot(v_gradient_, point))));
   }
 
  private:
@@ -124,4 +125,4 @@ std::unique_ptr<Shape> make_plane(const Vec3& point, const Vec3& normal, const M
                                  tangential(map.cotangent * v, world_normal));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

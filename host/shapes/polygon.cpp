@@ -5,7 +5,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/plane_axes.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -81,13 +81,14 @@ class Polygon final : public Shape {
 
   double thickness_margin() const override { return region_.thickness() / thinnest_region; }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     const Vec3 first = packer.relative(origin());
-    std::vector<shader::uvec4> vertices = {to_bits(to_vec4(u_gradient_, -glm::dot(u_gradient_, first))),
-                                           to_bits(to_vec4(v_gradient_, -glm::dot(v_gradient_, first)))};
+    std::vector<shader::uvec4> vertices = {
+        records::to_bits(records::to_vec4(u_gradient_, -glm::dot(u_gradient_, first))),
+        records::to_bits(records::to_vec4(v_gradient_, -glm::dot(v_gradient_, first)))};
     const size_t path_begin = vertices.size();
     const auto go_to = [&](const Vec3& vertex) {
-      vertices.push_back(to_bits(to_vec4(packer.relative(vertex))));
+      vertices.push_back(records::to_bits(records::to_vec4(packer.relative(vertex))));
     };
     const auto go_round = [&](const Outline& outline) {
       for (const Vec3& vertex : outline) go_to(vertex);
@@ -110,9 +111,9 @@ class Polygon final : public Shape {
 
     const size_t turns = (vertices.size() - path_begin - 1) / 4;
     packer.add_iterations(turns);
-    packer.add(Packer::primitive(shader::KIND_polygon, material, to_vec4(normal_, double(turns)),
-                                 to_vec4(centre), to_vec4(reach * (1 + 0x1p-23)),
-                                 packer.add_vertices(vertices)));
+    packer.add(records::Packer::primitive(
+        shader::KIND_polygon, material, records::to_vec4(normal_, double(turns)), records::to_vec4(centre),
+        records::to_vec4(reach * (1 + 0x1p-23)), packer.add_vertices(vertices)));
   }
 
  private:
@@ -177,4 +178,4 @@ std::unique_ptr<Shape> make_polygon(const PlanarRegion& region, const Mat4& tran
                                    tangential(map.cotangent * v, world_normal));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

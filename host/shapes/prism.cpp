@@ -6,7 +6,7 @@
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/plane_axes.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -209,4 +209,4 @@ std::unique_ptr<Shape> make_prism(const PlanarRegion& region, const Vec3& extrus
   return std::make_unique<Prism>(PrismForm(region, extrusion), transform);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -7,7 +7,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -210,4 +210,4 @@ std::unique_ptr<Shape> make_quadric(const QuadricValues& values, const Vec3& min
   return std::make_unique<Quadric>(transform * cube::placed(min, max), in_cube(values, min, max), open);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

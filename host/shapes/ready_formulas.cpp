@@ -3,13 +3,13 @@
 #include <cmath>
 #include <numbers>
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
-using Parameters = std::span<const FormulaParameter>;
+using Parameters = std::span<const formula::FormulaParameter>;
 
-double number(const FormulaParameter& parameter) {
+double number(const formula::FormulaParameter& parameter) {
   return parameter.values[0];
 }
 
@@ -32,7 +32,7 @@ vec3 gradient(vec3 p) { return fall(p, ball1) + fall(p, ball2) + fall(p, ball3) 
 )glsl";
 double steepest_metaballs(Parameters parameters) {
   double sum = 0;
-  for (const FormulaParameter& ball : parameters.first(4)) sum += 1 / std::fabs(ball.values[3]);
+  for (const formula::FormulaParameter& ball : parameters.first(4)) sum += 1 / std::fabs(ball.values[3]);
   return 96 / (25 * std::sqrt(5.0)) * sum;
 }
 
@@ -231,4 +231,4 @@ std::span<const ReadyFormula> ready_formulas() {
   return all;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -7,14 +7,14 @@
 
 #include "host/formula/formula.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 struct ReadyFormula {
   std::string_view name;
   std::string_view text;
-  std::vector<FormulaParameter> parameters;  // and their defaults
+  std::vector<formula::FormulaParameter> parameters;  // and their defaults
   // How steep the formula is at most, with these parameters in the order above; null where nothing is known.
-  double (*lipschitz)(std::span<const FormulaParameter> parameters);
+  double (*lipschitz)(std::span<const formula::FormulaParameter> parameters);
 };
 
 // In the order of ready_names.
@@ -23,4 +23,4 @@ std::span<const ReadyFormula> ready_formulas();
 inline constexpr std::string_view ready_names[] = {"metaballs",    "gyroid",     "rounded-box",
                                                    "smooth-union", "mandelbulb", "height-field"};
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

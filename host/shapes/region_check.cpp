@@ -6,7 +6,7 @@
 #include "host/shapes/planar_region.hpp"
 #include "host/shapes/plane_axes.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -238,4 +238,4 @@ std::optional<PlanarRegion> read_region(TableReader& table) {
   return region;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -1,19 +1,19 @@
+#include "host/shapes/registry.hpp"
+
 #include "shaders/shapes/registry.h"
 
-#include "host/scene/shape.hpp"
-
-namespace eyeray {
+namespace eyeray::shapes {
 
 // Each shape's .cpp defines its own; one that is missing is a link error that bears its name.
 #define X(name, number) extern const ShapeType name##_type;
 SHAPES(X)
 #undef X
 
-std::span<const ShapeType* const> shape_types() {
+std::span<const ShapeType* const> types() {
 #define X(name, number) &name##_type,
   static constexpr const ShapeType* types[] = {SHAPES(X)};
 #undef X
   return types;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -93,4 +93,4 @@ Bounds Revolution::extent() const {
   return {{-widest, profile_.bottom, -widest}, {widest, profile_.top, widest}};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

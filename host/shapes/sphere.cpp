@@ -8,7 +8,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -77,10 +77,11 @@ class Sphere final : public Shape {
 
   ShapeForm form() const override { return SphereForm{center_, radius_}; }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     const bool mirrored = glm::determinant(axes_) < 0;
-    packer.add(Packer::primitive(shader::KIND_sphere, material, to_vec4(packer.relative(center_), radius_),
-                                 to_vec4(axes_[1]), to_vec4(axes_[0], mirrored ? -1 : 1)));
+    packer.add(records::Packer::primitive(
+        shader::KIND_sphere, material, records::to_vec4(packer.relative(center_), radius_),
+        records::to_vec4(axes_[1]), records::to_vec4(axes_[0], mirrored ? -1 : 1)));
   }
 
  private:
@@ -141,4 +142,4 @@ std::unique_ptr<Shape> make_sphere(const Vec3& center, double radius, const Mat4
   return std::make_unique<Sphere>(map->point(center), radius * map->scale, map->axes);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -7,7 +7,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -167,4 +167,4 @@ std::unique_ptr<Shape> make_superellipsoid(const Vec3& center, const Vec3& radii
   return std::make_unique<Superellipsoid>(transform * placed(center, radii), 2 / e, 2 / n);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

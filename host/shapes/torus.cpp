@@ -6,7 +6,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -181,4 +181,4 @@ std::unique_ptr<Shape> make_torus(const Vec3& center, const Vec3& axis, double m
   return std::make_unique<Torus>(transform * placed(center, axis, major_radius), minor_radius / major_radius);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

@@ -7,7 +7,7 @@
 #include "host/scene/triangle.hpp"
 #include "host/shapes/make.hpp"
 
-namespace eyeray {
+namespace eyeray::shapes {
 
 namespace {
 
@@ -107,24 +107,24 @@ class Triangle final : public Shape {
 
   ShapeForm form() const override { return TriangleForm{vertices_}; }
 
-  void pack(Packer& packer) const override {
+  void pack(records::Packer& packer) const override {
     uint32_t attributes = NONE;
     if (normals_ || uv_) {
       const auto n = normals_.value_or(std::array<Vec3, 3>{normal_, normal_, normal_});
       const auto uv = uv_.value_or(std::array<Vec2, 3>{});
-      const uint32_t first =
-          packer.add_vertices({to_bits(to_vec4(n[0], uv[0].x)), to_bits(to_vec4(n[1], uv[1].x)),
-                               to_bits(to_vec4(n[2], uv[2].x))});
+      const uint32_t first = packer.add_vertices({records::to_bits(records::to_vec4(n[0], uv[0].x)),
+                                                  records::to_bits(records::to_vec4(n[1], uv[1].x)),
+                                                  records::to_bits(records::to_vec4(n[2], uv[2].x))});
       attributes = packer.add_vertices(
           {{first, first + 1, first + 2, (normals_ ? CORNERS_NORMALS : 0u) | (uv_ ? CORNERS_UV : 0u)},
-           to_bits(to_vec4({uv[0].y, uv[1].y, uv[2].y}))});
+           records::to_bits(records::to_vec4({uv[0].y, uv[1].y, uv[2].y}))});
     }
     // Without −0, so that compiled-in triangles of one plane share what is computed of it.
     const Vec3 normal = normal_ + 0.0;
-    packer.add(Packer::primitive(shader::KIND_triangle, material,
-                                 to_vec4(packer.relative(vertices_[0]), normal.x),
-                                 to_vec4(packer.relative(vertices_[1]), normal.y),
-                                 to_vec4(packer.relative(vertices_[2]), normal.z), attributes));
+    packer.add(records::Packer::primitive(
+        shader::KIND_triangle, material, records::to_vec4(packer.relative(vertices_[0]), normal.x),
+        records::to_vec4(packer.relative(vertices_[1]), normal.y),
+        records::to_vec4(packer.relative(vertices_[2]), normal.z), attributes));
   }
 
  private:
@@ -196,4 +196,4 @@ std::unique_ptr<Shape> make_triangle(const TriangleValues& values, const Mat4& t
   return std::make_unique<Triangle>(transformed(values, Affine(transform)));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::shapes

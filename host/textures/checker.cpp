@@ -35,10 +35,10 @@ class Checker final : public Texture {
     return std::fmod(std::fabs(check), 2.0) >= 0.5 ? odd_ : even_;
   }
 
-  uint32_t pack(Packer& packer) const override {
+  uint32_t pack(records::Packer& packer) const override {
     return packer.add(shader::Texture{.color = glm::vec3(even_),
                                       .kind = shader::TEXTURE_checker,
-                                      .a = to_vec4(odd_),
+                                      .a = records::to_vec4(odd_),
                                       .b = shader::vec4(glm::vec2(1.0 / size_), 0, 0),
                                       .c = shader::uvec4(0)});
   }

@@ -16,7 +16,7 @@ class Constant final : public Texture {
 
   Vec3 at(const Vec2&) const override { return color_; }
 
-  uint32_t pack(Packer& packer) const override {
+  uint32_t pack(records::Packer& packer) const override {
     return packer.add(shader::Texture{.color = glm::vec3(color_),
                                       .kind = shader::TEXTURE_constant,
                                       .a = shader::vec4(0),

@@ -64,7 +64,8 @@ size_t wrapped(double i, int size, Wrap wrap) {
 double decoded(uint8_t code, bool srgb) {
   static const auto curve = [] {
     std::array<double, 256> values;
-    for (size_t i = 0; i < values.size(); ++i) values[i] = linear_from_srgb(static_cast<double>(i) / 255);
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i] = image::linear_from_srgb(static_cast<double>(i) / 255);
     return values;
   }();
   return srgb ? curve[code] : code / 255.0;
@@ -113,7 +114,7 @@ class Image final : public Texture {
   Vec3 at(const Vec2& uv) const override { return tint_ * Vec3(filtered(*image_, uv / size_)); }
   double alpha_at(const Vec2& uv) const override { return tint_.x * filtered(*image_, uv / size_).w; }
 
-  uint32_t pack(Packer& packer) const override {
+  uint32_t pack(records::Packer& packer) const override {
     return packer.add(shader::Texture{.color = glm::vec3(tint_),
                                       .kind = shader::TEXTURE_image,
                                       .a = shader::vec4(0),

@@ -13,14 +13,14 @@
 namespace eyeray::shader {
 namespace {
 
-thread_local const PackedScene* bound_scene = nullptr;
+thread_local const records::PackedScene* bound_scene = nullptr;
 thread_local RayRecorder* bound_recorder = nullptr;
 
 // Lets shader functions on this thread read `scene` for its lifetime, and show what they PROBE to `recorder`,
 // if there is one.
 class Binding {
  public:
-  explicit Binding(const PackedScene& scene, RayRecorder* recorder = nullptr) {
+  explicit Binding(const records::PackedScene& scene, RayRecorder* recorder = nullptr) {
     bound_scene = &scene;
     bound_recorder = recorder;
   }
@@ -54,10 +54,10 @@ class Binding {
   return bound_scene->formulas[number].formula->value(std::array{p.x, p.y, p.z});
 }
 [[maybe_unused]] vec3 load_formula_bound(uint number, const vec3& x, const vec3& y, const vec3& z) {
-  return affine_bound(bound_scene->formulas[number].formula->straight_line(), x, y, z);
+  return twin::affine_bound(bound_scene->formulas[number].formula->straight_line(), x, y, z);
 }
 [[maybe_unused]] vec4 load_formula_dual(uint number, const vec3& p) {
-  return differentiate(bound_scene->formulas[number].formula->straight_line(), p);
+  return twin::differentiate(bound_scene->formulas[number].formula->straight_line(), p);
 }
 // The formula's number if it is found that way, else none.
 [[maybe_unused]] uint if_bounded(uint number, bool bounded) {

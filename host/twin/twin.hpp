@@ -10,10 +10,10 @@ namespace eyeray::twin {
 
 // What kernels/render.comp.glsl computes for one pixel of the whole picture. Thread-safe. `recorder`: is
 // shown what the shaders PROBE; null: nobody looks.
-shader::SampleResult sample(const PackedScene& scene, uint32_t x, uint32_t y, uint32_t index,
+shader::SampleResult sample(const records::PackedScene& scene, uint32_t x, uint32_t y, uint32_t index,
                             RayRecorder* recorder = nullptr);
-shader::HitResult first_hit(const PackedScene& scene, uint32_t x, uint32_t y);
+shader::HitResult first_hit(const records::PackedScene& scene, uint32_t x, uint32_t y);
 // What kernels/query.comp.glsl computes for one ray.
-shader::QueryHit query(const PackedScene& scene, const shader::QueryRay& ray, bool any);
+shader::QueryHit query(const records::PackedScene& scene, const shader::QueryRay& ray, bool any);
 
 }  // namespace eyeray::twin

@@ -48,21 +48,23 @@ void keep_evidence(const fs::path& folder, std::span<const compare::Frame> frame
   const compare::Frame& reference = frames.back();
   for (size_t i = 0; i < frames.size(); ++i) {
     const std::string& name = report.participants[i].name;
-    const Image& picture = frames[i].color;
-    if (!image_size_allowed(picture.width(), picture.height())) continue;
-    write_image(folder / (name + ".pfm"), picture);
+    const image::Image& picture = frames[i].color;
+    if (!image::image_size_allowed(picture.width(), picture.height())) continue;
+    image::write_image(folder / (name + ".pfm"), picture);
     if (i + 1 == frames.size() || !picture.same_size(reference.color)) continue;
-    write_image(folder / (name + "-difference.png"),
-                false_color(compare::log_difference(picture, reference.color), FalseColor::scalar));
+    image::write_image(
+        folder / (name + "-difference.png"),
+        image::false_color(compare::log_difference(picture, reference.color), image::FalseColor::scalar));
     if (outcomes[i].empty()) continue;
-    write_image(folder / (name + "-causes.png"), compare::cause_picture(reference.color, outcomes[i]));
+    image::write_image(folder / (name + "-causes.png"), compare::cause_picture(reference.color, outcomes[i]));
     write_file_atomically(folder / (name + "-causes.json"), compare::cause_legend(outcomes[i]));
   }
   if (report.golden && report.golden->incomparable.empty()) {
-    const Image golden = read_image(report.golden->file);
+    const image::Image golden = image::read_image(report.golden->file);
     if (golden.same_size(frames[0].color))
-      write_image(folder / "golden-difference.png",
-                  false_color(compare::log_difference(golden, frames[0].color), FalseColor::scalar));
+      image::write_image(
+          folder / "golden-difference.png",
+          image::false_color(compare::log_difference(golden, frames[0].color), image::FalseColor::scalar));
   }
   write_file_atomically(folder / "command.txt", own_command_line() + "\n");
 }

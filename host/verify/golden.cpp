@@ -55,15 +55,15 @@ std::vector<std::string> changes(const Golden& golden, const Json& now) {
   return changed;
 }
 
-Image part_of(Image picture, const Rect& area) {
+image::Image part_of(image::Image picture, const Rect& area) {
   if (area == Rect{0, 0, picture.width(), picture.height()}) return picture;
-  Image part(area.width, area.height, picture.channels());
+  image::Image part(area.width, area.height, picture.channels());
   for (int y = 0; y < area.height; ++y)
     std::copy_n(picture.pixel(area.x, area.y + y), area.width * picture.channels(), part.pixel(0, y));
   return part;
 }
 
-bool is_black(const Image& image) {
+bool is_black(const image::Image& image) {
   return std::ranges::all_of(image.samples(), [](float value) { return value == 0; });
 }
 
@@ -80,7 +80,7 @@ compare::GoldenResult compare_with_golden(const Golden& golden, const Scene& sce
     result.incomparable = "there is no such picture; --update makes it";
     return result;
   }
-  Image picture = read_image(golden.picture);
+  image::Image picture = image::read_image(golden.picture);
   if (picture.width() != report.width || picture.height() != report.height) {
     result.incomparable = fmt::format("it is {}×{}, and the scene's picture {}×{}", picture.width(),
                                       picture.height(), report.width, report.height);
@@ -108,7 +108,7 @@ void bless(const Golden& golden, const Scene& scene, const compare::Frame& frame
   if (!result.refused.empty()) return;
 
   if (const fs::path folder = golden.picture.parent_path(); !folder.empty()) fs::create_directories(folder);
-  write_image(golden.picture, frame.color);
+  image::write_image(golden.picture, frame.color);
   Json origin_now = origin(golden, scene, report);
   origin_now["commit"] = commit_at(golden.picture);
   write_file_atomically(sidecar(golden.picture), origin_now.dump(2) + "\n");

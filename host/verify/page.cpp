@@ -31,15 +31,15 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-std::string data_url(const Image& image) {
-  return "data:image/png;base64," + base64(encode_png(image));
+std::string data_url(const image::Image& image) {
+  return "data:image/png;base64," + base64(image::encode_png(image));
 }
 
 // Codes 0 … 255 for log10 of the difference from −8 to 0, as the page reads them.
-Image difference_codes(const Image& a, const Image& b) {
-  Image codes = compare::log_difference(a, b);
+image::Image difference_codes(const image::Image& a, const image::Image& b) {
+  image::Image codes = compare::log_difference(a, b);
   for (float& sample : codes.samples())
-    sample = float(linear_from_srgb(std::clamp(double(sample) / 8 + 1, 0.0, 1.0)));
+    sample = float(image::linear_from_srgb(std::clamp(double(sample) / 8 + 1, 0.0, 1.0)));
   return codes;
 }
 
@@ -120,7 +120,7 @@ void Page::add(const compare::Report& report, std::span<const compare::Frame> fr
   for (size_t i = 0; i < frames.size(); ++i)
     if (i == 0 || !same_as_first(report, i))
       pictures[report.participants[i].name] = data_url(frames[i].color);
-  const Image& reference = frames.back().color;
+  const image::Image& reference = frames.back().color;
   pictures["difference"] = data_url(difference_codes(frames[executor].color, reference));
   pictures["causes"] = data_url(compare::cause_picture(reference, outcomes[executor]));
   scene["causes"] = Json::parse(compare::cause_legend(outcomes[executor]));

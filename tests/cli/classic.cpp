@@ -7,6 +7,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::image;
 using namespace eyeray::test;
 
 TEST_CASE("--stats counts rays by kind, in words and in JSON") {

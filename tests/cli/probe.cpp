@@ -9,6 +9,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::image;
 using namespace eyeray::test;
 
 namespace {

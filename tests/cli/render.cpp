@@ -8,6 +8,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::image;
 using namespace eyeray::test;
 
 TEST_CASE("render writes what was asked for, and says so on standard error") {

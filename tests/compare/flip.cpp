@@ -13,6 +13,7 @@
 
 using namespace eyeray;
 using namespace eyeray::compare;
+using namespace eyeray::image;
 using eyeray::test::Random;
 namespace book = eyeray::test::book;
 

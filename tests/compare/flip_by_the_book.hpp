@@ -30,7 +30,7 @@ inline Picture each(const Picture& picture, const std::function<Color(const Colo
   return result;
 }
 
-inline Picture picture_of(const Image& image) {
+inline Picture picture_of(const image::Image& image) {
   Picture picture{image.width(), image.height(), {}};
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x) {

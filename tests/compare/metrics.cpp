@@ -12,6 +12,7 @@
 
 using namespace eyeray;
 using namespace eyeray::compare;
+using namespace eyeray::image;
 using eyeray::test::Random;
 
 namespace {

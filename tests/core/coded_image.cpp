@@ -10,6 +10,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::image;
 using test::Random;
 
 namespace {

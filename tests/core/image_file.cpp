@@ -13,6 +13,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::image;
 using eyeray::test::Random;
 using eyeray::test::TemporaryFolder;
 using eyeray::test::write_text;

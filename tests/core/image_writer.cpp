@@ -12,6 +12,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::image;
 using eyeray::test::Random;
 using eyeray::test::read_text;
 using eyeray::test::TemporaryFolder;

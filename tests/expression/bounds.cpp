@@ -69,7 +69,7 @@ Report bound_often(const expression::StraightLine& function, const F& f, double 
 TEST_CASE("surfaces: 20 000 pieces each, and no value escapes") {
   for (const test::TestSurface& surface : test::test_surfaces()) {
     CAPTURE(surface.name);
-    const Formula formula({surface.glsl, {}}, {}, "it");
+    const formula::Formula formula({surface.glsl, {}}, {}, "it");
     const auto f = [&](const Vec3& p) { return formula.value(std::array{p.x, p.y, p.z}); };
     const Report report = bound_often(formula.straight_line(), f, surface.reach, 20'000);
     CAPTURE(report.where.x);

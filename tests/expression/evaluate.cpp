@@ -14,7 +14,7 @@
 namespace eyeray::test {
 
 expression::StraightLine straight_line(const std::string& glsl) {
-  return Formula({glsl, {"f.glsl", 10, 1}}, {}, "it").straight_line();
+  return formula::Formula({glsl, {"f.glsl", 10, 1}}, {}, "it").straight_line();
 }
 
 using expression::Op;
@@ -38,9 +38,9 @@ double evaluate(const expression::StraightLine& line, const Vec3& p) {
 
 shader::vec3 bound_piece(const expression::StraightLine& line, const shader::vec3& o, const shader::vec3& d,
                          float m, float h) {
-  return affine_bound(line, shader::bound_of_coordinate(o.x, d.x, m, h),
-                      shader::bound_of_coordinate(o.y, d.y, m, h),
-                      shader::bound_of_coordinate(o.z, d.z, m, h));
+  return twin::affine_bound(line, shader::bound_of_coordinate(o.x, d.x, m, h),
+                            shader::bound_of_coordinate(o.y, d.y, m, h),
+                            shader::bound_of_coordinate(o.z, d.z, m, h));
 }
 
 FirstRoot march(const expression::StraightLine& line, const shader::vec3& o, const shader::vec3& d, float end,

@@ -66,7 +66,7 @@ TEST_CASE("the gradient is the derivative") {
       }
       // Not where the function has an edge nearby.
       if (!(glm::length(difference - coarse) <= 1e-3 * (1 + glm::length(difference)))) continue;
-      const shader::vec4 dual = differentiate(function, shader::vec3(p));
+      const shader::vec4 dual = twin::differentiate(function, shader::vec3(p));
       worst = std::max(worst, glm::length(Vec3(dual) - difference) / (1 + glm::length(difference)));
       ++compared;
     }

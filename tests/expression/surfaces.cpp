@@ -95,7 +95,7 @@ double mandelbulb(const Vec3& p) {
 }
 
 std::string ready_text(std::string_view name) {
-  return std::string(std::ranges::find(ready_formulas(), name, &ReadyFormula::name)->text);
+  return std::string(std::ranges::find(shapes::ready_formulas(), name, &shapes::ReadyFormula::name)->text);
 }
 
 double stairs(const Vec3& p) {

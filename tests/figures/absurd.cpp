@@ -6,13 +6,17 @@
 
 #include "host/loader/scene_file.hpp"
 #include "host/shapes/make.hpp"
+#include "host/shapes/registry.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "tests/support/empty_scene.hpp"
 #include "tests/support/random.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::loader;
+using namespace eyeray::shapes;
+using namespace eyeray::records;
 using test::Random;
 
 namespace {
@@ -91,14 +95,14 @@ bool can_be_met(const Shape& shape, const PackedScene& packed, Random& random) {
 }  // namespace
 
 TEST_CASE("absurd shapes are refused or can be computed with") {
-  for (const ShapeType* type : shape_types()) {
+  for (const ShapeType* type : shapes::types()) {
     Random random{7};
     int accepted = 0, refused = 0, wrong = 0;
     std::string first_wrong;
     for (int i = 0; i < 3000; ++i) {
       const std::string table = some_table(random, *type);
       if (table.empty() || type->name == "plane") break;
-      Scene scene;
+      Scene scene = test::empty_scene();
       try {
         scene = parse_scene("[[material]]\nname = \"m\"\ntype = \"phong\"\n" + table, "a");
       } catch (const InputError& error) {

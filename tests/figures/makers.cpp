@@ -23,11 +23,11 @@ Mat4 some_map(Random& random, double size) {
 }
 
 // Within 1 about the origin, in a plane near it: a regular one, a star, a gear, with a hole or without.
-PlanarRegion some_region(Random& random) {
+shapes::PlanarRegion some_region(Random& random) {
   const int corners = 3 + random.below(40);
   const double waist = random.below(2) == 0 ? 1 : random.uniform(0.5, 1);
   const auto ring = [&](double radius, double turn) {
-    Outline outline;
+    shapes::Outline outline;
     for (int i = 0; i < corners; ++i) {
       const double angle = turn + 2 * std::numbers::pi * i / corners;
       const double r = i % 2 == 0 ? radius : radius * waist;
@@ -36,13 +36,13 @@ PlanarRegion some_region(Random& random) {
     return outline;
   };
   const double turn = random.uniform(0, 6);
-  PlanarRegion region{ring(1, turn)};
+  shapes::PlanarRegion region{ring(1, turn)};
   if (random.below(2) == 0) region.holes.push_back(ring(0.25, -turn));
   return region;
 }
 
 // Whether a quadric's terms of degree two have one sign everywhere (Sylvester's criterion).
-bool is_definite(const QuadricValues& quadric) {
+bool is_definite(const shapes::QuadricValues& quadric) {
   const Vec3 p = quadric.product * 0.5;
   const Mat3 form{{quadric.square.x, p.x, p.y}, {p.x, quadric.square.y, p.z}, {p.y, p.z, quadric.square.z}};
   const double sign = quadric.square.x < 0 ? -1 : 1;
@@ -53,18 +53,20 @@ bool is_definite(const QuadricValues& quadric) {
 FormulaUse some_formula(Random& random) {
   static const std::vector<FormulaUse> all = [] {
     std::vector<FormulaUse> uses;
-    for (const ReadyFormula& ready : ready_formulas())
+    for (const shapes::ReadyFormula& ready : shapes::ready_formulas())
       if (ready.lipschitz)
-        uses.push_back({std::make_shared<const Formula>(FormulaText{std::string(ready.text), {}},
-                                                        ready.parameters, std::string(ready.name)),
-                        {Vec3(-1), Vec3(1)},
-                        ready.lipschitz(ready.parameters)});
+        uses.push_back(
+            {std::make_shared<const formula::Formula>(formula::FormulaText{std::string(ready.text), {}},
+                                                      ready.parameters, std::string(ready.name)),
+             {Vec3(-1), Vec3(1)},
+             ready.lipschitz(ready.parameters)});
     // Two that are found by affine bounds.
     const char* tanglecube = "float f(vec3 p) { vec3 q = p * p; return dot(q, q - 5.0) + 11.8; }";
-    uses.push_back({std::make_shared<const Formula>(FormulaText{tanglecube, {}},
-                                                    std::vector<FormulaParameter>{}, "tanglecube"),
-                    {Vec3(-2.4), Vec3(2.4)},
-                    0});
+    uses.push_back(
+        {std::make_shared<const formula::Formula>(formula::FormulaText{tanglecube, {}},
+                                                  std::vector<formula::FormulaParameter>{}, "tanglecube"),
+         {Vec3(-2.4), Vec3(2.4)},
+         0});
     uses.push_back({uses[1].formula, {Vec3(-1), Vec3(1)}, 0});
     return uses;
   }();
@@ -77,89 +79,97 @@ const std::map<std::string, MakeShape> makers = {
     {"csg", some_csg},
     {"sphere",
      [](Random& random, double size) {
-       return make_sphere(random.point(3 * size), size * random.uniform(0.3, 1));
+       return shapes::make_sphere(random.point(3 * size), size * random.uniform(0.3, 1));
      }},
     {"triangle",
      [](Random& random, double size) {
-       return make_triangle({{Vec3(1, 0, 0), Vec3(-0.5, 0.8, 0), Vec3(-0.5, -0.8, 0)}},
-                            some_map(random, size));
+       return shapes::make_triangle({{Vec3(1, 0, 0), Vec3(-0.5, 0.8, 0), Vec3(-0.5, -0.8, 0)}},
+                                    some_map(random, size));
      }},
-    {"box", [](Random& random, double size) { return make_box(Vec3(-1), Vec3(1), some_map(random, size)); }},
+    {"box",
+     [](Random& random, double size) { return shapes::make_box(Vec3(-1), Vec3(1), some_map(random, size)); }},
     {"ellipsoid",
-     [](Random& random, double size) { return make_ellipsoid(Vec3(0), Vec3(1), some_map(random, size)); }},
+     [](Random& random, double size) {
+       return shapes::make_ellipsoid(Vec3(0), Vec3(1), some_map(random, size));
+     }},
     {"cylinder",
      [](Random& random, double size) {
-       return make_cylinder({0, -1, 0}, {0, 1, 0}, 0.7, random.below(2) == 0, some_map(random, size));
+       return shapes::make_cylinder({0, -1, 0}, {0, 1, 0}, 0.7, random.below(2) == 0, some_map(random, size));
      }},
     {"cone",
      [](Random& random, double size) {
-       return make_cone({0, -1, 0}, {0, 1, 0}, 0.7, random.below(2) * random.uniform(0, 1.4),
-                        random.below(2) == 0, some_map(random, size));
+       return shapes::make_cone({0, -1, 0}, {0, 1, 0}, 0.7, random.below(2) * random.uniform(0, 1.4),
+                                random.below(2) == 0, some_map(random, size));
      }},
     {"polygon",
-     [](Random& random, double size) { return make_polygon(some_region(random), some_map(random, size)); }},
+     [](Random& random, double size) {
+       return shapes::make_polygon(some_region(random), some_map(random, size));
+     }},
     {"parallelogram",
      [](Random& random, double size) {
-       return make_parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, some_map(random, size));
+       return shapes::make_parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, some_map(random, size));
      }},
     {"prism",
      [](Random& random, double size) {
-       return make_prism(some_region(random), {0, random.uniform(-0.5, 0.5), random.uniform(0.3, 1.4)},
-                         some_map(random, size));
+       return shapes::make_prism(some_region(random),
+                                 {0, random.uniform(-0.5, 0.5), random.uniform(0.3, 1.4)},
+                                 some_map(random, size));
      }},
     {"disk",
      [](Random& random, double size) {
-       return make_disk(Vec3(0), {0, 1, 0}, 1, random.below(2) * random.uniform(0, 0.9),
-                        some_map(random, size));
+       return shapes::make_disk(Vec3(0), {0, 1, 0}, 1, random.below(2) * random.uniform(0, 0.9),
+                                some_map(random, size));
      }},
     {"paraboloid",
      [](Random& random, double size) {
-       return make_paraboloid({0, -1, 0}, {0, random.uniform(-0.5, 1), 0}, 0.9, random.below(2) == 0,
-                              some_map(random, size));
+       return shapes::make_paraboloid({0, -1, 0}, {0, random.uniform(-0.5, 1), 0}, 0.9, random.below(2) == 0,
+                                      some_map(random, size));
      }},
     {"hyperboloid",
      [](Random& random, double size) {
        const double waist = random.uniform(0.1, 0.5);
        const double narrow = random.below(4) == 0 ? waist : waist + random.uniform(0, 0.4);
-       return make_hyperboloid({0, -1, 0}, {0, 1, 0}, 0.9, narrow, waist, random.below(2) == 0,
-                               some_map(random, size));
+       return shapes::make_hyperboloid({0, -1, 0}, {0, 1, 0}, 0.9, narrow, waist, random.below(2) == 0,
+                                       some_map(random, size));
      }},
     {"capsule",
      [](Random& random, double size) {
-       return make_capsule({0, -0.7, 0}, {0, 0.7, 0}, random.log_uniform(0.1, 0.7), some_map(random, size));
+       return shapes::make_capsule({0, -0.7, 0}, {0, 0.7, 0}, random.log_uniform(0.1, 0.7),
+                                   some_map(random, size));
      }},
     {"quadric",
      [](Random& random, double size) {
        // One in four is a cone, its apex in the box. Where all squares have one sign, a cone may be its apex
        // alone: which rays hit that point is a matter of rounding, and nothing to be asked.
        const bool cone = random.below(4) == 0;
-       QuadricValues values{.square = random.point(1),
-                            .product = random.point(1),
-                            .linear = cone ? Vec3(0) : random.point(1),
-                            .constant = cone ? 0 : random.uniform(-0.5, 0.5)};
+       shapes::QuadricValues values{.square = random.point(1),
+                                    .product = random.point(1),
+                                    .linear = cone ? Vec3(0) : random.point(1),
+                                    .constant = cone ? 0 : random.uniform(-0.5, 0.5)};
        if (cone && is_definite(values)) values.square.x = -values.square.x;
-       return make_quadric(values, Vec3(-1), Vec3(1), random.below(2) == 0, some_map(random, size));
+       return shapes::make_quadric(values, Vec3(-1), Vec3(1), random.below(2) == 0, some_map(random, size));
      }},
     {"torus",
      [](Random& random, double size) {
-       return make_torus(Vec3(0), {0, 1, 0}, 1, random.below(2) == 0 ? 0.4 : random.log_uniform(0.01, 0.99),
-                         some_map(random, size));
+       return shapes::make_torus(Vec3(0), {0, 1, 0}, 1,
+                                 random.below(2) == 0 ? 0.4 : random.log_uniform(0.01, 0.99),
+                                 some_map(random, size));
      }},
     {"superellipsoid",
      [](Random& random, double size) {
-       return make_superellipsoid(Vec3(0), Vec3(1), random.log_uniform(0.1, 2), random.log_uniform(0.1, 2),
-                                  some_map(random, size));
+       return shapes::make_superellipsoid(Vec3(0), Vec3(1), random.log_uniform(0.1, 2),
+                                          random.log_uniform(0.1, 2), some_map(random, size));
      }},
     {"implicit",
      [](Random& random, double size) {
-       return make_implicit(some_formula(random), random.below(2) == 0, some_map(random, size));
+       return shapes::make_implicit(some_formula(random), random.below(2) == 0, some_map(random, size));
      }},
     {"bilinear",
      [](Random& random, double size) {
        const double bend = random.log_uniform(0.03, 1);
-       return make_bilinear({Vec3(-1, 0, -1), Vec3(1, bend, -1), Vec3(random.uniform(0.5, 1.5), 0, 1),
-                             Vec3(-1, 0.5 * bend, 1)},
-                            some_map(random, size));
+       return shapes::make_bilinear({Vec3(-1, 0, -1), Vec3(1, bend, -1), Vec3(random.uniform(0.5, 1.5), 0, 1),
+                                     Vec3(-1, 0.5 * bend, 1)},
+                                    some_map(random, size));
      }},
     {"bezier",
      [](Random& random, double size) {
@@ -169,7 +179,7 @@ const std::map<std::string, MakeShape> makers = {
        for (int i = 0; i < 16; ++i)
          net[size_t(i)] = Vec3(i % 4 - 1.5, 0, i / 4 - 1.5) / 1.5 + random.point(bend);
        if (random.below(4) == 0) net[1] = net[2] = net[3] = net[0];
-       return make_bezier(net, some_map(random, size));
+       return shapes::make_bezier(net, some_map(random, size));
      }},
 };
 
@@ -191,11 +201,11 @@ std::unique_ptr<Shape> some_csg(Random& random, double size) {
       if (random.below(4) == 0) {
         ShapeType::Shapes inner;
         for (int k = 0; k < 2; ++k) inner.push_back(some_closed_shape(random, size));
-        operands.back() = make_csg(random.below(2) == 0, std::move(inner));
+        operands.back() = shapes::make_csg(random.below(2) == 0, std::move(inner));
       }
     }
     if (random.below(2) == 0) removed.push_back(some_closed_shape(random, size));
-    auto csg = make_csg(random.below(2) == 0, std::move(operands), std::move(removed));
+    auto csg = shapes::make_csg(random.below(2) == 0, std::move(operands), std::move(removed));
     // What is within all of its parts may be next to nothing.
     const Bounds bounds = csg->bounds();
     const Vec3 extent = bounds.max - bounds.min;

@@ -11,6 +11,7 @@
 #include "host/core/parallel_for.hpp"
 #include "host/reference/crossings.hpp"
 #include "host/shapes/make.hpp"
+#include "host/shapes/registry.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "makers.hpp"
 #include "tests/support/amount.hpp"
@@ -19,6 +20,8 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::records;
 using test::MakeShape;
 using test::Random;
 using test::shape_makers;
@@ -276,6 +279,6 @@ TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none hits its surface again, eve
 }
 
 TEST_CASE("every shape that has bounds has its figures") {
-  for (const ShapeType* type : shape_types())
+  for (const ShapeType* type : shapes::types())
     if (type->name != "plane") CHECK_MESSAGE(shape_makers().contains(std::string(type->name)), type->name);
 }

@@ -14,6 +14,8 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::records;
 using test::Random;
 
 namespace {

@@ -18,7 +18,7 @@ std::string times(int count, const std::string& text) {
 // Why the text is refused; "" where it is not.
 std::string refusal(const std::string& text) {
   try {
-    const Formula formula({text, {"f.glsl", 1, 1}}, {}, "it");
+    const formula::Formula formula({text, {"f.glsl", 1, 1}}, {}, "it");
   } catch (const InputError& error) {
     CHECK(error.diagnostics()[0].position.line >= 1);
     return error.diagnostics()[0].message;
@@ -30,7 +30,7 @@ std::string refusal_of_f(const std::string& body) {
 }
 
 bool is_endless(const std::string& body) {
-  const Formula formula({"float f(vec3 p) {\n" + body + "\n}\n", {"f.glsl", 1, 1}}, {}, "it");
+  const formula::Formula formula({"float f(vec3 p) {\n" + body + "\n}\n", {"f.glsl", 1, 1}}, {}, "it");
   CHECK(formula.loops());
   try {
     (void)formula.value(std::array{0.5f, 0.5f, 0.5f});
@@ -123,7 +123,7 @@ TEST_CASE("nobody can read two functions out of one text") {
 }
 
 TEST_CASE("indices reach nothing beyond their arrays") {
-  const Formula formula(
+  const formula::Formula formula(
       {"float f(vec3 p) {\n  int a[64]; float b[3]; for (int i = 0; i < 3; i++) b[i] = float(i);\n"
        "  for (int i = -1000; i < 1000; i++) a[i * int(p.x)] = 0x41414141;\n"
        "  b[int(p.y)] = 7.0;\n  return b[0] + b[1] * 10.0 + b[2] * 100.0 + float(a[int(p.z)] - "
@@ -136,7 +136,7 @@ TEST_CASE("indices reach nothing beyond their arrays") {
 
 TEST_CASE("what is enclosed is no longer than drivers compile in seconds") {
   const auto why = [](int terms) -> std::string {
-    const Formula formula(
+    const formula::Formula formula(
         {"float f(vec3 p) {\n float s = p.x;\n" + times(terms, "s = s * p.y + 0.5;\n") + "return s;\n}\n",
          {"f.glsl", 1, 1}},
         {}, "it");

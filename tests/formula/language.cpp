@@ -9,10 +9,10 @@ namespace {
 
 // The formula's faults as "line:column: message", a line each, its text beginning at 10:1; "" if there are
 // none.
-std::string faults_of(const std::string& text, std::vector<FormulaParameter> parameters = {}) {
+std::string faults_of(const std::string& text, std::vector<formula::FormulaParameter> parameters = {}) {
   std::string said;
   try {
-    const Formula formula({text, {"a.toml", 10, 1}}, std::move(parameters), "it");
+    const formula::Formula formula({text, {"a.toml", 10, 1}}, std::move(parameters), "it");
   } catch (const InputError& error) {
     for (const Diagnostic& fault : error.diagnostics())
       said += fmt::format("{}:{}: {}\n", fault.position.line, fault.position.column, fault.message);
@@ -55,8 +55,9 @@ TEST_CASE("what would be undefined, or depend on what was asked before, is refus
 }
 
 TEST_CASE("a kernel has operations on numbers, names of its own, and nothing to fold") {
-  const Formula formula({"const float PI = 3.5;\nfloat f(vec3 p) { return sin(PI * p.x) * 0.5 - r; }", {}},
-                        {{"r", {0.25}}}, "it");
+  const formula::Formula formula(
+      {"const float PI = 3.5;\nfloat f(vec3 p) { return sin(PI * p.x) * 0.5 - r; }", {}}, {{"r", {0.25}}},
+      "it");
   CHECK(formula.kernel("k_") ==
         "void k_0(float r0, float r1, float r2, out float r3) {\n"
         "  float r4;\n  float r5;\n  float r6;\n  float r7;\n"
@@ -71,7 +72,7 @@ TEST_CASE("a kernel has operations on numbers, names of its own, and nothing to 
 
 TEST_CASE("loops are counted, but those whose few turns are written out") {
   const auto counted = [](const std::string& loop) {
-    const Formula formula(
+    const formula::Formula formula(
         {"float g(float x) { return x; }\nvoid h(inout int i) { i = 0; }\nfloat f(vec3 p) { " + loop +
              " return p.x; }",
          {}},

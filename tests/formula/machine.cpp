@@ -8,12 +8,13 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
 
 namespace {
 
 double value_of(const std::string& expression, const std::string& before = "") {
-  const Formula formula({before + "float f(vec3 p) { " + expression + " }", {}},
-                        {{"r", {0.25}}, {"v", {1, 2, 3}}}, "the formula");
+  const formula::Formula formula({before + "float f(vec3 p) { " + expression + " }", {}},
+                                 {{"r", {0.25}}, {"v", {1, 2, 3}}}, "the formula");
   const double exact = formula.value(std::array{0.5, -2.0, 3.0});
   CHECK(double(formula.value(std::array{0.5f, -2.0f, 3.0f})) == doctest::Approx(exact).epsilon(1e-6));
   return exact;
@@ -109,7 +110,8 @@ TEST_CASE("ways through loops and functions") {
 }
 
 TEST_CASE("a loop that does not end is an error, and the program goes on") {
-  const Formula endless({"float f(vec3 p) { for (;;) p.x += 1.0; return p.x; }", {}}, {}, "the formula");
+  const formula::Formula endless({"float f(vec3 p) { for (;;) p.x += 1.0; return p.x; }", {}}, {},
+                                 "the formula");
   for (int i = 0; i < 2; ++i) {
     try {
       (void)endless.value(std::array{0.0, 0.0, 0.0});
@@ -125,7 +127,7 @@ TEST_CASE("the formulas that come with eyeray are as steep as they say, and thei
   for (const ReadyFormula& ready : ready_formulas()) {
     if (!ready.lipschitz) continue;
     CAPTURE(ready.name);
-    const Formula formula({std::string(ready.text), {}}, ready.parameters, "it");
+    const formula::Formula formula({std::string(ready.text), {}}, ready.parameters, "it");
     CHECK(formula.has_gradient());
     const double bound = ready.lipschitz(ready.parameters);
     std::mt19937 random(1);

@@ -14,7 +14,7 @@ namespace {
 
 // The value's bits; all ones where it did not come to an end.
 template <typename T>
-uint64_t bits_at(const Formula& formula, const Vec3& p) {
+uint64_t bits_at(const formula::Formula& formula, const Vec3& p) {
   try {
     const T value = formula.value(std::array{T(p.x), T(p.y), T(p.z)});
     uint64_t bits = 0;
@@ -35,7 +35,7 @@ TEST_CASE("formulas at random are refused with words or run to an end, each time
     const uint64_t seed = test::seed() * 10'000'000 + uint64_t(i);
     const std::string text = test::RandomFormula(seed, i % 4 == 0).text();
     try {
-      const Formula formula({text, {"f.glsl", 1, 1}}, {}, "it");
+      const formula::Formula formula({text, {"f.glsl", 1, 1}}, {}, "it");
       ++accepted;
       test::Random random(seed);
       for (int k = 0; k < 4; ++k) {

@@ -8,7 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
-    eyeray::PixelBudget budget;
+    eyeray::image::PixelBudget budget;
     const auto image = std::make_shared<eyeray::ImageTexture>(
         eyeray::decode_image_texture(std::as_bytes(std::span(data, size)), INPUT_NAME, budget));
     if (image->width < 1 || image->height < 1 ||

@@ -6,7 +6,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   eyeray::importers::AssetFiles none;
-  eyeray::PixelBudget pixels;
+  eyeray::image::PixelBudget pixels;
   eyeray::importers::ObjMaterials materials(none, pixels);
   materials.parse({reinterpret_cast<const char*>(data), size});
   for (const auto& material : materials.materials) {

@@ -8,6 +8,7 @@
 
 using namespace eyeray;
 using namespace eyeray::importers;
+using namespace eyeray::image;
 using namespace eyeray::test;
 
 namespace {

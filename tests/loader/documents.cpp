@@ -2,8 +2,11 @@
 #include <fstream>
 #include <iterator>
 
+#include "host/cameras/registry.hpp"
+#include "host/lights/registry.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
+#include "host/materials/registry.hpp"
 #include "host/scene/table.hpp"
 #include "host/textures/registry.hpp"
 //
@@ -47,9 +50,9 @@ TEST_CASE("every default is a right value of its key") {
     check(section.keys);
     if (section.shape) check(section.shape->keys);
   }
-  for (const MaterialType* type : material_types()) check(type->keys);
-  for (const LightType* type : light_types()) check(type->keys);
-  for (const CameraType* type : camera_types()) check(type->keys);
+  for (const MaterialType* type : materials::types()) check(type->keys);
+  for (const LightType* type : lights::types()) check(type->keys);
+  for (const CameraType* type : cameras::types()) check(type->keys);
   CHECK(defaults > 20);
 }
 

@@ -11,6 +11,7 @@
 
 using namespace eyeray;
 using namespace eyeray::loader;
+using namespace eyeray::image;
 namespace fs = std::filesystem;
 
 namespace {

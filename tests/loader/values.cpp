@@ -45,8 +45,8 @@ TEST_CASE("an empty scene has the defaults of the model") {
   CHECK(scene.camera.target == model.camera.target);
   CHECK(scene.camera.up == model.camera.up);
   const auto perspective = test::camera_as<PerspectiveCamera>(scene);
-  CHECK(perspective.fov_degrees == test::camera_as<PerspectiveCamera>(model).fov_degrees);
-  CHECK(perspective.fov_axis == test::camera_as<PerspectiveCamera>(model).fov_axis);
+  CHECK(perspective.fov_degrees == PerspectiveCamera{}.fov_degrees);
+  CHECK(perspective.fov_axis == PerspectiveCamera{}.fov_axis);
   CHECK(scene.render.integrator == model.render.integrator);
   CHECK(scene.render.max_depth == model.render.max_depth);
   CHECK(scene.render.min_throughput == model.render.min_throughput);

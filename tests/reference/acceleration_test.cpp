@@ -3,10 +3,14 @@
 
 #include <bit>
 
-#include "meshes.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/meshes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
 using namespace eyeray::test;
 
 namespace {
@@ -45,7 +49,7 @@ Mesh hard_mesh(Dice& dice, double size) {
 }
 
 struct HardScene {
-  Scene scene;
+  Scene scene = test::empty_scene();
   std::vector<Corners> triangles;  // in the world, of shapes and of instances
 
   const Corners& some(Dice& dice) const {

@@ -1,9 +1,13 @@
 #include "host/reference/crossings.hpp"
 #include "host/reference/media.hpp"
-#include "scenes.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/scenes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
 using namespace eyeray::test;
 
 namespace {
@@ -63,7 +67,7 @@ TEST_CASE("bezier: what is in front stays in front under a mirror") {
 }
 
 TEST_CASE("bezier: light loses the root of a patch's share at each crossing") {
-  Scene scene;
+  Scene scene = test::empty_scene();
   add(scene, make_bezier(arch), add(scene, make_dielectric({.shadow = 0.64})));
   const reference::Tracer tracer(scene);
   uint32_t flags = 0;
@@ -104,7 +108,7 @@ TEST_CASE("bezier: a patch that is 1e12 wide and bent within 1: its crossings en
   }
 
   // Nor do those who ask what is around the eye.
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.materials.push_back(make_dielectric({}));
   scene.shapes.push_back(make_bezier(net));
   CHECK(reference::media_at(scene, eye).size() <= 36);

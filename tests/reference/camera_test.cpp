@@ -2,10 +2,15 @@
 #include "host/cameras/make.hpp"
 #include "host/reference/rng.hpp"
 #include "host/reference/sampler.hpp"
-#include "scenes.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/scenes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::cameras;
 using namespace eyeray::test;
 
 namespace {
@@ -52,7 +57,7 @@ TEST_CASE("an orthographic camera moves the origin") {
 
 TEST_CASE("a known picture stands upright") {
   // Red to the right, green above, blue to the left of the middle.
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.image = {.width = 9, .height = 9};
   scene.camera = looking_along_z(PerspectiveCamera{90});
   scene.render.integrator = IntegratorType::raycast;

@@ -6,15 +6,19 @@
 #include "host/formula/formula.hpp"
 #include "host/reference/media.hpp"
 #include "host/shapes/spans.hpp"
-#include "scenes.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/scenes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
 using namespace eyeray::test;
 
 namespace {
 
-ShapeType::Shapes shapes(std::unique_ptr<Shape> a, std::unique_ptr<Shape> b = nullptr) {
+ShapeType::Shapes operands(std::unique_ptr<Shape> a, std::unique_ptr<Shape> b = nullptr) {
   ShapeType::Shapes list;
   list.push_back(std::move(a));
   if (b) list.push_back(std::move(b));
@@ -57,12 +61,12 @@ TEST_CASE("stretches of a line are united, intersected and subtracted") {
   const auto a = spans({{0, 2}, {4, 6}, {8, 9}}, 0);
   const auto b = spans({{1, 5}, {6, 7}}, 1);
   CHECK(text(unite(a, b)) == "a0-b7 a8-a9 ");
-  CHECK(text(eyeray::intersect(a, b)) == "b1-a2 a4-b5 ");
+  CHECK(text(shapes::intersect(a, b)) == "b1-a2 a4-b5 ");
   CHECK(text(subtract(a, b)) == "a0-b1 b5-a6 a8-a9 ");
   CHECK(text(subtract(b, a)) == "a2-a4 a6-b7 ");
   CHECK(text(subtract(b, spans({{2, 3}, {4, 4.5}}, 2))) == "b1-c2 c3-c4 c4.5-b5 b6-b7 ");
   CHECK(text(unite({}, b)) == text(b));
-  CHECK(text(eyeray::intersect({}, b)).empty());
+  CHECK(text(shapes::intersect({}, b)).empty());
 }
 
 TEST_CASE("at the same place the lower part is hit, and nothing thin is left") {
@@ -70,8 +74,8 @@ TEST_CASE("at the same place the lower part is hit, and nothing thin is left") {
   CHECK(text(unite(a, spans({{0, 2}}, 1))) == "a0-a2 ");
   CHECK(text(unite(spans({{0, 2}}, 1), a)) == "a0-a2 ");
   CHECK(text(unite(a, spans({{2, 3}}, 1))) == "a0-b3 ");
-  CHECK(text(eyeray::intersect(spans({{0, 2}}, 1), a)) == "a0-a2 ");
-  CHECK(text(eyeray::intersect(a, spans({{2, 3}}, 1))).empty());
+  CHECK(text(shapes::intersect(spans({{0, 2}}, 1), a)) == "a0-a2 ");
+  CHECK(text(shapes::intersect(a, spans({{2, 3}}, 1))).empty());
   CHECK(text(subtract(a, spans({{0, 2}}, 1))).empty());
   CHECK(text(subtract(a, spans({{0, 1}}, 1))) == "b1-a2 ");
   CHECK(text(subtract(a, spans({{1, 2}}, 1))) == "a0-b1 ");
@@ -79,7 +83,7 @@ TEST_CASE("at the same place the lower part is hit, and nothing thin is left") {
 }
 
 TEST_CASE("a lens: entered by the one ball, left by the other, normals outward") {
-  const auto lens = make_csg(true, shapes(make_sphere({-1, 0, 0}, 2), make_sphere({1, 0, 0}, 2)));
+  const auto lens = make_csg(true, operands(make_sphere({-1, 0, 0}, 2), make_sphere({1, 0, 0}, 2)));
   CHECK(ends(*lens, along_x) == std::vector<double>{9, 11});
   const SurfacePoint front = struck(*lens, along_x);
   CHECK(near(front.position, Vec3(-1, 0, 0), 1e-14));
@@ -93,8 +97,8 @@ TEST_CASE("a lens: entered by the one ball, left by the other, normals outward")
 }
 
 TEST_CASE("what is taken away shows its surface from within, of its own material") {
-  const auto box = make_csg(false, shapes(made_of(make_box(Vec3(-1), Vec3(1)), 3)),
-                            shapes(made_of(make_sphere({-1, 0, 0}, 0.5), 5)));
+  const auto box = make_csg(false, operands(made_of(make_box(Vec3(-1), Vec3(1)), 3)),
+                            operands(made_of(make_sphere({-1, 0, 0}, 0.5), 5)));
   CHECK(ends(*box, along_x) == std::vector<double>{9.5, 11});
   const auto hit = box->intersect(along_x);
   REQUIRE(hit);
@@ -110,14 +114,14 @@ TEST_CASE("what is taken away shows its surface from within, of its own material
 
 TEST_CASE("a tube is crossed four times; CSG objects in CSG objects, also where they are taken away") {
   const auto tube = [] {
-    return make_csg(false, shapes(make_cylinder({0, -1, 0}, {0, 1, 0}, 2)),
-                    shapes(make_cylinder({0, -2, 0}, {0, 2, 0}, 1)));
+    return make_csg(false, operands(make_cylinder({0, -1, 0}, {0, 1, 0}, 2)),
+                    operands(make_cylinder({0, -2, 0}, {0, 2, 0}, 1)));
   };
   CHECK(ends(*tube(), along_x) == std::vector<double>{8, 9, 11, 12});
   // Within the tube, and within a box: what is left of the box without it.
-  const auto kept = make_csg(true, shapes(tube(), make_box({-5, -5, -5}, {0, 5, 5})));
+  const auto kept = make_csg(true, operands(tube(), make_box({-5, -5, -5}, {0, 5, 5})));
   CHECK(ends(*kept, along_x) == std::vector<double>{8, 9});
-  const auto cut = make_csg(false, shapes(make_box({-5, -0.5, -5}, {5, 0.5, 5})), shapes(tube()));
+  const auto cut = make_csg(false, operands(make_box({-5, -0.5, -5}, {5, 0.5, 5})), operands(tube()));
   CHECK(ends(*cut, along_x) == std::vector<double>{5, 8, 9, 11, 12, 15});
   // Taken away twice, the tube's hole is full again.
   CHECK(near(struck(*cut, {{0, 0, 0}, {1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-14));
@@ -138,11 +142,12 @@ TEST_CASE("what a formula bounds: each crossing once, alternating, with a Lipsch
   // Sheets of a width that the ray crosses two by two, and the box's faces where it begins and ends within
   // one.
   const auto sheets = [](double lipschitz) {
-    FormulaUse use{std::make_shared<const Formula>(
-                       FormulaText{"float f(vec3 p) { return cos(6.283185307179586 * p.x) - 0.5; }", {}},
-                       std::vector<FormulaParameter>{}, "sheets"),
-                   {Vec3(-1.5, -1, -1), Vec3(1, 1, 1)},
-                   lipschitz};
+    FormulaUse use{
+        std::make_shared<const formula::Formula>(
+            formula::FormulaText{"float f(vec3 p) { return cos(6.283185307179586 * p.x) - 0.5; }", {}},
+            std::vector<formula::FormulaParameter>{}, "sheets"),
+        {Vec3(-1.5, -1, -1), Vec3(1, 1, 1)},
+        lipschitz};
     return make_implicit(std::move(use), false);
   };
   const float turn = 6.283185307179586f;  // as the formula has it
@@ -155,7 +160,7 @@ TEST_CASE("what a formula bounds: each crossing once, alternating, with a Lipsch
     REQUIRE(found.size() == expected.size());
     for (size_t i = 0; i < found.size(); ++i) CHECK(near(found[i], expected[i], 1e-12));
     // Less a ball, whose surface is seen where it cuts a sheet.
-    const auto cut = make_csg(false, shapes(sheets(lipschitz)), shapes(make_sphere({-0.3, 0, 0}, 0.3)));
+    const auto cut = make_csg(false, operands(sheets(lipschitz)), operands(make_sphere({-0.3, 0, 0}, 0.3)));
     const std::vector<double> left = ends(*cut, along_x);
     REQUIRE(left.size() == 6);
     CHECK(near(left[2], 10 - 5 * sixth, 1e-12));
@@ -165,12 +170,12 @@ TEST_CASE("what a formula bounds: each crossing once, alternating, with a Lipsch
 }
 
 TEST_CASE("shadows: a CSG object counts once, by the densest of its surfaces on the way") {
-  Scene scene;
+  Scene scene = test::empty_scene();
   add(scene, make_phong({}));
   add(scene, make_dielectric({.ior = 1.5, .shadow = 0.8}));
   add(scene,
-      make_csg(false, shapes(made_of(make_box(Vec3(-1), Vec3(1)), 1)),
-               shapes(made_of(make_sphere({0, 1, 0}, 0.5), 0))),
+      make_csg(false, operands(made_of(make_box(Vec3(-1), Vec3(1)), 1)),
+               operands(made_of(make_sphere({0, 1, 0}, 0.5), 0))),
       1);
   const reference::Tracer tracer(scene);
   const Ray above{{-10, 0.9, 0}, {1, 0, 0}};
@@ -183,9 +188,10 @@ TEST_CASE("shadows: a CSG object counts once, by the densest of its surfaces on 
 }
 
 TEST_CASE("the eye within a lens of glass is in its medium, and in what was taken from it, in none") {
-  Scene scene;
+  Scene scene = test::empty_scene();
   add(scene, make_dielectric({.ior = 1.5}));
-  add(scene, make_csg(false, shapes(make_box(Vec3(-1), Vec3(1))), shapes(make_sphere({0, 0, 0}, 0.5))), 0);
+  add(scene, make_csg(false, operands(make_box(Vec3(-1), Vec3(1))), operands(make_sphere({0, 0, 0}, 0.5))),
+      0);
   CHECK(reference::media_at(scene, {0.7, 0.1, 0}) == std::vector<int>{0});
   CHECK(reference::media_at(scene, {0.1, 0.1, 0}).empty());
   CHECK(reference::media_at(scene, {3, 0, 0}).empty());

@@ -1,8 +1,11 @@
 // Light that comes straight from the lights, the surroundings and the background.
-#include "scenes.hpp"
+#include "tests/support/scenes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
 using namespace eyeray::test;
 
 namespace {

@@ -1,9 +1,10 @@
 // What rounding does to rays at meshes: none hits again what it leaves, none slips between two triangles.
 #include "host/core/parallel_for.hpp"
 #include "host/reference/crossings.hpp"
-#include "meshes.hpp"
-#include "tests/support/doctest.hpp"
+#include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
+
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;

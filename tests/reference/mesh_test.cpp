@@ -1,15 +1,19 @@
 // Meshes and their instances in the reference: what they look like, against shapes and closed forms.
-#include "meshes.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/meshes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
 using namespace eyeray::test;
 
 namespace {
 
 // Light, shadow, a mirror, glass and a floor, for whatever is put between them.
 Scene studio() {
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.image = {.width = 48, .height = 36};
   scene.camera.eye = {2.5, 3, 6};
   scene.render.background = {0.2, 0.3, 0.5};
@@ -156,7 +160,7 @@ TEST_CASE("under a mirror the outside stays outside, and normals follow the surf
   // Without uv: the weights. A normal that the interpolation turns away is not used.
   mesh.uv.clear();
   mesh.normals = {{1, 0, 0.01}, {-1, 0, 0.01}, {0, 0, -1}};
-  Scene scene;
+  Scene scene = test::empty_scene();
   add_instance(scene, add(scene, mesh), add(scene, make_phong({})));
   const reference::Tracer tracer(scene);
   const auto look_at = [&](double x, double y) {
@@ -170,7 +174,7 @@ TEST_CASE("under a mirror the outside stays outside, and normals follow the surf
 
 TEST_CASE("shadows: a closed mesh weakens light once, an open one by the square root") {
   const Ray ray{{0.1, 0.2, 5}, {0, 0, -1}};
-  Scene scene;
+  Scene scene = test::empty_scene();
   const int glass = add(scene, make_dielectric({.shadow = 0.25}));
   const int paint = add(scene, make_phong({}));
   const int box = add(scene, cube());
@@ -196,7 +200,7 @@ TEST_CASE("shadows: a closed mesh weakens light once, an open one by the square 
 }
 
 TEST_CASE("media: the eye in a glass mesh, in glass in water, behind a pane of one side") {
-  Scene scene;
+  Scene scene = test::empty_scene();
   const int water = add(scene, make_dielectric({.ior = 1.33}));
   const int glass = add(scene, make_dielectric({.ior = 1.5}));
   const int paint = add(scene, make_phong({}));
@@ -220,7 +224,7 @@ TEST_CASE("media: the eye in a glass mesh, in glass in water, behind a pane of o
 
 TEST_CASE("media of globes at random are those of their equations") {
   Dice dice;
-  Scene scene;
+  Scene scene = test::empty_scene();
   std::vector<Mat4> to_globe;
   const int mesh = add(scene, globe(400, 200));
   for (int i = 0; i < 6; ++i) {

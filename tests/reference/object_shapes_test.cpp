@@ -1,9 +1,11 @@
 // Shapes in a space of their own against numbers worked out by hand.
-#include "scenes.hpp"
-#include "tests/support/doctest.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/scenes.hpp"
+
+#include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
 using namespace eyeray::test;
 
 TEST_CASE("box: from outside, inside, behind, beside, and along a face") {

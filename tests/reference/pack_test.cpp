@@ -1,9 +1,13 @@
 // The records that shapes and materials write for the shaders.
 #include "host/records/packer.hpp"
-#include "scenes.hpp"
+#include "tests/support/scenes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::records;
 using namespace eyeray::test;
 
 namespace {

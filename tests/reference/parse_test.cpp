@@ -1,6 +1,7 @@
 // What shapes and materials make of their tables in a scene file, and what they refuse.
 #include "host/loader/scene_file.hpp"
-#include "scenes.hpp"
+#include "tests/support/scenes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;

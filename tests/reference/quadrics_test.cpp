@@ -1,10 +1,12 @@
 // Disks, capsules and quadrics, against numbers worked out by hand.
 #include <numbers>
 
-#include "scenes.hpp"
+#include "tests/support/scenes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
 using namespace eyeray::test;
 
 namespace {

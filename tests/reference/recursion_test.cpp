@@ -2,10 +2,15 @@
 #include <algorithm>
 
 #include "host/reference/media.hpp"
-#include "scenes.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/scenes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::records;
 using namespace eyeray::test;
 
 namespace {
@@ -318,7 +323,7 @@ TEST_CASE("a shape that gives up is no hit, and flagged where it might have been
 }
 
 TEST_CASE("media_at lists the media around a point, outermost first") {
-  Scene scene;
+  Scene scene = test::empty_scene();
   const int water = add(scene, make_dielectric({.ior = 1.33}));
   const int glass = add(scene, make_dielectric({.ior = 1.5}));
   const int air = add(scene, make_dielectric({.ior = 1}));
@@ -342,7 +347,7 @@ TEST_CASE("media_at lists the media around a point, outermost first") {
 
 TEST_CASE("media_at agrees with the spheres' own equations") {
   Dice dice;
-  Scene scene;
+  Scene scene = test::empty_scene();
   std::vector<std::pair<Vec3, double>> spheres;
   for (int i = 0; i < 6; ++i) {
     spheres.emplace_back(dice.in_box(1), dice.between(0.2, 1.5));

@@ -10,6 +10,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
 using test::Random;
 
 TEST_CASE("a Chebyshev series knows how far it stays from zero, and whether it turns") {
@@ -41,8 +42,8 @@ TEST_CASE("with and without a Lipschitz constant the first change of sign is the
   };
   for (const Row& row : rows) {
     CAPTURE(std::string(row.text));
-    const auto formula = std::make_shared<const Formula>(FormulaText{row.text, {"f.glsl", 1, 1}},
-                                                         std::vector<FormulaParameter>(), "f");
+    const auto formula = std::make_shared<const formula::Formula>(
+        formula::FormulaText{row.text, {"f.glsl", 1, 1}}, std::vector<formula::FormulaParameter>(), "f");
     const FormulaUse declared{formula, {Vec3(-1), Vec3(1)}, row.lipschitz}, bare{formula, declared.box, 0};
     Random random(5);
     int found = 0;

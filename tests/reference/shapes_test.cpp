@@ -1,7 +1,9 @@
-#include "scenes.hpp"
+#include "tests/support/scenes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
 using namespace eyeray::test;
 
 TEST_CASE("sphere: from outside, inside, behind and beside") {

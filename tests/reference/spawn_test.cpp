@@ -1,10 +1,13 @@
 #include "host/reference/crossings.hpp"
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
-#include "scenes.hpp"
+#include "tests/support/scenes.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
 using namespace eyeray::test;
 
 namespace {

@@ -5,11 +5,13 @@
 #include "host/loader/scene_file.hpp"
 #include "host/reference/camera.hpp"
 #include "host/render/render.hpp"
+#include "tests/support/empty_scene.hpp"
 //
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::render;
+using namespace eyeray::cameras;
 
 namespace {
 
@@ -21,7 +23,7 @@ Ray ray_at(const Scene& scene, double x, double y) {
 }  // namespace
 
 TEST_CASE("the pixels' centres are where the corners were, by every camera") {
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.camera.eye = {1, 2, 3};
   scene.image = {.width = 7, .height = 5, .samples = 16, .pattern = SamplePattern::jittered};
   std::vector<std::shared_ptr<const Projection>> projections = {make_projection(OrthographicCamera{1.5})};
@@ -29,7 +31,7 @@ TEST_CASE("the pixels' centres are where the corners were, by every camera") {
     projections.push_back(make_projection(PerspectiveCamera{45, axis}));
   for (const auto& projection : projections) {
     scene.camera.projection = projection;
-    Scene corners;
+    Scene corners = test::empty_scene();
     corners.camera = scene.camera;
     corners.image = scene.image;
     sample_corners(corners);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "host/render/render.hpp"
+#include "tests/support/empty_scene.hpp"
 
 namespace eyeray::test {
 
@@ -49,7 +50,7 @@ class FakeExecutor final : public executors::Executor {
 };
 
 inline Scene scene_of(int width, int height, int samples) {
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.image = {.width = width, .height = height, .samples = samples};
   return scene;
 }
@@ -59,7 +60,7 @@ inline size_t band_of_rows(const Scene& scene, int rows) {
   return size_t(rows) * size_t(scene.image.width) * sizeof(render::PixelSums::Pixel);
 }
 
-inline bool same_bits(const Image& a, const Image& b) {
+inline bool same_bits(const image::Image& a, const image::Image& b) {
   if (!a.same_size(b)) return false;
   for (size_t i = 0; i < a.sample_count(); ++i) {
     if (std::bit_cast<uint32_t>(a.samples()[i]) != std::bit_cast<uint32_t>(b.samples()[i])) return false;

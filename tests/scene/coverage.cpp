@@ -1,13 +1,18 @@
 // Nothing in the registries goes without a scene.
 #include <set>
 
+#include "host/cameras/registry.hpp"
+#include "host/lights/registry.hpp"
 #include "host/loader/scene_file.hpp"
+#include "host/materials/registry.hpp"
 #include "host/pack/pack.hpp"
+#include "host/shapes/registry.hpp"
 //
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::loader;
+using namespace eyeray::records;
 
 namespace {
 
@@ -39,12 +44,12 @@ Kinds kinds_of(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("every shape of the registry has a scene of its name, in which it is") {
-  for (uint32_t kind = 0; kind < shape_types().size(); ++kind) {
-    const std::string file = "scenes/shapes/" + std::string(shape_types()[kind]->name) + ".toml";
+  for (uint32_t kind = 0; kind < shapes::types().size(); ++kind) {
+    const std::string file = "scenes/shapes/" + std::string(shapes::types()[kind]->name) + ".toml";
     CAPTURE(file);
     REQUIRE(std::filesystem::exists(file));
     // Which the manual shows, made by scripts/pictures.
-    CHECK(std::filesystem::exists("docs/images/shapes/" + std::string(shape_types()[kind]->name) + ".png"));
+    CHECK(std::filesystem::exists("docs/images/shapes/" + std::string(shapes::types()[kind]->name) + ".png"));
     CHECK(kinds_of(load_scene(file)).shapes.contains(kind));
   }
 }
@@ -65,11 +70,11 @@ TEST_CASE(
     for (const auto& light : scene.lights) lights.insert(light->type);
     cameras.insert(scene.camera.projection->kind());
   }
-  for (uint32_t kind = 0; kind < material_types().size(); ++kind) {
-    CAPTURE(material_types()[kind]->name);
+  for (uint32_t kind = 0; kind < materials::types().size(); ++kind) {
+    CAPTURE(materials::types()[kind]->name);
     CHECK(used.materials.contains(kind));
   }
   for (const TextureRow& row : texture_rows) CHECK_MESSAGE(used.textures.contains(row.number), row.name);
-  for (const LightType* type : light_types()) CHECK_MESSAGE(lights.contains(type), type->name);
-  CHECK(cameras.size() == camera_types().size());
+  for (const LightType* type : lights::types()) CHECK_MESSAGE(lights.contains(type), type->name);
+  CHECK(cameras.size() == cameras::types().size());
 }

@@ -10,7 +10,11 @@
 #include <set>
 #include <vector>
 
+#include "host/cameras/registry.hpp"
+#include "host/lights/registry.hpp"
 #include "host/loader/sections.hpp"
+#include "host/materials/registry.hpp"
+#include "host/shapes/registry.hpp"
 #include "host/textures/registry.hpp"
 #include "shaders/shapes/registry.h"
 
@@ -61,7 +65,7 @@ class Writer {
 #define NAME(name, number) number,
     constexpr uint32_t kinds[] = {CLOSED_SHAPES(NAME)};
 #undef NAME
-    return *shape_types()[kinds[random_.below(int(std::size(kinds)))]];
+    return *shapes::types()[kinds[random_.below(int(std::size(kinds)))]];
   }
   void table(const std::string& title, std::initializer_list<std::span<const Key>> keys,
              std::set<std::string_view> left_out, const std::string& given);
@@ -229,26 +233,26 @@ std::string Writer::write() {
   table("[image]", {loader::find_section("image")->keys}, {}, "");
 
   // Most often the first.
-  const double which = std::max(0.0, 1 - random_.uniform() / 0.3) * double(camera_types().size() - 1);
-  const CameraType& camera = *camera_types()[size_t(std::ceil(which))];
+  const double which = std::max(0.0, 1 - random_.uniform() / 0.3) * double(cameras::types().size() - 1);
+  const CameraType& camera = *cameras::types()[size_t(std::ceil(which))];
   table("[camera]", {loader::find_section("camera")->keys, camera.keys}, {"type"},
         fmt::format("type = \"{}\"\n", camera.name));
   table("[render]", {loader::find_section("render")->keys}, {}, "");
 
   for (int i = random_.below(4); i > 0; --i) {
-    const LightType& type = one_of(light_types());
+    const LightType& type = one_of(lights::types());
     table("[[light]]", {loader::find_section("light")->keys, type.keys}, {"type"},
           fmt::format("type = \"{}\"\n", type.name));
   }
   for (int i = 0; i < materials; ++i) {
-    const MaterialType& type = one_of(material_types());
+    const MaterialType& type = one_of(materials::types());
     // Few shapes may have holes.
     table("[[material]]", {type.keys},
           chance(0.9) ? std::set<std::string_view>{"alpha", "alpha_cutoff"} : std::set<std::string_view>{},
           fmt::format("name = \"m{}\"\ntype = \"{}\"\n", i, type.name));
   }
   for (int i = random_.below(6); i > 0; --i) {
-    const ShapeType& type = one_of(shape_types());
+    const ShapeType& type = one_of(shapes::types());
     // A normal that points the wrong way is refused: half of all. Most triangles go without.
     std::set<std::string_view> mostly;
     if (chance(0.8)) mostly = {"normals"};

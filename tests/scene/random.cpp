@@ -11,6 +11,8 @@
 #include "host/loader/scene_file.hpp"
 //
 #include "tests/support/amount.hpp"
+#include "tests/support/empty_scene.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
@@ -165,7 +167,7 @@ TEST_CASE("scenes at random: the twin agrees with the reference, the GPU with th
   for (int i = 0; compared < count; ++i) {
     Random random{uint64_t(i) + 1'000'000};
     const std::string text = random_scene_text(random, {});
-    Scene scene;
+    Scene scene = test::empty_scene();
     try {
       scene = shrunk(parse_scene(text, "scene.toml"), 24, 18);
       scene.image.samples = 1;

@@ -5,6 +5,7 @@
 #include "frames.hpp"
 #include "host/loader/scene_file.hpp"
 #include "tests/support/ball_over_floor.hpp"
+#include "tests/support/empty_scene.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -13,6 +14,7 @@ using namespace eyeray::loader;
 using namespace eyeray::render;
 using namespace eyeray::executors;
 using namespace eyeray::compare;
+using namespace eyeray::image;
 using namespace eyeray::test;
 
 namespace {
@@ -53,7 +55,7 @@ class StoppingExecutor final : public Executor {
 
 // Wide enough that the driver asks for it in several pieces.
 Scene cooperative_scene() {
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.image = {.width = 1 << 18, .height = 10, .samples = 4};
   return scene;
 }
@@ -191,7 +193,7 @@ TEST_CASE("rays are counted: eye, shadow and mirrored ones") {
     return scene;
   };
   struct Case {
-    Scene scene;
+    Scene scene = test::empty_scene();
     uint64_t rays_per_pixel;
   };
   Case cases[] = {{floor({}), 2},                                  // eye and shadow

@@ -6,6 +6,7 @@
 #include "host/lights/make.hpp"
 #include "host/materials/make.hpp"
 #include "host/shapes/make.hpp"
+#include "tests/support/empty_scene.hpp"
 #include "tests/support/random.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -13,6 +14,10 @@
 using namespace eyeray;
 using namespace eyeray::executors;
 using namespace eyeray::compare;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::lights;
+using namespace eyeray::cameras;
 using namespace eyeray::test;
 
 namespace {
@@ -36,7 +41,7 @@ std::shared_ptr<const ImageTexture> random_image(Random& random) {
 // Squares side by side before an orthographic camera, each with an image of its own at random places in uv,
 // small and far from 0; every fifth mirrors another one in a second image.
 Scene patchwork(Random& random, int across, int down) {
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.image = {.width = 24 * across, .height = 24 * down};
   scene.camera.projection = make_projection(OrthographicCamera{0.5 * across});
   // A little off, so that no pixel's centre lies on an edge.

@@ -11,6 +11,7 @@
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::records;
 using test::Random;
 
 namespace {

@@ -83,8 +83,8 @@ inline compare::Frame picture_frame(const Vec2& shift = Vec2(0.0),
                                     const compare::Reference& picture = picture_reference) {
   compare::Frame frame;
   frame.area = {0, 0, picture_width, picture_height};
-  frame.color = Image(picture_width, picture_height, 3);
-  frame.hits = frame.rays_traced = Image(picture_width, picture_height, 1);
+  frame.color = image::Image(picture_width, picture_height, 3);
+  frame.hits = frame.rays_traced = image::Image(picture_width, picture_height, 1);
   frame.rays = 2u * picture_width * picture_height;
   for (int y = 0; y < picture_height; ++y) {
     for (int x = 0; x < picture_width; ++x) {

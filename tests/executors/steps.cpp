@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include "host/executors/executor.hpp"
-#include "random_scene.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/random_scene.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::executors;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
 using test::Random;
 
 namespace {
@@ -16,7 +19,7 @@ namespace {
 // More than a thousand, so that incoherent rays are traced by four lanes each; some let light through.
 Scene crowd() {
   Random random(5);
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0, 0, 5);
   test::add(scene, make_phong({}));
   test::add(scene, make_dielectric({.shadow = 0.7}));

@@ -4,7 +4,7 @@
 
 #include "host/loader/scene_file.hpp"
 #include "host/pack/pack.hpp"
-#include "query_kernel.hpp"
+#include "tests/support/query_kernel.hpp"
 #include "tests/support/random.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -12,6 +12,7 @@
 using namespace eyeray;
 using namespace eyeray::loader;
 using namespace eyeray::executors;
+using namespace eyeray::records;
 using namespace eyeray::test;
 
 namespace {

@@ -2,20 +2,24 @@
 // too long and is begun again.
 #include <fmt/format.h>
 
-#include "query_kernel.hpp"
-#include "random_scene.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/query_kernel.hpp"
+#include "tests/support/random_scene.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::executors;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::records;
 using test::Random;
 
 namespace {
 
 // A cloud of small triangles, and of spheres if wanted, every other one of them half transparent.
 Scene cloud(Random& random, int count, double size, bool spheres) {
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0, 0, 8);
   const int opaque = test::add(scene, make_phong({}));
   const int glass = test::add(scene, make_dielectric({.shadow = 0.9}));

@@ -6,7 +6,7 @@
 
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
-#include "scenes.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace eyeray::test {
 
@@ -94,10 +94,10 @@ inline void add_triangles(Scene& scene, const Mesh& mesh, int material, const Ma
     return std::array{values[at[0]], values[at[1]], values[at[2]]};
   };
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    TriangleValues values{.vertices = corners(mesh, i)};
+    shapes::TriangleValues values{.vertices = corners(mesh, i)};
     if (!mesh.normals.empty()) values.normals = three(mesh.normals, mesh.triangles[i]);
     if (!mesh.uv.empty()) values.uv = three(mesh.uv, mesh.triangles[i]);
-    add(scene, make_triangle(values, transform), material);
+    add(scene, shapes::make_triangle(values, transform), material);
   }
 }
 

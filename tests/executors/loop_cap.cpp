@@ -5,14 +5,18 @@
 
 #include "host/executors/executor.hpp"
 #include "host/loader/scene_file.hpp"
-#include "query_kernel.hpp"
-#include "random_scene.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/query_kernel.hpp"
+#include "tests/support/random_scene.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::loader;
 using namespace eyeray::executors;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::records;
 
 namespace {
 
@@ -122,7 +126,7 @@ TEST_CASE(
 TEST_CASE("more iterations in a BVH than a capped driver grants: every pixel is the twin's, or flagged") {
   // No box tells these spheres apart: a ray tests them all, the nearest of which is the first.
   constexpr int count = 70'000;
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.image = {.width = 16, .height = 8};
   scene.camera.eye = Vec3(0, 0, 5);
   scene.render.ambient = Vec3(1);
@@ -158,7 +162,7 @@ TEST_CASE(
     "flagged") {
   // So faint that a ray goes through all of them.
   constexpr int count = 70'000;
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0, 0, 5);
   test::add(scene, make_dielectric({.shadow = 0.99999}));
   for (int i = 0; i < count; ++i) test::add(scene, make_sphere(Vec3(0), 1), 0);

@@ -1,13 +1,14 @@
 // Kernel against twin, ray by ray: hits do not depend on where the shader runs nor on how it was specialised.
 #include <fmt/format.h>
 
-#include "query_kernel.hpp"
-#include "random_scene.hpp"
+#include "tests/support/query_kernel.hpp"
+#include "tests/support/random_scene.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::executors;
+using namespace eyeray::records;
 
 TEST_CASE("nearest and any: every bit is the same on the GPU, unrolled or looping, and on the twin") {
   gpu::Device device({});

@@ -9,12 +9,14 @@
 #include "host/pack/pack.hpp"
 #include "host/scene/shape.hpp"
 #include "host/scene/texture.hpp"
-#include "support.hpp"
+#include "host/shapes/registry.hpp"
+#include "tests/support/entries.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::loader;
+using namespace eyeray::records;
 
 namespace {
 
@@ -29,7 +31,7 @@ bool has_function(const std::vector<uint32_t>& spirv, const std::string& name) {
 }  // namespace
 
 TEST_CASE("a kernel has the shapes and textures of its scene, and no other's") {
-  for (const ShapeType* type : shape_types()) {
+  for (const ShapeType* type : shapes::types()) {
     const std::string file = "scenes/shapes/" + std::string(type->name) + ".toml";
     CAPTURE(file);
     const PackedScene packed = pack::pack(load_scene(file));
@@ -40,9 +42,9 @@ TEST_CASE("a kernel has the shapes and textures of its scene, and no other's") {
     for (const bool constants : {true, false}) {
       const std::vector<uint32_t> kernel =
           test::compile_entry("kernels/render.comp.glsl", packed, {.constants = constants});
-      for (uint32_t kind = 0; kind < shape_types().size(); ++kind) {
-        CAPTURE(shape_types()[kind]->name);
-        const std::string function = std::string(shape_types()[kind]->name) + "_intersect";
+      for (uint32_t kind = 0; kind < shapes::types().size(); ++kind) {
+        CAPTURE(shapes::types()[kind]->name);
+        const std::string function = std::string(shapes::types()[kind]->name) + "_intersect";
         CHECK(has_function(kernel, function) == used.contains(kind));
       }
       for (const TextureRow& row : texture_rows) {

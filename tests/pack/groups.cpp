@@ -7,13 +7,15 @@
 #include "hard_scene.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/reference/tracer.hpp"
+#include "host/shapes/registry.hpp"
 #include "host/twin/shader_functions.hpp"
-#include "query_kernel.hpp"
+#include "tests/support/query_kernel.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::loader;
+using namespace eyeray::records;
 using namespace eyeray::test;
 
 namespace {
@@ -94,7 +96,7 @@ TEST_CASE(
     "every kind of shape: kept once it is hit where copies are, with their ids, normals and uv; by the BVH "
     "as by "
     "brute force") {
-  for (const ShapeType* type : shape_types()) {
+  for (const ShapeType* type : shapes::types()) {
     CAPTURE(type->name);
     const std::string text = grouped(*type);
     const Scene flat = stored(text, "flat");

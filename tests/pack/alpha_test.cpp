@@ -3,14 +3,18 @@
 
 #include "host/pack/collapse.hpp"
 #include "host/reference/tracer.hpp"
-#include "query_kernel.hpp"
-#include "random_scene.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/query_kernel.hpp"
+#include "tests/support/random_scene.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::pack;
 using namespace eyeray::executors;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::records;
 using namespace eyeray::test;
 
 namespace {
@@ -27,7 +31,7 @@ AlphaMask picture_mask(Filter filter) {
 
 // Of three materials: with cutouts by checks, by a picture, by vertices and a factor; and one without.
 Scene leafy_scene(Random& random, int count, int instances) {
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0);
   scene.camera.target = Vec3(0, 0, -1);
   for (int i = 0; i < 4; ++i) add(scene, make_phong({}));
@@ -62,7 +66,7 @@ std::vector<shader::QueryRay> random_rays(Random& random, size_t count) {
 }  // namespace
 
 TEST_CASE("an alpha of the cutoff is there, below it there is a hole; behind a hole the next is hit") {
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0);
   scene.camera.target = Vec3(0, 0, -1);
   for (int i = 0; i < 2; ++i) add(scene, make_phong({}));

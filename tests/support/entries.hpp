@@ -8,14 +8,14 @@
 
 namespace eyeray::test {
 
-inline gpu::ShaderSource entry_source(const char* entry, const PackedScene& scene,
+inline gpu::ShaderSource entry_source(const char* entry, const records::PackedScene& scene,
                                       const executors::Specialisation& specialisation) {
   executors::ShaderFiles files({}, executors::specialise(scene, specialisation));
   return gpu::read_shader([&](std::string_view name) { return files.read(name); }, entry);
 }
 
 // As glslang leaves it, with all functions.
-inline std::vector<uint32_t> compile_entry(const char* entry, const PackedScene& scene,
+inline std::vector<uint32_t> compile_entry(const char* entry, const records::PackedScene& scene,
                                            const executors::Specialisation& specialisation,
                                            const char* defines = "") {
   return gpu::compile_shader(entry_source(entry, scene, specialisation), defines).spirv;

@@ -13,7 +13,7 @@ struct RayTarget {
 // Of every primitive of the scene, as often as instances show it.
 inline std::vector<RayTarget> ray_targets(const Scene& scene, Random& random) {
   std::vector<RayTarget> targets;
-  const PackedScene packed = pack::pack(scene, {.acceleration = Acceleration::brute_force});
+  const records::PackedScene packed = pack::pack(scene, {.acceleration = Acceleration::brute_force});
   const auto vertex = [&](uint32_t i) { return std::bit_cast<glm::vec4>(packed.vertices.at(i)); };
   const auto take = [&](const shader::Primitive& p, const shader::Instance* instance) {
     RayTarget target{glm::vec3(p.a), glm::vec3(p.b), glm::vec3(p.c)};

@@ -14,7 +14,7 @@
 #include "host/gpu/self_test.hpp"
 #include "host/pack/collapse.hpp"
 #include "host/twin/twin.hpp"
-#include "support.hpp"
+#include "tests/support/entries.hpp"
 
 namespace eyeray::test {
 
@@ -22,11 +22,11 @@ class QueryKernel {
  public:
   // With a `collapsed`, by kernels/cooperative/bvh4.comp.glsl; else in packets or each ray alone, as the
   // profile says.
-  QueryKernel(gpu::Device& device, const PackedScene& scene, const executors::Specialisation& specialisation,
-              const pack::CollapsedBvh* collapsed = nullptr)
+  QueryKernel(gpu::Device& device, const records::PackedScene& scene,
+              const executors::Specialisation& specialisation, const pack::CollapsedBvh* collapsed = nullptr)
       : device_(device), scene_(scene), specialisation_(specialisation) {
     specialisation_.subgroup_size = device.info().limits.subgroup_size;
-    PackedScene with_packets = scene;
+    records::PackedScene with_packets = scene;
     if (traces_packets())
       specialisation_.packet_bvh = pack::add_packet_bvh(with_packets, specialisation_.subgroup_size);
     for (const executors::SceneBuffer& buffer : executors::scene_buffers(with_packets)) add(buffer);
@@ -79,7 +79,7 @@ class QueryKernel {
   }
 
   gpu::Device& device_;
-  const PackedScene& scene_;
+  const records::PackedScene& scene_;
   executors::Specialisation specialisation_;
   const char* entry_ = "kernels/query.comp.glsl";
   std::string defines_;
@@ -88,7 +88,7 @@ class QueryKernel {
   std::unique_ptr<gpu::Kernel> kernels_[2];  // by whether any hit will do
 };
 
-inline std::vector<shader::QueryHit> ask_twin(const PackedScene& scene,
+inline std::vector<shader::QueryHit> ask_twin(const records::PackedScene& scene,
                                               std::span<const shader::QueryRay> rays, bool any) {
   std::vector<shader::QueryHit> hits(rays.size());
   std::transform(rays.begin(), rays.end(), hits.begin(),

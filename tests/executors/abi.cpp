@@ -5,13 +5,14 @@
 
 #include "host/executors/shader_probe.hpp"
 #include "host/gpu/reflect.hpp"
-#include "random_scene.hpp"
-#include "support.hpp"
+#include "tests/support/entries.hpp"
+#include "tests/support/random_scene.hpp"
 
 #include "tests/support/doctest.hpp"
 #include "tests/support/process.hpp"
 
 using namespace eyeray;
+using namespace eyeray::records;
 
 namespace {
 

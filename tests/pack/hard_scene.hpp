@@ -5,8 +5,9 @@
 #include <numbers>
 
 #include "host/reference/media.hpp"
-#include "random_scene.hpp"
 #include "ray_targets.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/random_scene.hpp"
 
 namespace eyeray::test {
 
@@ -35,8 +36,8 @@ class HardScene {
     scene_.camera.eye = chance(0.5) ? Vec3(0) : center_ + random_.point(2) * size_;
     scene_.camera.target = scene_.camera.eye + Vec3(0, 0, -1);
     if (chance(0.2)) scene_.render.triangle_method = TriangleMethod::moller_trumbore;
-    add(scene_, make_phong({}));
-    add(scene_, make_dielectric({.shadow = 0.7}));
+    add(scene_, materials::make_phong({}));
+    add(scene_, materials::make_dielectric({.shadow = 0.7}));
     glass_ = chance(0.5) ? 0.5 : 0;
     const int kind = random_.below(12);
     if (kind == 0) {
@@ -45,7 +46,8 @@ class HardScene {
       add_nest();
     } else {
       add_spheres(random_.below(8));
-      if (chance(0.3)) add(scene_, make_plane(point(center_, size_), random_.direction()), material());
+      if (chance(0.3))
+        add(scene_, shapes::make_plane(point(center_, size_), random_.direction()), material());
       if (chance(0.4)) add_object_shapes(1 + random_.below(4));
       if (chance(0.25)) add_csg_objects(1 + random_.below(4));
       if (chance(0.7)) add_shapes(hard_triangles(1 + random_.below(20)));
@@ -76,7 +78,7 @@ class HardScene {
   // Shapes stand in registry order.
   void sort_shapes() {
     std::ranges::stable_sort(scene_.shapes, {}, [](const std::unique_ptr<Shape>& shape) {
-      Packer packer(Vec3(0));
+      records::Packer packer(Vec3(0));
       shape->pack(packer);
       return kind_of(packer.scene.primitives[0]);
     });
@@ -140,18 +142,18 @@ class HardScene {
       const double reach = size_ * random_.log_uniform(1e-3, 1);
       const Vec3 thin(1, 1, chance(0.3) ? random_.log_uniform(1e-6, 1) : 1);
       if (chance(0.3)) {
-        add(scene_, make_parallelogram(at, Vec3(reach, 0, 0), reach * thin * Vec3(0.3, 0, 1), map),
+        add(scene_, shapes::make_parallelogram(at, Vec3(reach, 0, 0), reach * thin * Vec3(0.3, 0, 1), map),
             material());
         continue;
       }
-      PlanarRegion star;
+      shapes::PlanarRegion star;
       const int corners = 3 + random_.below(12);
       for (int k = 0; k < corners; ++k) {
         const double angle = 2 * std::numbers::pi * k / corners;
         star.outer.push_back(at +
                              (k % 2 ? 0.6 : 1) * reach * thin * Vec3(std::sin(angle), 0, std::cos(angle)));
       }
-      if (star.normal() != Vec3(0)) add(scene_, make_polygon(star, map), material());
+      if (star.normal() != Vec3(0)) add(scene_, shapes::make_polygon(star, map), material());
     }
   }
 
@@ -159,7 +161,7 @@ class HardScene {
     if (chance(0.5)) {
       add_shapes(hard_triangles(1));
     } else {
-      add(scene_, make_sphere(point(center_, size_), size_ * random_.uniform(0.1, 1)), material());
+      add(scene_, shapes::make_sphere(point(center_, size_), size_ * random_.uniform(0.1, 1)), material());
     }
   }
 
@@ -170,7 +172,7 @@ class HardScene {
         sphere_center_ = point(center_, size_);
         sphere_radius_ = size_ * random_.log_uniform(1e-4, 1);
       }
-      add(scene_, make_sphere(sphere_center_, sphere_radius_), material());
+      add(scene_, shapes::make_sphere(sphere_center_, sphere_radius_), material());
     }
   }
 
@@ -186,16 +188,17 @@ class HardScene {
       const bool open = chance(0.5);
       switch (random_.below(4)) {
         case 0:
-          add(scene_, make_box(Vec3(-1), Vec3(1), map), material());
+          add(scene_, shapes::make_box(Vec3(-1), Vec3(1), map), material());
           break;
         case 1:
-          add(scene_, make_ellipsoid(Vec3(0), Vec3(1), map), material());
+          add(scene_, shapes::make_ellipsoid(Vec3(0), Vec3(1), map), material());
           break;
         case 2:
-          add(scene_, make_cylinder({0, -1, 0}, {0, 1, 0}, 1, open, map), material());
+          add(scene_, shapes::make_cylinder({0, -1, 0}, {0, 1, 0}, 1, open, map), material());
           break;
         default:
-          add(scene_, make_cone({0, -1, 0}, {0, 1, 0}, 1, random_.below(2) * 0.5, open, map), material());
+          add(scene_, shapes::make_cone({0, -1, 0}, {0, 1, 0}, 1, random_.below(2) * 0.5, open, map),
+              material());
       }
     }
   }
@@ -203,7 +206,7 @@ class HardScene {
   // Of parts that touch, that are the same, or lie beside each other; some of them within others.
   void add_csg_objects(int count) {
     for (int i = 0; i < count; ++i) {
-      Scene parts;
+      Scene parts = test::empty_scene();
       std::swap(parts.shapes, scene_.shapes);
       add_spheres(1 + random_.below(3));
       add_object_shapes(1 + random_.below(4));
@@ -216,14 +219,14 @@ class HardScene {
         else
           operands.push_back(std::move(part));
         if (operands.size() == 2 && chance(0.3)) {
-          auto inner = make_csg(chance(0.5), std::move(operands));
+          auto inner = shapes::make_csg(chance(0.5), std::move(operands));
           operands.clear();
           operands.push_back(std::move(inner));
         }
       }
       // Most of what is within all of them would be nothing.
       const bool all = operands.size() < 3 && chance(0.4);
-      auto csg = make_csg(all, std::move(operands), std::move(removed));
+      auto csg = shapes::make_csg(all, std::move(operands), std::move(removed));
       if (glm::all(glm::lessThan(csg->bounds().min, csg->bounds().max))) add(scene_, std::move(csg), 0);
     }
   }
@@ -235,7 +238,7 @@ class HardScene {
     for (int i = 0; i < count; ++i) {
       const double radius = size_ * std::pow(factor, -i);
       if (radius < 1e-9 * size_) break;
-      add(scene_, make_sphere(center_ + Vec3(radius, 0, 0), radius), material());
+      add(scene_, shapes::make_sphere(center_ + Vec3(radius, 0, 0), radius), material());
     }
   }
 
@@ -358,7 +361,7 @@ class HardScene {
   }
 
   Random random_;
-  Scene scene_;
+  Scene scene_ = test::empty_scene();
   double size_ = 1;
   Vec3 center_{0};
   double grid_ = 0;

@@ -7,8 +7,8 @@
 #include "host/gpu/command_list.hpp"
 #include "host/gpu/kernel_compiler.hpp"
 #include "host/gpu/self_test.hpp"
-#include "support.hpp"
 #include "tests/support/amount.hpp"
+#include "tests/support/entries.hpp"
 #include "tests/support/random_formula.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -68,17 +68,17 @@ std::vector<glm::vec4> random_places(uint64_t seed) {
   return places;
 }
 
-std::unique_ptr<Formula> formula_of(const std::string& text) {
+std::unique_ptr<formula::Formula> formula_of(const std::string& text) {
   try {
-    return std::make_unique<Formula>(FormulaText{text, {"f.glsl", 1, 1}}, std::vector<FormulaParameter>(),
-                                     "it");
+    return std::make_unique<formula::Formula>(formula::FormulaText{text, {"f.glsl", 1, 1}},
+                                              std::vector<formula::FormulaParameter>(), "it");
   } catch (const InputError&) {
     return nullptr;
   }
 }
 
 // The interpreter's value; none where it does not come to an end.
-std::optional<float> value_at(const Formula& formula, const glm::vec4& p) {
+std::optional<float> value_at(const formula::Formula& formula, const glm::vec4& p) {
   try {
     return formula.value(std::array{p.x, p.y, p.z});
   } catch (const Error&) {
@@ -93,7 +93,7 @@ TEST_CASE("kernels of formulas at random compute the interpreter's bits, whereve
   constexpr int in_a_kernel = 8;
   size_t compared = 0, different = 0;
   for (int batch = 0; batch < test::amount(4, 4, 4000); ++batch) {
-    std::vector<std::unique_ptr<Formula>> formulas;
+    std::vector<std::unique_ptr<formula::Formula>> formulas;
     std::string text, first_text;
     std::vector<std::string> functions;
     for (int i = 0; i < in_a_kernel; ++i) {

@@ -4,12 +4,16 @@
 #include <atomic>
 
 #include "host/core/parallel_for.hpp"
-#include "query_kernel.hpp"
-#include "random_scene.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/query_kernel.hpp"
+#include "tests/support/random_scene.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::records;
 using namespace eyeray::test;
 
 namespace {
@@ -82,7 +86,7 @@ class LongTriangles {
   bool chance(double share) { return random_.uniform() < share; }
 
   Random random_;
-  Scene scene_;
+  Scene scene_ = test::empty_scene();
   double size_ = 1;
   std::vector<std::array<glm::vec3, 3>> corners_;
 };

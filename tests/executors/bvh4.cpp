@@ -4,18 +4,23 @@
 
 #include <map>
 
-#include "query_kernel.hpp"
-#include "random_scene.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/query_kernel.hpp"
+#include "tests/support/random_scene.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::pack;
 using namespace eyeray::executors;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::records;
 using test::Random;
 
 namespace {
 
-constexpr double size = 3;
+constexpr double extent = 3;
 
 // Triangles that are hard on BVHs: on a grid, so that corners and boxes coincide, needles, duplicates that
 // tie; and with `glass`, some that let light through, and a plane in the linear list that does.
@@ -26,8 +31,8 @@ void add_hard_triangles(Scene& scene, Random& random, int count, bool glass) {
   TriangleValues triangle;
   for (int i = 0; i < count; ++i) {
     const int kind = int(random.below(6));
-    Vec3 a = random.point(size);
-    const double reach = random.log_uniform(0.02, 1) * size;
+    Vec3 a = random.point(extent);
+    const double reach = random.log_uniform(0.02, 1) * extent;
     Vec3 b = a + random.point(reach);
     Vec3 c = kind == 0 ? glm::mix(a, b, 0.4) + random.point(1e-5) : a + random.point(reach);
     if (kind == 1 || kind == 2) {
@@ -103,7 +108,7 @@ TEST_CASE("nearest and any: four lanes a ray find what the twin finds, bit by bi
                                                          {0, 3000, true, false},
                                                          {40, 300, false, true},
                                                          {1, 2, false, false}}) {
-    Scene scene;
+    Scene scene = test::empty_scene();
     if (shapes > 0) scene = test::random_scene(random, shapes);
     add_hard_triangles(scene, random, triangles, !split);
     const PackedScene scene_packed = packed(scene, split);
@@ -139,7 +144,7 @@ TEST_CASE("nearest and any: four lanes a ray find what the twin finds, bit by bi
 TEST_CASE(
     "four lanes a ray, more steps than a capped driver grants: every answer is the twin's, or flagged") {
   gpu::Device device({});
-  Scene scene;
+  Scene scene = test::empty_scene();
   const int opaque = test::add(scene, make_phong({}));
   TriangleValues triangle;
   triangle.vertices = {Vec3(-1, -1, -2), Vec3(1, -1, -2), Vec3(0, 1, -2)};

@@ -6,13 +6,14 @@
 #include "host/executors/shader_probe.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/pack/pack.hpp"
-#include "support.hpp"
+#include "tests/support/entries.hpp"
 #include "tests/support/process.hpp"
 //
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::executors;
+using namespace eyeray::records;
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include "host/materials/make.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/shapes/make.hpp"
+#include "tests/support/empty_scene.hpp"
 
 namespace eyeray::test {
 
@@ -28,16 +29,16 @@ inline int add(Scene& scene, std::unique_ptr<Shape> shape, int material) {
 
 inline void add_point_light(Scene& scene, const Vec3& position, const Vec3& intensity,
                             Falloff falloff = Falloff::none) {
-  scene.lights.push_back(make_light(PointLight{position, intensity, falloff}));
+  scene.lights.push_back(lights::make_light(PointLight{position, intensity, falloff}));
 }
 
 inline void add_sun(Scene& scene, const Vec3& to_light, const Vec3& intensity) {
-  scene.lights.push_back(make_light(DirectionalLight{glm::normalize(to_light), intensity}));
+  scene.lights.push_back(lights::make_light(DirectionalLight{glm::normalize(to_light), intensity}));
 }
 
 // A scene of one pixel, whose ray runs from `eye` exactly towards `target`.
 inline Scene one_pixel(const Vec3& eye, const Vec3& target) {
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.image = {.width = 1, .height = 1};
   scene.camera.eye = eye;
   scene.camera.target = target;

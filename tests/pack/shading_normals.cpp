@@ -18,6 +18,7 @@
 
 using namespace eyeray;
 using namespace eyeray::loader;
+using namespace eyeray::records;
 using namespace eyeray::test;
 
 namespace {
@@ -189,7 +190,7 @@ std::optional<Vec3> expected_normal(const Mat4& map, const Ray& ray) {
   return nearest;
 }
 
-Vec3 by_reference(const reference::Tracer& tracer, const Ray& ray) {
+Vec3 reference_normal(const reference::Tracer& tracer, const Ray& ray) {
   const auto hit = tracer.trace(ray);
   return hit ? tracer.surface(ray, *hit).normal : Vec3(0);
 }
@@ -231,7 +232,7 @@ TEST_CASE("vertex normals are interpolated in the object's space, however it com
         const auto expected = expected_normal(map, ray);
         if (!expected) continue;
         ++asked;
-        worst = std::max(worst, magnitude(by_reference(tracer, ray) - *expected));
+        worst = std::max(worst, magnitude(reference_normal(tracer, ray) - *expected));
         worst_twin = std::max(worst_twin, magnitude(by_twin(scene, ray) - *expected));
       }
       CHECK(worst < 1e-9);

@@ -4,13 +4,14 @@
 #include "host/gpu/float_policy.hpp"
 #include "host/gpu/spirv.hpp"
 #include "host/gpu/spirv_optimiser.hpp"
-#include "random_scene.hpp"
-#include "support.hpp"
+#include "tests/support/entries.hpp"
+#include "tests/support/random_scene.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::executors;
+using namespace eyeray::records;
 
 TEST_CASE("no entry contains an operation whose rounding is left to the driver" *
           doctest::test_suite("long")) {

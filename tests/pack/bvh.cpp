@@ -11,14 +11,18 @@
 #include "host/loader/scene_file.hpp"
 #include "host/pack/pack.hpp"
 #include "host/render/render.hpp"
-#include "query_kernel.hpp"
-#include "random_scene.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/query_kernel.hpp"
+#include "tests/support/random_scene.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::render;
 using namespace eyeray::executors;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::records;
 using namespace eyeray::test;
 
 namespace {
@@ -164,7 +168,7 @@ TEST_CASE("hard scenes on the GPU: many more" * doctest::test_suite("long")) {
 }
 
 TEST_CASE("the validation layers have nothing to say of BVHs, instances and either way to load them") {
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.image = {.width = 24, .height = 16};
   scene.camera.eye = Vec3(0, 0, 6);
   scene.camera.target = Vec3(0);
@@ -193,7 +197,7 @@ TEST_CASE("the validation layers have nothing to say of BVHs, instances and eith
 
 TEST_CASE("a floor under many spheres stands in the linear list, whose leaves hold spheres alone") {
   Random random(5);
-  Scene scene;
+  Scene scene = test::empty_scene();
   const int material = test::add(scene, make_phong({}));
   for (int i = 0; i < 40; ++i)
     test::add(scene, make_sphere(random.point(2) * Vec3(1, 0.2, 1), random.log_uniform(0.05, 0.3)), material);

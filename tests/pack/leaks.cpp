@@ -5,14 +5,18 @@
 #include <map>
 
 #include "host/twin/shader_functions.hpp"
-#include "query_kernel.hpp"
-#include "random_scene.hpp"
+#include "tests/support/query_kernel.hpp"
+#include "tests/support/random_scene.hpp"
 
 #include "tests/support/amount.hpp"
+#include "tests/support/empty_scene.hpp"
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::executors;
+using namespace eyeray::materials;
+using namespace eyeray::records;
 using namespace eyeray::test;
 
 namespace {
@@ -92,7 +96,7 @@ struct PlacedMesh {
   Vec3 to_world(const Vec3& p) const { return Vec3(map * glm::dvec4(p, 1)); }
   bool is_hit(const shader::QueryHit& hit) const { return hit.primitive < triangles; }
 
-  Scene scene;
+  Scene scene = test::empty_scene();
   Mat4 map;
   uint32_t triangles;
   PackedScene packed;

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "host/pack/pack.hpp"
-#include "support.hpp"
-#include "tests/reference/meshes.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/entries.hpp"
+#include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 
 namespace eyeray::test {
@@ -11,10 +12,10 @@ namespace eyeray::test {
 // `count` primitives of each kind within a few units of the eye, at the origin, with duplicates now and then,
 // all of one opaque material.
 inline Scene random_scene(Random& random, int count) {
-  Scene scene;
+  Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0);
   scene.camera.target = Vec3(0, 0, -1);
-  const int material = add(scene, make_phong({}));
+  const int material = add(scene, materials::make_phong({}));
   Vec3 center(0);
   double radius = 1;
   for (int i = 0; i < count; ++i) {
@@ -22,25 +23,26 @@ inline Scene random_scene(Random& random, int count) {
       center = random.point(3);
       radius = random.log_uniform(0.01, 1);
     }
-    add(scene, make_sphere(center, radius), material);
+    add(scene, shapes::make_sphere(center, radius), material);
   }
   for (int i = 0; i < count; ++i) {
     const Vec3 normal = random.below(3) == 0 ? Vec3(0, 1, 0) : random.direction();
-    add(scene, make_plane(normal * random.uniform(-9, -4), normal), material);
+    add(scene, shapes::make_plane(normal * random.uniform(-9, -4), normal), material);
   }
-  TriangleValues triangle;
+  shapes::TriangleValues triangle;
   for (int i = 0; i < count; ++i) {
     if (i == 0 || random.below(8) > 0) {
       const Vec3 a = random.point(3);
       triangle.vertices = {a, a + random.point(1), a + random.point(1)};
     }
-    add(scene, make_triangle(triangle), material);
+    add(scene, shapes::make_triangle(triangle), material);
   }
   return scene;
 }
 
 // The same as records.
-inline PackedScene random_packed_scene(Random& random, int count, const pack::PackOptions& options = {}) {
+inline records::PackedScene random_packed_scene(Random& random, int count,
+                                                const pack::PackOptions& options = {}) {
   return pack::pack(random_scene(random, count), options);
 }
 

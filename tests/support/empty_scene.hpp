@@ -1,0 +1,15 @@
+#pragma once
+
+#include "host/cameras/make.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray::test {
+
+// A scene with nothing in it but the camera of a file that says nothing.
+inline Scene empty_scene() {
+  Scene scene;
+  scene.camera.projection = cameras::make_projection(PerspectiveCamera{});
+  return scene;
+}
+
+}  // namespace eyeray::test
