@@ -1,8 +1,8 @@
 #include "host/executors/profile.hpp"
 
+#include <fmt/format.h>
+
 #include "host/core/error.hpp"
-#include "host/executors/specialise.hpp"
-#include "host/pack/collapse.hpp"
 
 namespace eyeray::executors {
 namespace {
@@ -55,24 +55,6 @@ Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& dev
           !small,
           chosen_for_incoherent(options.incoherent, cpu),
           small};
-}
-
-Rays incoherent_rays(const Profile& profile, const records::PackedScene& scene, bool packets,
-                     uint32_t subgroup_size) {
-  const bool meshes = scene.bvh_kinds == std::set<uint32_t>{shader::KIND_triangle};
-  // Up to here BVHs are so shallow that a ray is best alone (docs/performance.md).
-  const bool few = scene.primitives.size() <= (meshes ? 1 << 9 : 1 << 10);
-  const Rays wanted = profile.incoherent.value_or(few ? Rays::lanes : Rays::cooperative);
-  const bool can_collapse = scene.has_bvh && scene.instances.empty() && scene.leaf_uses.empty() &&
-                            scene.quantised_nodes && subgroup_size >= pack::bvh4_children;
-  const bool possible = wanted == Rays::packets ? packets : wanted == Rays::cooperative ? can_collapse : true;
-  return possible ? wanted : Rays::lanes;
-}
-
-Rays bounced_rays(const Profile& profile, const records::PackedScene& scene, Rays incoherent) {
-  // Most rays that leave a mesh hit no more of it: not worth kernels of their own (docs/performance.md).
-  const bool meshes = scene.bvh_kinds == std::set<uint32_t>{shader::KIND_triangle};
-  return meshes && !profile.incoherent ? Rays::lanes : incoherent;
 }
 
 std::string describe(const Profile& profile) {

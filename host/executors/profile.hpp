@@ -7,7 +7,6 @@
 
 #include "host/executors/profile_options.hpp"
 #include "host/gpu/device.hpp"
-#include "host/records/packer.hpp"
 
 namespace eyeray::executors {
 
@@ -28,13 +27,6 @@ struct Profile {
 
 // Error (bad_input) for an unknown choice.
 Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& device);
-
-// How incoherent rays are traced in this scene, where `packets` says whether any can be traced together.
-Rays incoherent_rays(const Profile& profile, const records::PackedScene& scene, bool packets,
-                     uint32_t subgroup_size);
-
-// The same for the later bounces of pictures, where `incoherent` is what incoherent_rays says.
-Rays bounced_rays(const Profile& profile, const records::PackedScene& scene, Rays incoherent);
 
 // For people: "texel loads, packets, shifted stack, incoherent rays by the scene", and "no constants" and
 // "flattened" where that is so.

@@ -1,0 +1,57 @@
+#include "host/executors/gpu_queries.hpp"
+
+#include <algorithm>
+
+#include "host/core/error.hpp"
+#include "host/executors/dispatch_size.hpp"
+#include "host/executors/loop_budget.hpp"
+#include "host/executors/samples.hpp"
+#include "host/gpu/command_list.hpp"
+
+namespace eyeray::executors {
+
+double GpuQueries::ask(const QueryBatch& batch, std::span<QueryHit> hits) {
+  CHECK_EQ(batch.rays.size(), hits.size());
+  const Rays how = batch.coherent ? plan_.coherent : plan_.incoherent;
+  gpu::Kernel& asked = kernel(how, batch.kind == QueryKind::any);
+  double seconds = 0;
+  for (size_t first = 0; first < batch.rays.size(); first += most_pixels) {
+    const size_t count = std::min(batch.rays.size() - first, size_t{most_pixels});
+    seconds += ask_some(asked, how, batch.rays.subspan(first, count), hits.subspan(first, count));
+  }
+  return seconds;
+}
+
+gpu::Kernel& GpuQueries::kernel(Rays how, bool any) {
+  std::unique_ptr<gpu::Kernel>& made = made_[any][size_t(how)];
+  if (!made) made = kernels_.make(trace_entries[size_t(how)], any ? "#define QUERY_ANY\n" : "");
+  return *made;
+}
+
+double GpuQueries::ask_some(gpu::Kernel& kernel, Rays how, std::span<const Query> rays,
+                            std::span<QueryHit> hits) {
+  std::vector<shader::QueryRay> asked(rays.size());
+  std::transform(rays.begin(), rays.end(), asked.begin(),
+                 [&](const Query& ray) { return to_query_ray(ray, eye_); });
+  gpu::Buffer input(device_, asked.size() * sizeof(shader::QueryRay), "rays");
+  input.upload_records(asked);
+  const size_t bytes = asked.size() * sizeof(shader::QueryHit);
+  if (!output_ || output_->size() < bytes) output_.emplace(device_, bytes, "hits of rays");
+  kernel.set_buffer(BINDING_RAYS, input);
+  kernel.set_buffer(BINDING_OUTPUT, *output_);
+  const auto count = uint32_t(asked.size());
+  shader::Dispatch push{};
+  push.count = count;
+  const uint32_t groups = how == Rays::packets ? workgroups_.of_packets(count) : workgroups_.of_items(count);
+  const gpu::RunTime time =
+      gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)), {groups, 1, 1});
+
+  const std::vector<shader::QueryHit> answers = output_->read_records<shader::QueryHit>(count);
+  for (size_t i = 0; i < count; ++i) {
+    check_traced(answers[i].flags, device_.info().driver_version);
+    hits[i] = to_query_hit(answers[i]);
+  }
+  return time.seconds;
+}
+
+}  // namespace eyeray::executors

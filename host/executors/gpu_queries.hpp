@@ -1,0 +1,37 @@
+// Rays asked on a device, by the kernels that suit them.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "host/executors/scene_kernels.hpp"
+#include "host/executors/trace_plan.hpp"
+#include "host/executors/workgroups.hpp"
+#include "host/scene/query.hpp"
+
+namespace eyeray::executors {
+
+class GpuQueries {
+ public:
+  // `eye`: the origin of the shaders' world. Device and kernels must outlive it.
+  GpuQueries(gpu::Device& device, SceneKernels& kernels, const TracePlan& plan, const Workgroups& workgroups,
+             const Vec3& eye)
+      : device_(device), kernels_(kernels), plan_(plan), workgroups_(workgroups), eye_(eye) {}
+
+  // Executor::query.
+  double ask(const QueryBatch& batch, std::span<QueryHit> hits);
+
+ private:
+  gpu::Kernel& kernel(Rays how, bool any);
+  double ask_some(gpu::Kernel& kernel, Rays how, std::span<const Query> rays, std::span<QueryHit> hits);
+
+  gpu::Device& device_;
+  SceneKernels& kernels_;
+  TracePlan plan_;
+  Workgroups workgroups_;
+  Vec3 eye_;
+  std::optional<gpu::Buffer> output_;
+  std::unique_ptr<gpu::Kernel> made_[2][3];  // by whether any hit will do, and by Rays
+};
+
+}  // namespace eyeray::executors

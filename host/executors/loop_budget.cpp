@@ -1,0 +1,40 @@
+#include "host/executors/loop_budget.hpp"
+
+#include "host/core/error.hpp"
+
+namespace eyeray::executors {
+namespace {
+
+// Of the 65 535 iterations that a capped driver grants an invocation, what we count on (docs/lavapipe.md).
+constexpr uint64_t granted_iterations = 60000;
+
+}  // namespace
+
+uint64_t trace_iterations(const records::PackedScene& scene, bool unrolled) {
+  return scene.has_bvh ? 0 : (unrolled ? 0 : scene.primitives.size()) + scene.shape_iterations;
+}
+
+uint32_t loop_budget_of(const records::PackedScene& scene, std::string_view driver) {
+  // One ray with its shadow rays must fit whatever came before it. In a BVH it makes far fewer iterations
+  // than there are primitives; where it does not, the shader sees that the driver stopped it.
+  const uint64_t one_ray = (trace_iterations(scene, false) + 1) * (scene.lights.size() + 1);
+  if (one_ray < granted_iterations) return uint32_t(granted_iterations - one_ray);
+  throw Error(ExitCode::no_device,
+              "{} ends loops after 65 535 iterations and says nothing, too few for {} primitives{} and "
+              "{} lights without a BVH: use a newer driver, or --backend twin",
+              driver, scene.primitives.size(),
+              scene.shape_iterations > 0
+                  ? fmt::format(" ({} iterations round their outlines)", scene.shape_iterations)
+                  : "",
+              scene.lights.size());
+}
+
+void check_traced(uint32_t flags, std::string_view driver) {
+  if (flags & FLAG_LOOP_BUDGET)
+    throw Error(ExitCode::no_device,
+                "{} ends loops after 65 535 iterations, before a ray was traced: use a newer driver, or "
+                "--backend twin",
+                driver);
+}
+
+}  // namespace eyeray::executors

@@ -1,0 +1,22 @@
+// How often loops go round, for drivers that end long ones and say nothing (docs/lavapipe.md).
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "host/records/packer.hpp"
+
+namespace eyeray::executors {
+
+// How many loop iterations a ray takes at most through what is in no BVH. Through a BVH it takes far fewer
+// than there are primitives, nobody knows how many.
+uint64_t trace_iterations(const records::PackedScene& scene, bool unrolled);
+
+// Specialisation::loop_budget for such a driver. Error (no_device), which names it, where one ray may need
+// more than it grants.
+uint32_t loop_budget_of(const records::PackedScene& scene, std::string_view driver);
+
+// Error (no_device), which names the driver, where the flags of a ray say that it ended loops all the same.
+void check_traced(uint32_t flags, std::string_view driver);
+
+}  // namespace eyeray::executors

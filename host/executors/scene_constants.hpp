@@ -1,0 +1,27 @@
+// A small scene as constants in the text of its kernels, which then load less of it or nothing.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+
+#include "host/records/packer.hpp"
+
+namespace eyeray::executors {
+
+// Whether these are so few that the code does not outgrow what it saves.
+bool few_shading_records(const records::PackedScene& scene);
+bool few_primitives(const records::PackedScene& scene);
+
+// Everything but geometry and texels as constants, and the list of materials that materials/material.glsl
+// unrolls. Not of images: each of them is far more code than what chooses between them.
+std::string shading_as_constants(const records::PackedScene& scene, const std::set<uint32_t>& materials_used);
+
+// What is the same for all pixels, as a constant.
+std::string frame_as_constant(const shader::Frame& frame);
+
+// Geometry as constants, and the list of primitives that bvh/traverse.glsl unrolls, in the order of their
+// ids.
+std::string primitives_as_constants(const records::PackedScene& scene);
+
+}  // namespace eyeray::executors

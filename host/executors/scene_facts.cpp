@@ -1,0 +1,57 @@
+#include "host/executors/scene_facts.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "host/scene/integrator.hpp"
+#include "host/scene/texture.hpp"
+
+namespace eyeray::executors {
+namespace {
+
+bool varies(const shader::Texture& texture) {
+  return std::ranges::find(texture_rows, texture.kind, &TextureRow::number)->varies;
+}
+
+bool is_black(const shader::Texture& texture) {
+  return !varies(texture) && texture.color == shader::vec3(0);
+}
+
+// Whether any material may send rays on.
+bool any_reflects(const records::PackedScene& scene) {
+  return scene.media.size() > 1 ||
+         std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
+           return !is_black(scene.textures[material.reflected]);
+         });
+}
+
+}  // namespace
+
+bool varies(const records::PackedScene& scene, const shader::Material& material) {
+  return std::ranges::any_of(std::array{material.base, material.specular, material.reflected,
+                                        material.ambient, material.emission, material.alpha},
+                             [&](uint32_t texture) { return varies(scene.textures[texture]); });
+}
+
+bool any_emits(const records::PackedScene& scene) {
+  return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
+    return !is_black(scene.textures[material.emission]);
+  });
+}
+
+bool any_absorbs(const records::PackedScene& scene) {
+  return std::ranges::any_of(
+      scene.media, [](const shader::Medium& medium) { return medium.absorption != shader::vec3(0); });
+}
+
+uint32_t most_bounces(const records::PackedScene& scene) {
+  return traits_of(IntegratorType(scene.frame.integrator)).scatters && any_reflects(scene)
+             ? scene.frame.max_depth
+             : 0;
+}
+
+bool casts_shadow_rays(const records::PackedScene& scene) {
+  return traits_of(IntegratorType(scene.frame.integrator)).shadow_rays && !scene.lights.empty();
+}
+
+}  // namespace eyeray::executors

@@ -1,0 +1,50 @@
+#include "host/executors/scene_kernels.hpp"
+
+#include <fmt/format.h>
+
+#include "host/core/error.hpp"
+#include "host/core/free_memory.hpp"
+#include "host/executors/profile.hpp"
+#include "host/pack/collapse.hpp"
+
+namespace eyeray::executors {
+
+std::unique_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::string defines) {
+  if (entry == trace_entries[size_t(Rays::cooperative)]) {
+    upload_bvh4();
+    defines += fmt::format("#define BVH4_STACK_SIZE {}\n", bvh4_stack_);
+  }
+  const std::vector<uint32_t> spirv = workshop_.times.measure("shader compile", [&] {
+    try {
+      return gpu::compile_kernel(source(entry), defines, workshop_.how, workshop_.cache).spirv;
+    } catch (const InputError& error) {
+      std::vector<Diagnostic> diagnostics = error.diagnostics();
+      for (Diagnostic& d : diagnostics) d.position.file = files_.shown(d.position.file);
+      throw InputError(std::move(diagnostics));
+    }
+  });
+  auto kernel = workshop_.times.measure("pipeline", [&] {
+    return std::make_unique<gpu::Kernel>(workshop_.device, spirv, entry, workshop_.cache);
+  });
+  scene_.bind(*kernel);
+  return kernel;
+}
+
+gpu::ShaderSource SceneKernels::source(const std::string& entry) {
+  const auto read = [&](std::string_view name) {
+    auto text = files_.read(name);
+    return text ? std::optional(workshop_.fault.damage(name, std::move(*text))) : std::nullopt;
+  };
+  return gpu::read_shader(read, entry);
+}
+
+void SceneKernels::upload_bvh4() {
+  if (binary_nodes_.empty()) return;
+  const pack::CollapsedBvh bvh4 =
+      workshop_.times.measure("collapse", [&] { return pack::collapse(binary_nodes_, bvh_); });
+  free_memory(binary_nodes_);
+  bvh4_stack_ = bvh4.stack_size;
+  scene_.add(bvh4_buffer(bvh4.nodes));
+}
+
+}  // namespace eyeray::executors

@@ -1,0 +1,61 @@
+// Kernels that are made for one scene: the entries, compiled with its scene.glsl, with its buffers bound.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "host/core/disk_cache.hpp"
+#include "host/core/raw_vector.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/executors/fault.hpp"
+#include "host/executors/shader_files.hpp"
+#include "host/executors/uploaded_scene.hpp"
+#include "host/gpu/kernel.hpp"
+#include "host/gpu/kernel_compiler.hpp"
+#include "host/records/packer.hpp"
+
+namespace eyeray::executors {
+
+// The entries that trace the rays they are given, by Rays.
+inline constexpr const char* trace_entries[] = {
+    "kernels/query.comp.glsl", "kernels/cooperative/packet.comp.glsl", "kernels/cooperative/bvh4.comp.glsl"};
+
+class SceneKernels {
+ public:
+  // What they are made of and with; all of it must outlive them.
+  struct Workshop {
+    gpu::Device& device;
+    const DiskCache& cache;
+    const Fault& fault;
+    StageTimes& times;
+    gpu::KernelOptions how;
+  };
+
+  SceneKernels(const Workshop& workshop, UploadedScene& scene, ShaderFiles files)
+      : workshop_(workshop), scene_(scene), files_(std::move(files)) {}
+
+  // Of these nodes a BVH4 is made once a kernel is that traverses it.
+  void make_bvh4_of(RawVector<shader::uvec4> nodes, const shader::Bvh& bvh) {
+    binary_nodes_ = std::move(nodes);
+    bvh_ = bvh;
+  }
+  // InputError where the text does not compile.
+  std::unique_ptr<gpu::Kernel> make(const std::string& entry, std::string defines = "");
+  // The text of an entry and all that it includes.
+  gpu::ShaderSource source(const std::string& entry);
+  const std::set<std::filesystem::path>& looked_for() const { return files_.looked_for(); }
+
+ private:
+  void upload_bvh4();
+
+  Workshop workshop_;
+  UploadedScene& scene_;
+  ShaderFiles files_;
+  RawVector<shader::uvec4> binary_nodes_;  // until they are collapsed
+  shader::Bvh bvh_{};
+  uint32_t bvh4_stack_ = 1;  // CollapsedBvh::stack_size
+};
+
+}  // namespace eyeray::executors

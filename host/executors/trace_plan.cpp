@@ -1,0 +1,56 @@
+#include "host/executors/trace_plan.hpp"
+
+#include <set>
+
+#include "host/pack/collapse.hpp"
+
+namespace eyeray::executors {
+namespace {
+
+// Where a triangle is less than a pixel, rays of a packet hardly share a leaf: beyond so many primitives each
+// ray goes alone, unless packets are asked for (docs/performance.md).
+constexpr size_t most_in_packets = 1 << 20;
+// Pictures take packets where they save more than their kernels take to make: of so many samples, and up to
+// so many primitives.
+constexpr int64_t least_samples_in_wavefront = 1 << 22;
+constexpr size_t most_in_wavefront = 1 << 18;
+
+bool only_triangles(const records::PackedScene& scene) {
+  return scene.bvh_kinds == std::set<uint32_t>{shader::KIND_triangle};
+}
+
+// Whether the cooperative kernels can traverse a BVH made of the scene's.
+bool collapsible(const records::PackedScene& scene) {
+  return scene.has_bvh && scene.quantised_nodes && scene.instances.empty() && scene.leaf_uses.empty();
+}
+
+Rays incoherent_rays(const Profile& profile, const records::PackedScene& scene, bool packets,
+                     uint32_t subgroup_size) {
+  // Up to here BVHs are so shallow that a ray is best alone (docs/performance.md).
+  const bool few = scene.primitives.size() <= (only_triangles(scene) ? 1 << 9 : 1 << 10);
+  const Rays wanted = profile.incoherent.value_or(few ? Rays::lanes : Rays::cooperative);
+  const bool four_lanes = collapsible(scene) && subgroup_size >= pack::bvh4_children;
+  const bool possible = wanted == Rays::packets ? packets : wanted == Rays::cooperative ? four_lanes : true;
+  return possible ? wanted : Rays::lanes;
+}
+
+}  // namespace
+
+TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, const ImageSettings& image,
+                       const records::PackedScene& scene, uint32_t subgroup_size) {
+  const bool asked_for_packets = asked.rays == "packets";
+  const bool packets = profile.packets && collapsible(scene) &&
+                       (asked_for_packets || scene.primitives.size() <= most_in_packets) &&
+                       (subgroup_size == 4 || subgroup_size == 8 || subgroup_size == 16);
+  TracePlan plan;
+  plan.coherent = packets ? Rays::packets : Rays::lanes;
+  plan.incoherent = incoherent_rays(profile, scene, packets, subgroup_size);
+  const int64_t samples = int64_t{image.width} * image.height * image.samples;
+  plan.wavefront = packets && (asked_for_packets || (samples >= least_samples_in_wavefront &&
+                                                     scene.primitives.size() <= most_in_wavefront));
+  // Most rays that leave a mesh hit no more of it: not worth kernels of their own (docs/performance.md).
+  plan.bounced = only_triangles(scene) && !profile.incoherent ? Rays::lanes : plan.incoherent;
+  return plan;
+}
+
+}  // namespace eyeray::executors
