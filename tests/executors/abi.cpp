@@ -142,8 +142,8 @@ TEST_CASE("no two bindings of the buffers have one number") {
   std::map<std::string, std::string> by_number;
   for (std::sregex_iterator it(text.begin(), text.end(), row), end; it != end; ++it) {
     const std::string number = (*it)[2], name = (*it)[1];
-    const auto [first, is_new] = by_number.emplace(number, name);
-    CHECK_MESSAGE(is_new, name, " and ", first->second, " are ", number);
+    const auto added = by_number.emplace(number, name);
+    CHECK_MESSAGE(added.second, name, " and ", added.first->second, " are ", number);
   }
   CHECK(by_number.size() > 10);
 }

@@ -213,10 +213,10 @@ TEST_CASE("vertex normals are interpolated in the object's space, however it com
     write_gltf(folder / "roof.gltf", folder / "roof.bin", of.inner);
     write_gltf(folder / "whole.gltf", folder / "roof.bin", all);
     const Mat4 map = of.map();
-    for (const auto& [way, text] : ways_to_stand(of)) {
+    for (const auto& way : ways_to_stand(of)) {
       CAPTURE(of.name);
-      CAPTURE(way);
-      write_text(folder / "scene.toml", "[[material]]\nname = \"wall\"\ntype = \"phong\"\n" + text);
+      CAPTURE(way.first);
+      write_text(folder / "scene.toml", "[[material]]\nname = \"wall\"\ntype = \"phong\"\n" + way.second);
       const Scene scene = load_scene(folder / "scene.toml");
       const reference::Tracer tracer(scene);
       const PackedScene packed = pack::pack(scene);
