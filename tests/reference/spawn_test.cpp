@@ -137,7 +137,7 @@ TEST_CASE("a surface that float32 cannot tell from the nearest one is its coinci
     const int paint = add(scene, make_phong({}));
     add(scene, make_sphere({0, 0, 0}, 1), paint);
     add(scene, make_sphere({0, 0, -behind}, 1), paint);
-    return reference::Renderer(scene).first_hit(0, 0, {0, 0}, true);
+    return reference::Renderer(scene).first_hit(0, 0, {0, 0}, {.coincident = true});
   };
   for (const double behind : {1e-10, 1e-8, 1e-6}) {
     const FirstHit hit = coincident(behind);
