@@ -42,8 +42,9 @@ class Formulas {
     const Term up = of(Op::exponential, x), down = of(Op::exponential, of(Op::negate, x));
     return half(expression_.apply(op, up, down));
   }
+  // Beyond 16 it is ±1 to 1e-13, and e²ˣ soon more than bounds hold.
   Term hyperbolic_tangent(Term x) {
-    const Term e = of(Op::exponential, multiply(number(2), x));
+    const Term e = of(Op::exponential, multiply(number(2), clamp(x, number(-16), number(16))));
     return subtract(number(1), divide(number(2), add(e, number(1))));
   }
   // √(1 − x²)

@@ -174,13 +174,14 @@ vec3 bound_cosine(vec3 x) {
   return bound_wave(x, at.y, -at.x);
 }
 
-// The angle of (x, y) in (−π, π]: that of the piece's middle, and the arc tangent of what it turns from there.
+// The angle of (x, y) in (−π, π]: that of the piece's middle, and the arc tangent of what it turns from there. The middle's is off by the rounding of (c, s),
+// and by that of atan_yx, which is within seven ε: both are among the 16 that are added.
 vec3 bound_angle(vec3 y, vec3 x) {
   float length = sqrt(x.x * x.x + y.x * y.x);
   float c = x.x / length;
   float s = y.x / length;
-  vec3 along = bound_add(bound_multiply(vec3(c, 0.0f, EPSILON * 4.0f), x), bound_multiply(vec3(s, 0.0f, EPSILON * 4.0f), y));
-  vec3 across = bound_subtract(bound_multiply(vec3(c, 0.0f, EPSILON * 4.0f), y), bound_multiply(vec3(s, 0.0f, EPSILON * 4.0f), x));
+  vec3 along = bound_add(bound_scale(x, c), bound_scale(y, s));
+  vec3 across = bound_subtract(bound_scale(y, c), bound_scale(x, s));
   vec3 tangent = bound_multiply(across, bound_reciprocal(along));
   float radius = abs(tangent.x) + bound_radius(tangent);
   vec3 turned = vec3(tangent.x + atan_yx(y.x, x.x), tangent.y, tangent.z + radius * radius * radius / 3.0f);

@@ -115,6 +115,8 @@ TEST_CASE("each function of GLSL: 10 000 pieces, and no value escapes") {
       {"exp2(x) + log2(y)", [](double x, double y, double) { return std::exp2(x) + std::log2(y); }, 5},
       {"sinh(x) + cosh(y) + tanh(z)",
        [](double x, double y, double z) { return std::sinh(x) + std::cosh(y) + std::tanh(z); }},
+      {"tanh(100.0 * x) + tanh(y - 100.0)",
+       [](double x, double y, double) { return std::tanh(100 * x) + std::tanh(y - 100); }},
       {"pow(x, 5.0) + pow(y, -2.0)",
        [](double x, double y, double) { return std::pow(x, 5) + std::pow(y, -2); }},
       {"pow(abs(x), 2.2) + pow(abs(y), 0.7)",
