@@ -129,12 +129,12 @@ struct Material {
   uint ambient;
   uint emission;
   uint alpha;
-  float alpha_cutoff;  // below which alpha there are holes; 0 without
+  float alpha_cutoff;  // below which alpha is cut out; 0 without cutouts
   float shininess;
   vec4 a;  // what it holds is said in the material's .glsl
 };
 #define MATERIAL_BLINN 1u
-// Optical depth: what a shadow ray loses to each primitive that it hits, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
+// Optical depth: what each primitive that a shadow ray hits takes from it, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
 #define OPTICAL_DEPTH_OPAQUE 0x10000000u
 #define OPTICAL_DEPTH_SCALE 1048576.0f
 

@@ -144,7 +144,7 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   }
   if (!scene.groups.empty()) {
     line("groups",
-         fmt::format("{} of {} shapes kept once, shown {} times as {} shapes", scene.groups.size(),
+         fmt::format("{} of {} shapes instanced, shown {} times as {} shapes", scene.groups.size(),
                      shapes_kept_in_groups(scene), scene.group_instances.size(), shapes_in_groups(scene)));
   }
   if (inventory.named > 0) {

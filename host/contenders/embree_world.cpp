@@ -67,13 +67,13 @@ EmbreeWorld::EmbreeWorld(const Scene& scene) : device_(rtcNewDevice(nullptr)) {
   all_.reset(rtcNewScene(device_.get()));
   for (const auto& material : scene.materials) {
     if (material->mask)
-      throw Error(ExitCode::bad_input, "material \"{}\" has holes, which Embree's triangles cannot have",
+      throw Error(ExitCode::bad_input, "material \"{}\" has cutouts, which Embree's triangles cannot have",
                   material->name);
     if (material->shadow_transmittance() > 0 && !opaque_) opaque_.reset(rtcNewScene(device_.get()));
   }
   if (!scene.group_instances.empty())
     throw Error(ExitCode::bad_input,
-                "Embree is raced without groups that are kept once: copy them, -D render.groups=flat");
+                "Embree is raced without instanced groups: copy them, -D render.groups=flat");
   add_shapes(scene);
   add_meshes(scene);
 

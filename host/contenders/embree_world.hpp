@@ -1,4 +1,4 @@
-// A scene in Embree's terms. For the rivals layer alone.
+// A scene in Embree's terms. For the contenders layer alone.
 #pragma once
 
 #include <atomic>

@@ -21,12 +21,12 @@ struct Used {
   std::set<uint32_t> shapes, leaves, with_uv, alpha_tested, deferred, materials, material_kinds;
 };
 
-// The kinds that rays wait with in BVHs: none where all are slow, or nothing is in a BVH.
+// The kinds whose intersection is deferred: none where BVHs hold no other, or nothing.
 std::set<uint32_t> deferred_kinds(const records::PackedScene& scene) {
-  std::set<uint32_t> slow;
+  std::set<uint32_t> kinds;
   for (const Row& row : rows::deferred_shapes)
-    if (scene.has_bvh && scene.bvh_kinds.contains(row.number)) slow.insert(row.number);
-  return slow == scene.bvh_kinds ? std::set<uint32_t>() : slow;
+    if (scene.has_bvh && scene.bvh_kinds.contains(row.number)) kinds.insert(row.number);
+  return kinds == scene.bvh_kinds ? std::set<uint32_t>() : kinds;
 }
 
 Used used_by(const records::PackedScene& scene) {
@@ -120,9 +120,9 @@ std::string registries(const records::PackedScene& scene, const Used& used) {
   text += registry_text("IMMEDIATE_LEAVES", "shapes", rows::immediate_leaves, used.leaves);
   text += registry_text("DEFERRED_LEAVES", "shapes", rows::deferred_leaves, used.leaves);
   text += registry_text("SHAPES", "shapes", rows::shapes, used.shapes);
-  std::set<uint32_t> quick;
-  std::ranges::set_difference(scene.bvh_kinds, used.deferred, std::inserter(quick, quick.end()));
-  text += registry_text("IMMEDIATE_SHAPES", "shapes", rows::shapes, quick);
+  std::set<uint32_t> immediate;
+  std::ranges::set_difference(scene.bvh_kinds, used.deferred, std::inserter(immediate, immediate.end()));
+  text += registry_text("IMMEDIATE_SHAPES", "shapes", rows::shapes, immediate);
   text += registry_text("DEFERRED_SHAPES", "shapes", rows::shapes, used.deferred);
   text += registry_text("ALPHA_TESTED_SHAPES", "shapes", rows::shapes, used.alpha_tested);
   text += registry_text("MATERIALS", "materials", rows::materials, used.material_kinds);

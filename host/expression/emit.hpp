@@ -7,7 +7,7 @@
 
 namespace eyeray::expression {
 
-// vec3 NAME(vec3 x, vec3 y, vec3 z): encloses the function along a ray; needs shaders/math/affine_bound.glsl.
+// vec3 NAME(vec3 x, vec3 y, vec3 z): bounds the function along a ray; needs shaders/math/affine_bound.glsl.
 std::string bound_text(const StraightLine& line, std::string_view name);
 
 // vec4 NAME(vec3 p): the function's gradient and, in w, its value; needs shaders/math/dual.glsl.

@@ -1,4 +1,4 @@
-// Walking SPIR-V, for the .cpp files of this layer.
+// Going through SPIR-V, for the .cpp files of this layer.
 #pragma once
 
 #include <cstdint>

@@ -241,7 +241,7 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
   }
   if (source.text("alphaMode") == "MASK") {
     if (made->medium()) {
-      left_out_.add("holes in glass");
+      left_out_.add("cutouts in glass");
     } else {
       made->mask = mask(source);
     }
@@ -250,7 +250,7 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
   return made;
 }
 
-// Nothing where the cutoff leaves no holes.
+// Nothing where the cutoff cuts nothing out.
 std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material) {
   const double cutoff = material.number("alphaCutoff", 0.5);
   if (!(cutoff > 0)) return std::nullopt;

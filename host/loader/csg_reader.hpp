@@ -23,7 +23,7 @@ class CsgReader {
   template <typename Placing>
   std::unique_ptr<Shape> read(const Section& section, const toml::table& table, TableReader& reader,
                               const Placing& placing, std::optional<int> material) {
-    if (reader.has("material")) material = host_.find_material(reader);
+    if (reader.has("material")) material = host_.materials_.find(reader);
     ShapeType::Shapes operands, removed;
     bool ok = read_parts(table, placing, material, operands);
     if (const toml::node* minus = table.get(minus_key)) {
@@ -87,7 +87,7 @@ class CsgReader {
   template <typename Placing>
   std::unique_ptr<Shape> read_part(const Section& section, TableReader& reader, const Placing& placing,
                                    std::optional<int> material) {
-    if (reader.has("material")) material = host_.find_material(reader);
+    if (reader.has("material")) material = host_.materials_.find(reader);
     std::unique_ptr<Shape> part = host_.parse_shape(section, reader, placing, material.value_or(0));
     if (part && !part->is_closed()) {
       const auto& [key, why] = why_not_closed(*section.shape);

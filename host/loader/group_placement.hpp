@@ -1,4 +1,4 @@
-// Groups that are kept once, and their instances, put into a scene. Private to the loader.
+// Instanced groups, and their instances, put into a scene. Private to the loader.
 #pragma once
 
 #include <vector>

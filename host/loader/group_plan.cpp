@@ -181,7 +181,7 @@ void GroupPlan::visit(Node& node, std::vector<std::string_view>& chain) {
 }
 
 void GroupPlan::choose(Node& node, GroupStorage storage) {
-  // What it takes when it is kept once, and at best when not it but its groups are.
+  // What it takes when it is instanced, and at best when not it but its groups are.
   const double once = node.items + instance_cost * node.shown;
   double apart = node.own * node.shown;
   for (const auto& [group, count] : node.members) {

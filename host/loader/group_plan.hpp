@@ -1,5 +1,5 @@
-// The groups of a scene's files: which holds which, how often each stands, and which of them are kept once.
-// Private to the loader.
+// The groups of a scene's files: which holds which, how often each is placed, and which of them are
+// instanced. Private to the loader.
 #pragma once
 
 #include <toml++/toml.h>
@@ -25,7 +25,7 @@ class GroupPlan {
   // Whether the groups can be shown; if not, there were errors.
   bool sound() const { return sound_; }
 
-  // Where the group stands in the world, is it kept once, and shown by instances?
+  // Where the group stands in the world, is it instanced?
   bool is_instanced(const toml::table& group) const;
 
   // Whether a group stands nowhere but where instances show it.
@@ -54,7 +54,7 @@ class GroupPlan {
     bool bounded = true;  // all of it
     int height = 0;       // of groups in groups
     enum class Visit { none, begun, done } visit = Visit::none;
-    double shown = 0;  // in the world, not counting where it is a part of what is kept once
+    double shown = 0;  // in the world, not counting where it is a part of what is instanced
     bool instanced = false;
     bool idle = false;
   };

@@ -8,12 +8,11 @@
 #include "host/loader/csg_reader.hpp"
 #include "host/loader/group_placement.hpp"
 #include "host/loader/group_plan.hpp"
-#include "host/loader/kinds.hpp"
 #include "host/loader/lights.hpp"
+#include "host/loader/materials.hpp"
 #include "host/loader/mesh_placement.hpp"
 #include "host/loader/sections.hpp"
 #include "host/loader/settings.hpp"
-#include "host/materials/registry.hpp"
 #include "host/scene/affine.hpp"
 #include "host/scene/table.hpp"
 #include "host/textures/registry.hpp"
@@ -22,13 +21,11 @@ namespace eyeray::loader {
 
 namespace {
 
-constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
-
 // Each light is a turn of a loop and a shadow ray at every hit. A driver that ends loops after 65 535 turns
-// has room for so many where a scene has 24 shapes and no tree, too (docs/lavapipe.md).
+// has room for so many where a scene has 24 shapes and no BVH, too (docs/lavapipe.md).
 constexpr size_t most_lights = 2048;
 
-// Where a object stands, and what it is called.
+// Where an object stands, and what it is called.
 struct Placing {
   Mat4 to_world{1.0};
   NameRef name;
@@ -61,7 +58,7 @@ class Builder {
         scene_.lights.push_back(std::move(light));
     });
     for_each(root_, "material",
-             [&](const Section& section, const toml::table& table) { add_material(section, table); });
+             [&](const Section& section, const toml::table& table) { materials_.add(section, table); });
     plan_.emplace(root_, scene_.render.groups, log_);
     if (plan_->sound()) {
       add_placed(root_, Placing{});
@@ -73,12 +70,6 @@ class Builder {
 
  private:
   friend class loader::CsgReader<Builder>;
-
-  struct NamedMaterial {
-    int index;  // in Scene::materials; -1 after an error
-    SourcePosition position;
-    bool used = false;
-  };
 
   // Null where it is not written.
   const toml::table* single(std::string_view name) const {
@@ -116,7 +107,6 @@ class Builder {
     return ok;
   }
 
-  void add_material(const Section& section, const toml::table& table);
   void add_placed(const toml::table& holder, const Placing& group);
   void add_table(const Section& section, const toml::table& table, const Placing& group);
   template <typename Add>
@@ -131,7 +121,6 @@ class Builder {
   void add_instance(TableReader& reader, const Placing& placing);
   Group build_group(const toml::table& table, const Mat4& to_world);
   void check_idle_patterns();
-  int find_material(TableReader& shape);
   void check_whole();
 
   const toml::table& root_;
@@ -139,48 +128,16 @@ class Builder {
   MeshImports* meshes_;
   DiagnosticLog& log_;
   Scene scene_;
-  std::map<std::string, NamedMaterial, std::less<>> materials_;
+  Materials materials_{scene_, values_, log_};
   MeshPlacer placer_{scene_};
   std::optional<GroupPlan> plan_;
   GroupPlacer group_placer_{scene_, placer_};
-  std::map<const toml::table*, int> kept_groups_;  // in Scene::groups
-  double worst_condition_ = 0;                     // of the maps read since the last group was begun
-  Group* building_ = nullptr;                      // where shapes and meshes go; null: into the scene
-  size_t media_ = 0;
+  std::map<const toml::table*, int> instanced_groups_;  // in Scene::groups
+  double worst_condition_ = 0;                          // of the maps read since the last group was begun
+  Group* building_ = nullptr;                           // where shapes and meshes go; null: into the scene
   size_t lights_ = 0;
   bool tried_shapes_ = false;
 };
-
-void Builder::add_material(const Section& section, const toml::table& table) {
-  auto [type, reader] = read_kind(section, &table, materials::types(), values_, log_);
-  std::unique_ptr<Material> material = type ? type->parse(reader) : nullptr;
-
-  // Enter the name even after an error, so that its users are not reported too.
-  const std::string name = reader.string("name");
-  if (!reader.valid("name")) return;
-  if (name.empty()) return reader.error("name", "a material's name must not be empty");
-  const auto [entry, fresh] = materials_.try_emplace(name, NamedMaterial{-1, reader.position()});
-  if (!fresh) {
-    const SourcePosition& first = entry->second.position;
-    return reader.error("name", fmt::format("material \"{}\" is defined twice; the first is at {}:{}", name,
-                                            first.file, first.line));
-  }
-  if (!material) return;
-  if (material->medium() && ++media_ > most_media) {
-    reader.error("type",
-                 fmt::format("a scene can have at most {} materials that light passes through", most_media));
-  }
-  if (reader.has("alpha")) {
-    if (material->medium())
-      reader.error("alpha", "what light passes through fills its shape, which can have no holes");
-    material->mask = AlphaMask{reader.texture("alpha"), reader.number("alpha_cutoff")};
-  } else if (reader.has("alpha_cutoff")) {
-    reader.error("alpha_cutoff", "without `alpha` there is nothing to cut off");
-  }
-  material->name = name;
-  entry->second.index = static_cast<int>(scene_.materials.size());
-  scene_.materials.push_back(std::move(material));
-}
 
 // The shapes, meshes and groups of a group, or of the scene.
 void Builder::add_placed(const toml::table& holder, const Placing& group) {
@@ -220,13 +177,13 @@ Group Builder::build_group(const toml::table& table, const Mat4& to_world) {
 
 void Builder::add_group(TableReader& reader, const toml::table& table, const Placing& placing) {
   if (building_ || !plan_->is_instanced(table)) return add_placed(table, placing);
-  const auto [entry, fresh] = kept_groups_.try_emplace(&table);
+  const auto [entry, fresh] = instanced_groups_.try_emplace(&table);
   if (fresh) {
     worst_condition_ = 0;
     Group group = build_group(table, Mat4(1.0));
     entry->second = group_placer_.keep(std::move(group), worst_condition_);
   }
-  // Whether a scene is legal does not depend on what is kept once: where it may not be, read the group as it
+  // Whether a scene is legal does not depend on what is instanced: where it may not be, read the group as it
   // stands there.
   if (!group_placer_.surely_fits(entry->second, placing.to_world)) build_group(table, placing.to_world);
   group_placer_.place(entry->second, placing.to_world, reader.position(), placing.name);
@@ -303,7 +260,7 @@ std::unique_ptr<Shape> Builder::read_shape(const Section& section, const toml::t
                                            TableReader& reader, const Placing& placing) {
   if (section.is_combined())
     return CsgReader(*this, log_).read(section, table, reader, placing, std::nullopt);
-  return parse_shape(section, reader, placing, find_material(reader));
+  return parse_shape(section, reader, placing, materials_.find(reader));
 }
 
 // A shape of its own, or a part.
@@ -315,7 +272,7 @@ std::unique_ptr<Shape> Builder::parse_shape(const Section& section, TableReader&
     reader.error(
         "material",
         fmt::format(
-            "a material with `alpha` has holes, and a ray may hit a {} again behind one; only planes, "
+            "a material with `alpha` has cutouts, and a ray may hit a {} again behind one; only planes, "
             "triangles, polygons, parallelograms, disks and meshes can be of it",
             section.shape->name));
   shape->material = material;
@@ -327,7 +284,7 @@ std::unique_ptr<Shape> Builder::parse_shape(const Section& section, TableReader&
 
 void Builder::add_mesh(TableReader& reader, const Placing& placing) {
   const bool own_materials = !reader.has("material");
-  const int material = own_materials ? 0 : find_material(reader);
+  const int material = own_materials ? 0 : materials_.find(reader);
   if (reader.failed()) return;
   if (!meshes_) return reader.error("file", "only a scene in a file can name mesh files");
   const std::optional<double> smooth =
@@ -346,23 +303,6 @@ void Builder::add_mesh(TableReader& reader, const Placing& placing) {
   }
 }
 
-int Builder::find_material(TableReader& shape) {
-  if (!shape.valid("material")) return 0;
-  const std::string name = shape.string("material");
-  const auto found = materials_.find(name);
-  if (found != materials_.end()) {
-    found->second.used = true;
-    return std::max(0, found->second.index);
-  }
-  if (log_.damaged()) return 0;
-  std::vector<std::string_view> names;
-  for (const auto& [known, material] : materials_) names.push_back(known);
-  const std::string nearest = nearest_name(name, names);
-  shape.error("material", fmt::format("no [[material]] is named \"{}\"{}", name,
-                                      nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
-  return 0;
-}
-
 // Warns of what is legal but hardly meant.
 void Builder::check_whole() {
   const bool empty = scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
@@ -370,16 +310,7 @@ void Builder::check_whole() {
   if (scene_.lights.empty() && traits_of(scene_.render.integrator).shadow_rays && !empty) {
     log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");
   }
-  const auto is_medium = [](const auto& material) { return material->medium().has_value(); };
-  if (std::ranges::count_if(scene_.materials, is_medium) > std::ptrdiff_t{most_media}) {
-    log_.error({},
-               fmt::format("a scene can have at most {} materials that light passes through, those of its "
-                           "mesh files included",
-                           most_media));
-  }
-  for (const auto& [name, material] : materials_) {
-    if (!material.used) log_.warning(material.position, fmt::format("material \"{}\" is not used", name));
-  }
+  materials_.check();
 }
 
 }  // namespace

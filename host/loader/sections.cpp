@@ -71,7 +71,7 @@ std::span<const Key> material_keys() {
        .optional = true},
       {.name = "alpha_cutoff",
        .type = KeyType::number,
-       .doc = "The least `alpha` that is not a hole.",
+       .doc = "The least `alpha` that is not cut out.",
        .fallback = "0.5",
        .min = 0,
        .max = 1,
@@ -162,7 +162,7 @@ material = "glass"
 
 An [[instance]](#instance) shows a group once more, by its `name`. With `pattern = true` it is shown by instances alone, and not where it is written.
 
-A group that stands many times is kept once; see `groups` of [render](#render). That costs no more memory than one, and changes no
+A group that is placed many times is instanced; see `groups` of [render](#render). That costs no more memory than one, and changes no
 id and no surface. One that holds a plane, which has no end, is copied.
 
 A group may stretch and shear all that it holds: a sphere is an ellipsoid then.)";

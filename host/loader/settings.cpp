@@ -68,9 +68,9 @@ constexpr Key render_table[] = {
      .choices = triangle_methods},
     {.name = "groups",
      .type = KeyType::choice,
-     .doc =
-         "Whether groups that stand more than once are kept once or copied; by itself, where that saves much "
-         "memory.",
+     .doc = "Whether groups that are placed more than once are instanced or copied; by itself, where that "
+            "saves much "
+            "memory.",
      .fallback = "\"automatic\"",
      .choices = group_storages},
     {.name = "background",

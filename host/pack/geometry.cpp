@@ -189,8 +189,9 @@ class GeometryPacker {
     packed_.instances.push_back(record);
   }
 
-  // Takes note that shapes of a kind are made of a material. Returns what a shadow ray loses to each: a shape
-  // weakens it once, a mesh or patch half at each crossing, for a closed body is left as it was entered.
+  // Takes note that shapes of a kind are made of a material. Returns what each takes from a shadow ray: a
+  // shape weakens it once, a mesh or patch half at each crossing, for a closed body is left as it was
+  // entered.
   uint32_t use_material(uint32_t kind, uint32_t material, bool at_each_crossing) {
     const uint32_t optical_depth = packed_.materials[material].optical_depth;
     packed_.uses.emplace(kind, material);

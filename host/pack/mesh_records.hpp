@@ -17,8 +17,8 @@ bvh::Box triangle_box(const shader::Primitive& triangle);
 class MeshRecords {
  public:
   // The triangles of `mesh` under `map`, with `origin` as the origin: positions are rounded after it was
-  // subtracted. Their ids count from `first_id`; `optical_depth` is what a shadow ray loses to each. Appends
-  // normals, texture coordinates and colours to `vertices`.
+  // subtracted. Their ids count from `first_id`; `optical_depth` is what each takes from a shadow ray.
+  // Appends normals, texture coordinates and colours to `vertices`.
   MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin, int material, uint32_t optical_depth,
               uint32_t first_id, RawVector<shader::uvec4>& vertices);
 

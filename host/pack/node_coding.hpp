@@ -1,4 +1,4 @@
-// Trees as the shaders' nodes (records.h, BVH).
+// BVHs as the shaders' nodes (records.h, BVH).
 #pragma once
 
 #include "host/bvh/bvh.hpp"

@@ -7,7 +7,7 @@
 namespace eyeray::probe {
 namespace {
 
-// What was met so often before: of equal ones, the n-th is laid over the n-th.
+// What has come so often before: of equal ones, the n-th is laid over the n-th.
 template <typename Key>
 class Occurrences {
  public:
@@ -28,9 +28,9 @@ using SiblingKey = std::tuple<size_t, RayKind, uint32_t>;
 
 // The child that `ray` is laid over, below `parent`; nothing if there is none.
 std::optional<size_t> child_for(const std::vector<Ray>& rays, size_t parent, const ProbedRay& ray,
-                                Occurrences<SiblingKey>& met) {
+                                Occurrences<SiblingKey>& occurrences) {
   const std::vector<size_t>& children = rays[parent].children;
-  const size_t i = met.next({parent, ray.kind, ray.number}, children, [&](size_t child) {
+  const size_t i = occurrences.next({parent, ray.kind, ray.number}, children, [&](size_t child) {
     return rays[child].kind == ray.kind && rays[child].number == ray.number;
   });
   return i < children.size() ? std::optional(children[i]) : std::nullopt;
@@ -63,12 +63,12 @@ Overlay::Overlay(size_t executors) : executors_(executors) {
 void Overlay::add(size_t executor, const RayTree& tree) {
   std::vector<size_t> places;                    // of the tree's rays, in rays_
   std::vector<std::vector<size_t>> line_places;  // of their values, in lines
-  Occurrences<SiblingKey> met;
+  Occurrences<SiblingKey> occurrences;
   for (const ProbedRay& ray : tree.rays) {
     size_t place = 0;
     if (!places.empty()) {
       const size_t parent = places[ray.parent];
-      const auto found = child_for(rays_, parent, ray, met);
+      const auto found = child_for(rays_, parent, ray, occurrences);
       place = found.value_or(rays_.size());
       if (!found) {
         const size_t after = ray.place == 0 ? 0 : line_places[ray.parent][ray.place - 1] + 1;
@@ -96,11 +96,11 @@ void Overlay::add(size_t executor, const RayTree& tree) {
 void Overlay::add_around(const RayTree& tree) {
   std::vector<std::optional<size_t>> places;
   std::vector<bool> seen(rays_.size(), false);
-  Occurrences<SiblingKey> met;
+  Occurrences<SiblingKey> occurrences;
   for (const ProbedRay& ray : tree.rays) {
     const auto place = places.empty()        ? std::optional<size_t>(0)
                        : !places[ray.parent] ? std::nullopt
-                                             : child_for(rays_, *places[ray.parent], ray, met);
+                                             : child_for(rays_, *places[ray.parent], ray, occurrences);
     places.push_back(place);
     if (!place) continue;
     seen[*place] = true;

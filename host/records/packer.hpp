@@ -101,7 +101,7 @@ class Packer {
   uint32_t add_image(const std::shared_ptr<const ImageTexture>& image);
   // Writes the texels of all images: a second copy of them, which only executors need.
   void write_texels();
-  // The number of a formula; equal formulas share one. `enclosed`: rays find its surface by affine bounds.
+  // The number of a formula; equal formulas share one. `by_bounds`: rays find its surface by affine bounds.
   uint32_t add_formula(const std::shared_ptr<const formula::Formula>& formula, bool by_bounds);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
   uint32_t add_medium(double ior, const Vec3& absorption);

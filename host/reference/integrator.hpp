@@ -15,8 +15,8 @@ namespace eyeray::reference {
 // the greatest in each channel. For these two rays leave as the mathematics says.
 enum class TextureChoice { at_hit, darkest, brightest };
 
-// How float32 may round rays. They leave surfaces (crossings.hpp, departure) at least this far off, and up to
-// this far aside; a light as near to a surface's plane may lie on either side of it.
+// How float32 may round rays. They leave surfaces (crossings.hpp, spawn_origin) at least this far off, and up
+// to this far aside; a light as near to a surface's plane may lie on either side of it.
 struct RayOffset {
   double share = 0;           // off, of |n|·|position − eye|; aside, of |position − eye|
   bool along_normal = false;  // they always leave along it; and what a ray runs along shows its other side

@@ -21,7 +21,7 @@ class MeshGeometry {
 
   // The nearest hit with t > 0; of exactly equal ones that of the lowest triangle. Beyond `limit` it may be
   // missing.
-  // With a mask, holes are not hit.
+  // With a mask, cutouts are not hit.
   std::optional<TriangleHit> intersect(const Ray& ray, double limit, const AlphaMask* mask = nullptr) const;
   // How many triangles the ray hits at 0 < t < t_end; counting ends at `most`.
   uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most, const AlphaMask* mask = nullptr) const;

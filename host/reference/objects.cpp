@@ -63,7 +63,7 @@ int Objects::most_crossings(size_t object) const {
   return is_shape(object) ? shapes_[object]->most_crossings() : reference::most_crossings;
 }
 
-// A hole is not hit, and behind it there is nothing more of a shape that may have one.
+// A cutout is not hit, and behind it there is nothing more of a shape that may have one.
 std::optional<Intersection> Objects::intersect_shape(size_t index, const Ray& ray) const {
   const Shape& shape = *shapes_[index];
   const auto hit = shape.intersect(ray);

@@ -63,7 +63,7 @@ class Recursion {
   const Scene& scene_;
   RayOffset ray_offset_;
   const Observer& observer_;
-  uint32_t departures_ = 0;
+  uint32_t spawned_ = 0;
 };
 
 // The vacuum where no medium is.
@@ -79,8 +79,8 @@ Ray Recursion::spawn_ray(const SurfacePoint& point, const Vec3& d) {
   if (ray_offset_.share == 0) return ray;
 
   Vec3 aside;
-  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(ray_offset_.seed, departures_, i, 0) - 1;
-  ++departures_;
+  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(ray_offset_.seed, spawned_, i, 0) - 1;
+  ++spawned_;
   aside -= glm::dot(aside, point.normal_geometric) * point.normal_geometric;
   ray.o += ray_offset_.share * glm::length(from_eye) * aside;
   return ray;
@@ -221,7 +221,7 @@ Vec3 Recursion::direct(const View& view, const Scattering& scattering, int depth
     // A light in the plane of the surface may be before or behind it.
     const double cosine = glm::dot(n, l);
     const double tilt =
-        cosine_rounding(view.surface, distance) * (2 * random(ray_offset_.seed, departures_, 3, 0) - 1);
+        cosine_rounding(view.surface, distance) * (2 * random(ray_offset_.seed, spawned_, 3, 0) - 1);
     if (!(cosine + tilt > 0 && glm::dot(view.surface.normal_geometric, l) + tilt > 0)) continue;
     ++rays;
     const Ray ray = spawn_ray(view.surface, l);

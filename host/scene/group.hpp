@@ -1,4 +1,4 @@
-// Groups that stand many times, each kept once, and where they stand.
+// Instanced groups, and their instances.
 #pragma once
 
 #include <cstddef>

@@ -45,7 +45,7 @@ struct ScatteringContext {
   Vec3 color{1.0};  // of a mesh's vertices: what the colours that scatter are multiplied by
 };
 
-// Holes: where the alpha, times that of a mesh's vertices, is below `cutoff`, there is no surface.
+// Cutouts: where the alpha, times that of a mesh's vertices, is below `cutoff`, there is no surface.
 struct AlphaMask {
   TexturePtr alpha;     // by Texture::alpha_at
   double cutoff = 0.5;  // above 0

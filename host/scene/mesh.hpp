@@ -1,4 +1,4 @@
-// Meshes and where they stand: a mesh is kept once, however many instances show it.
+// Meshes and their instances.
 #pragma once
 
 #include <array>

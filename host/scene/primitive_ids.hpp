@@ -1,6 +1,6 @@
 // The primitive indices of a scene, which are the same in every executor and decide exact ties: first its
 // shapes, those of groups where the group stands; then the triangles of its meshes in the same manner. They
-// do not depend on which groups are kept once.
+// do not depend on which groups are instanced.
 #pragma once
 
 #include <cstddef>

@@ -36,7 +36,7 @@ struct RenderSettings {
   double min_throughput = 0.001;  // a reflected or refracted ray that would count for less is not traced
   uint32_t seed = 0;
   TriangleMethod triangle_method = TriangleMethod::woop;
-  GroupStorage groups = GroupStorage::automatic;  // whether groups that stand often are kept once
+  GroupStorage groups = GroupStorage::automatic;  // which groups are instanced
   Vec3 background{0.0};                           // what a ray that hits nothing sees
   Vec3 ambient{0.0};                              // light that reaches every point from everywhere
 };
@@ -61,7 +61,7 @@ struct Scene {
   std::vector<std::unique_ptr<Shape>> shapes;
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
-  std::vector<Group> groups;  // those that are kept once
+  std::vector<Group> groups;  // those that are instanced
   std::vector<GroupInstance> group_instances;
   Names names;  // of shapes and instances
 

@@ -189,7 +189,7 @@ struct ShapeType {
   using Shapes = std::vector<std::unique_ptr<Shape>>;
   std::unique_ptr<Shape> (*combine)(TableReader& table, Shapes operands, Shapes removed) = nullptr;
   bool bounded = true;  // whether every such shape has an end in all directions
-  // Whether a ray hits it once at most, so that it may be of a material with holes.
+  // Whether a ray hits it once at most, so that it may be of a material with cutouts.
   bool flat = false;
 };
 

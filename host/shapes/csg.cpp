@@ -36,7 +36,7 @@ std::pair<Vec3, Vec3> center_and_half(const Bounds& bounds) {
 
 }  // namespace
 
-Solid::Solid(bool all, Shapes operands, Shapes removed)
+Csg::Csg(bool all, Shapes operands, Shapes removed)
     : all_(all), operands_(std::move(operands)), removed_(std::move(removed)) {
   CHECK(!operands_.empty());
   std::vector<std::pair<size_t, uint32_t>> origins;  // operand, and the number that the leaf has there
@@ -44,7 +44,7 @@ Solid::Solid(bool all, Shapes operands, Shapes removed)
   for (size_t i = 0; i < operand_count(); ++i) {
     const bool is_removed = i >= operands_.size();
     CHECK(operand(i).is_closed());
-    const auto* csg = dynamic_cast<const Solid*>(&operand(i));
+    const auto* csg = dynamic_cast<const Csg*>(&operand(i));
     const auto own = csg ? csg->leaves_ : std::vector{Leaf{&operand(i), kind_of(operand(i)), false}};
     for (Leaf leaf : own) {
       leaf.removed = leaf.removed != is_removed;
@@ -67,7 +67,7 @@ Solid::Solid(bool all, Shapes operands, Shapes removed)
   }
 }
 
-std::vector<Span> Solid::spans_of(size_t operand_index, const Ray& ray) const {
+std::vector<Span> Csg::spans_of(size_t operand_index, const Ray& ray) const {
   const auto& [center, radius] = balls_[operand_index];
   if (glm::length(glm::cross(center - ray.o, ray.d)) > radius * glm::length(ray.d)) return {};
   std::vector<Span> spans = operand(operand_index).spans(ray);
@@ -78,7 +78,7 @@ std::vector<Span> Solid::spans_of(size_t operand_index, const Ray& ray) const {
   return spans;
 }
 
-std::vector<Span> Solid::spans(const Ray& ray) const {
+std::vector<Span> Csg::spans(const Ray& ray) const {
   std::optional<Intersection> gave_up;
   const auto look_at = [&](size_t i) {
     std::vector<Span> spans = spans_of(i, ray);
@@ -105,7 +105,7 @@ std::vector<Span> Solid::spans(const Ray& ray) const {
   return spans;
 }
 
-std::optional<Intersection> Solid::intersect(const Ray& ray) const {
+std::optional<Intersection> Csg::intersect(const Ray& ray) const {
   for (const auto& [in, out] : spans(ray)) {
     if (in.t > 0 || in.iteration_limit) return in;
     if (out.t > 0 || out.iteration_limit) return out;
@@ -114,7 +114,7 @@ std::optional<Intersection> Solid::intersect(const Ray& ray) const {
 }
 
 // What is removed shows its surface from within.
-SurfacePoint Solid::surface(const Ray& ray, const Intersection& hit) const {
+SurfacePoint Csg::surface(const Ray& ray, const Intersection& hit) const {
   const Leaf& leaf = leaves_[hit.part];
   SurfacePoint surface = leaf.shape->surface(ray, hit);
   if (leaf.removed) {
@@ -124,7 +124,7 @@ SurfacePoint Solid::surface(const Ray& ray, const Intersection& hit) const {
   return surface;
 }
 
-Bounds Solid::bounds_of_operands() const {
+Bounds Csg::bounds_of_operands() const {
   Bounds bounds = operands_[0]->bounds();
   for (const auto& operand : operands_) {
     const Bounds other = operand->bounds();
@@ -134,18 +134,18 @@ Bounds Solid::bounds_of_operands() const {
   return bounds;
 }
 
-bool Solid::is_empty() const {
+bool Csg::is_empty() const {
   const Bounds bounds = bounds_of_operands();
   return !(bounds.min.x < bounds.max.x && bounds.min.y < bounds.max.y && bounds.min.z < bounds.max.z);
 }
 
-Bounds Solid::bounds() const {
+Bounds Csg::bounds() const {
   const Bounds bounds = bounds_of_operands();
   const Vec3 middle = 0.5 * (bounds.min + bounds.max);
   return is_empty() ? Bounds{middle, middle} : bounds;
 }
 
-ShapeForm Solid::form() const {
+ShapeForm Csg::form() const {
   CsgForm form{all_, {}, {}};
   for (const auto& shape : operands_) form.operands.push_back(shape.get());
   for (const auto& shape : removed_) form.removed.push_back(shape.get());
@@ -153,7 +153,7 @@ ShapeForm Solid::form() const {
 }
 
 // Takes up what is of the same operation, and is no more than an only operand.
-Solid::Node Solid::node_of(bool all, std::vector<Node> operands) {
+Csg::Node Csg::node_of(bool all, std::vector<Node> operands) {
   Node node{false, 0, all, {}};
   for (Node& operand : operands) {
     if (!operand.is_leaf && operand.all == all)
@@ -164,8 +164,8 @@ Solid::Node Solid::node_of(bool all, std::vector<Node> operands) {
   return node.operands.size() == 1 ? node.operands[0] : node;
 }
 
-Solid::Node Solid::node_of_operand(size_t i, bool complement) const {
-  if (const auto* csg = dynamic_cast<const Solid*>(&operand(i))) {
+Csg::Node Csg::node_of_operand(size_t i, bool complement) const {
+  if (const auto* csg = dynamic_cast<const Csg*>(&operand(i))) {
     Node node = csg->node(complement);
     const auto renumber = [&](Node& of, const auto& self) -> void {
       if (of.is_leaf) of.leaf = parts_[i][of.leaf];
@@ -178,7 +178,7 @@ Solid::Node Solid::node_of_operand(size_t i, bool complement) const {
 }
 
 // By De Morgan: complements stand at leaves, whose own flag says so.
-Solid::Node Solid::node(bool complement) const {
+Csg::Node Csg::node(bool complement) const {
   std::vector<Node> operands;
   for (size_t i = 0; i < operands_.size(); ++i) operands.push_back(node_of_operand(i, complement));
   std::vector<Node> whole{node_of(all_ != complement, std::move(operands))};
@@ -187,7 +187,7 @@ Solid::Node Solid::node(bool complement) const {
   return node_of(!complement, std::move(whole));
 }
 
-void Solid::pack(records::Packer& packer) const {
+void Csg::pack(records::Packer& packer) const {
   // The nodes, each after those that are its operands.
   std::vector<shader::uvec4> nodes;
   const auto add = [&](const Node& node, const auto& self) -> uint32_t {
@@ -273,7 +273,7 @@ does the order of shapes matter. A part without a `material` has that of the CSG
 
 Parts are closed shapes: sphere, box, ellipsoid, capsule, prism, torus, superellipsoid, and cylinder, cone, paraboloid, hyperboloid, quadric and implicit unless they are `open`; 32 in one
 CSG object, those of CSG objects in it included. An implicit one is searched by each ray from end to end as often as that crosses the CSG object's parts on the way, so it
-takes long where rays cross it often; at its 65th crossing the ray has run out. What encloses nothing is refused, and so are meshes, of which nothing says that they do. A CSG object is filled with one medium at most: where light passes through
+takes long where rays cross it often; at its 65th crossing the ray has reached the iteration limit. What encloses nothing is refused, and so are meshes, of which nothing says that they do. A CSG object is filled with one medium at most: where light passes through
 several of its surfaces, they are of one material.
 
 **uv.** Those of the part whose surface it is.
@@ -308,7 +308,7 @@ std::unique_ptr<Shape> combine(TableReader& table, ShapeType::Shapes operands, S
   }
   if (table.failed()) return nullptr;
   const bool all = operations[size_t(table.choice("operation"))] == "intersection";
-  auto csg = std::make_unique<Solid>(all, std::move(operands), std::move(removed));
+  auto csg = std::make_unique<Csg>(all, std::move(operands), std::move(removed));
   if (all && csg->is_empty())
     table.warning("operation",
                   "an empty CSG object: its parts lie beside each other, so nothing is within all of them");
@@ -321,7 +321,7 @@ extern const ShapeType csg_type{.name = "csg", .manual = manual, .keys = keys, .
 
 std::unique_ptr<Shape> make_csg(bool all, std::vector<std::unique_ptr<Shape>> operands,
                                 std::vector<std::unique_ptr<Shape>> removed) {
-  return std::make_unique<Solid>(all, std::move(operands), std::move(removed));
+  return std::make_unique<Csg>(all, std::move(operands), std::move(removed));
 }
 
 }  // namespace eyeray::shapes

@@ -11,13 +11,13 @@ namespace eyeray::shapes {
 // A CSG object's leaves, those of its operands and of theirs, are bits of a word in the shaders.
 inline constexpr size_t most_csg_leaves = 32;
 
-class Solid final : public Shape {
+class Csg final : public Shape {
  public:
   using Shapes = std::vector<std::unique_ptr<Shape>>;
 
   // What is within any of `operands`, or where `all` within all of them, and within none of `removed`. There
   // is an operand at least, and all shapes are closed, most_csg_leaves together at most.
-  Solid(bool all, Shapes operands, Shapes removed);
+  Csg(bool all, Shapes operands, Shapes removed);
 
   std::optional<Intersection> intersect(const Ray& ray) const override;
   SurfacePoint surface(const Ray& ray, const Intersection& hit) const override;

@@ -76,7 +76,7 @@ if the box were stretched to a cube, onto which the texture is projected straigh
 **Numeric trap.** All is computed in the coordinates of the box: rounding is 10⁻⁷ of its size, so choose it no larger than need be, and near f's own origin. With `lipschitz` the least step of a ray is 10⁻⁵ of half the
 box: walls thinner than that are passed through. Normals are those of `vec3 gradient(vec3 p)`, if the text has that too; else differences over 1/256 of half the box, to the
 fourth order: waves that are much shorter, and edges, look smoother than they are.
-A ray that takes 4096 steps and has not come to an end has run out: its pixel is told (without `lipschitz`, 4096 pieces). Without `lipschitz` none of this is so but the last: no change of sign is overlooked but where f is zero up to
+A ray that takes 4096 steps and has not come to an end has reached the iteration limit: its pixel is told (without `lipschitz`, 4096 pieces). Without `lipschitz` none of this is so but the last: no change of sign is overlooked but where f is zero up to
 rounding ([numerics](numerics.md#implicit-surfaces-by-affine-bounds)), and a touch without a change of sign is no surface.
 
 **Source.** Hart: Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit Surfaces, The Visual Computer 12, 1996. Comba, Stolfi: Affine Arithmetic and its Applications to Computer Graphics, SIBGRAPI 1993. Bálint, Valasek: Accelerating Sphere Tracing, Eurographics Short Papers 2018.

@@ -7,7 +7,7 @@
 
 namespace eyeray::twin {
 
-// By math/affine_bound.glsl, of coordinates enclosed along a ray.
+// By math/affine_bound.glsl, of coordinates bounded along a ray.
 shader::vec3 affine_bound(const expression::StraightLine& line, const shader::vec3& x, const shader::vec3& y,
                           const shader::vec3& z);
 

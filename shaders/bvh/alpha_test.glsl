@@ -7,7 +7,7 @@
 
 SHADER_BEGIN
 
-// `t` of a hit, or −1 where it is in a hole. `ray`, as the primitive sees it. Only shapes that a ray hits once have cutouts: behind one there
+// `t` of a hit, or −1 where it is cut out. `ray`, as the primitive sees it. Only shapes that a ray hits once have cutouts: behind one there
 // is nothing more of the shape.
 float alpha_test(Primitive primitive, uint instance, Ray ray, float t, vec2 uv) {
 #if HAS_ALPHA_TEST

@@ -16,7 +16,7 @@ struct TraversalState {
   Hit hit;
   uint occluded;
 #if MAY_REACH_ITERATION_LIMIT
-  float sure_until;  // the least t at which the steps of a shape's search ran out; T_MISS if none's did
+  float sure_until;  // the least t at which a shape's search reached its iteration limit; T_MISS if none did
 #endif
 #if SEARCH_COST
   uint nodes;  // of BVHs, visited so far

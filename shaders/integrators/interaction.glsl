@@ -1,4 +1,4 @@
-// Where a path meets a surface: all that integrators and materials know of it. Found once, whoever asks.
+// Where a path hits a surface: all that integrators and materials know of it. Found once, whoever asks.
 #ifndef INTERACTION_GLSL
 #define INTERACTION_GLSL
 #include "geometry/surface.glsl"

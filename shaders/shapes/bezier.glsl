@@ -1,4 +1,4 @@
-// A piece of the bicubic patch Σ B_i(v)·B_j(u)·p_ij, 0 ≤ u, v ≤ 1; render/ lays out as many as host/shapes/bezier_pieces.cpp makes.
+// A piece of the bicubic patch Σ B_i(v)·B_j(u)·p_ij, 0 ≤ u, v ≤ 1; render/ lays out as many as host/shapes/bezier_net.cpp makes.
 //   a = the piece's u from, to, v from, to
 //   b = its middle, the radius of a ball around it
 //   c = its normal there, by which share of its size the search goes beyond its borders, BEZIER_SPECK: there is no search; below 0 where the

@@ -8,7 +8,7 @@
 SHADER_BEGIN
 
 // Where the line v ↦ p + v·edge comes nearest to the ray o = 0, d: t, or −1 if it is not between the line's ends; and v.
-vec2 meet_ruling(vec3 p, vec3 edge, vec3 d) {
+vec2 intersect_ruling(vec3 p, vec3 edge, vec3 d) {
   vec3 across = cross3(d, edge);
   float square = dot3(across, across);
   vec3 n = cross3(across, p);
@@ -50,8 +50,8 @@ float bilinear_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float u0 = q / c;
   float u1 = a / q;
 
-  vec2 first = meet_ruling(p00 + (p10 - p00) * u0, left + twist * u0, ray.d);
-  vec2 second = meet_ruling(p00 + (p10 - p00) * u1, left + twist * u1, ray.d);
+  vec2 first = intersect_ruling(p00 + (p10 - p00) * u0, left + twist * u0, ray.d);
+  vec2 second = intersect_ruling(p00 + (p10 - p00) * u1, left + twist * u1, ray.d);
   float t0 = discriminant >= 0.0f && u0 >= 0.0f && u0 <= 1.0f ? start + first.x : -1.0f;
   float t1 = discriminant >= 0.0f && u1 >= 0.0f && u1 <= 1.0f ? start + second.x : -1.0f;
   bool take_first = t0 > 0.0f && (t0 < t1 || !(t1 > 0.0f));

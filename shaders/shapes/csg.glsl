@@ -60,7 +60,7 @@ uvec2 csg_holds(uint at, uint nodes, uvec2 literals) {
 
 // How a ray goes on to cross a leaf.
 struct LeafCrossings {
-  float next;    // where it does at t > 0; 0 where the leaf's steps ran out; below where that takes asking again, from `passed` on
+  float next;    // where it does at t > 0; 0 where the leaf's search reached its iteration limit; below where that takes asking again, from `passed` on
   float second;  // where it does after that, negative where more may come; 0 where that is not known
   bool inside;   // until `next`; where that is below 0, from `passed` on
   float passed;
@@ -80,7 +80,7 @@ Ray beyond(Ray ray, float t) {
   return r;
 }
 
-// Three crossings of a leaf whose kind is quick to ask, for most of what they take is the same: so of a convex one all is known at once.
+// Three crossings of a leaf of an immediate kind, for most of what they take is the same: so of a convex one all is known at once.
 LeafCrossings ask_immediate(Primitive leaf, Ray ray) {
   float t0 = T_MISS;
   float t1 = T_MISS;
@@ -243,7 +243,7 @@ float csg_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return hit.iteration_limit ? T_ITERATION_LIMIT : hit.t;
 }
 
-// What a shadow ray loses before t_max: as much as the densest surface on its way takes.
+// The optical depth of a shadow ray before t_max: that of the densest surface on its way.
 uint csg_optical_depth(Primitive s, Ray ray, float t_max) { return csg_traverse(s, ray, t_max, s.optical_depth).optical_depth; }
 
 bool csg_reject(Primitive s, Ray ray) { return !passes_box(ray, vec3(s.a), vec3(s.b)); }

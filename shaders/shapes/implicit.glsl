@@ -62,7 +62,7 @@ float implicit_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   t = r.t + found.x;
 #endif
 
-  // Where the steps ran out there is nothing up to there.
+  // At the iteration limit there is nothing up to there.
   bool iteration_limit = found.y == IMPLICIT_ITERATION_LIMIT;
   uv = iteration_limit ? vec2(t, 0.0f) : found.y == IMPLICIT_ITSELF ? vec2(IMPLICIT_ITSELF, 0.0f) : cube_face(span, r, found.y == IMPLICIT_ENTRY);
   return iteration_limit ? T_ITERATION_LIMIT : found.y == IMPLICIT_NOTHING ? T_NONE : t;

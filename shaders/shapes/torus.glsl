@@ -28,7 +28,7 @@ float torus_cubic_root(float p, float q) {
   return x;
 }
 
-// uv.x: t in object space, where it has more digits; where the steps run out as records.h says.
+// uv.x: t in object space, where it has more digits; at the iteration limit as records.h says.
 float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uv = vec2(0.0f, 0.0f);
   float minor = object_parameters(s).x;

@@ -45,7 +45,7 @@ Scene sphere(bool as_mesh) {
   return scene;
 }
 
-std::vector<SurfacePosition> departures_of(const Scene& scene, const Batch& primary) {
+std::vector<SurfacePosition> spawned_from(const Scene& scene, const Batch& primary) {
   const Embree embree(scene);
   std::vector<QueryHit> hits(primary.rays.size());
   embree.query(primary.rays, QueryKind::nearest, hits, EmbreeCalls::one, true);
@@ -72,7 +72,7 @@ TEST_CASE("primary rays go block by block through the pixels' centres") {
   }
 }
 
-TEST_CASE("rays leave groups that are kept once where they leave copies; Embree is not asked about them") {
+TEST_CASE("rays leave instanced groups where they leave copies; Embree is not asked about them") {
   const auto grouped = [](const char* groups) {
     Scene scene = parse_scene(fmt::format(R"([render]
 groups = "{}"
@@ -148,7 +148,7 @@ TEST_CASE("rays leave surfaces outward, and shadow rays end at the light") {
   for (const bool as_mesh : {false, true}) {
     const Scene scene = sphere(as_mesh);
     const Batch primary = primary_batch(scene, 64, 64);
-    const std::vector<SurfacePosition> from = departures_of(scene, primary);
+    const std::vector<SurfacePosition> from = spawned_from(scene, primary);
     CHECK(from.size() > 500);
     CHECK(from.size() < 4096);
     for (const SurfacePosition& each : from) {

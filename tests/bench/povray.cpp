@@ -80,7 +80,7 @@ material = "g"
   CHECK(has(text, "object { Mesh0 matrix <1,0,0,0,1,0,0,0,1,7,8,9> texture {M0} }"));
 }
 
-TEST_CASE("a group that is kept once is a union, wherever it stands") {
+TEST_CASE("an instanced group is a union, wherever it stands") {
   const std::string text = povray_scene(parse_scene(R"([render]
 groups = "instanced"
 [[material]]

@@ -33,7 +33,7 @@ TEST_CASE("a scene that cannot be read") {
   CHECK(folder.names() == only_the_scene);
 }
 
-TEST_CASE("a function without a Lipschitz constant that cannot be enclosed") {
+TEST_CASE("a function without a Lipschitz constant that has no bounds") {
   const SceneFolder folder;
   replace_in_file(folder.scene(), "[[sphere]]", R"([[implicit]]
 code = """

@@ -93,7 +93,8 @@ TEST_CASE("a function that is not a number is no surface, and no NaN in the pict
 }
 
 TEST_CASE(
-    "a part of a CSG object that is crossed more often than is counted runs out, and the picture says "
+    "a part of a CSG object that is crossed more often than is counted reaches the limit, and the picture "
+    "says "
     "where") {
   // Thousands of sheets in front of the ball that they are cut to, with a Lipschitz constant and without.
   for (const std::string lipschitz : {"lipschitz = 6000", ""}) {
@@ -129,7 +130,7 @@ TEST_CASE("samples that disprove a Lipschitz constant are a warning with the pla
         std::string::npos);
 }
 
-TEST_CASE("a formula in a group that is kept once, and one in a CSG object, is checked and run as any other" *
+TEST_CASE("a formula in an instanced group, and one in a CSG object, is checked and run as any other" *
           doctest::test_suite("long")) {
   const std::string group =
       "[[group]]\nbatch = { transform = [[], [{ translate = [3, 0, 0] }]] }\n[[group.implicit]]";

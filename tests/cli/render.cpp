@@ -101,7 +101,7 @@ TEST_CASE("AOVs hold what the eye rays hit") {
 }
 
 TEST_CASE(
-    "where steps run out a warning counts the pixels, and an AOV shows them: all that are wrong, also in "
+    "at iteration limits a warning counts the pixels, and an AOV shows them: all that are wrong, also in "
     "shadow" *
     doctest::test_suite("long")) {
   const SceneFolder folder;

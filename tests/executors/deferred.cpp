@@ -60,11 +60,11 @@ TEST_CASE(
     const Scene scene = load_scene(file);
     const PackedScene packed = pack::pack(scene, {.acceleration = Acceleration::bvh});
     REQUIRE(packed.has_bvh);
-    size_t slow = 0;
-#define COUNT(name, number) slow += packed.bvh_kinds.count(number);
+    size_t deferred = 0;
+#define COUNT(name, number) deferred += packed.bvh_kinds.count(number);
     DEFERRED_SHAPES(COUNT)
-    CHECK(slow > 0);
-    CHECK(slow < packed.bvh_kinds.size());
+    CHECK(deferred > 0);
+    CHECK(deferred < packed.bvh_kinds.size());
     CHECK(packed.instances.empty() == (file != "scenes/group_shapes.toml"));
     check_against_twin(device, scene, packed, 2000);
   }

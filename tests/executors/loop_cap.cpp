@@ -158,7 +158,7 @@ TEST_CASE("more iterations in a BVH than a capped driver grants: every pixel is 
 }
 
 TEST_CASE(
-    "whichever loop a driver cuts off, in a BVH or in the linear list: what a ray loses is right, or "
+    "whichever loop a driver cuts off, in a BVH or in the linear list: what is taken from a ray is right, or "
     "flagged") {
   // So faint that a ray goes through all of them.
   constexpr int count = 70'000;

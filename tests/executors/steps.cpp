@@ -1,4 +1,4 @@
-// Steps that run out: with a superellipsoid's lowered on the GPU, whatever is not flagged is right all the
+// Iteration limits: with a superellipsoid's lowered on the GPU, whatever is not flagged is right all the
 // same, and what is flagged does not depend on how rays are traced.
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ std::vector<QueryHit> ask(Executor& executor, std::span<const Query> rays, Query
 
 }  // namespace
 
-TEST_CASE("steps that run out: each way to trace flags the same rays, and all others are right") {
+TEST_CASE("iteration limits: each way to trace flags the same rays, and all others are right") {
   const Scene scene = crowd();
   Random random(6);
   std::vector<Query> rays(2000);

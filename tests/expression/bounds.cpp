@@ -1,4 +1,4 @@
-// Enclosures hold every value that the function has on the piece, and are as tight as they promise.
+// Affine bounds hold every value that the function has on the piece, and are as tight as they promise.
 #include <cmath>
 
 #include "host/formula/formula.hpp"

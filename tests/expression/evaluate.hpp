@@ -11,7 +11,7 @@ namespace eyeray::test {
 expression::StraightLine straight_line(const std::string& glsl);
 // In float64.
 double evaluate(const expression::StraightLine& line, const Vec3& p);
-// Enclosed on the piece o + (m + h·s)·d of a ray.
+// Its bounds on the piece o + (m + h·s)·d of a ray.
 shader::vec3 bound_piece(const expression::StraightLine& line, const shader::vec3& o, const shader::vec3& d,
                          float m, float h);
 

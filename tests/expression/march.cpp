@@ -109,7 +109,7 @@ TEST_CASE("2 000 rays at each surface: no root is missed, none comes out of noth
     CAPTURE(surface.name);
     const Count count = march_often(surface, 2'000);
     MESSAGE(
-        fmt::format("{:14} hits {:5}, grazing {:3}, missed {}, wrong {}, ran out {}; steps {:5.1f}, at most "
+        fmt::format("{:14} hits {:5}, grazing {:3}, missed {}, wrong {}, limits {}; steps {:5.1f}, at most "
                     "{}; off by {:.1e}",
                     surface.name, count.hits, count.grazing, count.missed, count.wrong, count.iteration_limit,
                     count.steps, count.most, count.worst));

@@ -86,7 +86,7 @@ TEST_CASE(
         doubtful += gave_up;
       }
     });
-    MESSAGE(fmt::format("{}: {} rays, {} leak, {} ran out of steps", names[int(aim)], rays.load(),
+    MESSAGE(fmt::format("{}: {} rays, {} leak, {} reached the iteration limit", names[int(aim)], rays.load(),
                         leaks.load(), doubtful.load()));
     CHECK(leaks == 0);
     CHECK(doubtful == 0);

@@ -81,7 +81,7 @@ struct Sample {
   PackedScene scene;
   Vec3 center;
   double radius;
-  mutable int gave_up = 0;  // how often a search ran out of steps
+  mutable int gave_up = 0;  // how often a search reached its limit
 };
 
 // What `body(sample, random)` says of as many rays, several a shape, of all sizes.

@@ -134,7 +134,7 @@ TEST_CASE("indices reach nothing beyond their arrays") {
     CHECK(formula.value(std::array{far, far, far}) == (far > 0 && far < 2e9f ? 710.0f : 217.0f));
 }
 
-TEST_CASE("what is enclosed is no longer than drivers compile in seconds") {
+TEST_CASE("what is bounded is no longer than drivers compile in seconds") {
   const auto why = [](int terms) -> std::string {
     const formula::Formula formula(
         {"float f(vec3 p) {\n float s = p.x;\n" + times(terms, "s = s * p.y + 0.5;\n") + "return s;\n}\n",

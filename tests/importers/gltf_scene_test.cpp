@@ -129,7 +129,7 @@ TEST_CASE("the first camera and all lights") {
   CHECK(std::get<OrthographicCamera>(second.camera->form).size == 3);
 }
 
-TEST_CASE("alphaMode MASK leaves holes by factor, picture and vertices; else alpha is not looked at") {
+TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices; else alpha is not looked at") {
   Json material = {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.6}}}}};
   const auto mask_of = [&] {
     return import_sound(with_material(material).gltf(), "a.gltf").materials[0]->mask;
@@ -149,7 +149,7 @@ TEST_CASE("alphaMode MASK leaves holes by factor, picture and vertices; else alp
   const ImportedScene glass = import_sound(with_material(material).gltf(), "a.gltf");
   CHECK_FALSE(glass.materials[0]->mask);
   REQUIRE(glass.warnings.size() == 1);
-  CHECK(contains(glass.warnings[0], "holes in glass (1)"));
+  CHECK(contains(glass.warnings[0], "cutouts in glass (1)"));
 }
 
 TEST_CASE("what is left out is named once, and counted") {

@@ -1,4 +1,4 @@
-// Groups that stand many times: named ones, where they are kept once, and what may not be.
+// Instances of groups: named ones, where they are instanced, and what may not be.
 #include <fmt/format.h>
 
 #include "host/scene/affine.hpp"
@@ -48,7 +48,7 @@ TEST_CASE("a named group stands where instances name it, after its own transform
   CHECK(std::abs(middle_x(*scene.shapes[2]) - 12) < 1e-9);
 }
 
-TEST_CASE("of groups in groups, those are kept once that leave the least to keep") {
+TEST_CASE("of groups in groups, those are instanced that leave the least to keep") {
   // 2 × 20 000 × 10 spheres: the inner group is; the other way round, the outer one.
   const auto nested = [](int outer, int inner, int spheres) {
     std::string text = "[[group]]\n" + batch(outer) + "[[group.group]]\n" + batch(inner);
@@ -72,7 +72,7 @@ TEST_CASE("of groups in groups, those are kept once that leave the least to keep
   CHECK(small.shapes.size() == 1000);
 }
 
-TEST_CASE("`groups` decides whether groups are kept once, and changes no id") {
+TEST_CASE("`groups` decides whether groups are instanced, and changes no id") {
   const std::string text = sphere("sphere", 0) + "[[group]]\n" + batch(3) + sphere("group.sphere", 1) +
                            sphere("group.sphere", 2) + "[[group]]\n" + sphere("group.sphere", 50) +
                            "[[group]]\n" + batch(2) + sphere("group.sphere", 60);
@@ -164,7 +164,7 @@ TEST_CASE("a group with a name that is no pattern stands where it is written, to
   CHECK(std::abs(middle_x(*scene.shapes[1]) - 11) < 1e-9);
 }
 
-TEST_CASE("what is kept once is called as its copies are") {
+TEST_CASE("what is instanced is called as its copies are") {
   const std::string text = sphere("sphere", 0) + "[[group]]\nname = \"cart\"\n" + batch(2) +
                            sphere("group.sphere", 1) + "name = \"wheel\"\n" + sphere("group.sphere", 2) +
                            "[[group]]\n" + batch(2) + sphere("group.sphere", 3);
@@ -199,7 +199,7 @@ TEST_CASE("groups in each other without end are an error, not a stack that overf
   CHECK(says(refused(text + "[[instance]]\ngroup = \"0\"\n"), "groups are nested more than 64 deep"));
 }
 
-TEST_CASE("named groups that double each time are refused, or kept once where that is enough") {
+TEST_CASE("named groups that double each time are refused, or instanced where that is enough") {
   const auto doubled = [](int levels) {
     std::string text = "[[group]]\nname = \"0\"\npattern = true\n" + sphere("group.sphere", 1);
     for (int i = 1; i <= levels; ++i)

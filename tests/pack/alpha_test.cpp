@@ -1,4 +1,4 @@
-// Holes by alpha: what is behind one is hit, whatever the way of searching, by nearest and by shadow rays.
+// Cutouts by alpha: what is behind one is hit, whatever the way of searching, by nearest and by shadow rays.
 #include <fmt/format.h>
 
 #include "host/pack/collapse.hpp"
@@ -65,7 +65,7 @@ std::vector<shader::QueryRay> random_rays(Random& random, size_t count) {
 
 }  // namespace
 
-TEST_CASE("an alpha of the cutoff is there, below it there is a hole; behind a hole the next is hit") {
+TEST_CASE("an alpha of the cutoff is there, below it is cut out; behind a cutout the next is hit") {
   Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0);
   scene.camera.target = Vec3(0, 0, -1);
@@ -98,7 +98,7 @@ TEST_CASE("cutouts: BVHs find what brute force finds, and in float64 too, to the
     const Scene scene = leafy_scene(random, 200, instances);
     const std::vector<shader::QueryRay> rays = random_rays(random, 100'000);
     const PackedScene brute = pack::pack(scene, {.acceleration = Acceleration::brute_force});
-    int holes = 0, apart = 0;
+    int cut = 0, apart = 0;
     for (const bool any : {false, true}) {
       const auto expected = ask_twin(brute, rays, any);
       for (const bool split : {false, true})
@@ -107,7 +107,7 @@ TEST_CASE("cutouts: BVHs find what brute force finds, and in float64 too, to the
                                    rays, any)) == 0);
       PackedScene filled = brute;
       for (shader::Material& material : filled.materials) material.alpha_cutoff = 0;
-      holes += differences(expected, ask_twin(filled, rays, any));
+      cut += differences(expected, ask_twin(filled, rays, any));
       if (any) continue;
       const reference::Tracer tracer(scene);
       for (size_t i = 0; i < rays.size(); ++i) {
@@ -116,10 +116,10 @@ TEST_CASE("cutouts: BVHs find what brute force finds, and in float64 too, to the
         apart += expected[i].primitive != (within ? uint32_t(hit->primitive) : NONE);
       }
     }
-    MESSAGE(fmt::format("{} instances: {} of {} rays hit cutouts, {} differ from float64", instances, holes,
+    MESSAGE(fmt::format("{} instances: {} of {} rays hit cutouts, {} differ from float64", instances, cut,
                         2 * rays.size(), apart));
-    CHECK(holes > 20'000);
-    CHECK(apart < 100);  // where rounding is to say on which side of a hole's edge a ray is
+    CHECK(cut > 20'000);
+    CHECK(apart < 100);  // where rounding is to say on which side of a cutout's edge a ray is
   }
 }
 

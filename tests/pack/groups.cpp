@@ -1,4 +1,4 @@
-// Groups that are kept once: every kind of shape is in them what it is where it is copied.
+// Instanced groups: every kind of shape is in them what it is where it is copied.
 #include <fmt/format.h>
 
 #include <fstream>
@@ -51,7 +51,7 @@ Scene stored(const std::string& text, std::string_view groups) {
 }
 
 // What a ray hits, and the surface there, whoever says so.
-struct Met {
+struct Answer {
   int64_t primitive = -1;
   double t = 0;
   Vec3 position{0.0}, normal{0.0}, normal_geometric{0.0};
@@ -59,7 +59,7 @@ struct Met {
   uint32_t flags = 0;
 };
 
-Met by_reference(const reference::Tracer& tracer, const Ray& ray) {
+Answer by_reference(const reference::Tracer& tracer, const Ray& ray) {
   uint32_t flags = 0;
   const auto hit = tracer.trace(ray, flags);
   if (!hit) return {.flags = flags};
@@ -67,7 +67,7 @@ Met by_reference(const reference::Tracer& tracer, const Ray& ray) {
   return {int64_t(hit->primitive), hit->at.t, s.position, s.normal, s.normal_geometric, s.uv, flags};
 }
 
-Met by_twin(const PackedScene& scene, const Ray& at, const Vec3& eye) {
+Answer by_twin(const PackedScene& scene, const Ray& at, const Vec3& eye) {
   const shader::Binding binding(scene);
   const shader::Ray ray = shader::make_ray(glm::vec3(at.o - eye), glm::vec3(at.d));
   uint32_t flags = 0;
@@ -79,7 +79,7 @@ Met by_twin(const PackedScene& scene, const Ray& at, const Vec3& eye) {
 }
 
 // How far apart they are, 1 being all that rounding may make of it; infinite for different primitives.
-double difference(const Met& a, const Met& b, double rounding, double size) {
+double difference(const Answer& a, const Answer& b, double rounding, double size) {
   if (a.primitive != b.primitive || a.flags != b.flags) return HUGE_VAL;
   if (a.primitive < 0) return 0;
   // The seam of a texture that goes round.
@@ -93,7 +93,7 @@ double difference(const Met& a, const Met& b, double rounding, double size) {
 }  // namespace
 
 TEST_CASE(
-    "every kind of shape: kept once it is hit where copies are, with their ids, normals and uv; by the BVH "
+    "every kind of shape: instanced it is hit where copies are, with their ids, normals and uv; by the BVH "
     "as by "
     "brute force") {
   for (const ShapeType* type : shapes::types()) {
@@ -124,12 +124,12 @@ TEST_CASE(
       const double size = glm::length(box.max - box.min);
       Ray ray{target + random.direction() * size * random.log_uniform(0.1, 10), {}};
       ray.d = glm::normalize(target - ray.o);
-      const Met expected = by_reference(flat_tracer, ray);
+      const Answer expected = by_reference(flat_tracer, ray);
       hits += expected.primitive >= 0;
       const double off = difference(by_reference(once_tracer, ray), expected, 1e-6, size);
-      const Met met = by_twin(once_records, ray, eye);
-      const double off_shader = difference(met, by_twin(flat_records, ray, eye), 1e-3, size);
-      wrong_bvh += difference(met, by_twin(once_brute, ray, eye), 1, size) != 0;
+      const Answer found = by_twin(once_records, ray, eye);
+      const double off_shader = difference(found, by_twin(flat_records, ray, eye), 1e-3, size);
+      wrong_bvh += difference(found, by_twin(once_brute, ray, eye), 1, size) != 0;
       wrong += off > 1;
       wrong_shader += off_shader > 1;
     }
@@ -189,7 +189,7 @@ material = "wall"
     const Bounds local = bounds(scene.groups[0], scene.meshes);
     const Affine map(scene.group_instances[0].transform);
     Random random(4);
-    int left = 0, met = 0;
+    int left = 0, again_hit = 0;
     while (left < 20'000) {
       const Vec3 span(random.uniform(), random.uniform(), random.uniform());
       const Vec3 target = map.point(glm::mix(local.min, local.max, span)) - scene.camera.eye;
@@ -204,9 +204,9 @@ material = "wall"
       if (shader::dot3(away, surface.normal_geometric) < 0) away = -away;
       const shader::Hit again = shader::trace(shader::spawn_ray(surface, away), flags);
       ++left;
-      met += again.slot != NONE && again.id == hit.id;
+      again_hit += again.slot != NONE && again.id == hit.id;
     }
     CAPTURE(place);
-    CHECK(met == 0);
+    CHECK(again_hit == 0);
   }
 }

@@ -11,7 +11,7 @@ using namespace eyeray::test;
 
 TEST_CASE("a ray that leaves a triangle of an instance does not hit it again") {
   Dice dice;
-  int departures = 0, rehits = 0;
+  int spawned = 0, rehits = 0;
   for (int i = 0; i < 30000; ++i) {
     const double size = dice.scale(-4, 4);
     const Vec3 center = dice.in_box(dice.scale(-4, 4));
@@ -36,15 +36,15 @@ TEST_CASE("a ray that leaves a triangle of an instance does not hit it again") {
     const SurfacePoint point = instance.surface(ray, *hit);
     for (int k = 0; k < 4; ++k) {
       const Vec3 d = dice.direction();
-      ++departures;
+      ++spawned;
       rehits += instance.intersect({reference::spawn_origin(point, d), d}).has_value();
     }
     const Vec3 along = glm::normalize(ray.d);
-    ++departures;
+    ++spawned;
     rehits += instance.intersect({reference::spawn_origin(point, along), along}).has_value();
   }
-  MESSAGE(rehits << " re-hits in " << departures << " departures");
-  CHECK(departures > 100000);
+  MESSAGE(rehits << " re-hits in " << spawned << " spawned");
+  CHECK(spawned > 100000);
   CHECK(rehits == 0);
 }
 

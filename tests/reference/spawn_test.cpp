@@ -13,13 +13,13 @@ using namespace eyeray::test;
 namespace {
 
 struct Count {
-  int departures = 0;
+  int spawned = 0;
   int rehits = 0;
 };
 
 // Sends a ray at `shape`, and others on from where it strikes. Whatever leaves a surface must not hit that
 // surface at once: not that shape, and not a copy of it.
-void depart(const Shape& shape, const Shape& copy, const Ray& ray, double size, Dice& dice, Count& count) {
+void spawn(const Shape& shape, const Shape& copy, const Ray& ray, double size, Dice& dice, Count& count) {
   const auto hit = shape.intersect(ray);
   if (!hit) return;
   const SurfacePoint point = shape.surface(ray, *hit);
@@ -30,7 +30,7 @@ void depart(const Shape& shape, const Shape& copy, const Ray& ray, double size, 
     const double grazing = std::abs(glm::dot(d, point.normal_geometric));
     for (const Shape* again : {&shape, &copy}) {
       const auto hit_again = again->intersect(next);
-      ++count.departures;
+      ++count.spawned;
       count.rehits += hit_again && hit_again->t < size * std::min(1e-2, grazing);
     }
   }
@@ -48,18 +48,18 @@ TEST_CASE("a ray that leaves a surface does not hit it again") {
 
     const auto sphere = make_sphere(center, size);
     const Vec3 n = dice.direction();
-    depart(*sphere, *make_sphere(center, size), {eye, center + size * n - eye}, size, dice, spheres);
+    spawn(*sphere, *make_sphere(center, size), {eye, center + size * n - eye}, size, dice, spheres);
 
     const auto plane = make_plane(center, n);
-    depart(*plane, *make_plane(center, 3.0 * n), {eye, dice.direction()}, size, dice, planes);
+    spawn(*plane, *make_plane(center, 3.0 * n), {eye, dice.direction()}, size, dice, planes);
 
     // The copy is the same triangle, turned over.
     const Vec3 a = center + size * dice.direction();
     const Vec3 b = center + size * dice.direction();
     const Vec3 c = center + size * dice.direction();
     const auto triangle = make_triangle({.vertices = {a, b, c}});
-    depart(*triangle, *make_triangle({.vertices = {a, c, b}}), {eye, (a + b + c) / 3.0 - eye}, size, dice,
-           triangles);
+    spawn(*triangle, *make_triangle({.vertices = {a, c, b}}), {eye, (a + b + c) / 3.0 - eye}, size, dice,
+          triangles);
 
     // Both stand for all that are in a space of their own. From the apex and the edges, rays may go on close
     // by.
@@ -67,10 +67,10 @@ TEST_CASE("a ray that leaves a surface does not hit it again") {
     for (int axis = 0; axis < 3; ++axis) map[axis] = Vec4(size * dice.direction(), 0);
     if (why_singular(map).empty()) {
       const auto cone = make_cone({0, -1, 0}, {0, 1, 0}, 1, 0.5, false, map);
-      depart(*cone, *make_cone({0, -1, 0}, {0, 1, 0}, 1, 0.5, true, map), {eye, center - eye}, 1e-4 * size,
-             dice, cones);
+      spawn(*cone, *make_cone({0, -1, 0}, {0, 1, 0}, 1, 0.5, true, map), {eye, center - eye}, 1e-4 * size,
+            dice, cones);
       const auto box = make_box(Vec3(-1), Vec3(1), map);
-      depart(*box, *make_box(Vec3(-1), Vec3(1), map), {eye, center - eye}, 1e-4 * size, dice, boxes);
+      spawn(*box, *make_box(Vec3(-1), Vec3(1), map), {eye, center - eye}, 1e-4 * size, dice, boxes);
     }
 
     // So rough is a needle's normal that turned over, it is another needle.
@@ -78,12 +78,12 @@ TEST_CASE("a ray that leaves a surface does not hit it again") {
         a, b, glm::mix(a, b, dice.between(-1, 2)) + size * dice.scale(-8, -2) * c / glm::length(c)};
     if (thickness(needle) < thinnest_triangle) continue;
     const auto thin = make_triangle({.vertices = needle});
-    depart(*thin, *make_triangle({.vertices = needle}),
-           {eye, (needle[0] + needle[1] + needle[2]) / 3.0 - eye}, size, dice, needles);
+    spawn(*thin, *make_triangle({.vertices = needle}), {eye, (needle[0] + needle[1] + needle[2]) / 3.0 - eye},
+          size, dice, needles);
   }
   const auto check = [](const std::string& name, const Count& count) {
-    MESSAGE(name << ": " << count.rehits << " re-hits in " << count.departures << " departures");
-    CHECK(count.departures > 100000);
+    MESSAGE(name << ": " << count.rehits << " re-hits in " << count.spawned << " spawned");
+    CHECK(count.spawned > 100000);
     CHECK(count.rehits == 0);
   };
   check("sphere", spheres);
@@ -149,9 +149,9 @@ TEST_CASE("a surface that float32 cannot tell from the nearest one is its coinci
   CHECK(coincident(1e-4).primitive == 0);
 }
 
-TEST_CASE("crossings end, whatever a body says") {
-  // Met again and again: every so far along the ray, or at one point that no step gets away from.
-  struct Body {
+TEST_CASE("crossings end, whatever a shape says") {
+  // Hit again and again: every so far along the ray, or at one point that no step gets away from.
+  struct Endless {
     double step;
     std::optional<Intersection> intersect(const Ray&) const { return Intersection{step}; }
     SurfacePoint surface(const Ray& ray, const Intersection& hit) const {
@@ -160,7 +160,7 @@ TEST_CASE("crossings end, whatever a body says") {
   };
   const auto count = [](double step) {
     int crossings = 0;
-    reference::for_each_crossing(Body{step}, {{1, 0, 0}, {1, 0, 0}},
+    reference::for_each_crossing(Endless{step}, {{1, 0, 0}, {1, 0, 0}},
                                  [&](double, const auto&, const SurfacePoint&) {
                                    ++crossings;
                                    return true;

@@ -1,5 +1,5 @@
 // Incoherent rays, four lanes a ray. Lane i looks at child i of a node of four, or at primitive i of a leaf, and the stack is spread
-// over the lanes: so fewer rays have to wait for each other, each for fewer steps. Before that, a group of rays goes down as one for as
+// over the lanes: so rays, which diverge, hold up fewer others, for fewer steps. Before that, a group of rays goes down as one for as
 // long as most of it takes the same way.
 // What a ray hits is what `search` finds (bvh/traverse.glsl), since neither asks in which order.
 //   ANY                  whether any hit will do

@@ -1,6 +1,6 @@
 // Coherent rays, PACKET at a time: the lanes of a subgroup traverse the BVH together, each with several rays. While they are
-// far from what they may hit, they go as one shaft, and it is the lanes that look at different things: at the children of a node, as
-// many as there are lanes (pack/collapse.cpp), or at the primitives of a leaf. Only then are they rays again.
+// far from what they may hit, they go as one shaft, and it is the lanes that test different boxes: of the children of a node, as
+// many as there are lanes (pack/collapse.cpp), or of the primitives of a leaf. Only then are they rays again.
 // What a ray hits is what `search` finds (bvh/traverse.glsl), since neither asks in which order.
 //   ANY   whether any hit will do
 #ifndef PACKET_GLSL

@@ -1,0 +1,76 @@
+#include "host/loader/materials.hpp"
+
+#include <algorithm>
+
+#include "host/loader/kinds.hpp"
+#include "host/materials/registry.hpp"
+
+namespace eyeray::loader {
+namespace {
+
+constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
+
+}  // namespace
+
+void Materials::add(const Section& section, const toml::table& table) {
+  auto [type, reader] = read_kind(section, &table, materials::types(), values_, log_);
+  std::unique_ptr<Material> material = type ? type->parse(reader) : nullptr;
+
+  // Enter the name even after an error, so that its users are not reported too.
+  const std::string name = reader.string("name");
+  if (!reader.valid("name")) return;
+  if (name.empty()) return reader.error("name", "a material's name must not be empty");
+  const auto [entry, fresh] = by_name_.try_emplace(name, Named{-1, reader.position()});
+  if (!fresh) {
+    const SourcePosition& first = entry->second.position;
+    return reader.error("name", fmt::format("material \"{}\" is defined twice; the first is at {}:{}", name,
+                                            first.file, first.line));
+  }
+  if (!material) return;
+  if (material->medium() && ++media_ > most_media) {
+    reader.error("type",
+                 fmt::format("a scene can have at most {} materials that light passes through", most_media));
+  }
+  if (reader.has("alpha")) {
+    if (material->medium())
+      reader.error("alpha", "what light passes through fills its shape, which can have no cutouts");
+    material->mask = AlphaMask{reader.texture("alpha"), reader.number("alpha_cutoff")};
+  } else if (reader.has("alpha_cutoff")) {
+    reader.error("alpha_cutoff", "without `alpha` there is nothing to cut off");
+  }
+  material->name = name;
+  entry->second.index = static_cast<int>(scene_.materials.size());
+  scene_.materials.push_back(std::move(material));
+}
+
+int Materials::find(TableReader& shape) {
+  if (!shape.valid("material")) return 0;
+  const std::string name = shape.string("material");
+  const auto found = by_name_.find(name);
+  if (found != by_name_.end()) {
+    found->second.used = true;
+    return std::max(0, found->second.index);
+  }
+  if (log_.damaged()) return 0;
+  std::vector<std::string_view> names;
+  for (const auto& [known, material] : by_name_) names.push_back(known);
+  const std::string nearest = nearest_name(name, names);
+  shape.error("material", fmt::format("no [[material]] is named \"{}\"{}", name,
+                                      nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+  return 0;
+}
+
+void Materials::check() const {
+  const auto is_medium = [](const auto& material) { return material->medium().has_value(); };
+  if (std::ranges::count_if(scene_.materials, is_medium) > std::ptrdiff_t{most_media}) {
+    log_.error({},
+               fmt::format("a scene can have at most {} materials that light passes through, those of its "
+                           "mesh files included",
+                           most_media));
+  }
+  for (const auto& [name, material] : by_name_) {
+    if (!material.used) log_.warning(material.position, fmt::format("material \"{}\" is not used", name));
+  }
+}
+
+}  // namespace eyeray::loader

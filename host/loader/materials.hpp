@@ -1,0 +1,40 @@
+// The [[material]]s of a scene file, by their names.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "host/loader/sections.hpp"
+#include "host/scene/scene.hpp"
+#include "host/scene/table.hpp"
+
+namespace eyeray::loader {
+
+class Materials {
+ public:
+  // They go into `scene`. All three must outlive it.
+  Materials(Scene& scene, const ValueSources& values, DiagnosticLog& log)
+      : scene_(scene), values_(values), log_(log) {}
+
+  // Errors are in the log, here and below.
+  void add(const Section& section, const toml::table& table);
+  // The index in Scene::materials of what the table's `material` names; after an error 0.
+  int find(TableReader& shape);
+  // Says where a scene that is otherwise whole has too many of them, or some that nothing is made of.
+  void check() const;
+
+ private:
+  struct Named {
+    int index;  // in Scene::materials; -1 after an error
+    SourcePosition position;
+    bool used = false;
+  };
+
+  Scene& scene_;
+  const ValueSources& values_;
+  DiagnosticLog& log_;
+  std::map<std::string, Named, std::less<>> by_name_;
+  size_t media_ = 0;
+};
+
+}  // namespace eyeray::loader
