@@ -129,7 +129,7 @@ TEST_CASE("what a render reads it does not overwrite, by whatever name") {
   const SceneFolder folder;
   const auto path = [&](const std::string& name) { return std::filesystem::path(folder / name); };
   std::filesystem::create_directory(path("art"));
-  std::filesystem::copy("tests/core/pictures/rgb.png", path("art/wood.png"));
+  std::filesystem::copy("tests/image/pictures/rgb.png", path("art/wood.png"));
   const std::string scene = std::string("include = \"more.hdr\"\n") + small_scene;
   write_text(path("art/scene.png"),
              replaced(scene, "diffuse = [0.8, 0.4, 0.2]", "diffuse = { image = \"wood.png\" }"));

@@ -169,7 +169,7 @@ TEST_CASE("a pipeline cache that fails costs no picture") {
 
 TEST_CASE("checking a scene holds its images once") {
   const SceneFolder folder;
-  std::filesystem::copy_file("tests/core/pictures/one_bit_4096.png", folder / "big.png");
+  std::filesystem::copy_file("tests/image/pictures/one_bit_4096.png", folder / "big.png");
   std::ofstream(folder / "big.toml") << "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\n"
                                         "[[light]]\ntype = \"point\"\nposition = [9, 9, 9]\n"
                                         "[[material]]\nname = \"m\"\ntype = \"phong\"\n"

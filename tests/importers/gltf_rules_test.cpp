@@ -250,7 +250,7 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
 
 TEST_CASE("rules of glTF: samplers, and pictures without uv") {
   GltfFile file = rich_file();
-  std::ifstream png("tests/core/pictures/rgb.png", std::ios::binary);
+  std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
   const std::string picture{std::istreambuf_iterator<char>(png), {}};
   file.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
   file.json["textures"] = {{{"source", 0}, {"sampler", 0}}};

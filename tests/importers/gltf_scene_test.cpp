@@ -61,7 +61,7 @@ TEST_CASE("metallic-roughness becomes what comes nearest") {
 }
 
 TEST_CASE("pictures, from data and files, with their samplers") {
-  std::ifstream png("tests/core/pictures/rgb.png", std::ios::binary);
+  std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
   const std::string picture{std::istreambuf_iterator<char>(png), {}};
   GltfFile file =
       with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}});
@@ -191,7 +191,7 @@ TEST_CASE("emission, by factor, strength and picture; what is unlit emits its ba
   CHECK(unlit.specular == Vec3(0));
 
   // A picture of its own, with the uv of the base colour's or with other ones.
-  std::ifstream png("tests/core/pictures/rgb.png", std::ios::binary);
+  std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
   const std::string picture{std::istreambuf_iterator<char>(png), {}};
   GltfFile file =
       with_material({{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}}});

@@ -144,7 +144,7 @@ TEST_CASE("materials outside the folder tree are not read") {
 
 TEST_CASE("pictures of .mtl files are textures") {
   const Folder folder;
-  std::filesystem::copy_file("tests/core/pictures/rgb.png", folder / "rgb.png");
+  std::filesystem::copy_file("tests/image/pictures/rgb.png", folder / "rgb.png");
   folder.write("a.mtl", "newmtl m\nKd 1 1 1\nmap_Kd rgb.png\n");
   const ImportedScene scene =
       import_file(folder.write("a.obj", square + "mtllib a.mtl\nusemtl m\nf 1 2 3\n"));

@@ -18,7 +18,7 @@ namespace {
 
 // red    green  blue
 // black  white  (64, 128, 192)
-const char* picture = "tests/core/pictures/rgb.png";
+const char* picture = "tests/image/pictures/rgb.png";
 
 // A folder with a picture at `name`, and scenes that use it.
 class Folder : public test::TemporaryFolder {

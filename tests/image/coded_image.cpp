@@ -18,7 +18,7 @@ namespace {
 using Pixel = std::array<uint8_t, 4>;
 
 std::string bytes_of(const std::string& file) {
-  return read_file("tests/core/pictures/" + file);
+  return read_file("tests/image/pictures/" + file);
 }
 
 CodedImage decode(const std::string& bytes) {
