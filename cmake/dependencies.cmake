@@ -19,6 +19,9 @@ find_package(SPIRV-Tools-opt REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(stb REQUIRED IMPORTED_TARGET stb)
 add_library(stb ALIAS PkgConfig::stb)
+# Its types depend on how Debian compiled it, which its .pc file says.
+pkg_check_modules(cpp-httplib REQUIRED IMPORTED_TARGET cpp-httplib)
+add_library(httplib ALIAS PkgConfig::cpp-httplib)
 
 # A header with its implementation, compiled into the importers.
 find_path(TINYOBJ_INCLUDE tiny_obj_loader.h REQUIRED)

@@ -46,6 +46,12 @@ class SceneOptions {
   // The options that were given, to be pasted into another command: " -s 96x72 --spp 4".
   std::string as_written() const;
   const std::string& file() const { return file_; }
+  // The same options, with more values laid over the scene.
+  SceneOptions with_defines(const std::vector<std::string>& defines) const {
+    SceneOptions options = *this;
+    options.defines_.insert(options.defines_.end(), defines.begin(), defines.end());
+    return options;
+  }
   // The same options for another scene.
   SceneOptions for_file(const std::string& file) const {
     SceneOptions options = *this;

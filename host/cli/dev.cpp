@@ -1,155 +1,203 @@
-// eyeray dev: renders, watches the scene and the shaders, and renders again on every save. The rendering is
-// done in a worker process, so that a shader which never ends or crashes the driver costs nothing but a line
-// of text.
+// eyeray dev: renders, watches the scene and the shaders, and renders again on every save (dev/supervisor.hpp).
 #include <CLI/CLI.hpp>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "host/cli/picture.hpp"
+#include "host/cli/command.hpp"
+#include "host/cli/json.hpp"
+#include "host/core/atomic_file.hpp"
 #include "host/core/readable.hpp"
-#include "host/core/termination.hpp"
-#include "host/dev/file_watcher.hpp"
-#include "host/dev/worker.hpp"
-
-namespace fs = std::filesystem;
+#include "host/dev/render_server.hpp"
+#include "host/dev/supervisor.hpp"
+#include "host/image/image_file.hpp"
 
 namespace eyeray::cli {
 namespace {
 
+constexpr int usual_port = 7447;
+
 struct DevCommand {
-  PictureRequest request;
+  SceneOptions scene;
+  executors::Backend backend = executors::Backend::gpu;
+  executors::ExecutorOptions executor;
+  std::vector<std::string> outputs;
+  std::string diagnostics = "gcc";
   bool json = false;
+  bool once = false;
+  bool no_page = false;
+  int port = usual_port;
+  int worker_socket = -1;  // in the worker
 
   ExitCode run();
 
  private:
-  dev::WatchList watch_list() const;
-  // Renders once in the worker and tells how it went; the fault when there was one.
-  std::optional<ExitCode> render_once(dev::Worker& worker);
-  void report_picture(const Json& answer);
-  ExitCode report_fault(ExitCode code, const std::string& text, const Json& error);
+  ExitCode serve();
+  void report(const Json& event, const dev::Board& board);
+  void report_picture(const Json& done, const dev::Board& board);
+  void report_failure(const Json& failure) const;
 
-  std::vector<fs::path> sources_;  // what the last renders read
   std::string device_;
+  bool watching_ = false;
 };
 
-// In the worker: {"picture": {…}, "line": "…", "sources": […]} or {"error": {…}, "text": "…"}.
-Json answer(const PictureRequest& request) {
-  Json sources = Json::array();
-  try {
-    const Picture picture = make_picture(request, {});
-    for (const fs::path& source : picture.sources) sources.push_back(source.string());
-    std::string line = fmt::format("rendered {} in {} ({})", request.outputs[0],
-                                   format_seconds(picture.seconds), stages(picture.times));
-    if (const std::string warning = flag_warning(picture); !warning.empty())
-      line += "\neyeray: warning: " + warning;
-    return {{"picture", to_json(picture)}, {"line", line}, {"sources", sources}};
-  } catch (const InputError& error) {
-    for (const Diagnostic& diagnostic : error.diagnostics()) sources.push_back(diagnostic.position.file);
-    return {{"error", to_json(error)}, {"text", error.what()}, {"sources", sources}};
-  } catch (const Error& error) {
-    return {{"error", to_json(error)},
-            {"text", fmt::format("eyeray: error: {}", error.what())},
-            {"sources", sources}};
-  } catch (const std::exception& error) {
-    const Error wrapped(ExitCode::bad_input, error.what());
-    return {{"error", to_json(wrapped)},
-            {"text", fmt::format("eyeray: error: {}", error.what())},
-            {"sources", sources}};
+// How this process was called, to be called so again with `more` at the end.
+std::vector<std::string> own_command(const std::string& more) {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  words.at(0) = "/proc/self/exe";
+  words.push_back(more);
+  return words;
+}
+
+// "::error file=a.glsl,line=3,col=5::message", as GitHub's workflows read it.
+std::string github_annotation(const Json& diagnostic) {
+  const auto escaped = [](std::string text, bool property) {
+    std::string result;
+    for (const char c : text) {
+      if (c == '%' || c == '\n' || c == '\r' || (property && (c == ',' || c == ':')))
+        result += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+      else
+        result += c;
+    }
+    return result;
+  };
+  return fmt::format("::{} file={},line={},col={}::{}", diagnostic.value("severity", "error"),
+                     escaped(diagnostic.value("file", ""), true), diagnostic.value("line", 0),
+                     diagnostic.value("column", 0), escaped(diagnostic.value("message", ""), false));
+}
+
+void DevCommand::report_picture(const Json& done, const dev::Board& board) {
+  const std::string view = done.value("view", "gpu");
+  if (const auto picture = board.picture(view)) {
+    for (const std::string& output : outputs) write_image(output, *picture);
   }
-}
-
-dev::WatchList DevCommand::watch_list() const {
-  dev::WatchList list{sources_, {}, {".glsl", ".h"}};
-  list.files.emplace_back(request.scene.file());
-  if (!request.executor.shader_folder.empty()) list.folders.push_back(request.executor.shader_folder);
-  return list;
-}
-
-void DevCommand::report_picture(const Json& answer) {
-  if (json) print_json({{"picture", answer["picture"]}});
-  const std::string device = answer["picture"]["device"];
+  if (json) {
+    Json answer = done;
+    answer["files"] = outputs;
+    answer.erase("event");
+    answer.erase("generation");
+    print_json({{"picture", std::move(answer)}});
+  }
+  const std::string device = done.value("device", "");
   if (device != device_) fmt::print(stderr, "{}\n", device);
   device_ = device;
-  fmt::print(stderr, "{}\n", answer["line"].get<std::string>());
+  std::vector<std::string> stages;
+  const Json times = done.value("stages", Json::object());
+  for (const auto& [stage, seconds] : times.items())
+    stages.push_back(fmt::format("{} {}", stage, format_seconds(seconds)));
+  fmt::print(stderr, "rendered {}in {} ({})\n", outputs.empty() ? "" : outputs[0] + " ",
+             format_seconds(done.value("seconds", 0.0)), fmt::join(stages, ", "));
 }
 
-ExitCode DevCommand::report_fault(ExitCode code, const std::string& text, const Json& error) {
-  if (json) print_json({{"error", error}});
-  fmt::print(stderr, "{}\n{} stays as it was\n", text, request.outputs[0]);
-  return code;
+void DevCommand::report_failure(const Json& failure) const {
+  const Json diagnostics_found = failure.value("diagnostics", Json::array());
+  if (json) {
+    Json answer = failure;
+    answer.erase("event");
+    answer.erase("generation");
+    print_json({{"error", std::move(answer)}});
+  }
+  const std::string message = failure.value("message", "");
+  if (diagnostics == "json") {
+    fmt::print(stderr, "{}\n",
+               Json{{"message", message}, {"diagnostics", diagnostics_found}}.dump(
+                   -1, ' ', false, Json::error_handler_t::replace));
+  } else if (diagnostics == "github" && !diagnostics_found.empty()) {
+    for (const Json& each : diagnostics_found) fmt::print(stderr, "{}\n", github_annotation(each));
+  } else {
+    fmt::print(stderr, "{}{}\n", diagnostics_found.empty() ? "eyeray: error: " : "", message);
+  }
+  if (!once && !outputs.empty()) fmt::print(stderr, "{} stays as it was\n", outputs[0]);
 }
 
-std::optional<ExitCode> DevCommand::render_once(dev::Worker& worker) {
-  const auto fault = [this](ExitCode code, const std::string& message) {
-    return report_fault(code, "eyeray: error: " + message, to_json(Error(code, message)));
-  };
-  const double timeout = request.executor.timeout_seconds;
-  const dev::Worker::Answer reply = worker.ask("render", timeout);
-  switch (reply.outcome) {
-    case dev::Worker::Outcome::interrupted:
-      return ExitCode::interrupted;
-    case dev::Worker::Outcome::timed_out:
-      return fault(ExitCode::timed_out,
-                   fmt::format("no picture after {}: a shader that never ends? (--timeout allows longer)",
-                               format_seconds(timeout)));
-    case dev::Worker::Outcome::died:
-      return fault(ExitCode::bad_input, "the rendering process ended by " + reply.text);
-    case dev::Worker::Outcome::answered:
-      break;
+void DevCommand::report(const Json& event, const dev::Board& board) {
+  const std::string what = event.value("event", "");
+  if (what == "listening") {
+    const int listens = event.value("port", 0);
+    if (listens != event.value("wanted", 0))
+      fmt::print(stderr, "port {} is taken: {} it is\n", event.value("wanted", 0), listens);
+    fmt::print(stderr, "look at {}\nfrom afar, first: ssh -L {}:127.0.0.1:{} THIS-MACHINE\n",
+               event.value("address", ""), listens, listens);
   }
+  if (what == "changed")
+    fmt::print(stderr, "\n{} changed\n", fmt::join(event.value("files", std::vector<std::string>{}), ", "));
+  if (what == "done") report_picture(event, board);
+  if (what == "failed") report_failure(event);
+  if ((what == "done" || what == "failed") && !once && !watching_) {
+    watching_ = true;
+    fmt::print(stderr, "watching for changes; Ctrl-C ends\n");
+  }
+  std::fflush(stdout);
+}
 
-  const Json answer = Json::parse(reply.text);
-  if (answer.contains("picture")) {
-    sources_.clear();
-    for (const std::string file : answer["sources"]) sources_.emplace_back(file);
-    report_picture(answer);
-    return std::nullopt;
-  }
-  // What the failed attempt read is not known; its messages name some of it.
-  for (const std::string file : answer["sources"]) sources_.emplace_back(file);
-  const auto code = ExitCode(answer["error"]["code"].get<int>());
-  // A device that was lost or still runs a shader is of no more use to its process.
-  if (code == ExitCode::timed_out || code == ExitCode::no_device) worker.kill();
-  return report_fault(code, answer["text"], answer["error"]);
+ExitCode DevCommand::serve() {
+  dev::be_a_worker();
+  dev::RenderServer server({.load = [this](const std::vector<std::string>& defines) {
+                              return scene.with_defines(defines).load();
+                            },
+                            .executor = executor},
+                           dev::MessageSocket(worker_socket));
+  server.serve();
+  return ExitCode::ok;
 }
 
 ExitCode DevCommand::run() {
-  request.check_outputs();
-  if (!fs::exists(request.scene.file())) request.scene.load();  // throws, with the loader's own words
-
-  dev::Worker worker([this](const std::string&) {
-    return answer(request).dump(-1, ' ', false, Json::error_handler_t::replace);
-  });
-  dev::FileWatcher watcher;
-  for (bool first = true; !interrupted(); first = false) {
-    // Watch before rendering: a save during the rendering is not lost.
-    watcher.watch(watch_list());
-    const std::optional<ExitCode> fault = render_once(worker);
-    if (first && fault == ExitCode::no_device) return *fault;  // no save will help
-    if (fault == ExitCode::interrupted) break;
-    watcher.watch(watch_list());
-    if (first) fmt::print(stderr, "watching for changes; Ctrl-C ends\n");
-    std::fflush(stdout);
-    const std::set<std::string> changed = watcher.wait();
-    if (!changed.empty()) fmt::print(stderr, "\n{} changed\n", fmt::join(changed, ", "));
+  if (worker_socket >= 0) return serve();
+  for (const std::string& output : outputs) {
+    image_format(output);
+    check_writable(output);
   }
-  return ExitCode::interrupted;
+  if (!std::filesystem::exists(scene.file())) scene.load();  // throws, with the loader's own words
+
+  dev::SupervisorOptions options;
+  options.worker = own_command("--worker-socket");
+  options.scene = scene.file();
+  options.shader_folder = executor.shader_folder;
+  options.view = executors::backend_name(backend);
+  options.timeout_seconds = executor.timeout_seconds;
+  options.once = once;
+  if (!no_page) options.port = port;
+  dev::Supervisor* known = nullptr;
+  dev::Supervisor supervisor(options, [&](const Json& event) { report(event, known->board()); });
+  known = &supervisor;
+  return supervisor.run();
 }
 
 }  // namespace
 
 void add_dev(CLI::App& app, Run& run) {
-  CLI::App* const command =
-      app.add_subcommand("dev", "Render, and again on every save of the scene or a shader.");
+  CLI::App* const command = app.add_subcommand(
+      "dev", "Render on every save of the scene or a shader, and show it on a page for the browser.");
   const auto options = std::make_shared<DevCommand>();
-  options->request.executor.timeout_seconds = 20;
-  options->request.add_to(*command);
+  options->executor.timeout_seconds = 20;
+  options->scene.add_to(*command);
+  command
+      ->add_option("-o,--output", options->outputs,
+                   "Also write each picture that is done: .png, .pfm, .hdr or .exr. May be repeated.")
+      ->option_text("FILE")
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--port", options->port, "Of the page, on 127.0.0.1; another where it is taken.")
+      ->option_text(fmt::format("N={}", usual_port))
+      ->check(CLI::Range(1, 65535));
+  command->add_flag("--no-page", options->no_page, "Show nothing in a browser.");
+  command->add_flag("--once", options->once, "Render once, and end: exit code 0, or that of what is wrong.");
+  command
+      ->add_option("--diagnostics", options->diagnostics,
+                   "How errors are said on standard error: gcc, json or github.")
+      ->option_text("FORMAT=gcc")
+      ->check(CLI::IsMember({"gcc", "json", "github"}));
+  add_backend_option(*command, options->backend);
+  add_executor_options(*command, options->executor);
   command->add_flag("--json", options->json, "Say each result as a line of JSON on standard output.");
+  command->add_option("--worker-socket", options->worker_socket, "")->group("");
   command->footer(
       "Example:\n"
       "  eyeray shaders --export my-shaders\n"
-      "  eyeray dev scenes/whitted.toml --shaders my-shaders -o look.png\n"
-      "Errors are shown as file:line: error and leave the last good picture alone. A render that takes "
+      "  eyeray dev scenes/whitted.toml --shaders my-shaders\n"
+      "Errors are shown as file:line:column: error and leave the last good picture alone. A render that takes "
       "longer than\n"
       "--timeout is stopped. Ctrl-C ends it all, with exit code 130.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });

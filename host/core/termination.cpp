@@ -34,6 +34,7 @@ std::atomic<int64_t> first_signal = 0;  // when it came, on the monotonic clock;
 std::atomic<int> signal_number = SIGINT;
 std::atomic<bool> insisted = false;
 std::atomic<bool> without_memory = false;
+std::atomic<bool> silent = false;
 static_assert(std::atomic<int64_t>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 struct Semaphore {
   sem_t handle;
@@ -79,7 +80,7 @@ bool can_write(int file) {
 [[noreturn]] void end(const std::function<void(const Error&)>& report, const Error& error) {
   if (can_write(STDOUT_FILENO) && can_write(STDERR_FILENO) && ::ftrylockfile(stdout) == 0 &&
       ::ftrylockfile(stderr) == 0) {
-    report(error);
+    if (!silent || error.code() != ExitCode::interrupted) report(error);
     std::fflush(stdout);
   }
   remove_unfinished_files();
@@ -154,6 +155,10 @@ void watch_for_termination(std::function<void(const Error&)> report) {
   const int failure = ::pthread_create(&thread, &attributes, watching_thread, kept_report);
   pthread_attr_destroy(&attributes);
   if (failure != 0) throw Error(ExitCode::file_io, "cannot start a thread: {}", strerror(failure));
+}
+
+void end_silently() {
+  silent = true;
 }
 
 bool interrupted() {

@@ -17,6 +17,9 @@ namespace eyeray {
 // the watching thread, if standard output and error take it.
 void watch_for_termination(std::function<void(const Error&)> report);
 
+// From now on a signal ends the process without a word: who sent it knows.
+void end_silently();
+
 // Whether a signal has asked to stop. Safe from any thread.
 bool interrupted();
 

@@ -19,8 +19,8 @@ namespace {
 
 constexpr uint32_t appeared = IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE;
 constexpr uint32_t vanished = IN_MOVED_FROM | IN_DELETE | IN_DELETE_SELF | IN_MOVE_SELF;
-constexpr double quiet_seconds = 0.03;
-constexpr double quiet_seconds_after_vanishing = 0.2;
+constexpr double quiet_after_saving = 0.01;
+constexpr double quiet_after_vanishing = 0.2;
 
 }  // namespace
 
@@ -86,8 +86,7 @@ bool FileWatcher::matters(int watch_id, const std::string& name) const {
                                          [&](const std::string& ending) { return name.ends_with(ending); });
 }
 
-std::optional<double> FileWatcher::read_events(std::set<std::string>& changed) {
-  std::optional<double> quiet;
+void FileWatcher::read_events() {
   alignas(inotify_event) char buffer[16384];
   for (ssize_t count; (count = ::read(fd_, buffer, sizeof buffer)) > 0;) {
     for (const char* at = buffer; at < buffer + count;) {
@@ -102,25 +101,30 @@ std::optional<double> FileWatcher::read_events(std::set<std::string>& changed) {
           (event->mask & IN_ISDIR) && interests_.contains(event->wd) && interests_.at(event->wd).endings;
       if (!(event->mask & IN_Q_OVERFLOW) && !folder_gone && !new_folder && !matters(event->wd, name))
         continue;
-      changed.insert(name);
-      quiet = (event->mask & vanished) ? quiet_seconds_after_vanishing : quiet_seconds;
+      changed_.insert(name);
+      quiet_seconds_ = (event->mask & vanished) ? quiet_after_vanishing : quiet_after_saving;
+      since_change_ = {};
     }
   }
-  return quiet;
+}
+
+std::optional<double> FileWatcher::settles_in() const {
+  if (changed_.empty()) return std::nullopt;
+  return std::max(0.0, quiet_seconds_ - since_change_.seconds());
+}
+
+std::set<std::string> FileWatcher::take_changes() {
+  read_events();
+  if (settles_in().value_or(1) > 0) return {};
+  return std::exchange(changed_, {});
 }
 
 std::set<std::string> FileWatcher::wait() {
-  std::set<std::string> changed;
-  std::optional<double> quiet;  // set once something has changed
   while (!interrupted()) {
-    pollfd polled{fd_, POLLIN, 0};
+    if (std::set<std::string> changed = take_changes(); !changed.empty()) return changed;
     // A signal that comes just before poll() begins does not end it: look at the flag now and then.
-    const double longest = quiet.value_or(0.1);
-    if (::poll(&polled, 1, int(longest * 1000)) > 0) {
-      if (const auto next = read_events(changed)) quiet = next;
-    } else if (quiet) {
-      return changed;
-    }
+    pollfd polled{fd_, POLLIN, 0};
+    ::poll(&polled, 1, int(std::min(settles_in().value_or(0.1), 0.1) * 1000) + 1);
   }
   return {};
 }

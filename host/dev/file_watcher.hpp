@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "host/core/stopwatch.hpp"
+
 namespace eyeray::dev {
 
 // What to watch. A file that does not exist (yet) counts as changed once it appears.
@@ -28,8 +30,14 @@ class FileWatcher {
 
   // Replaces what is watched. A change between two calls is not lost.
   void watch(const WatchList& list);
-  // Waits for a change, and then until the saving is over (30 ms of silence; 200 ms after a file has
-  // vanished, since many editors put it back). The names of what changed; empty when interrupted() came true.
+  // To poll for reading.
+  int descriptor() const { return fd_; }
+  // The names of what changed, once the saving is over: after 10 ms of silence; 200 ms after a file has
+  // vanished, since many editors put it back. Empty before. Never waits.
+  std::set<std::string> take_changes();
+  // When to ask again though nothing can be read, in seconds; nothing where nothing has changed.
+  std::optional<double> settles_in() const;
+  // Waits for changes; empty when interrupted() came true.
   std::set<std::string> wait();
 
  private:
@@ -41,14 +49,15 @@ class FileWatcher {
 
   void add_folder(const std::filesystem::path& folder, const std::string& name, bool endings);
   void add_tree(const std::filesystem::path& folder);
-  // Reads what inotify has to tell; the seconds of silence to wait for after it, nothing when no event
-  // mattered.
-  std::optional<double> read_events(std::set<std::string>& changed);
+  void read_events();
   bool matters(int watch_id, const std::string& name) const;
 
   int fd_ = -1;
   std::map<int, Interest> interests_;  // by inotify's watch descriptor
   std::vector<std::string> endings_;
+  std::set<std::string> changed_;  // not yet taken
+  double quiet_seconds_ = 0;       // of silence after the last change
+  Stopwatch since_change_;
 };
 
 }  // namespace eyeray::dev

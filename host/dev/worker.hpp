@@ -1,47 +1,42 @@
-// A child process for work that may crash or never end: a user's shader on a driver that cannot be
-// interrupted.
+// A process for work that may crash or never end: a user's shader on a driver that cannot be interrupted.
 #pragma once
 
 #include <sys/types.h>
 
-#include <functional>
 #include <string>
-#include <utility>
+#include <vector>
+
+#include "host/dev/message.hpp"
 
 namespace eyeray::dev {
 
+// The supervisor's hand on it.
 class Worker {
  public:
-  // Answers one request with one line of text, in the child. The child lives from request to request, so that
-  // what it keeps (device, caches) stays warm. It must not throw.
-  using Serve = std::function<std::string(const std::string& request)>;
-
-  // The child is forked at the first request, and again after it has died; the caller must have no other
-  // threads.
-  explicit Worker(Serve serve) : serve_(std::move(serve)) {}
+  // The program and its arguments; what start() appends is the descriptor of the worker's socket.
+  explicit Worker(std::vector<std::string> command) : command_(std::move(command)) {}
   ~Worker() { kill(); }
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  enum class Outcome { answered, timed_out, died, interrupted };
-  struct Answer {
-    Outcome outcome;
-    std::string text;  // answered: the line, without its end; died: how, "signal 11 (Segmentation fault)"
-  };
-  // Requests and answers hold no line breaks. A child that ended between two requests is replaced without a
-  // word. Whatever the outcome but `answered`, the child is gone afterwards.
-  Answer ask(const std::string& request, double timeout_seconds);
-  // Ends the child, whatever it does: soon, and with its unfinished files gone.
-  void kill();
+  // Starts the process. Error (file_io) when the system has no room for one.
+  void start();
+  bool running() const { return pid_ >= 0; }
+  MessageSocket& socket() { return socket_; }
+  // Ends it, whatever it does: soon, and with its unfinished files gone. How it ended, for people: "signal 11
+  // (Segmentation fault)"; a process that ends by itself does so before it is killed.
+  std::string kill();
 
  private:
-  void start();
   bool has_ended() const;
-  Answer bury();
 
-  Serve serve_;
+  std::vector<std::string> command_;
   pid_t pid_ = -1;
-  int socket_ = -1;  // to the child
+  MessageSocket socket_;
 };
+
+// In the worker, before anything else: it ends when the process that started it does, and leaves Ctrl-C to
+// it.
+void be_a_worker();
 
 }  // namespace eyeray::dev

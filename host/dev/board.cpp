@@ -1,0 +1,80 @@
+#include "host/dev/board.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "host/image/image_file.hpp"
+
+namespace eyeray::dev {
+
+void Board::publish() {
+  ++version_;
+  changed_.notify_all();
+}
+
+void Board::put_rows(const Message& message) {
+  const auto number = [&](const char* key) { return message.json.value(key, int64_t{-1}); };
+  const int64_t width = number("width"), height = number("height"), stride = number("stride");
+  const int64_t row = number("row"), rows = number("rows");
+  if (!image_size_allowed(width, height) || stride < 1 || row < 0 || rows < 1) return;
+  const int64_t columns = (width + stride - 1) / stride;
+  if (row + rows > (height + stride - 1) / stride) return;
+  if (message.bytes.size() != size_t(columns * rows) * 3 * sizeof(float)) return;
+
+  const std::lock_guard lock(mutex_);
+  const std::string view = message.json.value("view", "");
+  Image& image = pictures_[view];
+  if (image.width() != width || image.height() != height) image = Image(int(width), int(height), 3);
+  const int64_t last = std::min(height, (row + rows) * stride);
+  for (int64_t y = row * stride; y < last; ++y) {
+    for (int64_t x = 0; x < width; ++x) {
+      const int64_t from = (y / stride - row) * columns + x / stride;
+      std::memcpy(image.pixel(int(x), int(y)), &message.bytes[size_t(from) * 3 * sizeof(float)],
+                  3 * sizeof(float));
+    }
+  }
+  Json& version = status_["pictures"][view];
+  version = version.is_number() ? version.get<uint64_t>() + 1 : 1;
+  publish();
+}
+
+std::optional<Image> Board::picture(const std::string& view) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = pictures_.find(view);
+  return found == pictures_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void Board::put_probe(Json answer) {
+  const std::lock_guard lock(mutex_);
+  probe_ = std::move(answer);
+  status_["probes"] = status_.value("probes", 0) + 1;
+  publish();
+}
+
+Json Board::probe() const {
+  const std::lock_guard lock(mutex_);
+  return probe_;
+}
+
+std::optional<std::string> Board::next_status(uint64_t& seen, double seconds) const {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, std::chrono::duration<double>(seconds),
+                    [&] { return closed_ || version_ != seen; });
+  if (closed_ || version_ == seen) return std::nullopt;
+  seen = version_;
+  return status_.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void Board::close() {
+  const std::lock_guard lock(mutex_);
+  closed_ = true;
+  changed_.notify_all();
+}
+
+bool Board::closed() const {
+  const std::lock_guard lock(mutex_);
+  return closed_;
+}
+
+}  // namespace eyeray::dev

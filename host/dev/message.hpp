@@ -1,0 +1,48 @@
+// What the supervisor and its worker tell each other.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace eyeray::dev {
+
+using Json = nlohmann::ordered_json;
+
+// A JSON document, and raw bytes that go with it: pixels.
+struct Message {
+  Json json;
+  std::string bytes;
+};
+
+// One end of a pair of sockets. A message is two little-endian uint32, the sizes of the JSON text and of the
+// bytes, and then these. The other end may be a process whose memory a shader has overwritten: what is no
+// message closes the socket.
+class MessageSocket {
+ public:
+  MessageSocket() = default;  // closed
+  explicit MessageSocket(int descriptor) : descriptor_(descriptor) {}
+  ~MessageSocket() { close(); }
+  MessageSocket(MessageSocket&& other) noexcept;
+  MessageSocket& operator=(MessageSocket&& other) noexcept;
+
+  // To poll for reading; -1 once closed.
+  int descriptor() const { return descriptor_; }
+  bool closed() const { return descriptor_ < 0; }
+  void close();
+
+  // Whether it went out as a whole.
+  bool send(const Message& message);
+  // The next message, if it comes whole within so many seconds.
+  std::optional<Message> receive(double seconds);
+  // Whether there is something to receive, or the other end is gone.
+  bool readable() const;
+
+ private:
+  std::optional<Message> take();
+
+  int descriptor_ = -1;
+  std::string pending_;
+};
+
+}  // namespace eyeray::dev

@@ -1,0 +1,57 @@
+// In the worker: renders what it is asked, and sends the picture while it grows.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/dev/message.hpp"
+#include "host/executors/executor.hpp"
+
+namespace eyeray::dev {
+
+// Answers messages until the socket is closed. A newer message ends the work on an older one: at once between
+// two bands of rows, else when what was begun is done.
+//
+//   {"do": "render", "revision": 7, "generation": 12, "defines": ["camera.eye=[0,1,5]"], "views": ["gpu"]}
+//     the same revision: the same files and defines, nothing is loaded or compiled anew
+//   {"do": "probe", "x": 3, "y": 4}: of what was rendered last
+//
+// It sends, each with "event", and with the request's generation:
+//   "stage"   what it does now: "load", "compile" or "render"
+//   "scene"   what was loaded: "width", "height", "samples", "files" that were read, "camera"
+//   "rows"    see Board::put_rows
+//   "done"    a view is complete, whether it is the "last": "device", "seconds", "stages", "rays", "samples", "files"
+//   "failed"  "code", "message", "diagnostics", and "files" that the messages name
+//   "probed"  what probe::to_json says, as "findings", and its "text"; or "message" where it failed
+class RenderServer {
+ public:
+  struct Options {
+    // The scene with "KEY=VALUE"s laid over it.
+    std::function<Scene(const std::vector<std::string>& defines)> load;
+    executors::ExecutorOptions executor;
+  };
+  RenderServer(Options options, MessageSocket socket);
+
+  void serve();
+
+ private:
+  void render(const Json& request);
+  void load(const Json& request);
+  void paint(const std::string& view, bool last);
+  void probe(const Json& request);
+  void send(const char* event, Json json, std::string bytes = "");
+  void send_failure(const Error& error);
+  bool outdated() const { return socket_.closed() || socket_.readable(); }
+
+  Options options_;
+  MessageSocket socket_;
+  int64_t generation_ = 0;
+  int64_t revision_ = -1;
+  std::optional<Scene> scene_;
+  std::unique_ptr<executors::Executor> executors_[3];  // by Backend; of this revision
+};
+
+}  // namespace eyeray::dev

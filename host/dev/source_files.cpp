@@ -1,0 +1,70 @@
+#include "host/dev/source_files.hpp"
+
+#include <sys/stat.h>
+
+#include "host/core/atomic_file.hpp"
+#include "host/core/content_hash.hpp"
+#include "host/core/error.hpp"
+
+namespace eyeray::dev {
+namespace {
+
+constexpr uint64_t hashed_always = 1 << 20;  // bytes
+
+}  // namespace
+
+SourceFiles::Stamp SourceFiles::stamp_of(const std::filesystem::path& file) {
+  struct stat info {};
+  if (::stat(file.c_str(), &info) != 0) return {};
+  return {info.st_ino, uint64_t(info.st_size), info.st_mtim.tv_sec, info.st_mtim.tv_nsec};
+}
+
+std::string SourceFiles::hash_of(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return "";
+  try {
+    return ContentHash().add(read_file(file)).hex();
+  } catch (const Error&) {
+    return "";  // unreadable: whoever renders says so
+  }
+}
+
+void SourceFiles::set(const std::set<std::filesystem::path>& files, Clock::time_point began) {
+  files_ = files;
+  std::erase_if(states_, [&](const auto& entry) { return !files_.contains(entry.first); });
+  for (const std::filesystem::path& file : files_) {
+    if (states_.contains(file)) continue;
+    const Stamp stamp = stamp_of(file);
+    const bool written_since =
+        std::chrono::seconds(stamp.seconds) + std::chrono::nanoseconds(stamp.nanoseconds) >=
+        began.time_since_epoch();
+    states_[file] = written_since ? State{{}, stamp, "?"} : State{stamp, stamp, hash_of(file)};
+  }
+}
+
+bool SourceFiles::changed() {
+  bool any = false;
+  for (auto& [file, state] : states_) {
+    const Stamp stamp = stamp_of(file);
+    state.last_look = stamp;
+    // A clock may stand still between two quick saves: only large files are taken at their stamp's word.
+    if (stamp == state.stamp && stamp.size > hashed_always) continue;
+    state.stamp = stamp;
+    const std::string hash = hash_of(file);
+    any = any || hash != state.hash;
+    state.hash = hash;
+  }
+  return any;
+}
+
+bool SourceFiles::changed_unnoticed() {
+  bool settled = false;
+  for (auto& [file, state] : states_) {
+    const Stamp stamp = stamp_of(file);
+    settled = settled || (stamp != state.stamp && stamp == state.last_look);
+    state.last_look = stamp;
+  }
+  return settled && changed();
+}
+
+}  // namespace eyeray::dev

@@ -1,0 +1,44 @@
+// The files that a picture depends on, and whether their bytes are still the same.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+namespace eyeray::dev {
+
+class SourceFiles {
+ public:
+  // Which files, read since `began` (of the system's clock). Of those that are new to it, their bytes now are
+  // what later ones are compared with, unless they were written since.
+  using Clock = std::chrono::system_clock;
+  void set(const std::set<std::filesystem::path>& files, Clock::time_point began);
+  const std::set<std::filesystem::path>& files() const { return files_; }
+
+  // Whether the bytes of any are others than at the last call: saving what was there counts for nothing.
+  bool changed();
+  // The same where nobody tells of changes, on network file systems say: for every second or so. A file
+  // counts once it has stayed as it is from one call to the next.
+  bool changed_unnoticed();
+
+ private:
+  // What tells a file's bytes without reading them; all 0 where there is none.
+  struct Stamp {
+    uint64_t inode = 0, size = 0;
+    int64_t seconds = 0, nanoseconds = 0;
+    bool operator==(const Stamp&) const = default;
+  };
+  struct State {
+    Stamp stamp, last_look;
+    std::string hash;
+  };
+  static Stamp stamp_of(const std::filesystem::path& file);
+  static std::string hash_of(const std::filesystem::path& file);
+
+  std::set<std::filesystem::path> files_;
+  std::map<std::filesystem::path, State> states_;
+};
+
+}  // namespace eyeray::dev

@@ -1,0 +1,288 @@
+#include "host/dev/supervisor.hpp"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "host/core/readable.hpp"
+#include "host/core/termination.hpp"
+
+namespace fs = std::filesystem;
+
+namespace eyeray::dev {
+namespace {
+
+constexpr double seconds_between_looks = 1;
+constexpr double patience = 5;  // beyond the worker's own time-out
+
+// All shaders below a folder: what might be read, where nobody could tell what is.
+std::set<fs::path> shaders_in(const fs::path& folder) {
+  std::set<fs::path> found;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path ending = entry->path().extension();
+    if (ending == ".glsl" || ending == ".h") found.insert(entry->path());
+  }
+  return found;
+}
+
+std::set<fs::path> paths(const Json& names) {
+  std::set<fs::path> set;
+  for (const Json& name : names)
+    if (name.is_string()) set.insert(name.get<std::string>());
+  return set;
+}
+
+}  // namespace
+
+Supervisor::Supervisor(SupervisorOptions options, Report report)
+    : options_(std::move(options)),
+      report_(std::move(report)),
+      worker_(options_.worker),
+      view_(options_.view),
+      wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  if (wake_ < 0) throw Error(ExitCode::file_io, "cannot make an eventfd: {}", strerror(errno));
+}
+
+ExitCode Supervisor::run() {
+  std::optional<WebServer> server;
+  if (options_.port && !options_.once) {
+    const auto command = [this](const Json& json) {
+      const std::lock_guard lock(commands_mutex_);
+      commands_.push_back(json);
+      ::eventfd_write(wake_, 1);
+    };
+    server.emplace(board_, command, *options_.port);
+    report_({{"event", "listening"},
+             {"address", server->address()},
+             {"port", server->port()},
+             {"wanted", *options_.port}});
+  }
+  board_.update([&](Json& status) {
+    status = {{"scene", options_.scene.string()}, {"state", "starting"}, {"view", view_},
+              {"pictures", Json::object()},       {"failure", nullptr},  {"stale", false}};
+  });
+  begin_revision();
+  while (!interrupted()) {
+    wait();
+    take_messages();
+    if (result_ && options_.once) return *result_;
+    take_changes();
+    take_commands();
+    send_probe();
+  }
+  return ExitCode::interrupted;
+}
+
+void Supervisor::wait() {
+  std::vector<pollfd> polled{{watcher_.descriptor(), POLLIN, 0}, {wake_, POLLIN, 0}};
+  if (worker_.running()) polled.push_back({worker_.socket().descriptor(), POLLIN, 0});
+  // A signal that comes just before poll() begins does not end it: look at the flag now and then.
+  const double longest = std::min(watcher_.settles_in().value_or(0.1), 0.1);
+  ::poll(polled.data(), polled.size(), int(longest * 1000) + 1);
+}
+
+// ---- Requests ----
+
+std::vector<std::string> Supervisor::defines() const {
+  std::vector<std::string> list;
+  for (const auto& [key, value] : defines_) list.push_back(key + "=" + value);
+  return list;
+}
+
+std::vector<std::string> Supervisor::views() const {
+  if (view_ == "difference") return {"gpu", "reference"};
+  return {view_};
+}
+
+// Files or defines are others than before.
+void Supervisor::begin_revision() {
+  ++revision_;
+  began_ = SourceFiles::Clock::now();
+  request();
+}
+
+void Supervisor::request() {
+  watch();
+  ++generation_;
+  result_.reset();
+  const bool fresh = !worker_.running();
+  if (fresh) worker_.start();
+  const Message message{{{"do", "render"},
+                         {"revision", revision_},
+                         {"generation", generation_},
+                         {"defines", defines()},
+                         {"views", views()}},
+                        ""};
+  busy_ = true;
+  since_message_ = {};
+  board_.update([&](Json& status) {
+    status["state"] = "loading";
+    status["stale"] = true;
+    status["view"] = view_;
+    status["generation"] = generation_;
+    status["defines"] = defines_;
+  });
+  if (!worker_.socket().send(message)) lose_worker(ExitCode::bad_input, "");
+}
+
+// ---- The worker ----
+
+void Supervisor::take_messages() {
+  while (worker_.running()) {
+    const std::optional<Message> message = worker_.socket().receive(0);
+    if (message) {
+      since_message_ = {};
+      handle(*message);
+      continue;
+    }
+    if (worker_.socket().closed())
+      lose_worker(ExitCode::bad_input, "");
+    else if (busy_ && since_message_.seconds() > options_.timeout_seconds + patience)
+      lose_worker(ExitCode::timed_out, fmt::format("no answer for {}: a shader that never ends?",
+                                                   format_seconds(options_.timeout_seconds + patience)));
+    return;
+  }
+}
+
+// Ends a worker that is of no more use; the next request starts another. Without a message: it ended by
+// itself.
+void Supervisor::lose_worker(ExitCode code, const std::string& message) {
+  const std::string how = worker_.kill();
+  if (!std::exchange(busy_, false)) return;  // in its sleep: not this request's doing
+  const std::string why = message.empty() ? "the rendering process ended by " + how : message;
+  fail({{"event", "failed"}, {"code", int(code)}, {"message", why}, {"diagnostics", Json::array()}});
+}
+
+void Supervisor::handle(const Message& message) {
+  const Json& json = message.json;
+  if (json.value("generation", int64_t{-1}) != generation_) return;  // of an older request
+  const std::string event = json.value("event", "");
+  if (event == "rows") {
+    board_.put_rows(message);
+    board_.update([&](Json& status) {
+      status["stale"] = false;
+      status["failure"] = nullptr;
+      status["sample"] = json.value("sample", 0);
+    });
+  } else if (event == "stage") {
+    board_.update([&](Json& status) { status["state"] = json.value("stage", ""); });
+  } else if (event == "scene") {
+    scene_files_ = paths(json.value("files", Json::array()));
+    board_.update([&](Json& status) {
+      for (const char* key : {"width", "height", "samples", "camera", "warnings"})
+        status[key] = json.value(key, Json());
+    });
+  } else if (event == "done") {
+    if (!json.value("last", true)) return;
+    busy_ = false;
+    shader_files_ = paths(json.value("files", Json::array()));
+    result_ = ExitCode::ok;
+    board_.update([&](Json& status) {
+      status["state"] = "done";
+      for (const char* key : {"device", "seconds", "stages", "rays", "flags"})
+        status[key] = json.value(key, Json());
+    });
+    watch();
+    report_(json);
+  } else if (event == "failed") {
+    busy_ = false;
+    const auto code = ExitCode(json.value("code", 2));
+    // A device that was lost or still runs a shader is of no more use to its process.
+    if (code == ExitCode::timed_out || code == ExitCode::no_device) worker_.kill();
+    fail(json);
+  } else if (event == "probed") {
+    busy_ = false;
+    board_.put_probe(json);
+  }
+}
+
+void Supervisor::fail(Json failure) {
+  result_ = ExitCode(failure.value("code", 2));
+  // What the attempt read is not known; its messages name some of it.
+  for (const Json& diagnostic : failure.value("diagnostics", Json::array()))
+    scene_files_.insert(diagnostic.value("file", ""));
+  for (const fs::path& shader : shaders_in(options_.shader_folder)) shader_files_.insert(shader);
+  board_.update([&](Json& status) {
+    status["state"] = "failed";
+    status["failure"] = failure;
+  });
+  watch();
+  report_(failure);
+}
+
+// ---- Files ----
+
+void Supervisor::watch() {
+  std::set<fs::path> files = scene_files_;
+  files.insert(options_.scene);
+  if (shader_files_.empty()) shader_files_ = shaders_in(options_.shader_folder);
+  files.insert(shader_files_.begin(), shader_files_.end());
+  files_.set(files, began_);
+  WatchList list{{files.begin(), files.end()}, {}, {".glsl", ".h"}};
+  if (!options_.shader_folder.empty()) list.folders.push_back(options_.shader_folder);
+  watcher_.watch(list);
+}
+
+void Supervisor::take_changes() {
+  const std::set<std::string> names = watcher_.take_changes();
+  bool changed = !names.empty() && files_.changed();
+  if (!changed && since_look_.seconds() > seconds_between_looks) {
+    since_look_ = {};
+    changed = files_.changed_unnoticed();
+  }
+  if (!changed) return;
+  report_({{"event", "changed"}, {"files", names}});
+  begin_revision();
+}
+
+// ---- The page ----
+
+void Supervisor::take_commands() {
+  eventfd_t count;
+  ::eventfd_read(wake_, &count);
+  std::vector<Json> commands;
+  {
+    const std::lock_guard lock(commands_mutex_);
+    commands.swap(commands_);
+  }
+  for (const Json& command : commands) obey(command);
+}
+
+void Supervisor::obey(const Json& command) {
+  if (command.contains("view") && command["view"].is_string()) {
+    view_ = command["view"];
+    request();
+  }
+  // Values to lay over the scene; null takes one away.
+  if (const auto found = command.find("defines"); found != command.end() && found->is_object()) {
+    for (const auto& [key, value] : found->items()) {
+      if (value.is_null())
+        defines_.erase(key);
+      else
+        defines_[key] = value.is_string() ? value.get<std::string>() : value.dump();
+    }
+    begin_revision();
+  }
+  if (const auto found = command.find("probe"); found != command.end() && found->is_array() &&
+                                                found->size() == 2 && (*found)[0].is_number_integer() &&
+                                                (*found)[1].is_number_integer())
+    probe_ = {(*found)[0], (*found)[1]};
+}
+
+// Not while a picture grows: it would have to wait.
+void Supervisor::send_probe() {
+  if (!probe_ || busy_ || !worker_.running()) return;
+  busy_ = true;
+  since_message_ = {};
+  worker_.socket().send({{{"do", "probe"}, {"x", probe_->first}, {"y", probe_->second}}, ""});
+  probe_.reset();
+}
+
+}  // namespace eyeray::dev

@@ -1,0 +1,84 @@
+// eyeray dev: watches files, has a worker render them, shows the picture and what is wrong, and outlives all
+// of it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "host/core/error.hpp"
+#include "host/dev/board.hpp"
+#include "host/dev/file_watcher.hpp"
+#include "host/dev/source_files.hpp"
+#include "host/dev/web_server.hpp"
+#include "host/dev/worker.hpp"
+
+namespace eyeray::dev {
+
+struct SupervisorOptions {
+  std::vector<std::string> worker;      // the command line of a RenderServer
+  std::filesystem::path scene;          // watched from the start
+  std::filesystem::path shader_folder;  // likewise; empty: none
+  std::string view = "gpu";             // shown at first
+  double timeout_seconds = 20;          // of a worker that says nothing
+  std::optional<int> port;              // of the page; none: no page
+  bool once = false;                    // end with the first picture, or with what is wrong
+};
+
+class Supervisor {
+ public:
+  // What happened, on the supervisor's thread: the worker's "done" and "failed" (render_server.hpp), and
+  // {"event": "changed", "files": […]} or {"event": "listening", "address": …}. A failure's "message" is
+  // ready for a terminal.
+  using Report = std::function<void(const Json&)>;
+  Supervisor(SupervisorOptions options, Report report);
+
+  // Until interrupted() comes true or, with `once`, the first picture is there. Then: the exit code.
+  ExitCode run();
+  const Board& board() const { return board_; }
+
+ private:
+  void request();
+  void begin_revision();
+  void take_messages();
+  void handle(const Message& message);
+  void lose_worker(ExitCode code, const std::string& message);
+  void fail(Json failure);
+  void take_changes();
+  void take_commands();
+  void obey(const Json& command);
+  void watch();
+  void wait();
+  std::vector<std::string> defines() const;
+  std::vector<std::string> views() const;
+  void send_probe();
+
+  SupervisorOptions options_;
+  Report report_;
+  Board board_;
+  Worker worker_;
+  FileWatcher watcher_;
+  SourceFiles files_;
+  std::set<std::filesystem::path> scene_files_, shader_files_;  // that the last pictures were made of
+  SourceFiles::Clock::time_point began_;
+  Stopwatch since_look_;  // at files without being told
+
+  int64_t revision_ = 0;    // of files and defines
+  int64_t generation_ = 0;  // of requests
+  bool busy_ = false;       // the worker has not answered the last request
+  WakefulStopwatch since_message_;
+  std::string view_;
+  std::map<std::string, std::string> defines_;  // that the page laid over the scene
+  std::optional<ExitCode> result_;              // of the last request
+  std::optional<std::pair<int, int>> probe_;    // a pixel to look into once the worker has time
+
+  // From the web server's threads.
+  std::mutex commands_mutex_;
+  std::vector<Json> commands_;
+  int wake_ = -1;  // an eventfd
+};
+
+}  // namespace eyeray::dev

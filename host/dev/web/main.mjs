@@ -1,0 +1,178 @@
+// eyeray dev's page: shows what the server's status says, and sends what is asked for.
+import { Stage } from './stage.mjs';
+import { orbited, nearer, flown } from './camera.mjs';
+import { show_failure } from './failure.mjs';
+import { show_probe } from './probe.mjs';
+
+const $ = id => document.getElementById(id);
+const keys = { gpu: '1', twin: '2', reference: '3', difference: 'd' };
+
+let status = { pictures: {}, view: 'gpu' };
+let camera = null;         // that is moved; null: the scene's
+let mode = 'look';
+let shown_picture = '';    // view, version and exposure of what is on the stage
+let loading = false;
+
+const send = command =>
+  fetch('command', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(command) });
+
+// ---- The picture ----
+const stage = new Stage($('stage'), {
+  hover: at => show_values(at ?? stage.marked),
+  click: at => choose_pixel(at),
+  drag: (dx, dy) => mode === 'orbit' && move_camera(orbited(camera_now(), -dx / 150, -dy / 150)),
+  wheel: steps => mode === 'orbit' && move_camera(nearer(camera_now(), 2 ** (-steps / 2))),
+});
+
+// One request at a time: the newest picture is fetched when the last one is there.
+async function refresh() {
+  const version = status.view === 'difference' ? `${status.pictures.gpu}/${status.pictures.reference}` : status.pictures[status.view];
+  const wanted = `${status.view} ${version} ${$('exposure').value}`;
+  if (loading || version === undefined || wanted === shown_picture) return;
+  loading = true;
+  try {
+    const answer = await fetch(`frame?view=${encodeURIComponent(status.view)}&exposure=${$('exposure').value}`);
+    if (answer.ok) {
+      stage.show(await createImageBitmap(await answer.blob()));
+      shown_picture = wanted;
+      document.body.dataset.shown = wanted;
+      show_values(stage.marked);
+    } else if (answer.status !== 404) {
+      shown_picture = wanted;
+    }
+  } catch { /* the events say when the server is gone */ }
+  loading = false;
+  if (shown_picture === wanted) refresh();
+}
+
+let asked = 0;
+async function show_values(at) {
+  const turn = ++asked;
+  if (!at) { $('pixel').textContent = ''; return; }
+  const answer = await fetch(`values?view=${encodeURIComponent(status.view)}&x=${at[0]}&y=${at[1]}`).catch(() => null);
+  if (turn !== asked || !answer?.ok) return;
+  const [values] = await answer.json();
+  $('pixel').textContent = `${at[0]},${at[1]}  ${values.map(v => typeof v === 'number' ? v.toPrecision(7) : v).join('  ')}`;
+}
+
+function choose_pixel(at) {
+  stage.marked = at;
+  stage.draw();
+  show_values(at);
+  $('probe').textContent = `Looking into ${at[0]},${at[1]} …`;
+  send({ probe: at });
+}
+
+// ---- The camera ----
+const camera_now = () => camera ?? status.camera;
+let camera_sent = true;
+function move_camera(to) {
+  if (!status.camera) return true;
+  camera = to;
+  $('reset').hidden = false;
+  if (camera_sent) requestAnimationFrame(send_camera);
+  camera_sent = false;
+  return true;
+}
+async function send_camera() {
+  camera_sent = true;
+  const text = v => `[${v.map(x => x.toPrecision(9)).join(', ')}]`;
+  await send({ defines: { 'camera.eye': text(camera.eye), 'camera.target': text(camera.target) } });
+}
+function reset_camera() {
+  camera = null;
+  $('reset').hidden = true;
+  send({ defines: { 'camera.eye': null, 'camera.target': null } });
+}
+
+// ---- The status ----
+const words = { starting: 'starting', load: 'loading', loading: 'loading', compile: 'compiling', render: 'rendering', done: 'done', failed: 'failed' };
+let probes = 0;
+function tell() {
+  $('scene').textContent = status.scene;
+  document.title = `${status.state === 'failed' ? '✗ ' : ''}${status.scene} – eyeray dev`;
+  const busy = status.stale && status.state !== 'failed' && Object.keys(status.pictures).length > 0;
+  $('state').textContent = (words[status.state] ?? status.state) + (busy ? ', the last picture stays' : '');
+  $('state').className = `badge ${status.state}`;
+  document.body.dataset.state = status.state;
+  document.body.dataset.generation = status.generation;
+  if (status.state === 'done') {
+    const compile = (status.stages['shader compile'] ?? 0) + (status.stages.pipeline ?? 0);
+    $('times').textContent = `${status.width}×${status.height}, ${ms(status.seconds)}, of which compiling ${ms(compile)}; ` +
+      `${(status.rays / Math.max(status.stages.dispatch ?? status.seconds, 1e-6) / 1e6).toPrecision(3)} Mrays/s`;
+    $('stages').textContent = [...Object.entries(status.stages).map(([name, s]) => `${name.padEnd(16)} ${ms(s)}`), '', status.device].join('\n');
+  }
+  show_failure($('failure'), status.failure);
+  show_views();
+  if (status.probes && status.probes !== probes) {
+    probes = status.probes;
+    fetch('probe').then(answer => answer.json()).then(answer => show_probe($('probe'), answer));
+  }
+  refresh();
+}
+const ms = seconds => seconds < 1 ? `${(seconds * 1000).toFixed(0)} ms` : `${seconds.toFixed(2)} s`;
+
+function show_views() {
+  const names = Object.keys(keys);
+  if ($('views').children.length === 0) {
+    for (const name of names) {
+      const button = Object.assign(document.createElement('button'), { textContent: `${name} `, onclick: () => send({ view: name }) });
+      button.append(Object.assign(document.createElement('kbd'), { textContent: keys[name] }));
+      button.dataset.view = name;
+      $('views').append(button);
+    }
+  }
+  for (const button of $('views').children) button.setAttribute('aria-pressed', button.dataset.view === status.view);
+}
+
+const events = new EventSource('events');
+events.onmessage = event => {
+  status = JSON.parse(event.data);
+  tell();
+};
+events.onerror = () => {
+  $('state').textContent = 'eyeray dev has ended; waiting for it';
+  $('state').className = 'badge lost';
+};
+
+// ---- What is pressed ----
+function choose_mode(name) {
+  mode = name;
+  $('pan').setAttribute('aria-pressed', mode === 'look');
+  $('orbit').setAttribute('aria-pressed', mode === 'orbit');
+}
+function expose(stops) {
+  $('exposure').value = stops;
+  $('stops').textContent = $('exposure').value;
+  refresh();
+}
+$('exposure').oninput = () => expose($('exposure').value);
+$('pan').onclick = () => choose_mode('look');
+$('orbit').onclick = () => choose_mode('orbit');
+$('fit').onclick = () => stage.fit();
+$('reset').onclick = reset_camera;
+
+const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+const flights = { w: [0, 0.05], s: [0, -0.05], a: [-0.05, 0], f: [0.05, 0] };
+addEventListener('keydown', event => {
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches('input, select')) return;
+  const view = Object.keys(keys).find(name => keys[name] === event.key);
+  if (view) send({ view });
+  else if (event.key === '0') stage.fit();
+  else if (event.key === '+' || event.key === '=') stage.zoom(2);
+  else if (event.key === '-') stage.zoom(0.5);
+  else if (event.key === '[') expose(Number($('exposure').value) - 0.5);
+  else if (event.key === ']') expose(Number($('exposure').value) + 0.5);
+  else if (event.key === 'v') choose_mode('look');
+  else if (event.key === 'o') choose_mode('orbit');
+  else if (event.key === 'r') reset_camera();
+  else if (event.key in flights && status.camera) move_camera(flown(camera_now(), ...flights[event.key]));
+  else if (event.key === 'Enter' && stage.marked && event.target === $('stage')) choose_pixel(stage.marked);
+  else if (event.key in arrows && stage.image) {
+    event.preventDefault();
+    const from = stage.marked ?? stage.size.map(n => Math.floor(n / 2));
+    stage.marked = from.map((x, i) => Math.min(Math.max(x + arrows[event.key][i], 0), stage.size[i] - 1));
+    stage.draw();
+    show_values(stage.marked);
+  }
+});
