@@ -1,4 +1,5 @@
-// eyeray dev: renders, watches the scene and the shaders, and renders again on every save (dev/supervisor.hpp).
+// eyeray dev: renders, watches the scene and the shaders, and renders again on every save
+// (dev/supervisor.hpp).
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iterator>
@@ -134,11 +135,10 @@ void DevCommand::report(const Json& event, const dev::Board& board) {
 
 ExitCode DevCommand::serve() {
   dev::be_a_worker();
-  dev::RenderServer server({.load = [this](const std::vector<std::string>& defines) {
-                              return scene.with_defines(defines).load();
-                            },
-                            .executor = executor},
-                           dev::MessageSocket(worker_socket));
+  dev::RenderServer server(
+      {.load = [this](const std::vector<std::string>& defines) { return scene.with_defines(defines).load(); },
+       .executor = executor},
+      dev::MessageSocket(worker_socket));
   server.serve();
   return ExitCode::ok;
 }
@@ -156,7 +156,7 @@ ExitCode DevCommand::run() {
   options.scene = scene.file();
   options.shader_folder = executor.shader_folder;
   options.view = executors::backend_name(backend);
-  options.timeout_seconds = executor.timeout_seconds;
+  options.timeout_seconds = std::max(executor.timeout_seconds, executor.least_compile_seconds);
   options.once = once;
   if (!no_page) options.port = port;
   dev::Supervisor* known = nullptr;
@@ -171,7 +171,9 @@ void add_dev(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand(
       "dev", "Render on every save of the scene or a shader, and show it on a page for the browser.");
   const auto options = std::make_shared<DevCommand>();
-  options->executor.timeout_seconds = 20;
+  // A dispatch is made to take 40 ms; compiling may take its time.
+  options->executor.timeout_seconds = 2;
+  options->executor.least_compile_seconds = 60;
   options->scene.add_to(*command);
   command
       ->add_option("-o,--output", options->outputs,
@@ -197,9 +199,9 @@ void add_dev(CLI::App& app, Run& run) {
       "Example:\n"
       "  eyeray shaders --export my-shaders\n"
       "  eyeray dev scenes/whitted.toml --shaders my-shaders\n"
-      "Errors are shown as file:line:column: error and leave the last good picture alone. A render that takes "
-      "longer than\n"
-      "--timeout is stopped. Ctrl-C ends it all, with exit code 130.");
+      "Errors are shown as file:line:column: error and leave the last good picture alone. A shader that does "
+      "not end\n"
+      "is stopped after --timeout. Ctrl-C ends it all, with exit code 130.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 

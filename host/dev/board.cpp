@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <limits>
 
 #include "host/image/image_file.hpp"
 
@@ -25,7 +26,10 @@ void Board::put_rows(const Message& message) {
   const std::lock_guard lock(mutex_);
   const std::string view = message.json.value("view", "");
   Image& image = pictures_[view];
-  if (image.width() != width || image.height() != height) image = Image(int(width), int(height), 3);
+  if (image.width() != width || image.height() != height) {
+    image = Image(int(width), int(height), 3);
+    std::ranges::fill(image.samples(), std::numeric_limits<float>::quiet_NaN());  // not rendered yet
+  }
   const int64_t last = std::min(height, (row + rows) * stride);
   for (int64_t y = row * stride; y < last; ++y) {
     for (int64_t x = 0; x < width; ++x) {

@@ -12,6 +12,7 @@ namespace {
 
 // How long a band of rows should take: what is seen grows so smoothly, and an edit waits so long.
 constexpr double wanted_seconds = 0.04;
+constexpr int first_pixels = 4096;  // of the first band
 
 // "path" is for editors: nothing of the shaders that are embedded.
 Json to_json(const Diagnostic& diagnostic) {
@@ -119,7 +120,7 @@ void RenderServer::paint(const std::string& view, bool last) {
   std::vector<PixelSample> samples;
   uint64_t rays = 0, flagged = 0;
   uint32_t flags = 0;
-  int band = std::clamp(16384 / image.width, 1, image.height);
+  int band = std::clamp(first_pixels / image.width, 1, image.height);
   for (int sample = 0; sample < image.samples; ++sample) {
     for (int row = 0; row < image.height;) {
       if (outdated()) return;

@@ -23,9 +23,9 @@ namespace eyeray::dev {
 //   "stage"   what it does now: "load", "compile" or "render"
 //   "scene"   what was loaded: "width", "height", "samples", "files" that were read, "camera"
 //   "rows"    see Board::put_rows
-//   "done"    a view is complete, whether it is the "last": "device", "seconds", "stages", "rays", "samples", "files"
-//   "failed"  "code", "message", "diagnostics", and "files" that the messages name
-//   "probed"  what probe::to_json says, as "findings", and its "text"; or "message" where it failed
+//   "done"    a view is complete, whether it is the "last": "device", "seconds", "stages", "rays", "samples",
+//   "files" "failed"  "code", "message", "diagnostics", and "files" that the messages name "probed"  what
+//   probe::to_json says, as "findings", and its "text"; or "message" where it failed
 class RenderServer {
  public:
   struct Options {

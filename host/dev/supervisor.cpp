@@ -19,6 +19,8 @@ namespace {
 
 constexpr double seconds_between_looks = 1;
 constexpr double patience = 5;  // beyond the worker's own time-out
+// How long what is outdated may go on: the worker may be in a driver's compiler, or wait for a device.
+constexpr double grace = 1.5;
 
 // All shaders below a folder: what might be read, where nobody could tell what is.
 std::set<fs::path> shaders_in(const fs::path& folder) {
@@ -72,7 +74,8 @@ ExitCode Supervisor::run() {
   while (!interrupted()) {
     wait();
     take_messages();
-    if (result_ && options_.once) return *result_;
+    // No save will help a machine without a device.
+    if (result_ && (options_.once || (result_ == ExitCode::no_device && !seen_any_))) return *result_;
     take_changes();
     take_commands();
     send_probe();
@@ -112,16 +115,6 @@ void Supervisor::request() {
   watch();
   ++generation_;
   result_.reset();
-  const bool fresh = !worker_.running();
-  if (fresh) worker_.start();
-  const Message message{{{"do", "render"},
-                         {"revision", revision_},
-                         {"generation", generation_},
-                         {"defines", defines()},
-                         {"views", views()}},
-                        ""};
-  busy_ = true;
-  since_message_ = {};
   board_.update([&](Json& status) {
     status["state"] = "loading";
     status["stale"] = true;
@@ -129,6 +122,21 @@ void Supervisor::request() {
     status["generation"] = generation_;
     status["defines"] = defines_;
   });
+  ask_worker();
+}
+
+void Supervisor::ask_worker() {
+  // A new one may take its time to start.
+  heard_ = !worker_.running();
+  if (heard_) worker_.start();
+  busy_ = true;
+  since_message_ = {};
+  const Message message{{{"do", "render"},
+                         {"revision", revision_},
+                         {"generation", generation_},
+                         {"defines", defines()},
+                         {"views", views()}},
+                        ""};
   if (!worker_.socket().send(message)) lose_worker(ExitCode::bad_input, "");
 }
 
@@ -138,12 +146,16 @@ void Supervisor::take_messages() {
   while (worker_.running()) {
     const std::optional<Message> message = worker_.socket().receive(0);
     if (message) {
+      if (message->json.value("generation", int64_t{-1}) != generation_) continue;  // of an older request
+      heard_ = true;
       since_message_ = {};
       handle(*message);
       continue;
     }
     if (worker_.socket().closed())
       lose_worker(ExitCode::bad_input, "");
+    else if (busy_ && !heard_ && since_message_.seconds() > grace)
+      worker_.kill(), ask_worker();
     else if (busy_ && since_message_.seconds() > options_.timeout_seconds + patience)
       lose_worker(ExitCode::timed_out, fmt::format("no answer for {}: a shader that never ends?",
                                                    format_seconds(options_.timeout_seconds + patience)));
@@ -162,7 +174,6 @@ void Supervisor::lose_worker(ExitCode code, const std::string& message) {
 
 void Supervisor::handle(const Message& message) {
   const Json& json = message.json;
-  if (json.value("generation", int64_t{-1}) != generation_) return;  // of an older request
   const std::string event = json.value("event", "");
   if (event == "rows") {
     board_.put_rows(message);
@@ -184,6 +195,7 @@ void Supervisor::handle(const Message& message) {
     busy_ = false;
     shader_files_ = paths(json.value("files", Json::array()));
     result_ = ExitCode::ok;
+    seen_any_ = true;
     board_.update([&](Json& status) {
       status["state"] = "done";
       for (const char* key : {"device", "seconds", "stages", "rays", "flags"})

@@ -42,6 +42,7 @@ class Supervisor {
 
  private:
   void request();
+  void ask_worker();
   void begin_revision();
   void take_messages();
   void handle(const Message& message);
@@ -69,10 +70,12 @@ class Supervisor {
   int64_t revision_ = 0;    // of files and defines
   int64_t generation_ = 0;  // of requests
   bool busy_ = false;       // the worker has not answered the last request
+  bool heard_ = false;      // it has begun with it
   WakefulStopwatch since_message_;
   std::string view_;
   std::map<std::string, std::string> defines_;  // that the page laid over the scene
   std::optional<ExitCode> result_;              // of the last request
+  bool seen_any_ = false;                       // picture
   std::optional<std::pair<int, int>> probe_;    // a pixel to look into once the worker has time
 
   // From the web server's threads.

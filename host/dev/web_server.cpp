@@ -196,8 +196,10 @@ void WebServer::Servers::set_up(httplib::Server& server) {
                });
   }
   server.Get(root + "events", [this](const Request&, Response& response) { events(response); });
-  server.Get(root + "frame", [this](const Request& request, Response& response) { picture(request, response); });
-  server.Get(root + "values", [this](const Request& request, Response& response) { values(request, response); });
+  server.Get(root + "frame",
+             [this](const Request& request, Response& response) { picture(request, response); });
+  server.Get(root + "values",
+             [this](const Request& request, Response& response) { values(request, response); });
   server.Get(root + "probe", [this](const Request&, Response& response) {
     response.set_content(board.probe().dump(-1, ' ', false, Json::error_handler_t::replace),
                          "application/json");
@@ -218,8 +220,8 @@ bool WebServer::Servers::bind(int wanted) {
     auto server = std::make_unique<GuardedServer>(limits);
     set_up(*server);
     errno = 0;
-    const bool bound = port != 0 ? server->bind_to_port(address, port)
-                                 : (port = server->bind_to_any_port(address)) > 0;
+    const bool bound =
+        port != 0 ? server->bind_to_port(address, port) : (port = server->bind_to_any_port(address)) > 0;
     if (bound)
       servers.push_back(std::move(server));
     else if (servers.empty() || errno == EADDRINUSE)

@@ -69,6 +69,7 @@ struct ExecutorOptions {
   bool fast_math = false;               // gpu: let the driver contract and re-associate
   std::string validation;               // gpu: "", "core" or "sync"
   double timeout_seconds = 60;          // gpu: the longest wait for one dispatch
+  double least_compile_seconds = 0;     // gpu: if that is more, the longest that a kernel may compile
   pack::PackOptions pack;               // all: `acceleration`; gpu and twin: the rest
   ProfileOptions profile;               // gpu
   bool ray_kinds = false;               // gpu: count reflected and refracted rays; the others always do

@@ -133,6 +133,7 @@ class GpuExecutor final : public Executor {
     device.select = options.device;
     device.validation = options.validation;
     device.timeout_seconds = options.timeout_seconds;
+    device.compile_seconds = std::max(options.timeout_seconds, options.least_compile_seconds);
     return gpu::Device(device);
   }
 

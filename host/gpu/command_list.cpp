@@ -1,5 +1,7 @@
 #include "host/gpu/command_list.hpp"
 
+#include <utility>
+
 #include "host/core/error.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/gpu/kernel_objects.hpp"
@@ -53,12 +55,16 @@ void CommandList::barrier() {
 }
 
 RunTime CommandList::run() {
+  return run(context_->options.timeout_seconds);
+}
+
+RunTime CommandList::run(double timeout_seconds) {
   // Let the host see what the kernels wrote.
   memory_barrier(context_->commands, VK_ACCESS_HOST_READ_BIT, VK_PIPELINE_STAGE_HOST_BIT);
   if (context_->timestamps)
     vkCmdWriteTimestamp(context_->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, context_->timestamps, 1);
   const Stopwatch watch;
-  context_->submit_and_wait(fmt::format("finish {}", name_));
+  context_->submit_and_wait(fmt::format("finish {}", name_), timeout_seconds);
   if (!context_->timestamps) return {watch.seconds(), false};
 
   // The counter may be narrower than 64 bits and wrap around.
@@ -72,9 +78,19 @@ RunTime CommandList::run() {
 
 RunTime dispatch(Device& device, const Kernel& kernel, std::span<const std::byte> push_constants,
                  Groups groups) {
+  const Stopwatch watch;
+  double compile_seconds = 0;
+  if (!std::exchange(kernel.objects_->dispatched, true)) {
+    CommandList compiling(device);
+    compiling.dispatch(kernel, push_constants, {0, 0, 0});
+    compiling.run(compiling.context_->options.compile_seconds);
+    compile_seconds = watch.seconds();
+  }
   CommandList list(device);
   list.dispatch(kernel, push_constants, groups);
-  return list.run();
+  RunTime time = list.run();
+  time.compile_seconds = compile_seconds;
+  return time;
 }
 
 }  // namespace eyeray::gpu

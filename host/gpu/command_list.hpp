@@ -20,6 +20,7 @@ struct RunTime {
   double seconds = 0;
   bool device_clock =
       false;  // from the device's timestamps; otherwise the host's clock, submission and wait included
+  double compile_seconds = 0;  // before it, for what the driver compiles at a kernel's first dispatch
 };
 
 // One list at a time a device.
@@ -39,11 +40,16 @@ class CommandList {
   RunTime run();
 
  private:
+  friend RunTime dispatch(Device&, const Kernel&, std::span<const std::byte>, Groups);
+  RunTime run(double timeout_seconds);
+
   std::shared_ptr<Context> context_;
   std::string name_;  // of the kernels, for errors
 };
 
-// A list of one dispatch.
+// A list of one dispatch. Drivers put off compiling a kernel until it is first dispatched (lavapipe: its
+// machine code): the first time it is dispatched without a work group before, and so no run takes longer than
+// another.
 RunTime dispatch(Device& device, const Kernel& kernel, std::span<const std::byte> push_constants,
                  Groups groups);
 

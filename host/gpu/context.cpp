@@ -99,7 +99,7 @@ void Context::cancel() noexcept {
   vkResetCommandBuffer(commands, 0);
 }
 
-void Context::submit_and_wait(std::string_view what) {
+void Context::submit_and_wait(std::string_view what, double timeout_seconds) {
   CHECK(recording);
   recording = false;
   check(vkEndCommandBuffer(commands), "end a command buffer");
@@ -107,7 +107,7 @@ void Context::submit_and_wait(std::string_view what) {
   auto submit = make<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands;
-  const ForeignCall call(options.timeout_seconds, time_out(what));
+  const ForeignCall call(timeout_seconds, time_out(what, timeout_seconds));
   const VkResult submitted = vkQueueSubmit(queue, 1, &submit, fence);
   if (submitted != VK_SUCCESS) abandon(failure(submitted, what));
 
@@ -119,18 +119,18 @@ void Context::submit_and_wait(std::string_view what) {
     const VkResult result = vkWaitForFences(device, 1, &fence, VK_TRUE, slice);
     if (result == VK_SUCCESS) return;
     if (result != VK_TIMEOUT) abandon(failure(result, what));
-    if (call.passed()) abandon(time_out(what));
+    if (call.passed()) abandon(time_out(what, timeout_seconds));
     if (interrupted() && !stopping) stopping.emplace();
     if (stopping && stopping->seconds() >= grace)
       abandon(Error(ExitCode::interrupted, "interrupted; the device was still busy and is left behind"));
   }
 }
 
-Error Context::time_out(std::string_view what) const {
+Error Context::time_out(std::string_view what, double seconds) const {
   return {ExitCode::timed_out,
           "{} could not {} within {} s: look for a loop that does not end, or raise --timeout if the work is "
           "really that heavy",
-          info.name, what, options.timeout_seconds};
+          info.name, what, seconds};
 }
 
 void Context::abandon(const Error& error) {

@@ -22,9 +22,10 @@ struct Context {
   // Ends it, submits it and waits until the device is done. Error (timed_out) after the time-out,
   // (interrupted) when the user asked to stop and the device did not finish soon, (no_device) when the driver
   // fails. From the submission on, the context is then abandoned.
-  void submit_and_wait(std::string_view what);
+  void submit_and_wait(std::string_view what, double timeout_seconds);
+  void submit_and_wait(std::string_view what) { submit_and_wait(what, options.timeout_seconds); }
   // That `what` took longer than the time-out.
-  Error time_out(std::string_view what) const;
+  Error time_out(std::string_view what, double seconds) const;
 
   DeviceOptions options;
   std::unique_ptr<Instance> instance;

@@ -56,6 +56,7 @@ struct DeviceOptions {
   std::string select = "auto";  // auto | cpu | gpu | INDEX | part of a NAME; see choose_device
   std::string validation = "";  // "", "core" or "sync": run under the Khronos validation layer
   double timeout_seconds = 60;  // the longest wait for one submission
+  double compile_seconds = 60;  // the longest that its driver may compile one kernel
   bool force_staging = false;   // tests: copy through staging buffers even where memory is shared
 };
 

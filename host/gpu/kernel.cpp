@@ -151,7 +151,8 @@ void Kernel::create_pipeline(std::span<const uint32_t> spirv, const DiskCache& d
   const PipelineCache cache(*context_, spirv, disk);
   const std::string what = fmt::format("build kernel '{}'", name_);
   {
-    const ForeignCall compiler(context_->options.timeout_seconds, context_->time_out(what));
+    const double limit = context_->options.compile_seconds;
+    const ForeignCall compiler(limit, context_->time_out(what, limit));
     check(vkCreateComputePipelines(context_->device, cache.handle(), 1, &info, nullptr, &objects_->pipeline),
           what);
   }

@@ -12,6 +12,9 @@
 
 namespace eyeray::gpu {
 
+struct Groups;
+struct RunTime;
+
 class Kernel {
  public:
   // The pipeline of `spirv`, whose entry point is "main"; `name` is for errors. What the driver compiles is
@@ -33,6 +36,7 @@ class Kernel {
 
  private:
   friend class CommandList;
+  friend RunTime dispatch(Device&, const Kernel&, std::span<const std::byte>, Groups);
   struct Objects;  // Vulkan's
 
   // Error (bad_input) where the shader, which may be a user's, wants other push constants than so many bytes,

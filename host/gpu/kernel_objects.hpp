@@ -42,6 +42,7 @@ struct Kernel::Objects {
   VkDescriptorSet set = VK_NULL_HANDLE;  // null when the shader has no buffers
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkPipeline pipeline = VK_NULL_HANDLE;
+  bool dispatched = false;  // ever
   std::set<uint32_t> bound;
   std::map<uint32_t, VkBufferView> views;
 };

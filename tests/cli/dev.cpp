@@ -1,5 +1,6 @@
 // eyeray dev, end to end: edits, broken and endless shaders, Ctrl-C.
 #include <csignal>
+#include <nlohmann/json.hpp>
 
 #include "host/image/image_file.hpp"
 #include "scene.hpp"
@@ -92,6 +93,10 @@ TEST_CASE("dev renders on every save, and outlives what it renders") {
   CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == 1.125f);
   CHECK(dev.worker() == worker);
 
+  // Saving what was there renders nothing anew.
+  write_text(pixel, read_text(pixel));
+  write_text(shaders + "/kernels/nobody_includes.glsl", "nonsense");
+
   // A worker that dies is replaced at the next save.
   kill(worker, SIGKILL);
   REQUIRE(wait_until_ended(worker));
@@ -114,7 +119,7 @@ TEST_CASE("dev stops a shader that never ends, and renders again once it is mend
   replace_in_file(folder.scene(), "width = 64\nheight = 48", "width = 256\nheight = 256");
   export_endless_shaders(folder / "shaders");
   Dev dev(folder, "4");
-  REQUIRE(dev.says("no picture after 4 s"));
+  REQUIRE(dev.says("within 4 s: look for a loop that does not end"));
   REQUIRE(dev.says("watching for changes"));
   CHECK(dev.worker() == 0);
   CHECK_FALSE(folder.names().contains("a.pfm"));
@@ -131,6 +136,36 @@ TEST_CASE("dev stops a shader that never ends, and renders again once it is mend
   CHECK(wait_until_ended(worker));
 }
 
+TEST_CASE("dev --once renders, or says what is wrong as editors and workflows read it") {
+  const SceneFolder folder;
+  const std::string shaders = folder / "shaders", pixel = shaders + "/kernels/pixel.glsl";
+  const auto once = [&](std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {"dev", folder.scene(), "--shaders", shaders, "--once", "-o", folder / "a.pfm"});
+    return run_eyeray(options);
+  };
+  REQUIRE(run_eyeray({"shaders", "--export", shaders}).code == 0);
+  CHECK(once({}).code == 0);
+  CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == 0.25f);
+
+  // Two mistakes: both are told.
+  write_text(pixel, with_pixel_code(read_text(pixel), "  color = nonsense;\n  color = more_nonsense;\n"));
+  const ProcessResult gcc = once({});
+  CHECK(gcc.code == 2);
+  CHECK(gcc.err.find("error: 'nonsense': undeclared identifier\n") != std::string::npos);
+  CHECK(gcc.err.find("  color = nonsense;\n") != std::string::npos);
+  CHECK(gcc.err.find("'more_nonsense'") != std::string::npos);
+  CHECK(gcc.err.find("http") == std::string::npos);  // no page
+  const std::string github = once({"--diagnostics", "github"}).err;
+  CHECK(github.find("::error file=" + pixel + ",line=") != std::string::npos);
+  CHECK(github.find("::'more_nonsense'") != std::string::npos);
+  const std::string json = once({"--diagnostics", "json"}).err;
+  const auto told = nlohmann::json::parse(json.substr(json.find('{')));
+  CHECK(told.at("diagnostics").size() >= 2);
+  CHECK(told.at("diagnostics").at(0).at("file") == pixel);
+  CHECK(told.at("diagnostics").at(0).at("column").get<int>() > 1);
+}
+
 TEST_CASE("dev says at once what no save can mend") {
   const SceneFolder folder;
   CHECK(run_eyeray({"dev", folder / "nope.toml"}).code == 4);
@@ -138,5 +173,6 @@ TEST_CASE("dev says at once what no save can mend") {
   CHECK(run_eyeray({"dev", folder.scene(), "-o", folder / "a.png"},
                    {{"EYERAY_VULKAN_LOADER", "/nonexistent.so"}})
             .code == 3);
+  CHECK(run_eyeray({"dev", folder.scene(), "--port", "0"}).code == 2);
   CHECK(folder.names() == std::set<std::string>{"scene.toml"});
 }

@@ -1,98 +1,104 @@
-// A worker that answers, dies, hangs, and starts anew.
+// A worker that answers, dies, hangs, and starts anew; and messages that are none.
 #include "host/dev/worker.hpp"
 
+#include <fcntl.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
-#include <csignal>
-
-#include "host/core/atomic_file.hpp"
 #include "tests/support/process.hpp"
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
 using namespace eyeray::dev;
-using Outcome = Worker::Outcome;
+using eyeray::test::wait_until_ended;
 
 namespace {
 
-std::string obey(const std::string& request) {
-  static int served = 0;
-  ++served;
-  if (request == "hang") pause();
-  if (request == "crash") {
-    std::signal(SIGABRT, SIG_DFL);  // doctest's handler would speak for the child
-    raise(SIGABRT);
-  }
-  if (request == "exit") _exit(7);
-  if (request == "pid") return std::to_string(getpid());
-  if (request == "count") return std::to_string(served);
-  if (request == "long") return std::string(1 << 20, 'x');
-  return request;
+// A shell that is given the descriptor of its socket as $1.
+std::vector<std::string> shell(const std::string& script) {
+  return {"/bin/bash", "-c", script, "bash"};
+}
+const std::string echo = "exec cat <&$1 >&$1";
+
+int open_descriptors() {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) count += entry.exists();
+  return count;
+}
+
+MessageSocket socket_with(const std::string& bytes) {
+  int ends[2];
+  REQUIRE(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0);
+  REQUIRE(::write(ends[1], bytes.data(), bytes.size()) == ssize_t(bytes.size()));
+  ::close(ends[1]);
+  return MessageSocket(ends[0]);
 }
 
 }  // namespace
 
-TEST_CASE("one process answers request after request") {
-  Worker worker(obey);
-  const Worker::Answer pid = worker.ask("pid", 600);
-  REQUIRE(pid.outcome == Outcome::answered);
-  CHECK(pid.text != std::to_string(getpid()));
-  CHECK(worker.ask("hello", 600).text == "hello");
-  CHECK(worker.ask("", 600).text == "");
-  CHECK(worker.ask("long", 600).text == std::string(1 << 20, 'x'));
-  CHECK(worker.ask("pid", 600).text == pid.text);
-  CHECK(worker.ask("count", 600).text == "6");
+TEST_CASE("messages go to a worker and back whole") {
+  Worker worker(shell(echo));
+  worker.start();
+  const std::string bytes(300'000, '\x07');
+  REQUIRE(worker.socket().send({{{"a", 1}}, ""}));
+  const auto first = worker.socket().receive(600);
+  REQUIRE(first);
+  CHECK(first->json == Json{{"a", 1}});
+  CHECK(first->bytes.empty());
+  // Larger than a pipe holds: the other end takes it while it is sent.
+  REQUIRE(worker.socket().send({{{"name", "b\n\"c"}}, bytes}));
+  REQUIRE(worker.socket().send({{{"last", true}}, "x"}));
+  const auto second = worker.socket().receive(600);
+  REQUIRE(second);
+  CHECK(second->json.at("name") == "b\n\"c");
+  CHECK(second->bytes == bytes);
+  CHECK(worker.socket().receive(600)->bytes == "x");
+  CHECK_FALSE(worker.socket().receive(0));
+  CHECK_FALSE(worker.socket().closed());
+  CHECK(worker.kill() == "exit code 0");
 }
 
-TEST_CASE("a worker that dies is told apart by how, and the next one starts fresh") {
-  Worker worker(obey);
-  CHECK(worker.ask("hello", 600).outcome == Outcome::answered);
-  const Worker::Answer crash = worker.ask("crash", 600);
-  CHECK(crash.outcome == Outcome::died);
-  CHECK(crash.text == "signal 6 (Aborted)");
-  const Worker::Answer exit = worker.ask("exit", 600);
-  CHECK(exit.outcome == Outcome::died);
-  CHECK(exit.text == "exit code 7");
-  CHECK(worker.ask("count", 600).text == "1");
-}
-
-TEST_CASE("a worker that died between requests is replaced") {
-  Worker worker(obey);
-  const pid_t pid = std::stoi(worker.ask("pid", 600).text);
-  kill(pid, SIGKILL);
-  test::wait_until_ended(pid);
-  CHECK(worker.ask("count", 600).text == "1");
-  CHECK(worker.ask("pid", 600).text != std::to_string(pid));
-}
-
-TEST_CASE("a worker that hangs is killed in time") {
-  Worker worker(obey);
-  const pid_t pid = std::stoi(worker.ask("pid", 600).text);
-  const Stopwatch watch;
-  CHECK(worker.ask("hang", 0.2).outcome == Outcome::timed_out);
-  CHECK(watch.seconds() >= 0.2);
-  CHECK(kill(pid, 0) != 0);
-  CHECK(worker.ask("hello", 600).text == "hello");
-}
-
-TEST_CASE("a worker that is killed leaves nothing half written") {
-  const test::TemporaryFolder folder;
-  Worker worker([&](const std::string&) {
-    const AtomicFile file(folder / "file");
-    while (true) pause();
-    return std::string();
-  });
-  CHECK(worker.ask("write", 0.2).outcome == Outcome::timed_out);
-  CHECK(folder.names().empty());
-}
-
-TEST_CASE("a worker ends with its owner") {
-  pid_t pid = 0;
-  {
-    Worker worker(obey);
-    pid = std::stoi(worker.ask("pid", 600).text);
-    CHECK(kill(pid, 0) == 0);
+TEST_CASE("how a worker ended is told") {
+  for (const auto& [script, how] :
+       {std::pair{"kill -ABRT $$", "signal 6 (Aborted)"}, {"exit 7", "exit code 7"}}) {
+    Worker worker(shell(script));
+    worker.start();
+    CHECK_FALSE(worker.socket().receive(600));
+    CHECK(worker.socket().closed());
+    CHECK(worker.kill() == how);
+    CHECK_FALSE(worker.running());
   }
-  CHECK(kill(pid, 0) != 0);
+  Worker nothing({"/nonexistent/program"});
+  nothing.start();
+  CHECK_FALSE(nothing.socket().receive(600));
+  CHECK(nothing.kill() == "exit code 127");
+}
+
+TEST_CASE("one that hears nothing is ended all the same") {
+  Worker deaf(shell("trap '' TERM; echo >&$1; while :; do sleep 1; done"));
+  deaf.start();
+  CHECK_FALSE(deaf.socket().receive(0.2));
+  CHECK(deaf.kill() == "signal 9 (Killed)");
+  Worker sleeper(shell("exec sleep 1000"));
+  sleeper.start();
+  CHECK(sleeper.kill() == "signal 15 (Terminated)");
+}
+
+TEST_CASE("a hundred workers leave nothing behind") {
+  Worker worker(shell("exit 0"));
+  const int before = open_descriptors();
+  for (int i = 0; i < 100; ++i) worker.start();
+  worker.kill();
+  CHECK(open_descriptors() == before);
+}
+
+TEST_CASE("what is no message closes the socket") {
+  const std::string huge("\xff\xff\xff\xff\x00\x00\x00\x00{}", 10),
+      text("\x02\x00\x00\x00\x00\x00\x00\x00[]", 10), torn("\x08\x00\x00\x00\x00\x00\x00\x00{}", 10), none;
+  for (const std::string& bytes : {huge, text, torn, none}) {
+    MessageSocket socket = socket_with(bytes);
+    CHECK_FALSE(socket.receive(600));
+    CHECK(socket.closed());
+    CHECK_FALSE(socket.send({Json::object(), ""}));
+  }
 }

@@ -1,0 +1,75 @@
+// What the page sees of what the worker sends.
+#include "host/dev/board.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::dev;
+
+namespace {
+
+Message rows(int row, int count, int stride, const std::vector<float>& values) {
+  Message message{
+      {{"view", "gpu"}, {"width", 5}, {"height", 3}, {"row", row}, {"rows", count}, {"stride", stride}}, ""};
+  message.bytes.assign(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  return message;
+}
+
+// n pixels, all the same grey.
+std::vector<float> grey(int n, float value) {
+  return std::vector<float>(size_t(n) * 3, value);
+}
+
+}  // namespace
+
+TEST_CASE("a picture grows by rows, and a coarse one fills squares") {
+  Board board;
+  CHECK_FALSE(board.picture("gpu"));
+  std::vector<float> coarse = grey(3 * 2, 1);
+  coarse[3] = 0.5f;  // the second square of the upper row
+  board.put_rows(rows(0, 2, 2, coarse));
+  Image image = *board.picture("gpu");
+  CHECK(image.pixel(1, 1)[0] == 1);
+  CHECK(image.pixel(2, 0)[0] == 0.5f);
+  CHECK(image.pixel(3, 1)[0] == 0.5f);
+  CHECK(image.pixel(4, 2)[2] == 1);
+
+  board.put_rows(rows(1, 2, 1, grey(10, 0.25f)));
+  image = *board.picture("gpu");
+  CHECK(image.pixel(2, 0)[0] == 0.5f);
+  CHECK(image.pixel(2, 1)[0] == 0.25f);
+  CHECK(image.pixel(4, 2)[0] == 0.25f);
+}
+
+TEST_CASE("what was not rendered yet has no value") {
+  Board board;
+  board.put_rows(rows(0, 1, 1, grey(5, 1)));
+  CHECK(std::isnan(board.picture("gpu")->pixel(0, 1)[0]));
+}
+
+TEST_CASE("rows that do not add up are left out") {
+  Board board;
+  for (const Message& message :
+       {rows(0, 1, 1, grey(4, 1)), rows(-1, 1, 1, grey(5, 1)), rows(3, 1, 1, grey(5, 1)),
+        rows(2, 2, 1, grey(10, 1)), rows(0, 1, 0, grey(5, 1)), rows(0, 0, 1, {}),
+        rows(0, std::numeric_limits<int>::max(), 1, grey(5, 1)), Message{{{"view", "gpu"}}, ""}})
+    board.put_rows(message);
+  CHECK_FALSE(board.picture("gpu"));
+}
+
+TEST_CASE("whoever waits for the status is told of changes, and of the end") {
+  Board board;
+  uint64_t seen = 0;
+  CHECK_FALSE(board.next_status(seen, 0));
+  board.update([](Json& status) { status["state"] = "done"; });
+  CHECK(board.next_status(seen, 600) == R"({"state":"done"})");
+  CHECK_FALSE(board.next_status(seen, 0));
+  board.put_probe({{"x", 1}});
+  CHECK(Json::parse(*board.next_status(seen, 600)).at("probes") == 1);
+  CHECK(board.probe().at("x") == 1);
+  board.close();
+  CHECK_FALSE(board.next_status(seen, 600));
+}

@@ -1,0 +1,64 @@
+// What counts as a change of a file.
+#include "host/dev/source_files.hpp"
+
+#include "tests/support/process.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray::dev;
+using namespace eyeray::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const SourceFiles::Clock::time_point in_a_while = SourceFiles::Clock::now() + std::chrono::hours(1);
+
+}  // namespace
+
+TEST_CASE("bytes count, and not that they were saved") {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "a.glsl";
+  write_text(file, "1");
+  SourceFiles files;
+  files.set({file, folder / "not-there"}, in_a_while);
+  CHECK_FALSE(files.changed());
+  write_text(file, "1");
+  CHECK_FALSE(files.changed());
+  write_text(file, "2");
+  CHECK(files.changed());
+  CHECK_FALSE(files.changed());
+  fs::remove(file);
+  CHECK(files.changed());
+  write_text(folder / "not-there", "");
+  CHECK(files.changed());
+  write_text(folder / "other", "1");
+  CHECK_FALSE(files.changed());
+}
+
+TEST_CASE("a file that was saved while it was read counts as changed") {
+  const TemporaryFolder folder;
+  write_text(folder / "a.glsl", "1");
+  SourceFiles files;
+  files.set({folder / "a.glsl"}, SourceFiles::Clock::now() - std::chrono::hours(1));
+  CHECK(files.changed());
+  CHECK_FALSE(files.changed());
+  // What it knew is not forgotten when it is named again.
+  write_text(folder / "a.glsl", "2");
+  files.set({folder / "a.glsl"}, in_a_while);
+  CHECK(files.changed());
+}
+
+TEST_CASE("a change that nobody tells of is found once it is over") {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "a.glsl";
+  write_text(file, "1");
+  SourceFiles files;
+  files.set({file}, in_a_while);
+  CHECK_FALSE(files.changed_unnoticed());
+  write_text(file, "22");
+  CHECK_FALSE(files.changed_unnoticed());
+  write_text(file, "333");
+  CHECK_FALSE(files.changed_unnoticed());
+  CHECK(files.changed_unnoticed());
+  CHECK_FALSE(files.changed_unnoticed());
+}
