@@ -212,8 +212,8 @@ struct Dispatch {
   uint tile_height;
   uint sample_index;
   uint depth;  // of a wavefront: the reflections before it
-  uint count;  // pixels of the tile, or rays of a query
-  uint unused;
+  uint count;   // pixels of the tile, or rays of a query
+  uint stride;  // of a picture by the loop: of so many pixels along each axis one, the first of the tile's
 };
 
 // ---- Results --------------------------------------------------------------------------------------------------------

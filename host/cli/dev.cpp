@@ -72,7 +72,7 @@ std::string github_annotation(const Json& diagnostic) {
 void DevCommand::report_picture(const Json& done, const dev::Board& board) {
   const std::string view = done.value("view", "gpu");
   if (const auto picture = board.picture(view)) {
-    for (const std::string& output : outputs) write_image(output, *picture);
+    for (const std::string& output : outputs) image::write_image(output, picture->image);
   }
   if (json) {
     Json answer = done;
@@ -146,7 +146,7 @@ ExitCode DevCommand::serve() {
 ExitCode DevCommand::run() {
   if (worker_socket >= 0) return serve();
   for (const std::string& output : outputs) {
-    image_format(output);
+    image::image_format(output);
     check_writable(output);
   }
   if (!std::filesystem::exists(scene.file())) scene.load();  // throws, with the loader's own words

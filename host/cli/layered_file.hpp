@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "host/cli/aov.hpp"
-#include "host/cli/legend.hpp"
+#include "host/aov/aov.hpp"
+#include "host/aov/legend.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/image/exr_file.hpp"
 #include "host/render/sums.hpp"
@@ -19,7 +19,7 @@ namespace eyeray::cli {
 class LayeredFile {
  public:
   // `half`: whether the picture is written so; AOVs never are. `scene` must outlive it.
-  LayeredFile(std::filesystem::path path, const std::vector<Aov>& aovs, int width, int height, bool half,
+  LayeredFile(std::filesystem::path path, const std::vector<aov::Aov>& aovs, int width, int height, bool half,
               const Scene& scene);
 
   // The next rows, from the top down, of the picture and of the AOVs that are made of them.
@@ -32,14 +32,14 @@ class LayeredFile {
 
  private:
   struct Layer {
-    Aov aov;  // null of the picture itself
+    aov::Aov aov;  // null of the picture itself
     std::vector<image::ExrChannel> channels;
     uint64_t begin;  // of its rows in the waiting file
     int rows = 0;    // that have come
-    std::optional<Legend> legend;
+    std::optional<aov::Legend> legend;
   };
   uint64_t row_bytes(const Layer& layer) const;
-  void add(Aov aov, std::vector<image::ExrChannel> channels, const Scene& scene);
+  void add(aov::Aov aov, std::vector<image::ExrChannel> channels, const Scene& scene);
   void write(Layer& layer, const image::Image& rows);
   void read(const Layer& layer, int first, image::Image& rows, size_t channel) const;
 

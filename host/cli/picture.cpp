@@ -83,14 +83,14 @@ void PictureRequest::add_to(CLI::App& command) {
       ->option_text("FILE")
       ->allow_extra_args(false)
       ->take_all();
-  const auto parse = [this](const std::string& list) { aovs = parse_aovs(list); };
+  const auto parse = [this](const std::string& list) { aovs = aov::parse_aovs(list); };
   command
       .add_option_function<std::string>(
           "--aov", parse,
           fmt::format("Also write {}, or all of them: each as data (FILE.NAME.pfm) and in false colour "
                       "(FILE.NAME.png), or of a FILE.exr as its layers; ids with what they stand for "
                       "(FILE.NAME.json).",
-                      aov_names()))
+                      aov::aov_names()))
       ->option_text("LIST");
   command.add_flag("--half", half, "Write the colours of an .exr in 16 bits a channel, not 32.");
   add_crop_option(command, crop);
@@ -99,7 +99,7 @@ void PictureRequest::add_to(CLI::App& command) {
 }
 
 void PictureRequest::check_outputs() {
-  if (classic && need_first_hits(aovs))
+  if (classic && aov::need_first_hits(aovs))
     throw Error(ExitCode::bad_input,
                 "--classic sends no rays through the centres of pixels, of which AOVs but hits, bounces, "
                 "rays, ray_kinds and flags are made");
@@ -126,9 +126,9 @@ Picture make_picture(const PictureRequest& request,
   const Rect crop = request.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : request.crop;
   if (request.classic) make_classic(scene);
   executors::ExecutorOptions executor_options = request.executor;
-  const bool pixel_kinds = any_needs(request.aovs, AovNeeds::ray_kinds);
+  const bool pixel_kinds = aov::any_needs(request.aovs, aov::AovNeeds::ray_kinds);
   executor_options.ray_kinds = request.ray_kinds || pixel_kinds;
-  executor_options.search_cost = any_needs(request.aovs, AovNeeds::search_cost);
+  executor_options.search_cost = aov::any_needs(request.aovs, aov::AovNeeds::search_cost);
   const std::unique_ptr<executors::Executor> executor =
       executors::make_executor(request.backend, scene, executor_options);
   std::optional<render::Checkpoint> checkpoint = checkpoint_of(request, scene, *executor);
@@ -165,7 +165,7 @@ Picture make_picture(const PictureRequest& request,
     const Saving saving;
     encoding.measure("encode", [&] { files->finish_picture(picture.files); });
   }
-  if (!picture.interrupted && need_first_hits(request.aovs)) {
+  if (!picture.interrupted && aov::need_first_hits(request.aovs)) {
     picture.interrupted =
         !render::trace_first_hits(*executor, crop, [&](int, std::span<const FirstHit> hits) {
           for (const FirstHit& hit : hits) {

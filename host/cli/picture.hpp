@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/cli/aov.hpp"
+#include "host/aov/aov.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
 #include "host/core/ray_counts.hpp"
@@ -28,7 +28,7 @@ struct PictureRequest {
   executors::ExecutorOptions executor;
   Rect crop;
   std::vector<std::string> outputs;  // none: the scene's name with .png, in the current folder
-  std::vector<Aov> aovs;             // as files NAME.AOV.* or layers, NAME from the first output
+  std::vector<aov::Aov> aovs;        // as files NAME.AOV.* or layers, NAME from the first output
   bool half = false;                 // the picture in each .exr
   LongRender long_render;
   bool ray_kinds = false;  // count rays by kind

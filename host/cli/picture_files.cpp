@@ -20,24 +20,25 @@ bool is_exr(const std::string& output) {
 
 }  // namespace
 
-std::vector<fs::path> files_written(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs) {
+std::vector<fs::path> files_written(const std::vector<std::string>& outputs,
+                                    const std::vector<aov::Aov>& aovs) {
   std::vector<fs::path> files(outputs.begin(), outputs.end());
-  for (const Aov aov : aovs) {
+  for (const aov::Aov aov : aovs) {
     if (!is_exr(outputs[0])) {
-      files.push_back(aov_file(outputs[0], aov, "pfm"));
-      files.push_back(aov_file(outputs[0], aov, "png"));
+      files.push_back(aov::aov_file(outputs[0], aov, "pfm"));
+      files.push_back(aov::aov_file(outputs[0], aov, "png"));
     }
-    if (aov->legend) files.push_back(aov_file(outputs[0], aov, "json"));
+    if (aov->legend) files.push_back(aov::aov_file(outputs[0], aov, "json"));
   }
   return files;
 }
 
-AovFiles::AovFiles(Aov aov, fs::path output, int width, int height, const Scene& scene)
+AovFiles::AovFiles(aov::Aov aov, fs::path output, int width, int height, const Scene& scene)
     : aov_(aov),
       width_(width),
       height_(height),
-      data_name_(aov_file(output, aov, "pfm")),
-      picture_name_(aov_file(output, aov, "png")),
+      data_name_(aov::aov_file(output, aov, "pfm")),
+      picture_name_(aov::aov_file(output, aov, "png")),
       data_(data_name_, width, height, aov->channels),
       painter_(aov->shown_as, aov->channels) {
   if (aov->legend) legend_.emplace(aov->legend(scene));
@@ -49,12 +50,12 @@ void AovFiles::write(const image::Image& rows) {
 }
 
 void AovFiles::write(const render::FinishedRows& rows) {
-  if (const ValuesOfRows* values = std::get_if<ValuesOfRows>(&aov_->values)) write((*values)(rows));
+  if (const aov::ValuesOfRows* values = std::get_if<aov::ValuesOfRows>(&aov_->values)) write((*values)(rows));
 }
 
 void AovFiles::write(std::span<const FirstHit> hits) {
   if (!aov_->is_of_first_hits()) return;
-  write(aov_image(aov_, hits, width_, legend_ ? &legend_->entries() : nullptr));
+  write(aov::aov_image(aov_, hits, width_, legend_ ? &legend_->entries() : nullptr));
   if (legend_) legend_->see(hits);
 }
 
@@ -74,8 +75,8 @@ void AovFiles::finish(std::vector<fs::path>& files) {
   if (legend_) files.push_back(legend_->write(picture_name_));
 }
 
-PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width,
-                           int height, bool half, const Scene& scene) {
+PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::vector<aov::Aov>& aovs,
+                           int width, int height, bool half, const Scene& scene) {
   for (const std::string& output : outputs) {
     const bool exr = is_exr(output);
     if (exr && &output == &outputs[0] && !aovs.empty())
@@ -86,7 +87,7 @@ PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::v
       writers_.emplace_back(output, image::ImageWriter(output, width, height, 3));
   }
   if (layered_) return;
-  for (const Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height, scene);
+  for (const aov::Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height, scene);
 }
 
 void PictureFiles::write(const render::FinishedRows& rows) {

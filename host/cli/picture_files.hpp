@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "host/cli/aov.hpp"
+#include "host/aov/aov.hpp"
+#include "host/aov/legend.hpp"
 #include "host/cli/layered_file.hpp"
-#include "host/cli/legend.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image_writer.hpp"
 #include "host/render/sums.hpp"
@@ -18,13 +18,13 @@ namespace eyeray::cli {
 
 // All that a picture with these outputs and AOVs writes.
 std::vector<std::filesystem::path> files_written(const std::vector<std::string>& outputs,
-                                                 const std::vector<Aov>& aovs);
+                                                 const std::vector<aov::Aov>& aovs);
 
 // One AOV on its way to NAME.AOV.pfm and NAME.AOV.png, and one of ids to NAME.AOV.json.
 class AovFiles {
  public:
   // NAME from `output`; `scene` must outlive it.
-  AovFiles(Aov aov, std::filesystem::path output, int width, int height, const Scene& scene);
+  AovFiles(aov::Aov aov, std::filesystem::path output, int width, int height, const Scene& scene);
 
   // The next rows, from the top down, if it is made of these.
   void write(const render::FinishedRows& rows);
@@ -36,14 +36,14 @@ class AovFiles {
  private:
   void write(const image::Image& rows);
 
-  Aov aov_;
+  aov::Aov aov_;
   int width_;
   int height_;
   std::filesystem::path data_name_;
   std::filesystem::path picture_name_;
   image::ImageWriter data_;
   image::FalseColorPainter painter_;
-  std::optional<Legend> legend_;
+  std::optional<aov::Legend> legend_;
 };
 
 // Nothing of it is seen before its finish_…; Error (file_io) when a file cannot be written.
@@ -51,8 +51,8 @@ class PictureFiles {
  public:
   // AOVs are layers of the first output where that is an .exr, else files of their own. `half`: whether the
   // picture is, in each .exr. `scene`, of which the AOVs are, must outlive it.
-  PictureFiles(const std::vector<std::string>& outputs, const std::vector<Aov>& aovs, int width, int height,
-               bool half, const Scene& scene);
+  PictureFiles(const std::vector<std::string>& outputs, const std::vector<aov::Aov>& aovs, int width,
+               int height, bool half, const Scene& scene);
 
   // The next rows, from the top down, of the picture and of the AOVs that are made of them.
   void write(const render::FinishedRows& rows);

@@ -17,33 +17,36 @@ void Board::publish() {
 void Board::put_rows(const Message& message) {
   const auto number = [&](const char* key) { return message.json.value(key, int64_t{-1}); };
   const int64_t width = number("width"), height = number("height"), stride = number("stride");
-  const int64_t row = number("row"), rows = number("rows");
-  if (!image_size_allowed(width, height) || stride < 1 || row < 0 || rows < 1) return;
+  const int64_t row = number("row"), rows = number("rows"), channels = number("channels");
+  if (!image::image_size_allowed(width, height) || stride < 1 || row < 0 || rows < 1) return;
+  if (channels != 1 && channels != 3) return;
   const int64_t columns = (width + stride - 1) / stride;
   if (row + rows > (height + stride - 1) / stride) return;
-  if (message.bytes.size() != size_t(columns * rows) * 3 * sizeof(float)) return;
+  if (message.bytes.size() != size_t(columns * rows * channels) * sizeof(float)) return;
 
   const std::lock_guard lock(mutex_);
   const std::string view = message.json.value("view", "");
-  Image& image = pictures_[view];
-  if (image.width() != width || image.height() != height) {
-    image = Image(int(width), int(height), 3);
+  image::Image& image = pictures_[view].image;
+  if (image.width() != width || image.height() != height || image.channels() != channels) {
+    image = image::Image(int(width), int(height), int(channels));
     std::ranges::fill(image.samples(), std::numeric_limits<float>::quiet_NaN());  // not rendered yet
   }
   const int64_t last = std::min(height, (row + rows) * stride);
   for (int64_t y = row * stride; y < last; ++y) {
     for (int64_t x = 0; x < width; ++x) {
       const int64_t from = (y / stride - row) * columns + x / stride;
-      std::memcpy(image.pixel(int(x), int(y)), &message.bytes[size_t(from) * 3 * sizeof(float)],
-                  3 * sizeof(float));
+      const size_t pixel = size_t(channels) * sizeof(float);
+      std::memcpy(image.pixel(int(x), int(y)), &message.bytes[size_t(from) * pixel], pixel);
     }
   }
+  if (const auto kind = message.json.find("shown_as"); kind != message.json.end())
+    pictures_[view].shown_as = image::FalseColor(kind->get<int>());
   Json& version = status_["pictures"][view];
   version = version.is_number() ? version.get<uint64_t>() + 1 : 1;
   publish();
 }
 
-std::optional<Image> Board::picture(const std::string& view) const {
+std::optional<Board::Picture> Board::picture(const std::string& view) const {
   const std::lock_guard lock(mutex_);
   const auto found = pictures_.find(view);
   return found == pictures_.end() ? std::nullopt : std::optional(found->second);

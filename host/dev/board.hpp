@@ -8,6 +8,7 @@
 #include <string>
 
 #include "host/dev/message.hpp"
+#include "host/image/false_color.hpp"
 #include "host/image/image.hpp"
 
 namespace eyeray::dev {
@@ -22,12 +23,17 @@ class Board {
     publish();
   }
 
-  // Rows of a view's picture, from the worker: {"view", "width", "height", "row", "rows", "stride"} and
-  // float32 × 3 a pixel. Of a coarse picture (stride > 1) each pixel fills a square. Nothing for a message
-  // that does not add up.
+  // What a view shows: colours, or data, which is shown in false colour.
+  struct Picture {
+    image::Image image;
+    std::optional<image::FalseColor> shown_as;
+  };
+  // Rows of a view's picture, from the worker: {"view", "width", "height", "row", "rows", "stride",
+  // "channels"} and float32s; with "shown_as", a FalseColor. Of a coarse picture (stride > 1) each pixel
+  // fills a square. Nothing for a message that does not add up.
   void put_rows(const Message& message);
   // A copy of a view's picture; nothing where there is none.
-  std::optional<Image> picture(const std::string& view) const;
+  std::optional<Picture> picture(const std::string& view) const;
 
   // The answer to the last probe.
   void put_probe(Json answer);
@@ -47,7 +53,7 @@ class Board {
   mutable std::condition_variable changed_;
   Json status_ = Json::object();
   uint64_t version_ = 0;
-  std::map<std::string, Image> pictures_;
+  std::map<std::string, Picture> pictures_;
   Json probe_;
   bool closed_ = false;
 };

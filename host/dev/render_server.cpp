@@ -5,14 +5,9 @@
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 #include "host/probe/probe.hpp"
-#include "host/render/sums.hpp"
 
 namespace eyeray::dev {
 namespace {
-
-// How long a band of rows should take: what is seen grows so smoothly, and an edit waits so long.
-constexpr double wanted_seconds = 0.04;
-constexpr int first_pixels = 4096;  // of the first band
 
 // "path" is for editors: nothing of the shaders that are embedded.
 Json to_json(const Diagnostic& diagnostic) {
@@ -36,10 +31,6 @@ Json to_json(const std::vector<Diagnostic>& diagnostics) {
 
 Json to_json(const Vec3& v) {
   return {v.x, v.y, v.z};
-}
-
-std::string bytes_of(const Image& image) {
-  return {reinterpret_cast<const char*>(image.samples().data()), image.sample_count() * sizeof(float)};
 }
 
 }  // namespace
@@ -85,10 +76,11 @@ void RenderServer::render(const Json& request) {
 
 void RenderServer::load(const Json& request) {
   revision_ = -1;
-  for (auto& executor : executors_) executor.reset();
+  executors_.clear();
   send("stage", {{"stage", "load"}});
   scene_ = options_.load(request.value("defines", std::vector<std::string>{}));
   revision_ = request.value("revision", int64_t{0});
+  own_kernel_ = request.value("shaders_changed", true);
 
   Json files = Json::array();
   for (const auto& file : scene_->files) files.push_back(file.string());
@@ -103,65 +95,56 @@ void RenderServer::load(const Json& request) {
                    {"up", to_json(scene_->camera.up)}}}});
 }
 
-void RenderServer::paint(const std::string& view, bool last) {
+executors::Executor& RenderServer::executor_for(const View& view) {
+  auto& executor = executors_[{view.backend, view.needs()}];
+  if (executor) return *executor;
+  send("stage", {{"stage", "compile"}});
+  if (view.backend == executors::Backend::gpu && !options_.executor.open_device)
+    options_.executor.open_device = executors::open_device(options_.executor);
+  executors::ExecutorOptions options = options_.executor;
+  options.constants = options.constants && own_kernel_;
+  options.ray_kinds = view.needs() == aov::AovNeeds::ray_kinds;
+  options.search_cost = view.needs() == aov::AovNeeds::search_cost;
+  executor = executors::make_executor(view.backend, *scene_, options);
+  return *executor;
+}
+
+void RenderServer::paint(const std::string& name, bool last) {
   const Stopwatch watch;
-  const executors::Backend backend = executors::parse_backend(view);
-  auto& executor = executors_[size_t(backend)];
-  if (!executor) {
-    send("stage", {{"stage", "compile"}});
-    executor = executors::make_executor(backend, *scene_, options_.executor);
-  }
+  const View view = parse_view(name);
+  executors::Executor& executor = executor_for(view);
   if (outdated()) return;
   send("stage", {{"stage", "render"}});
-
-  const ImageSettings& image = scene_->image;
-  render::PixelSums sums;
-  sums.reset(image.width, image.height, false);
-  std::vector<PixelSample> samples;
-  uint64_t rays = 0, flagged = 0;
-  uint32_t flags = 0;
-  int band = std::clamp(first_pixels / image.width, 1, image.height);
-  for (int sample = 0; sample < image.samples; ++sample) {
-    for (int row = 0; row < image.height;) {
-      if (outdated()) return;
-      const Stopwatch band_watch;
-      const int rows = std::min(band, image.height - row);
-      samples.resize(size_t(rows) * size_t(image.width));
-      if (!executor->sample({0, row, image.width, rows}, uint32_t(sample), samples)) return;
-      sums.add(row, samples);
-      for (const PixelSample& each : samples) {
-        rays += each.rays;
-        flags |= each.flags;
-        flagged += each.flags != 0;
-      }
-      send("rows",
-           {{"view", view},
-            {"width", image.width},
-            {"height", image.height},
-            {"row", row},
-            {"rows", rows},
-            {"stride", 1},
-            {"sample", sample}},
-           bytes_of(sums.mean(row, rows, sample + 1, 0).color));
-      row += rows;
-      const double seconds = std::max(band_watch.seconds(), 1e-4);
-      band = std::clamp(int(rows * std::min(wanted_seconds / seconds, 4.0)), 1, image.height);
-    }
-  }
+  const auto painted = dev::paint(view, *scene_, executor, [&](const PaintedRows& painted_rows) {
+    const image::Image& rows = painted_rows.rows;
+    Json json{{"view", name},
+              {"width", scene_->image.width},
+              {"height", scene_->image.height},
+              {"row", painted_rows.first},
+              {"rows", rows.height()},
+              {"stride", painted_rows.stride},
+              {"channels", rows.channels()},
+              {"sample", painted_rows.sample}};
+    if (view.aov) json["shown_as"] = int(view.aov->shown_as);
+    send("rows", std::move(json),
+         {reinterpret_cast<const char*>(rows.samples().data()), rows.sample_count() * sizeof(float)});
+    return !outdated();
+  });
+  if (!painted) return;
 
   Json files = Json::array();
-  for (const auto& file : executor->source_files()) files.push_back(file.string());
+  for (const auto& file : executor.source_files()) files.push_back(file.string());
   Json stages = Json::object();
-  for (const auto& [stage, seconds] : executor->times().stages()) stages[stage] = seconds;
-  send("done", {{"view", view},
+  for (const auto& [stage, seconds] : executor.times().stages()) stages[stage] = seconds;
+  send("done", {{"view", name},
                 {"last", last},
-                {"device", executor->description()},
+                {"device", executor.description()},
                 {"seconds", watch.seconds()},
                 {"stages", std::move(stages)},
-                {"rays", rays},
-                {"samples", image.samples},
-                {"flags", flags},
-                {"flagged_samples", flagged},
+                {"rays", painted->rays},
+                {"samples", scene_->image.samples},
+                {"flags", painted->flags},
+                {"flagged_samples", painted->flagged_samples},
                 {"files", std::move(files)}});
 }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host/dev/message.hpp"
+#include "host/dev/painter.hpp"
 #include "host/executors/executor.hpp"
 
 namespace eyeray::dev {
@@ -16,7 +18,9 @@ namespace eyeray::dev {
 // two bands of rows, else when what was begun is done.
 //
 //   {"do": "render", "revision": 7, "generation": 12, "defines": ["camera.eye=[0,1,5]"], "views": ["gpu"]}
-//     the same revision: the same files and defines, nothing is loaded or compiled anew
+//     the same revision: the same files and defines, nothing is loaded or compiled anew;
+//     with "shaders_changed" the kernel is the scene's own, which compiles in half the time, else one that
+//     does for other values too
 //   {"do": "probe", "x": 3, "y": 4}: of what was rendered last
 //
 // It sends, each with "event", and with the request's generation:
@@ -41,6 +45,7 @@ class RenderServer {
   void render(const Json& request);
   void load(const Json& request);
   void paint(const std::string& view, bool last);
+  executors::Executor& executor_for(const View& view);
   void probe(const Json& request);
   void send(const char* event, Json json, std::string bytes = "");
   void send_failure(const Error& error);
@@ -50,8 +55,10 @@ class RenderServer {
   MessageSocket socket_;
   int64_t generation_ = 0;
   int64_t revision_ = -1;
+  bool own_kernel_ = true;  // of this revision
   std::optional<Scene> scene_;
-  std::unique_ptr<executors::Executor> executors_[3];  // by Backend; of this revision
+  // Of this revision; by what they count.
+  std::map<std::pair<executors::Backend, aov::AovNeeds>, std::unique_ptr<executors::Executor>> executors_;
 };
 
 }  // namespace eyeray::dev

@@ -42,8 +42,8 @@ void SourceFiles::set(const std::set<std::filesystem::path>& files, Clock::time_
   }
 }
 
-bool SourceFiles::changed() {
-  bool any = false;
+std::set<std::filesystem::path> SourceFiles::changed() {
+  std::set<std::filesystem::path> found;
   for (auto& [file, state] : states_) {
     const Stamp stamp = stamp_of(file);
     state.last_look = stamp;
@@ -51,20 +51,20 @@ bool SourceFiles::changed() {
     if (stamp == state.stamp && stamp.size > hashed_always) continue;
     state.stamp = stamp;
     const std::string hash = hash_of(file);
-    any = any || hash != state.hash;
+    if (hash != state.hash) found.insert(file);
     state.hash = hash;
   }
-  return any;
+  return found;
 }
 
-bool SourceFiles::changed_unnoticed() {
+std::set<std::filesystem::path> SourceFiles::changed_unnoticed() {
   bool settled = false;
   for (auto& [file, state] : states_) {
     const Stamp stamp = stamp_of(file);
     settled = settled || (stamp != state.stamp && stamp == state.last_look);
     state.last_look = stamp;
   }
-  return settled && changed();
+  return settled ? changed() : std::set<std::filesystem::path>();
 }
 
 }  // namespace eyeray::dev

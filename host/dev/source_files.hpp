@@ -17,11 +17,11 @@ class SourceFiles {
   void set(const std::set<std::filesystem::path>& files, Clock::time_point began);
   const std::set<std::filesystem::path>& files() const { return files_; }
 
-  // Whether the bytes of any are others than at the last call: saving what was there counts for nothing.
-  bool changed();
+  // Those whose bytes are others than at the last call: saving what was there counts for nothing.
+  std::set<std::filesystem::path> changed();
   // The same where nobody tells of changes, on network file systems say: for every second or so. A file
   // counts once it has stayed as it is from one call to the next.
-  bool changed_unnoticed();
+  std::set<std::filesystem::path> changed_unnoticed();
 
  private:
   // What tells a file's bytes without reading them; all 0 where there is none.

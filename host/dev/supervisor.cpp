@@ -9,6 +9,7 @@
 #include <cstring>
 #include <utility>
 
+#include "host/aov/aov.hpp"
 #include "host/core/readable.hpp"
 #include "host/core/termination.hpp"
 
@@ -67,8 +68,11 @@ ExitCode Supervisor::run() {
              {"wanted", *options_.port}});
   }
   board_.update([&](Json& status) {
-    status = {{"scene", options_.scene.string()}, {"state", "starting"}, {"view", view_},
-              {"pictures", Json::object()},       {"failure", nullptr},  {"stale", false}};
+    Json aovs = Json::array();
+    for (const aov::AovType& type : aov::aov_types()) aovs.push_back(type.name);
+    status = {
+        {"scene", options_.scene.string()}, {"aovs", std::move(aovs)}, {"state", "starting"}, {"view", view_},
+        {"pictures", Json::object()},       {"failure", nullptr},      {"stale", false}};
   });
   begin_revision();
   while (!interrupted()) {
@@ -133,6 +137,7 @@ void Supervisor::ask_worker() {
   since_message_ = {};
   const Message message{{{"do", "render"},
                          {"revision", revision_},
+                         {"shaders_changed", shaders_changed_},
                          {"generation", generation_},
                          {"defines", defines()},
                          {"views", views()}},
@@ -193,6 +198,7 @@ void Supervisor::handle(const Message& message) {
   } else if (event == "done") {
     if (!json.value("last", true)) return;
     busy_ = false;
+    shaders_changed_ = false;
     shader_files_ = paths(json.value("files", Json::array()));
     result_ = ExitCode::ok;
     seen_any_ = true;
@@ -243,14 +249,18 @@ void Supervisor::watch() {
 }
 
 void Supervisor::take_changes() {
-  const std::set<std::string> names = watcher_.take_changes();
-  bool changed = !names.empty() && files_.changed();
-  if (!changed && since_look_.seconds() > seconds_between_looks) {
+  std::set<fs::path> changed;
+  if (!watcher_.take_changes().empty()) changed = files_.changed();
+  if (changed.empty() && since_look_.seconds() > seconds_between_looks) {
     since_look_ = {};
     changed = files_.changed_unnoticed();
   }
-  if (!changed) return;
-  report_({{"event", "changed"}, {"files", names}});
+  if (changed.empty()) return;
+  Json names = Json::array();
+  for (const fs::path& file : changed) names.push_back(file.filename().string());
+  report_({{"event", "changed"}, {"files", std::move(names)}});
+  shaders_changed_ =
+      std::ranges::any_of(changed, [&](const fs::path& file) { return shader_files_.contains(file); });
   begin_revision();
 }
 

@@ -67,10 +67,11 @@ class Supervisor {
   SourceFiles::Clock::time_point began_;
   Stopwatch since_look_;  // at files without being told
 
-  int64_t revision_ = 0;    // of files and defines
-  int64_t generation_ = 0;  // of requests
-  bool busy_ = false;       // the worker has not answered the last request
-  bool heard_ = false;      // it has begun with it
+  int64_t revision_ = 0;         // of files and defines
+  int64_t generation_ = 0;       // of requests
+  bool busy_ = false;            // the worker has not answered the last request
+  bool heard_ = false;           // it has begun with it
+  bool shaders_changed_ = true;  // since the last picture
   WakefulStopwatch since_message_;
   std::string view_;
   std::map<std::string, std::string> defines_;  // that the page laid over the scene

@@ -52,21 +52,24 @@ void refuse(Response& response, int status, const std::string& why) {
   response.set_content(why + "\n", "text/plain; charset=utf-8");
 }
 
-// Two views' difference, or one view, brightened by so many stops.
-std::optional<Image> shown(const Board& board, const std::string& view, double stops) {
-  std::optional<Image> image = board.picture(view == "difference" ? "gpu" : view);
-  if (!image) return std::nullopt;
-  if (view == "difference") {
-    const std::optional<Image> reference = board.picture("reference");
-    if (!reference || !reference->same_size(*image)) return std::nullopt;
-    for (size_t i = 0; i < image->sample_count(); ++i)
-      image->samples()[i] = std::abs(image->samples()[i] - reference->samples()[i]);
-  }
-  if (stops != 0) {
-    const float factor = float(std::exp2(stops));
-    for (float& sample : image->samples()) sample *= factor;
-  }
-  return image;
+// A view, or how two of them differ.
+std::optional<Board::Picture> values_of(const Board& board, const std::string& view) {
+  if (view != "difference") return board.picture(view);
+  std::optional<Board::Picture> gpu = board.picture("gpu");
+  const std::optional<Board::Picture> reference = board.picture("reference");
+  if (!gpu || !reference || !reference->image.same_size(gpu->image)) return std::nullopt;
+  std::vector<float>& samples = gpu->image.samples();
+  for (size_t i = 0; i < samples.size(); ++i)
+    samples[i] = std::abs(samples[i] - reference->image.samples()[i]);
+  return gpu;
+}
+
+// Data in false colour, or colours brightened by so many stops.
+image::Image for_people(Board::Picture picture, double stops) {
+  if (picture.shown_as) return image::false_color(picture.image, *picture.shown_as);
+  const float factor = float(std::exp2(stops));
+  for (float& sample : picture.image.samples()) sample *= factor;
+  return std::move(picture.image);
 }
 
 double number(const Request& request, const char* name, double otherwise) {
@@ -130,25 +133,26 @@ bool WebServer::Servers::is_allowed(const Request& request, Response& response) 
 }
 
 void WebServer::Servers::picture(const Request& request, Response& response) const {
-  const std::optional<Image> image =
-      shown(board, request.get_param_value("view"), number(request, "exposure", 0));
-  if (!image) return refuse(response, 404, "There is no such picture yet.");
-  response.set_content(encode_png(*image), "image/png");
+  std::optional<Board::Picture> found = values_of(board, request.get_param_value("view"));
+  if (!found) return refuse(response, 404, "There is no such picture yet.");
+  const image::Image image = for_people(std::move(*found), number(request, "exposure", 0));
+  response.set_content(image::encode_png(image), "image/png");
 }
 
 void WebServer::Servers::values(const Request& request, Response& response) const {
-  const std::optional<Image> image = shown(board, request.get_param_value("view"), 0);
-  if (!image) return refuse(response, 404, "There is no such picture yet.");
+  const std::optional<Board::Picture> found = values_of(board, request.get_param_value("view"));
+  if (!found) return refuse(response, 404, "There is no such picture yet.");
+  const image::Image& image = found->image;
   const int x = int(number(request, "x", 0)), y = int(number(request, "y", 0));
   const int width = int(number(request, "width", 1)), height = int(number(request, "height", 1));
   if (x < 0 || y < 0 || width < 1 || height < 1 || width > most_values || height > most_values / width ||
-      x > image->width() - width || y > image->height() - height)
+      x > image.width() - width || y > image.height() - height)
     return refuse(response, 400, "These are not pixels of the picture, or more than 4096.");
   Json rows = Json::array();
   for (int j = y; j < y + height; ++j) {
     for (int i = x; i < x + width; ++i) {
       Json pixel = Json::array();
-      for (int c = 0; c < image->channels(); ++c) pixel.push_back(as_json(image->pixel(i, j)[c]));
+      for (int c = 0; c < image.channels(); ++c) pixel.push_back(as_json(image.pixel(i, j)[c]));
       rows.push_back(std::move(pixel));
     }
   }

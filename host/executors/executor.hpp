@@ -38,6 +38,12 @@ class Executor {
   // Sample `index` of every pixel of `tile`, row by row; out.size() = tile.pixels(). Returns false when
   // interrupted, and `out` is then undefined.
   virtual bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) = 0;
+  // The same of every stride-th pixel of every stride-th row of the picture, from its top left on: how it
+  // will look, soon. out.size() = ⌈width / stride⌉ · ⌈height / stride⌉. False too where there is no such
+  // thing.
+  virtual bool coarse_sample(int /*stride*/, uint32_t /*index*/, std::span<PixelSample> /*out*/) {
+    return false;
+  }
   // What the ray through the centre of every pixel of `tile` hits; out.size() = tile.pixels().
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
 
@@ -63,6 +69,8 @@ class Executor {
   StageTimes times_;
 };
 
+class OpenDevice;
+
 struct ExecutorOptions {
   std::string device = "auto";          // auto | cpu | gpu | INDEX | part of a NAME
   std::filesystem::path shader_folder;  // laid over the embedded shaders, file by file; empty: none
@@ -76,8 +84,12 @@ struct ExecutorOptions {
   bool search_cost = false;             // gpu: FirstHit::cost; the twin always counts, the reference never
   bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
   bool optimise = true;                 // gpu: give the driver an optimised kernel
-  std::string fault;                    // gpu, tests only: a fault to inject (docs/verification.md)
+  std::shared_ptr<OpenDevice> open_device;  // gpu: taken as it is, and left open; null: one of its own
+  std::string fault;                        // gpu, tests only: a fault to inject (docs/verification.md)
 };
+
+// For ExecutorOptions::open_device. Error (no_device) when no device will do.
+std::shared_ptr<OpenDevice> open_device(const ExecutorOptions& options);
 
 // Error (no_device) when `backend` is gpu and no device will do; InputError for a shader that does not
 // compile.

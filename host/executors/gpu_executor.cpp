@@ -12,6 +12,7 @@
 #include "host/executors/fault.hpp"
 #include "host/executors/gpu_queries.hpp"
 #include "host/executors/loop_budget.hpp"
+#include "host/executors/open_device.hpp"
 #include "host/executors/profile.hpp"
 #include "host/executors/samples.hpp"
 #include "host/executors/scene_facts.hpp"
@@ -22,7 +23,6 @@
 #include "host/executors/wavefront.hpp"
 #include "host/executors/workgroups.hpp"
 #include "host/gpu/command_list.hpp"
-#include "host/gpu/self_test.hpp"
 #include "host/pack/collapse.hpp"
 #include "host/pack/pack.hpp"
 
@@ -35,13 +35,12 @@ class GpuExecutor final : public Executor {
       : options_(options),
         fault_(options.fault),
         eye_(scene.camera.eye),
-        device_(times_.measure("device", [&] { return open_device(options); })),
+        image_(scene.image),
+        open_device_(options.open_device ? options.open_device
+                                         : std::make_shared<OpenDevice>(options, times_)),
+        device_(open_device_->device()),
         profile_(choose_profile(options.profile, device_.info())),
         uploaded_(device_, profile_.texel_buffers) {
-    const gpu::DeviceFacts facts = times_.measure("self-test", [&] {
-      return gpu::self_test(
-          device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_);
-    });
     records::PackedScene packed = times_.measure("pack", [&] { return pack::pack(scene, options.pack); });
     fault_.damage(packed);
     const uint32_t lanes = device_.info().limits.subgroup_size;
@@ -50,7 +49,7 @@ class GpuExecutor final : public Executor {
     if (device_.info().type == gpu::DeviceType::cpu)
       workgroups_.stride = std::max(1u, std::thread::hardware_concurrency());
 
-    make_kernels_for(packed, plan, facts);
+    make_kernels_for(packed, plan);
     times_.measure("upload", [&] {
       for (const SceneBuffer& buffer : scene_buffers(packed)) uploaded_.add(buffer);
     });
@@ -66,14 +65,18 @@ class GpuExecutor final : public Executor {
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return wavefront_ ? wavefront_->run(push, output) : dispatch(*sample_kernel_, push, output);
     };
-    return for_bands<shader::SampleResult>(tile, index, trace, [&](size_t first, auto results) {
-      constexpr size_t piece = 4096;
-      parallel_for(0, int((results.size() + piece - 1) / piece), [&](int p) {
-        const size_t begin = size_t(p) * piece, end = std::min(results.size(), begin + piece);
-        for (size_t i = begin; i < end; ++i) out[first + i] = to_sample(results[i], options_.ray_kinds);
-      });
-      fault_.damage(out.subspan(first, results.size()));
-    });
+    return for_bands<shader::SampleResult>(tile, 1, index, trace,
+                                           [&](size_t first, auto results) { take(results, first, out); });
+  }
+
+  bool coarse_sample(int stride, uint32_t index, std::span<PixelSample> out) override {
+    if (wavefront_) return false;
+    const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
+      return dispatch(*sample_kernel_, push, output);
+    };
+    const Rect pixels{0, 0, (image_.width + stride - 1) / stride, (image_.height + stride - 1) / stride};
+    return for_bands<shader::SampleResult>(pixels, stride, index, trace,
+                                           [&](size_t first, auto results) { take(results, first, out); });
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
@@ -81,7 +84,7 @@ class GpuExecutor final : public Executor {
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return dispatch(*hit_kernel_, push, output);
     };
-    for_bands<shader::HitResult>(tile, 0, trace, [&](size_t first, auto results) {
+    for_bands<shader::HitResult>(tile, 1, 0, trace, [&](size_t first, auto results) {
       for (size_t i = 0; i < results.size(); ++i) {
         check_traced(results[i].flags, device_.info().driver_version);
         out[first + i] = to_first_hit(results[i], eye_, options_.search_cost);
@@ -94,14 +97,14 @@ class GpuExecutor final : public Executor {
     CHECK(options_.ray_kinds);
     const std::string entry = "kernels/render.comp.glsl";
     const ShaderProbe probe(kernels_->source(entry).files);
-    const std::unique_ptr<gpu::Kernel> kernel = kernels_->make(entry, probe.defines());
+    const std::shared_ptr<gpu::Kernel> kernel = kernels_->make(entry, probe.defines());
     gpu::Buffer records(device_, ShaderProbe::capacity * sizeof(shader::ProbeRecord), "probe");
     kernel->set_buffer(BINDING_PROBE, records);
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return dispatch(*kernel, push, output);
     };
     Probed result;
-    for_bands<shader::SampleResult>({x, y, 1, 1}, index, trace, [&](size_t, auto results) {
+    for_bands<shader::SampleResult>({x, y, 1, 1}, 1, index, trace, [&](size_t, auto results) {
       result.sample = to_sample(results[0], true);
       fault_.damage(std::span(&result.sample, 1));
     });
@@ -128,16 +131,17 @@ class GpuExecutor final : public Executor {
   }
 
  private:
-  static gpu::Device open_device(const ExecutorOptions& options) {
-    gpu::DeviceOptions device;
-    device.select = options.device;
-    device.validation = options.validation;
-    device.timeout_seconds = options.timeout_seconds;
-    device.compile_seconds = std::max(options.timeout_seconds, options.least_compile_seconds);
-    return gpu::Device(device);
+  // Results, of which the first is out[first].
+  void take(std::span<const shader::SampleResult> results, size_t first, std::span<PixelSample> out) {
+    constexpr size_t piece = 4096;
+    parallel_for(0, int((results.size() + piece - 1) / piece), [&](int p) {
+      const size_t begin = size_t(p) * piece, end = std::min(results.size(), begin + piece);
+      for (size_t i = begin; i < end; ++i) out[first + i] = to_sample(results[i], options_.ray_kinds);
+    });
+    fault_.damage(out.subspan(first, results.size()));
   }
 
-  void make_kernels_for(records::PackedScene& packed, const TracePlan& plan, const gpu::DeviceFacts& facts) {
+  void make_kernels_for(records::PackedScene& packed, const TracePlan& plan) {
     Specialisation specialisation;
     specialisation.constants = options_.constants && profile_.constants;
     specialisation.profile = profile_;
@@ -145,7 +149,8 @@ class GpuExecutor final : public Executor {
     specialisation.search_cost = options_.search_cost;
     specialisation.subgroup_size = workgroups_.subgroup;
     specialisation.group_stride = workgroups_.stride;
-    if (facts.loop_cap) specialisation.loop_budget = loop_budget_of(packed, device_.info().driver_version);
+    if (open_device_->facts().loop_cap)
+      specialisation.loop_budget = loop_budget_of(packed, device_.info().driver_version);
     // A copy of the nodes, to which those for packets are about to be appended.
     RawVector<shader::uvec4> nodes =
         plan.incoherent == Rays::cooperative ? packed.nodes : RawVector<shader::uvec4>();
@@ -156,7 +161,7 @@ class GpuExecutor final : public Executor {
     gpu::KernelOptions how{
         .strict = device_.info().float_modes, .optimise = options_.optimise, .flatten = profile_.flatten};
     if (options_.fast_math || fault_.contracts()) how.strict = std::nullopt;
-    kernels_.emplace(SceneKernels::Workshop{device_, cache_, fault_, times_, how}, uploaded_,
+    kernels_.emplace(SceneKernels::Workshop{*open_device_, fault_, times_, how}, uploaded_,
                      ShaderFiles(options_.shader_folder, specialise(packed, specialisation)));
     if (!nodes.empty()) kernels_->make_bvh4_of(std::move(nodes), packed.bvhs[0]);
   }
@@ -174,10 +179,11 @@ class GpuExecutor final : public Executor {
         options);
   }
 
-  // Calls trace(push, output) for `tile` in bands of rows, and take(first, results) with each band's results
-  // and the index of its first pixel. Returns false when interrupted.
+  // Calls trace(push, output) for every stride-th pixel of every stride-th row from `tile`'s corner on, in
+  // bands of rows, and take(first, results) with each band's results and the index of its first pixel; of
+  // `tile` the width and height are counted in these. Returns false when interrupted.
   template <typename Result, typename Trace, typename Take>
-  bool for_bands(const Rect& tile, uint32_t index, const Trace& trace, const Take& take) {
+  bool for_bands(const Rect& tile, int stride, uint32_t index, const Trace& trace, const Take& take) {
     for (int row = 0; row < tile.height;) {
       if (interrupted()) return false;
       const int height = std::min(dispatch_size_.rows(tile.width), tile.height - row);
@@ -185,11 +191,12 @@ class GpuExecutor final : public Executor {
       gpu::Buffer& output = output_for(pixels * sizeof(Result));
       shader::Dispatch push{};
       push.tile_x = uint32_t(tile.x) + fault_.shift();
-      push.tile_y = uint32_t(tile.y + row);
+      push.tile_y = uint32_t(tile.y + row * stride);
       push.tile_width = uint32_t(tile.width);
       push.tile_height = uint32_t(height);
       push.sample_index = index;
       push.count = uint32_t(pixels);
+      push.stride = uint32_t(stride);
       const std::optional<double> seconds = trace(push, output);
       if (!seconds) return false;
       times_.add("dispatch", *seconds);
@@ -208,9 +215,11 @@ class GpuExecutor final : public Executor {
   // kernels/render.comp.glsl for a whole tile.
   std::optional<double> dispatch(gpu::Kernel& kernel, const shader::Dispatch& push, gpu::Buffer& output) {
     kernel.set_buffer(BINDING_OUTPUT, output);
-    return gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)),
-                         {workgroups_.of_items(Workgroups::pixels(push.tile_width, push.tile_height)), 1, 1})
-        .seconds;
+    const gpu::RunTime time =
+        gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)),
+                      {workgroups_.of_items(Workgroups::pixels(push.tile_width, push.tile_height)), 1, 1});
+    times_.add("pipeline", time.compile_seconds);
+    return time.seconds;
   }
 
   gpu::Buffer& output_for(size_t bytes) {
@@ -229,8 +238,9 @@ class GpuExecutor final : public Executor {
   ExecutorOptions options_;
   Fault fault_;
   Vec3 eye_;
-  DiskCache cache_ = DiskCache::of_user();
-  gpu::Device device_;
+  ImageSettings image_;
+  std::shared_ptr<OpenDevice> open_device_;
+  gpu::Device& device_;
   Profile profile_;
   UploadedScene uploaded_;
   std::optional<gpu::Buffer> output_;
@@ -238,8 +248,8 @@ class GpuExecutor final : public Executor {
   std::optional<SceneKernels> kernels_;
   std::optional<GpuQueries> queries_;
   std::optional<Wavefront> wavefront_;          // makes samples,
-  std::unique_ptr<gpu::Kernel> sample_kernel_;  // or else this
-  std::unique_ptr<gpu::Kernel> hit_kernel_;     // null until first hits are asked for
+  std::shared_ptr<gpu::Kernel> sample_kernel_;  // or else this
+  std::shared_ptr<gpu::Kernel> hit_kernel_;     // null until first hits are asked for
   DispatchSize dispatch_size_;
 };
 

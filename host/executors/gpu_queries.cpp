@@ -23,7 +23,7 @@ double GpuQueries::ask(const QueryBatch& batch, std::span<QueryHit> hits) {
 }
 
 gpu::Kernel& GpuQueries::kernel(Rays how, bool any) {
-  std::unique_ptr<gpu::Kernel>& made = made_[any][size_t(how)];
+  std::shared_ptr<gpu::Kernel>& made = made_[any][size_t(how)];
   if (!made) made = kernels_.make(trace_entries[size_t(how)], any ? "#define QUERY_ANY\n" : "");
   return *made;
 }

@@ -9,23 +9,21 @@
 
 namespace eyeray::executors {
 
-std::unique_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::string defines) {
+std::shared_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::string defines) {
   if (entry == trace_entries[size_t(Rays::cooperative)]) {
     upload_bvh4();
     defines += fmt::format("#define BVH4_STACK_SIZE {}\n", bvh4_stack_);
   }
   const std::vector<uint32_t> spirv = workshop_.times.measure("shader compile", [&] {
     try {
-      return gpu::compile_kernel(source(entry), defines, workshop_.how, workshop_.cache).spirv;
+      return gpu::compile_kernel(source(entry), defines, workshop_.how, workshop_.device.cache()).spirv;
     } catch (const InputError& error) {
       std::vector<Diagnostic> diagnostics = error.diagnostics();
       for (Diagnostic& d : diagnostics) d.position.file = files_.shown(d.position.file);
       throw InputError(std::move(diagnostics));
     }
   });
-  auto kernel = workshop_.times.measure("pipeline", [&] {
-    return std::make_unique<gpu::Kernel>(workshop_.device, spirv, entry, workshop_.cache);
-  });
+  auto kernel = workshop_.times.measure("pipeline", [&] { return workshop_.device.kernel(spirv, entry); });
   scene_.bind(*kernel);
   return kernel;
 }

@@ -6,10 +6,10 @@
 #include <set>
 #include <string>
 
-#include "host/core/disk_cache.hpp"
 #include "host/core/raw_vector.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/executors/fault.hpp"
+#include "host/executors/open_device.hpp"
 #include "host/executors/shader_files.hpp"
 #include "host/executors/uploaded_scene.hpp"
 #include "host/gpu/kernel.hpp"
@@ -26,8 +26,7 @@ class SceneKernels {
  public:
   // What they are made of and with; all of it must outlive them.
   struct Workshop {
-    gpu::Device& device;
-    const DiskCache& cache;
+    OpenDevice& device;
     const Fault& fault;
     StageTimes& times;
     gpu::KernelOptions how;
@@ -42,7 +41,7 @@ class SceneKernels {
     bvh_ = bvh;
   }
   // InputError where the text does not compile.
-  std::unique_ptr<gpu::Kernel> make(const std::string& entry, std::string defines = "");
+  std::shared_ptr<gpu::Kernel> make(const std::string& entry, std::string defines = "");
   // The text of an entry and all that it includes.
   gpu::ShaderSource source(const std::string& entry);
   const std::set<std::filesystem::path>& looked_for() const { return files_.looked_for(); }

@@ -29,7 +29,7 @@ class Wavefront {
  public:
   // The kernel of an entry under defines, with the scene's buffers bound.
   using MakeKernel =
-      std::function<std::unique_ptr<gpu::Kernel>(const std::string& entry, const std::string& defines)>;
+      std::function<std::shared_ptr<gpu::Kernel>(const std::string& entry, const std::string& defines)>;
 
   Wavefront(gpu::Device& device, const MakeKernel& make_kernel, const WavefrontOptions& options);
 
@@ -40,7 +40,7 @@ class Wavefront {
  private:
   // What a bounce takes: its rays, their shadow rays, and what they come to. Null where another one does it.
   struct Bounce {
-    std::unique_ptr<gpu::Kernel> trace, shadow, shade;
+    std::shared_ptr<gpu::Kernel> trace, shadow, shade;
   };
 
   void run(Bounce& bounce, const shader::Dispatch& push, uint32_t trace_groups, uint32_t shade_groups,

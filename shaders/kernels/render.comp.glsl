@@ -32,11 +32,13 @@ void main() {
   if (pixel.x >= dispatch.tile_width || pixel.y >= dispatch.tile_height) return;
   uint i = pixel.y * dispatch.tile_width + pixel.x;
 #endif
+  uint x = dispatch.tile_x + pixel.x * dispatch.stride;
+  uint y = dispatch.tile_y + pixel.y * dispatch.stride;
   Frame frame = load_frame();
 
 #ifdef FIRST_HITS
-  results[i] = first_hit(frame, dispatch.tile_x + pixel.x, dispatch.tile_y + pixel.y);
+  results[i] = first_hit(frame, x, y);
 #else
-  results[i] = render_sample(frame, dispatch.tile_x + pixel.x, dispatch.tile_y + pixel.y, dispatch.sample_index);
+  results[i] = render_sample(frame, x, y, dispatch.sample_index);
 #endif
 }

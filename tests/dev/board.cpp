@@ -12,8 +12,14 @@ using namespace eyeray::dev;
 namespace {
 
 Message rows(int row, int count, int stride, const std::vector<float>& values) {
-  Message message{
-      {{"view", "gpu"}, {"width", 5}, {"height", 3}, {"row", row}, {"rows", count}, {"stride", stride}}, ""};
+  Message message{{{"view", "gpu"},
+                   {"width", 5},
+                   {"height", 3},
+                   {"row", row},
+                   {"channels", 3},
+                   {"rows", count},
+                   {"stride", stride}},
+                  ""};
   message.bytes.assign(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
   return message;
 }
@@ -31,14 +37,14 @@ TEST_CASE("a picture grows by rows, and a coarse one fills squares") {
   std::vector<float> coarse = grey(3 * 2, 1);
   coarse[3] = 0.5f;  // the second square of the upper row
   board.put_rows(rows(0, 2, 2, coarse));
-  Image image = *board.picture("gpu");
+  image::Image image = board.picture("gpu")->image;
   CHECK(image.pixel(1, 1)[0] == 1);
   CHECK(image.pixel(2, 0)[0] == 0.5f);
   CHECK(image.pixel(3, 1)[0] == 0.5f);
   CHECK(image.pixel(4, 2)[2] == 1);
 
   board.put_rows(rows(1, 2, 1, grey(10, 0.25f)));
-  image = *board.picture("gpu");
+  image = board.picture("gpu")->image;
   CHECK(image.pixel(2, 0)[0] == 0.5f);
   CHECK(image.pixel(2, 1)[0] == 0.25f);
   CHECK(image.pixel(4, 2)[0] == 0.25f);
@@ -47,7 +53,7 @@ TEST_CASE("a picture grows by rows, and a coarse one fills squares") {
 TEST_CASE("what was not rendered yet has no value") {
   Board board;
   board.put_rows(rows(0, 1, 1, grey(5, 1)));
-  CHECK(std::isnan(board.picture("gpu")->pixel(0, 1)[0]));
+  CHECK(std::isnan(board.picture("gpu")->image.pixel(0, 1)[0]));
 }
 
 TEST_CASE("rows that do not add up are left out") {

@@ -21,18 +21,18 @@ TEST_CASE("bytes count, and not that they were saved") {
   write_text(file, "1");
   SourceFiles files;
   files.set({file, folder / "not-there"}, in_a_while);
-  CHECK_FALSE(files.changed());
+  CHECK(files.changed().empty());
   write_text(file, "1");
-  CHECK_FALSE(files.changed());
+  CHECK(files.changed().empty());
   write_text(file, "2");
-  CHECK(files.changed());
-  CHECK_FALSE(files.changed());
+  CHECK(files.changed() == std::set<fs::path>{file});
+  CHECK(files.changed().empty());
   fs::remove(file);
-  CHECK(files.changed());
+  CHECK_FALSE(files.changed().empty());
   write_text(folder / "not-there", "");
-  CHECK(files.changed());
+  CHECK_FALSE(files.changed().empty());
   write_text(folder / "other", "1");
-  CHECK_FALSE(files.changed());
+  CHECK(files.changed().empty());
 }
 
 TEST_CASE("a file that was saved while it was read counts as changed") {
@@ -40,12 +40,12 @@ TEST_CASE("a file that was saved while it was read counts as changed") {
   write_text(folder / "a.glsl", "1");
   SourceFiles files;
   files.set({folder / "a.glsl"}, SourceFiles::Clock::now() - std::chrono::hours(1));
-  CHECK(files.changed());
-  CHECK_FALSE(files.changed());
+  CHECK_FALSE(files.changed().empty());
+  CHECK(files.changed().empty());
   // What it knew is not forgotten when it is named again.
   write_text(folder / "a.glsl", "2");
   files.set({folder / "a.glsl"}, in_a_while);
-  CHECK(files.changed());
+  CHECK_FALSE(files.changed().empty());
 }
 
 TEST_CASE("a change that nobody tells of is found once it is over") {
@@ -54,11 +54,11 @@ TEST_CASE("a change that nobody tells of is found once it is over") {
   write_text(file, "1");
   SourceFiles files;
   files.set({file}, in_a_while);
-  CHECK_FALSE(files.changed_unnoticed());
+  CHECK(files.changed_unnoticed().empty());
   write_text(file, "22");
-  CHECK_FALSE(files.changed_unnoticed());
+  CHECK(files.changed_unnoticed().empty());
   write_text(file, "333");
-  CHECK_FALSE(files.changed_unnoticed());
-  CHECK(files.changed_unnoticed());
-  CHECK_FALSE(files.changed_unnoticed());
+  CHECK(files.changed_unnoticed().empty());
+  CHECK_FALSE(files.changed_unnoticed().empty());
+  CHECK(files.changed_unnoticed().empty());
 }

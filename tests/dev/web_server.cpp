@@ -71,7 +71,14 @@ struct Site {
               commands.push_back(json);
             },
             port, limits) {
-    Message rows{{{"view", "gpu"}, {"width", 2}, {"height", 1}, {"row", 0}, {"rows", 1}, {"stride", 1}}, ""};
+    Message rows{{{"view", "gpu"},
+                  {"width", 2},
+                  {"height", 1},
+                  {"row", 0},
+                  {"rows", 1},
+                  {"stride", 1},
+                  {"channels", 3}},
+                 ""};
     const float values[6] = {0, 0.5f, 1, 2, std::numeric_limits<float>::quiet_NaN(), -1};
     rows.bytes.assign(reinterpret_cast<const char*>(values), sizeof values);
     board.put_rows(rows);

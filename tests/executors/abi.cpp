@@ -96,7 +96,7 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
   check_struct(samples, "Dispatch", sizeof(shader::Dispatch),
                {MEMBER(Dispatch, tile_x), MEMBER(Dispatch, tile_y), MEMBER(Dispatch, tile_width),
                 MEMBER(Dispatch, tile_height), MEMBER(Dispatch, sample_index), MEMBER(Dispatch, depth),
-                MEMBER(Dispatch, count), MEMBER(Dispatch, unused)});
+                MEMBER(Dispatch, count), MEMBER(Dispatch, stride)});
   check_struct(samples, "SampleResult", sizeof(shader::SampleResult),
                {MEMBER(SampleResult, color), MEMBER(SampleResult, written), MEMBER(SampleResult, rays),
                 MEMBER(SampleResult, hits), MEMBER(SampleResult, flags), MEMBER(SampleResult, iterations)});

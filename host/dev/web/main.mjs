@@ -122,6 +122,8 @@ function show_views() {
       $('views').append(button);
     }
   }
+  if ($('aovs').children.length === 1) for (const name of status.aovs) $('aovs').append(new Option(name));
+  $('aovs').value = status.aovs.includes(status.view) ? status.view : '';
   for (const button of $('views').children) button.setAttribute('aria-pressed', button.dataset.view === status.view);
 }
 
@@ -149,6 +151,7 @@ function expose(stops) {
 $('exposure').oninput = () => expose($('exposure').value);
 $('pan').onclick = () => choose_mode('look');
 $('orbit').onclick = () => choose_mode('orbit');
+$('aovs').onchange = () => { send({ view: $('aovs').value || 'gpu' }); $('aovs').blur(); };
 $('fit').onclick = () => stage.fit();
 $('reset').onclick = reset_camera;
 

@@ -1,4 +1,4 @@
-#include "host/cli/aov.hpp"
+#include "host/aov/aov.hpp"
 
 #include <fmt/ranges.h>
 
@@ -8,7 +8,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::aov {
 namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
@@ -179,4 +179,4 @@ image::Image aov_image(Aov aov, std::span<const FirstHit> hits, int width, const
   return image;
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::aov

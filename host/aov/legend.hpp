@@ -3,14 +3,16 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <vector>
 
-#include "host/cli/json.hpp"
 #include "host/core/pixel.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::aov {
+
+using Json = nlohmann::ordered_json;
 
 // What may be hit, by the ids of one AOV.
 class LegendEntries {
@@ -46,4 +48,4 @@ class Legend {
   uint64_t nothing_ = 0;          // pixels where nothing is hit
 };
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::aov

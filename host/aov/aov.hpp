@@ -11,13 +11,13 @@
 #include <variant>
 #include <vector>
 
-#include "host/cli/legend.hpp"
+#include "host/aov/legend.hpp"
 #include "host/core/pixel.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image.hpp"
 #include "host/render/sums.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::aov {
 
 // Where an AOV's values come from: the first hit of a pixel's centre, of whose three as many count as it has
 // channels; the legend's entry that it is of; or what was summed over the pixel's samples.
@@ -64,4 +64,4 @@ bool any_needs(const std::vector<Aov>& aovs, AovNeeds what);
 // Rows of an AOV that is made of first hits; `width` pixels each. `entries` of its legend, where it has one.
 image::Image aov_image(Aov aov, std::span<const FirstHit> hits, int width, const LegendEntries* entries);
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::aov

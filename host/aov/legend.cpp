@@ -1,4 +1,4 @@
-#include "host/cli/legend.hpp"
+#include "host/aov/legend.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -7,7 +7,7 @@
 #include "host/image/image_file.hpp"
 #include "host/scene/objects.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::aov {
 namespace {
 
 // Bytes to gather before they are written.
@@ -124,4 +124,4 @@ std::filesystem::path Legend::write(const std::filesystem::path& picture) const 
   return name;
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::aov

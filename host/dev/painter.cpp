@@ -1,0 +1,106 @@
+#include "host/dev/painter.hpp"
+
+#include <algorithm>
+
+#include "host/core/stopwatch.hpp"
+#include "host/render/sums.hpp"
+
+namespace eyeray::dev {
+namespace {
+
+// How long a band of rows should take: what is seen grows so smoothly, and an edit waits so long.
+constexpr double wanted_seconds = 0.04;
+constexpr int first_pixels = 4096;  // of the first band
+constexpr int coarse_stride = 8;
+
+// Calls work(row, rows) for all rows of a picture in bands; it returns whether to go on.
+template <typename Work>
+bool for_bands(const ImageSettings& image, int& band, const Work& work) {
+  for (int row = 0; row < image.height;) {
+    const Stopwatch watch;
+    const int rows = std::min(band, image.height - row);
+    if (!work(row, rows)) return false;
+    row += rows;
+    const double factor = wanted_seconds / std::max(watch.seconds(), 1e-4);
+    band = std::clamp(int(rows * std::min(factor, 4.0)), 1, image.height);
+  }
+  return true;
+}
+
+image::Image shown(const View& view, const render::FinishedRows& rows) {
+  return view.aov ? std::get<aov::ValuesOfRows>(view.aov->values)(rows) : rows.color;
+}
+
+bool paint_coarsely(const View& view, const ImageSettings& image, executors::Executor& executor,
+                    const RowsSink& sink) {
+  const int width = (image.width + coarse_stride - 1) / coarse_stride;
+  const int height = (image.height + coarse_stride - 1) / coarse_stride;
+  std::vector<PixelSample> samples(size_t(width) * size_t(height));
+  if (!executor.coarse_sample(coarse_stride, 0, samples)) return true;
+  render::PixelSums sums;
+  sums.reset(width, height, view.needs() == aov::AovNeeds::ray_kinds);
+  sums.add(0, samples);
+  return sink({shown(view, sums.mean(0, height, 1, 0)), 0, coarse_stride});
+}
+
+std::optional<Painted> paint_samples(const View& view, const ImageSettings& image,
+                                     executors::Executor& executor, const RowsSink& sink) {
+  if (!paint_coarsely(view, image, executor, sink)) return std::nullopt;
+  Painted painted;
+  render::PixelSums sums;
+  sums.reset(image.width, image.height, view.needs() == aov::AovNeeds::ray_kinds);
+  std::vector<PixelSample> samples;
+  int band = std::clamp(first_pixels / image.width, 1, image.height);
+  for (int sample = 0; sample < image.samples; ++sample) {
+    const bool whole = for_bands(image, band, [&](int row, int rows) {
+      samples.resize(size_t(rows) * size_t(image.width));
+      if (!executor.sample({0, row, image.width, rows}, uint32_t(sample), samples)) return false;
+      sums.add(row, samples);
+      for (const PixelSample& each : samples) {
+        painted.rays += each.rays;
+        painted.flags |= each.flags;
+        painted.flagged_samples += each.flags != 0;
+      }
+      return sink({shown(view, sums.mean(row, rows, sample + 1, 0)), row, 1, sample});
+    });
+    if (!whole) return std::nullopt;
+  }
+  return painted;
+}
+
+std::optional<Painted> paint_first_hits(const View& view, const Scene& scene, executors::Executor& executor,
+                                        const RowsSink& sink) {
+  const ImageSettings& image = scene.image;
+  const auto entries = view.aov->legend ? view.aov->legend(scene) : nullptr;
+  Painted painted;
+  std::vector<FirstHit> hits;
+  int band = std::clamp(first_pixels / image.width, 1, image.height);
+  const bool whole = for_bands(image, band, [&](int row, int rows) {
+    hits.resize(size_t(rows) * size_t(image.width));
+    executor.first_hits({0, row, image.width, rows}, hits);
+    for (const FirstHit& hit : hits) {
+      painted.flags |= hit.flags;
+      painted.flagged_samples += hit.flags != 0;
+    }
+    painted.rays += hits.size();
+    return sink({aov::aov_image(view.aov, hits, image.width, entries.get()), row});
+  });
+  return whole ? std::optional(painted) : std::nullopt;
+}
+
+}  // namespace
+
+View parse_view(const std::string& name) {
+  const std::span<const aov::AovType> types = aov::aov_types();
+  const auto found = std::ranges::find(types, name, &aov::AovType::name);
+  if (found != types.end()) return {executors::Backend::gpu, &*found};
+  return {executors::parse_backend(name)};
+}
+
+std::optional<Painted> paint(const View& view, const Scene& scene, executors::Executor& executor,
+                             const RowsSink& sink) {
+  if (view.aov && view.aov->is_of_first_hits()) return paint_first_hits(view, scene, executor, sink);
+  return paint_samples(view, scene.image, executor, sink);
+}
+
+}  // namespace eyeray::dev

@@ -1,0 +1,46 @@
+// A picture that grows while it is looked at: coarse first, then row by row.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "host/aov/aov.hpp"
+#include "host/executors/executor.hpp"
+
+namespace eyeray::dev {
+
+// What is looked at: the colours of an executor, or an AOV of the GPU's.
+struct View {
+  executors::Backend backend = executors::Backend::gpu;
+  aov::Aov aov = nullptr;
+
+  int channels() const { return aov ? aov->channels : 3; }
+  aov::AovNeeds needs() const { return aov ? aov->needs : aov::AovNeeds::nothing; }
+};
+
+// "gpu", "twin", "reference" or an AOV's name; Error (bad_input) for another.
+View parse_view(const std::string& name);
+
+// Rows of a view, of so many pixels along each axis one. The first counts from the top of the picture of that
+// stride. Returns whether to go on.
+struct PaintedRows {
+  const image::Image& rows;
+  int first = 0;
+  int stride = 1;
+  int sample = 0;
+};
+using RowsSink = std::function<bool(const PaintedRows&)>;
+
+struct Painted {
+  uint64_t rays = 0;
+  uint64_t flagged_samples = 0;
+  uint32_t flags = 0;  // all SampleFlags seen
+};
+
+// All of a view by `executor`, which is of its backend and counts what it needs; in bands of some hundredths
+// of a second. Nothing when the sink or a signal ended it.
+std::optional<Painted> paint(const View& view, const Scene& scene, executors::Executor& executor,
+                             const RowsSink& sink);
+
+}  // namespace eyeray::dev

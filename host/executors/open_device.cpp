@@ -1,0 +1,49 @@
+#include "host/executors/open_device.hpp"
+
+#include <algorithm>
+
+#include "host/core/content_hash.hpp"
+#include "host/executors/shader_files.hpp"
+
+namespace eyeray::executors {
+namespace {
+
+constexpr size_t most_kernels = 8;
+
+gpu::DeviceOptions device_options(const ExecutorOptions& options) {
+  gpu::DeviceOptions device;
+  device.select = options.device;
+  device.validation = options.validation;
+  device.timeout_seconds = options.timeout_seconds;
+  device.compile_seconds = std::max(options.timeout_seconds, options.least_compile_seconds);
+  return device;
+}
+
+}  // namespace
+
+OpenDevice::OpenDevice(const ExecutorOptions& options, StageTimes& times)
+    : device_(times.measure("device", [&] { return gpu::Device(device_options(options)); })),
+      facts_(times.measure("self-test", [&] {
+        return gpu::self_test(
+            device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_);
+      })) {}
+
+std::shared_ptr<gpu::Kernel> OpenDevice::kernel(std::span<const uint32_t> spirv, const std::string& name) {
+  const std::string hash = ContentHash().add(std::as_bytes(spirv)).hex();
+  const auto found = std::ranges::find_if(
+      built_, [&](const Built& each) { return each.hash == hash && each.kernel.use_count() == 1; });
+  if (found != built_.end()) {
+    built_.splice(built_.begin(), built_, found);
+  } else {
+    built_.push_front({hash, std::make_shared<gpu::Kernel>(device_, spirv, name, cache_)});
+    if (built_.size() > most_kernels) built_.pop_back();
+  }
+  return built_.front().kernel;
+}
+
+std::shared_ptr<OpenDevice> open_device(const ExecutorOptions& options) {
+  StageTimes times;
+  return std::make_shared<OpenDevice>(options, times);
+}
+
+}  // namespace eyeray::executors

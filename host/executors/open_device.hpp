@@ -1,0 +1,42 @@
+// A device that is open, what was found out about it, and the kernels that were built on it: executors that
+// come one after the other share it, and start at once.
+#pragma once
+
+#include <list>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "host/core/disk_cache.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/executors/executor.hpp"
+#include "host/gpu/kernel.hpp"
+#include "host/gpu/self_test.hpp"
+
+namespace eyeray::executors {
+
+class OpenDevice {
+ public:
+  // Opens what the options select, and tests it. The time goes to `times`.
+  OpenDevice(const ExecutorOptions& options, StageTimes& times);
+
+  gpu::Device& device() { return device_; }
+  const gpu::DeviceFacts& facts() const { return facts_; }
+  const DiskCache& cache() const { return cache_; }
+
+  // The kernel of `spirv`: one that was built before where nobody has it now, buffers of its last use bound.
+  std::shared_ptr<gpu::Kernel> kernel(std::span<const uint32_t> spirv, const std::string& name);
+
+ private:
+  struct Built {
+    std::string hash;  // of the SPIR-V
+    std::shared_ptr<gpu::Kernel> kernel;
+  };
+
+  DiskCache cache_ = DiskCache::of_user();
+  gpu::Device device_;
+  gpu::DeviceFacts facts_;
+  std::list<Built> built_;  // the last used first
+};
+
+}  // namespace eyeray::executors
