@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "host/bench/dev_loop.hpp"
 #include "host/bench/standard_scenes.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
@@ -15,6 +16,7 @@ namespace eyeray::cli {
 namespace {
 
 struct BenchCommand {
+  bool dev = false;
   bench::Options options;
   std::string plot;
   std::string older;
@@ -24,6 +26,14 @@ struct BenchCommand {
 };
 
 ExitCode BenchCommand::run() const {
+  if (dev) {
+    const bench::DevLoopReport report = bench::measure_dev_loop(options.pictures.runs);
+    if (json)
+      print_json(bench::to_json(report));
+    else
+      fmt::print("{}", bench::to_text(report));
+    return ExitCode::ok;
+  }
   // Look at everything that may be wrong before measuring for minutes.
   for (const std::string& backend : options.pictures.backends) executors::parse_backend(backend);
   if (!plot.empty()) check_writable(plot);
@@ -109,6 +119,8 @@ void add_bench(CLI::App& app, Run& run) {
       ->option_text("FILE.svg");
   command->add_option("--compare", options->older, "Say what changed since an older answer of --json.")
       ->option_text("OLD.json");
+  command->add_flag("--dev", options->dev,
+                    "Only: how long eyeray dev takes from a save to new pixels, over -n edits of each kind.");
   command->add_flag("--json", options->json, "Answer as JSON on standard output.");
   command->footer(
       "Rays: from the eye, to the light, and bounced once, on the same rays as Embree's, in turns.\n"

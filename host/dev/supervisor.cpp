@@ -53,18 +53,17 @@ Supervisor::Supervisor(SupervisorOptions options, Report report)
   if (wake_ < 0) throw Error(ExitCode::file_io, "cannot make an eventfd: {}", strerror(errno));
 }
 
-ExitCode Supervisor::run() {
-  std::optional<WebServer> server;
+void Supervisor::begin() {
   if (options_.port && !options_.once) {
     const auto command = [this](const Json& json) {
       const std::lock_guard lock(commands_mutex_);
       commands_.push_back(json);
       ::eventfd_write(wake_, 1);
     };
-    server.emplace(board_, command, *options_.port);
+    server_.emplace(board_, command, *options_.port);
     report_({{"event", "listening"},
-             {"address", server->address()},
-             {"port", server->port()},
+             {"address", server_->address()},
+             {"port", server_->port()},
              {"wanted", *options_.port}});
   }
   board_.update([&](Json& status) {
@@ -75,14 +74,22 @@ ExitCode Supervisor::run() {
         {"pictures", Json::object()},       {"failure", nullptr},      {"stale", false}};
   });
   begin_revision();
+}
+
+void Supervisor::step() {
+  wait();
+  take_messages();
+  take_changes();
+  take_commands();
+  send_probe();
+}
+
+ExitCode Supervisor::run() {
+  begin();
   while (!interrupted()) {
-    wait();
-    take_messages();
+    step();
     // No save will help a machine without a device.
     if (result_ && (options_.once || (result_ == ExitCode::no_device && !seen_any_))) return *result_;
-    take_changes();
-    take_commands();
-    send_probe();
   }
   return ExitCode::interrupted;
 }
@@ -182,6 +189,7 @@ void Supervisor::handle(const Message& message) {
   const std::string event = json.value("event", "");
   if (event == "rows") {
     board_.put_rows(message);
+    report_(json);
     board_.update([&](Json& status) {
       status["stale"] = false;
       status["failure"] = nullptr;

@@ -30,13 +30,18 @@ struct SupervisorOptions {
 
 class Supervisor {
  public:
-  // What happened, on the supervisor's thread: the worker's "done" and "failed" (render_server.hpp), and
+  // What happened, on the supervisor's thread: the worker's "rows", "done" and "failed" (render_server.hpp),
+  // and
   // {"event": "changed", "files": […]} or {"event": "listening", "address": …}. A failure's "message" is
   // ready for a terminal.
   using Report = std::function<void(const Json&)>;
   Supervisor(SupervisorOptions options, Report report);
 
-  // Until interrupted() comes true or, with `once`, the first picture is there. Then: the exit code.
+  // Shows the page and asks for the first picture. Then, again and again: waits a little for whatever comes,
+  // and does what it asks for.
+  void begin();
+  void step();
+  // Both, until interrupted() comes true or, with `once`, the first picture is there. Then: the exit code.
   ExitCode run();
   const Board& board() const { return board_; }
 
@@ -83,6 +88,8 @@ class Supervisor {
   std::mutex commands_mutex_;
   std::vector<Json> commands_;
   int wake_ = -1;  // an eventfd
+
+  std::optional<WebServer> server_;  // the last member: its threads use the others
 };
 
 }  // namespace eyeray::dev

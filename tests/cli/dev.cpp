@@ -166,6 +166,77 @@ TEST_CASE("dev --once renders, or says what is wrong as editors and workflows re
   CHECK(told.at("diagnostics").at(0).at("column").get<int>() > 1);
 }
 
+TEST_CASE("the page of dev does what the manual says, in a browser" * doctest::test_suite("long")) {
+  const SceneFolder folder;
+  REQUIRE(run_eyeray({"shaders", "--export", folder / "shaders"}).code == 0);
+  Dev dev(folder, "60");
+  REQUIRE(dev.says("look at "));
+  const std::string words = dev.process().err();
+  const size_t from = words.find("http://");
+  const std::string address = words.substr(from, words.find('\n', from) - from);
+  const ProcessResult result = run_process(
+      {"node", "tests/cli/page/drive_dev.mjs", address, folder / "shaders", folder.path()}, {}, 900);
+  CAPTURE(result.err);
+  CAPTURE(dev.process().err());
+  CHECK(result.code == 0);
+  for (const char* picture : {"light.png", "failure.png", "dark.png"})
+    CHECK(std::filesystem::file_size(folder / picture) > 10'000);
+}
+
+TEST_CASE("dev outlives hostile shaders, and keeps the last good picture") {
+  const SceneFolder folder;
+  const std::string shaders = folder / "shaders", pixel = shaders + "/kernels/pixel.glsl";
+  REQUIRE(run_eyeray({"shaders", "--export", shaders}).code == 0);
+  const std::string good = read_text(pixel);
+  Dev dev(folder, "4");
+  REQUIRE(dev.says("rendered "));
+  const std::string picture = read_text(folder / "a.pfm");
+  const auto back_to_good = [&] {
+    write_text(pixel, good);
+    REQUIRE(dev.says("rendered "));
+    CHECK(read_text(folder / "a.pfm") == picture);
+  };
+
+  // So much work that it counts as endless; a newer edit need not wait for its end.
+  export_endless_shaders(folder / "endless");
+  write_text(pixel, read_text(folder / "endless/kernels/pixel.glsl"));
+  REQUIRE(dev.says("pixel.glsl changed"));
+  back_to_good();
+
+  SUBCASE("a loop of a milliard iterations") {
+    write_text(pixel,
+               with_pixel_code(
+                   good, "  for (int i = 0; i < 1000000000; ++i) color.x += sin(color.x + float(i));\n"));
+    REQUIRE(dev.says("pixel.glsl changed"));
+  }
+  SUBCASE("no number") {
+    write_text(pixel, with_pixel_code(good, "  color = vec3(sqrt(-1.0 - color.x * color.x));\n"));
+    REQUIRE(dev.says("rendered "));
+  }
+  SUBCASE("an error in what is included") {
+    write_text(shaders + "/kernels/tile.glsl", "nonsense\n" + read_text(shaders + "/kernels/tile.glsl"));
+    REQUIRE(dev.says("tile.glsl:1:"));
+    CHECK(read_text(folder / "a.pfm") == picture);
+    REQUIRE(run_eyeray({"shaders", "--export", shaders, "--force"}).code == 0);
+    REQUIRE(dev.says("rendered "));
+    CHECK(read_text(folder / "a.pfm") == picture);
+    return;
+  }
+  SUBCASE("stores beyond the end") {
+    const std::string entry = shaders + "/kernels/render.comp.glsl", text = read_text(entry);
+    write_text(entry,
+               replaced(text, "results[i] = render_sample(", "results[i + 100000000u] = render_sample("));
+    REQUIRE(dev.says("render.comp.glsl changed"));
+    // Whatever came of it, it said so, and is there for the next edit.
+    REQUIRE(dev.says("\n"));
+    write_text(entry, text);
+    REQUIRE(dev.says("rendered "));
+    CHECK(read_text(folder / "a.pfm") == picture);
+    return;
+  }
+  back_to_good();
+}
+
 TEST_CASE("dev says at once what no save can mend") {
   const SceneFolder folder;
   CHECK(run_eyeray({"dev", folder / "nope.toml"}).code == 4);

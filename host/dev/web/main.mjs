@@ -24,11 +24,18 @@ const stage = new Stage($('stage'), {
   wheel: steps => mode === 'orbit' && move_camera(nearer(camera_now(), 2 ** (-steps / 2))),
 });
 
+// Which state of a view's picture there is; nothing while there is none.
+function version_of(view) {
+  const { gpu, reference, [view]: own } = status.pictures;
+  return view === 'difference' ? gpu && reference && `${gpu}/${reference}` : own;
+}
+
 // One request at a time: the newest picture is fetched when the last one is there.
 async function refresh() {
-  const version = status.view === 'difference' ? `${status.pictures.gpu}/${status.pictures.reference}` : status.pictures[status.view];
+  const version = version_of(status.view);
   const wanted = `${status.view} ${version} ${$('exposure').value}`;
-  if (loading || version === undefined || wanted === shown_picture) return;
+  document.body.dataset.wanted = wanted;
+  if (loading || !version || wanted === shown_picture) return;
   loading = true;
   try {
     const answer = await fetch(`frame?view=${encodeURIComponent(status.view)}&exposure=${$('exposure').value}`);
@@ -48,7 +55,7 @@ async function refresh() {
 let asked = 0;
 async function show_values(at) {
   const turn = ++asked;
-  if (!at) { $('pixel').textContent = ''; return; }
+  if (!at || !version_of(status.view)) { $('pixel').textContent = ''; return; }
   const answer = await fetch(`values?view=${encodeURIComponent(status.view)}&x=${at[0]}&y=${at[1]}`).catch(() => null);
   if (turn !== asked || !answer?.ok) return;
   const [values] = await answer.json();

@@ -1,15 +1,49 @@
-// The rays of one pixel, as `eyeray probe` tells them; what differs is marked.
+// The rays of one pixel, as `eyeray probe` tells them: a value once where all agree, and what differs marked.
+
+const make = (tag, text, name) => {
+  const node = document.createElement(tag);
+  if (text !== undefined) node.textContent = text;
+  if (name) node.className = name;
+  return node;
+};
+
+const number = x => typeof x === 'number' && !Number.isInteger(x) ? String(Number(x.toPrecision(9))) : String(x);
+const text = value => value === undefined ? '–' : Array.isArray(value) ? value.map(number).join(' ') : number(value);
+
+function line(value, executors) {
+  const row = make('div', undefined, `line ${value.verdict ?? ''}`);
+  row.append(make('span', value.name, 'name'));
+  const texts = executors.map(name => text(value[name]));
+  if (!value.verdict) {
+    row.append(make('span', texts[0]));
+    return row;
+  }
+  const all = make('span');
+  executors.forEach((name, i) => all.append(make('div', `${texts[i]}  ${name}`)));
+  all.append(make('div', `${value.verdict}: ${value.difference}`, 'why'));
+  row.append(all);
+  return row;
+}
 
 export function show_probe(place, answer) {
   if (answer.message) {
     place.textContent = answer.message;
     return;
   }
-  place.replaceChildren(...answer.text.split('\n').map(line => {
-    const row = document.createElement('div');
-    row.textContent = line || ' ';
-    row.classList.toggle('differs', /◄|<--|differs/.test(line));
-    return row;
-  }));
+  const { rays, executors, notes, first_difference, sample, samples } = answer.findings, names = Object.keys(executors);
+  const depths = [];
+  const title = `pixel ${answer.x},${answer.y}` + (samples > 1 ? `, sample ${sample} of ${samples}` : '') +
+    (first_difference ? '' : `: ${names.join(', ')} agree`);
+  place.replaceChildren(make('p', title), ...notes.map(note => make('p', note)));
+  rays.forEach((ray, i) => {
+    depths[i] = ray.parent === undefined ? 0 : depths[ray.parent] + 1;
+    const item = make('details', undefined, ray.verdict ?? '');
+    item.style.marginLeft = `${Math.min(depths[i], 12) * 0.75}em`;
+    item.open = depths[i] < 2;
+    const shown = ray.ray === 'pixel' ? 'the pixel' : ray.light === undefined ? `${ray.ray} ray` : `shadow ray to light ${ray.light}`;
+    item.append(make('summary', shown + (ray.hits ? ` → ${ray.hits}` : '')), ...ray.values.map(value => line(value, names)));
+    if (ray.values.some(value => value.verdict === 'differs')) item.open = true;
+    place.append(item);
+  });
   place.scrollTop = 0;
 }

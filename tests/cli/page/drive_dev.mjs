@@ -1,0 +1,99 @@
+// Drives Debian's Chromium through the page of eyeray dev: node drive_dev.mjs ADDRESS SHADERS FOLDER. Screenshots go to FOLDER; exit code 1
+// with the reason where the page does not do what docs/dev-loop.md says of it.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { chromium } from 'playwright-core';
+
+const [address, shaders, folder] = process.argv.slice(2);
+const browser = await chromium.launch({
+  executablePath: '/usr/bin/chromium',
+  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+         '--disable-component-update', '--disable-sync', '--disable-dev-shm-usage'],
+  timeout: 300_000,
+});
+const page = await browser.newPage({ colorScheme: 'light', viewport: { width: 1280, height: 900 } });
+page.setDefaultTimeout(300_000);
+page.on('pageerror', error => { throw error; });
+page.on('console', message => assert.notEqual(message.type(), 'error', message.text()));
+page.on('request', request => assert.ok(request.url().startsWith(address) || request.url().startsWith('blob:'), `the page asks for ${request.url()}`));
+
+const body = name => page.evaluate(key => document.body.dataset[key], name);
+const stage = () => page.locator('#stage').evaluate(canvas => canvas.toDataURL());
+// Until the view's picture is done and shown as it is now.
+async function done(view) {
+  await page.waitForFunction(name => {
+    const { state, shown, wanted } = document.body.dataset;
+    return state === 'done' && shown === wanted && shown.startsWith(name + ' ');
+  }, view);
+}
+// What `action` brings about: the view's next picture.
+async function next(view, action) {
+  const generation = await body('generation');
+  await action();
+  await page.waitForFunction(before => document.body.dataset.generation !== before, generation);
+  await done(view);
+  return stage();
+}
+
+await page.goto(address);
+await done('gpu');
+const first = await stage();
+await page.screenshot({ path: `${folder}/light.png` });
+
+// An edit is seen; a broken one leaves the picture and says where; mended, all is as it was.
+const pixel = `${shaders}/kernels/pixel.glsl`, good = readFileSync(pixel, 'utf8');
+const with_code = code => {
+  const edited = good.replace('  return sample_result(', `  ${code}\n  return sample_result(`);
+  assert.notEqual(edited, good, 'the shader has changed: mend this test');
+  return edited;
+};
+const red = await next('gpu', () => writeFileSync(pixel, with_code('color.x += 0.25f;')));
+assert.notEqual(red, first);
+writeFileSync(pixel, with_code('color = nonsense;'));
+await page.locator('#failure:not([hidden])').waitFor();
+assert.match(await page.locator('#failure').textContent(), /pixel\.glsl:\d+:\d+: error: .*nonsense/);
+assert.match(await page.locator('#failure a').first().getAttribute('href'), /^vscode:\/\/file\/.*pixel\.glsl:\d+:\d+$/);
+assert.equal(await stage(), red, 'the last good picture stays');
+await page.screenshot({ path: `${folder}/failure.png` });
+assert.equal(await next('gpu', () => writeFileSync(pixel, good)), first);
+assert.ok(await page.locator('#failure').isHidden());
+
+// Each view has a key; AOVs are in a list.
+const views = new Set([first]);
+for (const [key, name] of [['2', 'twin'], ['d', 'difference']]) views.add(await next(name, () => page.keyboard.press(key)));
+views.add(await next('normal', () => page.locator('#aovs').selectOption('normal')));
+assert.equal(views.size, 3, 'the twin is the GPU\'s picture, the difference and the normals are not');
+assert.equal(await next('gpu', () => page.keyboard.press('1')), first);
+
+// Exposure and zoom change what is seen; a click shows the pixel's value and its rays.
+await page.keyboard.press(']');
+await done('gpu');
+assert.notEqual(await stage(), first);
+await page.keyboard.press('[');
+await done('gpu');
+await page.keyboard.press('+');
+assert.notEqual(await stage(), first);
+await page.keyboard.press('0');
+const box = await page.locator('#stage').boundingBox();
+const middle = [box.x + box.width / 2, box.y + box.height / 2];
+await page.mouse.click(...middle);
+await page.locator('#probe details').first().waitFor();
+assert.match(await page.locator('#probe').textContent(), /gpu, twin, reference agree/);
+assert.match(await page.locator('#pixel').textContent(), /^\d+,\d+ {2}[\d.]+/);
+
+// The camera goes round its target, and back.
+await page.keyboard.press('o');
+await page.mouse.move(...middle);
+await page.mouse.down();
+const turned = await next('gpu', () => page.mouse.move(middle[0] + 150, middle[1] - 40, { steps: 3 }));
+await page.mouse.up();
+await done('gpu');
+await next('gpu', () => page.keyboard.press('r'));
+assert.notEqual(turned, await stage());
+
+// Narrow and dark.
+await page.setViewportSize({ width: 390, height: 844 });
+await page.emulateMedia({ colorScheme: 'dark' });
+assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'the page is wider than a phone');
+await page.screenshot({ path: `${folder}/dark.png` });
+await browser.close();
