@@ -13,12 +13,3 @@ TEST_CASE("a crossing is a later one than the one before, whatever rounding make
     CHECK(shader::crossing_t(ray, before + 1e3f, before) == before + 1e3f);
   }
 }
-
-TEST_CASE("of the first piece no coarser one says that its bound may be rounding") {
-  shader::March march = shader::march_begin(0, 1, 1, 1e-6f);
-  march = shader::march_on(march, {0.1f, 0, 1});
-  CHECK(march.waiting == 0);
-  // Half as long, and no sharper: a point is asked.
-  march = shader::march_on(march, {0.1f, 0, 1});
-  CHECK(march.waiting > 0);
-}
