@@ -15,7 +15,7 @@ function line(value, executors) {
   row.append(make('span', value.name, 'name'));
   const texts = executors.map(name => text(value[name]));
   if (!value.verdict) {
-    row.append(make('span', texts[0]));
+    row.append(make('span', texts.find(each => each !== '–') ?? '–'));
     return row;
   }
   const all = make('span');
