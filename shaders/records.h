@@ -29,6 +29,7 @@ SHADER_BEGIN
 #define BINDING_NEXT_LIST 17
 #define BINDING_BVH4_NODES 18
 #define BINDING_PROBE 19
+#define BINDING_TUNABLES 20
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss

@@ -8,6 +8,7 @@
 #include "host/cli/json.hpp"
 #include "host/cli/within.hpp"
 #include "host/compare/report.hpp"
+#include "host/core/free_memory.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image_file.hpp"
 
@@ -123,6 +124,7 @@ void CompareCommand::write_maps(const image::Image& image_a, const image::Image&
 }
 
 ExitCode CompareCommand::run() const {
+  keep_freed_memory();  // metrics are made of planes as large as the pictures, dozens of them
   for (const auto& [option, file] :
        {std::pair{"--diff", diff}, {"--flip", flip}, {"--exposures", exposures}}) {
     if (file.empty()) continue;

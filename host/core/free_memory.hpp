@@ -1,11 +1,23 @@
 #pragma once
 
+#include <malloc.h>
+
+#include <limits>
+
 namespace eyeray {
 
 // Empties a vector or a string and gives its memory back, which `all = {}` would keep.
 template <typename Container>
 void free_memory(Container& all) {
   Container().swap(all);
+}
+
+// From now on memory that is given back stays the process's, where it is taken and given back again and
+// again: the system clears each page that it hands out.
+inline void keep_freed_memory() {
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_TOP_PAD, 64 << 20);
 }
 
 }  // namespace eyeray

@@ -19,7 +19,10 @@ void Board::put_rows(const Message& message) {
   const int64_t width = number("width"), height = number("height"), stride = number("stride");
   const int64_t row = number("row"), rows = number("rows"), channels = number("channels");
   if (!image::image_size_allowed(width, height) || stride < 1 || row < 0 || rows < 1) return;
+  if (stride > std::max(width, int64_t{64}) || row > height || rows > height) return;
   if (channels != 1 && channels != 3) return;
+  const int64_t shown_as = number("shown_as");
+  if (shown_as > int64_t(image::FalseColor::position)) return;
   const int64_t columns = (width + stride - 1) / stride;
   if (row + rows > (height + stride - 1) / stride) return;
   if (message.bytes.size() != size_t(columns * rows * channels) * sizeof(float)) return;
@@ -39,8 +42,7 @@ void Board::put_rows(const Message& message) {
       std::memcpy(image.pixel(int(x), int(y)), &message.bytes[size_t(from) * pixel], pixel);
     }
   }
-  if (const auto kind = message.json.find("shown_as"); kind != message.json.end())
-    pictures_[view].shown_as = image::FalseColor(kind->get<int>());
+  if (shown_as >= 0) pictures_[view].shown_as = image::FalseColor(shown_as);
   Json& version = status_["pictures"][view];
   version = version.is_number() ? version.get<uint64_t>() + 1 : 1;
   publish();

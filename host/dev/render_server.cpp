@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "host/core/atomic_file.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
+#include "host/dev/scene_tunables.hpp"
 #include "host/probe/probe.hpp"
 
 namespace eyeray::dev {
@@ -36,7 +38,11 @@ Json to_json(const Vec3& v) {
 }  // namespace
 
 RenderServer::RenderServer(Options options, MessageSocket socket)
-    : options_(std::move(options)), socket_(std::move(socket)) {}
+    : options_(std::move(options)),
+      socket_(std::move(socket)),
+      tunables_(std::make_shared<executors::Tunables>()) {
+  options_.executor.tunables = tunables_;
+}
 
 void RenderServer::serve() {
   while (!socket_.closed() && !interrupted()) {
@@ -65,6 +71,7 @@ void RenderServer::render(const Json& request) {
   generation_ = request.value("generation", int64_t{0});
   try {
     if (request.value("revision", int64_t{0}) != revision_) load(request);
+    choose_tunables(request.value("tunables", Json::object()));
     const auto views = request.value("views", std::vector<std::string>{"gpu"});
     for (size_t i = 0; i < views.size() && !outdated(); ++i) paint(views[i], i + 1 == views.size());
   } catch (const Error& error) {
@@ -77,17 +84,30 @@ void RenderServer::render(const Json& request) {
 void RenderServer::load(const Json& request) {
   revision_ = -1;
   executors_.clear();
+  tunables_->begin();
+  tunables_->as_constants = false;
   send("stage", {{"stage", "load"}});
   scene_ = options_.load(request.value("defines", std::vector<std::string>{}));
   revision_ = request.value("revision", int64_t{0});
   own_kernel_ = request.value("shaders_changed", true);
 
+  Json tunables = Json::array();
+  if (!scene_->files.empty() && scene_->files[0].extension() == ".toml")
+    for (const SceneTunable& each : scene_tunables(read_file(scene_->files[0])))
+      tunables.push_back({{"id", each.key},
+                          {"name", each.key},
+                          {"type", each.type},
+                          {"low", each.low},
+                          {"high", each.high},
+                          {"written", each.written},
+                          {"value", each.written}});
   Json files = Json::array();
   for (const auto& file : scene_->files) files.push_back(file.string());
   send("scene", {{"width", scene_->image.width},
                  {"height", scene_->image.height},
                  {"samples", scene_->image.samples},
                  {"files", std::move(files)},
+                 {"scene_tunables", std::move(tunables)},
                  {"warnings", to_json(scene_->warnings)},
                  {"camera",
                   {{"eye", to_json(scene_->camera.eye)},
@@ -96,8 +116,8 @@ void RenderServer::load(const Json& request) {
 }
 
 executors::Executor& RenderServer::executor_for(const View& view) {
-  auto& executor = executors_[{view.backend, view.needs()}];
-  if (executor) return *executor;
+  const auto known = executors_.find({view.backend, view.needs()});
+  if (known != executors_.end()) return *known->second;
   send("stage", {{"stage", "compile"}});
   if (view.backend == executors::Backend::gpu && !options_.executor.open_device)
     options_.executor.open_device = executors::open_device(options_.executor);
@@ -105,13 +125,53 @@ executors::Executor& RenderServer::executor_for(const View& view) {
   options.constants = options.constants && own_kernel_;
   options.ray_kinds = view.needs() == aov::AovNeeds::ray_kinds;
   options.search_cost = view.needs() == aov::AovNeeds::search_cost;
-  executor = executors::make_executor(view.backend, *scene_, options);
-  return *executor;
+  std::unique_ptr<executors::Executor> executor;
+  try {
+    executor = executors::make_executor(view.backend, *scene_, options);
+  } catch (const InputError&) {
+    // What moves may stand where the language wants a constant.
+    if (tunables_->found().empty() || tunables_->as_constants) throw;
+    tunables_->as_constants = true;
+    executor = executors::make_executor(view.backend, *scene_, options);
+  }
+  if (view.backend == executors::Backend::gpu) send_tunables();
+  return *(executors_[{view.backend, view.needs()}] = std::move(executor));
+}
+
+void RenderServer::choose_tunables(const Json& values) {
+  std::map<std::string, executors::Tunable::Value> chosen;
+  for (const auto& [id, numbers] : values.items()) {
+    executors::Tunable::Value value{};
+    for (size_t i = 0; i < std::min(numbers.size(), value.size()); ++i)
+      if (numbers[i].is_number()) value[i] = numbers[i];
+    chosen[id] = value;
+  }
+  if (std::exchange(tunables_->chosen, chosen) == chosen) return;
+  if (tunables_->as_constants)
+    executors_.clear();
+  else
+    for (const auto& [kind, executor] : executors_) executor->reload_tunables();
+}
+
+void RenderServer::send_tunables() {
+  constexpr const char* types[] = {"float", "int", "bool", "vec3"};
+  Json list = Json::array();
+  for (const executors::Tunable& each : tunables_->found())
+    list.push_back({{"id", each.id},
+                    {"name", each.name},
+                    {"type", types[size_t(each.type)]},
+                    {"low", each.low},
+                    {"high", each.high},
+                    {"written", each.written},
+                    {"value", tunables_->value(each)}});
+  send("tunables", {{"tunables", std::move(list)}});
 }
 
 void RenderServer::paint(const std::string& name, bool last) {
   const Stopwatch watch;
   const View view = parse_view(name);
+  const auto known = executors_.find({view.backend, view.needs()});
+  const StageTimes before = known != executors_.end() ? known->second->times() : StageTimes();
   executors::Executor& executor = executor_for(view);
   if (outdated()) return;
   send("stage", {{"stage", "render"}});
@@ -136,6 +196,7 @@ void RenderServer::paint(const std::string& name, bool last) {
   for (const auto& file : executor.source_files()) files.push_back(file.string());
   Json stages = Json::object();
   for (const auto& [stage, seconds] : executor.times().stages()) stages[stage] = seconds;
+  for (const auto& [stage, seconds] : before.stages()) stages[stage] = stages[stage].get<double>() - seconds;
   send("done", {{"view", name},
                 {"last", last},
                 {"device", executor.description()},

@@ -11,6 +11,7 @@
 #include "host/dev/message.hpp"
 #include "host/dev/painter.hpp"
 #include "host/executors/executor.hpp"
+#include "host/executors/tunables.hpp"
 
 namespace eyeray::dev {
 
@@ -18,6 +19,7 @@ namespace eyeray::dev {
 // two bands of rows, else when what was begun is done.
 //
 //   {"do": "render", "revision": 7, "generation": 12, "defines": ["camera.eye=[0,1,5]"], "views": ["gpu"]}
+//     "tunables": {"shapes/sphere.glsl:WIDTH": [0.5]}, the values chosen for constants of shaders
 //     the same revision: the same files and defines, nothing is loaded or compiled anew;
 //     with "shaders_changed" the kernel is the scene's own, which compiles in half the time, else one that
 //     does for other values too
@@ -25,7 +27,9 @@ namespace eyeray::dev {
 //
 // It sends, each with "event", and with the request's generation:
 //   "stage"   what it does now: "load", "compile" or "render"
-//   "scene"   what was loaded: "width", "height", "samples", "files" that were read, "camera"
+//   "scene"   what was loaded: "width", "height", "samples", "files" that were read, "camera", and
+//             "scene_tunables", as below
+//   "tunables"  what moves in the shaders, each with "id", "name", "type", "low", "high", "written", "value"
 //   "rows"    see Board::put_rows
 //   "done"    a view is complete, whether it is the "last": "device", "seconds", "stages", "rays", "samples",
 //   "files" "failed"  "code", "message", "diagnostics", and "files" that the messages name "probed"  what
@@ -45,6 +49,8 @@ class RenderServer {
   void render(const Json& request);
   void load(const Json& request);
   void paint(const std::string& view, bool last);
+  void choose_tunables(const Json& values);
+  void send_tunables();
   executors::Executor& executor_for(const View& view);
   void probe(const Json& request);
   void send(const char* event, Json json, std::string bytes = "");
@@ -56,6 +62,7 @@ class RenderServer {
   int64_t generation_ = 0;
   int64_t revision_ = -1;
   bool own_kernel_ = true;  // of this revision
+  std::shared_ptr<executors::Tunables> tunables_;
   std::optional<Scene> scene_;
   // Of this revision; by what they count.
   std::map<std::pair<executors::Backend, aov::AovNeeds>, std::unique_ptr<executors::Executor>> executors_;

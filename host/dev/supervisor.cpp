@@ -147,6 +147,7 @@ void Supervisor::ask_worker() {
                          {"shaders_changed", shaders_changed_},
                          {"generation", generation_},
                          {"defines", defines()},
+                         {"tunables", tunables_},
                          {"views", views()}},
                         ""};
   if (!worker_.socket().send(message)) lose_worker(ExitCode::bad_input, "");
@@ -158,10 +159,15 @@ void Supervisor::take_messages() {
   while (worker_.running()) {
     const std::optional<Message> message = worker_.socket().receive(0);
     if (message) {
-      if (message->json.value("generation", int64_t{-1}) != generation_) continue;  // of an older request
-      heard_ = true;
-      since_message_ = {};
-      handle(*message);
+      // A shader may have written over what the worker says.
+      try {
+        if (message->json.value("generation", int64_t{-1}) != generation_) continue;  // of an older request
+        heard_ = true;
+        since_message_ = {};
+        handle(*message);
+      } catch (const Json::exception&) {
+        lose_worker(ExitCode::bad_input, "the rendering process says what makes no sense");
+      }
       continue;
     }
     if (worker_.socket().closed())
@@ -200,9 +206,11 @@ void Supervisor::handle(const Message& message) {
   } else if (event == "scene") {
     scene_files_ = paths(json.value("files", Json::array()));
     board_.update([&](Json& status) {
-      for (const char* key : {"width", "height", "samples", "camera", "warnings"})
+      for (const char* key : {"width", "height", "samples", "camera", "warnings", "scene_tunables"})
         status[key] = json.value(key, Json());
     });
+  } else if (event == "tunables") {
+    board_.update([&](Json& status) { status["tunables"] = json.value("tunables", Json::array()); });
   } else if (event == "done") {
     if (!json.value("last", true)) return;
     busy_ = false;
@@ -299,6 +307,16 @@ void Supervisor::obey(const Json& command) {
         defines_[key] = value.is_string() ? value.get<std::string>() : value.dump();
     }
     begin_revision();
+  }
+  // Values of shaders' constants, by id; null gives one back to its text.
+  if (const auto found = command.find("tunables"); found != command.end() && found->is_object()) {
+    for (const auto& [id, value] : found->items()) {
+      if (value.is_array())
+        tunables_[id] = value;
+      else
+        tunables_.erase(id);
+    }
+    request();
   }
   if (const auto found = command.find("probe"); found != command.end() && found->is_array() &&
                                                 found->size() == 2 && (*found)[0].is_number_integer() &&

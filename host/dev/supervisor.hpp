@@ -80,6 +80,7 @@ class Supervisor {
   WakefulStopwatch since_message_;
   std::string view_;
   std::map<std::string, std::string> defines_;  // that the page laid over the scene
+  Json tunables_ = Json::object();              // values that the page chose
   std::optional<ExitCode> result_;              // of the last request
   bool seen_any_ = false;                       // picture
   std::optional<std::pair<int, int>> probe_;    // a pixel to look into once the worker has time

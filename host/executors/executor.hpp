@@ -51,6 +51,9 @@ class Executor {
   // to the eye, but the reference's. Only where ExecutorOptions::ray_kinds.
   virtual Probed probe(int x, int y, uint32_t index) = 0;
 
+  // Samples are from now on by the values that ExecutorOptions::tunables have now.
+  virtual void reload_tunables() {}
+
   // What each ray hits, and the seconds that tracing alone took: by the device's clock where it has one,
   // without the copying of rays and hits. hits.size() = batch.rays.size().
   virtual double query(const QueryBatch& batch, std::span<QueryHit> hits) = 0;
@@ -70,11 +73,13 @@ class Executor {
 };
 
 class OpenDevice;
+class Tunables;
 
 struct ExecutorOptions {
   std::string device = "auto";          // auto | cpu | gpu | INDEX | part of a NAME
   std::filesystem::path shader_folder;  // laid over the embedded shaders, file by file; empty: none
   bool fast_math = false;               // gpu: let the driver contract and re-associate
+  bool validate_spirv = false;          // gpu: what a kernel was compiled to, before the driver gets it
   std::string validation;               // gpu: "", "core" or "sync"
   double timeout_seconds = 60;          // gpu: the longest wait for one dispatch
   double least_compile_seconds = 0;     // gpu: if that is more, the longest that a kernel may compile
@@ -85,6 +90,7 @@ struct ExecutorOptions {
   bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
   bool optimise = true;                 // gpu: give the driver an optimised kernel
   std::shared_ptr<OpenDevice> open_device;  // gpu: taken as it is, and left open; null: one of its own
+  std::shared_ptr<Tunables> tunables;       // gpu: constants of shaders that move; null: none do
   std::string fault;                        // gpu, tests only: a fault to inject (docs/verification.md)
 };
 

@@ -119,6 +119,8 @@ class GpuExecutor final : public Executor {
     return seconds;
   }
 
+  void reload_tunables() override { kernels_->upload_tunables(); }
+
   uint64_t geometry_bytes() const override { return uploaded_.geometry_bytes(); }
 
   std::string description() const override {
@@ -158,11 +160,13 @@ class GpuExecutor final : public Executor {
       specialisation.packet_bvh =
           times_.measure("collapse", [&] { return pack::add_packet_bvh(packed, workgroups_.subgroup); });
 
-    gpu::KernelOptions how{
-        .strict = device_.info().float_modes, .optimise = options_.optimise, .flatten = profile_.flatten};
+    gpu::KernelOptions how{.strict = device_.info().float_modes,
+                           .optimise = options_.optimise,
+                           .flatten = profile_.flatten,
+                           .validate = options_.validate_spirv};
     if (options_.fast_math || fault_.contracts()) how.strict = std::nullopt;
-    kernels_.emplace(SceneKernels::Workshop{*open_device_, fault_, times_, how}, uploaded_,
-                     ShaderFiles(options_.shader_folder, specialise(packed, specialisation)));
+    kernels_.emplace(SceneKernels::Workshop{*open_device_, fault_, times_, how, options_.tunables.get()},
+                     uploaded_, ShaderFiles(options_.shader_folder, specialise(packed, specialisation)));
     if (!nodes.empty()) kernels_->make_bvh4_of(std::move(nodes), packed.bvhs[0]);
   }
 

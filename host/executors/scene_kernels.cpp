@@ -16,7 +16,9 @@ std::shared_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::s
   }
   const std::vector<uint32_t> spirv = workshop_.times.measure("shader compile", [&] {
     try {
-      return gpu::compile_kernel(source(entry), defines, workshop_.how, workshop_.device.cache()).spirv;
+      const gpu::ShaderSource text = source(entry);
+      if (moves_tunables()) defines += "#define TUNABLES 1\n";
+      return gpu::compile_kernel(text, defines, workshop_.how, workshop_.device.cache()).spirv;
     } catch (const InputError& error) {
       std::vector<Diagnostic> diagnostics = error.diagnostics();
       for (Diagnostic& d : diagnostics) d.position.file = files_.shown(d.position.file);
@@ -25,15 +27,32 @@ std::shared_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::s
   });
   auto kernel = workshop_.times.measure("pipeline", [&] { return workshop_.device.kernel(spirv, entry); });
   scene_.bind(*kernel);
+  if (moves_tunables()) {
+    upload_tunables();
+    kernel->set_buffer(BINDING_TUNABLES, *tunables_);
+  }
   return kernel;
 }
 
 gpu::ShaderSource SceneKernels::source(const std::string& entry) {
   const auto read = [&](std::string_view name) {
     auto text = files_.read(name);
+    if (text && workshop_.tunables) text = workshop_.tunables->apply(std::string(name), *text);
     return text ? std::optional(workshop_.fault.damage(name, std::move(*text))) : std::nullopt;
   };
   return gpu::read_shader(read, entry);
+}
+
+bool SceneKernels::moves_tunables() const {
+  return workshop_.tunables && !workshop_.tunables->as_constants && !workshop_.tunables->found().empty();
+}
+
+void SceneKernels::upload_tunables() {
+  if (!moves_tunables()) return;
+  const auto records = workshop_.tunables->records();
+  const auto bytes = std::as_bytes(std::span(records));
+  if (!tunables_) tunables_.emplace(workshop_.device.device(), bytes.size(), "tunables");
+  tunables_->upload(bytes);
 }
 
 void SceneKernels::upload_bvh4() {

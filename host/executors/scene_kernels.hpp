@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -11,6 +12,7 @@
 #include "host/executors/fault.hpp"
 #include "host/executors/open_device.hpp"
 #include "host/executors/shader_files.hpp"
+#include "host/executors/tunables.hpp"
 #include "host/executors/uploaded_scene.hpp"
 #include "host/gpu/kernel.hpp"
 #include "host/gpu/kernel_compiler.hpp"
@@ -30,6 +32,7 @@ class SceneKernels {
     const Fault& fault;
     StageTimes& times;
     gpu::KernelOptions how;
+    Tunables* tunables;  // null: none
   };
 
   SceneKernels(const Workshop& workshop, UploadedScene& scene, ShaderFiles files)
@@ -42,12 +45,14 @@ class SceneKernels {
   }
   // InputError where the text does not compile.
   std::shared_ptr<gpu::Kernel> make(const std::string& entry, std::string defines = "");
+  void upload_tunables();
   // The text of an entry and all that it includes.
   gpu::ShaderSource source(const std::string& entry);
   const std::set<std::filesystem::path>& looked_for() const { return files_.looked_for(); }
 
  private:
   void upload_bvh4();
+  bool moves_tunables() const;
 
   Workshop workshop_;
   UploadedScene& scene_;
@@ -55,6 +60,7 @@ class SceneKernels {
   RawVector<shader::uvec4> binary_nodes_;  // until they are collapsed
   shader::Bvh bvh_{};
   uint32_t bvh4_stack_ = 1;  // CollapsedBvh::stack_size
+  std::optional<gpu::Buffer> tunables_;
 };
 
 }  // namespace eyeray::executors

@@ -1,16 +1,71 @@
 #include "host/executors/shader_files.hpp"
 
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <vector>
+
 #include "host/core/atomic_file.hpp"
+#include "host/core/diagnostic.hpp"
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
 
 namespace eyeray::executors {
+namespace {
+
+constexpr std::string_view shared = "records.h";  // by shaders and host
+
+std::string_view embedded(std::string_view name) {
+  for (const EmbeddedShader& shader : embedded_shaders())
+    if (shader.name == name) return shader.text;
+  return {};
+}
+
+struct Line {
+  int number;
+  std::string text;  // as written
+  std::string code;  // without comment and space
+};
+
+std::vector<Line> code_lines(std::string_view text) {
+  std::vector<Line> lines;
+  std::istringstream stream{std::string(text)};
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    std::string code = line.substr(0, line.find("//"));
+    std::erase_if(code, [](unsigned char c) { return std::isspace(c); });
+    if (!code.empty()) lines.push_back({number, line, code});
+  }
+  return lines;
+}
+
+// The buffers' layout is compiled into the program: other records would be read as what they are not.
+void check_records(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return;
+  const std::vector<Line> theirs = code_lines(read_file(file)), ours = code_lines(embedded(shared));
+  const auto [at, own] = std::ranges::mismatch(theirs, ours, {}, &Line::code, &Line::code);
+  if (at == theirs.end() && own == ours.end()) return;
+  Diagnostic diagnostic;
+  diagnostic.position = {file.string(), at == theirs.end() ? 0 : at->number, 0};
+  diagnostic.message = fmt::format(
+      "the program was compiled with another {}, and packs scenes by that: it reads '{}' here; records can "
+      "be "
+      "changed in eyeray's own source alone",
+      shared, own == ours.end() ? "nothing more" : own->text);
+  if (at != theirs.end()) show_source_line(diagnostic, at->text);
+  throw InputError({std::move(diagnostic)});
+}
+
+}  // namespace
 
 ShaderFiles::ShaderFiles(std::filesystem::path folder, std::string scene_glsl)
     : folder_(std::move(folder)), scene_glsl_(std::move(scene_glsl)) {
   if (!folder_.empty() && !std::filesystem::is_directory(folder_))
     throw Error(ExitCode::file_io, "--shaders {}: not a folder; `eyeray shaders --export {}` makes one",
                 folder_.string(), folder_.string());
+  if (!folder_.empty()) check_records(folder_ / shared);
 }
 
 std::optional<std::string> ShaderFiles::read(std::string_view name) {
@@ -21,9 +76,8 @@ std::optional<std::string> ShaderFiles::read(std::string_view name) {
     std::error_code error;
     if (std::filesystem::is_regular_file(path, error)) return read_file(path);
   }
-  for (const EmbeddedShader& shader : embedded_shaders())
-    if (shader.name == name) return std::string(shader.text);
-  return std::nullopt;
+  const std::string_view text = embedded(name);
+  return text.empty() ? std::nullopt : std::optional(std::string(text));
 }
 
 std::string ShaderFiles::shown(const std::string& name) const {

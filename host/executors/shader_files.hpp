@@ -13,7 +13,8 @@ namespace eyeray::executors {
 class ShaderFiles {
  public:
   // `folder`: laid over the embedded shaders, file by file; empty: none. Error (file_io) when it is not a
-  // folder.
+  // folder; InputError where its records.h says something else than the one that the program was compiled
+  // with.
   ShaderFiles(std::filesystem::path folder, std::string scene_glsl);
 
   // The text of "shapes/sphere.glsl", or nothing.

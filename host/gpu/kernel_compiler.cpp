@@ -1,13 +1,25 @@
 #include "host/gpu/kernel_compiler.hpp"
 
 #include <cstring>
+#include <spirv-tools/libspirv.hpp>
 
 #include "host/core/content_hash.hpp"
+#include "host/core/error.hpp"
 #include "host/gpu/float_policy.hpp"
 #include "host/gpu/spirv_optimiser.hpp"
 
 namespace eyeray::gpu {
 namespace {
+
+void validate(const std::vector<uint32_t>& spirv, const std::string& entry) {
+  spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
+  std::string messages;
+  tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&, const char* message) {
+    messages += (messages.empty() ? "" : "; ") + std::string(message);
+  });
+  if (!tools.Validate(spirv))
+    throw Error(ExitCode::bad_input, "kernel '{}' compiles to SPIR-V that is not valid: {}", entry, messages);
+}
 
 // Everything that does not depend on the device.
 CompiledShader compile(const ShaderSource& source, std::string_view preamble, const KernelOptions& options,
@@ -28,6 +40,7 @@ CompiledShader compile(const ShaderSource& source, std::string_view preamble, co
   CompiledShader compiled = compile_shader(source, preamble);
   if (options.strict) compiled.spirv = decorate_no_contraction(compiled.spirv);
   if (options.optimise) compiled.spirv = optimise(compiled.spirv, options.flatten);
+  if (options.validate) validate(compiled.spirv, source.entry);
   if (compiled.warnings.empty())
     cache.store(name, {reinterpret_cast<const char*>(compiled.spirv.data()),
                        compiled.spirv.size() * sizeof(uint32_t)});

@@ -7,6 +7,9 @@
 layout(std430, binding = BINDING_PROBE) writeonly restrict buffer ProbeRecords { ProbeRecord probe_records[]; };
 #include "kernels/probe.glsl"
 #endif
+#ifdef TUNABLES
+layout(std430, binding = BINDING_TUNABLES) readonly restrict buffer Tunables { vec4 tunables[]; };
+#endif
 
 layout(push_constant) uniform PushConstants { Dispatch dispatch; };
 #if TEXEL_BUFFERS

@@ -109,6 +109,7 @@
 #ifndef TRACE_ITERATIONS  // that a ray makes outside BVHs
 #define TRACE_ITERATIONS 0u
 #endif
+//   TUNABLES              constants that eyeray dev lets people move, from a buffer (executors/tunables.hpp)
 //   LOOP_PROBE            2, from a buffer (kernels/loops.glsl); kernels/bindings.glsl defines it
 //   LOOP_BUDGET           defined where a driver caps loops: the iterations that a pixel may make (docs/lavapipe.md)
 

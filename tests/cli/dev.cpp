@@ -222,6 +222,18 @@ TEST_CASE("dev outlives hostile shaders, and keeps the last good picture") {
     CHECK(read_text(folder / "a.pfm") == picture);
     return;
   }
+  SUBCASE("other records than the program's") {
+    const std::string records = shaders + "/records.h", text = read_text(records);
+    write_text(records, "// A comment is no change.\n" + text);
+    write_text(pixel, with_pixel_code(good, "  color += 0.0f;\n"));
+    REQUIRE(dev.says("rendered "));
+    write_text(records, replaced(text, "  uint sample_index;\n", "  uint sample_number;\n"));
+    REQUIRE(dev.says("records.h:"));
+    REQUIRE(dev.says("the program was compiled with another records.h"));
+    REQUIRE(dev.says("stays as it was"));
+    write_text(records, text);
+    REQUIRE(dev.says("rendered "));
+  }
   SUBCASE("stores beyond the end") {
     const std::string entry = shaders + "/kernels/render.comp.glsl", text = read_text(entry);
     write_text(entry,

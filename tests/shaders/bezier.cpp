@@ -33,8 +33,8 @@ TEST_CASE("between two sections, (u, v) is the cubic with their values and slope
     CAPTURE(s);
     const shader::BezierSection there = section(-0.5f + 2 * s, 0, 0);
     const shader::vec2 uv = shader::bezier_between(a, b, s);
-    CHECK(uv.x == doctest::Approx(there.uv.x));
-    CHECK(uv.y == doctest::Approx(there.uv.y));
+    CHECK(uv.x == doctest::Approx(double(there.uv.x)));
+    CHECK(uv.y == doctest::Approx(double(there.uv.y)));
   }
 }
 

@@ -3,6 +3,7 @@ import { Stage } from './stage.mjs';
 import { orbited, nearer, flown } from './camera.mjs';
 import { show_failure } from './failure.mjs';
 import { show_probe } from './probe.mjs';
+import { show_tunables } from './tunables.mjs';
 
 const $ = id => document.getElementById(id);
 const keys = { gpu: '1', twin: '2', reference: '3', difference: 'd' };
@@ -70,21 +71,22 @@ function choose_pixel(at) {
   send({ probe: at });
 }
 
+// ---- Values that are moved: one request a frame at most, the newest of each ----
+let chosen = null;
+function choose(command) {
+  if (!chosen) requestAnimationFrame(() => { send(chosen); chosen = null; });
+  chosen = { ...chosen, ...Object.fromEntries(Object.entries(command).map(([key, values]) => [key, { ...chosen?.[key], ...values }])) };
+}
+
 // ---- The camera ----
 const camera_now = () => camera ?? status.camera;
-let camera_sent = true;
 function move_camera(to) {
   if (!status.camera) return true;
   camera = to;
   $('reset').hidden = false;
-  if (camera_sent) requestAnimationFrame(send_camera);
-  camera_sent = false;
-  return true;
-}
-async function send_camera() {
-  camera_sent = true;
   const text = v => `[${v.map(x => x.toPrecision(9)).join(', ')}]`;
-  await send({ defines: { 'camera.eye': text(camera.eye), 'camera.target': text(camera.target) } });
+  choose({ defines: { 'camera.eye': text(camera.eye), 'camera.target': text(camera.target) } });
+  return true;
 }
 function reset_camera() {
   camera = null;
@@ -110,6 +112,7 @@ function tell() {
     $('stages').textContent = [...Object.entries(status.stages).map(([name, s]) => `${name.padEnd(16)} ${ms(s)}`), '', status.device].join('\n');
   }
   show_failure($('failure'), status.failure);
+  show_tunables($('tunables-panel'), $('tunables'), status.tunables ?? [], status.scene_tunables ?? [], choose);
   show_views();
   if (status.probes && status.probes !== probes) {
     probes = status.probes;

@@ -81,6 +81,21 @@ await page.locator('#probe details').first().waitFor();
 assert.match(await page.locator('#probe').textContent(), /gpu, twin, reference agree/);
 assert.match(await page.locator('#pixel').textContent(), /^\d+,\d+ {2}[\d.]+/);
 
+// A constant with a control gets a slider, which compiles nothing; a value of the scene too.
+const slider = name => page.locator(`#tunables input[id$="${name}"]`);
+const tunable = good.replace('  return sample_result(', '  const float GLOW = 0.0f;  // @slider 0 1\n  color.y += GLOW;\n  return sample_result(');
+const dark = await stage();
+assert.equal(await next('gpu', () => writeFileSync(pixel, tunable)), dark);
+const glowing = await next('gpu', () => slider('GLOW').fill('0.75'));
+assert.notEqual(glowing, dark);
+const scene_file = `${folder}/scene.toml`, scene = readFileSync(scene_file, 'utf8');
+await next('gpu', () => writeFileSync(scene_file, scene.replace(/^radius = .*$/m, 'radius = 1.0  # @slider 0.25 1.5')));
+const smaller = await stage();
+assert.notEqual(await next('gpu', () => slider('sphere.0.radius').fill('0.5')), smaller);
+await page.screenshot({ path: `${folder}/tunables.png` });
+await next('gpu', () => writeFileSync(scene_file, scene));
+await next('gpu', () => writeFileSync(pixel, good));
+
 // The camera goes round its target, and back.
 await page.keyboard.press('o');
 await page.mouse.move(...middle);

@@ -1,0 +1,25 @@
+// Values of a scene that a person moves while looking at the picture:
+//
+//   radius = 1.25                 # @slider 0.1 3
+//   diffuse = [0.8, 0.3, 0.15]    # @color
+//   two_sided = true              # @checkbox
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace eyeray::dev {
+
+struct SceneTunable {
+  std::string key;   // as -D takes it: "sphere.0.radius"
+  std::string type;  // "float", "int", "bool" or "vec3"
+  double low = 0, high = 1;
+  std::array<double, 3> written{};  // of which a vec3 has three
+};
+
+// Those of a scene file's text, where each stands on a line of its own.
+std::vector<SceneTunable> scene_tunables(std::string_view text);
+
+}  // namespace eyeray::dev

@@ -1,0 +1,144 @@
+#include "host/executors/tunables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+
+namespace eyeray::executors {
+namespace {
+
+// 1: what stands before it, 2: type, 3: name, 4: value, 5: comment, 6: kind of control, 7: its numbers.
+const std::regex declaration(
+    R"(^(\s*)const\s+(float|int|bool|vec3)\s+(\w+)\s*=\s*(.*?);(\s*//\s*@(slider|color|checkbox)\b\s*(.*))$)");
+
+std::vector<double> numbers_in(const std::string& text) {
+  static const std::regex number(R"([-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?)");
+  std::vector<double> numbers;
+  for (std::sregex_iterator i(text.begin(), text.end(), number), end; i != end; ++i)
+    numbers.push_back(std::stod(i->str()));
+  return numbers;
+}
+
+// The value of "0.5f", "true" or "vec3(1, 0.5f, 0)", where it is as simple as that.
+std::optional<Tunable::Value> value_of(Tunable::Type type, const std::string& text) {
+  static const std::regex scalar(R"(\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?[fF]?\s*)");
+  if (type == Tunable::Type::boolean) {
+    if (text != "true" && text != "false") return std::nullopt;
+    return Tunable::Value{text == "true" ? 1.0 : 0.0};
+  }
+  if (type != Tunable::Type::vector) {
+    if (!std::regex_match(text, scalar)) return std::nullopt;
+    return Tunable::Value{numbers_in(text)[0]};
+  }
+  if (!text.starts_with("vec3(") || !text.ends_with(")")) return std::nullopt;
+  const std::vector<double> numbers = numbers_in(text.substr(5));
+  if (numbers.size() == 1) return Tunable::Value{numbers[0], numbers[0], numbers[0]};
+  if (numbers.size() != 3) return std::nullopt;
+  return Tunable::Value{numbers[0], numbers[1], numbers[2]};
+}
+
+std::string in_glsl(Tunable::Type type, const Tunable::Value& value) {
+  switch (type) {
+    case Tunable::Type::floating:
+      return fmt::format("float({:.9g})", value[0]);
+    case Tunable::Type::integer:
+      return fmt::format("{:.0f}", value[0]);
+    case Tunable::Type::boolean:
+      return value[0] != 0 ? "true" : "false";
+    case Tunable::Type::vector:
+      return fmt::format("vec3({:.9g}, {:.9g}, {:.9g})", value[0], value[1], value[2]);
+  }
+  return "";
+}
+
+std::string read_from_buffer(Tunable::Type type, size_t place) {
+  const std::string record = fmt::format("tunables[{}]", place);
+  switch (type) {
+    case Tunable::Type::floating:
+      return record + ".x";
+    case Tunable::Type::integer:
+      return fmt::format("int({}.x)", record);
+    case Tunable::Type::boolean:
+      return fmt::format("({}.x != 0.0f)", record);
+    case Tunable::Type::vector:
+      return record + ".xyz";
+  }
+  return "";
+}
+
+Tunable::Type type_named(const std::string& name) {
+  if (name == "float") return Tunable::Type::floating;
+  if (name == "int") return Tunable::Type::integer;
+  return name == "bool" ? Tunable::Type::boolean : Tunable::Type::vector;
+}
+
+// Whether a control of this kind moves values of this type.
+bool fits(const std::string& control, Tunable::Type type) {
+  if (control == "color") return type == Tunable::Type::vector;
+  if (control == "checkbox") return type == Tunable::Type::boolean;
+  return type == Tunable::Type::floating || type == Tunable::Type::integer;
+}
+
+}  // namespace
+
+void Tunables::begin() {
+  found_.clear();
+}
+
+size_t Tunables::place_of(const std::string& id) {
+  const size_t place = size_t(std::ranges::find(places_, id) - places_.begin());
+  if (place == places_.size()) places_.push_back(id);
+  return place;
+}
+
+std::string Tunables::apply(const std::string& file, std::string_view text) {
+  if (text.find("// @") == std::string_view::npos) return std::string(text);
+  std::string result;
+  int line_number = 0;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    std::string line(text.substr(begin, end - begin));
+    begin = end + 1;
+    ++line_number;
+    std::smatch match;
+    if (std::regex_match(line, match, declaration)) {
+      Tunable tunable{file + ":" + match[3].str(), file, match[3], line_number,
+                      type_named(match[2]),        0,    1,        {}};
+      const std::vector<double> range = numbers_in(match[7]);
+      if (range.size() == 2) tunable.low = range[0], tunable.high = range[1];
+      const std::optional<Tunable::Value> written = value_of(tunable.type, match[4]);
+      if (written && fits(match[6], tunable.type) && tunable.low < tunable.high) {
+        tunable.written = *written;
+        const size_t place = place_of(tunable.id);
+        if (as_constants || place >= most)
+          line = fmt::format("{}const {} {} = {};{}", match[1].str(), match[2].str(), tunable.name,
+                             in_glsl(tunable.type, value(tunable)), match[5].str());
+        else
+          line = fmt::format("#define {} {}", tunable.name, read_from_buffer(tunable.type, place));
+        if (std::ranges::find(found_, tunable.id, &Tunable::id) == found_.end()) found_.push_back(tunable);
+      }
+    }
+    result += line + '\n';
+  }
+  return result;
+}
+
+Tunable::Value Tunables::value(const Tunable& tunable) const {
+  const auto found = chosen.find(tunable.id);
+  return found == chosen.end() ? tunable.written : found->second;
+}
+
+std::array<std::array<float, 4>, Tunables::most> Tunables::records() const {
+  std::array<std::array<float, 4>, most> records{};
+  for (const Tunable& tunable : found_) {
+    const size_t place = size_t(std::ranges::find(places_, tunable.id) - places_.begin());
+    if (place >= most) continue;
+    const Tunable::Value now = value(tunable);
+    records[place] = {float(now[0]), float(now[1]), float(now[2]), 0};
+  }
+  return records;
+}
+
+}  // namespace eyeray::executors

@@ -1,0 +1,47 @@
+// What of a scene moves, and by which key.
+#include "host/dev/scene_tunables.hpp"
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray::dev;
+
+TEST_CASE("tunables of a scene are named as -D names them") {
+  const auto found = scene_tunables(R"(
+top = 1.5 # @slider 0 2
+[camera]
+fov = 45  # @slider 20 90
+up = [0, 1, 0]
+[[sphere]]      # the first
+radius = 1.0  #@slider .5 1e1
+[[sphere]]
+radius = 2.0  # @slider 0 3
+[sphere.extra]
+tint = [1, 0.5, 0.25]  # @color
+[[material]]
+two_sided = false      # @checkbox
+)");
+  REQUIRE(found.size() == 6);
+  CHECK(found[0].key == "top");
+  CHECK(found[1].key == "camera.fov");
+  CHECK(found[1].type == "int");
+  CHECK(found[1].low == 20);
+  CHECK(found[2].key == "sphere.0.radius");
+  CHECK(found[2].type == "float");
+  CHECK(found[2].low == 0.5);
+  CHECK(found[2].high == 10);
+  CHECK(found[3].key == "sphere.1.radius");
+  CHECK(found[3].written[0] == 2);
+  CHECK(found[4].key == "sphere.1.extra.tint");
+  CHECK(found[4].written == std::array<double, 3>{1, 0.5, 0.25});
+  CHECK(found[5].key == "material.0.two_sided");
+  CHECK(found[5].type == "bool");
+}
+
+TEST_CASE("what no control moves is left alone") {
+  for (const char* line : {"a = \"text\"  # @slider 0 1", "a = 1  # @slider 2 1", "a = [1, 2] # @color",
+                           "a = 1  # @checkbox", "# a = 1  # @slider 0 1", "a = 1  # slider 0 1"}) {
+    CAPTURE(line);
+    const auto found = scene_tunables(line);
+    CHECK(found.empty());
+  }
+}

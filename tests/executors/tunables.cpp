@@ -1,0 +1,58 @@
+// Constants of shaders that move.
+#include "host/executors/tunables.hpp"
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray::executors;
+
+TEST_CASE("a constant with a control is read from the buffer, in its own line") {
+  Tunables tunables;
+  const std::string text =
+      "a\nconst float WIDTH = 0.5f;  // @slider 0 2\n  const int COUNT = 3; // @slider 1 16\n"
+      "const vec3 TINT = vec3(1, 0.5f, 0.25f);  // @color\nconst bool ON = true;  // @checkbox\nz\n";
+  CHECK(tunables.apply("shapes/sphere.glsl", text) ==
+        "a\n#define WIDTH tunables[0].x\n#define COUNT int(tunables[1].x)\n#define TINT tunables[2].xyz\n"
+        "#define ON (tunables[3].x != 0.0f)\nz\n");
+  REQUIRE(tunables.found().size() == 4);
+  const Tunable& width = tunables.found()[0];
+  CHECK(width.id == "shapes/sphere.glsl:WIDTH");
+  CHECK(width.line == 2);
+  CHECK(width.low == 0);
+  CHECK(width.high == 2);
+  CHECK(tunables.value(width)[0] == 0.5);
+  CHECK(tunables.records()[2] == std::array<float, 4>{1, 0.5f, 0.25f, 0});
+  CHECK(tunables.records()[3][0] == 1);
+
+  // Another value, and the places stay when the texts are read anew, in another order too.
+  tunables.chosen["shapes/sphere.glsl:WIDTH"] = {1.5};
+  tunables.begin();
+  CHECK(tunables.found().empty());
+  CHECK(tunables.apply("a.glsl", "const float NEW = 1; // @slider 0 1\n") == "#define NEW tunables[4].x\n");
+  tunables.apply("shapes/sphere.glsl", text);
+  CHECK(tunables.records()[0][0] == 1.5f);
+}
+
+TEST_CASE("as constants they have the values that were chosen") {
+  Tunables tunables;
+  tunables.as_constants = true;
+  tunables.chosen["a:N"] = {7};
+  tunables.chosen["a:C"] = {0, 1, 0.5};
+  CHECK(tunables.apply("a",
+                       "const int N = 3;  // @slider 1 9\nconst vec3 C = vec3(1);  // @color\n"
+                       "const bool B = false;  // @checkbox\nconst float F = 2.5;  // @slider 0 9\n") ==
+        "const int N = 7;  // @slider 1 9\nconst vec3 C = vec3(0, 1, 0.5);  // @color\n"
+        "const bool B = false;  // @checkbox\nconst float F = float(2.5);  // @slider 0 9\n");
+}
+
+TEST_CASE("what is no such constant stays as it is") {
+  Tunables tunables;
+  for (const char* line :
+       {"const float X = 2.0f * Y;  // @slider 0 1\n", "float X = 2.0f;  // @slider 0 1\n",
+        "const float X = 2.0f;  // slider 0 1\n", "const float X = 2.0f;  // @slider 3 1\n",
+        "const float X = 2.0f;  // @color\n", "const vec3 X = vec3(1, 2);  // @color\n",
+        "const uint X = 2u;  // @slider 0 1\n", "const bool X = 1;  // @checkbox\n"}) {
+    CAPTURE(line);
+    CHECK(tunables.apply("a.glsl", line) == line);
+  }
+  CHECK(tunables.found().empty());
+}
