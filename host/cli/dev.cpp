@@ -8,6 +8,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
 #include "host/core/atomic_file.hpp"
+#include "host/core/github_text.hpp"
 #include "host/core/readable.hpp"
 #include "host/dev/render_server.hpp"
 #include "host/dev/supervisor.hpp"
@@ -59,19 +60,9 @@ std::vector<std::string> own_command(const std::string& more) {
 
 // "::error file=a.glsl,line=3,col=5::message", as GitHub's workflows read it.
 std::string github_annotation(const Json& diagnostic) {
-  const auto escaped = [](std::string text, bool property) {
-    std::string result;
-    for (const char c : text) {
-      if (c == '%' || c == '\n' || c == '\r' || (property && (c == ',' || c == ':')))
-        result += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-      else
-        result += c;
-    }
-    return result;
-  };
   return fmt::format("::{} file={},line={},col={}::{}", diagnostic.value("severity", "error"),
-                     escaped(diagnostic.value("file", ""), true), diagnostic.value("line", 0),
-                     diagnostic.value("column", 0), escaped(diagnostic.value("message", ""), false));
+                     github_text(diagnostic.value("file", ""), true), diagnostic.value("line", 0),
+                     diagnostic.value("column", 0), github_text(diagnostic.value("message", ""), false));
 }
 
 void DevCommand::report_picture(const Json& done, const dev::Board& board) {

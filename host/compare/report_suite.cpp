@@ -6,6 +6,7 @@
 
 #include "host/compare/report.hpp"
 #include "host/core/diagnostic.hpp"
+#include "host/core/github_text.hpp"
 
 namespace eyeray::compare {
 
@@ -46,18 +47,6 @@ std::string xml(std::string_view text) {
           escaped += c;
       }
     }
-  }
-  return escaped;
-}
-
-// Of any bytes, what a command of GitHub's can hold: a property's end at , and : too.
-std::string command_text(std::string_view text, bool property) {
-  std::string escaped;
-  for (const char c : printable(text)) {
-    if (c == '%' || (property && (c == ':' || c == ',')))
-      escaped += fmt::format("%{:02X}", c);
-    else
-      escaped += c;
   }
   return escaped;
 }
@@ -139,8 +128,8 @@ std::string to_annotations(std::span<const Report> reports) {
   std::string text;
   for (const Report& report : reports)
     for (const std::string& failure : report.failures())
-      text += fmt::format("::error file={},title=eyeray verify::{}\n", command_text(report.scene, true),
-                          command_text(failure.substr(0, failure.find('\n')), false));
+      text += fmt::format("::error file={},title=eyeray verify::{}\n", github_text(report.scene, true),
+                          github_text(failure.substr(0, failure.find('\n')), false));
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <iterator>
 
+#include "host/core/base64.hpp"
 #include "host/core/error.hpp"
 #include "host/image/image_file.hpp"
 
@@ -62,18 +63,6 @@ std::string in_blocks(const image::Image& picture) {
       text += "▀";
     }
     text += "\x1b[0m\n";
-  }
-  return text;
-}
-
-std::string base64(std::string_view bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
-    for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/compare/cause_picture.hpp"
+#include "host/core/base64.hpp"
 #include "host/image/image_file.hpp"
 #include "host/image/srgb.hpp"
 
@@ -18,18 +19,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr size_t most_pixels = 500;  // of which all values are in the page
-
-std::string base64(std::string_view bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t word = 0;
-    for (size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < bytes.size() ? uint8_t(bytes[i + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[word >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
 
 std::string data_url(const image::Image& image) {
   return "data:image/png;base64," + base64(image::encode_png(image));
