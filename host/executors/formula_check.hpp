@@ -9,8 +9,7 @@
 namespace eyeray::executors {
 
 // InputError, at the place in the user's text, where a formula has no Lipschitz constant and cannot be
-// bounded by affine forms; at the shape, where all formulas together are too much for a kernel. No device is
-// needed.
+// bounded by affine forms. No device is needed.
 void check_formulas(const Scene& scene);
 
 // Warnings, at the shapes, where samples say that a formula is steeper than its Lipschitz constant; always

@@ -8,11 +8,66 @@
 #include "host/formula/formula.hpp"
 
 namespace eyeray::executors {
+namespace {
+
+using formula::FormulaKind;
+using records::PackedFormula;
+
+// How rays find the surface of formula `i`.
+std::string surface_functions(size_t i, const PackedFormula& packed) {
+  const formula::Formula& formula = *packed.formula;
+  if (packed.by_bounds) {
+    const expression::StraightLine& line = formula.straight_line();
+    return expression::bound_text(line, fmt::format("formula{}_bound", i)) +
+           expression::gradient_text(line, fmt::format("formula{}_dual", i)) +
+           fmt::format(
+               "#define FORMULA_NAME(part) formula{0}_##part\n"
+               "#define FORMULA_BOUND(it, x, y, z) formula{0}_bound(x, y, z)\n"
+               "#define FORMULA_DUAL(it, p) formula{0}_dual(p)\n"
+               "#include \"shapes/implicit/bounded_search.glsl\"\n"
+               "#undef FORMULA_NAME\n#undef FORMULA_BOUND\n#undef FORMULA_DUAL\n",
+               i);
+  }
+  const std::string name = fmt::format("f{}_", i);
+  const std::string restart = formula.loops() ? "formula_turns = 0u; " : "";
+  return formula.kernel(name) +
+         fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i, restart, name) +
+         fmt::format("vec3 formula{}_gradient(vec3 p) {{ {}return {}; }}\n", i, restart,
+                     formula.has_gradient() ? name + "gradient(p)" : "vec3(0.0f, 0.0f, 0.0f)") +
+         fmt::format(
+             "#define FORMULA_NAME(part) formula{0}_##part\n#define FORMULA_VALUE(it, p) "
+             "formula{0}_value(p)\n"
+             "#define FORMULA_HAS_GRADIENT(it) {1}\n#define FORMULA_GRADIENT(it, p) formula{0}_gradient(p)\n"
+             "#include \"shapes/implicit/lipschitz_march.glsl\"\n"
+             "#undef FORMULA_NAME\n#undef FORMULA_VALUE\n#undef FORMULA_HAS_GRADIENT\n"
+             "#undef FORMULA_GRADIENT\n",
+             i, formula.has_gradient());
+}
+
+// Each colour's formula, and the one that picks by number.
+std::string color_functions(const std::vector<PackedFormula>& formulas) {
+  std::string text, choice;
+  for (size_t i = 0; i < formulas.size(); ++i) {
+    const formula::Formula& formula = *formulas[i].formula;
+    if (formula.kind() != FormulaKind::color) continue;
+    const std::string name = fmt::format("f{}_", i);
+    text += formula.kernel(name);
+    choice += fmt::format("  if (number == {}u) {{ {}color = {}color(uv); }}\n", i,
+                          formula.loops() ? "formula_turns = 0u; " : "", name);
+  }
+  if (choice.empty()) return "";
+  return text + "vec3 formula_color_of(uint number, vec2 uv) {\n  vec3 color = vec3(0.0f, 0.0f, 0.0f);\n" +
+         choice + "  return color;\n}\n#define FORMULA_COLOR(number, uv) formula_color_of(number, uv)\n";
+}
+
+}  // namespace
 
 std::string formula_functions(const records::PackedScene& scene) {
-  if (scene.formulas.empty()) return "#define FORMULAS(X)\n";
-  std::string text = "#include \"shapes/implicit/search.glsl\"\n";
-  const auto loops = [](const records::PackedFormula& f) { return !f.by_bounds && f.formula->loops(); };
+  const auto loops = [](const PackedFormula& f) { return !f.by_bounds && f.formula->loops(); };
+  const auto is_surface = [](const PackedFormula& f) { return f.formula->kind() == FormulaKind::surface; };
+  std::string text;
+  if (!scene.formulas.empty()) text += "#include \"math/formula.glsl\"\n";
+  if (std::ranges::any_of(scene.formulas, is_surface)) text += "#include \"shapes/implicit/search.glsl\"\n";
   if (std::ranges::any_of(scene.formulas, loops))
     text +=
         "uint formula_turns = 0u;\nbool formula_overran = false;\n#define FORMULA_OVERRAN formula_overran\n"
@@ -21,34 +76,11 @@ std::string formula_functions(const records::PackedScene& scene) {
         "!formula_overran;\n}\n";
   std::string rows;
   for (size_t i = 0; i < scene.formulas.size(); ++i) {
-    const formula::Formula& formula = *scene.formulas[i].formula;
-    const std::string name = fmt::format("f{}_", i);
+    if (!is_surface(scene.formulas[i])) continue;
     rows += fmt::format(" X({0}u, formula{0})", i);
-    if (scene.formulas[i].by_bounds) {
-      const expression::StraightLine& line = formula.straight_line();
-      text += expression::bound_text(line, fmt::format("formula{}_bound", i)) +
-              expression::gradient_text(line, fmt::format("formula{}_dual", i));
-      text += fmt::format(
-          "#define FORMULA_NAME(part) formula{0}_##part\n"
-          "#define FORMULA_BOUND(it, x, y, z) formula{0}_bound(x, y, z)\n"
-          "#define FORMULA_DUAL(it, p) formula{0}_dual(p)\n#include \"shapes/implicit/bounded_search.glsl\"\n"
-          "#undef FORMULA_NAME\n#undef FORMULA_BOUND\n#undef FORMULA_DUAL\n",
-          i);
-      continue;
-    }
-    text += formula.kernel(name);
-    const std::string restart = formula.loops() ? "formula_turns = 0u; " : "";
-    text += fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i, restart, name);
-    text += fmt::format("vec3 formula{}_gradient(vec3 p) {{ {}return {}; }}\n", i, restart,
-                        formula.has_gradient() ? name + "gradient(p)" : "vec3(0.0f, 0.0f, 0.0f)");
-    text += fmt::format(
-        "#define FORMULA_NAME(part) formula{0}_##part\n#define FORMULA_VALUE(it, p) formula{0}_value(p)\n"
-        "#define FORMULA_HAS_GRADIENT(it) {1}\n#define FORMULA_GRADIENT(it, p) formula{0}_gradient(p)\n"
-        "#include \"shapes/implicit/lipschitz_march.glsl\"\n"
-        "#undef FORMULA_NAME\n#undef FORMULA_VALUE\n#undef FORMULA_HAS_GRADIENT\n#undef FORMULA_GRADIENT\n",
-        i, formula.has_gradient());
+    text += surface_functions(i, scene.formulas[i]);
   }
-  return text + "#define FORMULAS(X)" + rows + "\n";
+  return text + color_functions(scene.formulas) + "#define FORMULAS(X)" + rows + "\n";
 }
 
 }  // namespace eyeray::executors

@@ -1,4 +1,5 @@
-// The GLSL of a scene's formulas, each with its own march: what shapes/implicit.glsl finds surfaces by.
+// The GLSL of a scene's formulas: colours for textures/formula.glsl, and for shapes/implicit.glsl surfaces,
+// each with a march of its own.
 #pragma once
 
 #include <string>

@@ -18,7 +18,7 @@ shader::QueryRay to_query_ray(const Query& ray, const Vec3& eye) {
 
 void check_ended(uint32_t flags) {
   if (flags & FLAG_ENDLESS)
-    throw Error(ExitCode::timed_out, formula::endless_formula("the function of an [[implicit]]"));
+    throw Error(ExitCode::timed_out, formula::endless_formula("a function of the scene"));
 }
 
 QueryHit to_query_hit(const shader::QueryHit& result) {

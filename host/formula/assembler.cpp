@@ -25,13 +25,14 @@ class Assembler {
     real_top_ = uint32_t(machine_.reals_.size());
     whole_top_ = uint32_t(machine_.wholes_.size());
 
-    // The three floats of p, then the call.
+    // The input's floats, then the call.
     machine_.input_ = real_top_;
-    real_top_ += 3;
-    const Slots p{{machine_.input_, machine_.input_ + 1, machine_.input_ + 2}, true, ir::Type::real};
+    machine_.input_count_ = program_.functions[number].input_count();
+    Slots input{{}, true, ir::Type::real};
+    while (input.at.size() < machine_.input_count_) input.at.push_back(real_top_++);
     Frame frame = enter(program_.functions[number]);
     machine_.results_ = slots(frame, frame.function.result).at;
-    call(frame, {p});
+    call(frame, {input});
     emit({.op = Machine::end});
     machine_.real_count_ = std::max(real_most_, real_top_);
     machine_.whole_count_ = std::max(whole_most_, whole_top_);
@@ -108,9 +109,10 @@ class Assembler {
     for (const auto& [to, from] : back) move(to, from);
   }
 
-  // Below this slots are constants, and p.
+  // Below this slots are constants, and the input.
   uint32_t input_end(ir::Type type) const {
-    return type == ir::Type::real ? machine_.input_ + 3 : uint32_t(machine_.wholes_.size());
+    return type == ir::Type::real ? machine_.input_ + machine_.input_count_
+                                  : uint32_t(machine_.wholes_.size());
   }
   static bool overlap(const Slots& a, const Slots& b) {
     const bool same_file = (a.type == ir::Type::real) == (b.type == ir::Type::real);

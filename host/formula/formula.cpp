@@ -21,6 +21,7 @@
 namespace eyeray::formula {
 
 struct Compiled {
+  Entry entry;
   Text text;
   Module module;
   ir::Program program;
@@ -33,9 +34,16 @@ namespace {
 // Of straight-line code: each is a call in kernels, and drivers take more than a second for a hundred.
 constexpr size_t most_steps = 512;
 
-// As glslang mangles them.
-const std::string value_name = std::string(user_prefix) + "f(vf3;";
-const std::string gradient_name = std::string(user_prefix) + "gradient(vf3;";
+// As glslang mangles it.
+std::string mangled(const Entry& entry) {
+  return fmt::format("{}{}(vf{};", user_prefix, entry.name, entry.parameter.back());
+}
+
+// A statement that calls it, so that a compiler keeps it.
+std::string call(const Entry& entry, int number) {
+  return fmt::format("values[{}].{} = {}{}(values[0].{});", number, entry.type == "float" ? "x" : "xyz",
+                     user_prefix, entry.name, entry.parameter == "vec2" ? "xy" : "xyz");
+}
 
 // "const TYPE NAME = TYPE(…);" a line each.
 std::string constants(const std::vector<FormulaParameter>& parameters) {
@@ -51,20 +59,20 @@ std::string constants(const std::vector<FormulaParameter>& parameters) {
   return text;
 }
 
-constexpr const char* entry = "formula.comp";
+constexpr const char* main_file = "formula.comp";
 constexpr const char* text_file = "text";
 
-// What glslang compiles: main calls what is to be kept.
-std::vector<uint32_t> spirv_of(const Text& text, const std::vector<FormulaParameter>& parameters) {
-  gpu::ShaderSource source{entry, {}};
+// What glslang compiles.
+std::vector<uint32_t> spirv_of(const Entry& entry, const Text& text,
+                               const std::vector<FormulaParameter>& parameters) {
+  gpu::ShaderSource source{main_file, {}};
   source.files[text_file] = text.glsl();
-  source.files[entry] = fmt::format(
+  source.files[main_file] = fmt::format(
       "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, set = 0, binding = 0) buffer Values {{ "
       "vec4 values[]; }};\n{}"
-      "#line 1 \"{}\"\n{}\n#line 1 \"{}\"\nvoid main() {{ vec3 p = values[0].xyz; values[0].w = {}f(p); {} "
-      "}}\n",
-      constants(parameters), text_file, source.files[text_file], entry, user_prefix,
-      text.has_gradient ? fmt::format("values[1].xyz = {}gradient(p);", user_prefix) : "");
+      "#line 1 \"{}\"\n{}\n#line 1 \"{}\"\nvoid main() {{ {} {} }}\n",
+      constants(parameters), text_file, source.files[text_file], main_file, call(entry, 1),
+      text.has_gradient ? call(gradient_entry, 2) : "");
   return gpu::compile_shader(source, "", gpu::Lines::kept).spirv;
 }
 
@@ -105,17 +113,18 @@ std::string without_prefix(std::string_view message) {
 }
 
 // The same text with the same parameters is compiled once for as long as somebody has it.
-std::shared_ptr<const Compiled> compiled(const Text& text, const std::vector<FormulaParameter>& parameters,
+std::shared_ptr<const Compiled> compiled(const Entry& entry, const Text& text,
+                                         const std::vector<FormulaParameter>& parameters,
                                          std::vector<Fault>& faults) {
   static std::mutex mutex;
   static std::map<std::string, std::weak_ptr<const Compiled>> known;
-  const std::string key = constants(parameters) + text.glsl();
+  const std::string key = mangled(entry) + constants(parameters) + text.glsl();
   const std::scoped_lock lock(mutex);
   std::erase_if(known, [](const auto& known_text) { return known_text.second.expired(); });
   if (const auto found = known.find(key); found != known.end()) return found->second.lock();
 
-  Module module(spirv_of(text, parameters));
-  ir::Program program = lower(module, value_name, gradient_name);
+  Module module(spirv_of(entry, text, parameters));
+  ir::Program program = lower(module, mangled(entry), text.has_gradient ? mangled(gradient_entry) : "");
   if (std::string why = limit(program); !why.empty()) {
     faults.push_back({1, 1, std::move(why)});
     return nullptr;
@@ -123,26 +132,31 @@ std::shared_ptr<const Compiled> compiled(const Text& text, const std::vector<For
   Machine value(program, program.value);
   std::optional<Machine> gradient;
   if (!program.gradient.empty()) gradient.emplace(program, program.gradient[0]);
-  const std::shared_ptr<const Compiled> result(
-      new Compiled{text, std::move(module), std::move(program), std::move(value), std::move(gradient)});
+  const std::shared_ptr<const Compiled> result(new Compiled{
+      entry, text, std::move(module), std::move(program), std::move(value), std::move(gradient)});
   known[key] = result;
   return result;
 }
 
 }  // namespace
 
-Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std::string title)
-    : text_(std::move(text)), parameters_(std::move(parameters)), title_(std::move(title)) {
+Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std::string title,
+                 FormulaKind kind)
+    : text_(std::move(text)), parameters_(std::move(parameters)), title_(std::move(title)), kind_(kind) {
   std::vector<Fault> faults;
-  Text judged = read_text(text_.text, faults);
-  for (const FormulaParameter& parameter : parameters_)
+  Text judged = read_text(text_.text, kind, faults);
+  for (const FormulaParameter& parameter : parameters_) {
+    if (parameter.name == entry_of(kind).name)
+      faults.push_back(
+          {1, 1, fmt::format("no parameter can be called `{}`: that is the function", parameter.name)});
     for (const double value : parameter.values)
       if (!std::isfinite(float(value)))
         faults.push_back(
             {1, 1, fmt::format("the parameter `{}` = {:g} is beyond float32", parameter.name, value)});
+  }
   if (faults.empty()) {
     try {
-      compiled_ = compiled(judged, parameters_, faults);
+      compiled_ = compiled(entry_of(kind), judged, parameters_, faults);
     } catch (const InputError& error) {
       throw InputError(in_text(error, judged));
     }
@@ -172,7 +186,7 @@ std::vector<Diagnostic> Formula::in_text(const InputError& error, const Text& te
 }
 
 bool Formula::same(const Formula& other) const {
-  return text_.text == other.text_.text && parameters_ == other.parameters_;
+  return kind_ == other.kind_ && text_.text == other.text_.text && parameters_ == other.parameters_;
 }
 
 bool Formula::has_gradient() const {
@@ -184,7 +198,7 @@ double Formula::instructions() const {
 }
 
 std::string Formula::kernel(const std::string& name) const {
-  return kernel_text(compiled_->program, name);
+  return kernel_text(compiled_->program, compiled_->entry, name);
 }
 
 bool Formula::loops() const {
@@ -196,7 +210,7 @@ const expression::StraightLine& Formula::straight_line() const {
     try {
       expression::Expression expression;
       Execution execution(compiled_->module, expression);
-      straight_line_ = expression::straight_line(expression, execution.run(value_name));
+      straight_line_ = expression::straight_line(expression, execution.run(mangled(compiled_->entry)));
       if (straight_line_.size() > most_steps)
         throw InputError(
             {{Severity::error,
@@ -214,18 +228,28 @@ const expression::StraightLine& Formula::straight_line() const {
   return straight_line_;
 }
 
-float Formula::value(const std::array<float, 3>& p) const {
-  float value = 0;
+template <size_t Results, typename T, size_t Inputs>
+std::array<T, Results> Formula::run(const std::array<T, Inputs>& input, uint64_t* turns) const {
+  std::array<T, Results> results{};
   stop_if_interrupted();
-  if (!compiled_->value.run(p, &value)) endless();
-  return value;
+  if (!compiled_->value.run(input, results.data(), turns)) endless();
+  return results;
+}
+
+float Formula::value(const std::array<float, 3>& p) const {
+  return run<1>(p)[0];
 }
 
 double Formula::value(const std::array<double, 3>& p, uint64_t* turns) const {
-  double value = 0;
-  stop_if_interrupted();
-  if (!compiled_->value.run(p, &value, turns)) endless();
-  return value;
+  return run<1>(p, turns)[0];
+}
+
+std::array<float, 3> Formula::color(const std::array<float, 2>& uv) const {
+  return run<3>(uv);
+}
+
+std::array<double, 3> Formula::color(const std::array<double, 2>& uv) const {
+  return run<3>(uv);
 }
 
 std::array<float, 3> Formula::gradient(const std::array<float, 3>& p) const {
@@ -243,7 +267,7 @@ bool is_formula_name(const std::string& name) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
   };
   return !name.empty() && !(name[0] >= '0' && name[0] <= '9') && std::ranges::all_of(name, is_part) &&
-         name != "f" && !name.starts_with("gl_") && !is_type(name) && !is_keyword(name) && !is_refused(name);
+         !name.starts_with("gl_") && !is_type(name) && !is_keyword(name) && !is_refused(name);
 }
 
 std::string endless_formula(const std::string& title) {

@@ -1,7 +1,7 @@
-// A scalar function of a point that a user has written in GLSL. Its text is a stranger's: it is judged,
-// compiled by glslang, and forgotten. What its SPIR-V says, with nothing undefined left (formula/ir.hpp), is
-// what every executor runs. docs/implicit-surfaces.md says which GLSL, docs/security.md what a stranger can
-// do with it.
+// A function that a user has written in GLSL: a surface's, of a point, or a colour's, of its place on a
+// surface. Its text is a stranger's: it is judged, compiled by glslang, and forgotten. What its SPIR-V says,
+// with nothing undefined left (formula/ir.hpp), is what every executor runs. docs/formulas.md says which
+// GLSL, docs/security.md what a stranger can do with it.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 
 #include "host/core/diagnostic.hpp"
 #include "host/expression/expression.hpp"
+#include "host/formula/entry.hpp"
 
 namespace eyeray::formula {
 
@@ -36,11 +37,13 @@ class Formula {
  public:
   // InputError with every fault, at its place. `title`: for messages, "the formula of [[implicit]] at
   // scene.toml:12".
-  Formula(FormulaText text, std::vector<FormulaParameter> parameters, std::string title);
+  Formula(FormulaText text, std::vector<FormulaParameter> parameters, std::string title,
+          FormulaKind kind = FormulaKind::surface);
   ~Formula();
   Formula(const Formula&) = delete;
   Formula& operator=(const Formula&) = delete;
 
+  FormulaKind kind() const { return kind_; }
   const std::string& title() const { return title_; }
   const FormulaText& text() const { return text_; }
   // Whether it is the same function as the other one.
@@ -50,8 +53,8 @@ class Formula {
   // Instructions, with functions written where they are called: what a kernel's compiler has to do with it.
   double instructions() const;
 
-  // `float NAMEf(vec3 p)`, `vec3 NAMEgradient(vec3 p)` if it has one, and what they need, as GLSL for
-  // kernels, beside shaders/math/formula.glsl. Loops ask `bool formula_turn(uint turns)`, if there are any
+  // What the text must define, `float NAMEf(vec3 p)` say, and what it has beside that, as GLSL for kernels
+  // that have shaders/math/formula.glsl. Loops ask `bool formula_turn(uint turns)`, if there are any
   // that must (loops()).
   std::string kernel(const std::string& name) const;
   bool loops() const;
@@ -61,21 +64,27 @@ class Formula {
   // whole numbers computed from p.
   const expression::StraightLine& straight_line() const;
 
-  // In float32, to the bit what kernels compute, and in float64. Error (timed_out) where the loops make more
-  // turns than FORMULA_TURNS of math/formula.glsl. Thread-safe. `turns`, if given, grows by those that were
-  // made.
+  // A surface's, in float32, to the bit what kernels compute, and in float64. Error (timed_out) where the
+  // loops make more turns than FORMULA_TURNS of math/formula.glsl. Thread-safe. `turns`, if given, grows by
+  // those that were made.
   float value(const std::array<float, 3>& p) const;
   double value(const std::array<double, 3>& p, uint64_t* turns = nullptr) const;
   // The text's own, if it has one.
   std::array<float, 3> gradient(const std::array<float, 3>& p) const;
+  // A colour's, likewise.
+  std::array<float, 3> color(const std::array<float, 2>& uv) const;
+  std::array<double, 3> color(const std::array<double, 2>& uv) const;
 
  private:
+  template <size_t Results, typename T, size_t Inputs>
+  std::array<T, Results> run(const std::array<T, Inputs>& input, uint64_t* turns = nullptr) const;
   [[noreturn]] void endless() const;
   std::vector<Diagnostic> in_text(const InputError& error, const Text& text) const;
 
   FormulaText text_;
   std::vector<FormulaParameter> parameters_;
   std::string title_;
+  FormulaKind kind_;
   std::shared_ptr<const Compiled> compiled_;
   mutable std::once_flag straightened_;
   mutable expression::StraightLine straight_line_;

@@ -162,6 +162,12 @@ struct Function {
   std::vector<Parameter> parameters;
   Place result;
   Block body;
+
+  // The numbers that the first parameter has.
+  uint32_t input_count() const {
+    const Place& input = parameters[0].place;
+    return input.is_array ? arrays[size_t(input.array)].length : uint32_t(input.numbers.size());
+  }
 };
 
 struct Constant {
@@ -180,7 +186,7 @@ struct Program {
   std::vector<Constant> constants;
   std::map<Constant, uint32_t> constant_numbers;
   std::vector<Table> tables;
-  uint32_t value = 0;                // the function f
+  uint32_t value = 0;                // the function that the text must define
   std::vector<uint32_t> gradient{};  // the function gradient, if there is one
   bool counts_turns = false;
 };

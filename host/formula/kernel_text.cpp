@@ -178,13 +178,14 @@ std::string_view pattern(Op op) {
 
 class Writer {
  public:
-  Writer(const ir::Program& program, const std::string& name) : program_(program), name_(name) {}
+  Writer(const ir::Program& program, const Entry& entry, const std::string& name)
+      : program_(program), entry_(entry), name_(name) {}
 
   std::string run() {
     for (size_t i = 0; i < program_.tables.size(); ++i) write_table(i);
     for (size_t i = 0; i < program_.functions.size(); ++i) write_function(i);
-    write_entry("float", "f", program_.value);
-    for (const uint32_t gradient : program_.gradient) write_entry("vec3", "gradient", gradient);
+    write_entry(entry_, program_.value);
+    for (const uint32_t gradient : program_.gradient) write_entry(gradient_entry, gradient);
     return std::move(text_);
   }
 
@@ -256,15 +257,16 @@ class Writer {
     close();
   }
 
-  void write_entry(std::string_view type, std::string_view what, uint32_t number) {
+  void write_entry(const Entry& entry, uint32_t number) {
     const ir::Function& function = program_.functions[number];
-    open(fmt::format("{} {}{}(vec3 p)", type, name_, what));
-    std::vector<std::string> arguments{"p.x", "p.y", "p.z"};
+    open(fmt::format("{} {}{}({} p)", entry.type, name_, entry.name, entry.parameter));
+    std::vector<std::string> arguments;
+    for (uint32_t i = 0; i < function.input_count(); ++i) arguments.push_back(fmt::format("p.{}", "xyz"[i]));
     const ir::Parameter& p = function.parameters[0];
     if (p.place.is_array || p.written) {
-      line("float q[3] = float[3](p.x, p.y, p.z);");
-      arguments =
-          p.place.is_array ? std::vector<std::string>{"q"} : std::vector<std::string>{"q[0]", "q[1]", "q[2]"};
+      line("float q[{0}] = float[{0}]({1});", arguments.size(), fmt::join(arguments, ", "));
+      for (size_t i = 0; i < arguments.size(); ++i) arguments[i] = fmt::format("q[{}]", i);
+      if (p.place.is_array) arguments = {"q"};
     }
     const bool in_array = function.result.is_array;
     const size_t count = in_array ? 1 : function.result.numbers.size();
@@ -275,7 +277,7 @@ class Writer {
     }
     arguments.insert(arguments.end(), results.begin(), results.end());
     line("{}{}({});", name_, number, fmt::join(arguments, ", "));
-    line("return {}({});", type, fmt::join(results, ", "));
+    line("return {}({});", entry.type, fmt::join(results, ", "));
     close();
   }
 
@@ -363,6 +365,7 @@ class Writer {
   }
 
   const ir::Program& program_;
+  const Entry& entry_;
   const std::string& name_;
   const ir::Function* function_ = nullptr;
   std::string text_;
@@ -372,8 +375,8 @@ class Writer {
 
 }  // namespace
 
-std::string kernel_text(const ir::Program& program, const std::string& name) {
-  return Writer(program, name).run();
+std::string kernel_text(const ir::Program& program, const Entry& entry, const std::string& name) {
+  return Writer(program, entry, name).run();
 }
 
 }  // namespace eyeray::formula

@@ -3,13 +3,14 @@
 
 #include <string>
 
+#include "host/formula/entry.hpp"
 #include "host/formula/ir.hpp"
 
 namespace eyeray::formula {
 
-// `float NAMEf(vec3 p)`, `vec3 NAMEgradient(vec3 p)` if there is one, and what they call; needs
+// The entry, its name behind `name`, `vec3 NAMEgradient(vec3 p)` if there is one, and what they call; needs
 // shaders/math/formula.glsl and, where loops are counted, `bool formula_turn(uint)`. One operation a
 // statement, on numbers alone: nothing of the user's text is left, and nothing for a compiler to fold.
-std::string kernel_text(const ir::Program& program, const std::string& name);
+std::string kernel_text(const ir::Program& program, const Entry& entry, const std::string& name);
 
 }  // namespace eyeray::formula

@@ -12,8 +12,7 @@ struct Size {
   double instructions = 0;
   double branches = 0;  // and loops
   double memory = 0;    // numbers in arrays
-  // Instructions of one call, a loop that is counted gone round once. docs/implicit-surfaces.md tells the
-  // limits.
+  // Instructions of one call, a loop that is counted gone round once. docs/security.md tells the limits.
   double work = 0;
 };
 

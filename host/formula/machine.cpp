@@ -113,13 +113,14 @@ struct Machine::Files {
 };
 
 template <typename T>
-bool Machine::run_as(const std::array<T, 3>& p, T* result, uint64_t* turns) const {
+bool Machine::run_as(std::span<const T> input, T* result, uint64_t* turns) const {
   using F = Functions<T>;
   using ir::Op;
   Files<T>& files = Files<T>::of(*this);
   T* const r = files.reals.data();
   uint32_t* const w = files.wholes.data();
-  std::ranges::copy(p, r + input_);
+  CHECK(input.size() == input_count_);
+  std::ranges::copy(input, r + input_);
   uint64_t made = 0;
   const Code* at = code_.data();
 
@@ -233,11 +234,11 @@ bool Machine::run_as(const std::array<T, 3>& p, T* result, uint64_t* turns) cons
   }
 }
 
-bool Machine::run(const std::array<float, 3>& p, float* result, uint64_t* turns) const {
-  return run_as<float>(p, result, turns);
+bool Machine::run(std::span<const float> input, float* result, uint64_t* turns) const {
+  return run_as(input, result, turns);
 }
-bool Machine::run(const std::array<double, 3>& p, double* result, uint64_t* turns) const {
-  return run_as<double>(p, result, turns);
+bool Machine::run(std::span<const double> input, double* result, uint64_t* turns) const {
+  return run_as(input, result, turns);
 }
 
 }  // namespace eyeray::formula

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "host/formula/ir.hpp"
@@ -14,15 +15,15 @@ namespace eyeray::formula {
 
 class Machine {
  public:
-  // `function`: of the program, of a vec3; limit() must have found nothing.
+  // `function`: of the program, of one vector; limit() must have found nothing.
   Machine(const ir::Program& program, uint32_t function);
 
-  // The numbers that the function gives: one, or three. In float32 by the shaders' own functions
+  // What the function of `input` gives, all its numbers. In float32 by the shaders' own functions
   // (math/formula.glsl), so that the bits are a kernel's; in float64 by those of C's library. False where
   // loops that are counted make more turns than FORMULA_TURNS; `turns`, if given, grows by those made.
   // Thread-safe.
-  bool run(const std::array<float, 3>& p, float* result, uint64_t* turns = nullptr) const;
-  bool run(const std::array<double, 3>& p, double* result, uint64_t* turns = nullptr) const;
+  bool run(std::span<const float> input, float* result, uint64_t* turns = nullptr) const;
+  bool run(std::span<const double> input, double* result, uint64_t* turns = nullptr) const;
 
  private:
   friend class Assembler;
@@ -53,14 +54,15 @@ class Machine {
   struct Files;
 
   template <typename T>
-  bool run_as(const std::array<T, 3>& p, T* result, uint64_t* turns) const;
+  bool run_as(std::span<const T> input, T* result, uint64_t* turns) const;
 
   uint64_t id_;  // no other machine's
   std::vector<Code> code_;
   std::vector<float> reals_;  // constants, with which the file of floats begins
   std::vector<uint32_t> wholes_;
   size_t real_count_ = 0, whole_count_ = 0;
-  uint32_t input_ = 0;             // the first of three floats
+  uint32_t input_ = 0;  // the first of the input's floats
+  uint32_t input_count_ = 0;
   std::vector<uint32_t> results_;  // floats
 };
 

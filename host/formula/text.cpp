@@ -26,7 +26,7 @@ constexpr size_t most_compared = size_t{1} << 15;
 
 class Judge {
  public:
-  Judge(Text& text, std::vector<Fault>& faults) : t_(text), faults_(faults) {}
+  Judge(Text& text, FormulaKind kind, std::vector<Fault>& faults) : t_(text), kind_(kind), faults_(faults) {}
 
   void run() {
     if (!pair_brackets()) return;
@@ -65,9 +65,10 @@ class Judge {
   void judge_chains();
   void judge_globals();
   void judge_entries();
-  bool defines(std::string_view type, std::string_view name) const;
+  bool defines(const Entry& entry) const;
 
   Text& t_;
+  FormulaKind kind_;
   std::vector<Fault>& faults_;
   std::vector<size_t> partner_;  // of each bracket; elsewhere none
   std::vector<Function> functions_;
@@ -220,20 +221,23 @@ void Judge::judge_globals() {
   }
 }
 
-// Whether there is TYPE NAME(vec3 p) { … }.
-bool Judge::defines(std::string_view type, std::string_view name) const {
+// Whether there is TYPE NAME(PARAMETER p) { … }.
+bool Judge::defines(const Entry& entry) const {
   return std::ranges::any_of(functions_, [&](const Function& function) {
     size_t i = function.type;
-    if (!function.defined || !is(i, type) || !is(i + 1, name)) return false;
+    if (!function.defined || !is(i, entry.type) || !is(i + 1, entry.name)) return false;
     const size_t close = partner_[i + 2];
     for (i += 3; is(i, "const") || is(i, "in");) ++i;
-    return is(i, "vec3") && i + 2 == close;
+    return is(i, entry.parameter) && i + 2 == close;
   });
 }
 
 void Judge::judge_entries() {
-  t_.has_gradient = defines("vec3", "gradient");
-  if (!defines("float", "f")) faults_.push_back({1, 1, "the text must have a function `float f(vec3 p)`"});
+  t_.has_gradient = kind_ == FormulaKind::surface && defines(gradient_entry);
+  if (const Entry entry = entry_of(kind_); !defines(entry))
+    faults_.push_back({1, 1,
+                       fmt::format("the text must have a function `{} {}({} {})`", entry.type, entry.name,
+                                   entry.parameter, kind_ == FormulaKind::surface ? "p" : "uv")});
 }
 
 }  // namespace
@@ -265,7 +269,7 @@ std::vector<Text::Place> Text::places() const {
   return places;
 }
 
-Text read_text(std::string_view text, std::vector<Fault>& faults) {
+Text read_text(std::string_view text, FormulaKind kind, std::vector<Fault>& faults) {
   Text result;
   if (text.size() > most_bytes) {
     faults.push_back({1, 1, fmt::format("a formula has at most {} bytes", most_bytes)});
@@ -273,7 +277,7 @@ Text read_text(std::string_view text, std::vector<Fault>& faults) {
   }
   result.tokens = tokenize(text, faults);
   result.is_name.resize(result.tokens.size(), false);
-  Judge(result, faults).run();
+  Judge(result, kind, faults).run();
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/formula/entry.hpp"
 #include "host/formula/fault.hpp"
 #include "host/formula/token.hpp"
 
@@ -17,7 +18,7 @@ inline constexpr std::string_view user_prefix = "user_";
 struct Text {
   std::vector<Token> tokens;
   std::vector<bool> is_name;  // of the text's own, for each token
-  bool has_gradient = false;  // whether it defines `vec3 gradient(vec3 p)`
+  bool has_gradient = false;  // whether it defines one, of a surface
 
   // Where a token of glsl() stands in the text; both from 1.
   struct Place {
@@ -31,8 +32,8 @@ struct Text {
 };
 
 // Adds to `faults` what is wrong with the text, each at its place. Without faults a compiler may see it: it
-// is of at most 64 KiB, nests at most 64 deep, chains at most 500 operators, and has only words that formulas
-// know.
-Text read_text(std::string_view text, std::vector<Fault>& faults);
+// is of at most 64 KiB, nests at most 64 deep, chains at most 500 operators, has only words that formulas
+// know, and defines what one of its kind must.
+Text read_text(std::string_view text, FormulaKind kind, std::vector<Fault>& faults);
 
 }  // namespace eyeray::formula

@@ -8,16 +8,17 @@ namespace eyeray::loader {
 
 namespace {
 
-void refuse(const toml::node& node, bool in_implicit, DiagnosticLog& log) {
+// `may_have`: whether what stands in it may have a function.
+void refuse(const toml::node& node, bool may_have, DiagnosticLog& log) {
   if (const toml::array* array = node.as_array())
-    for (const toml::node& element : *array) refuse(element, in_implicit, log);
+    for (const toml::node& element : *array) refuse(element, may_have, log);
   const toml::table* table = node.as_table();
   if (!table) return;
   for (const auto& [key, value] : *table) {
-    if (in_implicit && (key == "code" || key == "file"))
+    if (may_have && (key == "code" || key == "file"))
       log.error(position_of(value.source()),
                 fmt::format("`{}` has a function, which --no-formulas refuses", key.str()));
-    refuse(value, in_implicit || key == "implicit", log);
+    refuse(value, may_have || key == "implicit" || key == "formula", log);
   }
 }
 

@@ -14,6 +14,9 @@ namespace eyeray::records {
 
 namespace {
 
+// Of formulas, together in one kernel.
+constexpr double most_formula_instructions = 1 << 15;
+
 size_t hash_bytes(std::span<const std::byte> bytes) {
   return std::hash<std::string_view>{}({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
@@ -30,6 +33,13 @@ uint32_t Packer::add_formula(const std::shared_ptr<const formula::Formula>& form
   auto& all = scene.formulas;
   for (size_t i = 0; i < all.size(); ++i)
     if (formula->same(*all[i].formula) && all[i].by_bounds == by_bounds) return uint32_t(i);
+  formula_instructions_ += formula->instructions();
+  if (formula_instructions_ > most_formula_instructions)
+    throw InputError({{Severity::error, formula->text().start,
+                       fmt::format("all functions up to {} have {} instructions, and may have {}: fewer of "
+                                   "them, or shorter ones",
+                                   formula->title(), formula_instructions_, most_formula_instructions),
+                       ""}});
   all.push_back({formula, by_bounds});
   return uint32_t(all.size() - 1);
 }

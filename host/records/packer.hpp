@@ -24,7 +24,7 @@ namespace eyeray::records {
 
 struct PackedFormula {
   std::shared_ptr<const formula::Formula> formula;
-  bool by_bounds;  // instead of stepped along by a Lipschitz constant
+  bool by_bounds;  // a surface's: instead of stepped along by a Lipschitz constant
 };
 
 // A scene as the shaders see it; every position is relative to the camera's eye.
@@ -50,7 +50,7 @@ struct PackedScene {
   // How much larger, seen from the world, rounding is in a shape's own space: |linear| · |inverse|, the
   // largest of all shapes.
   float map_growth = 1;
-  std::vector<PackedFormula> formulas;     // of implicit shapes, by number
+  std::vector<PackedFormula> formulas;     // by number
   uint64_t shape_iterations = 0;           // that shapes' own loops take, all shapes together
   bool may_reach_iteration_limit = false;  // whether any shape may return T_ITERATION_LIMIT
   std::vector<shader::Material> materials;
@@ -102,7 +102,8 @@ class Packer {
   // Writes the texels of all images: a second copy of them, which only executors need.
   void write_texels();
   // The number of a formula; equal formulas share one. `by_bounds`: rays find its surface by affine bounds.
-  uint32_t add_formula(const std::shared_ptr<const formula::Formula>& formula, bool by_bounds);
+  // InputError, at the text, where all formulas together are too much for a kernel.
+  uint32_t add_formula(const std::shared_ptr<const formula::Formula>& formula, bool by_bounds = false);
   // The number of a medium, 1 … 255; `absorption` per unit of length.
   uint32_t add_medium(double ior, const Vec3& absorption);
 
@@ -117,6 +118,7 @@ class Packer {
   };
 
   Vec3 origin_;
+  double formula_instructions_ = 0;
   std::vector<PlacedImage> images_;
   // By the hash of what is to be shared: places in images_, and in scene.textures.
   std::unordered_multimap<size_t, size_t> images_by_texels_;

@@ -3,6 +3,7 @@
 
 #include "host/formula/formula.hpp"
 #include "host/records/packer.hpp"
+#include "host/scene/formula_reader.hpp"
 #include "host/shapes/cube.hpp"
 #include "host/shapes/formula_surface.hpp"
 #include "host/shapes/keys.hpp"
@@ -15,7 +16,7 @@ namespace eyeray::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(All points p between `min` and `max` where a function f(p) is negative, f being GLSL of yours. [implicit-surfaces.md](implicit-surfaces.md) says which GLSL.
+    R"(All points p between `min` and `max` where a function f(p) is negative, f being GLSL of yours. [formulas.md](formulas.md) says which GLSL, [implicit-surfaces.md](implicit-surfaces.md) how rays find it.
 
 ```toml
 [[implicit]]
@@ -87,16 +88,13 @@ constexpr Key keys[] = {
      .type = KeyType::formula,
      .doc = "The function, `float f(vec3 p)`, and what it calls.",
      .optional = true},
-    {.name = "file",
-     .type = KeyType::formula_file,
-     .doc = "The name of a file with it, relative to the scene file that it stands in.",
-     .optional = true},
+    formula_file_key,
     {.name = "ready",
      .type = KeyType::choice,
      .doc = "One that comes with eyeray.",
      .choices = ready_names,
      .optional = true},
-    {.name = "parameters", .type = KeyType::parameters, .doc = "Constants that it sees.", .optional = true},
+    parameters_key,
     box_min_key,
     box_max_key,
     {.name = "lipschitz",
@@ -191,32 +189,14 @@ class Implicit final : public ObjectShape {
 
 // The text and its parameters, from whichever key has them; null after an error. A ready one knows its
 // `lipschitz`, if it has one.
-std::shared_ptr<const formula::Formula> read_formula(TableReader& table, double& lipschitz) {
-  constexpr std::string_view sources[] = {"code", "file", "ready"};
-  if (const auto given = std::ranges::count_if(sources, [&](auto key) { return table.has(key); });
-      given != 1) {
-    for (const std::string_view key : sources)
-      if (given == 0 || table.has(key)) {
-        table.error(key, given == 0 ? "[[implicit]] needs its function: one of `code`, `file` and `ready`"
-                                    : "[[implicit]] has one function: either `code`, `file` or `ready`");
-        return nullptr;
-      }
-  }
-  std::vector<formula::FormulaParameter> parameters =
-      table.has("parameters") ? table.parameters("parameters") : std::vector<formula::FormulaParameter>();
-  const SourcePosition at = table.position();
-  const std::string title = fmt::format("the function of [[implicit]] at {}:{}", at.file, at.line);
-  if (!table.has("ready")) {
-    const formula::FormulaText text = table.formula(table.has("code") ? "code" : "file");
-    try {
-      return std::make_shared<const formula::Formula>(text, std::move(parameters), title);
-    } catch (const InputError& faults) {
-      table.error(faults);
-      return nullptr;
-    }
-  }
+std::shared_ptr<const formula::Formula> formula_of(TableReader& table, double& lipschitz) {
+  constexpr std::string_view owner = "[[implicit]]";
+  if (!has_one_source(table, {"code", "file", "ready"}, owner)) return nullptr;
+  if (!table.has("ready")) return read_formula(table, owner, formula::FormulaKind::surface);
 
   // Lay what is given over the defaults.
+  std::vector<formula::FormulaParameter> parameters =
+      table.has("parameters") ? table.parameters("parameters") : std::vector<formula::FormulaParameter>();
   const ReadyFormula& ready = ready_formulas()[size_t(table.choice("ready"))];
   std::vector<formula::FormulaParameter> all = ready.parameters;
   for (formula::FormulaParameter& given : parameters) {
@@ -245,7 +225,8 @@ std::shared_ptr<const formula::Formula> read_formula(TableReader& table, double&
     return nullptr;
   }
   return std::make_shared<const formula::Formula>(
-      formula::FormulaText{std::string(ready.text), {std::string(ready.name), 0, 0}}, std::move(all), title);
+      formula::FormulaText{std::string(ready.text), {std::string(ready.name), 0, 0}}, std::move(all),
+      formula_title(table, owner));
 }
 
 std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
@@ -253,7 +234,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   const Vec3 max = table.vec3("max");
   const bool declared = table.has("lipschitz");
   double lipschitz = declared ? table.number("lipschitz") : 0;
-  const auto formula = table.failed() ? nullptr : read_formula(table, lipschitz);
+  const auto formula = table.failed() ? nullptr : formula_of(table, lipschitz);
   if (table.failed()) return nullptr;
   if (!(min.x < max.x && min.y < max.y && min.z < max.z)) {
     table.error("max", "the box has no volume: max must be above min in each coordinate");

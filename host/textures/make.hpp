@@ -1,6 +1,7 @@
 // Textures built in code, by materials, importers and tests; a scene file's go through their TextureType.
 #pragma once
 
+#include "host/formula/formula.hpp"
 #include "host/scene/image_texture.hpp"
 #include "host/scene/texture.hpp"
 
@@ -11,6 +12,9 @@ TexturePtr make_constant(const Vec3& color);
 // A checkerboard in uv: the check that holds (u, v) is `even` where floor(u / size.x) + floor(v / size.y) is
 // even.
 TexturePtr make_checker(const Vec3& even, const Vec3& odd, const Vec2& size);
+
+// What the formula, a colour's, says of uv, each component within 0 and 1, times `tint`.
+TexturePtr make_formula(std::shared_ptr<const formula::Formula> formula, const Vec3& tint = Vec3(1));
 
 // A picture in uv, times `tint`: (0, 0) is its lower left corner, `size` its upper right. As an alpha, its
 // own times the first component of `tint`.

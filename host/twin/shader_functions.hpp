@@ -68,6 +68,10 @@ class Binding {
       bound_scene->formulas[number].formula->gradient(std::array{p.x, p.y, p.z});
   return {gradient[0], gradient[1], gradient[2]};
 }
+[[maybe_unused]] vec3 load_formula_color(uint number, const vec2& uv) {
+  const std::array<float, 3> color = bound_scene->formulas[number].formula->color(std::array{uv.x, uv.y});
+  return {color[0], color[1], color[2]};
+}
 // Each ray that hits asks for one, and a pixel may have rays without end.
 [[maybe_unused]] const Material& load_material(uint i) {
   stop_if_interrupted();
@@ -111,6 +115,7 @@ class Binding {
 #define FORMULA_GRADIENT(it, p) load_formula_gradient(it.formula, p)
 #define FORMULA_BOUND(it, x, y, z) load_formula_bound(it.formula, x, y, z)
 #define FORMULA_DUAL(it, p) load_formula_dual(it.formula, p)
+#define FORMULA_COLOR(number, uv) load_formula_color(number, uv)
 
 #undef PROBE
 #undef PROBE_RAY

@@ -80,14 +80,15 @@
 //   INTEGRATORS
 //   INTEGRATOR_IS      (number): whether that is the frame's
 
-// ---- Formulas of [[implicit]] ---------------------------------------------------------------------------------------
-//   FORMULAS              (X): X(number, name) of each; shapes/implicit/*.glsl are included once for each …
+// ---- Formulas -------------------------------------------------------------------------------------------------------
+//   FORMULAS              (X): X(number, name) of each surface's; shapes/implicit/*.glsl are included once for each …
 //   FORMULA_NAME          … with this to name their functions, (part), …
 //   FORMULA_VALUE         … and these to ask the formula
 //   FORMULA_HAS_GRADIENT
 //   FORMULA_GRADIENT
 //   FORMULA_BOUND
 //   FORMULA_DUAL
+//   FORMULA_COLOR         (number, uv): what a colour's formula says
 //   FORMULA_OVERRAN       defined where a formula loops: whether one made too many turns
 
 // ---- What is compiled in: defined or not; the twin has none of it ----------------------------------------------------

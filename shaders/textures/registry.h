@@ -3,5 +3,6 @@
 #define TEXTURES(X)      \
   X(constant, 0u, false) \
   X(checker, 1u, true)   \
-  X(image, 2u, true)
+  X(image, 2u, true)     \
+  X(formula, 3u, true)
 #endif

@@ -80,6 +80,55 @@ TEST_CASE("a function that does not end is a time-out, whoever runs it") {
   CHECK(folder.names() == std::set<std::string>{"f.glsl", "scene.toml"});
 }
 
+TEST_CASE("a color's function that does not compile, does not end or is not trusted is told as a surface's") {
+  const SceneFolder folder;
+  replace_in_file(folder.scene(), "diffuse = [0.8, 0.4, 0.2]",
+                  "diffuse = { formula = { file = \"c.glsl\" } }");
+  const auto render = [&](const std::string& backend, const std::string& text) {
+    write_text(folder / "c.glsl", text);
+    return run_eyeray({"render", folder.scene(), "--backend", backend, "-o", folder / "a.png", "--quiet"});
+  };
+  for (const std::string backend : {"gpu", "twin", "reference"}) {
+    const ProcessResult wrong = render(backend, "vec3 color(vec2 uv) {\n  return uv.xyx * missing;\n}\n");
+    CAPTURE(wrong.err);
+    CHECK(wrong.code == 2);
+    CHECK(wrong.err.find(folder / "c.glsl" + ":2:19: error: 'missing': undeclared identifier") !=
+          std::string::npos);
+    const ProcessResult endless = render(
+        backend, "vec3 color(vec2 uv) {\n  while (uv.x > 0.1) uv.y += 1.0;\n  return vec3(uv.y);\n}\n");
+    CAPTURE(endless.err);
+    CHECK(endless.code == 5);
+    CHECK(endless.err.find("did not come to an end") != std::string::npos);
+    CHECK(render(backend, "vec3 color(vec2 uv) { return vec3(sqrt(-uv.x), 1.0 / 0.0, -1.0); }\n").code == 0);
+  }
+  const ProcessResult refused = run_eyeray({"check", folder.scene(), "--no-formulas"});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("error: `file` has a function, which --no-formulas refuses") != std::string::npos);
+}
+
+TEST_CASE("all functions of a scene together have a size that a kernel takes") {
+  const SceneFolder folder;
+  std::string text = "float g0(float x) { return x * x + shift; }\n";
+  for (int i = 1; i <= 10; ++i)
+    text += fmt::format("float g{0}(float x) {{ return g{1}(x) + g{1}(x + {0}.0); }}\n", i, i - 1);
+  write_text(folder / "c.glsl", text + "vec3 color(vec2 uv) { return vec3(g10(uv.x)); }\n");
+  std::ofstream scene(folder.scene(), std::ios::app);
+  for (int i = 0; i < 4; ++i)
+    scene << fmt::format(
+        "[[material]]\nname = \"m{0}\"\ntype = \"phong\"\ndiffuse = {{ formula = {{ file = \"c.glsl\", "
+        "parameters = {{ shift = {0} }} }} }}\n[[sphere]]\ncenter = [{0}, 3, 0]\nradius = 0.4\nmaterial = "
+        "\"m{0}\"\n",
+        i);
+  scene.close();
+  const ProcessResult result = run_eyeray({"check", folder.scene()});
+  CAPTURE(result.err);
+  CHECK(result.code == 2);
+  CHECK(result.err.find(folder / "c.glsl" +
+                        ":1:1: error: all functions up to the function of { formula = … } at ") !=
+        std::string::npos);
+  CHECK(result.err.find("instructions, and may have 32768") != std::string::npos);
+}
+
 TEST_CASE("a function that is not a number is no surface, and no NaN in the picture") {
   const FormulaFolder folder("float f(vec3 p) { return sqrt(-1.0 - p.x * p.x); }\n");
   for (const std::string backend : {"gpu", "twin", "reference"}) {

@@ -130,6 +130,11 @@ std::string Writer::texture(const Key& key) {
   const TextureType& type = one_of(std::span<const TextureType* const>(tables_));
   std::vector<std::string> values;
   for (Key own : type.keys) {
+    if (own.type == KeyType::formula_file) continue;  // there is none
+    if (own.type == KeyType::formula) {
+      values.push_back("code = \"vec3 color(vec2 uv) { return vec3(uv, 1.0 / uv.x); }\"");
+      continue;
+    }
     if (own.type == KeyType::color) own.max = std::min(own.max, key.max);
     if (own.fallback.empty() || chance(0.7)) values.push_back(fmt::format("{} = {}", own.name, value(own)));
   }

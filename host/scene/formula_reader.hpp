@@ -1,0 +1,34 @@
+// Formulas of users from the keys of a scene's tables.
+#pragma once
+
+#include <initializer_list>
+#include <memory>
+
+#include "host/formula/formula.hpp"
+#include "host/scene/table_reader.hpp"
+
+namespace eyeray {
+
+// Keys by which a table brings the text of a formula, and its constants; `code`, with a doc of its own, is
+// another.
+inline constexpr Key formula_file_key{
+    .name = "file",
+    .type = KeyType::formula_file,
+    .doc = "The name of a file with it, relative to the scene file that it stands in.",
+    .optional = true};
+inline constexpr Key parameters_key{
+    .name = "parameters", .type = KeyType::parameters, .doc = "Constants that it sees.", .optional = true};
+
+// Whether one of the keys `sources` stands in the table, and no other of them; an error where not. `owner`,
+// for messages: "[[implicit]]".
+bool has_one_source(TableReader& table, std::initializer_list<std::string_view> sources,
+                    std::string_view owner);
+
+// Of the table's formula, for messages: "the function of [[implicit]] at scene.toml:12".
+std::string formula_title(const TableReader& table, std::string_view owner);
+
+// The formula that `code` or `file` has, with its `parameters`; null after an error.
+std::shared_ptr<const formula::Formula> read_formula(TableReader& table, std::string_view owner,
+                                                     formula::FormulaKind kind);
+
+}  // namespace eyeray

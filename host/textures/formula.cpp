@@ -1,0 +1,87 @@
+#include "host/formula/formula.hpp"
+
+#include "host/records/packer.hpp"
+#include "host/scene/formula_reader.hpp"
+#include "host/textures/make.hpp"
+
+namespace eyeray::textures {
+
+extern const TextureType formula_type;
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(A color that a function of yours computes from uv, wherever a color may vary over a surface. [formulas.md](formulas.md) says which GLSL it may be.
+
+```toml
+[[material]]
+name = "rings"
+type = "phong"
+
+[material.diffuse.formula]
+code = """
+vec3 color(vec2 uv) {
+  float wave = 0.5 + 0.5 * cos(6.2832 * rings * length(uv - 0.5));
+  return mix(vec3(0.05, 0.1, 0.3), vec3(0.9, 0.8, 0.5), wave);
+}
+"""
+parameters = { rings = 8 }
+```
+
+The text stands in `code`, or in a file of its own, `file = "rings.glsl"`. What `parameters` has are constants of the function, by name: a number is a `float`, a list of two to four
+numbers a `vec2` … `vec4`. Linear RGB comes back; below 0 and above 1 it is cut off, and what is no number is 0. As an alpha it is the first component.
+)";
+
+constexpr Key keys[] = {
+    {.name = "code",
+     .type = KeyType::formula,
+     .doc = "The function, `vec3 color(vec2 uv)`, and what it calls.",
+     .optional = true},
+    formula_file_key,
+    parameters_key,
+    {.name = "tint", .type = KeyType::color, .doc = "What it is multiplied by.", .fallback = "1"},
+};
+
+class FormulaTexture final : public Texture {
+ public:
+  FormulaTexture(std::shared_ptr<const formula::Formula> formula, const Vec3& tint)
+      : formula_(std::move(formula)), tint_(tint) {}
+
+  Vec3 at(const Vec2& uv) const override {
+    const auto color = formula_->color(std::array{uv.x, uv.y});
+    Vec3 shares(0.0);
+    for (int i = 0; i < 3; ++i)
+      if (color[size_t(i)] > 0) shares[i] = std::min(color[size_t(i)], 1.0);
+    return tint_ * shares;
+  }
+
+  uint32_t pack(records::Packer& packer) const override {
+    return packer.add(shader::Texture{.color = glm::vec3(tint_),
+                                      .kind = shader::TEXTURE_formula,
+                                      .a = shader::vec4(0),
+                                      .b = shader::vec4(0),
+                                      .c = shader::uvec4(packer.add_formula(formula_), 0, 0, 0)});
+  }
+
+ private:
+  std::shared_ptr<const formula::Formula> formula_;
+  Vec3 tint_;
+};
+
+TexturePtr parse(TableReader& table) {
+  constexpr std::string_view owner = "{ formula = … }";
+  if (!has_one_source(table, {"code", "file"}, owner)) return nullptr;
+  if (table.failed()) return nullptr;
+  auto formula = read_formula(table, owner, formula::FormulaKind::color);
+  return formula ? make_formula(std::move(formula), table.color("tint")) : nullptr;
+}
+
+}  // namespace
+
+extern const TextureType formula_type{.name = "formula", .manual = manual, .keys = keys, .parse = parse};
+
+TexturePtr make_formula(std::shared_ptr<const formula::Formula> formula, const Vec3& tint) {
+  return std::make_shared<FormulaTexture>(std::move(formula), tint);
+}
+
+}  // namespace eyeray::textures
