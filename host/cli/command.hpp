@@ -34,6 +34,7 @@ void add_bench(CLI::App& app, Run& run);
 void add_dev(CLI::App& app, Run& run);
 void add_generate(CLI::App& app, Run& run);
 void add_shaders(CLI::App& app, Run& run);
+void add_new(CLI::App& app, Run& run);
 
 // SCENE and what the command line may change of it: -D, --allow-path, -s, --spp, --integrator, --seed,
 // --triangle, --max-depth.

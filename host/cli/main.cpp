@@ -114,6 +114,7 @@ int run_command_line(int argc, char** argv) {
   add_bench(app, run);
   add_generate(app, run);
   add_shaders(app, run);
+  add_new(app, run);
 
   try {
     app.parse(argc, argv);

@@ -8,16 +8,20 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <thread>
 #include <vector>
 
+#include "host/core/embedded_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/dev/guarded_server.hpp"
-#include "host/dev/page_files.hpp"
 #include "host/image/image_file.hpp"
 
 namespace eyeray::dev {
+
+std::span<const EmbeddedFile> page_files();  // dev/web
+
 namespace {
 
 using httplib::Request;
@@ -50,6 +54,14 @@ std::string random_token() {
 void refuse(Response& response, int status, const std::string& why) {
   response.status = status;
   response.set_content(why + "\n", "text/plain; charset=utf-8");
+}
+
+// As HTTP says it.
+const char* content_type(std::string_view file) {
+  return file.ends_with(".html")  ? "text/html; charset=utf-8"
+         : file.ends_with(".css") ? "text/css; charset=utf-8"
+         : file.ends_with(".mjs") ? "text/javascript; charset=utf-8"
+                                  : "image/svg+xml";
 }
 
 // A view, or how two of them differ.
@@ -193,10 +205,10 @@ void WebServer::Servers::set_up(httplib::Server& server) {
     refuse(response, 400, "This request makes no sense.");
   });
   const std::string root = "/" + token + "/";
-  for (const PageFile& file : page_files()) {
+  for (const EmbeddedFile& file : page_files()) {
     server.Get(root + (file.name == "index.html" ? "" : std::string(file.name)),
                [&file](const Request&, Response& response) {
-                 response.set_content(file.text.data(), file.text.size(), std::string(file.type));
+                 response.set_content(file.text.data(), file.text.size(), content_type(file.name));
                });
   }
   server.Get(root + "events", [this](const Request&, Response& response) { events(response); });

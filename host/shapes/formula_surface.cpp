@@ -11,6 +11,9 @@ namespace eyeray::shapes {
 
 namespace {
 
+// Of the points that a gradient is taken from, in the cube: what docs/implicit-surfaces.md says of a function
+// with a Lipschitz constant and without a gradient of its own; else so near that it is the derivative.
+constexpr double wide_difference = 1.0 / 256;
 constexpr double difference = 1e-4;
 // Lengths in the cube: pairs of roots closer than this are not seen, and a root is known to that.
 constexpr double least_gap = 1e-8;
@@ -123,13 +126,14 @@ double FormulaSurface::value(const Vec3& q) const {
 }
 
 Vec3 FormulaSurface::gradient(const Vec3& q) const {
+  const double apart = use_.lipschitz > 0 && !use_.formula->has_gradient() ? wide_difference : difference;
   Vec3 gradient(0);
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 step(0);
-    step[axis] = difference;
+    step[axis] = apart;
     gradient[axis] =
         (8 * (value(q + step) - value(q - step)) - (value(q + step * 2.0) - value(q - step * 2.0))) /
-        (12 * difference);
+        (12 * apart);
   }
   return gradient;
 }

@@ -4,15 +4,17 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "host/compare/cause_picture.hpp"
 #include "host/core/base64.hpp"
+#include "host/core/embedded_file.hpp"
 #include "host/image/image_file.hpp"
 #include "host/image/srgb.hpp"
 
 namespace eyeray::verify {
 
-extern const std::string_view page_template;  // page.html, by cmake/embed_page.cmake
+std::span<const EmbeddedFile> page_files();  // page.html
 
 namespace {
 
@@ -128,7 +130,7 @@ std::string Page::html(const std::string& summary) const {
   // A script's end may not stand in it.
   for (size_t at = 0; (at = data.find("</", at)) != std::string::npos; at += 3) data.insert(at + 1, "\\");
 
-  std::string page(page_template);
+  std::string page(page_files()[0].text);
   constexpr std::string_view place = "@DATA@";
   return page.replace(page.find(place), place.size(), data);
 }

@@ -1,0 +1,76 @@
+// eyeray new: a small project of one's own to start from. Its files are those of host/cli/project.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "host/cli/command.hpp"
+#include "host/cli/json.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/embedded_file.hpp"
+
+namespace fs = std::filesystem;
+
+namespace eyeray::cli {
+
+std::span<const EmbeddedFile> project_files();
+
+namespace {
+
+struct NewCommand {
+  std::string folder;
+  bool json = false;
+
+  ExitCode run() const;
+  void write() const;
+};
+
+// All files or none: what stood there stays, and a disk that is full keeps nothing.
+void NewCommand::write() const {
+  for (const EmbeddedFile& file : project_files())
+    if (const fs::path path = fs::path(folder) / file.name; fs::exists(path))
+      throw Error(ExitCode::file_io, "{} is there already; nothing was written", path.string());
+  std::vector<fs::path> written;
+  try {
+    for (const EmbeddedFile& file : project_files()) {
+      const fs::path path = fs::path(folder) / file.name;
+      fs::create_directories(path.parent_path());
+      write_file_atomically(path, file.text);
+      written.push_back(path);
+    }
+  } catch (...) {
+    std::error_code ignored;
+    for (const fs::path& path : written) fs::remove(path, ignored);
+    throw;
+  }
+}
+
+ExitCode NewCommand::run() const {
+  write();
+  const std::string scene = (fs::path(folder) / "scene.toml").string();
+  fmt::print(stderr, "{} files written to {}; look at them with\n  eyeray dev {}\n", project_files().size(),
+             folder, scene);
+  if (json) {
+    Json names = Json::array();
+    for (const EmbeddedFile& file : project_files()) names.push_back(file.name);
+    print_json({{"folder", folder}, {"scene", scene}, {"files", names}});
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_new(CLI::App& app, Run& run) {
+  CLI::App* const command = app.add_subcommand(
+      "new", "Write a small project: a scene with a shape and a pattern of its own, and CI for it.");
+  const auto options = std::make_shared<NewCommand>();
+  command->add_option("DIR", options->folder, "The folder to write it to.")->required();
+  command->add_flag("--json", options->json, "Answer as JSON on standard output.");
+  command->footer(
+      "Example: a scene to change while looking at it\n"
+      "  eyeray new my-scene\n"
+      "  eyeray dev my-scene/scene.toml");
+  command->callback([options, &run] { run = [options] { return options->run(); }; });
+}
+
+}  // namespace eyeray::cli
