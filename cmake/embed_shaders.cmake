@@ -1,7 +1,7 @@
-# cmake -D ROOT=… -D OUT=… -D FILES=a;b -P embed_shaders.cmake: every shader as one row of a C++ table.
+# cmake -D OUT=… -D FUNCTION=embedded_shaders -D NAMES=a;b -D PATHS=/…/a;/…/b -P embed_shaders.cmake: texts as rows of a C++ table.
 set(rows "")
-foreach(name IN LISTS FILES)
-  file(READ ${ROOT}/${name} text)
+foreach(name path IN ZIP_LISTS NAMES PATHS)
+  file(READ ${path} text)
   string(APPEND rows "    {\"${name}\", R\"glsl(${text})glsl\"},\n")
 endforeach()
 file(WRITE ${OUT} "// Made by cmake/embed_shaders.cmake.
@@ -9,10 +9,10 @@ file(WRITE ${OUT} "// Made by cmake/embed_shaders.cmake.
 
 namespace eyeray {
 
-static constexpr EmbeddedShader shaders[] = {
+static constexpr EmbeddedShader files[] = {
 ${rows}};
 
-std::span<const EmbeddedShader> embedded_shaders() { return shaders; }
+std::span<const EmbeddedShader> ${FUNCTION}() { return files; }
 
 }  // namespace eyeray
 ")

@@ -5,7 +5,8 @@ file(GLOB_RECURSE SHADER_FILES CONFIGURE_DEPENDS RELATIVE ${SHADER_ROOT} ${SHADE
 list(TRANSFORM SHADER_FILES PREPEND ${SHADER_ROOT}/ OUTPUT_VARIABLE SHADER_PATHS)
 
 # The twin compiles every row of the registries; a GPU kernel, its scene's only (executors/specialise.cpp).
-foreach(registry cameras samplers textures shapes materials lights integrators)
+set(REGISTRIES cameras samplers textures shapes materials lights integrators)
+foreach(registry IN LISTS REGISTRIES)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${SHADER_ROOT}/${registry}/registry.h)
   file(STRINGS ${SHADER_ROOT}/${registry}/registry.h rows REGEX "^  (X\\(|R\\(X, )[a-z_]+,")
   string(REGEX REPLACE "  (X\\(|R\\(X, )([a-z_]+),[^;]*" "#include \"${registry}/\\2.glsl\"\n" includes "${rows}")
@@ -16,11 +17,34 @@ endforeach()
 add_library(shader_headers INTERFACE)
 target_include_directories(shader_headers INTERFACE ${SHADER_ROOT} ${GENERATED})
 
+# What the twin of a user's shaders is compiled of, when it is asked for (executors/twin_module.cpp).
+set(TWIN_NAMES host/twin/twin.cpp host/twin/shader_functions.hpp host/twin/scene_view.hpp host/twin/glsl_functions.hpp
+  host/core/local_shaders.hpp host/records/records.hpp)
+list(TRANSFORM TWIN_NAMES PREPEND ${CMAKE_SOURCE_DIR}/ OUTPUT_VARIABLE TWIN_PATHS)
+foreach(registry IN LISTS REGISTRIES)
+  list(APPEND TWIN_NAMES shaders/${registry}/all.glsl)
+  list(APPEND TWIN_PATHS ${GENERATED}/${registry}/all.glsl)
+endforeach()
+get_target_property(glm_include glm::glm INTERFACE_INCLUDE_DIRECTORIES)
+execute_process(
+  COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -M -I${CMAKE_SOURCE_DIR} -I${glm_include} ${CMAKE_SOURCE_DIR}/host/twin/glsl_functions.hpp
+  OUTPUT_VARIABLE included COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "[^ \n\\]+/glm/[^ \n\\]+" glm_paths "${included}")
+foreach(path IN LISTS glm_paths)
+  string(REGEX REPLACE ".*/glm/((detail/|simd/|ext/)?[^/]+)$" "glm/\\1" name ${path})
+  list(APPEND TWIN_NAMES ${name})
+  list(APPEND TWIN_PATHS ${path})
+endforeach()
+
 set(EMBED ${CMAKE_SOURCE_DIR}/cmake/embed_shaders.cmake)
-add_custom_command(
-  OUTPUT ${GENERATED}/embedded_shaders.cpp
-  COMMAND ${CMAKE_COMMAND} -D ROOT=${SHADER_ROOT} -D OUT=${GENERATED}/embedded_shaders.cpp "-D FILES=${SHADER_FILES}" -P ${EMBED}
-  DEPENDS ${SHADER_PATHS} ${EMBED}
-  COMMENT "Embedding the shaders" VERBATIM)
-add_library(embedded_shaders STATIC ${GENERATED}/embedded_shaders.cpp)
+function(eyeray_embed function names paths)
+  add_custom_command(
+    OUTPUT ${GENERATED}/${function}.cpp
+    COMMAND ${CMAKE_COMMAND} -D OUT=${GENERATED}/${function}.cpp -D FUNCTION=${function} "-D NAMES=${names}" "-D PATHS=${paths}" -P ${EMBED}
+    DEPENDS ${paths} ${EMBED}
+    COMMENT "Embedding ${function}" VERBATIM)
+endfunction()
+eyeray_embed(embedded_shaders "${SHADER_FILES}" "${SHADER_PATHS}")
+eyeray_embed(twin_sources "${TWIN_NAMES}" "${TWIN_PATHS}")
+add_library(embedded_shaders STATIC ${GENERATED}/embedded_shaders.cpp ${GENERATED}/twin_sources.cpp)
 target_link_libraries(embedded_shaders PRIVATE eyeray_warnings)

@@ -1,14 +1,13 @@
 // eyeray dev: renders, watches the scene and the shaders, and renders again on every save
 // (dev/supervisor.hpp).
 #include <CLI/CLI.hpp>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/github_text.hpp"
+#include "host/core/process.hpp"
 #include "host/core/readable.hpp"
 #include "host/dev/render_server.hpp"
 #include "host/dev/supervisor.hpp"
@@ -47,16 +46,6 @@ struct DevCommand {
   std::string device_;
   bool watching_ = false;
 };
-
-// How this process was called, to be called so again with `more` at the end.
-std::vector<std::string> own_command(const std::string& more) {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> words;
-  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
-  words.at(0) = "/proc/self/exe";
-  words.push_back(more);
-  return words;
-}
 
 // "::error file=a.glsl,line=3,col=5::message", as GitHub's workflows read it.
 std::string github_annotation(const Json& diagnostic) {
@@ -161,7 +150,8 @@ ExitCode DevCommand::run() {
   if (!std::filesystem::exists(scene.file())) scene.load();  // throws, with the loader's own words
 
   dev::SupervisorOptions options;
-  options.worker = own_command("--worker-socket");
+  options.worker = own_command();
+  options.worker.push_back("--worker-socket");
   options.scene = scene.file();
   options.shader_folder = executor.shader_folder;
   options.view = executors::backend_name(backend);

@@ -2,9 +2,12 @@
 // override.
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cstdlib>
 
 #include "host/cli/command.hpp"
 #include "host/core/embedded_shaders.hpp"
+#include "host/core/process.hpp"
+#include "host/executors/cpp_compiler.hpp"
 #include "host/executors/formula_check.hpp"
 #include "host/loader/scene_file.hpp"
 
@@ -41,6 +44,19 @@ void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
       fmt::print(stderr, "eyeray: warning: {} takes no shader's place; did you mean {}?\n",
                  entry.path().string(), (folder / namesake->name).string());
   }
+}
+
+// The process is to have their runtime from its start.
+void sanitize(executors::ExecutorOptions& options, const std::string& list) {
+  if (list != "address" && list != "undefined" && list != "address,undefined" && list != "undefined,address")
+    throw Error(ExitCode::bad_input, "--sanitize is address, undefined or address,undefined, not '{}'", list);
+  options.compile_twin = true;
+  options.sanitizers = list;
+  constexpr const char* prepared = "EYERAY_SANITIZERS";
+  if (const char* const done = std::getenv(prepared); done && done == list) return;
+  Environment environment = executors::sanitizer_environment(list);
+  environment.emplace_back(prepared, list);
+  restart(environment);
 }
 
 }  // namespace
@@ -176,6 +192,16 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
             error == std::errc() && end == text.data() + text.size() && seconds >= 0.001 && seconds <= 1e6;
         return good ? std::string() : fmt::format("wants seconds from 0.001 to 1000000, not '{}'", text);
       });
+  command
+      .add_flag("--compile-twin", options.compile_twin,
+                "Make the twin of the shaders of --shaders, too, by a C++ compiler ($CXX), for debuggers.")
+      ->group(group);
+  command
+      .add_option_function<std::string>(
+          "--sanitize", [&options](const std::string& list) { sanitize(options, list); },
+          "The same, with sanitizers: address, undefined, or both.")
+      ->option_text("LIST")
+      ->group(group);
   command
       .add_flag("--fast-math", options.fast_math,
                 "Let the driver contract and re-associate arithmetic: no bit-exact results.")

@@ -128,6 +128,7 @@ Picture make_picture(const PictureRequest& request,
   executors::ExecutorOptions executor_options = request.executor;
   const bool pixel_kinds = aov::any_needs(request.aovs, aov::AovNeeds::ray_kinds);
   executor_options.ray_kinds = request.ray_kinds || pixel_kinds;
+  if (!executor_options.shader_folder.empty()) executor_options.compile_twin = true;
   executor_options.search_cost = aov::any_needs(request.aovs, aov::AovNeeds::search_cost);
   const std::unique_ptr<executors::Executor> executor =
       executors::make_executor(request.backend, scene, executor_options);

@@ -13,4 +13,8 @@ struct EmbeddedShader {
 // Every file of shaders/, as it was when eyeray was built.
 std::span<const EmbeddedShader> embedded_shaders();
 
+// What they need to be compiled as C++, beside the standard library: the program's own files, GLM's, and what
+// CMake writes. Names are paths below a folder that has them under "shaders".
+std::span<const EmbeddedShader> twin_sources();
+
 }  // namespace eyeray

@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 
 #include "host/core/error.hpp"
 
@@ -144,6 +146,23 @@ bool Process::wait_for_error_text(const std::string& text, double seconds, size_
     listen(seconds - watch.seconds());
   }
   return true;
+}
+
+std::vector<std::string> own_command() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  words.at(0) = "/proc/self/exe";
+  return words;
+}
+
+void restart(const Environment& environment) {
+  std::vector<std::string> arguments = own_command();
+  std::vector<std::string> variables = merged_environment(environment);
+  // By its name, which debuggers look for.
+  arguments[0] = std::filesystem::read_symlink("/proc/self/exe");
+  ::execve("/proc/self/exe", pointers(arguments).data(), pointers(variables).data());
+  throw Error(ExitCode::file_io, "cannot start {} anew: {}", arguments[0], strerror(errno));
 }
 
 ProcessResult run_process(const std::vector<std::string>& argv, const Environment& environment,

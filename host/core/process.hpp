@@ -49,6 +49,11 @@ class Process {
   std::optional<int> code_;
 };
 
+// The words that this process was called by, after the path of its program.
+std::vector<std::string> own_command();
+// Puts the program in its own place, called by the same words. Error (file_io) where the system refuses.
+[[noreturn]] void restart(const Environment& environment);
+
 struct ProcessResult {
   int code = 0;  // the exit code; 128 + the signal that ended it; −1 when it was killed after the time-out
   std::string out;

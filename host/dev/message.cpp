@@ -1,5 +1,6 @@
 #include "host/dev/message.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -30,6 +31,10 @@ bool send_all(int socket, const char* data, size_t size) {
 }
 
 }  // namespace
+
+MessageSocket::MessageSocket(int descriptor) : descriptor_(descriptor) {
+  ::fcntl(descriptor_, F_SETFD, FD_CLOEXEC);
+}
 
 MessageSocket::MessageSocket(MessageSocket&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)), pending_(std::move(other.pending_)) {}

@@ -21,7 +21,8 @@ struct Message {
 class MessageSocket {
  public:
   MessageSocket() = default;  // closed
-  explicit MessageSocket(int descriptor) : descriptor_(descriptor) {}
+  // From now on the descriptor is no child's.
+  explicit MessageSocket(int descriptor);
   ~MessageSocket() { close(); }
   MessageSocket(MessageSocket&& other) noexcept;
   MessageSocket& operator=(MessageSocket&& other) noexcept;

@@ -6,6 +6,7 @@
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 #include "host/dev/scene_tunables.hpp"
+#include "host/executors/cpp_compiler.hpp"
 #include "host/probe/probe.hpp"
 
 namespace eyeray::dev {
@@ -121,6 +122,8 @@ executors::Executor& RenderServer::executor_for(const View& view) {
   send("stage", {{"stage", "compile"}});
   if (view.backend == executors::Backend::gpu && !options_.executor.open_device)
     options_.executor.open_device = executors::open_device(options_.executor);
+  if (view.backend == executors::Backend::twin && !options_.executor.shader_folder.empty())
+    options_.executor.compile_twin = !executors::cpp_compiler().empty();
   executors::ExecutorOptions options = options_.executor;
   options.constants = options.constants && own_kernel_;
   options.ray_kinds = view.needs() == aov::AovNeeds::ray_kinds;
@@ -197,9 +200,14 @@ void RenderServer::paint(const std::string& name, bool last) {
   Json stages = Json::object();
   for (const auto& [stage, seconds] : executor.times().stages()) stages[stage] = seconds;
   for (const auto& [stage, seconds] : before.stages()) stages[stage] = stages[stage].get<double>() - seconds;
+  std::string device = executor.description();
+  if (view.backend == executors::Backend::twin && !options_.executor.shader_folder.empty() &&
+      !options_.executor.compile_twin)
+    device += fmt::format(": for those of {} there is no C++ compiler (c++, g++, clang++ or $CXX)",
+                          options_.executor.shader_folder.string());
   send("done", {{"view", name},
                 {"last", last},
-                {"device", executor.description()},
+                {"device", device},
                 {"seconds", watch.seconds()},
                 {"stages", std::move(stages)},
                 {"rays", painted->rays},

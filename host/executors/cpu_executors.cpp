@@ -1,6 +1,7 @@
 // The twin and the reference as executors: a row of pixels is a piece of parallel work.
 #include <fmt/format.h>
 
+#include <optional>
 #include <thread>
 
 #include "host/core/embedded_shaders.hpp"
@@ -9,7 +10,9 @@
 #include "host/core/termination.hpp"
 #include "host/executors/executors.hpp"
 #include "host/executors/samples.hpp"
+#include "host/executors/shader_files.hpp"
 #include "host/executors/shader_probe.hpp"
+#include "host/executors/twin_module.hpp"
 #include "host/pack/pack.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/twin/twin.hpp"
@@ -50,46 +53,63 @@ double timed_queries(std::span<const Query> rays, std::span<QueryHit> hits, cons
 
 class TwinExecutor final : public Executor {
  public:
-  TwinExecutor(const Scene& scene, const pack::PackOptions& options) : eye_(scene.camera.eye) {
-    times_.measure("pack", [&] { packed_ = pack::pack(scene, options); });
+  TwinExecutor(const Scene& scene, const ExecutorOptions& options)
+      : folder_(options.shader_folder), eye_(scene.camera.eye) {
+    if (options.compile_twin)
+      times_.measure("compile", [&] { module_.emplace(options.shader_folder, options.sanitizers); });
+    times_.measure("pack", [&] { packed_ = pack::pack(scene, options.pack); });
+    view_ = twin::view_of(packed_);
   }
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
     return times_.measure("trace", [&] {
       return for_each_pixel(tile, out, [&](int x, int y) {
-        return to_sample(twin::sample(packed_, uint32_t(x), uint32_t(y), index), true);
+        return to_sample(functions().sample(view_, uint32_t(x), uint32_t(y), index, nullptr), true);
       });
     });
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     for_each_pixel(tile, out, [&](int x, int y) {
-      return to_first_hit(twin::first_hit(packed_, uint32_t(x), uint32_t(y)), eye_, true);
+      return to_first_hit(functions().first_hit(view_, uint32_t(x), uint32_t(y)), eye_, true);
     });
   }
 
   Probed probe(int x, int y, uint32_t index) override {
     RayRecorder recorder;
+    const twin::Spectator spectator = twin::spectator_for(recorder);
     const PixelSample sample =
-        to_sample(twin::sample(packed_, uint32_t(x), uint32_t(y), index, &recorder), true);
+        to_sample(functions().sample(view_, uint32_t(x), uint32_t(y), index, &spectator), true);
+    ShaderFiles shaders(module_ ? folder_ : "", "");
     std::map<std::string, std::string, std::less<>> files;
-    for (const EmbeddedShader& shader : embedded_shaders()) files.emplace(shader.name, shader.text);
+    for (const EmbeddedShader& shader : embedded_shaders())
+      files.emplace(shader.name, *shaders.read(shader.name));
     ShaderProbe(files).name_files(recorder.tree());
     return {sample, std::move(recorder.tree())};
   }
 
   double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
     return timed_queries(batch.rays, hits, [&](const Query& ray) {
-      return to_query_hit(twin::query(packed_, to_query_ray(ray, eye_), batch.kind == QueryKind::any));
+      return to_query_hit(functions().query(view_, to_query_ray(ray, eye_), batch.kind == QueryKind::any));
     });
   }
 
   std::string description() const override {
-    return fmt::format("twin: the shaders as C++, {} threads", std::thread::hardware_concurrency());
+    const std::string shaders = module_ && !folder_.empty() ? folder_.string() : "the shaders";
+    const std::string how = module_ ? fmt::format(", by {} for debuggers", module_->compiler()) : "";
+    return fmt::format("twin: {} as C++{}, {} threads", shaders, how, std::thread::hardware_concurrency());
+  }
+  std::vector<std::filesystem::path> source_files() const override {
+    return module_ ? module_->files() : std::vector<std::filesystem::path>{};
   }
 
  private:
+  const twin::Functions& functions() const { return module_ ? module_->functions() : twin::eyeray_twin; }
+
+  std::filesystem::path folder_;
+  std::optional<TwinModule> module_;
   records::PackedScene packed_;
+  twin::SceneView view_{};
   Vec3 eye_;
 };
 
@@ -139,7 +159,7 @@ class ReferenceExecutor final : public Executor {
 }  // namespace
 
 std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorOptions& options) {
-  return std::make_unique<TwinExecutor>(scene, options.pack);
+  return std::make_unique<TwinExecutor>(scene, options);
 }
 
 std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options) {

@@ -91,6 +91,8 @@ struct ExecutorOptions {
   bool optimise = true;                 // gpu: give the driver an optimised kernel
   std::shared_ptr<OpenDevice> open_device;  // gpu: taken as it is, and left open; null: one of its own
   std::shared_ptr<Tunables> tunables;       // gpu: constants of shaders that move; null: none do
+  bool compile_twin = false;                // twin: compile shader_folder's files as C++ (twin_module.hpp)
+  std::string sanitizers;                   // twin, with compile_twin: as -fsanitize takes them
   std::string fault;                        // gpu, tests only: a fault to inject (docs/verification.md)
 };
 

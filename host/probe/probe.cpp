@@ -173,7 +173,7 @@ class Pixel {
           read_file(file) != shader.text)
         changed.push_back(file.string());
     }
-    if (!changed.empty())
+    if (!changed.empty() && !options_.executor.compile_twin)
       findings.notes.push_back(
           fmt::format("the gpu has {}; the twin has the built-in shaders", fmt::join(changed, ", ")));
   }

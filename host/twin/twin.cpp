@@ -1,23 +1,28 @@
-#include "host/twin/twin.hpp"
-
 #include "host/twin/shader_functions.hpp"
 
 namespace eyeray::twin {
+namespace {
 
-shader::SampleResult sample(const records::PackedScene& scene, uint32_t x, uint32_t y, uint32_t index,
-                            RayRecorder* recorder) {
-  const shader::Binding binding(scene, recorder);
-  return shader::render_sample(scene.frame, x, y, index);
+shader::SampleResult sample(const SceneView& scene, uint32_t x, uint32_t y, uint32_t index,
+                            const Spectator* spectator) {
+  const shader::Binding binding(scene, spectator);
+  return shader::render_sample(*scene.frame, x, y, index);
 }
 
-shader::HitResult first_hit(const records::PackedScene& scene, uint32_t x, uint32_t y) {
+shader::HitResult first_hit(const SceneView& scene, uint32_t x, uint32_t y) {
   const shader::Binding binding(scene);
-  return shader::first_hit(scene.frame, x, y);
+  return shader::first_hit(*scene.frame, x, y);
 }
 
-shader::QueryHit query(const records::PackedScene& scene, const shader::QueryRay& ray, bool any) {
+shader::QueryHit query(const SceneView& scene, const shader::QueryRay& ray, bool any) {
   const shader::Binding binding(scene);
   return shader::query(ray, any);
 }
+
+}  // namespace
+
+// By this name executors/twin_module.cpp finds it in a shared object of the user's shaders.
+extern "C" [[gnu::visibility("default")]] const Functions eyeray_twin;
+const Functions eyeray_twin{sample, first_hit, query};
 
 }  // namespace eyeray::twin

@@ -5,15 +5,15 @@
 
 #include "host/core/ray_tree.hpp"
 #include "host/records/packer.hpp"
+#include "host/twin/scene_view.hpp"
 
 namespace eyeray::twin {
 
-// What kernels/render.comp.glsl computes for one pixel of the whole picture. Thread-safe. `recorder`: is
-// shown what the shaders PROBE; null: nobody looks.
-shader::SampleResult sample(const records::PackedScene& scene, uint32_t x, uint32_t y, uint32_t index,
-                            RayRecorder* recorder = nullptr);
-shader::HitResult first_hit(const records::PackedScene& scene, uint32_t x, uint32_t y);
-// What kernels/query.comp.glsl computes for one ray.
-shader::QueryHit query(const records::PackedScene& scene, const shader::QueryRay& ray, bool any);
+// The twin of eyeray's own shaders.
+extern "C" const Functions eyeray_twin;
+
+// What outlives neither the scene nor the recorder.
+SceneView view_of(const records::PackedScene& scene);
+Spectator spectator_for(RayRecorder& recorder);
 
 }  // namespace eyeray::twin

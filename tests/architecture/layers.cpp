@@ -1,4 +1,5 @@
 // Who may include whom: a folder under host/ is a layer (docs/architecture.md).
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -51,7 +52,8 @@ const Library libraries[] = {
 };
 
 bool is_shader(const std::string& include) {
-  return include.starts_with("shaders/") || include.ends_with("/all.glsl");
+  return include.starts_with("shaders/") || include.ends_with("/all.glsl") ||
+         std::filesystem::exists("shaders/" + include);
 }
 
 // The layer of "host/scene/key.hpp": "scene".

@@ -8,6 +8,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/registry.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
 #include "tests/support/empty_scene.hpp"
 #include "tests/support/random.hpp"
 
@@ -114,7 +115,7 @@ TEST_CASE("absurd shapes are refused or can be computed with") {
       const Shape& shape = *scene.shapes[0];
       Packer packer(Vec3(0));
       shape.pack(packer);
-      const shader::Binding binding(packer.scene);
+      const shader::Binding binding(twin::view_of(packer.scene));
       for (int k = 0; k < 20; ++k) {
         if (can_be_met(shape, packer.scene, random)) continue;
         if (wrong++ == 0) first_wrong = table;
@@ -133,7 +134,7 @@ TEST_CASE("a cone has uv at its tip, however flat it is, and on a cap there that
       const auto cone = make_cone({0, 0, 0}, {0, 10, 0}, radius, tip);
       Packer packer(Vec3(0));
       cone->pack(packer);
-      const shader::Binding binding(packer.scene);
+      const shader::Binding binding(twin::view_of(packer.scene));
       CAPTURE(radius);
       CAPTURE(tip);
       int wrong = 0;

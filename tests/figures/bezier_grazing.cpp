@@ -5,6 +5,7 @@
 #include "host/shapes/bezier_net.hpp"
 #include "host/shapes/make.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
 
 #include "tests/support/doctest.hpp"
 
@@ -101,7 +102,7 @@ TEST_CASE("Bézier patches that are all waves, or fold beyond their borders: no 
     CHECK(std::fabs(exact->t - each.t) <= 1e-12 * each.t);
 
     const PackedScene scene = packed(*patch);
-    const shader::Binding binding(scene);
+    const shader::Binding binding(twin::view_of(scene));
     const shader::Ray ray = shader::make_ray(glm::vec3(each.from), glm::vec3(each.along));
     float nearest = T_MISS;
     for (const shader::Primitive& piece : scene.primitives) {

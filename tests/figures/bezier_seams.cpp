@@ -9,6 +9,7 @@
 #include "host/shapes/bezier_net.hpp"
 #include "host/shapes/make.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
 #include "tests/support/random.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -58,7 +59,7 @@ TEST_CASE(
           make_bezier(net)->pack(packer);
           nets.push_back(net);
         }
-      const shader::Binding binding(packer.scene);
+      const shader::Binding binding(twin::view_of(packer.scene));
       for (int i = 0; i < 2000; ++i) {
         const shader::Primitive& piece =
             packer.scene.primitives[size_t(random.below(int(packer.scene.primitives.size())))];

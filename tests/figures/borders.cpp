@@ -2,6 +2,7 @@
 #include "host/records/packer.hpp"
 #include "host/shapes/make.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
 
 #include "tests/support/doctest.hpp"
 
@@ -34,7 +35,7 @@ TEST_CASE("a hit on the border, where u = v = 1, is just before what begins ther
     Packer packer(Vec3(0));
     each.shape->pack(packer);
     const PackedScene scene = std::move(packer.scene);
-    const shader::Binding binding(scene);
+    const shader::Binding binding(twin::view_of(scene));
     const shader::Ray down = shader::make_ray(glm::vec3(1, 2, 1), glm::vec3(0, -1, 0));
     shader::Hit hit{};
     hit.t = 1;

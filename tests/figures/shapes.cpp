@@ -13,6 +13,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/registry.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
 #include "makers.hpp"
 #include "tests/support/amount.hpp"
 #include "tests/support/random.hpp"
@@ -93,7 +94,7 @@ void for_shapes(const Make& make, const Body& body) {
     for (int i = 0; i < rays_a_part(); i += rays_a_shape) {
       const double size = random.log_uniform(1e-4, 1e4);
       const Sample sample(make(random, size), size);
-      const shader::Binding binding(sample.scene);
+      const shader::Binding binding(twin::view_of(sample.scene));
       for (int k = 0; k < rays_a_shape; ++k) body(sample, random);
     }
   });

@@ -8,6 +8,7 @@
 
 #include "host/shapes/make.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
 #include "tests/support/amount.hpp"
 #include "tests/support/random.hpp"
 
@@ -81,7 +82,7 @@ struct Count {
 template <typename Origin>
 Count shoot(const Shapes& shapes, const std::vector<std::array<Vec3, 2>>& edges, Random& random, int rays,
             const Origin& origin) {
-  const shader::Binding binding(shapes.packer.scene);
+  const shader::Binding binding(twin::view_of(shapes.packer.scene));
   Count count;
   for (int i = 0; i < rays; ++i) {
     const auto& [a, b] = edges[size_t(random.below(int(edges.size())))];

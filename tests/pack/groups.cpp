@@ -9,6 +9,7 @@
 #include "host/reference/tracer.hpp"
 #include "host/shapes/registry.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
 #include "tests/support/query_kernel.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -68,7 +69,7 @@ Answer by_reference(const reference::Tracer& tracer, const Ray& ray) {
 }
 
 Answer by_twin(const PackedScene& scene, const Ray& at, const Vec3& eye) {
-  const shader::Binding binding(scene);
+  const shader::Binding binding(twin::view_of(scene));
   const shader::Ray ray = shader::make_ray(glm::vec3(at.o - eye), glm::vec3(at.d));
   uint32_t flags = 0;
   const shader::Hit hit = shader::trace(ray, flags);
@@ -185,7 +186,7 @@ material = "wall"
                                "instanced");
     const PackedScene packed = pack::pack(scene);
     REQUIRE(packed.instances.size() == 2);
-    const shader::Binding binding(packed);
+    const shader::Binding binding(twin::view_of(packed));
     const Bounds local = bounds(scene.groups[0], scene.meshes);
     const Affine map(scene.group_instances[0].transform);
     Random random(4);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
 #include "tests/support/query_kernel.hpp"
 #include "tests/support/random_scene.hpp"
 
@@ -168,7 +169,7 @@ TEST_CASE(
     for (const Kept kept : all_kept) {
       const PlacedMesh placed(mesh, place, kept);
       std::vector<shader::QueryRay> rays;
-      const shader::Binding binding(placed.packed);
+      const shader::Binding binding(twin::view_of(placed.packed));
       while (rays.size() < count) {
         const glm::vec3 origin(placed.to_world(random.direction() * random.log_uniform(1.1, 100)));
         const glm::vec3 target(placed.to_world(random.point(0.5)));

@@ -11,6 +11,7 @@
 #include "host/reference/tracer.hpp"
 #include "host/scene/affine.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/random.hpp"
 
@@ -220,7 +221,7 @@ TEST_CASE("vertex normals are interpolated in the object's space, however it com
       const Scene scene = load_scene(folder / "scene.toml");
       const reference::Tracer tracer(scene);
       const PackedScene packed = pack::pack(scene);
-      const shader::Binding binding(packed);
+      const shader::Binding binding(twin::view_of(packed));
       Random random(7);
       int asked = 0;
       double worst = 0, worst_twin = 0;
@@ -269,7 +270,7 @@ TEST_CASE("what is left of stretched CSG objects looks where the gradient does, 
           parse_scene("[[material]]\nname = \"wall\"\ntype = \"phong\"\n" + way, "scene.toml");
       const reference::Tracer tracer(scene);
       const PackedScene packed = pack::pack(scene);
-      const shader::Binding binding(packed);
+      const shader::Binding binding(twin::view_of(packed));
       Random random(8);
       int outer = 0, hollow = 0;
       while (outer + hollow < 200) {

@@ -6,6 +6,7 @@
 
 #include "host/core/parallel_for.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
 #include "tests/support/random.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -63,7 +64,7 @@ TEST_CASE("a ray parallel to a plane, in it or beside it, is a miss in trace()")
   scene.materials.resize(1);  // without holes
   for (uint32_t kind = 0; kind < shader::SHAPE_KINDS; ++kind)
     scene.linear_ends.push_back(kind < shader::KIND_plane ? 0 : 1);
-  const shader::Binding binding(scene);
+  const shader::Binding binding(twin::view_of(scene));
   for (const float height : {0.0f, -0.0f, 1.0f, -1.0f, 1e-30f}) {
     uint32_t flags = 0;
     const shader::Hit hit = shader::trace(shader::make_ray({0, height, 0}, {1, 0, 0}), flags);

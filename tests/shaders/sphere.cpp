@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/core/parallel_for.hpp"
+#include "host/records/packer.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "tests/support/random.hpp"
 

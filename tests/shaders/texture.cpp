@@ -5,6 +5,7 @@
 
 #include "host/textures/make.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
 #include "tests/support/random.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -39,7 +40,7 @@ Vec3 shaded(const TexturePtr& texture, const Vec2& uv) {
   Packer packer(Vec3(0));
   const uint32_t index = texture->pack(packer);
   packer.write_texels();
-  const shader::Binding binding(packer.scene);
+  const shader::Binding binding(twin::view_of(packer.scene));
   return Vec3(shader::texture_color(index, glm::vec2(uv)));
 }
 
@@ -177,7 +178,7 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
     Packer packer(Vec3(0));
     const uint32_t index = texture->pack(packer);
     packer.write_texels();
-    const shader::Binding binding(packer.scene);
+    const shader::Binding binding(twin::view_of(packer.scene));
     const double reach = random.log_uniform(0.5, 1000);
     for (int i = 0; i < 500; ++i) {
       const glm::vec2 uv(random.uniform(-reach, reach), random.uniform(-reach, reach));
@@ -222,7 +223,7 @@ TEST_CASE("no uv whatever leaves the image") {
                                 std::vector<Texel>(count + 2 * size_t(width), {254, 0, 0, 0}), filter, wrap))
             ->pack(packer);
         packer.write_texels();
-        const shader::Binding binding(packer.scene);
+        const shader::Binding binding(twin::view_of(packer.scene));
         for (const float u : places)
           for (const float v : places) {
             const glm::vec3 color = shader::texture_color(index, {u, v});

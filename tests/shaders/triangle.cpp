@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/core/parallel_for.hpp"
+#include "host/records/packer.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "tests/support/random.hpp"
 

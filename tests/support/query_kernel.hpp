@@ -91,8 +91,9 @@ class QueryKernel {
 inline std::vector<shader::QueryHit> ask_twin(const records::PackedScene& scene,
                                               std::span<const shader::QueryRay> rays, bool any) {
   std::vector<shader::QueryHit> hits(rays.size());
+  const twin::SceneView view = twin::view_of(scene);
   std::transform(rays.begin(), rays.end(), hits.begin(),
-                 [&](const shader::QueryRay& ray) { return twin::query(scene, ray, any); });
+                 [&](const shader::QueryRay& ray) { return twin::eyeray_twin.query(view, ray, any); });
   return hits;
 }
 

@@ -1,0 +1,28 @@
+// The C++ compiler that the machine has, and how it makes a module of shaders for debuggers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/core/process.hpp"
+
+namespace eyeray::executors {
+
+// $CXX, else the first of c++, g++ and clang++ in $PATH, as the words of a command; empty: there is none.
+std::vector<std::string> cpp_compiler();
+// The same; Error (bad_input) where there is none.
+std::vector<std::string> require_cpp_compiler();
+
+// For a shared object with all that a debugger wants to know, by $CXXFLAGS too, and with the float policy of
+// our own code. `sanitizers`: as -fsanitize takes them; empty: none.
+std::vector<std::string> module_flags(const std::vector<std::string>& compiler,
+                                      const std::string& sanitizers);
+
+// What it runs in: its own tools are not for what is preloaded for a module.
+Environment compiler_environment();
+
+// What a process must have been started with whose module has these sanitizers. Error (bad_input) where there
+// is no compiler, or none that has them.
+Environment sanitizer_environment(const std::string& sanitizers);
+
+}  // namespace eyeray::executors

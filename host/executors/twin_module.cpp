@@ -1,0 +1,182 @@
+#include "host/executors/twin_module.hpp"
+
+#include <dlfcn.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "host/core/atomic_file.hpp"
+#include "host/core/content_hash.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/core/disk_cache.hpp"
+#include "host/core/embedded_shaders.hpp"
+#include "host/core/error.hpp"
+#include "host/executors/cpp_compiler.hpp"
+#include "host/executors/shader_files.hpp"
+
+namespace fs = std::filesystem;
+
+namespace eyeray::executors {
+namespace {
+
+constexpr double longest_compilation = 300;  // seconds
+constexpr size_t most_modules = 16;          // in the cache
+constexpr size_t most_diagnostics = 20;
+
+// Whether there is now a folder that nobody else may write to: what lies in it is loaded into this process.
+bool make_private(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder.parent_path(), failed);
+  ::mkdir(folder.c_str(), 0700);
+  struct stat status {};
+  return ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::geteuid() &&
+         (status.st_mode & (S_IWGRP | S_IWOTH)) == 0 && ::access(folder.c_str(), W_OK) == 0;
+}
+
+bool has_text(const fs::path& file, std::string_view text) {
+  std::error_code failed;
+  return fs::file_size(file, failed) == text.size() && !failed && read_file(file) == text;
+}
+
+template <typename Visit>
+void for_each_source(const Visit& visit) {
+  for (const EmbeddedShader& shader : embedded_shaders())
+    visit(fs::path("shaders") / shader.name, shader.text);
+  for (const EmbeddedShader& source : twin_sources()) visit(fs::path(source.name), source.text);
+}
+
+// The program's own part of what is compiled, below `folder`: once for each version, and whole.
+fs::path write_sources(const fs::path& folder) {
+  ContentHash hash;
+  for_each_source([&](const fs::path& name, std::string_view text) { hash.add(name.string()).add(text); });
+  fs::path place = folder / ("sources-" + hash.hex());
+  bool whole = true;
+  for_each_source(
+      [&](const fs::path& name, std::string_view text) { whole = whole && has_text(place / name, text); });
+  if (whole) return place;
+
+  const fs::path part = fmt::format("{}.part.{}", place.string(), ::getpid());
+  for_each_source([&](const fs::path& name, std::string_view text) {
+    fs::create_directories((part / name).parent_path());
+    std::ofstream(part / name, std::ios::binary) << text;
+    if (!has_text(part / name, text))
+      throw Error(ExitCode::file_io, "cannot write {}", (part / name).string());
+  });
+  std::error_code failed;
+  fs::remove_all(place, failed);
+  fs::rename(part, place, failed);
+  if (failed) fs::remove_all(part, failed);  // another process was faster
+  return place;
+}
+
+std::vector<fs::path> shaders_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code failed;
+  for (fs::recursive_directory_iterator entry(folder, failed), end; !failed && entry != end;
+       entry.increment(failed))
+    if (const fs::path ending = entry->path().extension(); ending == ".glsl" || ending == ".h")
+      files.push_back(entry->path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// The compiler's errors, of files as their owner calls them.
+std::vector<Diagnostic> diagnostics_in(const std::string& log, const fs::path& folder,
+                                       const fs::path& sources) {
+  static const std::regex error(R"(^(.+?):(\d+):(?:(\d+):)? (?:fatal )?error: (.*)$)");
+  std::vector<Diagnostic> found;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line) && found.size() < most_diagnostics;) {
+    std::smatch match;
+    if (!std::regex_match(line, match, error)) continue;
+    const fs::path file = match[1].str();
+    const fs::path of_user = file.lexically_relative(fs::absolute(folder).lexically_normal());
+    Diagnostic diagnostic;
+    diagnostic.position = {file.string(), std::stoi(match[2]), match[3].matched ? std::stoi(match[3]) : 0};
+    if (!folder.empty() && !of_user.empty() && *of_user.begin() != "..")
+      diagnostic.position.file = (folder / of_user).string();
+    else if (const fs::path own = file.lexically_relative(sources / "shaders"); *own.begin() != "..")
+      diagnostic.position.file = own.string();
+    diagnostic.message = match[4];
+    std::ifstream text(file);
+    std::string source;
+    for (int i = 0; i < diagnostic.position.line; ++i) std::getline(text, source);
+    show_source_line(diagnostic, source);
+    found.push_back(std::move(diagnostic));
+  }
+  return found;
+}
+
+// The newest stay.
+void drop_old_modules(const fs::path& folder) {
+  std::error_code failed;
+  std::vector<std::pair<fs::file_time_type, fs::path>> modules;
+  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
+    if (entry->path().extension() == ".so")
+      modules.emplace_back(entry->last_write_time(failed), entry->path());
+  std::sort(modules.begin(), modules.end());
+  for (size_t i = 0; i + most_modules < modules.size(); ++i) fs::remove(modules[i].second, failed);
+}
+
+}  // namespace
+
+TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
+  const ShaderFiles checked(folder, "");  // whether its records are ours
+  std::vector<std::string> command = require_cpp_compiler();
+  compiler_ = fs::path(command[0]).filename();
+  for (const std::string& flag : module_flags(command, sanitizers)) command.push_back(flag);
+  if (!folder.empty()) files_ = shaders_in(folder);
+
+  fs::path place = DiskCache::of_user().folder();
+  if (place.empty() || !make_private(place /= "twin")) {
+    std::string name = (fs::temp_directory_path() / "eyeray-twin-XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw Error(ExitCode::file_io, "cannot make a folder like {}", name);
+    place = scratch_ = name;
+  }
+  const fs::path sources = write_sources(place);
+
+  const fs::path absolute = fs::absolute(folder).lexically_normal();
+  if (!folder.empty()) command.push_back("-I" + absolute.string());
+  for (const std::string& flag : {"-I" + (sources / "shaders").string(), "-I" + sources.string(),
+                                  (sources / "host/twin/twin.cpp").string()})
+    command.push_back(flag);
+  ContentHash hash;
+  for (const std::string& word : command) hash.add(word);
+  std::error_code failed;
+  const auto made = fs::last_write_time(fs::canonical(command[0], failed), failed).time_since_epoch().count();
+  hash.add(std::to_string(made));
+  for (const fs::path& file : files_) hash.add(file.string()).add(read_file(file));
+  const fs::path module = place / (hash.hex() + ".so");
+
+  if (!fs::exists(module, failed)) {
+    const fs::path part = fmt::format("{}.part.{}", module.string(), ::getpid());
+    command.insert(command.end(), {"-o", part.string()});
+    const ProcessResult result = run_process(command, compiler_environment(), longest_compilation);
+    if (result.code != 0) {
+      fs::remove(part, failed);
+      std::vector<Diagnostic> diagnostics = diagnostics_in(result.err, folder, sources);
+      if (!diagnostics.empty()) throw InputError(std::move(diagnostics));
+      throw Error(ExitCode::bad_input, "{} makes no twin of the shaders (exit code {}): {}", command[0],
+                  result.code, printable(result.err.substr(0, 2000)));
+    }
+    fs::rename(part, module);
+    drop_old_modules(place);
+  }
+  handle_ = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle_) throw Error(ExitCode::file_io, "cannot load the twin of the shaders: {}", ::dlerror());
+  functions_ = static_cast<const twin::Functions*>(::dlsym(handle_, "eyeray_twin"));
+  if (!functions_) throw Error(ExitCode::file_io, "no twin in {}", module.string());
+}
+
+TwinModule::~TwinModule() {
+  if (handle_) ::dlclose(handle_);
+  std::error_code ignored;
+  if (!scratch_.empty()) fs::remove_all(scratch_, ignored);
+}
+
+}  // namespace eyeray::executors

@@ -1,0 +1,36 @@
+// The twin of a user's shaders: compiled as C++, with all that a debugger wants to know, into a shared object
+// that this process loads. Their code then runs in it (docs/security.md).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/twin/scene_view.hpp"
+
+namespace eyeray::executors {
+
+class TwinModule {
+ public:
+  // `folder`: laid over the embedded shaders; empty: none. One that was made before is taken from the cache.
+  // InputError where a shader is no C++; Error (bad_input) where there is no compiler.
+  TwinModule(const std::filesystem::path& folder, const std::string& sanitizers);
+  ~TwinModule();
+  TwinModule(const TwinModule&) = delete;
+  TwinModule& operator=(const TwinModule&) = delete;
+
+  const twin::Functions& functions() const { return *functions_; }
+  // "g++": what made it.
+  const std::string& compiler() const { return compiler_; }
+  // The shaders in `folder`.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+
+ private:
+  std::filesystem::path scratch_;  // removed at the end; empty: the cache has it
+  std::vector<std::filesystem::path> files_;
+  std::string compiler_;
+  void* handle_ = nullptr;
+  const twin::Functions* functions_ = nullptr;
+};
+
+}  // namespace eyeray::executors

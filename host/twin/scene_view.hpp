@@ -1,0 +1,65 @@
+// A scene, and who looks on, as the twin's shader functions see them: plain data and plain functions, so that
+// another compiler may have made the other side (executors/twin_module.hpp).
+#pragma once
+
+#include "host/records/records.hpp"
+
+namespace eyeray::twin {
+
+// Functions of the scene, by number; each is given `scene`.
+struct FormulaView {
+  const void* scene;
+  float (*value)(const void* scene, uint32_t number, const shader::vec3& p);
+  shader::vec3 (*gradient)(const void* scene, uint32_t number, const shader::vec3& p);
+  shader::vec3 (*bound)(const void* scene, uint32_t number, const shader::vec3& x, const shader::vec3& y,
+                        const shader::vec3& z);
+  shader::vec4 (*dual)(const void* scene, uint32_t number, const shader::vec3& p);
+  shader::vec3 (*color)(const void* scene, uint32_t number, const shader::vec2& uv);
+  bool (*has_gradient)(const void* scene, uint32_t number);
+  bool (*by_bounds)(const void* scene, uint32_t number);
+};
+
+// What records::PackedScene has.
+struct SceneView {
+  const shader::Frame* frame;
+  const shader::Primitive* primitives;
+  const uint32_t* linear_ends;
+  const shader::uvec4* vertices;
+  const shader::uvec4* nodes;
+  const shader::Bvh* bvhs;
+  const shader::Instance* instances;
+  uint32_t instance_count;
+  const shader::Material* materials;
+  const shader::Texture* textures;
+  const uint32_t* texels;
+  const shader::Medium* media;
+  const shader::Light* lights;
+  bool has_bvh, quantised_nodes;
+  FormulaView formulas;
+  void (*stop_if_interrupted)();  // throws
+
+  // Of the primitives of `kind` in no BVH.
+  uint32_t first_linear(uint32_t kind) const { return kind == 0 ? 0 : linear_ends[kind - 1]; }
+};
+
+// Is told what shaders PROBE; each is given `recorder`.
+struct Spectator {
+  void* recorder;
+  // A number, truth or vector; `type` as PROBE_FLOAT … of records.h.
+  void (*value)(void* recorder, const char* name, uint32_t line, uint32_t type, int size,
+                const double* numbers);
+  void (*ray)(void* recorder, uint32_t kind, uint32_t number, uint32_t depth);
+  void (*back)(void* recorder, uint32_t depth);
+};
+
+// The twin, for one pixel or ray. Thread-safe.
+struct Functions {
+  // What kernels/render.comp.glsl computes for a pixel of the whole picture. `spectator`: null: nobody looks.
+  shader::SampleResult (*sample)(const SceneView& scene, uint32_t x, uint32_t y, uint32_t index,
+                                 const Spectator* spectator);
+  shader::HitResult (*first_hit)(const SceneView& scene, uint32_t x, uint32_t y);
+  // What kernels/query.comp.glsl computes for one ray.
+  shader::QueryHit (*query)(const SceneView& scene, const shader::QueryRay& ray, bool any);
+};
+
+}  // namespace eyeray::twin

@@ -1,0 +1,158 @@
+// The twin of a user's shaders: the bits of the device, and what debuggers and sanitizers say of it.
+#include <sys/stat.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scene.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// Exported shaders, one of which is changed; and a cache of their own.
+struct Users : SceneFolder {
+  Users() {
+    if (run_eyeray({"shaders", "--export", shaders}).code != 0)
+      throw std::runtime_error("shaders --export failed");
+  }
+  ProcessResult run(std::vector<std::string> arguments, Environment environment = {}) const {
+    environment.emplace_back("EYERAY_CACHE_DIR", *this / "cache");
+    arguments.insert(arguments.end(), {"--shaders", shaders});
+    return run_eyeray(arguments, environment);
+  }
+  ProcessResult render(const std::string& backend, const std::string& picture,
+                       std::vector<std::string> options = {}, const Environment& environment = {}) const {
+    options.insert(options.begin(), {"render", scene(), "--backend", backend, "-o", *this / picture});
+    return run(options, environment);
+  }
+  // Puts `code` where a sphere's hit is returned, in line 34.
+  void change_sphere(const std::string& code) const {
+    const std::string place = "  return discriminant >= 0.0f ? t : T_NONE;\n";
+    replace_in_file(sphere, place, code + place);
+  }
+
+  const std::string shaders = *this / "shaders", sphere = shaders + "/shapes/sphere.glsl";
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return true;
+  MESSAGE("no '", part, "' in: ", text.substr(0, 4000));
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("the twin of a user's shaders has the bits of the device, and verify asks for it") {
+  const Users users;
+  REQUIRE(run_eyeray({"render", users.scene(), "--backend", "twin", "-o", users / "own.pfm"}).code == 0);
+  REQUIRE(users.render("twin", "same.pfm").code == 0);
+  CHECK(read_text(users / "own.pfm") == read_text(users / "same.pfm"));
+
+  users.change_sphere("  t = t * 1.0009765625f;\n");
+  REQUIRE(users.render("gpu", "gpu.pfm").code == 0);
+  REQUIRE(users.render("twin", "twin.pfm").code == 0);
+  CHECK(read_text(users / "gpu.pfm") == read_text(users / "twin.pfm"));
+  CHECK(read_text(users / "gpu.pfm") != read_text(users / "own.pfm"));
+  CHECK(contains(users.run({"verify", users.scene()}).out, "gate A: gpu and twin: "));
+  const std::string compiled = users.run({"verify", users.scene(), "--compile-twin"}).out;
+  CHECK(contains(compiled, "gate B"));
+  CHECK(compiled.find("gate A: gpu and twin: ") == std::string::npos);
+}
+
+TEST_CASE("what of a user's shaders is no C++ is told as compilers tell it, and what is wanted for them") {
+  const Users users;
+  users.change_sphere("  vec3 turned = f.zyx;\n");
+  for (const char* const command : {"render", "dev"}) {
+    std::vector<std::string> arguments{command, users.scene(), "--backend", "twin"};
+    if (arguments[0] == "dev") arguments.push_back("--once");
+    const ProcessResult result = users.run(arguments);
+    CHECK(result.code == 2);
+    CHECK(contains(result.err, users.sphere + ":34:"));
+    CHECK(contains(result.err, ": error: "));
+    CHECK(contains(result.err, "vec3 turned = f.zyx;\n"));
+  }
+  const Environment no_compiler{{"PATH", "/nowhere"}, {"CXX", ""}};
+  CHECK(contains(users.render("twin", "a.pfm", {}, no_compiler).err, "wants a C++ compiler"));
+  const ProcessResult dev = users.run({"dev", users.scene(), "--backend", "twin", "--once"}, no_compiler);
+  CHECK(dev.code == 0);
+  CHECK(contains(dev.err, "twin: the shaders as C++"));
+  CHECK(contains(dev.err, "for those of " + users.shaders + " there is no C++ compiler"));
+}
+
+TEST_CASE("what others may write to is not loaded, and what is damaged is written anew") {
+  const Users users;
+  REQUIRE(users.render("twin", "a.pfm").code == 0);
+  const std::string twin = users / "cache/twin";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(twin)) {
+    if (entry.path().filename() == "vec3.hpp") write_text(entry.path(), "damaged");
+    if (entry.path().extension() == ".so") std::filesystem::remove(entry.path());
+  }
+  REQUIRE(users.render("twin", "b.pfm").code == 0);
+  CHECK(read_text(users / "a.pfm") == read_text(users / "b.pfm"));
+
+  std::filesystem::remove_all(twin);
+  REQUIRE(std::filesystem::create_directory(twin));
+  REQUIRE(chmod(twin.c_str(), 0777) == 0);
+  const Environment elsewhere{{"TMPDIR", users / "scratch"}};
+  REQUIRE(std::filesystem::create_directory(users / "scratch"));
+  REQUIRE(users.render("twin", "c.pfm", {}, elsewhere).code == 0);
+  CHECK(read_text(users / "a.pfm") == read_text(users / "c.pfm"));
+  CHECK(std::filesystem::is_empty(twin));
+  CHECK(std::filesystem::is_empty(users / "scratch"));
+}
+
+TEST_CASE("sanitizers find a user's shader's fault, at its line") {
+  const Users users;
+  users.change_sphere(
+      "  float bands[4];\n"
+      "  for (int i = 0; i < 4; ++i) bands[i] = 0.0f;\n"
+      "  t = t + bands[int(floor(abs(t) * 2.0f))];\n");
+  const std::string place = users.sphere + ":36";
+  const ProcessResult undefined = users.render("twin", "a.pfm", {"--sanitize", "undefined"});
+  CHECK(undefined.code == 2);
+  CHECK(contains(undefined.err, place + ":"));
+  CHECK(contains(undefined.err, "runtime error: index 6 out of bounds for type 'float"));
+  const ProcessResult address = users.render("twin", "a.pfm", {"--sanitize", "address"});
+  CHECK(address.code == 2);
+  CHECK(contains(address.err, "AddressSanitizer: stack-buffer-overflow"));
+  CHECK(contains(address.err, place));
+  // In a worker too.
+  const ProcessResult dev =
+      users.run({"dev", users.scene(), "--backend", "twin", "--once", "--sanitize", "address,undefined"});
+  CHECK(dev.code == 2);
+  CHECK(contains(dev.err, place + ":"));
+  CHECK_FALSE(std::filesystem::exists(users / "a.pfm"));
+
+  CHECK(contains(users.render("twin", "a.pfm", {"--sanitize", "thread"}).err, "--sanitize is address, "));
+}
+
+TEST_CASE("a debugger stops in a user's shader, which may print") {
+  const Users users;
+  users.change_sphere(
+      "#ifdef __cplusplus\n"
+      "  printf(\"t = %.9g\\n\", t);\n"
+      "#endif\n"
+      "  PROBE(middle, f);\n");
+  const std::vector<std::string> probe{"probe", users.scene(), "32,24",       "--backends",
+                                       "twin",  "--shaders",   users.shaders, "--compile-twin"};
+  std::vector<std::string> gdb{"gdb", "-nx", "-batch"};
+  for (const char* const command : {"set breakpoint pending on", "break shaders/shapes/sphere.glsl:37", "run",
+                                    "print t", "print f", "backtrace 1", "up", "info source"})
+    gdb.insert(gdb.end(), {"-ex", command});
+  gdb.insert(gdb.end(), {"--args", eyeray_binary()});
+  gdb.insert(gdb.end(), probe.begin(), probe.end());
+  const ProcessResult debugged =
+      run_process(gdb, {{"EYERAY_CACHE_DIR", users / "cache"}, {"DEBUGINFOD_URLS", ""}}, 600);
+  CHECK(contains(debugged.out, "PROBE(middle, f);"));
+  CHECK(contains(debugged.out, "{x = 0, y = 0, z = 4}"));
+  CHECK(contains(debugged.out, "bvh/traverse.glsl"));
+
+  const ProcessResult told =
+      users.run({"probe", users.scene(), "32,24", "--backends", "twin,gpu", "--compile-twin"});
+  CHECK(told.code == 0);
+  CHECK(contains(told.out, "t = "));
+  CHECK(contains(told.out, "middle"));
+}
