@@ -86,6 +86,8 @@ void DevCommand::report_picture(const Json& done, const dev::Board& board) {
   const Json times = done.value("stages", Json::object());
   for (const auto& [stage, seconds] : times.items())
     stages.push_back(fmt::format("{} {}", stage, format_seconds(seconds)));
+  if (const std::string flagged = done.value("flagged", ""); !flagged.empty())
+    fmt::print(stderr, "eyeray: warning: {}\n", flagged);
   fmt::print(stderr, "rendered {}in {} ({})\n", outputs.empty() ? "" : outputs[0] + " ",
              format_seconds(done.value("seconds", 0.0)), fmt::join(stages, ", "));
 }

@@ -13,30 +13,13 @@
 #include "host/core/termination.hpp"
 #include "host/image/image_file.hpp"
 #include "host/render/corners.hpp"
+#include "host/render/flags.hpp"
 #include "host/render/render.hpp"
 
 namespace fs = std::filesystem;
 
 namespace eyeray::cli {
 namespace {
-
-struct FlagText {
-  SampleFlag flag;
-  std::string_view name;
-  std::string_view text;
-};
-
-constexpr FlagText flag_texts[] = {
-    {media_overflow, "media_overflow", "more than four media are nested: let fewer glass shapes overlap"},
-    {stack_overflow, "stack_overflow",
-     "more rays were pending than the shader keeps: lower render.max_depth or raise render.min_throughput"},
-    {loop_budget, "loop_budget",
-     "the driver's limit on loop iterations was near: lower render.max_depth or raise render.min_throughput; "
-     "else "
-     "show fewer shapes, or use --backend twin or a newer driver"},
-    {iteration_limit, "iteration_limit",
-     "a shape that is searched for step by step was not found in the steps allowed; --aov flags shows where"},
-};
 
 double rays_per_second(const Picture& picture) {
   return double(picture.rays - picture.rays_resumed) / picture.sampling_seconds;
@@ -205,16 +188,6 @@ Picture make_picture(const PictureRequest& request,
   return picture;
 }
 
-std::string flag_warning(const Picture& picture) {
-  if (picture.flags == 0) return "";
-  std::vector<std::string_view> reasons;
-  for (const FlagText& each : flag_texts) {
-    if (picture.flags & each.flag) reasons.push_back(each.text);
-  }
-  const uint64_t pixels = std::max(picture.flagged_pixels, picture.flagged_hits);
-  return fmt::format("{} pixel{} may be wrong: {}", pixels, pixels == 1 ? "" : "s", fmt::join(reasons, "; "));
-}
-
 std::string summary(const Picture& picture) {
   std::vector<std::string> names;
   for (const fs::path& file : picture.files) names.push_back(file.string());
@@ -262,7 +235,7 @@ Json to_json(const Picture& picture) {
     json["resumed"] = {{"samples", picture.samples_resumed}, {"rays", picture.rays_resumed}};
   if (!picture.checkpoint.empty()) json["checkpoint"] = picture.checkpoint.string();
   for (const fs::path& file : picture.files) json["files"].push_back(file.string());
-  for (const FlagText& each : flag_texts) {
+  for (const render::FlagText& each : render::flag_texts()) {
     if (picture.flags & each.flag) json["flags"].push_back(each.name);
   }
   return json;

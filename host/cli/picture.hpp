@@ -67,9 +67,6 @@ struct Picture {
 // for a picture of several bands, before all had all.
 Picture make_picture(const PictureRequest& request,
                      const std::function<void(const render::Progress&)>& progress);
-
-// What went wrong in some pixels and what to do about it; "" when nothing did.
-std::string flag_warning(const Picture& picture);
 // "whitted.png: 640×480, 4 samples a pixel, 1.2 M rays in 0.35 s (3.4 Mrays/s) on gpu: llvmpipe …".
 std::string summary(const Picture& picture);
 // "load 1.2 ms, compile 30 ms, …".

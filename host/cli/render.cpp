@@ -4,6 +4,7 @@
 #include "host/cli/picture.hpp"
 #include "host/cli/within.hpp"
 #include "host/core/readable.hpp"
+#include "host/render/flags.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -80,7 +81,8 @@ ExitCode RenderCommand::run() {
   request.ray_kinds = stats;
   const Picture picture = make_picture(request, progress_reporter(quiet));
 
-  if (const std::string warning = flag_warning(picture); !warning.empty())
+  const uint64_t flagged = std::max(picture.flagged_pixels, picture.flagged_hits);
+  if (const std::string warning = render::flag_warning(picture.flags, flagged); !warning.empty())
     fmt::print(stderr, "eyeray: warning: {}\n", warning);
   if (picture.interrupted && picture.files.empty())
     throw Error(ExitCode::interrupted, "{}", what_was_kept(picture, false));

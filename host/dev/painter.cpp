@@ -56,12 +56,11 @@ std::optional<Painted> paint_samples(const View& view, const ImageSettings& imag
       samples.resize(size_t(rows) * size_t(image.width));
       if (!executor.sample({0, row, image.width, rows}, uint32_t(sample), samples)) return false;
       sums.add(row, samples);
-      for (const PixelSample& each : samples) {
-        painted.rays += each.rays;
-        painted.flags |= each.flags;
-        painted.flagged_samples += each.flags != 0;
-      }
-      return sink({shown(view, sums.mean(row, rows, sample + 1, 0)), row, 1, sample});
+      for (const PixelSample& each : samples) painted.rays += each.rays;
+      const render::FinishedRows finished = sums.mean(row, rows, sample + 1, 0);
+      painted.flags |= finished.flags;
+      if (sample + 1 == image.samples) painted.flagged_pixels += finished.flagged_pixels;
+      return sink({shown(view, finished), row, 1, sample});
     });
     if (!whole) return std::nullopt;
   }
@@ -80,7 +79,7 @@ std::optional<Painted> paint_first_hits(const View& view, const Scene& scene, ex
     executor.first_hits({0, row, image.width, rows}, hits);
     for (const FirstHit& hit : hits) {
       painted.flags |= hit.flags;
-      painted.flagged_samples += hit.flags != 0;
+      painted.flagged_pixels += hit.flags != 0;
     }
     painted.rays += hits.size();
     return sink({aov::aov_image(view.aov, hits, image.width, entries.get()), row});

@@ -34,7 +34,7 @@ using RowsSink = std::function<bool(const PaintedRows&)>;
 
 struct Painted {
   uint64_t rays = 0;
-  uint64_t flagged_samples = 0;
+  uint64_t flagged_pixels = 0;
   uint32_t flags = 0;  // all SampleFlags seen
 };
 

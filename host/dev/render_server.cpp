@@ -8,6 +8,7 @@
 #include "host/dev/scene_tunables.hpp"
 #include "host/executors/cpp_compiler.hpp"
 #include "host/probe/probe.hpp"
+#include "host/render/flags.hpp"
 
 namespace eyeray::dev {
 namespace {
@@ -212,8 +213,7 @@ void RenderServer::paint(const std::string& name, bool last) {
                 {"stages", std::move(stages)},
                 {"rays", painted->rays},
                 {"samples", scene_->image.samples},
-                {"flags", painted->flags},
-                {"flagged_samples", painted->flagged_samples},
+                {"flagged", render::flag_warning(painted->flags, painted->flagged_pixels)},
                 {"files", std::move(files)}});
 }
 

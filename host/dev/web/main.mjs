@@ -1,7 +1,7 @@
 // eyeray dev's page: shows what the server's status says, and sends what is asked for.
 import { Stage } from './stage.mjs';
 import { orbited, nearer, flown } from './camera.mjs';
-import { show_failure } from './failure.mjs';
+import { show_failure, show_warnings } from './failure.mjs';
 import { show_probe } from './probe.mjs';
 import { show_tunables } from './tunables.mjs';
 
@@ -112,6 +112,7 @@ function tell() {
     $('stages').textContent = [...Object.entries(status.stages).map(([name, s]) => `${name.padEnd(16)} ${ms(s)}`), '', status.device].join('\n');
   }
   show_failure($('failure'), status.failure);
+  show_warnings($('warnings-panel'), $('warnings'), status.warnings ?? [], status.flagged);
   show_tunables($('tunables-panel'), $('tunables'), status.tunables ?? [], status.scene_tunables ?? [], choose);
   show_views();
   if (status.probes && status.probes !== probes) {

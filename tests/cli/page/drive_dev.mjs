@@ -96,6 +96,17 @@ await page.screenshot({ path: `${folder}/tunables.png` });
 await next('gpu', () => writeFileSync(scene_file, scene));
 await next('gpu', () => writeFileSync(pixel, good));
 
+// What the scene is warned of stands beside the picture with its place; so does how many pixels may be wrong.
+assert.ok(await page.locator('#warnings-panel').isHidden());
+const sheets = `[[implicit]]\ncode = "float f(vec3 p) { return sin(6000.0 * p.z) + 0.5; }"\nmin = [-3, 0, -1]\nmax = [3, 2, 1]\nlipschitz = 1\nmaterial = "matte"\n`;
+await next('gpu', () => writeFileSync(scene_file, scene + sheets.replace('sin(6000.0 * p.z)', 'length(p) * 2.0')));
+assert.match(await page.locator('#warnings').textContent(), /scene\.toml:\d+.*warning: `lipschitz` is 1, but/);
+await page.screenshot({ path: `${folder}/warnings.png` });
+await next('gpu', () => writeFileSync(scene_file, scene + sheets.replace('0.5', '1.000001').replace('lipschitz = 1', 'lipschitz = 60000')));
+assert.match(await page.locator('#warnings').textContent(), /^\d+ pixels may be wrong: .* steps allowed/);
+await next('gpu', () => writeFileSync(scene_file, scene));
+assert.ok(await page.locator('#warnings-panel').isHidden());
+
 // The camera goes round its target, and back.
 await page.keyboard.press('o');
 await page.mouse.move(...middle);

@@ -1,0 +1,24 @@
+// What samples' flags mean, for people.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "host/core/pixel.hpp"
+
+namespace eyeray::render {
+
+struct FlagText {
+  SampleFlag flag;
+  std::string_view name;
+  std::string_view text;
+};
+
+std::span<const FlagText> flag_texts();
+
+// "3 pixels may be wrong: …", by the flags of `pixels` together; "" without a flag.
+std::string flag_warning(uint32_t flags, uint64_t pixels);
+
+}  // namespace eyeray::render

@@ -1,0 +1,41 @@
+// A running `eyeray dev`.
+#pragma once
+
+#include <sstream>
+
+#include "scene.hpp"
+
+namespace eyeray::test {
+
+// A running `eyeray dev`, and the place in its words up to which they have been looked at.
+class Dev {
+ public:
+  Dev(const SceneFolder& folder, const std::string& timeout)
+      : process_({eyeray_binary(), "dev", folder.scene(), "--shaders", folder / "shaders", "-o",
+                  folder / "a.pfm", "--timeout", timeout}) {}
+
+  // Whether it says `text` from here on.
+  bool says(const std::string& text) {
+    if (!process_.wait_for_error_text(text, 600, seen_)) {
+      MESSAGE("no '", text, "' in: ", process_.err().substr(seen_));
+      return false;
+    }
+    seen_ = process_.err().find(text, seen_) + text.size();
+    return true;
+  }
+  // Its worker, its only child; 0 when there is none.
+  pid_t worker() const {
+    const std::string pid = std::to_string(process_.pid());
+    std::istringstream children(read_text("/proc/" + pid + "/task/" + pid + "/children"));
+    pid_t child = 0;
+    children >> child;
+    return child;
+  }
+  Process& process() { return process_; }
+
+ private:
+  Process process_;
+  size_t seen_ = 0;
+};
+
+}  // namespace eyeray::test
