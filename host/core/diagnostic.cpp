@@ -92,6 +92,15 @@ std::string printable(std::string_view text) {
   return clean;
 }
 
+std::string line_of(std::string_view text, int number) {
+  for (int line = 1; line < number; ++line) {
+    const size_t end = text.find('\n');
+    if (end == std::string_view::npos) return "";
+    text.remove_prefix(end + 1);
+  }
+  return std::string(text.substr(0, text.find_first_of("\r\n")));
+}
+
 void show_source_line(Diagnostic& diagnostic, std::string_view line, int first_column) {
   diagnostic.source_column = first_column;
   if (line.size() <= 2 * window) {

@@ -27,6 +27,9 @@ struct Diagnostic {
   int source_column = 1;    // the column at which source_line starts, where a long line was cut
 };
 
+// Line `number` (from 1) of a text without its end, or "".
+std::string line_of(std::string_view text, int number);
+
 // Fills source_line with `line`, which starts at `first_column`: printable, and cut to a window around the
 // diagnostic's column where it is long.
 void show_source_line(Diagnostic& diagnostic, std::string_view line, int first_column = 1);

@@ -76,16 +76,6 @@ std::vector<uint32_t> spirv_of(const Entry& entry, const Text& text,
   return gpu::compile_shader(source, "", gpu::Lines::kept).spirv;
 }
 
-// Line `number` (from 1) of a text.
-std::string line_of(std::string_view text, int number) {
-  for (int line = 1; line < number; ++line) {
-    const size_t end = text.find('\n');
-    if (end == std::string_view::npos) return "";
-    text.remove_prefix(end + 1);
-  }
-  return std::string(text.substr(0, text.find_first_of("\r\n")));
-}
-
 // A place in the text as one in the file that it stands in.
 Diagnostic located(const FormulaText& text, int line, int column, std::string message) {
   Diagnostic diagnostic;

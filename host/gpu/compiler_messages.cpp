@@ -1,8 +1,11 @@
 #include "host/gpu/compiler_messages.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -11,16 +14,6 @@ namespace {
 
 bool is_word(char c) {
   return std::isalnum(uint8_t(c)) || c == '_';
-}
-
-// Line `number` (from 1) of a text, or "".
-std::string line_of(std::string_view text, int number) {
-  for (int line = 1; line < number; ++line) {
-    const size_t end = text.find('\n');
-    if (end == std::string_view::npos) return "";
-    text.remove_prefix(end + 1);
-  }
-  return std::string(text.substr(0, text.find_first_of("\r\n")));
 }
 
 // The column (from 1) of `token` as a whole word of `line`; 0 when it is not there.
@@ -70,18 +63,55 @@ bool split_position(std::string_view text, SourcePosition& position, std::string
   return false;
 }
 
-void locate(Diagnostic& diagnostic, std::string_view message, const ShaderSource& source) {
+// Where a row of a registry is meant, `sphere_intersect` say, the line has only the registry's macro. Then
+// the place is in the row's file, shapes/sphere.glsl, at what bears the name there; "" where it is no row's.
+// Returns what is to be said beside the message.
+std::string locate_row(SourcePosition& position, std::string_view token, const ShaderSource& source) {
+  const std::pair<const std::string, std::string>* row = nullptr;
+  size_t longest = 0;
+  for (const auto& file : source.files) {
+    const std::string stem = std::filesystem::path(file.first).stem().string() + "_";
+    if (!token.starts_with(stem) || stem.size() <= longest) continue;
+    row = &file;
+    longest = stem.size();
+  }
+  if (!row || row->first == position.file) return "";
+  std::string user = fmt::format(", which {}:{} needs", position.file, position.line);
+  position = {row->first, 1, 0};
+  std::istringstream lines{row->second};
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const int column = column_of(token, line.substr(0, line.find("//")));
+    if (column == 0) continue;
+    position.line = number;
+    position.column = column;
+    break;
+  }
+  return user;
+}
+
+// Returns what is to be said beside the message.
+std::string locate(Diagnostic& diagnostic, std::string_view message, const ShaderSource& source) {
   const auto file = source.files.find(diagnostic.position.file);
-  if (file == source.files.end()) return;
-  const std::string line = line_of(file->second, diagnostic.position.line);
+  if (file == source.files.end()) return "";
+  std::string beside;
+  std::string line = line_of(file->second, diagnostic.position.line);
   for (size_t open = message.find('\''); open != std::string_view::npos && diagnostic.position.column == 0;) {
     const size_t close = message.find('\'', open + 1);
     if (close == std::string_view::npos) break;
-    diagnostic.position.column = column_of(message.substr(open + 1, close - open - 1), line);
+    const std::string_view token = message.substr(open + 1, close - open - 1);
+    diagnostic.position.column = column_of(token, line);
+    if (diagnostic.position.column == 0) beside = locate_row(diagnostic.position, token, source);
+    if (!beside.empty()) {
+      line = line_of(source.files.find(diagnostic.position.file)->second, diagnostic.position.line);
+      break;
+    }
     open = message.find('\'', close + 1);
   }
   if (diagnostic.position.column == 0) diagnostic.position.column = column_of_unexpected(message, line);
   show_source_line(diagnostic, line);
+  return beside;
 }
 
 // "'foo' : undeclared identifier " as people write it: "'foo': undeclared identifier".
@@ -109,8 +139,9 @@ std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const Shad
     diagnostic.severity = warning ? Severity::warning : Severity::error;
     diagnostic.position.file = source.entry;
     std::string_view message = text;
-    if (split_position(text, diagnostic.position, message)) locate(diagnostic, message, source);
-    diagnostic.message = tidy(message);
+    std::string beside;
+    if (split_position(text, diagnostic.position, message)) beside = locate(diagnostic, message, source);
+    diagnostic.message = tidy(message) + beside;
   }
   return diagnostics;
 }
