@@ -60,16 +60,16 @@ class Judge {
 
   // Looks into the pixels that differ, some thousands at a time, spread over the picture: those of each gate
   // until that has failed, whatever else is found.
-  void explain(const Reference& probe) {
+  void explain(const Reference& around) {
     const size_t parts = of_outcome(Outcome::unexamined, true).size() / examined_at_once + 1;
     for (size_t part = 0; part < parts; ++part) {
       std::vector<size_t> chosen;
       for (const size_t i : of_outcome(Outcome::unexamined, false))
         if (i % parts == part) chosen.push_back(i);
-      look_at(chosen, probe, usual_angles, false);
+      look_at(chosen, around, usual_angles, false);
     }
     const std::vector<size_t> left = of_outcome(Outcome::unexplained, true);
-    if (left.size() <= few) look_at(left, probe, many_angles, true);
+    if (left.size() <= few) look_at(left, around, many_angles, true);
   }
 
   Tally count_colors() const { return tally(colors_); }
@@ -125,11 +125,11 @@ class Judge {
     return pixels;
   }
 
-  void look_at(const std::vector<size_t>& pixels, const Reference& probe, int angles, bool between) {
+  void look_at(const std::vector<size_t>& pixels, const Reference& around, int angles, bool between) {
     parallel_for(0, int(pixels.size()), [&](int n) {
       const size_t i = pixels[size_t(n)];
       const WorstPixel p = at(i);
-      const Neighbourhood neighbourhood(probe, p.pixel, angles, between);
+      const Neighbourhood neighbourhood(around, p.pixel, angles, between);
       if (neighbourhood.explains(p.value, tolerances_))
         settle(colors_[i], true, neighbourhood.cause(p.value, tolerances_));
       else
@@ -218,8 +218,8 @@ bool ReferenceComparison::passes() const {
          });
 }
 
-ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference, const Reference& probe,
-                                           const Tolerances& tolerances,
+ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference,
+                                           const Reference& around, const Tolerances& tolerances,
                                            std::vector<PixelOutcome>* outcomes) {
   tolerances.check();
   ReferenceComparison result;
@@ -228,7 +228,7 @@ ReferenceComparison compare_with_reference(const Frame& value, const Frame& refe
 
   Judge judge(value, reference, tolerances);
   judge.compare_values();
-  judge.explain(probe);
+  judge.explain(around);
   result.colors = judge.count_colors();
   result.first_hits = judge.count_first_hits();
   result.counts = judge.count_counts();

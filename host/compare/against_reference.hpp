@@ -61,8 +61,8 @@ inline constexpr TallyType tally_types[] = {
 inline constexpr TallyType golden_type{"G", "colours", &ReferenceComparison::colors};
 
 // `outcomes`, where it is asked for: of every pixel, row by row, the worst of its tallies.
-ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference, const Reference& probe,
-                                           const Tolerances& tolerances = {},
+ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference,
+                                           const Reference& around, const Tolerances& tolerances = {},
                                            std::vector<PixelOutcome>* outcomes = nullptr);
 
 }  // namespace eyeray::compare

@@ -19,10 +19,10 @@ constexpr double radius_growth = 3;
 constexpr double most_reach = 8;
 
 // Surfaces struck.
-double hits_per_sample(const Probe& probe) {
+double hits_per_sample(const Neighbour& neighbour) {
   double hits = 0;
-  for (const Probe::Sample& sample : probe.samples) hits += sample.counts.x;
-  return hits / double(probe.samples.size());
+  for (const Neighbour::Sample& sample : neighbour.samples) hits += sample.counts.x;
+  return hits / double(neighbour.samples.size());
 }
 
 // The least and the greatest of each component.
@@ -60,16 +60,17 @@ struct Bounds {
 // Bounds of the mean of the samples' `member`. Each sample may fall on either side of its own edges, whatever
 // the others do: the bounds of the mean are the means of the bounds.
 template <int n>
-Bounds<n> bounds(std::span<const Probe> probes, glm::vec<n, double> Probe::Sample::*member, bool rounded) {
-  const size_t samples = probes.front().samples.size();
+Bounds<n> bounds(std::span<const Neighbour> neighbours, glm::vec<n, double> Neighbour::Sample::*member,
+                 bool rounded) {
+  const size_t samples = neighbours.front().samples.size();
   Bounds<n> mean{.low = {}, .high = {}};
   for (size_t i = 0; i < samples; ++i) {
     Bounds<n> sample;
-    for (const Probe& probe : probes) {
-      sample.include(probe.samples[i].*member);
+    for (const Neighbour& neighbour : neighbours) {
+      sample.include(neighbour.samples[i].*member);
       if (!rounded) continue;
-      const size_t of_each = probe.rounded.size() / samples;
-      for (size_t k = i * of_each; k < (i + 1) * of_each; ++k) sample.include(probe.rounded[k].*member);
+      const size_t of_each = neighbour.rounded.size() / samples;
+      for (size_t k = i * of_each; k < (i + 1) * of_each; ++k) sample.include(neighbour.rounded[k].*member);
     }
     mean.low += sample.low / double(samples);
     mean.high += sample.high / double(samples);
@@ -77,16 +78,16 @@ Bounds<n> bounds(std::span<const Probe> probes, glm::vec<n, double> Probe::Sampl
   return mean;
 }
 
-bool bounds_hold(std::span<const Probe> probes, const Vec3& color, const Tolerances& tolerances,
+bool bounds_hold(std::span<const Neighbour> neighbours, const Vec3& color, const Tolerances& tolerances,
                  bool rounded) {
-  return bounds(probes, &Probe::Sample::color, rounded).hold_relatively(color, tolerances.color);
+  return bounds(neighbours, &Neighbour::Sample::color, rounded).hold_relatively(color, tolerances.color);
 }
 
-bool bounds_hold(std::span<const Probe> probes, const Counts& counts, bool rounded) {
-  return bounds(probes, &Probe::Sample::counts, rounded).hold_relatively(counts, counts_tolerance);
+bool bounds_hold(std::span<const Neighbour> neighbours, const Counts& counts, bool rounded) {
+  return bounds(neighbours, &Neighbour::Sample::counts, rounded).hold_relatively(counts, counts_tolerance);
 }
 
-bool bounds_hold(std::span<const Probe> probes, const FirstHit& value, const Tolerances& tolerances) {
+bool bounds_hold(std::span<const Neighbour> neighbours, const FirstHit& value, const Tolerances& tolerances) {
   // Gather what is known of the primitive that was hit.
   Bounds<1> t, cosine;
   Bounds<2> uv;
@@ -94,8 +95,8 @@ bool bounds_hold(std::span<const Probe> probes, const FirstHit& value, const Tol
   double tolerance = 0;
   bool found = false;
   bool silhouette = false;
-  for (const Probe& probe : probes) {
-    const FirstHit& hit = probe.first_hit;
+  for (const Neighbour& neighbour : neighbours) {
+    const FirstHit& hit = neighbour.first_hit;
     if (hit.primitive != value.primitive || hit.material != value.material) {
       silhouette = true;
       continue;
@@ -112,7 +113,7 @@ bool bounds_hold(std::span<const Probe> probes, const FirstHit& value, const Tol
   if (!found) return false;
 
   if (value.primitive < 0) return std::isinf(value.t) && value.t > 0;
-  // Towards a rim all run like a square root: they may lie as far beyond the last probe as the probes are
+  // Towards a rim all run like a square root: they may lie as far beyond the last place as the places are
   // apart.
   const double beyond = silhouette ? 1 : 0;
   return t.hold(glm::dvec1(value.t), tolerance, beyond) && position.hold(value.position, tolerance, beyond) &&
@@ -173,34 +174,34 @@ Places places_around(double rounding, double surfaces, int angles, bool between)
 
 Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between) {
   const auto look = [&](const Vec2& shift, Chance chance) {
-    probes_.push_back(reference(pixel.x, pixel.y, shift, chance));
+    neighbours_.push_back(reference(pixel.x, pixel.y, shift, chance));
   };
   for (const Chance chance : {Chance::none, Chance::coincident}) look(Vec2(0.0), chance);
   const Places places =
-      places_around(probes_.front().rounding, hits_per_sample(probes_.front()), angles, between);
+      places_around(neighbours_.front().rounding, hits_per_sample(neighbours_.front()), angles, between);
   for (size_t i = 0; i < places.innermost; ++i) look(places.all[i], Chance::turned);
-  innermost_ = probes_.size() + places.innermost;
+  innermost_ = neighbours_.size() + places.innermost;
   for (const Vec2& place : places.all) look(place, Chance::none);
 }
 
 bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) const {
-  return bounds_hold(probes_, value, tolerances, false);
+  return bounds_hold(neighbours_, value, tolerances, false);
 }
 
 bool Neighbourhood::explains(const Counts& value) const {
-  return bounds_hold(probes_, value, false);
+  return bounds_hold(neighbours_, value, false);
 }
 
 bool Neighbourhood::explains_as_rounding(const Vec3& value, const Tolerances& tolerances) const {
-  return !probes_.front().rounded.empty() && bounds_hold(probes_, value, tolerances, true);
+  return !neighbours_.front().rounded.empty() && bounds_hold(neighbours_, value, tolerances, true);
 }
 
 bool Neighbourhood::explains_as_rounding(const Counts& value) const {
-  return !probes_.front().rounded.empty() && bounds_hold(probes_, value, true);
+  return !neighbours_.front().rounded.empty() && bounds_hold(neighbours_, value, true);
 }
 
 bool Neighbourhood::explains(const FirstHit& value, const Tolerances& tolerances) const {
-  return bounds_hold(probes_, value, tolerances);
+  return bounds_hold(neighbours_, value, tolerances);
 }
 
 Cause Neighbourhood::cause(const Vec3& value, const Tolerances& tolerances) const {
@@ -217,26 +218,26 @@ Cause Neighbourhood::cause(const FirstHit& value, const Tolerances& tolerances) 
 
 Cause Neighbourhood::cause_of_samples() const {
   const auto varies = [&](const auto& of) {
-    return std::any_of(probes_.begin(), probes_.end(), [&](const Probe& probe) {
-      return std::invoke(of, probe) != std::invoke(of, probes_.front());
+    return std::any_of(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& neighbour) {
+      return std::invoke(of, neighbour) != std::invoke(of, neighbours_.front());
     });
   };
-  if (varies(&Probe::first_surfaces)) return Cause::silhouette;
+  if (varies(&Neighbour::first_surfaces)) return Cause::silhouette;
   if (varies(hits_per_sample)) return Cause::refraction_branch;
-  if (varies(&Probe::first_colors)) return Cause::texture_edge;
-  const bool direct =
-      std::all_of(probes_.begin(), probes_.end(), [](const Probe& probe) { return probe.direct; });
+  if (varies(&Neighbour::first_colors)) return Cause::texture_edge;
+  const bool direct = std::all_of(neighbours_.begin(), neighbours_.end(),
+                                  [](const Neighbour& neighbour) { return neighbour.direct; });
   return direct ? Cause::shadow_edge : Cause::refraction_branch;
 }
 
 Cause Neighbourhood::cause_of_first_hit(const Tolerances& tolerances) const {
-  const FirstHit& centre = probes_.front().first_hit;
+  const FirstHit& centre = neighbours_.front().first_hit;
   Bounds<1> t;
   Bounds<3> normal;
-  for (const Probe& probe : probes_) {
-    if (probe.first_hit.primitive != centre.primitive) return Cause::silhouette;
-    t.include(glm::dvec1(probe.first_hit.t));
-    normal.include(probe.first_hit.normal);
+  for (const Neighbour& neighbour : neighbours_) {
+    if (neighbour.first_hit.primitive != centre.primitive) return Cause::silhouette;
+    t.include(glm::dvec1(neighbour.first_hit.t));
+    normal.include(neighbour.first_hit.normal);
   }
   if (t.high.x - t.low.x > t_tolerance(centre, tolerances)) return Cause::grazing;
   return glm::distance(normal.low, normal.high) > least_crease ? Cause::crease : Cause::texture_edge;

@@ -11,7 +11,7 @@
 namespace eyeray::compare {
 
 // The reference at one pixel, every ray of it moved by a fraction of a pixel.
-struct Probe {
+struct Neighbour {
   struct Sample {
     Vec3 color{0.0};
     Counts counts{0.0};
@@ -35,7 +35,7 @@ enum class Chance {
 };
 
 // (x, y): a pixel of the whole picture; called from many threads at once.
-using Reference = std::function<Probe(int x, int y, const Vec2& shift, Chance chance)>;
+using Reference = std::function<Neighbour(int x, int y, const Vec2& shift, Chance chance)>;
 
 // Places around a pixel's own, in pixels: `angles` on each of four rings, and before them on one as wide as a
 // rounding error, where that is known. Of a pixel whose rays strike so many surfaces. `between`: half as many
@@ -86,9 +86,9 @@ class Neighbourhood {
   Cause cause_of_samples() const;
   Cause cause_of_first_hit(const Tolerances& tolerances) const;
   // The pixel itself, as it is and with coincident surfaces, and the ring of a rounding error, turned too.
-  std::span<const Probe> innermost() const { return std::span(probes_).first(innermost_); }
+  std::span<const Neighbour> innermost() const { return std::span(neighbours_).first(innermost_); }
 
-  std::vector<Probe> probes_;
+  std::vector<Neighbour> neighbours_;
   size_t innermost_ = 0;
 };
 

@@ -136,7 +136,7 @@ class Pixel {
     return tree;
   }
 
-  // What the reference shows around the pixel, as verify explains what differs (verify/probe.cpp).
+  // What the reference shows around the pixel, as verify explains what differs (verify/neighbours.cpp).
   void add_around(Overlay& overlay) const {
     if (!renderer_) return;
     uint32_t hits = 0;

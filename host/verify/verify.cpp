@@ -5,7 +5,7 @@
 #include "host/reference/renderer.hpp"
 #include "host/scene/objects.hpp"
 #include "host/verify/evidence.hpp"
-#include "host/verify/probe.hpp"
+#include "host/verify/neighbours.hpp"
 
 namespace eyeray::verify {
 namespace {
@@ -113,7 +113,7 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   add_frame(executors::Backend::reference, executors::make_reference_executor(renderer));
 
   compare_backends(frames, options, report);
-  const compare::Reference reference = probes(scene, *renderer);
+  const compare::Reference reference = neighbours(scene, *renderer);
   const compare::Tolerances tolerances{.max_explained =
                                            options.max_explained.value_or(scene.verify.max_explained)};
   const auto outcomes = compare_each_with_reference(frames, reference, tolerances, options, report);

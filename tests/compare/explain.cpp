@@ -17,9 +17,9 @@ namespace {
 template <typename Change>
 Cause cause_of(const Change& change) {
   const Reference reference = [&](int x, int y, const Vec2& shift, Chance) {
-    Probe probe = picture_reference(x, y, shift);
-    if (shift.x > 0) change(probe);
-    return probe;
+    Neighbour neighbour = picture_reference(x, y, shift);
+    if (shift.x > 0) change(neighbour);
+    return neighbour;
   };
   return Neighbourhood(reference, {48, 30}, 16).cause(Vec3(0.0), {});
 }
@@ -27,27 +27,27 @@ Cause cause_of(const Change& change) {
 }  // namespace
 
 TEST_CASE("a cause is the first thing along the ray that changes") {
-  const auto surface = [](Probe& p) { p.first_surfaces = 7; };
-  const auto branch = [](Probe& p) { p.samples[0].counts.x = 3; };
-  const auto texture = [](Probe& p) { p.first_colors = 7; };
-  const auto light = [](Probe& p) { p.samples[0].color *= 0.5; };
+  const auto surface = [](Neighbour& n) { n.first_surfaces = 7; };
+  const auto branch = [](Neighbour& n) { n.samples[0].counts.x = 3; };
+  const auto texture = [](Neighbour& n) { n.first_colors = 7; };
+  const auto light = [](Neighbour& n) { n.samples[0].color *= 0.5; };
   CHECK(cause_of(surface) == Cause::silhouette);
   CHECK(cause_of(branch) == Cause::refraction_branch);
   CHECK(cause_of(texture) == Cause::texture_edge);
   CHECK(cause_of(light) == Cause::shadow_edge);
-  CHECK(cause_of([&](Probe& p) { surface(p), branch(p), texture(p); }) == Cause::silhouette);
-  CHECK(cause_of([&](Probe& p) { branch(p), texture(p); }) == Cause::refraction_branch);
-  CHECK(cause_of([](Probe& p) { p.direct = false; }) == Cause::refraction_branch);
+  CHECK(cause_of([&](Neighbour& n) { surface(n), branch(n), texture(n); }) == Cause::silhouette);
+  CHECK(cause_of([&](Neighbour& n) { branch(n), texture(n); }) == Cause::refraction_branch);
+  CHECK(cause_of([](Neighbour& n) { n.direct = false; }) == Cause::refraction_branch);
 }
 
 TEST_CASE("what float32's rounding of where rays start changes is explained as that, and not otherwise") {
   const auto neighbourhood = [](double near, double far) {
     return Neighbourhood(
         [=](int, int, const Vec2&, Chance) {
-          Probe probe;
-          probe.samples = {{Vec3(near), {}}};
-          if (far > 0) probe.rounded = {{Vec3(far), {}}};
-          return probe;
+          Neighbour neighbour;
+          neighbour.samples = {{Vec3(near), {}}};
+          if (far > 0) neighbour.rounded = {{Vec3(far), {}}};
+          return neighbour;
         },
         {0, 0}, 16);
   };
@@ -61,11 +61,11 @@ TEST_CASE("what float32's rounding of where rays start changes is explained as t
 TEST_CASE("of two surfaces that float32 cannot tell apart, it may show either") {
   const Neighbourhood neighbourhood(
       [](int, int, const Vec2&, Chance chance) {
-        Probe probe;
+        Neighbour neighbour;
         const bool coincident = chance == Chance::coincident;
-        probe.samples[0].color = Vec3(coincident ? 0.7 : 0.2);
-        probe.first_hit = {.t = 4, .normal = {0, 0, 1}, .primitive = coincident ? 3 : 2, .material = 0};
-        return probe;
+        neighbour.samples[0].color = Vec3(coincident ? 0.7 : 0.2);
+        neighbour.first_hit = {.t = 4, .normal = {0, 0, 1}, .primitive = coincident ? 3 : 2, .material = 0};
+        return neighbour;
       },
       {0, 0}, 16);
   const auto hit = [](int primitive) {
@@ -82,10 +82,10 @@ TEST_CASE("of two surfaces that float32 cannot tell apart, it may show either") 
 TEST_CASE("a first hit differs at a silhouette, a crease, a seam of uv, or a grazing angle") {
   const auto cause = [](const auto& change) {
     const Reference reference = [&](int x, int y, const Vec2& shift, Chance) {
-      Probe probe = picture_reference(x, y, shift);
-      probe.first_colors = shift.x > 0;
-      if (shift.x > 0) change(probe.first_hit);
-      return probe;
+      Neighbour neighbour = picture_reference(x, y, shift);
+      neighbour.first_colors = shift.x > 0;
+      if (shift.x > 0) change(neighbour.first_hit);
+      return neighbour;
     };
     return Neighbourhood(reference, {48, 30}, 16).cause(FirstHit{}, {});
   };
@@ -107,7 +107,7 @@ TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around,
     } else {
       shifts.push_back(shift);
     }
-    return Probe{};
+    return Neighbour{};
   };
   const Neighbourhood neighbourhood(reference, {5, 7}, 16);
   CHECK(coincident == 1);
@@ -126,12 +126,12 @@ TEST_CASE("a jump within a rounding error of the eye ray is undecidable") {
   const auto cause = [](double edge, double rounding) {
     const Reference reference = [=](int, int, const Vec2& shift, Chance) {
       const bool beyond_edge = shift.y > edge;
-      Probe probe;
-      probe.samples[0].color = Vec3(beyond_edge ? 0.7 : 0.2);
-      probe.first_hit = {.t = 1, .normal = {0, 0, 1}, .primitive = beyond_edge, .material = 0};
-      probe.first_surfaces = beyond_edge;
-      probe.rounding = rounding;
-      return probe;
+      Neighbour neighbour;
+      neighbour.samples[0].color = Vec3(beyond_edge ? 0.7 : 0.2);
+      neighbour.first_hit = {.t = 1, .normal = {0, 0, 1}, .primitive = beyond_edge, .material = 0};
+      neighbour.first_surfaces = beyond_edge;
+      neighbour.rounding = rounding;
+      return neighbour;
     };
     const Neighbourhood neighbourhood(reference, {0, 0}, 16);
     const FirstHit other{.t = 1, .normal = {0, 0, 1}, .primitive = 1, .material = 0};
@@ -152,10 +152,10 @@ TEST_CASE("what a ray shows that is turned by a rounding error is undecidable") 
     return Neighbourhood(
         [=](int, int, const Vec2& shift, Chance chance) {
           CHECK((chance != Chance::turned || glm::length(shift) < 1.001 * rounding));
-          Probe probe;
-          probe.samples[0].color = Vec3(chance == Chance::turned && shift.x > 0 ? 0.7 : 0.2);
-          probe.rounding = rounding;
-          return probe;
+          Neighbour neighbour;
+          neighbour.samples[0].color = Vec3(chance == Chance::turned && shift.x > 0 ? 0.7 : 0.2);
+          neighbour.rounding = rounding;
+          return neighbour;
         },
         {0, 0}, 16);
   };
@@ -168,10 +168,10 @@ TEST_CASE("what a ray shows that is turned by a rounding error is undecidable") 
 TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what may be explained") {
   const auto colors = [](double rounding) {
     const Reference picture = [=](int, int y, const Vec2& shift, Chance) {
-      Probe probe;
-      probe.samples[0].color = Vec3(y + shift.y > 30 + 5e-7 ? 0.7 : 0.2);
-      probe.rounding = rounding;
-      return probe;
+      Neighbour neighbour;
+      neighbour.samples[0].color = Vec3(y + shift.y > 30 + 5e-7 ? 0.7 : 0.2);
+      neighbour.rounding = rounding;
+      return neighbour;
     };
     const Frame value = picture_frame({0, 1e-6}, picture), reference = picture_frame({0, 0}, picture);
     return compare_with_reference(value, reference, picture).colors;
@@ -187,11 +187,11 @@ TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what
 
 TEST_CASE("what is narrower than the first ring is found by the second look") {
   const Reference reference = [](int, int, const Vec2& shift, Chance) {
-    Probe probe;
+    Neighbour neighbour;
     const double r = glm::length(shift);
-    probe.samples[0].color = Vec3(r > 2e-5 && r < 4e-4 ? 0.7 : 0.2);
-    probe.rounding = 1e-5;
-    return probe;
+    neighbour.samples[0].color = Vec3(r > 2e-5 && r < 4e-4 ? 0.7 : 0.2);
+    neighbour.rounding = 1e-5;
+    return neighbour;
   };
   CHECK_FALSE(Neighbourhood(reference, {0, 0}, 256).explains(Vec3(0.6), {}));
   CHECK(Neighbourhood(reference, {0, 0}, 256, true).explains(Vec3(0.6), {}));
@@ -200,11 +200,11 @@ TEST_CASE("what is narrower than the first ring is found by the second look") {
 
 TEST_CASE("what is explained lies between the neighbours, a tolerance more at each end") {
   const Reference reference = [](int, int, const Vec2& shift, Chance) {
-    Probe probe;
-    probe.samples[0].color = Vec3(shift.x > 0.002 ? 0.7 : 0.2, 10, 0);
-    probe.first_hit = {
+    Neighbour neighbour;
+    neighbour.samples[0].color = Vec3(shift.x > 0.002 ? 0.7 : 0.2, 10, 0);
+    neighbour.first_hit = {
         .t = shift.x > 0.002 ? 50.0 : 40.0, .normal = {0, 0, 1}, .primitive = 3, .material = 1};
-    return probe;
+    return neighbour;
   };
   const Neighbourhood neighbourhood(reference, {0, 0}, 16);
   const Tolerances tolerances;
@@ -254,9 +254,9 @@ TEST_CASE("t may be off by the rounding of the coordinates that it comes from, a
 TEST_CASE("a neighbourhood is as wide as the rounding of its coordinates") {
   const auto explained = [](double t_scale) {
     const Reference reference = [&](int x, int y, const Vec2& shift, Chance) {
-      Probe probe = picture_reference(x, y, shift);
-      probe.first_hit.t_scale = t_scale;
-      return probe;
+      Neighbour neighbour = picture_reference(x, y, shift);
+      neighbour.first_hit.t_scale = t_scale;
+      return neighbour;
     };
     FirstHit hit = picture_reference(48, 30, {0, 0}).first_hit;
     hit.t *= 1.001;

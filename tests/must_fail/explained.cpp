@@ -27,9 +27,9 @@ TEST_CASE("an edge does not excuse a value that is on neither side of it") {
 TEST_CASE("too many explained pixels fail, all of them explained") {
   // The picture with an edge along a whole column.
   const Reference split = [](int x, int y, const Vec2& shift, Chance) {
-    Probe probe = picture_reference(x, y, shift);
-    if (x + 0.5 + shift.x >= 40.5 + beyond) probe.samples[0].color *= 0.5;
-    return probe;
+    Neighbour neighbour = picture_reference(x, y, shift);
+    if (x + 0.5 + shift.x >= 40.5 + beyond) neighbour.samples[0].color *= 0.5;
+    return neighbour;
   };
   const Frame value = picture_frame(honest_shift, split), reference = picture_frame(Vec2(0.0), split);
   const ReferenceComparison comparison = compare_with_reference(value, reference, split);
@@ -45,10 +45,10 @@ TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
   // Left of a column the picture is twice as bright in a direction that lies between two of the 64.
   const auto unexplained = [](int columns) {
     const Reference wedge = [columns](int x, int y, const Vec2& shift, Chance) {
-      Probe probe = picture_reference(x, y, shift);
+      Neighbour neighbour = picture_reference(x, y, shift);
       const bool meets = std::fabs(std::atan2(shift.y, shift.x) - M_PI / 64) < M_PI / 200;
-      if (x < columns && y == 0 && meets) probe.samples[0].color *= 2.0;
-      return probe;
+      if (x < columns && y == 0 && meets) neighbour.samples[0].color *= 2.0;
+      return neighbour;
     };
     Frame gpu = picture_frame();
     for_each_pixel(gpu, [&, i = 0](float* color, FirstHit&) mutable {
@@ -63,11 +63,11 @@ TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
 TEST_CASE("what is not looked into fails, even where all that was looked into is explained") {
   // Seventy columns with an edge each: more than are looked into.
   const Reference stripes = [](int x, int y, const Vec2& shift, Chance) {
-    Probe probe;
+    Neighbour neighbour;
     const double place = x + 0.5 + shift.x;
-    probe.samples[0].color =
+    neighbour.samples[0].color =
         Vec3(place < 70 && std::fmod(place - beyond, 1) >= 0.5 ? 0.5 : 0.2, y / 100.0, 0);
-    return probe;
+    return neighbour;
   };
   const Frame value = picture_frame(honest_shift, stripes), reference = picture_frame(Vec2(0.0), stripes);
   const Tally tally = compare_with_reference(value, reference, stripes, {.max_explained = 0.05}).colors;

@@ -37,8 +37,8 @@ inline compare::Frame render_frame(const Scene& scene, executors::Backend backen
 // Gates B and C.
 inline compare::ReferenceComparison compare_with_reference(const Scene& scene, const compare::Frame& value) {
   const reference::Renderer renderer(scene);
-  const compare::Reference probe = [&](int x, int y, const Vec2& shift, compare::Chance chance) {
-    compare::Probe result;
+  const compare::Reference around = [&](int x, int y, const Vec2& shift, compare::Chance chance) {
+    compare::Neighbour result;
     result.samples.clear();
     const reference::RayOffset ray_offset{.coincident = chance == compare::Chance::coincident};
     for (int i = 0; i < scene.image.samples; ++i) {
@@ -48,7 +48,7 @@ inline compare::ReferenceComparison compare_with_reference(const Scene& scene, c
     result.first_hit = renderer.first_hit(x, y, shift, ray_offset);
     return result;
   };
-  return compare::compare_with_reference(value, render_frame(scene, executors::Backend::reference), probe);
+  return compare::compare_with_reference(value, render_frame(scene, executors::Backend::reference), around);
 }
 
 }  // namespace eyeray::test

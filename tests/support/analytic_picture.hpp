@@ -31,15 +31,15 @@ inline FirstHit hit_of(double t, const Vec3& position, const Vec3& normal, const
 // The picture at a point in pixels from its top left corner: a ball (primitive 1) before a wall (primitive
 // 0), an opening in the wall, a shadow and a checker's edge on it, and a mirror (primitive 2) in which two
 // colours hit.
-inline compare::Probe picture_at(double x, double y) {
+inline compare::Neighbour picture_at(double x, double y) {
   const auto between = [](double value, double low, double high) { return value >= low && value < high; };
-  compare::Probe probe;
-  compare::Probe::Sample& sample = probe.samples.front();
+  compare::Neighbour neighbour;
+  compare::Neighbour::Sample& sample = neighbour.samples.front();
   sample.counts = {1, 2};
 
   // The wall, lit a little unevenly.
   sample.color = Vec3(0.5, 0.4, 0.3) * (1 + 0.1 * std::sin(x / 20) * std::cos(y / 20));
-  probe.first_hit = hit_of(1000, {x, -y, 0}, {0, 0, 1}, {x, y}, 0);
+  neighbour.first_hit = hit_of(1000, {x, -y, 0}, {0, 0, 1}, {x, y}, 0);
 
   // The ball.
   const double radius = 25, dx = x - 48, dy = y - 34, r2 = dx * dx + dy * dy;
@@ -48,33 +48,33 @@ inline compare::Probe picture_at(double x, double y) {
     const Vec3 n = Vec3(dx, -dy, z) / radius;
     const double light = std::max(0.0, glm::dot(n, glm::normalize(Vec3(1, 2, 3))));
     sample.color = Vec3(0.1) + light * Vec3(0.9, 0.5, 0.2);
-    probe.first_hit = hit_of(900 - z, {x, -y, z}, n, {n.x, n.y}, 1);
+    neighbour.first_hit = hit_of(900 - z, {x, -y, z}, n, {n.x, n.y}, 1);
   }
   // The opening, through which nothing is hit.
   if (between(x, 88.5 + beyond, 96) && between(y, 4, 4 + edge_pixels)) {
     sample = {.color = Vec3(0.1, 0.2, 0.9), .counts = {0, 1}};
-    probe.first_hit = {};
+    neighbour.first_hit = {};
   }
   // The shadow.
   if (between(y, 60.5 + beyond, 65) && between(x, 4, 4 + edge_pixels)) sample.color *= 0.4;
   // The checker.
   if (between(x, 20.5 + beyond, 24) && between(y, 60, 60 + edge_pixels)) {
     sample.color *= Vec3(0.2, 0.9, 0.2);
-    probe.first_colors = 1;
+    neighbour.first_colors = 1;
   }
   // The mirror.
   if (between(x, 4, 4 + edge_pixels) && between(y, 4, 16)) {
     sample.color = y < 10.5 + beyond ? Vec3(0.8, 0.1, 0.1) : Vec3(0.1, 0.1, 0.8);
-    probe.first_hit = hit_of(800, {x, -y, 5}, {0, 0.6, 0.8}, {x, y}, 2);
+    neighbour.first_hit = hit_of(800, {x, -y, 5}, {0, 0.6, 0.8}, {x, y}, 2);
     sample.counts = {2, 4};
-    probe.direct = false;
+    neighbour.direct = false;
   }
-  probe.first_surfaces = uint64_t(probe.first_hit.primitive);
-  return probe;
+  neighbour.first_surfaces = uint64_t(neighbour.first_hit.primitive);
+  return neighbour;
 }
 
-inline compare::Probe picture_reference(int x, int y, const Vec2& shift,
-                                        compare::Chance = compare::Chance::none) {
+inline compare::Neighbour picture_reference(int x, int y, const Vec2& shift,
+                                            compare::Chance = compare::Chance::none) {
   return picture_at(x + 0.5 + shift.x, y + 0.5 + shift.y);
 }
 
@@ -88,12 +88,12 @@ inline compare::Frame picture_frame(const Vec2& shift = Vec2(0.0),
   frame.rays = 2u * picture_width * picture_height;
   for (int y = 0; y < picture_height; ++y) {
     for (int x = 0; x < picture_width; ++x) {
-      const compare::Probe probe = picture(x, y, shift, compare::Chance::none);
-      const compare::Probe::Sample& sample = probe.samples.front();
+      const compare::Neighbour neighbour = picture(x, y, shift, compare::Chance::none);
+      const compare::Neighbour::Sample& sample = neighbour.samples.front();
       for (int c = 0; c < 3; ++c) frame.color.pixel(x, y)[c] = float(sample.color[c]);
       *frame.hits.pixel(x, y) = float(sample.counts.x);
       *frame.rays_traced.pixel(x, y) = float(sample.counts.y);
-      frame.first_hits.push_back(probe.first_hit);
+      frame.first_hits.push_back(neighbour.first_hit);
     }
   }
   return frame;

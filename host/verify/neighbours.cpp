@@ -1,4 +1,4 @@
-#include "host/verify/probe.hpp"
+#include "host/verify/neighbours.hpp"
 
 #include <bit>
 
@@ -11,22 +11,23 @@ uint64_t mix(uint64_t hash, uint64_t value) {
   return (hash ^ value) * 0x9e3779b97f4a7c15u + std::rotl(hash, 23);
 }
 
-// Adds to a probe's fingerprints what one sample's eye ray hits.
-void add_first_hit(compare::Probe& probe, const Scene& scene, const FirstHit& hit) {
-  probe.first_surfaces = mix(probe.first_surfaces, uint64_t(hit.primitive));
+// Adds to a neighbour's fingerprints what one sample's eye ray hits.
+void add_first_hit(compare::Neighbour& neighbour, const Scene& scene, const FirstHit& hit) {
+  neighbour.first_surfaces = mix(neighbour.first_surfaces, uint64_t(hit.primitive));
   if (hit.primitive < 0) return;
   const Vec3 color = scene.materials[size_t(hit.material)]->base_color(hit.uv);
-  for (int c = 0; c < 3; ++c) probe.first_colors = mix(probe.first_colors, std::bit_cast<uint64_t>(color[c]));
+  for (int c = 0; c < 3; ++c)
+    neighbour.first_colors = mix(neighbour.first_colors, std::bit_cast<uint64_t>(color[c]));
 }
 
-compare::Probe::Sample of(const PixelSample& sample) {
+compare::Neighbour::Sample of(const PixelSample& sample) {
   return {sample.color, {double(sample.hits), double(sample.rays)}};
 }
 
 // All samples of pixel (x, y), every ray moved by `shift`.
-compare::Probe probe(const Scene& scene, const reference::Renderer& renderer, int x, int y, const Vec2& shift,
-                     compare::Chance chance) {
-  compare::Probe result;
+compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& renderer, int x, int y,
+                             const Vec2& shift, compare::Chance chance) {
+  compare::Neighbour result;
   result.samples.clear();
   const auto seed = uint32_t(mix(std::bit_cast<uint64_t>(shift.x), std::bit_cast<uint64_t>(shift.y)) >> 32);
   const bool coincident = chance == compare::Chance::coincident;
@@ -60,9 +61,9 @@ compare::Probe probe(const Scene& scene, const reference::Renderer& renderer, in
 
 }  // namespace
 
-compare::Reference probes(const Scene& scene, const reference::Renderer& renderer) {
+compare::Reference neighbours(const Scene& scene, const reference::Renderer& renderer) {
   return [&](int x, int y, const Vec2& shift, compare::Chance chance) {
-    return probe(scene, renderer, x, y, shift, chance);
+    return neighbour(scene, renderer, x, y, shift, chance);
   };
 }
 

@@ -8,6 +8,6 @@
 namespace eyeray::verify {
 
 // `renderer` is that of `scene`; both must outlive what is returned.
-compare::Reference probes(const Scene& scene, const reference::Renderer& renderer);
+compare::Reference neighbours(const Scene& scene, const reference::Renderer& renderer);
 
 }  // namespace eyeray::verify
