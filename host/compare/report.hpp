@@ -13,6 +13,7 @@
 #include "host/compare/exact.hpp"
 #include "host/compare/metrics.hpp"
 #include "host/compare/soundness.hpp"
+#include "host/image/image.hpp"
 
 namespace eyeray::compare {
 
@@ -46,6 +47,7 @@ struct GoldenResult {
   std::string file;
   std::string value;         // the executor
   std::string incomparable;  // why nothing was compared; empty when everything was
+  image::Image picture;      // as it was before an update, or the part of it that was compared
   Tally colors;              // the golden picture's, as if the executor's were the reference
   std::optional<Metrics> metrics;
   std::vector<std::string> changed;  // what the picture was made of and is no more: "scene hash", "executor"

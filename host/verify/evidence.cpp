@@ -59,13 +59,10 @@ void keep_evidence(const fs::path& folder, std::span<const compare::Frame> frame
     image::write_image(folder / (name + "-causes.png"), compare::cause_picture(reference.color, outcomes[i]));
     write_file_atomically(folder / (name + "-causes.json"), compare::cause_legend(outcomes[i]));
   }
-  if (report.golden && report.golden->incomparable.empty()) {
-    const image::Image golden = image::read_image(report.golden->file);
-    if (golden.same_size(frames[0].color))
-      image::write_image(
-          folder / "golden-difference.png",
-          image::false_color(compare::log_difference(golden, frames[0].color), image::FalseColor::scalar));
-  }
+  if (report.golden && report.golden->incomparable.empty())
+    image::write_image(folder / "golden-difference.png",
+                       image::false_color(compare::log_difference(report.golden->picture, frames[0].color),
+                                          image::FalseColor::scalar));
   write_file_atomically(folder / "command.txt", own_command_line() + "\n");
 }
 

@@ -94,6 +94,7 @@ compare::GoldenResult compare_with_golden(const Golden& golden, const Scene& sce
   result.incomparable = comparison.incomparable;
   result.colors = std::move(comparison.colors);
   if (result.incomparable.empty()) result.metrics = compare::measure(stored.color, frame.color);
+  result.picture = std::move(stored.color);
   if (!result.passes()) result.changed = changes(golden, origin(golden, scene, report));
   return result;
 }

@@ -111,6 +111,8 @@ void Page::add(const compare::Report& report, std::span<const compare::Frame> fr
   for (size_t i = 0; i < frames.size(); ++i)
     if (i == 0 || !same_as_first(report, i))
       pictures[report.participants[i].name] = data_url(frames[i].color);
+  if (report.golden && report.golden->incomparable.empty())
+    pictures["golden"] = data_url(report.golden->picture);
   const image::Image& reference = frames.back().color;
   pictures["difference"] = data_url(difference_codes(frames[executor].color, reference));
   pictures["causes"] = data_url(compare::cause_picture(reference, outcomes[executor]));

@@ -51,6 +51,26 @@ TEST_CASE("the page of a report holds its pictures, numbers and the values of pi
   CHECK(std::filesystem::exists(folder / "report/kept/gpu.pfm"));
 }
 
+TEST_CASE("the page of a report shows the golden picture as it was compared") {
+  const SceneFolder folder;
+  const auto golden_of = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"--against", folder / "golden.pfm", "--keep-passed"});
+    CHECK(report_on(folder, options).code < 2);
+    return data_of(page_of(folder)).at("scenes").at(0).at("pictures").value("golden", "none");
+  };
+  CHECK(golden_of({}) == "none");
+  CHECK(golden_of({"--update"}) == "none");
+  const std::string golden = golden_of({});
+  CHECK(golden.starts_with("data:image/png;base64,iVBOR"));
+
+  replace_in_file(folder.scene(), "0.8, 0.4, 0.2", "0.4, 0.8, 0.2");
+  CHECK(golden_of({}) == golden);
+  CHECK(golden_of({"--update"}) == golden);
+  CHECK(golden_of({}) != golden);
+  CHECK(golden_of({"--crop", "3,4,5,6"}) != "none");
+  CHECK(std::filesystem::exists(folder / "report/kept/golden-difference.png"));
+}
+
 TEST_CASE("nothing that a scene is called ends the page's data") {
   const SceneFolder folder;
   const std::string name = folder / "</script><b>.toml";
@@ -91,7 +111,11 @@ TEST_CASE("a browser shows the page, and the view that its link names" * doctest
 TEST_CASE("the page's keys, slider, split, zoom and read-out do what the manual says" *
           doctest::test_suite("long")) {
   const SceneFolder folder;
-  REQUIRE(report_on(folder, {"--inject-fault", "light"}).code == 1);
+  const std::string golden = folder / "golden.pfm";
+  REQUIRE(
+      run_eyeray({"render", folder.scene(), "-s", "16x12", "-D", "camera.fov=30", "-q", "-o", golden}).code ==
+      0);
+  REQUIRE(report_on(folder, {"--inject-fault", "light", "--against", golden}).code == 1);
   const ProcessResult result =
       run_process({"node", "tests/cli/page/drive.mjs", folder / "report/index.html", folder.path()}, {}, 900);
   CAPTURE(result.err);

@@ -30,13 +30,13 @@ const stage = () => page.locator('#stage').evaluate(canvas => canvas.toDataURL()
 // A scene that fails opens with its causes; each key shows its picture.
 assert.equal(await shown(), 'causes');
 const pictures = new Map();
-for (const [key, name] of [['1', 'gpu'], ['2', 'twin'], ['3', 'reference'], ['d', 'difference'], ['c', 'causes']]) {
+for (const [key, name] of [['1', 'gpu'], ['2', 'twin'], ['3', 'reference'], ['4', 'golden'], ['d', 'difference'], ['c', 'causes']]) {
   await page.keyboard.press(key);
   assert.equal(await shown(), name);
   pictures.set(name, await stage());
 }
 assert.equal(pictures.get('twin'), pictures.get('reference'), 'the fault is on the GPU\'s side alone');
-assert.equal(new Set(pictures.values()).size, 4);
+assert.equal(new Set(pictures.values()).size, 5);
 
 // Heat by the slider.
 await page.keyboard.press('d');
@@ -82,7 +82,7 @@ assert.equal(await stage(), fitted);
 // A pixel under the pointer, and one that a click holds.
 const readout = page.locator('#pixel');
 await page.mouse.move(...middle);
-assert.match(await readout.textContent(), /^pixel \d+,\d+[^]*\ngpu +sRGB [^]*\ntwin +sRGB [^]*\nreference +sRGB /);
+assert.match(await readout.textContent(), /^pixel \d+,\d+[^]*\ngpu +sRGB [^]*\ntwin +sRGB [^]*\nreference +sRGB [^]*\ngolden +sRGB /);
 await page.mouse.click(...middle);
 const held = await readout.textContent();
 await page.mouse.move(middle[0] + 100, middle[1] + 50);
