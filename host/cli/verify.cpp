@@ -92,7 +92,8 @@ compare::Report VerifyCommand::report_on(const SceneOptions& scene_file) const {
   const Scene scene = scene_file.load();
   check_crop(options.crop, scene.image);
   const fs::path& folder = options.executor.shader_folder;
-  const std::string shaders = folder.empty() ? "" : fmt::format(" --shaders '{}'", folder.string());
+  std::string shaders = folder.empty() ? "" : fmt::format(" --shaders '{}'", folder.string());
+  if (options.executor.compile_twin) shaders += " --compile-twin";
   return verify::verify_scene({scene, scene_file.file(), scene_file.as_written() + shaders,
                                folder_for(scene_file.file()), keep_passed, golden_of(scene_file.file())},
                               options);

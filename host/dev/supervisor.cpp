@@ -174,7 +174,7 @@ void Supervisor::take_messages() {
       lose_worker(ExitCode::bad_input, "");
     else if (busy_ && !heard_ && since_message_.seconds() > grace)
       worker_.kill(), ask_worker();
-    else if (busy_ && since_message_.seconds() > options_.timeout_seconds + patience)
+    else if (busy_ && since_message_.seconds() > options_.timeout_seconds + patience && !worker_.debugged())
       lose_worker(ExitCode::timed_out, fmt::format("no answer for {}: a shader that never ends?",
                                                    format_seconds(options_.timeout_seconds + patience)));
     return;

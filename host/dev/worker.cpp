@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <utility>
 
 #include "host/core/error.hpp"
@@ -67,6 +68,13 @@ std::string Worker::kill() {
   return fmt::format("signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
 }
 
+bool Worker::debugged() const {
+  std::ifstream status(fmt::format("/proc/{}/status", pid_));
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("TracerPid:")) return line.find_first_of("123456789") != std::string::npos;
+  return false;
+}
+
 bool Worker::has_ended() const {
   siginfo_t info{};
   return waitid(P_PID, id_t(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == pid_;
@@ -76,6 +84,7 @@ void be_a_worker() {
   // Ctrl-C in a terminal reaches both, and is the supervisor's business.
   for (const int number : {SIGINT, SIGHUP}) std::signal(number, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
+  prctl(PR_SET_NAME, "eyeray-worker");
   end_silently();
 }
 

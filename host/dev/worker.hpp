@@ -23,6 +23,8 @@ class Worker {
   void start();
   bool running() const { return pid_ >= 0; }
   MessageSocket& socket() { return socket_; }
+  // Whether a debugger is attached to it, and may hold it for as long as a person thinks.
+  bool debugged() const;
   // Ends it, whatever it does: soon, and with its unfinished files gone. How it ended, for people: "signal 11
   // (Segmentation fault)"; a process that ends by itself does so before it is killed.
   std::string kill();
@@ -35,8 +37,8 @@ class Worker {
   MessageSocket socket_;
 };
 
-// In the worker, before anything else: it ends when the process that started it does, and leaves Ctrl-C to
-// it.
+// In the worker, before anything else: it ends when the process that started it does, leaves Ctrl-C to it,
+// and is called eyeray-worker.
 void be_a_worker();
 
 }  // namespace eyeray::dev

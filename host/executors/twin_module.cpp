@@ -25,7 +25,7 @@ namespace eyeray::executors {
 namespace {
 
 constexpr double longest_compilation = 300;  // seconds
-constexpr size_t most_modules = 16;          // in the cache
+constexpr size_t most_kept = 16;             // of modules in the cache
 constexpr size_t most_diagnostics = 20;
 
 // Whether there is now a folder that nobody else may write to: what lies in it is loaded into this process.
@@ -50,27 +50,33 @@ void for_each_source(const Visit& visit) {
   for (const EmbeddedShader& source : twin_sources()) visit(fs::path(source.name), source.text);
 }
 
+bool has_sources(const fs::path& folder) {
+  bool whole = true;
+  for_each_source(
+      [&](const fs::path& name, std::string_view text) { whole = whole && has_text(folder / name, text); });
+  return whole;
+}
+
 // The program's own part of what is compiled, below `folder`: once for each version, and whole.
 fs::path write_sources(const fs::path& folder) {
   ContentHash hash;
   for_each_source([&](const fs::path& name, std::string_view text) { hash.add(name.string()).add(text); });
   fs::path place = folder / ("sources-" + hash.hex());
-  bool whole = true;
-  for_each_source(
-      [&](const fs::path& name, std::string_view text) { whole = whole && has_text(place / name, text); });
-  if (whole) return place;
+  if (has_sources(place)) return place;
 
   const fs::path part = fmt::format("{}.part.{}", place.string(), ::getpid());
   for_each_source([&](const fs::path& name, std::string_view text) {
     fs::create_directories((part / name).parent_path());
     std::ofstream(part / name, std::ios::binary) << text;
-    if (!has_text(part / name, text))
-      throw Error(ExitCode::file_io, "cannot write {}", (part / name).string());
   });
+  if (!has_sources(part)) throw Error(ExitCode::file_io, "cannot write {}", part.string());
   std::error_code failed;
-  fs::remove_all(place, failed);
   fs::rename(part, place, failed);
-  if (failed) fs::remove_all(part, failed);  // another process was faster
+  if (failed && !has_sources(place)) {  // not that another process was faster: damaged
+    fs::remove_all(place);
+    fs::rename(part, place);
+  }
+  fs::remove_all(part, failed);
   return place;
 }
 
@@ -112,15 +118,17 @@ std::vector<Diagnostic> diagnostics_in(const std::string& log, const fs::path& f
   return found;
 }
 
-// The newest stay.
-void drop_old_modules(const fs::path& folder) {
+// The newest stay, of modules and of what they are made of.
+void drop_old(const fs::path& folder) {
   std::error_code failed;
-  std::vector<std::pair<fs::file_time_type, fs::path>> modules;
+  std::vector<std::pair<fs::file_time_type, fs::path>> modules, sources;
   for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
-    if (entry->path().extension() == ".so")
-      modules.emplace_back(entry->last_write_time(failed), entry->path());
-  std::sort(modules.begin(), modules.end());
-  for (size_t i = 0; i + most_modules < modules.size(); ++i) fs::remove(modules[i].second, failed);
+    (entry->is_directory(failed) ? sources : modules)
+        .emplace_back(entry->last_write_time(failed), entry->path());
+  for (auto* const all : {&modules, &sources}) {
+    std::sort(all->begin(), all->end());
+    for (size_t i = 0; i + most_kept < all->size(); ++i) fs::remove_all((*all)[i].second, failed);
+  }
 }
 
 }  // namespace
@@ -165,7 +173,7 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
                   result.code, printable(result.err.substr(0, 2000)));
     }
     fs::rename(part, module);
-    drop_old_modules(place);
+    drop_old(place);
   }
   handle_ = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle_) throw Error(ExitCode::file_io, "cannot load the twin of the shaders: {}", ::dlerror());

@@ -1,7 +1,7 @@
 // The twin of a user's shaders: the bits of the device, and what debuggers and sanitizers say of it.
 #include <sys/stat.h>
 
-#include <nlohmann/json.hpp>
+#include <csignal>
 
 #include "scene.hpp"
 //
@@ -155,4 +155,20 @@ TEST_CASE("a debugger stops in a user's shader, which may print") {
   CHECK(told.code == 0);
   CHECK(contains(told.out, "t = "));
   CHECK(contains(told.out, "middle"));
+}
+
+TEST_CASE("dev renders the twin of a user's shaders on every save") {
+  const Users users;
+  Process dev({eyeray_binary(), "dev", users.scene(), "--shaders", users.shaders, "--backend", "twin",
+               "--no-page", "-o", users / "a.pfm"},
+              {{"EYERAY_CACHE_DIR", users / "cache"}});
+  REQUIRE(dev.wait_for_error_text("watching for changes", 600));
+  CHECK(contains(dev.err(), "twin: " + users.shaders + " as C++, by "));
+  const std::string picture = read_text(users / "a.pfm");
+  const size_t seen = dev.err().size();
+  users.change_sphere("  t = t * 1.0009765625f;\n");
+  REQUIRE(dev.wait_for_error_text("rendered ", 600, seen));
+  CHECK(read_text(users / "a.pfm") != picture);
+  dev.send_signal(SIGINT);
+  CHECK(dev.wait(600));
 }

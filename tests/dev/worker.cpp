@@ -2,8 +2,11 @@
 #include "host/dev/worker.hpp"
 
 #include <fcntl.h>
+#include <sys/ptrace.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include <csignal>
 
 #include "tests/support/process.hpp"
 //
@@ -101,4 +104,16 @@ TEST_CASE("what is no message closes the socket") {
     CHECK(socket.closed());
     CHECK_FALSE(socket.send({Json::object(), ""}));
   }
+}
+
+TEST_CASE("a worker that a debugger holds is known") {
+  Worker worker(shell("exec sleep 600"));
+  CHECK_FALSE(worker.debugged());
+  worker.start();
+  CHECK_FALSE(worker.debugged());
+  const pid_t pid = std::stoi(eyeray::test::read_text("/proc/thread-self/children"));
+  REQUIRE(ptrace(PTRACE_SEIZE, pid, 0, 0) == 0);
+  CHECK(worker.debugged());
+  ::kill(pid, SIGKILL);
+  CHECK(worker.kill() == "signal 9 (Killed)");
 }
