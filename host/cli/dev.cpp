@@ -86,8 +86,8 @@ void DevCommand::report_picture(const Json& done, const dev::Board& board) {
   const Json times = done.value("stages", Json::object());
   for (const auto& [stage, seconds] : times.items())
     stages.push_back(fmt::format("{} {}", stage, format_seconds(seconds)));
-  if (const std::string flagged = done.value("flagged", ""); !flagged.empty())
-    fmt::print(stderr, "eyeray: warning: {}\n", flagged);
+  for (const std::string& doubt : done.value("doubts", std::vector<std::string>{}))
+    fmt::print(stderr, "eyeray: warning: {}\n", doubt);
   fmt::print(stderr, "rendered {}in {} ({})\n", outputs.empty() ? "" : outputs[0] + " ",
              format_seconds(done.value("seconds", 0.0)), fmt::join(stages, ", "));
 }

@@ -201,20 +201,30 @@ void RenderServer::paint(const std::string& name, bool last) {
   Json stages = Json::object();
   for (const auto& [stage, seconds] : executor.times().stages()) stages[stage] = seconds;
   for (const auto& [stage, seconds] : before.stages()) stages[stage] = stages[stage].get<double>() - seconds;
-  std::string device = executor.description();
-  if (view.backend == executors::Backend::twin && !options_.executor.shader_folder.empty() &&
-      !options_.executor.compile_twin)
-    device += fmt::format(": for those of {} there is no C++ compiler (c++, g++, clang++ or $CXX)",
-                          options_.executor.shader_folder.string());
   send("done", {{"view", name},
                 {"last", last},
-                {"device", device},
+                {"device", executor.description()},
                 {"seconds", watch.seconds()},
                 {"stages", std::move(stages)},
                 {"rays", painted->rays},
                 {"samples", scene_->image.samples},
-                {"flagged", render::flag_warning(painted->flags, painted->flagged_pixels)},
+                {"doubts", doubts(view, *painted)},
                 {"files", std::move(files)}});
+}
+
+std::vector<std::string> RenderServer::doubts(const View& view, const Painted& painted) const {
+  std::vector<std::string> doubts;
+  if (painted.flags != 0) doubts.push_back(render::flag_warning(painted.flags, painted.flagged_pixels));
+  const std::string shaders = options_.executor.shader_folder.string();
+  if (view.backend != executors::Backend::twin || shaders.empty()) return doubts;
+  if (!options_.executor.compile_twin)
+    doubts.push_back(fmt::format(
+        "this is the twin of eyeray's own shaders: for those of {} there is no C++ compiler (c++, "
+        "g++, clang++ or $CXX)",
+        shaders));
+  else if (!tunables_->chosen.empty())
+    doubts.push_back("the twin has the values that are written in the shaders, not those of the sliders");
+  return doubts;
 }
 
 void RenderServer::probe(const Json& request) {

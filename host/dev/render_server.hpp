@@ -31,9 +31,10 @@ namespace eyeray::dev {
 //             "scene_tunables", as below
 //   "tunables"  what moves in the shaders, each with "id", "name", "type", "low", "high", "written", "value"
 //   "rows"    see Board::put_rows
-//   "done"    a view is complete, whether it is the "last": "device", "seconds", "stages", "rays", "samples",
-//   "files" "failed"  "code", "message", "diagnostics", and "files" that the messages name "probed"  what
-//   probe::to_json says, as "findings", and its "text"; or "message" where it failed
+//   "done"    a view is complete, whether it is the "last": "device", "seconds", "stages", "rays",
+//             "samples", "doubts" (sentences), "files"
+//   "failed"  "code", "message", "diagnostics"
+//   "probed"  what probe::to_json says, as "findings", and its "text"; or "message" where it failed
 class RenderServer {
  public:
   struct Options {
@@ -49,6 +50,8 @@ class RenderServer {
   void render(const Json& request);
   void load(const Json& request);
   void paint(const std::string& view, bool last);
+  // What is to be known of a picture that is not what it seems, a sentence each.
+  std::vector<std::string> doubts(const View& view, const Painted& painted) const;
   void choose_tunables(const Json& values);
   void send_tunables();
   executors::Executor& executor_for(const View& view);

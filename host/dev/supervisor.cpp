@@ -220,7 +220,7 @@ void Supervisor::handle(const Message& message) {
     seen_any_ = true;
     board_.update([&](Json& status) {
       status["state"] = "done";
-      for (const char* key : {"device", "seconds", "stages", "rays", "flagged"})
+      for (const char* key : {"device", "seconds", "stages", "rays", "doubts"})
         status[key] = json.value(key, Json());
     });
     watch();

@@ -50,6 +50,10 @@ TEST_CASE("the twin of a user's shaders has the bits of the device, and verify a
   REQUIRE(run_eyeray({"render", users.scene(), "--backend", "twin", "-o", users / "own.pfm"}).code == 0);
   REQUIRE(users.render("twin", "same.pfm").code == 0);
   CHECK(read_text(users / "own.pfm") == read_text(users / "same.pfm"));
+  // The float policy is not the user's to change.
+  const Environment fast{{"CXXFLAGS", "-O2 -march=native -ffp-contract=fast"}};
+  REQUIRE(users.render("twin", "fast.pfm", {}, fast).code == 0);
+  CHECK(read_text(users / "own.pfm") == read_text(users / "fast.pfm"));
 
   users.change_sphere("  t = t * 1.0009765625f;\n");
   REQUIRE(users.render("gpu", "gpu.pfm").code == 0);
@@ -79,7 +83,8 @@ TEST_CASE("what of a user's shaders is no C++ is told as compilers tell it, and 
   const ProcessResult dev = users.run({"dev", users.scene(), "--backend", "twin", "--once"}, no_compiler);
   CHECK(dev.code == 0);
   CHECK(contains(dev.err, "twin: the shaders as C++"));
-  CHECK(contains(dev.err, "for those of " + users.shaders + " there is no C++ compiler"));
+  CHECK(
+      contains(dev.err, "warning: this is the twin of eyeray's own shaders: for those of " + users.shaders));
 }
 
 TEST_CASE("what others may write to is not loaded, and what is damaged is written anew") {

@@ -22,8 +22,8 @@ export function show_failure(place, failure) {
   place.replaceChildren(...(diagnostics.length > 0 ? diagnostics.map(item_of) : [make('p', failure.message)]));
 }
 
-// `flagged`: a sentence on pixels that may be wrong, if there are any.
-export function show_warnings(panel, place, warnings, flagged) {
-  panel.hidden = warnings.length === 0 && !flagged;
-  place.replaceChildren(...warnings.map(item_of), ...(flagged ? [make('p', flagged)] : []));
+// `doubts`: sentences on a picture that is not what it seems.
+export function show_warnings(panel, place, warnings, doubts) {
+  panel.hidden = warnings.length === 0 && doubts.length === 0;
+  place.replaceChildren(...warnings.map(item_of), ...doubts.map(doubt => make('p', doubt)));
 }

@@ -112,7 +112,7 @@ function tell() {
     $('stages').textContent = [...Object.entries(status.stages).map(([name, s]) => `${name.padEnd(16)} ${ms(s)}`), '', status.device].join('\n');
   }
   show_failure($('failure'), status.failure);
-  show_warnings($('warnings-panel'), $('warnings'), status.warnings ?? [], status.flagged);
+  show_warnings($('warnings-panel'), $('warnings'), status.warnings ?? [], status.doubts ?? []);
   show_tunables($('tunables-panel'), $('tunables'), status.tunables ?? [], status.scene_tunables ?? [], choose);
   show_views();
   if (status.probes && status.probes !== probes) {

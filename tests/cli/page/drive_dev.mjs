@@ -63,6 +63,10 @@ const views = new Set([first]);
 for (const [key, name] of [['2', 'twin'], ['d', 'difference']]) views.add(await next(name, () => page.keyboard.press(key)));
 views.add(await next('normal', () => page.locator('#aovs').selectOption('normal')));
 assert.equal(views.size, 3, 'the twin is the GPU\'s picture, the difference and the normals are not');
+// The twin is that of the user's shaders.
+await next('twin', () => page.keyboard.press('2'));
+assert.equal(await next('twin', () => writeFileSync(pixel, with_code('color.x += 0.25f;'))), red);
+await next('twin', () => writeFileSync(pixel, good));
 assert.equal(await next('gpu', () => page.keyboard.press('1')), first);
 
 // Exposure and zoom change what is seen; a click shows the pixel's value and its rays.
