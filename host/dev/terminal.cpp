@@ -78,7 +78,14 @@ std::string by_kitty(const image::Image& picture) {
   return text + "\n";
 }
 
-// DEC STD 070, chapter 9: bands of six rows, a colour at a time.
+// Bayer's 8 × 8 thresholds, in (0, 1).
+double threshold(int x, int y) {
+  int rank = 0;
+  for (int bit = 0; bit < 3; ++bit) rank = rank << 2 | ((x >> bit ^ y >> bit) & 1) << 1 | (y >> bit & 1);
+  return (rank + 0.5) / 64;
+}
+
+// DEC STD 070, chapter 9: bands of six rows, a colour at a time; of each component six codes, dithered.
 std::string by_sixel(const image::Image& picture) {
   const int width = picture.width(), height = picture.height();
   std::vector<int> colors(size_t(width) * size_t(height));
@@ -86,7 +93,7 @@ std::string by_sixel(const image::Image& picture) {
     for (int x = 0; x < width; ++x) {
       const Codes codes = codes_of(picture, x, y);
       int color = 0;
-      for (const unsigned char code : codes) color = color * 6 + (code * 5 + 127) / 255;
+      for (const unsigned char code : codes) color = color * 6 + int(code / 51.0 + threshold(x, y));
       colors[size_t(y) * size_t(width) + size_t(x)] = color;
     }
   }

@@ -2,9 +2,11 @@
 #include "host/dev/terminal.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 
 #include "host/core/error.hpp"
+#include "host/image/srgb.hpp"
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
@@ -32,6 +34,22 @@ TEST_CASE("half blocks hold two pixels a character") {
   const std::string small = in_terminal(red_and_blue(640, 480), TerminalGraphics::blocks, {40, 11});
   CHECK(std::ranges::count(small, '\n') == 10);
   CHECK(small.find("\x1b[38;2;255;0;0m") == 0);
+}
+
+TEST_CASE("what lies between the colors of sixels is dithered") {
+  // #43 is 20 % of all three components, #86 is 40 %; 30 % lies between them.
+  image::Image grey(8, 6, 3);
+  for (float& sample : grey.samples()) sample = float(image::linear_from_srgb(0.3));
+  const std::string text = in_terminal(grey, TerminalGraphics::sixel, {});
+  const std::string body = text.substr(text.rfind("#215;2;100;100;100") + 18);
+  int lit[2] = {0, 0};
+  for (const int dark : {0, 1}) {
+    const size_t from = body.find(dark ? "#43" : "#86");
+    REQUIRE(from != std::string::npos);
+    for (size_t i = from + 3; body[i] != '$'; ++i) lit[dark] += std::popcount(unsigned(body[i] - '?'));
+  }
+  CHECK(lit[0] + lit[1] == 48);
+  CHECK(std::abs(lit[0] - lit[1]) <= 8);
 }
 
 TEST_CASE("sixels run along bands of six rows") {
