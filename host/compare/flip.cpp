@@ -1,6 +1,7 @@
 #include "host/compare/flip.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -39,8 +40,24 @@ Vec3 rgb_from_ycxcz(const Vec3& ycxcz) {
   return rgb_from_xyz * (white * Vec3(y + ycxcz.y / 500, y, y - ycxcz.z / 200));
 }
 
+// Of a positive number, to the last bits: three of Halley's steps from a guess by the exponent's third. In
+// half the time of std::cbrt, which was a sixth of all.
+double cube_root(double x) {
+  double root = std::bit_cast<double>(std::bit_cast<uint64_t>(x) / 3 + 0x2a9f7893782da1ce);
+  for (int step = 0; step < 3; ++step) {
+    const double cube = root * root * root;
+    root *= (cube + 2 * x) / (2 * cube + x);
+  }
+  return root;
+}
+
+// To float32's precision, in half the time of std::pow.
+double power(double x, double exponent) {
+  return double(std::pow(float(x), float(exponent)));
+}
+
 Vec3 lab_from_rgb(const Vec3& rgb) {
-  const auto f = [](double x) { return x > 216.0 / 24389 ? std::cbrt(x) : (24389.0 / 27 * x + 16) / 116; };
+  const auto f = [](double x) { return x > 216.0 / 24389 ? cube_root(x) : (24389.0 / 27 * x + 16) / 116; };
   const Vec3 xyz = xyz_from_rgb * rgb / white;
   return {116 * f(xyz.y) - 16, 500 * (f(xyz.x) - f(xyz.y)), 200 * (f(xyz.y) - f(xyz.z))};
 }
@@ -89,11 +106,12 @@ struct Sensitivity {
 // `plane` as the eye resolves it: filtered by a sum of Gaussians. Each is separable, so the sum is taken
 // after filtering, by each one's share of the whole sum of weights.
 Plane filter(const Plane& plane, std::initializer_list<Sensitivity> sensitivities) {
-  // All channels use the radius of the widest Gaussian.
-  const int radius = int(std::ceil(3 * Sensitivity{1, 0.04}.sigma()));
+  // All channels use the radius of the widest Gaussian; of a narrow one the rest is below 1e-12.
+  const int widest = int(std::ceil(3 * Sensitivity{1, 0.04}.sigma()));
   Plane result(plane.width, plane.height);
   double total = 0;
   for (const Sensitivity& s : sensitivities) {
+    const int radius = std::min(widest, int(std::ceil(7.5 * s.sigma())));
     const Kernel kernel = gaussian(s.sigma(), radius);
     const double peak = kernel[size_t(radius)];
     const double share = s.weight() / (peak * peak);  // the sum of the unnormalised weights in two dimensions
@@ -128,7 +146,7 @@ double color_error(const Vec3& a, const Vec3& b) {
   static const double greatest =
       std::pow(hyab(hunt(lab_from_rgb({0, 1, 0})), hunt(lab_from_rgb({0, 0, 1}))), color_exponent);
   if (a == b) return 0;
-  const double error = std::pow(hyab(a, b), color_exponent);
+  const double error = power(hyab(a, b), color_exponent);
   if (error < knee * greatest) return error * knee_error / (knee * greatest);
   return knee_error + (error - knee * greatest) / (greatest - knee * greatest) * (1 - knee_error);
 }
@@ -183,8 +201,8 @@ std::vector<double> flip_map(const image::Image& a, const image::Image& b) {
       const double point = std::abs(points_a.values[i] - points_b.values[i]);
       const double color = color_error(colors_a[i], colors_b[i]);
       if (color == 0) continue;
-      const double feature_error = std::pow(std::max(edge, point) / std::sqrt(2.0), feature_exponent);
-      map[i] = std::pow(color, 1 - feature_error);
+      const double feature_error = power(std::max(edge, point) / std::sqrt(2.0), feature_exponent);
+      map[i] = power(color, 1 - feature_error);
     }
   });
   return map;
