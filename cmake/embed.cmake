@@ -1,18 +1,22 @@
-# eyeray_embed_files(TARGET FUNCTION FOLDER FILE…): the target has the files of FOLDER (host/core/embedded_file.hpp), as what FUNCTION gives,
-# `std::span<const EmbeddedFile> FUNCTION()`.
+# eyeray_embed(TARGET FUNCTION NAMES PATHS): the files PATHS, called NAMES, in the target: `std::span<const EmbeddedFile> FUNCTION()` gives them
+# (host/core/embedded_file.hpp). eyeray_embed_folder(TARGET FUNCTION FOLDER): all of a folder, by their paths below it.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
-  function(eyeray_embed_files target function folder)
-    set(root ${CMAKE_SOURCE_DIR}/${folder})
-    list(TRANSFORM ARGN PREPEND ${root}/ OUTPUT_VARIABLE paths)
-    string(REPLACE "::" "_" name ${function})
-    set(out ${CMAKE_BINARY_DIR}/generated/${name}.cpp)
+  function(eyeray_embed target function names paths)
+    string(REPLACE "::" "_" file ${function})
+    set(out ${CMAKE_BINARY_DIR}/generated/${file}.cpp)
     set(script ${CMAKE_SOURCE_DIR}/cmake/embed.cmake)
     add_custom_command(
       OUTPUT ${out}
-      COMMAND ${CMAKE_COMMAND} -D OUT=${out} -D FUNCTION=${function} -D ROOT=${root} "-D FILES=${ARGN}" -P ${script}
+      COMMAND ${CMAKE_COMMAND} -D OUT=${out} -D FUNCTION=${function} "-D NAMES=${names}" "-D PATHS=${paths}" -P ${script}
       DEPENDS ${paths} ${script}
-      COMMENT "Embedding ${folder}" VERBATIM)
+      COMMENT "Embedding ${function}" VERBATIM)
     target_sources(${target} PRIVATE ${out})
+  endfunction()
+  function(eyeray_embed_folder target function folder)
+    set(root ${CMAKE_SOURCE_DIR}/${folder})
+    file(GLOB_RECURSE names CONFIGURE_DEPENDS RELATIVE ${root} ${root}/*)
+    list(TRANSFORM names PREPEND ${root}/ OUTPUT_VARIABLE paths)
+    eyeray_embed(${target} ${function} "${names}" "${paths}")
   endfunction()
   return()
 endif()
@@ -20,10 +24,9 @@ endif()
 string(REGEX MATCH "^(.*)::([a-z_]+)$" whole ${FUNCTION})
 set(NAMESPACE ${CMAKE_MATCH_1})
 set(FUNCTION ${CMAKE_MATCH_2})
-
 set(rows "")
-foreach(name IN LISTS FILES)
-  file(READ ${ROOT}/${name} text)
+foreach(name path IN ZIP_LISTS NAMES PATHS)
+  file(READ ${path} text)
   string(APPEND rows "    {\"${name}\", R\"text(${text})text\"},\n")
 endforeach()
 file(WRITE ${OUT} "// Made by cmake/embed.cmake.

@@ -36,15 +36,7 @@ foreach(path IN LISTS glm_paths)
   list(APPEND TWIN_PATHS ${path})
 endforeach()
 
-set(EMBED ${CMAKE_SOURCE_DIR}/cmake/embed_shaders.cmake)
-function(eyeray_embed function names paths)
-  add_custom_command(
-    OUTPUT ${GENERATED}/${function}.cpp
-    COMMAND ${CMAKE_COMMAND} -D OUT=${GENERATED}/${function}.cpp -D FUNCTION=${function} "-D NAMES=${names}" "-D PATHS=${paths}" -P ${EMBED}
-    DEPENDS ${paths} ${EMBED}
-    COMMENT "Embedding ${function}" VERBATIM)
-endfunction()
-eyeray_embed(embedded_shaders "${SHADER_FILES}" "${SHADER_PATHS}")
-eyeray_embed(twin_sources "${TWIN_NAMES}" "${TWIN_PATHS}")
-add_library(embedded_shaders STATIC ${GENERATED}/embedded_shaders.cpp ${GENERATED}/twin_sources.cpp)
+add_library(embedded_shaders STATIC)
 target_link_libraries(embedded_shaders PRIVATE eyeray_warnings)
+eyeray_embed(embedded_shaders eyeray::embedded_shaders "${SHADER_FILES}" "${SHADER_PATHS}")
+eyeray_embed(embedded_shaders eyeray::twin_sources "${TWIN_NAMES}" "${TWIN_PATHS}")

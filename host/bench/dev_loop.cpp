@@ -73,7 +73,7 @@ material = "floor"
 }
 
 std::string text_of(std::string_view name) {
-  for (const EmbeddedShader& each : embedded_shaders())
+  for (const EmbeddedFile& each : embedded_shaders())
     if (each.name == name) return std::string(each.text);
   throw Error(ExitCode::bad_input, "no shader {}", name);
 }

@@ -32,8 +32,8 @@ void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
   std::error_code error;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
     const std::filesystem::path place = entry.path().lexically_relative(folder);
-    const EmbeddedShader* namesake = nullptr;
-    for (const EmbeddedShader& shader : embedded_shaders()) {
+    const EmbeddedFile* namesake = nullptr;
+    for (const EmbeddedFile& shader : embedded_shaders()) {
       if (shader.name == place.generic_string()) {
         namesake = nullptr;
         break;

@@ -30,7 +30,7 @@ struct ShadersCommand {
 
 void ShadersCommand::list() const {
   Json names = Json::array();
-  for (const EmbeddedShader& shader : embedded_shaders()) {
+  for (const EmbeddedFile& shader : embedded_shaders()) {
     names.push_back(shader.name);
     if (!json) fmt::print("{}\n", shader.name);
   }
@@ -39,7 +39,7 @@ void ShadersCommand::list() const {
 
 void ShadersCommand::print() const {
   std::vector<std::string_view> names;
-  for (const EmbeddedShader& shader : embedded_shaders()) {
+  for (const EmbeddedFile& shader : embedded_shaders()) {
     names.push_back(shader.name);
     if (shader.name != name) continue;
     if (json) {
@@ -57,7 +57,7 @@ void ShadersCommand::print() const {
 void ShadersCommand::write() const {
   // Look before writing anything: a file that somebody has changed is not to be lost.
   std::vector<std::string> changed;
-  for (const EmbeddedShader& shader : embedded_shaders()) {
+  for (const EmbeddedFile& shader : embedded_shaders()) {
     const fs::path path = fs::path(folder) / shader.name;
     if (fs::exists(path) && read_file(path) != shader.text) changed.push_back(path.string());
   }
@@ -67,7 +67,7 @@ void ShadersCommand::write() const {
                 fmt::join(changed, ", "), changed.size() == 1 ? "s" : "", changed.size() == 1 ? "" : "s");
 
   size_t written = 0;
-  for (const EmbeddedShader& shader : embedded_shaders()) {
+  for (const EmbeddedFile& shader : embedded_shaders()) {
     const fs::path path = fs::path(folder) / shader.name;
     fs::create_directories(path.parent_path());
     write_file_atomically(path, shader.text);

@@ -82,7 +82,7 @@ class TwinExecutor final : public Executor {
         to_sample(functions().sample(view_, uint32_t(x), uint32_t(y), index, &spectator), true);
     ShaderFiles shaders(module_ ? folder_ : "", "");
     std::map<std::string, std::string, std::less<>> files;
-    for (const EmbeddedShader& shader : embedded_shaders())
+    for (const EmbeddedFile& shader : embedded_shaders())
       files.emplace(shader.name, *shaders.read(shader.name));
     ShaderProbe(files).name_files(recorder.tree());
     return {sample, std::move(recorder.tree())};

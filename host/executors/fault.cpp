@@ -150,7 +150,7 @@ Fault::Fault(const std::string& name) {
   }
   // One that has lost its file must not pass unseen, as one that has lost its place in it does not.
   if (!type_->file.empty())
-    CHECK(std::ranges::find(embedded_shaders(), type_->file, &EmbeddedShader::name) !=
+    CHECK(std::ranges::find(embedded_shaders(), type_->file, &EmbeddedFile::name) !=
           embedded_shaders().end());
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view shared = "records.h";  // by shaders and host
 
 std::string_view embedded(std::string_view name) {
-  for (const EmbeddedShader& shader : embedded_shaders())
+  for (const EmbeddedFile& shader : embedded_shaders())
     if (shader.name == name) return shader.text;
   return {};
 }

@@ -45,9 +45,8 @@ bool has_text(const fs::path& file, std::string_view text) {
 
 template <typename Visit>
 void for_each_source(const Visit& visit) {
-  for (const EmbeddedShader& shader : embedded_shaders())
-    visit(fs::path("shaders") / shader.name, shader.text);
-  for (const EmbeddedShader& source : twin_sources()) visit(fs::path(source.name), source.text);
+  for (const EmbeddedFile& shader : embedded_shaders()) visit(fs::path("shaders") / shader.name, shader.text);
+  for (const EmbeddedFile& source : twin_sources()) visit(fs::path(source.name), source.text);
 }
 
 bool has_sources(const fs::path& folder) {

@@ -167,7 +167,7 @@ class Pixel {
 
   void note_changed_shaders(Findings& findings) const {
     std::vector<std::string> changed;
-    for (const EmbeddedShader& shader : embedded_shaders()) {
+    for (const EmbeddedFile& shader : embedded_shaders()) {
       const std::filesystem::path file = options_.executor.shader_folder / shader.name;
       if (!options_.executor.shader_folder.empty() && std::filesystem::is_regular_file(file) &&
           read_file(file) != shader.text)
