@@ -31,9 +31,12 @@ execute_process(
   OUTPUT_VARIABLE included COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "[^ \n\\]+/glm/[^ \n\\]+" glm_paths "${included}")
 foreach(path IN LISTS glm_paths)
+  cmake_path(NORMAL_PATH path)  # Clang writes "glm/./ext/../detail/…"
   string(REGEX REPLACE ".*/glm/((detail/|simd/|ext/)?[^/]+)$" "glm/\\1" name ${path})
-  list(APPEND TWIN_NAMES ${name})
-  list(APPEND TWIN_PATHS ${path})
+  if(NOT name IN_LIST TWIN_NAMES)
+    list(APPEND TWIN_NAMES ${name})
+    list(APPEND TWIN_PATHS ${path})
+  endif()
 endforeach()
 
 add_library(embedded_shaders STATIC)

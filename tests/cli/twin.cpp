@@ -50,10 +50,17 @@ TEST_CASE("the twin of a user's shaders has the bits of the device, and verify a
   REQUIRE(run_eyeray({"render", users.scene(), "--backend", "twin", "-o", users / "own.pfm"}).code == 0);
   REQUIRE(users.render("twin", "same.pfm").code == 0);
   CHECK(read_text(users / "own.pfm") == read_text(users / "same.pfm"));
-  // The float policy is not the user's to change.
-  const Environment fast{{"CXXFLAGS", "-O2 -march=native -ffp-contract=fast"}};
+  // The float policy is not the user's to change. What is compiled comes out of the program.
+  const Environment fast{
+      {"CXXFLAGS", "-O2 -march=native -ffp-contract=fast -MD -MF " + (users / "included")}};
   REQUIRE(users.render("twin", "fast.pfm", {}, fast).code == 0);
   CHECK(read_text(users / "own.pfm") == read_text(users / "fast.pfm"));
+  std::istringstream included(read_text(users / "included"));
+  for (std::string file; included >> file;) {
+    INFO(file);
+    const bool ours = file.find("glm/") != std::string::npos || file.find("host/") != std::string::npos;
+    CHECK((!ours || file.starts_with(users / "cache/twin/")));
+  }
 
   users.change_sphere("  t = t * 1.0009765625f;\n");
   REQUIRE(users.render("gpu", "gpu.pfm").code == 0);
