@@ -131,6 +131,10 @@ bool Judge::judge_word(size_t i) {
   if (word.starts_with("gl_")) fail(i, fmt::format("'{}' is not known here", word));
   if (!is(i + 1, "(") || own_.contains(word)) return true;
   if (is_built_in(word)) return false;
+  if (word == "PROBE") {
+    fail(i, "PROBE is for shaders: to see a value of a formula, return it");
+    return false;
+  }
   std::vector<std::string_view> known(built_in_functions().begin(), built_in_functions().end());
   known.insert(known.end(), own_.begin(), own_.end());
   const std::string nearest = nearest_name(word, known);

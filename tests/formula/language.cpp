@@ -34,6 +34,8 @@ TEST_CASE("what is no formula is refused at its place") {
   CHECK(faults_of("float f(vec3 p) { return p.x); }") == "10:29: this ')' closes nothing\n");
   CHECK(faults_of("float f(vec3 p) { mat3 m; return p.x; }") ==
         "10:19: 'mat3' cannot be used in a formula\n");
+  CHECK(faults_of("float f(vec3 p) {\n  PROBE(x, p.x);\n  return p.x;\n}") ==
+        "11:3: PROBE is for shaders: to see a value of a formula, return it\n");
   CHECK(faults_of("float f(vec3 p) { return p.foo; }") == "10:28: '.foo' is no part of a vector\n");
   CHECK(faults_of("float f(vec3 p) { return 1.0lf * p.x; }") ==
         "10:26: '1.0lf' is no number that is known here\n");

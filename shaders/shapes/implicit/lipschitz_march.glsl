@@ -106,7 +106,7 @@ vec4 FORMULA_NAME(slope)(Implicit it, vec3 q, bool wanted) {
 }
 
 // By how much the step `out` has to be multiplied for f to be above 0 that far outside q and below 0 that far inside. More than a few times rounding only
-// where f is hardly steep.
+// where f is hardly steep, or coarse.
 float FORMULA_NAME(ray_offset)(Implicit it, vec3 q, vec3 out_step, bool wanted) {
   float factor = 1.0f;
   uint sound = 0u;
@@ -115,9 +115,20 @@ float FORMULA_NAME(ray_offset)(Implicit it, vec3 q, vec3 out_step, bool wanted) 
     float f = FORMULA_VALUE(it, it.center + it.extent * (q + out_step * (outer ? factor : -factor)));
     bool right = outer ? f > 0.0f : f < 0.0f;
     sound = right ? sound + 1u : 0u;
-    factor = right ? factor : minimum(factor * 2.0f, 64.0f);
+    factor = right ? factor : minimum(factor * 2.0f, IMPLICIT_MOST_RAY_OFFSET);
   }
-  return factor;
+
+  // Two signs may be right by chance. What f rounds shows in how far it strays from a line: that through the first two places. Where it is little, few do.
+  float rise = 0.0f;
+  float needed = 0.0f;
+  for (uint i = 0u; i < (needed > 1.0f ? 2u * IMPLICIT_STRAYS : 6u) && wanted; i++) {
+    float aside = IMPLICIT_MOST_RAY_OFFSET * (1.0f - float(i >> 1u) / float(IMPLICIT_STRAYS));
+    aside = (i & 1u) == 0u ? aside : -aside;
+    float f = FORMULA_VALUE(it, it.center + it.extent * (q + out_step * aside));
+    rise = i == 0u ? f : i == 1u ? (rise - f) / (2.0f * IMPLICIT_MOST_RAY_OFFSET) : rise;
+    needed = i > 1u ? maximum(needed, 3.0f * abs(f - rise * aside) / rise) : 0.0f;
+  }
+  return needed > IMPLICIT_COARSE ? minimum(maximum(needed, factor), IMPLICIT_MOST_RAY_OFFSET) : factor;
 }
 
 SHADER_END

@@ -41,6 +41,8 @@ float crossing_t(ObjectRay r, float s, float before) { return maximum(r.t + s, b
 #define IMPLICIT_PIECES 4096u
 #define IMPLICIT_FINEST 2.5e-7f
 #define IMPLICIT_MOST_RAY_OFFSET 64.0f
+#define IMPLICIT_STRAYS 8u
+#define IMPLICIT_COARSE 4.0f
 
 SHADER_END
 #endif
