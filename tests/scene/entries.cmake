@@ -23,7 +23,7 @@ endfunction()
 # compile, and are the same in any mode.
 set(EDGES ${SCENES})
 list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
-list(FILTER EDGES EXCLUDE REGEX "/(formulas|intervals|sheet|coarse_glass)")
+list(FILTER EDGES EXCLUDE REGEX "/(formulas|intervals|sheet|coarse_glass|tight_bound)")
 set(quick ${SCENES})
 list(FILTER quick EXCLUDE REGEX "^scenes/edges/|/(gallery|group_shapes|mandelbulb|sculpture|shapes/csg|shapes/implicit)")
 eyeray_verify(scenes.small scene QUICK ${quick} -s 48x36)

@@ -40,12 +40,27 @@ vec4 FORMULA_NAME(slope)(Implicit it, vec3 q, bool wanted) {
   return vec4(at.x * it.extent.x, at.y * it.extent.y, at.z * it.extent.z, at.w);
 }
 
-// By how much the step `out` has to be multiplied for the march to believe the sign of f there, as far as the slope tells.
+// By how much the step `out` has to be multiplied for the march to find the right sign of f there, as far as the slope tells. It believes a sign from a part of
+// e on, since f seldom rounds as badly as that; where it does, f strays from a line, and rays have to start farther off: where e itself says so, if need be.
 float FORMULA_NAME(ray_offset)(Implicit it, vec3 q, vec3 out_step, bool wanted) {
   float factor = 1.0f;
   if (wanted) {
     vec3 at = FORMULA_NAME(bound)(it, q, out_step, 0.0f, 1.0f);
-    float needed = 2.0f * (abs(at.x) + MARCH_LIKELY * at.z) / abs(at.y);
+    float most = 2.0f * (abs(at.x) + at.z) / abs(at.y);
+    float believed = MARCH_LIKELY * at.z;
+    float first = 0.0f;
+    float rise = 0.0f;
+    uint places = most > 1.0f && most < IMPLICIT_MOST_RAY_OFFSET ? 4u : 0u;
+    for (uint i = 0u; i < places; i++) {
+      float aside = most * (1.0f - float(i >> 1u) / float(IMPLICIT_STRAYS));
+      aside = (i & 1u) == 0u ? aside : -aside;
+      float f = FORMULA_NAME(bound)(it, q, out_step, aside, 0.0f).x;
+      first = i == 0u ? f : first;
+      rise = i == 1u ? 0.5f * (first - f) / most : rise;
+      believed = i > 1u ? maximum(believed, 3.0f * abs(f - rise * aside)) : believed;
+      places = i == 3u && believed > MARCH_LIKELY * at.z ? 2u * IMPLICIT_STRAYS : places;
+    }
+    float needed = 2.0f * (abs(at.x) + minimum(believed, at.z)) / abs(at.y);
     factor = needed < 1.0f ? 1.0f : needed < IMPLICIT_MOST_RAY_OFFSET ? needed : IMPLICIT_MOST_RAY_OFFSET;
   }
   return factor;
