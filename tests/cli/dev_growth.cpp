@@ -49,7 +49,7 @@ TEST_CASE("a thousand edits leave no memory and no file behind" * doctest::test_
       REQUIRE(dev.says("rendered "));
     }
   };
-  const int edits = amount(100, 200, 1000);
+  const int edits = amount(60, 100, 1000);
   edit(1, edits / 4);
   const Holding supervisor_before = held_by(dev.process().pid()), worker_before = held_by(worker);
   edit(edits / 4, edits);
