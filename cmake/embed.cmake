@@ -27,12 +27,15 @@ set(FUNCTION ${CMAKE_MATCH_2})
 set(rows "")
 foreach(name path IN ZIP_LISTS NAMES PATHS)
   file(READ ${path} text)
-  string(APPEND rows "    {\"${name}\", R\"text(${text})text\"},\n")
+  string(APPEND rows "    {\"${name}\"sv, R\"text(${text})text\"sv},\n")
 endforeach()
 file(WRITE ${OUT} "// Made by cmake/embed.cmake.
 #include <span>
 
 #include \"host/core/embedded_file.hpp\"
+
+// Literals know their length: counting it is more than Clang does for a constant.
+using namespace std::string_view_literals;
 
 static constexpr eyeray::EmbeddedFile files[] = {
 ${rows}};
