@@ -108,10 +108,9 @@ std::vector<Diagnostic> diagnostics_in(const std::string& log, const fs::path& f
     else if (const fs::path own = file.lexically_relative(sources / "shaders"); *own.begin() != "..")
       diagnostic.position.file = own.string();
     diagnostic.message = match[4];
-    std::ifstream text(file);
-    std::string source;
-    for (int i = 0; i < diagnostic.position.line; ++i) std::getline(text, source);
-    show_source_line(diagnostic, source);
+    std::error_code failed;
+    if (fs::is_regular_file(file, failed))
+      show_source_line(diagnostic, line_of(read_file(file), diagnostic.position.line));
     found.push_back(std::move(diagnostic));
   }
   return found;

@@ -33,13 +33,16 @@ std::string formula_title(const TableReader& table, std::string_view owner) {
   return fmt::format("the function of {} at {}:{}", owner, at.file, at.line);
 }
 
+std::vector<formula::FormulaParameter> formula_parameters(const TableReader& table) {
+  return table.has("parameters") ? table.parameters("parameters") : std::vector<formula::FormulaParameter>();
+}
+
 std::shared_ptr<const formula::Formula> read_formula(TableReader& table, std::string_view owner,
                                                      formula::FormulaKind kind) {
-  std::vector<formula::FormulaParameter> parameters =
-      table.has("parameters") ? table.parameters("parameters") : std::vector<formula::FormulaParameter>();
   try {
     return std::make_shared<const formula::Formula>(table.formula(table.has("code") ? "code" : "file"),
-                                                    std::move(parameters), formula_title(table, owner), kind);
+                                                    formula_parameters(table), formula_title(table, owner),
+                                                    kind);
   } catch (const InputError& faults) {
     table.error(faults);
     return nullptr;

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <memory>
+#include <vector>
 
 #include "host/formula/formula.hpp"
 #include "host/scene/table_reader.hpp"
@@ -26,6 +27,9 @@ bool has_one_source(TableReader& table, std::initializer_list<std::string_view> 
 
 // Of the table's formula, for messages: "the function of [[implicit]] at scene.toml:12".
 std::string formula_title(const TableReader& table, std::string_view owner);
+
+// What the key `parameters` has, if it is there.
+std::vector<formula::FormulaParameter> formula_parameters(const TableReader& table);
 
 // The formula that `code` or `file` has, with its `parameters`; null after an error.
 std::shared_ptr<const formula::Formula> read_formula(TableReader& table, std::string_view owner,

@@ -195,11 +195,9 @@ std::shared_ptr<const formula::Formula> formula_of(TableReader& table, double& l
   if (!table.has("ready")) return read_formula(table, owner, formula::FormulaKind::surface);
 
   // Lay what is given over the defaults.
-  std::vector<formula::FormulaParameter> parameters =
-      table.has("parameters") ? table.parameters("parameters") : std::vector<formula::FormulaParameter>();
   const ReadyFormula& ready = ready_formulas()[size_t(table.choice("ready"))];
   std::vector<formula::FormulaParameter> all = ready.parameters;
-  for (formula::FormulaParameter& given : parameters) {
+  for (formula::FormulaParameter& given : formula_parameters(table)) {
     const auto known = std::ranges::find(all, given.name, &formula::FormulaParameter::name);
     if (known == all.end()) {
       std::vector<std::string_view> names;
