@@ -106,9 +106,10 @@ function tell() {
   document.body.dataset.state = status.state;
   document.body.dataset.generation = status.generation;
   if (status.state === 'done') {
-    const compile = (status.stages['shader compile'] ?? 0) + (status.stages.pipeline ?? 0);
+    const compile = ['shader compile', 'pipeline', 'compile'].reduce((sum, stage) => sum + (status.stages[stage] ?? 0), 0);
+    const tracing = status.stages.dispatch ?? status.stages.trace ?? status.seconds;
     $('times').textContent = `${status.width}×${status.height}, ${ms(status.seconds)}, of which compiling ${ms(compile)}; ` +
-      `${(status.rays / Math.max(status.stages.dispatch ?? status.seconds, 1e-6) / 1e6).toPrecision(3)} Mrays/s`;
+      `${(status.rays / Math.max(tracing, 1e-6) / 1e6).toPrecision(3)} Mrays/s`;
     $('stages').textContent = [...Object.entries(status.stages).map(([name, s]) => `${name.padEnd(16)} ${ms(s)}`), '', status.device].join('\n');
   }
   show_failure($('failure'), status.failure);
