@@ -8,6 +8,7 @@ OwnContenders::OwnContenders(const Scene& scene, const std::vector<std::string>&
                              const std::vector<std::string>& incoherent, const std::string& device) {
   executors::ExecutorOptions options;
   options.device = device;
+  options.wide_vectors = false;  // rays go in packets, and by four lanes each
   for (const std::string& name : backends) {
     const executors::Backend backend = executors::parse_backend(name);
     if (backend != executors::Backend::gpu) {

@@ -89,6 +89,7 @@ struct ExecutorOptions {
   bool search_cost = false;             // gpu: FirstHit::cost; the twin always counts, the reference never
   bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
   bool optimise = true;                 // gpu: give the driver an optimised kernel
+  bool wide_vectors = true;             // gpu: where the picture wants them (trace_plan.hpp)
   std::shared_ptr<OpenDevice> open_device;  // gpu: taken as it is, and left open; null: one of its own
   std::shared_ptr<Tunables> tunables;       // gpu: constants of shaders that move; null: none do
   bool compile_twin = false;                // twin: compile shader_folder's files as C++ (twin_module.hpp)

@@ -31,17 +31,17 @@ namespace {
 
 class GpuExecutor final : public Executor {
  public:
-  GpuExecutor(const Scene& scene, const ExecutorOptions& options)
+  GpuExecutor(const Scene& scene, records::PackedScene packed, std::shared_ptr<OpenDevice> open_device,
+              const StageTimes& times, const ExecutorOptions& options)
       : options_(options),
         fault_(options.fault),
         eye_(scene.camera.eye),
         image_(scene.image),
-        open_device_(options.open_device ? options.open_device
-                                         : std::make_shared<OpenDevice>(options, times_)),
+        open_device_(std::move(open_device)),
         device_(open_device_->device()),
         profile_(choose_profile(options.profile, device_.info())),
         uploaded_(device_, profile_.texel_buffers) {
-    records::PackedScene packed = times_.measure("pack", [&] { return pack::pack(scene, options.pack); });
+    times_ = times;
     fault_.damage(packed);
     const uint32_t lanes = device_.info().limits.subgroup_size;
     const TracePlan plan = plan_tracing(profile_, options.profile, scene.image, packed, lanes);
@@ -260,7 +260,14 @@ class GpuExecutor final : public Executor {
 }  // namespace
 
 std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOptions& options) {
-  return std::make_unique<GpuExecutor>(scene, options);
+  StageTimes times;
+  records::PackedScene packed = times.measure("pack", [&] { return pack::pack(scene, options.pack); });
+  std::shared_ptr<OpenDevice> device = options.open_device;
+  if (!device) {
+    const bool wide = options.wide_vectors && wants_wide_vectors(options.profile, scene.image, packed);
+    device = std::make_shared<OpenDevice>(options, wide, times);
+  }
+  return std::make_unique<GpuExecutor>(scene, std::move(packed), std::move(device), times, options);
 }
 
 }  // namespace eyeray::executors

@@ -10,19 +10,20 @@ namespace {
 
 constexpr size_t most_kernels = 8;
 
-gpu::DeviceOptions device_options(const ExecutorOptions& options) {
+gpu::DeviceOptions device_options(const ExecutorOptions& options, bool wide_vectors) {
   gpu::DeviceOptions device;
   device.select = options.device;
   device.validation = options.validation;
   device.timeout_seconds = options.timeout_seconds;
   device.compile_seconds = std::max(options.timeout_seconds, options.least_compile_seconds);
+  device.wide_vectors = wide_vectors;
   return device;
 }
 
 }  // namespace
 
-OpenDevice::OpenDevice(const ExecutorOptions& options, StageTimes& times)
-    : device_(times.measure("device", [&] { return gpu::Device(device_options(options)); })),
+OpenDevice::OpenDevice(const ExecutorOptions& options, bool wide_vectors, StageTimes& times)
+    : device_(times.measure("device", [&] { return gpu::Device(device_options(options, wide_vectors)); })),
       facts_(times.measure("self-test", [&] {
         return gpu::self_test(
             device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_);
@@ -43,7 +44,7 @@ std::shared_ptr<gpu::Kernel> OpenDevice::kernel(std::span<const uint32_t> spirv,
 
 std::shared_ptr<OpenDevice> open_device(const ExecutorOptions& options) {
   StageTimes times;
-  return std::make_shared<OpenDevice>(options, times);
+  return std::make_shared<OpenDevice>(options, false, times);
 }
 
 }  // namespace eyeray::executors

@@ -17,8 +17,9 @@ namespace eyeray::executors {
 
 class OpenDevice {
  public:
-  // Opens what the options select, and tests it. The time goes to `times`.
-  OpenDevice(const ExecutorOptions& options, StageTimes& times);
+  // Opens what the options select, and tests it. The time goes to `times`. `wide_vectors`: as the picture
+  // wants them.
+  OpenDevice(const ExecutorOptions& options, bool wide_vectors, StageTimes& times);
 
   gpu::Device& device() { return device_; }
   const gpu::DeviceFacts& facts() const { return facts_; }

@@ -14,6 +14,12 @@ constexpr size_t most_in_packets = 1 << 20;
 // so many primitives.
 constexpr int64_t least_samples_in_wavefront = 1 << 22;
 constexpr size_t most_in_wavefront = 1 << 18;
+// Pictures take vectors of 512 bits where these save more than compiling for them takes: of so many samples.
+constexpr int64_t least_samples_in_wide_vectors = 1 << 20;
+
+int64_t samples_of(const ImageSettings& image) {
+  return int64_t{image.width} * image.height * image.samples;
+}
 
 bool only_triangles(const records::PackedScene& scene) {
   return scene.bvh_kinds == std::set<uint32_t>{shader::KIND_triangle};
@@ -45,12 +51,21 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
   TracePlan plan;
   plan.coherent = packets ? Rays::packets : Rays::lanes;
   plan.incoherent = incoherent_rays(profile, scene, packets, subgroup_size);
-  const int64_t samples = int64_t{image.width} * image.height * image.samples;
-  plan.wavefront = packets && (asked_for_packets || (samples >= least_samples_in_wavefront &&
+  plan.wavefront = packets && (asked_for_packets || (samples_of(image) >= least_samples_in_wavefront &&
                                                      scene.primitives.size() <= most_in_wavefront));
   // Most rays that leave a mesh hit no more of it: not worth kernels of their own (docs/performance.md).
   plan.bounced = only_triangles(scene) && !profile.incoherent ? Rays::lanes : plan.incoherent;
   return plan;
+}
+
+bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
+                        const records::PackedScene& scene) {
+  gpu::DeviceInfo llvmpipe;
+  llvmpipe.type = gpu::DeviceType::cpu;
+  llvmpipe.limits.subgroup_size = 8;
+  const Profile profile = choose_profile(asked, llvmpipe);
+  return samples_of(image) >= least_samples_in_wide_vectors &&
+         !plan_tracing(profile, asked, image, scene, llvmpipe.limits.subgroup_size).wavefront;
 }
 
 }  // namespace eyeray::executors

@@ -57,6 +57,7 @@ struct DeviceOptions {
   std::string validation = "";  // "", "core" or "sync": run under the Khronos validation layer
   double timeout_seconds = 60;  // the longest wait for one submission
   double compile_seconds = 60;  // the longest that its driver may compile one kernel
+  bool wide_vectors = false;    // see set_vector_width; a process's first device decides
   bool force_staging = false;   // tests: copy through staging buffers even where memory is shared
 };
 

@@ -28,9 +28,10 @@ std::string version_text(uint32_t version) {
                      VK_API_VERSION_PATCH(version));
 }
 
-std::string driver_id(const VkPhysicalDeviceProperties& properties) {
-  std::string id =
-      fmt::format("{:08x}{:08x}{:08x}", properties.vendorID, properties.deviceID, properties.driverVersion);
+// Of llvmpipe the lanes of a subgroup say how wide its vectors are, which it leaves out of its own.
+std::string driver_id(const VkPhysicalDeviceProperties& properties, uint32_t subgroup_size) {
+  std::string id = fmt::format("{:08x}{:08x}{:08x}{:02x}", properties.vendorID, properties.deviceID,
+                               properties.driverVersion, subgroup_size);
   for (const uint8_t byte : properties.pipelineCacheUUID) id += fmt::format("{:02x}", byte);
   return id;
 }
@@ -71,7 +72,6 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
   info.driver = "unknown driver";
   info.driver_version = version_text(properties.driverVersion);
   info.api_version = version_text(properties.apiVersion);
-  info.driver_id = driver_id(properties);
   info.type = device_type(properties.deviceType);
 
   const VkPhysicalDeviceLimits& limits = properties.limits;
@@ -96,6 +96,7 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
     describe_version_1_1(device, properties.apiVersion, info);
   else
     info.why_not = fmt::format("it speaks Vulkan {}, eyeray needs 1.1", info.api_version);
+  info.driver_id = driver_id(properties, info.limits.subgroup_size);
   if (!compute_queue_family(device))
     info.why_not += info.why_not.empty() ? "it has no compute queue" : "; it has no compute queue";
   info.usable = info.why_not.empty();

@@ -74,6 +74,9 @@ eyeray_verify(mode.packets mode ${small} --acceleration bvh --no-constants --ray
 set(bounces scenes/sphereflake.toml scenes/cornell.toml scenes/textures.toml)
 eyeray_verify(mode.cooperative mode QUICK ${bounces} -s 48x36 --acceleration bvh --no-constants --rays packets --incoherent cooperative)
 eyeray_verify(mode.packets.edges mode ${EDGES} --acceleration bvh --no-constants --rays packets)
+# Vectors as big pictures have them, wherever there is such a processor.
+eyeray_verify(mode.wide-vectors mode ${few} scenes/shapes/torus.toml scenes/shapes/csg.toml)
+set_tests_properties(mode.wide-vectors PROPERTIES ENVIRONMENT LP_NATIVE_VECTOR_WIDTH=512)
 eyeray_verify(mode.raycast mode ${small} --integrator raycast)
 eyeray_verify(mode.raycast.edges mode ${EDGES} --integrator raycast)
 eyeray_verify(mode.eye-rays mode ${views} --max-depth 0)

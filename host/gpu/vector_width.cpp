@@ -1,0 +1,43 @@
+#include "host/gpu/vector_width.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "host/core/disk_cache.hpp"
+
+namespace eyeray::gpu {
+namespace {
+
+constexpr const char* width_variable = "LP_NATIVE_VECTOR_WIDTH";
+constexpr const char* cache_variable = "MESA_SHADER_CACHE_DIR";
+
+bool has_wide_vectors() {
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#else
+  return false;
+#endif
+}
+
+}  // namespace
+
+void set_vector_width(bool wide) {
+  if (wide && has_wide_vectors()) setenv(width_variable, "512", 0);
+  const char* const width = std::getenv(width_variable);
+  if (!width) return;
+  const char* const chosen = std::getenv(cache_variable);
+  const std::filesystem::path folder = chosen ? chosen : DiskCache::of_user().folder();
+  const std::string own = "vectors-" + std::string(width);
+  // A parent process may have done the same.
+  if (folder.filename() == own) return;
+  std::error_code failed;
+  if (!folder.empty()) std::filesystem::create_directories(folder / own, failed);
+  if (folder.empty() || failed)
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+  else
+    setenv(cache_variable, (folder / own).c_str(), 1);
+}
+
+}  // namespace eyeray::gpu

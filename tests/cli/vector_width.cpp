@@ -1,0 +1,80 @@
+// The vectors that llvmpipe computes in: as the picture wants them, or as LP_NATIVE_VECTOR_WIDTH says.
+#include <nlohmann/json.hpp>
+
+#include "scene.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+bool has_wide_vectors() {
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#else
+  return false;
+#endif
+}
+
+// Pictures made on lavapipe, with caches in this folder.
+class Pictures : public SceneFolder {
+ public:
+  // Makes one, of whose size only a corner is rendered, and returns how wide the device's vectors were.
+  int bits(const std::string& size, Environment environment = {}) const {
+    environment.emplace_back("EYERAY_CACHE_DIR", *this / "eyeray");
+    const ProcessResult result = run_eyeray({"render", scene(), "--device", "llvmpipe", "-s", size, "--crop",
+                                             "0,0,64,48", "-o", picture(), "-q", "--json"},
+                                            environment);
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    CHECK(result.err == "");
+    // "gpu: llvmpipe (LLVM 15.0.6, 256 bits), …"
+    const std::string device = nlohmann::json::parse(result.out).at("device");
+    return std::stoi(device.substr(device.rfind(' ', device.find(" bits)") - 1)));
+  }
+  std::string picture() const { return *this / "picture.pfm"; }
+};
+
+size_t count_files(const std::filesystem::path& folder) {
+  size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    count += entry.is_regular_file();
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("big pictures have vectors of 512 bits where the processor has, unless the user says otherwise") {
+  const Pictures pictures;
+  const int usual = pictures.bits("64x48");
+  CHECK(usual <= 256);
+  CHECK(pictures.bits("1024x1024") == (has_wide_vectors() ? 512 : usual));
+  CHECK(pictures.bits("1024x1024", {{"LP_NATIVE_VECTOR_WIDTH", "256"}}) == 256);
+}
+
+TEST_CASE("what is compiled for vectors of one width is kept apart from what is for another") {
+  const Pictures pictures;
+  const std::filesystem::path mesa = pictures / "mesa";
+  std::string first;
+  for (const int width : {256, 512, 256, 512}) {
+    CAPTURE(width);
+    CHECK(pictures.bits("64x48", {{"LP_NATIVE_VECTOR_WIDTH", std::to_string(width)},
+                                  {"MESA_SHADER_CACHE_DIR", mesa}}) == width);
+    if (first.empty()) first = read_text(pictures.picture());
+    CHECK(read_text(pictures.picture()) == first);
+  }
+  CHECK(count_files(mesa / "vectors-256") > 0);
+  CHECK(count_files(mesa / "vectors-512") == count_files(mesa / "vectors-256"));
+  CHECK(std::distance(std::filesystem::directory_iterator(mesa), {}) == 2);
+}
+
+TEST_CASE("vectors of a chosen width need no cache") {
+  const Pictures pictures;
+  write_text(pictures / "file", "");
+  for (const std::string& folder : {pictures / "file/mesa", std::string()})
+    CHECK(pictures.bits("64x48", {{"LP_NATIVE_VECTOR_WIDTH", "512"}, {"MESA_SHADER_CACHE_DIR", folder}}) ==
+          512);
+}
