@@ -14,8 +14,8 @@ struct Judgement : PixelOutcome {
   double excess = 0;
 };
 
-constexpr int64_t always_allowed = 4;      // so that a small crop around an edge can pass
-constexpr size_t examined_at_once = 4096;  // so that what has failed is soon told
+constexpr int64_t always_allowed = 4;     // so that a small crop around an edge can pass
+constexpr size_t examined_at_once = 256;  // so that what has failed is soon told
 // Where a colour runs to and fro, the usual places may all miss its extreme: pixels that they leave
 // unexplained, if these are few, are looked at again at more places.
 constexpr int usual_angles = 16;
@@ -58,7 +58,7 @@ class Judge {
     });
   }
 
-  // Looks into the pixels that differ, some thousands at a time, spread over the picture: those of each gate
+  // Looks into the pixels that differ, some hundreds at a time, spread over the picture: those of each gate
   // until that has failed, whatever else is found.
   void explain(const Reference& around) {
     const size_t parts = of_outcome(Outcome::unexamined, true).size() / examined_at_once + 1;

@@ -23,7 +23,7 @@ struct Tally {
   int64_t matching = 0;  // within tolerance
   std::array<int64_t, cause_count> explained{};
   int64_t unexplained = 0;
-  // When more pixels differ than may be explained at all, the gate has failed, and only a few thousand of
+  // When more pixels differ than may be explained at all, the gate has failed, and only some hundreds of
   // them, spread over the picture, are looked into; these are the rest.
   int64_t unexamined = 0;
   int64_t may_be_explained = 0;  // the cap on capped_pixels()
