@@ -10,7 +10,9 @@
 #include "host/loader/scene_file.hpp"
 #include "host/materials/registry.hpp"
 #include "host/pack/pack.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/scene/objects.hpp"
+#include "host/scene/sampler.hpp"
 #include "host/shapes/registry.hpp"
 
 namespace eyeray::cli {

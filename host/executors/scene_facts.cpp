@@ -5,6 +5,7 @@
 
 #include "host/scene/integrator.hpp"
 #include "host/scene/texture.hpp"
+#include "host/scene/texture_rows.hpp"
 
 namespace eyeray::executors {
 namespace {

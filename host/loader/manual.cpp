@@ -7,6 +7,8 @@
 #include "host/materials/registry.hpp"
 #include "host/reference/integrator.hpp"
 #include "host/reference/sampler.hpp"
+#include "host/scene/integrator.hpp"
+#include "host/scene/sampler.hpp"
 #include "host/scene/table.hpp"
 #include "host/textures/registry.hpp"
 

@@ -14,6 +14,7 @@
 #include "host/loader/sections.hpp"
 #include "host/loader/settings.hpp"
 #include "host/scene/affine.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/scene/table.hpp"
 #include "host/textures/registry.hpp"
 

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "host/scene/integrator.hpp"
+#include "host/scene/sampler.hpp"
+
 namespace eyeray::loader {
 
 namespace {
@@ -112,6 +115,10 @@ std::span<const Key> render_keys() {
 std::span<const Key> verify_keys() {
   return verify_table;
 }
+
+// The tables' fallbacks are those of a scene that no file has filled.
+static_assert(ImageSettings{}.pattern == SamplePattern::regular);
+static_assert(RenderSettings{}.integrator == IntegratorType::whitted);
 
 ImageSettings read_image(TableReader& table) {
   ImageSettings image;

@@ -8,6 +8,7 @@
 #include "host/reference/media.hpp"
 #include "host/reference/observer.hpp"
 #include "host/reference/tracer.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::reference {
 

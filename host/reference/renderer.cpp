@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/reference/sampler.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::reference {
 

@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "host/scene/sampler.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::reference {

@@ -1,5 +1,7 @@
 #include "host/render/corners.hpp"
 
+#include "host/scene/sampler.hpp"
+
 #include <algorithm>
 
 namespace eyeray::render {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "host/scene/texture.hpp"
+#include "host/scene/texture_rows.hpp"
 
 namespace eyeray {
 

@@ -1,6 +1,7 @@
 // The scene: checked float64 values, as the file says them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -9,20 +10,23 @@
 #include "host/core/vec.hpp"
 #include "host/scene/camera.hpp"
 #include "host/scene/group.hpp"
-#include "host/scene/integrator.hpp"
 #include "host/scene/light.hpp"
 #include "host/scene/material.hpp"
 #include "host/scene/mesh.hpp"
-#include "host/scene/sampler.hpp"
 #include "host/scene/shape.hpp"
 
 namespace eyeray {
 
+// The rows of registries (scene/sampler.hpp, scene/integrator.hpp). Only their numbers stand here: what only
+// sees a scene is not compiled anew for another row.
+enum class SamplePattern : uint32_t;
+enum class IntegratorType : uint32_t;
+
 struct ImageSettings {
   int width = 640;
   int height = 480;
-  int samples = 1;  // a pixel; a square number n², laid out n × n
-  SamplePattern pattern = SamplePattern::regular;
+  int samples = 1;           // a pixel; a square number n², laid out n × n
+  SamplePattern pattern{0};  // regular
 
   Vec2 size() const { return {width, height}; }  // in pixels
 };
@@ -31,7 +35,7 @@ enum class TriangleMethod { woop, moller_trumbore };
 enum class GroupStorage { automatic, instanced, flat };
 
 struct RenderSettings {
-  IntegratorType integrator = IntegratorType::whitted;
+  IntegratorType integrator{1};   // whitted
   int max_depth = 8;              // reflections and refractions in a row; 0: eye and shadow rays only
   double min_throughput = 0.001;  // a reflected or refracted ray that would count for less is not traced
   uint32_t seed = 0;

@@ -9,7 +9,6 @@
 
 #include "host/core/vec.hpp"
 #include "host/scene/table_reader.hpp"
-#include "shaders/textures/registry.h"
 
 namespace eyeray {
 
@@ -44,18 +43,6 @@ struct TextureType {
       if (key.name == name) return true;
     return false;
   }
-};
-
-// The rows of the registry, for those who ask of no texture more than that.
-struct TextureRow {
-  std::string_view name;
-  uint32_t number;
-  bool varies;  // over a surface
-};
-inline constexpr TextureRow texture_rows[] = {
-#define X(name, number, varies) {#name, number, varies},
-    TEXTURES(X)
-#undef X
 };
 
 }  // namespace eyeray

@@ -1,5 +1,7 @@
 #include "host/textures/registry.hpp"
 
+#include "shaders/textures/registry.h"
+
 namespace eyeray::textures {
 
 // Each texture's .cpp defines its own; one that is missing is a link error that bears its name.

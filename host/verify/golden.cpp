@@ -7,6 +7,7 @@
 #include "host/core/content_hash.hpp"
 #include "host/core/process.hpp"
 #include "host/image/image_file.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace fs = std::filesystem;
 

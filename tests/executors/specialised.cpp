@@ -8,7 +8,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/pack/pack.hpp"
 #include "host/scene/shape.hpp"
-#include "host/scene/texture.hpp"
+#include "host/scene/texture_rows.hpp"
 #include "host/shapes/registry.hpp"
 #include "tests/support/entries.hpp"
 

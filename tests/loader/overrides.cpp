@@ -1,5 +1,6 @@
 // -D KEY=VALUE.
 #include "host/loader/scene_file.hpp"
+#include "host/scene/integrator.hpp"
 //
 #include "tests/support/camera.hpp"
 #include "tests/support/doctest.hpp"

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "host/loader/scene_file.hpp"
+#include "host/scene/integrator.hpp"
+#include "host/scene/sampler.hpp"
 //
 #include "tests/support/camera.hpp"
 #include "tests/support/doctest.hpp"

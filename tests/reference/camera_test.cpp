@@ -2,6 +2,7 @@
 #include "host/cameras/make.hpp"
 #include "host/reference/rng.hpp"
 #include "host/reference/sampler.hpp"
+#include "host/scene/integrator.hpp"
 #include "tests/support/empty_scene.hpp"
 #include "tests/support/scenes.hpp"
 

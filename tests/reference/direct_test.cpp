@@ -1,4 +1,5 @@
 // Light that comes straight from the lights, the surroundings and the background.
+#include "host/scene/integrator.hpp"
 #include "tests/support/scenes.hpp"
 
 #include "tests/support/doctest.hpp"

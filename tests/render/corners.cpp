@@ -5,6 +5,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/reference/camera.hpp"
 #include "host/render/render.hpp"
+#include "host/scene/sampler.hpp"
 #include "tests/support/empty_scene.hpp"
 //
 #include "tests/support/doctest.hpp"

@@ -6,6 +6,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/materials/registry.hpp"
 #include "host/pack/pack.hpp"
+#include "host/scene/texture_rows.hpp"
 #include "host/shapes/registry.hpp"
 //
 #include "tests/support/doctest.hpp"

@@ -1,0 +1,22 @@
+// The rows of shaders/textures/registry.h, for those who ask of no texture more than they say.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "shaders/textures/registry.h"
+
+namespace eyeray {
+
+struct TextureRow {
+  std::string_view name;
+  uint32_t number;
+  bool varies;  // over a surface
+};
+inline constexpr TextureRow texture_rows[] = {
+#define X(name, number, varies) {#name, number, varies},
+    TEXTURES(X)
+#undef X
+};
+
+}  // namespace eyeray
