@@ -11,7 +11,7 @@ using namespace eyeray::test;
 
 namespace {
 
-const std::map<std::string, Links> layers = read_layers();
+const std::map<std::string, Links> all_layers = read_layers();
 
 // Which shader files a layer may include: the records have the ABI, the registries' rows are the host's too,
 // and the twin has everything.
@@ -69,7 +69,7 @@ bool allowed(const std::string& from, const std::string& include) {
     return shaders != visible_shaders.end() && std::regex_match(include, shaders->second);
   }
   const std::string to = layer_of(include);
-  return to == from || layers.at(from).contains(to);
+  return to == from || all_layers.at(from).contains(to);
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ TEST_CASE("every folder under host/ is a layer, and includes only what it may se
   size_t seen = 0;
   for (const SourceFile& file : source_files("host")) {
     CAPTURE(file.path);
-    REQUIRE(layers.contains(file.layer()));
+    REQUIRE(all_layers.contains(file.layer()));
     for (const Include& include : includes(file)) {
       if (include.system) continue;
       INFO(file.at(include.line), ": the layer ", file.layer(), " must not include ", include.name);

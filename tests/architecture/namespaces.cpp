@@ -11,7 +11,7 @@ using namespace eyeray::test;
 namespace {
 
 // Their words are everyone's.
-const std::set<std::string> common = {"core", "scene"};
+const std::set<std::string> of_everyone = {"core", "scene"};
 // The shaders' own names, in C++.
 const std::set<std::string> speaks_shader = {"records", "twin"};
 
@@ -72,7 +72,7 @@ std::vector<Line> top_level(const SourceFile& file) {
 bool in_its_own_namespace(const SourceFile& file, const std::string& name) {
   const std::string own = "eyeray::" + file.layer();
   if (name == own || name.starts_with(own + "::")) return true;
-  if (common.contains(file.layer()) && (name == "eyeray" || name == "eyeray::detail")) return true;
+  if (of_everyone.contains(file.layer()) && (name == "eyeray" || name == "eyeray::detail")) return true;
   return speaks_shader.contains(file.layer()) && name == "eyeray::shader";
 }
 

@@ -14,7 +14,7 @@ using eyeray::test::write_text;
 
 namespace {
 
-PictureReport sample(double seconds) {
+PictureReport sample_picture(double seconds) {
   const auto spread = [](double median) { return Spread{median, 0.9 * median, 1.1 * median}; };
   PictureReport report{"scenes/a.toml", 640, 480, 4, 3, 1000, {}, {}};
   report.series = {{"gpu",
@@ -31,7 +31,7 @@ PictureReport sample(double seconds) {
 }  // namespace
 
 TEST_CASE("a report of pictures says stages, memory, rays a second, and how they compare with POV-Ray") {
-  CHECK(to_text(sample(0.5)) ==
+  CHECK(to_text(sample_picture(0.5)) ==
         "scenes/a.toml: 640×480, 4 samples a pixel; median, least … greatest of 3 runs\n"
         "\n"
         "gpu: a device\n"
@@ -52,7 +52,7 @@ TEST_CASE("a report of pictures says stages, memory, rays a second, and how they
 TEST_CASE("pictures are read back from JSON, and compared where size and samples are the same") {
   const TemporaryFolder folder;
   const std::string file = folder / "old.json";
-  const nlohmann::ordered_json answer{{"bench", {to_json(sample(0.5))}}};
+  const nlohmann::ordered_json answer{{"bench", {to_json(sample_picture(0.5))}}};
   write_text(file, answer.dump());
   const std::vector<PictureReport> old = read_picture_reports(file);
   const auto one_line = [](const char* series, const char* what, double before, double after,
@@ -60,13 +60,13 @@ TEST_CASE("pictures are read back from JSON, and compared where size and samples
     return fmt::format("{:<24} {:<12} {:<14} {:>8.4g} -> {:<8.4g} {} {:>7} %{}\n", "scenes/a.toml", series,
                        what, before, after, unit, change, before == after ? "  within the spread" : "");
   };
-  CHECK(picture_changes(old, {sample(0.25)}) ==
+  CHECK(picture_changes(old, {sample_picture(0.25)}) ==
         one_line("gpu", "whole process", 1, 0.5, "s", "-50.0") +
             one_line("gpu", "tracing", 0.5, 0.25, "s", "-50.0") +
             one_line("gpu", "memory", 64, 64, "MiB", "+0.0") +
             one_line("warm start", "whole process", 0.25, 0.25, "s", "+0.0") +
             one_line("warm start", "tracing", 0.125, 0.125, "s", "+0.0"));
-  PictureReport other = sample(0.25);
+  PictureReport other = sample_picture(0.25);
   other.samples = 1;
   CHECK(picture_changes(old, {other}) == "");
 

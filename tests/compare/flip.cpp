@@ -19,16 +19,16 @@ namespace book = eyeray::test::book;
 
 namespace {
 
-constexpr int width = 36, height = 27;
+constexpr int columns = 36, rows = 27;
 
 // Gradients, edges, points and noise, of colours up to `brightest`, for a good part dark.
 Image scene(uint64_t seed, double brightest) {
   Random random(seed);
-  Image image(width, height, 3);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
+  Image image(columns, rows, 3);
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x)
       for (int c = 0; c < 3; ++c) {
-        const double ramp = double(x + 2 * y + 5 * c) / (width + 2 * height + 10);
+        const double ramp = double(x + 2 * y + 5 * c) / (columns + 2 * rows + 10);
         const bool bright = (x / 9 + y / 9) % 3 == 0, point = x % 13 == 4 && y % 11 == 5;
         const double value = point ? 1 : bright ? 0.3 + 0.4 * ramp : 0.05 * ramp;
         image.pixel(x, y)[c] = float(brightest * value * random.uniform(0.8, 1));

@@ -54,7 +54,7 @@ std::string diagnosis(const Frame& gpu, const Frame& twin) {
   return report_on("", gpu, twin).diagnosis();
 }
 
-bool contains(const std::string& text, const std::string& words) {
+bool tells(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
 }
 
@@ -80,10 +80,10 @@ TEST_CASE("a diagnosis names the first value that differs") {
 
 TEST_CASE("a diagnosis names the side") {
   const Frame honest = picture_frame(), wrong = changed(red);
-  CHECK(contains(diagnosis(wrong, honest), "; twin agrees with the reference: look into gpu's data"));
-  CHECK(contains(diagnosis(wrong, wrong), "; gpu and twin agree with each other and not with the reference"));
-  CHECK(contains(diagnosis(honest, wrong), "; gpu agrees with the reference: look into twin's data"));
-  CHECK(contains(diagnosis(changed([](Frame& f) { f.color.pixel(9, 9)[0] += 1; }), wrong), "neither"));
+  CHECK(tells(diagnosis(wrong, honest), "; twin agrees with the reference: look into gpu's data"));
+  CHECK(tells(diagnosis(wrong, wrong), "; gpu and twin agree with each other and not with the reference"));
+  CHECK(tells(diagnosis(honest, wrong), "; gpu agrees with the reference: look into twin's data"));
+  CHECK(tells(diagnosis(changed([](Frame& f) { f.color.pixel(9, 9)[0] += 1; }), wrong), "neither"));
   const Frame one_bit = changed([](Frame& f) { f.color.pixel(50, 30)[0] += 1e-7f; });
   CHECK(diagnosis(one_bit, honest).starts_with("gpu and twin agree with the reference, and not bit by bit"));
 }
@@ -108,12 +108,12 @@ TEST_CASE("JUnit's XML has a case a scene, with the numbers in the failure's tex
   const std::string text =
       to_junit(std::vector<Report>{good("a.toml"), bad, not_verified("c\x01\xff.toml", true)});
   CAPTURE(text);
-  CHECK(contains(text, R"(<testsuites name="eyeray verify" tests="3" failures="1" errors="0" skipped="1")"));
-  CHECK(contains(text, R"(name="a.toml" file="a.toml" time="1.500">)"));
-  CHECK(contains(text, R"(name="b&lt;&amp;&gt;.toml")"));
-  CHECK(contains(text, "<failure message=\"gate A: gpu and twin: 1 of 6912 pixels differ in their bits"));
-  CHECK(contains(text, "  diagnosis: all rays hit the same"));
-  CHECK(contains(text, "<skipped message=\"it has &lt;no&gt; &quot;camera&quot;\"/>"));
+  CHECK(tells(text, R"(<testsuites name="eyeray verify" tests="3" failures="1" errors="0" skipped="1")"));
+  CHECK(tells(text, R"(name="a.toml" file="a.toml" time="1.500">)"));
+  CHECK(tells(text, R"(name="b&lt;&amp;&gt;.toml")"));
+  CHECK(tells(text, "<failure message=\"gate A: gpu and twin: 1 of 6912 pixels differ in their bits"));
+  CHECK(tells(text, "  diagnosis: all rays hit the same"));
+  CHECK(tells(text, "<skipped message=\"it has &lt;no&gt; &quot;camera&quot;\"/>"));
   CHECK(text.find('\x01') == std::string::npos);
   CHECK(text.find('\xff') == std::string::npos);
 }
@@ -123,7 +123,6 @@ TEST_CASE("GitHub gets an annotation a failure, and a table") {
   CHECK(to_annotations(reports) ==
         "::error file=b%2Cc%3Ad%25.toml,title=eyeray verify::not verified: it has <no> \"camera\"\n");
   const std::string table = to_markdown(reports);
-  CHECK(contains(table, "| a.toml | passed | 6912 | 0 | 0 | 1.50 |  |\n"));
-  CHECK(contains(table,
-                 "| b,c:d%.toml | failed | 0 | 0 | 0 | 0.00 | not verified: it has <no> \"camera\" |\n"));
+  CHECK(tells(table, "| a.toml | passed | 6912 | 0 | 0 | 1.50 |  |\n"));
+  CHECK(tells(table, "| b,c:d%.toml | failed | 0 | 0 | 0 | 0.00 | not verified: it has <no> \"camera\" |\n"));
 }

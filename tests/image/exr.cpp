@@ -37,7 +37,7 @@ bool holds(const Image& image, const std::vector<int>& channels, float error = 0
   return true;
 }
 
-std::string refusal(const std::string& file, const std::string& layer = "") {
+std::string refusal_of(const std::string& file, const std::string& layer = "") {
   try {
     read_image(file, layer);
     return "";
@@ -123,15 +123,15 @@ TEST_CASE("layers are chosen by name, and parts are layers") {
 }
 
 TEST_CASE("what is no picture is refused, each with its own words") {
-  CHECK(refusal(corpus + "layers.exr", "nrmal") ==
+  CHECK(refusal_of(corpus + "layers.exr", "nrmal") ==
         "it has no layer 'nrmal'; there are depth, id, normal, uv");
-  CHECK(refusal(corpus + "grey.exr", "id") == "it has no layer 'id'");
-  CHECK(refusal(corpus + "only_layers.exr") == "which of its layers? There are depth, id");
-  CHECK(refusal(corpus + "lacks_green.exr") == "it lacks the channel G");
-  CHECK(refusal(corpus + "many.exr") == "a picture has one to three channels, and this 4");
-  CHECK(refusal(corpus + "deep.exr") == "it holds deep data");
-  CHECK(refusal(corpus + "chroma.exr") == "it holds luminance and chroma, not red, green and blue");
-  CHECK(refusal(corpus + "subsampled.exr") == "its channel B is subsampled");
+  CHECK(refusal_of(corpus + "grey.exr", "id") == "it has no layer 'id'");
+  CHECK(refusal_of(corpus + "only_layers.exr") == "which of its layers? There are depth, id");
+  CHECK(refusal_of(corpus + "lacks_green.exr") == "it lacks the channel G");
+  CHECK(refusal_of(corpus + "many.exr") == "a picture has one to three channels, and this 4");
+  CHECK(refusal_of(corpus + "deep.exr") == "it holds deep data");
+  CHECK(refusal_of(corpus + "chroma.exr") == "it holds luminance and chroma, not red, green and blue");
+  CHECK(refusal_of(corpus + "subsampled.exr") == "its channel B is subsampled");
 }
 
 TEST_CASE("a file that ends early, or promises more than it holds, is refused") {
@@ -143,12 +143,12 @@ TEST_CASE("a file that ends early, or promises more than it holds, is refused") 
     for (const size_t length : {size_t{0}, size_t{3}, size_t{8}, size_t{100}, whole.size() / 2}) {
       CAPTURE(length);
       write_text(file, whole.substr(0, length));
-      CHECK(refusal(file) != "");
+      CHECK(refusal_of(file) != "");
     }
   }
   write_text(file,
              read_text(corpus + "zip.exr").substr(0, std::filesystem::file_size(corpus + "zip.exr") - 1));
-  CHECK(refusal(file) != "");
+  CHECK(refusal_of(file) != "");
   // The windows' far corners.
   std::string huge = read_text(corpus + "zip.exr");
   const std::string window = std::string("dataWindow") + '\0' + "box2i" + '\0' + std::string("\x10\0\0\0", 4);
@@ -166,6 +166,6 @@ TEST_CASE("a file that ends early, or promises more than it holds, is refused") 
        {std::pair{16383, 16383}, {65535, 65535}, {0x7fffffff, 0x7fffffff}, {8, 0x7ffffffe}, {-2, 4}}) {
     CAPTURE(corner.first);
     write_text(file, with_corner(corner.first, corner.second));
-    CHECK(refusal(file) != "");
+    CHECK(refusal_of(file) != "");
   }
 }

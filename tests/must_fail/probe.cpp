@@ -11,7 +11,7 @@ using namespace eyeray::test;
 
 namespace {
 
-struct Fault {
+struct Probed {
   std::string name;
   std::string pixel;
   std::string ray;    // the last of its way
@@ -19,7 +19,7 @@ struct Fault {
   std::vector<std::string> scene = {"scenes/whitted.toml"};
 };
 
-void expect_found(const Fault& fault) {
+void expect_found(const Probed& fault) {
   CAPTURE(fault.name);
   std::vector<std::string> arguments = {"probe"};
   arguments.insert(arguments.end(), fault.scene.begin(), fault.scene.end());
@@ -33,7 +33,7 @@ void expect_found(const Fault& fault) {
   CHECK(first.value("name", "") == fault.value);
 }
 
-const Fault faults[] = {
+const Probed probed_faults[] = {
     {"ior", "56,22", "eye ray", "ior"},
     {"shadow", "31,60", "shadow ray to light 0", "visibility"},
     {"bit", "47,30", "shadow ray to light 0", "direction"},
@@ -68,9 +68,9 @@ const Fault faults[] = {
 }  // namespace
 
 TEST_CASE("the probe finds a wrong index of refraction, a missing shadow and a flipped bit where they are") {
-  for (const Fault& fault : std::span(faults).first(3)) expect_found(fault);
+  for (const Probed& fault : std::span(probed_faults).first(3)) expect_found(fault);
 }
 
 TEST_CASE("… and every fault that a pixel's kernel has" * doctest::test_suite("long")) {
-  for (const Fault& fault : faults) expect_found(fault);
+  for (const Probed& fault : probed_faults) expect_found(fault);
 }

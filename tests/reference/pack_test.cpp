@@ -12,16 +12,16 @@ using namespace eyeray::test;
 
 namespace {
 
-const Vec3 eye(100000, 2, 3);
+const Vec3 far_eye(100000, 2, 3);
 
 PackedScene packed(const Shape& shape) {
-  Packer packer(eye);
+  Packer packer(far_eye);
   shape.pack(packer);
   return packer.scene;
 }
 
 PackedScene packed(const Material& material) {
-  Packer packer(eye);
+  Packer packer(far_eye);
   material.pack(packer);
   return packer.scene;
 }
@@ -29,7 +29,7 @@ PackedScene packed(const Material& material) {
 }  // namespace
 
 TEST_CASE("sphere record") {
-  const auto shape = make_sphere(eye + Vec3(1, 0.001, 2), 0.5, Mat4(1.0));
+  const auto shape = make_sphere(far_eye + Vec3(1, 0.001, 2), 0.5, Mat4(1.0));
   shape->material = 7;
   const PackedScene scene = packed(*shape);
   const auto& record = scene.primitives.at(0);
@@ -47,7 +47,7 @@ TEST_CASE("sphere record") {
 }
 
 TEST_CASE("plane record: u and v are linear in the eye-relative position") {
-  const auto shape = make_plane(eye + Vec3(0, -2, 5), {0, 1, 0});
+  const auto shape = make_plane(far_eye + Vec3(0, -2, 5), {0, 1, 0});
   const auto record = packed(*shape).primitives.at(0);
   CHECK(kind_of(record) == shader::KIND_plane);
   CHECK(record.a == shader::vec4(0, 1, 0, -2));
@@ -56,7 +56,8 @@ TEST_CASE("plane record: u and v are linear in the eye-relative position") {
 }
 
 TEST_CASE("triangle record") {
-  TriangleValues values{.vertices = {eye + Vec3(1, 2, 3), eye + Vec3(2, 2, 3), eye + Vec3(1, 3, 3)}};
+  TriangleValues values{
+      .vertices = {far_eye + Vec3(1, 2, 3), far_eye + Vec3(2, 2, 3), far_eye + Vec3(1, 3, 3)}};
   PackedScene scene = packed(*make_triangle(values));
   CHECK(shader::head_of(scene.primitives.at(0)) == shader::uvec4(0u, shader::KIND_triangle << 24, 0u, NONE));
   CHECK(scene.primitives.at(0).a == shader::vec4(1, 2, 3, 0));

@@ -10,16 +10,16 @@ using namespace eyeray::test;
 
 namespace {
 
-const std::string paint = "[[material]]\nname = 'm'\ntype = 'phong'\n";
+const std::string of_paint = "[[material]]\nname = 'm'\ntype = 'phong'\n";
 
 Scene scene_of(const std::string& tables) {
-  return parse_scene(paint + tables, "scene.toml");
+  return parse_scene(of_paint + tables, "scene.toml");
 }
 
 // "line: message" of the only error in a scene whose first shape's table starts at line 1.
 std::string refused(const std::string& shape) {
   try {
-    parse_scene(shape + "\nmaterial = 'm'\n" + paint, "scene.toml");
+    parse_scene(shape + "\nmaterial = 'm'\n" + of_paint, "scene.toml");
   } catch (const InputError& error) {
     REQUIRE(error.diagnostics().size() == 1);
     const Diagnostic& diagnostic = error.diagnostics()[0];

@@ -28,23 +28,23 @@ void check_heights(const Shape& shape, double x, double z, const std::vector<dou
   for (size_t i = 0; i < found.size(); ++i) CHECK(near(found[i], expected[i], 1e-8));
 }
 
-const Vec3 down(0, -1, 0);
+const Vec3 downwards(0, -1, 0);
 
 }  // namespace
 
 TEST_CASE("disk: its hole, its rims and its uv") {
   const auto ring = make_disk({1, 2, 3}, {0, 5, 0}, 2, 1);
-  for (const double x : {2.0, 2.5, 3.0}) CHECK(distance(*ring, {{x, 7, 3}, down}) == 5);
-  for (const double x : {1.0, 1.999, 3.001}) CHECK(distance(*ring, {{x, 7, 3}, down}) == -1);
+  for (const double x : {2.0, 2.5, 3.0}) CHECK(distance(*ring, {{x, 7, 3}, downwards}) == 5);
+  for (const double x : {1.0, 1.999, 3.001}) CHECK(distance(*ring, {{x, 7, 3}, downwards}) == -1);
   CHECK(distance(*ring, {{-9, 2, 3}, {1, 0, 0}}) == -1);
-  CHECK(distance(*make_disk({1, 2, 3}, {0, 5, 0}, 2), {{1, 7, 3}, down * 2.0}) == 2.5);
+  CHECK(distance(*make_disk({1, 2, 3}, {0, 5, 0}, 2), {{1, 7, 3}, downwards * 2.0}) == 2.5);
 
-  const SurfacePoint east = struck(*ring, {{2.5, 7, 3}, down});
+  const SurfacePoint east = struck(*ring, {{2.5, 7, 3}, downwards});
   CHECK(near(east.position, Vec3(2.5, 2, 3), 1e-15));
   CHECK(east.normal == Vec3(0, 1, 0));
   CHECK(near(east.uv.x, 0.875, 1e-15));
   CHECK(near(east.uv.y, 0.5, 1e-15));
-  const SurfacePoint south = struck(*ring, {{1, -7, 4.5}, -down});
+  const SurfacePoint south = struck(*ring, {{1, -7, 4.5}, -downwards});
   CHECK(south.normal == Vec3(0, 1, 0));
   CHECK(near(south.uv.x, 0.5, 1e-15));
   CHECK(near(south.uv.y, 0.125, 1e-15));
@@ -52,8 +52,8 @@ TEST_CASE("disk: its hole, its rims and its uv") {
   // Sheared: y = 2 becomes y = 2 + x, whose normal is that of −x + y.
   const Mat4 shear{{1, 1, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
   const auto slope = make_disk({1, 2, 3}, {0, 5, 0}, 2, 1, shear);
-  CHECK(near(struck(*slope, {{2.5, 9, 3}, down}).position, Vec3(2.5, 4.5, 3), 1e-14));
-  CHECK(near(struck(*slope, {{2.5, 9, 3}, down}).normal, Vec3(-1, 1, 0) / std::sqrt(2.0), 1e-15));
+  CHECK(near(struck(*slope, {{2.5, 9, 3}, downwards}).position, Vec3(2.5, 4.5, 3), 1e-14));
+  CHECK(near(struck(*slope, {{2.5, 9, 3}, downwards}).normal, Vec3(-1, 1, 0) / std::sqrt(2.0), 1e-15));
 }
 
 TEST_CASE("paraboloid: y = x² + z², its cap, its tip and its focus") {
@@ -65,19 +65,19 @@ TEST_CASE("paraboloid: y = x² + z², its cap, its tip and its focus") {
   check_heights(*bowl, 2.001, 0, {});
   CHECK(near(distance(*csg, {{-5, 1, 0}, {1, 0, 0}}), 4, 1e-14));
   CHECK(near(distance(*csg, {{0, 1, 0}, {1, 0, 0}}), 1, 1e-14));
-  CHECK(struck(*csg, {{1, 10, 0}, down}).normal == Vec3(0, 1, 0));
-  CHECK(near(struck(*csg, {{0, -3, 0}, -down}).normal, Vec3(0, -1, 0), 1e-12));
+  CHECK(struck(*csg, {{1, 10, 0}, downwards}).normal == Vec3(0, 1, 0));
+  CHECK(near(struck(*csg, {{0, -3, 0}, -downwards}).normal, Vec3(0, -1, 0), 1e-12));
 
   // What comes along the axis leaves for the focus, 2² / (4 · 4) above the tip.
-  const SurfacePoint point = struck(*bowl, {{1, 10, 0}, down});
+  const SurfacePoint point = struck(*bowl, {{1, 10, 0}, downwards});
   CHECK(near(point.position, Vec3(1, 1, 0), 1e-14));
-  CHECK(near(glm::reflect(down, point.normal), Vec3(-0.8, -0.6, 0), 1e-14));
+  CHECK(near(glm::reflect(downwards, point.normal), Vec3(-0.8, -0.6, 0), 1e-14));
   CHECK(near(point.uv.x, 0.5, 1e-15));
   CHECK(near(point.uv.y, 0.25, 1e-15));
 
   // Mirrored, it opens downward and its outside stays outside.
   const auto hill = make_paraboloid({0, 0, 0}, {0, 4, 0}, 2, true, glm::scale(Mat4(1.0), Vec3(1, -1, 1)));
-  CHECK(near(struck(*hill, {{1, 10, 0}, down}).normal, Vec3(2, 1, 0) / std::sqrt(5.0), 1e-14));
+  CHECK(near(struck(*hill, {{1, 10, 0}, downwards}).normal, Vec3(2, 1, 0) / std::sqrt(5.0), 1e-14));
 }
 
 TEST_CASE("hyperboloid: x² + z² = 9 + y², hit up to four times") {
@@ -118,7 +118,7 @@ TEST_CASE("capsule: side, ends, and the seams between them") {
     CHECK(near(point.uv.y, (std::numbers::pi / 2 + y) / (std::numbers::pi + 2), 1e-14));
   }
   CHECK(near(struck(*capsule, {{10, 2.6, 0}, {-1, 0, 0}}).normal, Vec3(0.8, 0.6, 0), 1e-14));
-  CHECK(near(struck(*capsule, {{0, 9, 0}, down}).uv.y, 1, 1e-15));
+  CHECK(near(struck(*capsule, {{0, 9, 0}, downwards}).uv.y, 1, 1e-15));
   CHECK(near(distance(*capsule, {{0, 1, 0}, {0, 1, 0}}), 2, 1e-14));
   CHECK(near(capsule->bounds().min, Vec3(-1, -1, -1), 1e-14));
   CHECK(near(capsule->bounds().max, Vec3(1, 3, 1), 1e-14));
@@ -131,14 +131,14 @@ TEST_CASE("quadric: a saddle, two sheets, and a ball cut off by a box") {
   check_heights(*sheet, 0.5, 0.5, {0});
   check_heights(*sheet, 0, 0.5, {-0.25});
   check_heights(*sheet, 1.001, 0, {});
-  const SurfacePoint point = struck(*sheet, {{0.25, 5, 0}, down});
+  const SurfacePoint point = struck(*sheet, {{0.25, 5, 0}, downwards});
   CHECK(near(point.normal, Vec3(0.5, -1, 0) / std::sqrt(1.25), 1e-14));
   CHECK(near(point.uv.x, 0.625, 1e-14));
   CHECK(near(point.uv.y, 0.5, 1e-14));
   const auto csg = make_quadric(saddle, Vec3(-1), Vec3(1));
   check_heights(*csg, 0.5, 0, {0.25, 1});
-  CHECK(struck(*csg, {{0.5, 5, 0}, down}).normal == Vec3(0, 1, 0));
-  CHECK(near(struck(*csg, {{0.5, 5, 0}, down}).uv.x, 0.75, 1e-15));
+  CHECK(struck(*csg, {{0.5, 5, 0}, downwards}).normal == Vec3(0, 1, 0));
+  CHECK(near(struck(*csg, {{0.5, 5, 0}, downwards}).uv.x, 0.75, 1e-15));
 
   const QuadricValues sheets{.square = {1, -1, 1}, .product = Vec3(0), .linear = Vec3(0), .constant = 0.25};
   check_heights(*make_quadric(sheets, Vec3(-1), Vec3(1)), 0, 0, {-1, -0.5, 0.5, 1});

@@ -7,10 +7,13 @@ list(FILTER SHAPE_SCENES INCLUDE REGEX "^scenes/shapes/")
 # The gallery has what the others have, in one kernel that takes seconds to make, and the Mandelbulb takes seconds to trace: once is enough.
 list(FILTER SHAPE_SCENES EXCLUDE REGEX "/(gallery|mandelbulb)")
 
-# eyeray_verify(NAME LABEL [QUICK] ARGUMENT …): one process for all its scenes. QUICK: it is in what `scripts/test` alone runs.
+# eyeray_verify(NAME LABEL [QUICK|STAND_IN] ARGUMENT …): one process for all its scenes. QUICK: it is in what `scripts/test` alone runs.
+# STAND_IN: there alone, since a longer test has the same kernels and gates at more pixels.
 function(eyeray_verify name label)
-  cmake_parse_arguments(arg "QUICK" "" "" ${ARGN})
-  if(NOT arg_QUICK)
+  cmake_parse_arguments(arg "QUICK;STAND_IN" "" "" ${ARGN})
+  if(arg_STAND_IN)
+    list(APPEND label stand-in)
+  elseif(NOT arg_QUICK)
     list(APPEND label full)
   endif()
   add_test(NAME ${name} COMMAND eyeray verify ${arg_UNPARSED_ARGUMENTS} --quiet --timeout 3600
@@ -26,8 +29,8 @@ list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
 list(FILTER EDGES EXCLUDE REGEX "/(formulas|intervals|sheet|coarse_glass|tight_bound)")
 set(quick ${SCENES})
 list(FILTER quick EXCLUDE REGEX "^scenes/edges/|/(gallery|group_shapes|mandelbulb|sculpture|shapes/csg|shapes/implicit)")
-eyeray_verify(scenes.small scene QUICK ${quick} -s 48x36)
-eyeray_verify(scenes.edges scene QUICK ${EDGES})
+eyeray_verify(scenes.small scene STAND_IN ${quick} -s 48x36)
+eyeray_verify(scenes.edges scene STAND_IN ${EDGES})
 
 # Every scene as its file says.
 foreach(scene IN LISTS SCENES)
@@ -62,8 +65,8 @@ eyeray_verify(mode.groups-once mode QUICK scenes/groups.toml scenes/group_instan
 eyeray_verify(mode.groups-copied mode ${groups} scenes/forest.toml -s 96x72 -D render.groups=flat)
 eyeray_verify(mode.bvh mode ${small} --acceleration bvh --no-constants)
 set(few scenes/cornell.toml scenes/inside_glass.toml scenes/meshes.toml scenes/group_instances.toml -s 48x36)
-eyeray_verify(mode.packets.few mode QUICK ${few} --acceleration bvh --no-constants --rays packets)
-eyeray_verify(mode.profile-gpu.few mode QUICK ${few} --profile gpu)
+eyeray_verify(mode.packets.few mode STAND_IN ${few} --acceleration bvh --no-constants --rays packets)
+eyeray_verify(mode.profile-gpu.few mode STAND_IN ${few} --profile gpu)
 eyeray_verify(mode.bvh.edges mode ${EDGES} --acceleration bvh --no-constants)
 eyeray_verify(mode.brute-force mode ${searched} --acceleration brute-force)
 # Without a BVH a ray hits each triangle as often as it is shown: more rays in a row, or patches, are more loops than Mesa 22.3.6 grants.
@@ -149,4 +152,5 @@ eyeray_verify(validation.sync.no-constants validation ${set} --validate sync --n
 # Mutants of the shaders, three that gates B and C tell (docs/verification.md, mutants).
 add_test(NAME mutate COMMAND python3 scripts/mutate --files math/rng.glsl --count 3 --jobs 1 --least 1 --eyeray $<TARGET_FILE:eyeray>
   WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+set_tests_properties(mode.packets mode.slow-kernels.packets mode.jittered scene.shapes.mandelbulb scene.shapes.sculpture PROPERTIES COST 40)
 set_tests_properties(mutate PROPERTIES LABELS "scene;full" TIMEOUT 3600)

@@ -22,7 +22,7 @@ using test::Random;
 
 namespace {
 
-constexpr int parts = 64;
+constexpr int chunks = 64;
 
 struct Mesh {
   std::vector<glm::vec3> vertices;
@@ -75,9 +75,9 @@ int leaks(const Mesh& mesh, const Vec3& centre, const Vec3& reach, Aim aim, Inte
     triangles.push_back(
         make_triangle(mesh.vertices[size_t(a)], mesh.vertices[size_t(b)], mesh.vertices[size_t(c)]));
   std::atomic<int> escaped = 0;
-  parallel_for(0, parts, [&](int part) {
-    Random random{uint64_t(part) * 31 + uint64_t(aim)};
-    for (int i = 0; i < count / parts; ++i) {
+  parallel_for(0, chunks, [&](int chunk) {
+    Random random{uint64_t(chunk) * 31 + uint64_t(aim)};
+    for (int i = 0; i < count / chunks; ++i) {
       const glm::vec3 origin(centre + random.point(0.2) * reach);
       const auto& face = mesh.faces[size_t(random.below(int(mesh.faces.size())))];
       const Vec3 p(mesh.vertices[size_t(face[0])]);
@@ -192,9 +192,9 @@ TEST_CASE("2 million rays that leave a triangle, size 1e-4 to 1e4: none hits it 
        {&shader::triangle_intersect_woop, &shader::triangle_intersect_moller_trumbore}) {
     std::atomic<int> rehits = 0;
     std::atomic<int> left = 0;
-    parallel_for(0, parts, [&](int part) {
-      Random random{uint64_t(part) + 77};
-      for (int i = 0; i < 2'000'000 / parts; ++i) {
+    parallel_for(0, chunks, [&](int chunk) {
+      Random random{uint64_t(chunk) + 77};
+      for (int i = 0; i < 2'000'000 / chunks; ++i) {
         const double size = random.log_uniform(1e-4, 1e4);
         const Vec3 centre = random.point(10 * size);
         // One in three is flat on the floor, where only the height's rounding may matter.
