@@ -15,8 +15,8 @@ if(EYERAY_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)  # coverage for the fuzzers in everything
 endif()
 
-# What most files include is parsed once for each set of options. In the release build only: the others see to it that a file
-# includes what it uses. eyeray_precompiled(TARGET [OPTIONS -O0 …] [HEADERS …] [LINK …]): a target's own options, what its files
+# What most files include is parsed once for each set of options, in the builds of .ci/run: tests/architecture sees to it that a file
+# includes what it says of these headers. eyeray_precompiled(TARGET [OPTIONS -O0 …] [HEADERS …] [LINK …]): a target's own options, what its files
 # include beside, and the libraries that have it.
 function(eyeray_precompiled target)
   if(NOT EYERAY_PRECOMPILED)
@@ -27,6 +27,9 @@ function(eyeray_precompiled target)
   if(NOT TARGET ${owner})
     file(CONFIGURE OUTPUT ${owner}.cpp CONTENT "")
     add_library(${owner} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${owner}.cpp)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)  # by where files lie: nothing for ccache to give to another clone
+      set_target_properties(${owner} PROPERTIES CXX_COMPILER_LAUNCHER "")
+    endif()
     target_link_libraries(${owner} PRIVATE eyeray_warnings fmt::fmt glm::glm ${arg_LINK})
     target_compile_options(${owner} PRIVATE ${arg_OPTIONS})
     target_precompile_headers(${owner} PRIVATE <algorithm> <array> <atomic> <cmath> <filesystem> <fstream> <functional> <map> <memory>
@@ -35,8 +38,8 @@ function(eyeray_precompiled target)
   target_precompile_headers(${target} REUSE_FROM ${owner})
 endfunction()
 
-# Where headers take most of a compiler's time, some files are compiled at a time. In the release build only, as above: names in anonymous
-# namespaces may not be the same in two files of such a target. (CMake's own UNITY_BUILD names files by where they lie, so that no other
+# Where headers take most of a compiler's time, some files are compiled at a time, in the same builds: names in anonymous namespaces may
+# not be the same in two files of such a target. (CMake's own UNITY_BUILD names files by where they lie, so that no other
 # clone would find in ccache what this one compiled.)
 function(eyeray_in_batches target)
   if(NOT EYERAY_PRECOMPILED)

@@ -1,4 +1,5 @@
 // eyeray check: reads a scene, says whether it is sound, and prints what follows from it.
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <span>

@@ -1,5 +1,6 @@
 // eyeray dev: renders, watches the scene and the shaders, and renders again on every save
 // (dev/supervisor.hpp).
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 

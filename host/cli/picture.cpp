@@ -1,5 +1,6 @@
 #include "host/cli/picture.hpp"
 
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,5 @@
 // How far a render has come.
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // eyeray shaders: the shaders inside the program, listed, shown or written out for --shaders.
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>

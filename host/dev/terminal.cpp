@@ -1,6 +1,7 @@
 #include "host/dev/terminal.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 

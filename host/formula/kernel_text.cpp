@@ -1,6 +1,7 @@
 #include "host/formula/kernel_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/core/error.hpp"
 

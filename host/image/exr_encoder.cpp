@@ -5,6 +5,7 @@
 #include <ImfOutputFile.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 
 #include "host/core/error.hpp"

@@ -1,6 +1,7 @@
 #include "host/loader/toml_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>

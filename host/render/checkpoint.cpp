@@ -1,5 +1,6 @@
 #include "host/render/checkpoint.hpp"
 
+#include <fmt/ranges.h>
 #include <array>
 #include <bit>
 

@@ -1,5 +1,6 @@
 #include "host/scene/table_reader.hpp"
 
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <map>
 

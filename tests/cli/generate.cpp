@@ -1,4 +1,6 @@
 // eyeray generate writes scenes that eyeray reads, whole or not at all.
+#include <map>
+
 #include <nlohmann/json.hpp>
 
 #include "scene.hpp"

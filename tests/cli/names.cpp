@@ -1,6 +1,7 @@
 // Names on the command line: legends of ids, what verify says was hit, what check lists.
 #include <fmt/format.h>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "host/image/image_file.hpp"

@@ -1,5 +1,6 @@
 #include "host/compare/report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,7 @@
 // The databases as their descriptions have them: counts, places, heights, and the pixels on which points
 // fall.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 

@@ -1,5 +1,6 @@
 #include "host/generate/sphereflake.hpp"
 
+#include <cmath>
 #include <map>
 
 #include "host/generate/octasphere.hpp"

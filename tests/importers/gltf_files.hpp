@@ -1,6 +1,8 @@
 // Small glTF files, made by tests.
 #pragma once
 
+#include <map>
+
 #include <nlohmann/json.hpp>
 
 #include "bytes.hpp"

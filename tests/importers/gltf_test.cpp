@@ -1,4 +1,6 @@
 // The geometry of glTF files: accessors, primitives, nodes, containers.
+#include <map>
+
 #include "gltf_files.hpp"
 
 using namespace eyeray;

@@ -1,4 +1,5 @@
 // [[mesh]], and mesh files in place of scenes.
+#include <cmath>
 #include <fstream>
 
 #include "folder.hpp"
