@@ -14,8 +14,12 @@ constexpr size_t most_in_packets = 1 << 20;
 // so many primitives.
 constexpr int64_t least_samples_in_wavefront = 1 << 22;
 constexpr size_t most_in_wavefront = 1 << 18;
+// In more lanes than these packets are slower than rays alone.
+constexpr uint32_t most_lanes_in_wavefront = 8;
 // Pictures take vectors of 512 bits where these save more than compiling for them takes: of so many samples.
+// Of more primitives than this, packets in narrow ones are faster.
 constexpr int64_t least_samples_in_wide_vectors = 1 << 20;
+constexpr size_t most_in_wide_vectors = 1 << 14;
 
 int64_t samples_of(const ImageSettings& image) {
   return int64_t{image.width} * image.height * image.samples;
@@ -51,8 +55,9 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
   TracePlan plan;
   plan.coherent = packets ? Rays::packets : Rays::lanes;
   plan.incoherent = incoherent_rays(profile, scene, packets, subgroup_size);
-  plan.wavefront = packets && (asked_for_packets || (samples_of(image) >= least_samples_in_wavefront &&
-                                                     scene.primitives.size() <= most_in_wavefront));
+  const bool pays = samples_of(image) >= least_samples_in_wavefront &&
+                    scene.primitives.size() <= most_in_wavefront && subgroup_size <= most_lanes_in_wavefront;
+  plan.wavefront = packets && (asked_for_packets || pays);
   // Most rays that leave a mesh hit no more of it: not worth kernels of their own (docs/performance.md).
   plan.bounced = only_triangles(scene) && !profile.incoherent ? Rays::lanes : plan.incoherent;
   return plan;
@@ -62,10 +67,11 @@ bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
                         const records::PackedScene& scene) {
   gpu::DeviceInfo llvmpipe;
   llvmpipe.type = gpu::DeviceType::cpu;
-  llvmpipe.limits.subgroup_size = 8;
-  const Profile profile = choose_profile(asked, llvmpipe);
-  return samples_of(image) >= least_samples_in_wide_vectors &&
-         !plan_tracing(profile, asked, image, scene, llvmpipe.limits.subgroup_size).wavefront;
+  llvmpipe.limits.subgroup_size = most_lanes_in_wavefront;
+  const TracePlan narrow =
+      plan_tracing(choose_profile(asked, llvmpipe), asked, image, scene, llvmpipe.limits.subgroup_size);
+  const bool suits_packets = asked.rays == "packets" || scene.primitives.size() > most_in_wide_vectors;
+  return samples_of(image) >= least_samples_in_wide_vectors && !(narrow.wavefront && suits_packets);
 }
 
 }  // namespace eyeray::executors

@@ -18,9 +18,9 @@ struct TracePlan {
 TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, const ImageSettings& image,
                        const records::PackedScene& scene, uint32_t subgroup_size);
 
-// Whether a CPU makes the picture sooner with vectors of 512 bits than of 256: each ray alone on its lane,
-// and so many samples that compiling for them pays. It is known before a device is open, whose driver is to
-// be told (gpu/vector_width.hpp).
+// Whether a CPU makes the picture sooner with vectors of 512 bits, each ray alone on its lane: it has so many
+// samples that compiling for them pays, and is none that packets in vectors of 256 bits serve better. That is
+// known before a device is open, whose driver is to be told (gpu/vector_width.hpp).
 bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
                         const records::PackedScene& scene);
 

@@ -1,8 +1,11 @@
-// Which pictures want vectors of 512 bits.
+// Which pictures packets trace, and which want vectors of 512 bits.
 #include "host/executors/trace_plan.hpp"
 
-#include "host/loader/scene_file.hpp"
+#include "host/materials/make.hpp"
 #include "host/pack/pack.hpp"
+#include "host/shapes/make.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/scenes.hpp"
 
 #include "tests/support/doctest.hpp"
 
@@ -11,31 +14,50 @@ using namespace eyeray::executors;
 
 namespace {
 
-bool wants_wide_vectors(const std::string& file, int width, int height, int samples = 1,
-                        const ProfileOptions& asked = {}) {
-  Scene scene = loader::load_scene(file);
-  scene.image.width = width;
-  scene.image.height = height;
-  scene.image.samples = samples;
-  return wants_wide_vectors(asked, scene.image, pack::pack(scene));
+records::PackedScene spheres(int count) {
+  Scene scene = test::empty_scene();
+  const int material = test::add(scene, materials::make_phong({}));
+  for (int i = 0; i < count; ++i) test::add(scene, shapes::make_sphere(Vec3(i, 0, -9), 0.5), material);
+  return pack::pack(scene);
+}
+
+ImageSettings picture(int width, int height, int samples = 1) {
+  ImageSettings image;
+  image.width = width;
+  image.height = height;
+  image.samples = samples;
+  return image;
+}
+
+ProfileOptions rays(const std::string& how) {
+  ProfileOptions options;
+  options.rays = how;
+  return options;
 }
 
 }  // namespace
 
-TEST_CASE("big pictures want wide vectors, but for those that packets trace") {
-  for (const std::string file :
-       {"scenes/whitted.toml", "scenes/shapes/csg.toml", "scenes/shapes/torus.toml"}) {
-    CAPTURE(file);
-    CHECK_FALSE(wants_wide_vectors(file, 768, 768));
-    CHECK(wants_wide_vectors(file, 1024, 1024));
-    CHECK(wants_wide_vectors(file, 640, 480, 4));
+TEST_CASE("pictures of a million samples want wide vectors, but for big scenes in packets") {
+  const records::PackedScene few = spheres(3), many = spheres(2000), most = spheres(17'000);
+  for (const records::PackedScene* scene : {&few, &many, &most}) {
+    CHECK_FALSE(wants_wide_vectors({}, picture(768, 768), *scene));
+    CHECK(wants_wide_vectors({}, picture(1024, 1024), *scene));
+    CHECK(wants_wide_vectors({}, picture(512, 512, 4), *scene));
+    CHECK(wants_wide_vectors(rays("lanes"), picture(2048, 2048), *scene));
+    CHECK(wants_wide_vectors({}, picture(2048, 2048), *scene) == (scene != &most));
   }
-  ProfileOptions lanes, packets;
-  lanes.rays = "lanes";
-  packets.rays = "packets";
-  const std::string mesh = "scenes/cornell.toml";
-  CHECK(wants_wide_vectors(mesh, 1024, 1024));
-  CHECK_FALSE(wants_wide_vectors(mesh, 1024, 1024, 1, packets));
-  CHECK_FALSE(wants_wide_vectors(mesh, 2048, 2048));
-  CHECK(wants_wide_vectors(mesh, 2048, 2048, 1, lanes));
+  CHECK_FALSE(wants_wide_vectors(rays("packets"), picture(2048, 2048), many));
+}
+
+TEST_CASE("packets trace big pictures where vectors are narrow, or where they are asked for") {
+  const records::PackedScene scene = spheres(2000);
+  gpu::DeviceInfo cpu;
+  cpu.type = gpu::DeviceType::cpu;
+  const auto wavefront = [&](const ProfileOptions& asked, uint32_t lanes) {
+    return plan_tracing(choose_profile(asked, cpu), asked, picture(2048, 2048), scene, lanes).wavefront;
+  };
+  CHECK(wavefront({}, 8));
+  CHECK_FALSE(wavefront({}, 16));
+  CHECK(wavefront(rays("packets"), 16));
+  CHECK_FALSE(wavefront(rays("lanes"), 8));
 }
