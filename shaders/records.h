@@ -30,6 +30,7 @@ SHADER_BEGIN
 #define BINDING_BVH4_NODES 18
 #define BINDING_PROBE 19
 #define BINDING_TUNABLES 20
+#define BINDING_EMITTERS 21
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
@@ -179,6 +180,20 @@ struct Light {
   vec4 b;
 };
 
+// ---- Emitter: a light that a path may choose, 80 bytes --------------------------------------------------------------
+// The first LIGHT_COUNT stand for the lights, and of these only `end` counts. The others are surfaces.
+struct Emitter {
+  vec3 radiance;
+  uint kind;
+  vec4 a;  // what these hold is said in the emitter's .glsl
+  vec4 b;
+  vec4 c;
+  uint primitive;  // whose surface it is
+  uint end;        // of the numbers by which it is chosen (emitters/emitter.glsl)
+  float area;
+  float offset;  // what stands this far off it is off it, however it is rounded
+};
+
 // ---- Frame: what is the same for all pixels, 128 bytes --------------------------------------------------------------
 struct Frame {
   uint width;
@@ -200,9 +215,9 @@ struct Frame {
   vec3 forward;
   float pixel_height;
   vec3 background;
-  float unused_0;
+  uint emitter_count;
   vec3 ambient;
-  float unused_1;
+  float unused_0;
 };
 
 // ---- Push constants: what changes from dispatch to dispatch, 32 bytes -----------------------------------------------
@@ -242,6 +257,7 @@ INLINE SampleResult sample_result(vec3 color, uvec4 counts) {
 }
 INLINE uvec4 counts_of(SampleResult result) { return uvec4(result.rays, result.hits, result.flags, result.iterations); }
 // With RAY_KINDS: how many of its rays were refracted and reflected, and how often a reflection was total.
+INLINE uint flags_of(SampleResult result) { return result.flags & ((1u << REFRACTED_SHIFT) - 1u); }
 INLINE uint refracted_of(SampleResult result) { return result.flags >> REFRACTED_SHIFT; }
 INLINE uint reflected_of(SampleResult result) { return result.iterations & ((1u << TOTAL_SHIFT) - 1u); }
 INLINE uint total_reflections_of(SampleResult result) { return result.iterations >> TOTAL_SHIFT; }
@@ -296,11 +312,11 @@ struct PacketHit {
 // Where a pixel's path goes on, 48 bytes.
 struct PathState {
   vec3 origin;
-  float unused_0;
+  uint media;
   vec3 direction;
-  float unused_1;
+  float density;
   vec3 throughput;
-  float unused_2;
+  uint pixel;
 };
 
 // What a pixel's rays show to a probe, 32 bytes a value. The first of the buffer says in `name` how many there would be if all had room.
@@ -340,6 +356,7 @@ static_assert(sizeof(eyeray::shader::Material) == 64);
 static_assert(sizeof(eyeray::shader::Medium) == 16);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);
+static_assert(sizeof(eyeray::shader::Emitter) == 80);
 static_assert(sizeof(eyeray::shader::Frame) == 128);
 static_assert(sizeof(eyeray::shader::Dispatch) == 32);
 static_assert(sizeof(eyeray::shader::SampleResult) == 32);

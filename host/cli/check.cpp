@@ -136,7 +136,7 @@ void print_text(const Scene& scene, const Inventory& inventory) {
     line(fmt::format("  {}", fact.label), fact.text);
   const IntegratorType integrator = scene.render.integrator;
   line("integrator", fmt::format("{}{}", integrator_names[uint32_t(integrator)],
-                                 traits_of(integrator).scatters
+                                 traits_of(integrator).ways > 0
                                      ? fmt::format(", max_depth {}, min_throughput {:g}",
                                                    scene.render.max_depth, scene.render.min_throughput)
                                      : ""));

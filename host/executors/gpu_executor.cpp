@@ -172,9 +172,9 @@ class GpuExecutor final : public Executor {
 
   void make_wavefront(const records::PackedScene& packed, const TracePlan& plan) {
     WavefrontOptions options;
-    options.shadow_rays = casts_shadow_rays(packed) ? uint32_t(packed.lights.size()) : 0;
+    options.shadow_rays = shadow_rays(packed);
     options.bounces = most_bounces(packed);
-    options.splits = packed.media.size() > 1;
+    options.splits = splits(packed);
     options.bounced = plan.bounced;
     options.workgroups = workgroups_;
     wavefront_.emplace(

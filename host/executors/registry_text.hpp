@@ -29,6 +29,7 @@ inline constexpr Row textures[] = {TEXTURES(ROW)};
 inline constexpr Row materials[] = {MATERIALS(ROW)};
 inline constexpr Row cameras[] = {CAMERAS(ROW)};
 inline constexpr Row lights[] = {LIGHTS(ROW)};
+inline constexpr Row emitters[] = {EMITTERS(ROW)};
 inline constexpr Row integrators[] = {INTEGRATORS(ROW)};
 inline constexpr Row samplers[] = {SAMPLERS(ROW)};
 #undef ROW

@@ -53,11 +53,14 @@ std::string literal(const shader::Medium& m) {
 std::string literal(const shader::Light& l) {
   return record_literal("Light", l.intensity, l.kind, l.a, l.b);
 }
+std::string literal(const shader::Emitter& e) {
+  return record_literal("Emitter", e.radiance, e.kind, e.a, e.b, e.c, e.primitive, e.end, e.area, e.offset);
+}
 std::string literal(const shader::Frame& f) {
   return record_literal("Frame", f.width, f.height, f.seed, f.samples_per_side, f.camera, f.pattern, f.media,
                         f.max_depth, f.light_count, f.loop_probe, f.integrator, f.triangle_method, f.right,
                         f.min_throughput, f.up, f.pixel_width, f.forward, f.pixel_height, f.background,
-                        f.unused_0, f.ambient, f.unused_1);
+                        f.emitter_count, f.ambient, f.unused_0);
 }
 
 // A loader that chooses among constants. A driver that runs both sides of every branch selects between
@@ -74,8 +77,8 @@ std::string constant_loader(std::string_view type, std::string_view name, const 
 }  // namespace
 
 bool few_shading_records(const records::PackedScene& scene) {
-  return std::max({scene.materials.size(), scene.textures.size(), scene.media.size(), scene.lights.size()}) <=
-         most_records;
+  return std::max({scene.materials.size(), scene.textures.size(), scene.media.size(), scene.lights.size(),
+                   scene.emitters.size()}) <= most_records;
 }
 
 bool few_primitives(const records::PackedScene& scene) {
@@ -88,7 +91,8 @@ std::string shading_as_constants(const records::PackedScene& scene,
   std::string text = constant_loader("Material", "material", scene.materials) +
                      constant_loader("Texture", "texture", scene.textures) +
                      constant_loader("Medium", "medium", scene.media) +
-                     constant_loader("Light", "light", scene.lights) + "#define SHADING_AS_CONSTANTS\n";
+                     constant_loader("Light", "light", scene.lights) +
+                     constant_loader("Emitter", "emitter", scene.emitters) + "#define SHADING_AS_CONSTANTS\n";
   if (scene.texel_count > 0) return text;
   text += "#define SCENE_MATERIALS(X)";
   for (const uint32_t i : materials_used) {

@@ -46,13 +46,35 @@ bool any_absorbs(const records::PackedScene& scene) {
 }
 
 uint32_t most_bounces(const records::PackedScene& scene) {
-  return traits_of(IntegratorType(scene.frame.integrator)).scatters && any_reflects(scene)
-             ? scene.frame.max_depth
-             : 0;
+  switch (traits_of(IntegratorType(scene.frame.integrator)).ways) {
+    case 0:
+      return 0;
+    case 1:
+      // The last vertex is followed for what it sees alone (integrators/path.glsl).
+      return scene.frame.max_depth + 1;
+    default:
+      return any_reflects(scene) ? scene.frame.max_depth : 0;
+  }
 }
 
-bool casts_shadow_rays(const records::PackedScene& scene) {
-  return traits_of(IntegratorType(scene.frame.integrator)).shadow_rays && !scene.lights.empty();
+bool splits(const records::PackedScene& scene) {
+  return traits_of(IntegratorType(scene.frame.integrator)).ways > 1 && scene.media.size() > 1;
+}
+
+uint32_t shadow_rays(const records::PackedScene& scene) {
+  switch (traits_of(IntegratorType(scene.frame.integrator)).shadow_rays) {
+    case ShadowRays::no_light:
+      return 0;
+    case ShadowRays::each_light:
+      return uint32_t(scene.lights.size());
+    case ShadowRays::one_light:
+      return scene.emitters.empty() ? 0 : 1;
+  }
+  return 0;
+}
+
+bool walks_at_random(const records::PackedScene& scene) {
+  return eyeray::walks_at_random(IntegratorType(scene.frame.integrator));
 }
 
 }  // namespace eyeray::executors

@@ -13,6 +13,11 @@ bool any_emits(const records::PackedScene& scene);
 bool any_absorbs(const records::PackedScene& scene);
 // How often a path may go on: 0 where no material sends rays on, or the integrator none.
 uint32_t most_bounces(const records::PackedScene& scene);
-bool casts_shadow_rays(const records::PackedScene& scene);  // the scene's integrator
+// Whether a path may go on in two ways at once.
+bool splits(const records::PackedScene& scene);
+// How many each hit takes.
+uint32_t shadow_rays(const records::PackedScene& scene);
+// Whether paths draw random numbers on their way.
+bool walks_at_random(const records::PackedScene& scene);
 
 }  // namespace eyeray::executors

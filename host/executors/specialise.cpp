@@ -55,6 +55,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
     text += fmt::format("#define {} {}\n", name, value);
   };
   define("LIGHT_COUNT", fmt::format("{}u", scene.lights.size()));
+  define("EMITTER_COUNT", fmt::format("{}u", scene.emitters.size()));
   define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.triangle_method));
   define("HAS_COLORS", int(scene.vertex_colors));
   define("HAS_EMISSION", int(any_emits(scene)));
@@ -62,7 +63,8 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_MEDIA", int(media));
   define("HAS_ABSORPTION", int(any_absorbs(scene)));
   // Only where a ray splits in two does a child wait, and one a level at most.
-  define("PATH_STACK", media ? scene.frame.max_depth : 0u);
+  define("PATH_STACK", splits(scene) ? scene.frame.max_depth : 0u);
+  define("RANDOM_WALK", int(walks_at_random(scene)));
   define("TRACE_ITERATIONS", fmt::format("{}u", trace_iterations(scene, unrolled)));
   define("TEXEL_BUFFERS", int(options.profile.texel_buffers));
   define("HAS_BVH", scene.has_bvh ? "true" : "false");
@@ -112,9 +114,11 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
 
 // The shaders' registries, with what is used alone.
 std::string registries(const records::PackedScene& scene, const Used& used) {
-  std::set<uint32_t> texture_kinds, light_kinds;
+  std::set<uint32_t> texture_kinds, light_kinds, emitter_kinds;
   for (const shader::Texture& texture : scene.textures) texture_kinds.insert(texture.kind);
   for (const shader::Light& light : scene.lights) light_kinds.insert(light.kind);
+  for (size_t i = scene.lights.size(); i < scene.emitters.size(); ++i)
+    emitter_kinds.insert(scene.emitters[i].kind);
   std::string text = registry_text("TEXTURES", "textures", rows::textures, texture_kinds);
   text += registry_text("CLOSED_SHAPES", "shapes", rows::shapes, used.leaves);
   text += registry_text("IMMEDIATE_LEAVES", "shapes", rows::immediate_leaves, used.leaves);
@@ -127,6 +131,7 @@ std::string registries(const records::PackedScene& scene, const Used& used) {
   text += registry_text("ALPHA_TESTED_SHAPES", "shapes", rows::shapes, used.alpha_tested);
   text += registry_text("MATERIALS", "materials", rows::materials, used.material_kinds);
   text += registry_text("LIGHTS", "lights", rows::lights, light_kinds);
+  text += registry_text("EMITTERS", "emitters", rows::emitters, emitter_kinds);
   text += registry_text("CAMERAS", "cameras", rows::cameras, {scene.frame.camera});
   text += registry_text("SAMPLERS", "samplers", rows::samplers, {scene.frame.pattern});
   text += registry_text("INTEGRATORS", "integrators", rows::integrators, {scene.frame.integrator});

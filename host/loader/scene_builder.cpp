@@ -14,6 +14,7 @@
 #include "host/loader/sections.hpp"
 #include "host/loader/settings.hpp"
 #include "host/scene/affine.hpp"
+#include "host/scene/emitters.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/table.hpp"
 #include "host/textures/registry.hpp"
@@ -41,11 +42,11 @@ class Builder {
         log_(log) {}
 
   Scene build() {
-    TableReader image = read_single("image");
-    scene_.image = read_image(image);
     scene_.camera = read_camera(*find_section("camera"), single("camera"), values_, log_);
     TableReader render = read_single("render");
     scene_.render = read_render(render);
+    TableReader image = read_single("image");
+    scene_.image = read_image(image, scene_.render.integrator);
     TableReader verify = read_single("verify");
     scene_.verify = read_verify(verify);
 
@@ -122,6 +123,7 @@ class Builder {
   void add_instance(TableReader& reader, const Placing& placing);
   Group build_group(const toml::table& table, const Mat4& to_world);
   void check_idle_patterns();
+  void check_emitters();
   void check_whole();
 
   const toml::table& root_;
@@ -304,13 +306,29 @@ void Builder::add_mesh(TableReader& reader, const Placing& placing) {
   }
 }
 
+void Builder::check_emitters() {
+  const LightChoice choice = light_choice(scene_);
+  const std::vector<SourcePosition>& unsampled = choice.unsampled;
+  if (choice.ends.empty() && unsampled.empty() && scene_.render.background == Vec3(0))
+    log_.warning({}, "nothing shines: there is no [[light]], no `emission` and no `background`");
+  if (!unsampled.empty())
+    log_.warning(
+        unsampled.front(),
+        fmt::format("paths find the light of this{} by chance alone, which is noisy: they choose places on "
+                    "spheres, disks, triangles, parallelograms and meshes, of one `emission` all over, "
+                    "in no group that is instanced",
+                    unsampled.size() == 1 ? "" : fmt::format(" and {} more", unsampled.size() - 1)));
+}
+
 // Warns of what is legal but hardly meant.
 void Builder::check_whole() {
   const bool empty = scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
   if (empty && !tried_shapes_) log_.warning({}, "the scene has no shapes: only background will be seen");
-  if (scene_.lights.empty() && traits_of(scene_.render.integrator).shadow_rays && !empty) {
+  if (scene_.lights.empty() && traits_of(scene_.render.integrator).shadow_rays == ShadowRays::each_light &&
+      !empty) {
     log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");
   }
+  if (walks_at_random(scene_.render.integrator) && !empty && !log_.has_errors()) check_emitters();
   materials_.check();
 }
 

@@ -29,15 +29,18 @@ constexpr Key image_table[] = {
      .max = 65536},
     {.name = "samples",
      .type = KeyType::integer,
-     .doc = "Samples a pixel, a square number: they lie on an n × n grid.",
-     .fallback = "1",
+     .doc = "Samples a pixel: 64 for the integrator `path`, else 1, where nothing is said. `regular` and "
+            "`jittered` lay them on an n × n grid: then a square number.",
      .min = 1,
-     .max = 65536},
+     .max = 65536,
+     .optional = true},
     {.name = "pattern",
      .type = KeyType::choice,
-     .doc = "Where in the grid's cells samples lie; see below.",
-     .fallback = "\"regular\"",
-     .choices = sample_patterns},
+     .doc =
+         "Where in a pixel samples lie; see below. `sobol` for the integrator `path`, else `regular`, where "
+         "nothing is said.",
+     .choices = sample_patterns,
+     .optional = true},
 };
 
 constexpr Key render_table[] = {
@@ -48,10 +51,12 @@ constexpr Key render_table[] = {
      .choices = integrator_names},
     {.name = "max_depth",
      .type = KeyType::integer,
-     .doc = "Reflections and refractions in a row; 0: eye and shadow rays only.",
-     .fallback = "8",
+     .doc =
+         "Reflections and refractions in a row; 0: eye and shadow rays only. 16 for the integrator `path`, "
+         "else 8, where nothing is said.",
      .min = 0,
-     .max = 64},
+     .max = 64,
+     .optional = true},
     {.name = "min_throughput",
      .type = KeyType::number,
      .doc = "A reflected or refracted ray that would count for less is not traced.",
@@ -60,7 +65,7 @@ constexpr Key render_table[] = {
      .max = 1},
     {.name = "seed",
      .type = KeyType::integer,
-     .doc = "Starts the random numbers of `pattern = \"jittered\"`.",
+     .doc = "Starts all random numbers.",
      .fallback = "0",
      .min = 0,
      .max = 4294967295},
@@ -103,6 +108,15 @@ void check_samples(TableReader& table, int samples) {
                                      samples, root * root, (root + 1) * (root + 1)));
 }
 
+ImageSettings image_defaults(IntegratorType integrator) {
+  ImageSettings image;
+  if (walks_at_random(integrator)) {
+    image.samples = 64;
+    image.pattern = SamplePattern::sobol;
+  }
+  return image;
+}
+
 }  // namespace
 
 std::span<const Key> image_keys() {
@@ -120,13 +134,13 @@ std::span<const Key> verify_keys() {
 static_assert(ImageSettings{}.pattern == SamplePattern::regular);
 static_assert(RenderSettings{}.integrator == IntegratorType::whitted);
 
-ImageSettings read_image(TableReader& table) {
-  ImageSettings image;
+ImageSettings read_image(TableReader& table, IntegratorType integrator) {
+  ImageSettings image = image_defaults(integrator);
   image.width = static_cast<int>(table.integer("width"));
   image.height = static_cast<int>(table.integer("height"));
-  image.samples = static_cast<int>(table.integer("samples"));
-  image.pattern = static_cast<SamplePattern>(table.choice("pattern"));
-  check_samples(table, image.samples);
+  if (table.has("samples")) image.samples = static_cast<int>(table.integer("samples"));
+  if (table.has("pattern")) image.pattern = static_cast<SamplePattern>(table.choice("pattern"));
+  if (sample_count_of(image.pattern) == SampleCount::square) check_samples(table, image.samples);
   const int64_t pixels = int64_t{image.width} * image.height;
   if (pixels > most_pixels) {
     table.error(table.has("width") ? "width" : "height",
@@ -139,7 +153,8 @@ ImageSettings read_image(TableReader& table) {
 RenderSettings read_render(TableReader& table) {
   RenderSettings render;
   render.integrator = static_cast<IntegratorType>(table.choice("integrator"));
-  render.max_depth = static_cast<int>(table.integer("max_depth"));
+  if (walks_at_random(render.integrator)) render.max_depth = 16;
+  if (table.has("max_depth")) render.max_depth = static_cast<int>(table.integer("max_depth"));
   render.min_throughput = table.number("min_throughput");
   render.seed = static_cast<uint32_t>(table.integer("seed"));
   render.triangle_method = static_cast<TriangleMethod>(table.choice("triangle"));

@@ -12,8 +12,8 @@ std::span<const Key> render_keys();
 std::span<const Key> verify_keys();
 
 // What the table says; what is wrong between its values is reported to it.
-ImageSettings read_image(TableReader& table);
 RenderSettings read_render(TableReader& table);
+ImageSettings read_image(TableReader& table, IntegratorType integrator);
 VerifySettings read_verify(TableReader& table);
 
 }  // namespace eyeray::loader

@@ -44,7 +44,8 @@ constexpr Key keys[] = {
      .max = 1},
     {.name = "emission",
      .type = KeyType::texture,
-     .doc = "Light of the surface's own, whatever shines on it; it lights nothing else.",
+     .doc = "Light of the surface's own, whatever shines on it. Under `path` it lights others; else it does "
+            "not.",
      .fallback = "0"},
     specular_key,
     shininess_key,
@@ -68,6 +69,9 @@ class Phong final : public Material {
   Vec3 base_color(const Vec2& uv) const override {
     return values_.diffuse->at(uv) + values_.emission->at(uv);
   }
+
+  bool emits() const override { return constant_emission() != Vec3(0); }
+  std::optional<Vec3> constant_emission() const override { return values_.emission->constant(); }
 
   void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_phong, values_.highlight, shadow_transmittance(), packer);

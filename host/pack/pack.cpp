@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/core/error.hpp"
+#include "host/pack/emitter_records.hpp"
 #include "host/pack/geometry.hpp"
 #include "host/reference/media.hpp"
 
@@ -32,6 +33,7 @@ shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed)
   frame.media = pack_media(scene, packed);
   frame.max_depth = uint32_t(scene.render.max_depth);
   frame.light_count = uint32_t(packed.lights.size());
+  frame.emitter_count = uint32_t(packed.emitters.size());
   frame.loop_probe = 2;
   frame.integrator = uint32_t(scene.render.integrator);
   frame.triangle_method =
@@ -51,14 +53,17 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
   records::Packer packer(scene.camera.eye);
   for (const auto& material : scene.materials) {
     material->pack(packer);
+    shader::Material& record = packer.scene.materials.back();
+    if (walks_at_random(scene.render.integrator)) record.optical_depth = OPTICAL_DEPTH_OPAQUE;
     if (material->mask) {
-      shader::Material& record = packer.scene.materials.back();
       record.alpha = material->mask->alpha->pack(packer);
       record.alpha_cutoff = float(material->mask->cutoff);
     }
   }
   pack_geometry(scene, options, packer);
   for (const auto& light : scene.lights) light->pack(packer);
+  if (walks_at_random(scene.render.integrator))
+    pack_light_choice(light_choice(scene), packer);
   packer.scene.frame = pack_frame(scene, packer.scene);
   return packer;
 }

@@ -6,6 +6,7 @@
 #include "shaders/records.h"
 #pragma GCC diagnostic pop
 #include "shaders/cameras/registry.h"
+#include "shaders/emitters/registry.h"
 #include "shaders/integrators/registry.h"
 #include "shaders/lights/registry.h"
 #include "shaders/materials/registry.h"
@@ -24,6 +25,9 @@ MATERIALS(X)
 #undef X
 #define X(name, number) inline constexpr uint LIGHT_##name = number;
 LIGHTS(X)
+#undef X
+#define X(name, number) inline constexpr uint EMITTER_##name = number;
+EMITTERS(X)
 #undef X
 #define X(name, number, ...) inline constexpr uint TEXTURE_##name = number;
 TEXTURES(X)

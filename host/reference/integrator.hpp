@@ -31,11 +31,17 @@ struct RayOffset {
 // (docs/numerics.md).
 inline constexpr double float32_ray_offset = 24 * 0x1p-24;
 
+// A sample: its pixel, counted along the rows, and which of the pixel's it is.
+struct SampleId {
+  uint32_t pixel;
+  uint32_t index;
+};
+
 struct Integrator {
   std::string_view manual;  // Markdown
   // What the eye's ray, its direction unit, sees, starting in `media`. `observer` has been told of that ray,
   // and is told the rest.
-  PixelSample (*sample)(const Tracer& tracer, const Ray& ray, const MediaStack& media,
+  PixelSample (*sample)(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
                         const RayOffset& ray_offset, const Observer& observer);
 };
 

@@ -10,8 +10,8 @@ constexpr std::string_view manual =
     "Eye rays only: the first surface in its own colour, lit without shadows, or, in a scene without lights, "
     "by a lamp at the eye.";
 
-PixelSample raycast(const Tracer& tracer, const Ray& ray, const MediaStack&, const RayOffset& ray_offset,
-                    const Observer& observer) {
+PixelSample raycast(const Tracer& tracer, const SampleId&, const Ray& ray, const MediaStack&,
+                    const RayOffset& ray_offset, const Observer& observer) {
   const Scene& scene = tracer.scene();
   uint32_t flags = 0;
   const auto hit = tracer.trace(ray, flags, ray_offset.coincident);

@@ -1,8 +1,13 @@
+#include "host/reference/grid.hpp"
+#include "host/reference/rng.hpp"
 #include "host/reference/sampler.hpp"
 
 namespace eyeray::reference {
 
-extern const Sampler regular_sampler{.manual = "Samples lie at the centres of the grid's cells.",
-                                     .in_cell = [](uint32_t, uint32_t, uint32_t) { return Vec2(0.5); }};
+extern const Sampler regular_sampler{
+    .manual = "The samples of a pixel lie at the centres of the n × n cells that it is cut into.",
+    .place = [](int samples, uint32_t, uint32_t index,
+                uint32_t) { return in_grid(samples, index, Vec2(0.5)); },
+    .pair = random_pair};
 
 }  // namespace eyeray::reference

@@ -28,9 +28,10 @@ PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const Ray
   const Vec2 place = sample_position(scene_.image, scene_.render.seed, x, y, index);
   const Ray ray = eye_ray(Vec2(x, y) + place, shift, ray_offset.pivot);
   const IntegratorType type = scene_.render.integrator;
+  const uint32_t pixel = uint32_t(y) * uint32_t(scene_.image.width) + uint32_t(x);
   observer.ray(RayKind::eye, ray, 0);
-  PixelSample sample = integrator(type).sample(tracer_, ray, media_, ray_offset, observer);
-  if (traits_of(type).scatters) sample.flags |= flags_;
+  PixelSample sample = integrator(type).sample(tracer_, {pixel, index}, ray, media_, ray_offset, observer);
+  if (traits_of(type).ways > 0) sample.flags |= flags_;
   return sample;
 }
 

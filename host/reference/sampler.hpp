@@ -11,8 +11,11 @@ namespace eyeray::reference {
 
 struct Sampler {
   std::string_view manual;  // Markdown
-  // Where in its cell sample `index` of a pixel, counted along the rows, lies: each in [0, 1).
-  Vec2 (*in_cell)(uint32_t pixel, uint32_t index, uint32_t seed);
+  // Where in its pixel, counted along the rows, sample `index` of `samples` lies: each in [0, 1).
+  Vec2 (*place)(int samples, uint32_t pixel, uint32_t index, uint32_t seed);
+  // The random numbers of a path, a pair for each use (path.cpp says which): each in [0, 1), a multiple of
+  // 2^-24.
+  Vec2 (*pair)(uint32_t pixel, uint32_t index, uint32_t pair, uint32_t seed);
 };
 
 const Sampler& sampler(SamplePattern pattern);

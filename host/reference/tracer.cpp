@@ -23,6 +23,8 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene), i
   }
   group_bvh_ = Bvh(
       uint32_t(groups_.size()), [this](uint32_t i) { return groups_[i].bounds(); }, acceleration);
+  if (walks_at_random(scene.render.integrator))
+    light_choice_ = eyeray::light_choice(scene);
 }
 
 BoxRay Tracer::group_box_ray(const Ray& ray) const {
@@ -132,7 +134,7 @@ double Tracer::transmittance(const Ray& ray, double t_end, uint32_t& flags) cons
   double product = 1;
   for (const Objects::Share& each : shares) product *= each.share;
   if (gave_up && product > 0) flags |= iteration_limit;
-  return product;
+  return product < 1 && walks_at_random(scene_.render.integrator) ? 0 : product;
 }
 
 }  // namespace eyeray::reference

@@ -5,6 +5,7 @@
 
 #include "host/core/pixel.hpp"
 #include "host/reference/group_geometry.hpp"
+#include "host/scene/emitters.hpp"
 #include "host/scene/primitive_ids.hpp"
 #include "host/scene/scene.hpp"
 
@@ -43,6 +44,8 @@ class Tracer {
   double transmittance(const Ray& ray, double t_end, uint32_t& flags) const;
 
   const Scene& scene() const { return scene_; }
+  // The scene's, where its integrator chooses one light; else empty.
+  const LightChoice& light_choice() const { return light_choice_; }
   // The scene's own objects, and as Scene::group_instances those of groups.
   const Objects& world() const { return *world_; }
   const std::vector<GroupGeometry>& groups() const { return groups_; }
@@ -64,6 +67,7 @@ class Tracer {
   double groups_reach_ = 0;   // the largest coordinate in any computation that yields a group's box
   double groups_growth_ = 1;  // the largest of all groups
   Bvh group_bvh_;             // of their boxes
+  LightChoice light_choice_;
 };
 
 }  // namespace eyeray::reference

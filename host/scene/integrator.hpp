@@ -10,7 +10,7 @@
 namespace eyeray {
 
 enum class IntegratorType : uint32_t {
-#define X(name, number, shadow_rays, scatters) name = number,
+#define X(name, number, lights, ways) name = number,
   INTEGRATORS(X)
 #undef X
 };
@@ -22,18 +22,27 @@ inline constexpr std::string_view integrator_names[] = {
 #undef X
 };
 
+// Where a path hits something, shadow rays go to these; to one, chosen among lights and surfaces that emit.
+enum class ShadowRays { no_light, each_light, one_light };
+
 struct IntegratorTraits {
-  bool shadow_rays;  // one to each light
-  bool scatters;     // whether paths go on where they hit something
+  ShadowRays shadow_rays;
+  uint32_t ways;  // in which a path goes on where it hits something, at most
 };
 
 constexpr IntegratorTraits traits_of(IntegratorType type) {
   constexpr IntegratorTraits traits[] = {
-#define X(name, number, shadow_rays, scatters) {shadow_rays, scatters},
+#define X(name, number, lights, ways) {ShadowRays::lights, ways},
       INTEGRATORS(X)
 #undef X
   };
   return traits[uint32_t(type)];
+}
+
+// Whether its paths draw random numbers on their way. They find what light comes through glass; so shadow
+// rays, which else pass through it weakened, end there.
+constexpr bool walks_at_random(IntegratorType type) {
+  return traits_of(type).shadow_rays == ShadowRays::one_light;
 }
 
 }  // namespace eyeray

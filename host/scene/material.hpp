@@ -33,7 +33,7 @@ struct Scattering {
   bool blinn = false;     // lobe (n·h)^shininess instead of Phong's (r·l)^shininess
   Vec3 reflected{0.0};    // × what the mirror direction sees
   Vec3 transmitted{0.0};  // × what the refracted direction sees; 0 under total internal reflection
-  Vec3 emitted{0.0};      // light of its own, which lights nothing else
+  Vec3 emitted{0.0};      // light of its own
 };
 
 // What a material may depend on at a point.
@@ -62,6 +62,9 @@ class Material {
   virtual Scattering scattering(const ScatteringContext& context) const = 0;
   // The colour that `raycast` shades.
   virtual Vec3 base_color(const Vec2& uv) const = 0;
+  // Whether it has light of its own, and that light where it is the same everywhere.
+  virtual bool emits() const { return false; }
+  virtual std::optional<Vec3> constant_emission() const { return std::nullopt; }
   // Set for materials that fill their shape and let rays through.
   virtual std::optional<Medium> medium() const { return std::nullopt; }
   // The share of a shadow ray's light that passes a shape of this material, however often it crosses it.

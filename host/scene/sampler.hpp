@@ -10,16 +10,28 @@
 namespace eyeray {
 
 enum class SamplePattern : uint32_t {
-#define X(name, number) name = number,
+#define X(name, number, count) name = number,
   SAMPLERS(X)
 #undef X
 };
 
 // As `pattern` in [image] names them.
 inline constexpr std::string_view sample_patterns[] = {
-#define X(name, number) #name,
+#define X(name, ...) #name,
     SAMPLERS(X)
 #undef X
 };
+
+// How many samples a pixel may have.
+enum class SampleCount { square, any };
+
+constexpr SampleCount sample_count_of(SamplePattern pattern) {
+  constexpr SampleCount counts[] = {
+#define X(name, number, count) SampleCount::count,
+      SAMPLERS(X)
+#undef X
+  };
+  return counts[uint32_t(pattern)];
+}
 
 }  // namespace eyeray

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -22,6 +23,8 @@ class Texture {
 
   // Linear RGB. The reference's half: no float32.
   virtual Vec3 at(const Vec2& uv) const = 0;
+  // The colour of one that is the same everywhere.
+  virtual std::optional<Vec3> constant() const { return std::nullopt; }
   // As an alpha.
   virtual double alpha_at(const Vec2& uv) const { return at(uv).x; }
   // The index of the texture's record, which is added unless there is an equal one.

@@ -15,6 +15,7 @@ class Constant final : public Texture {
   explicit Constant(const Vec3& color) : color_(color) {}
 
   Vec3 at(const Vec2&) const override { return color_; }
+  std::optional<Vec3> constant() const override { return color_; }
 
   uint32_t pack(records::Packer& packer) const override {
     return packer.add(shader::Texture{.color = glm::vec3(color_),

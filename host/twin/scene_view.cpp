@@ -60,6 +60,7 @@ SceneView view_of(const records::PackedScene& scene) {
           .texels = scene.texels.data(),
           .media = scene.media.data(),
           .lights = scene.lights.data(),
+          .emitters = scene.emitters.data(),
           .has_bvh = scene.has_bvh,
           .quantised_nodes = scene.quantised_nodes,
           .formulas = formulas,

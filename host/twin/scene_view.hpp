@@ -34,6 +34,7 @@ struct SceneView {
   const uint32_t* texels;
   const shader::Medium* media;
   const shader::Light* lights;
+  const shader::Emitter* emitters;
   bool has_bvh, quantised_nodes;
   FormulaView formulas;
   void (*stop_if_interrupted)();  // throws

@@ -71,6 +71,9 @@ class Binding {
 [[maybe_unused]] const Light& load_light(uint i) {
   return bound_scene->lights[i];
 }
+[[maybe_unused]] const Emitter& load_emitter(uint i) {
+  return bound_scene->emitters[i];
+}
 
 // PROBE, where somebody looks.
 template <typename T>
@@ -94,6 +97,7 @@ void show(const char* name, uint line, const T& shown) {
 #define KIND_FIRST(name) bound_scene->first_linear(KIND_##name)
 #define KIND_END(name) bound_scene->linear_ends[KIND_##name]
 #define LIGHT_COUNT bound_scene->frame->light_count
+#define EMITTER_COUNT bound_scene->frame->emitter_count
 #define TRIANGLE_METHOD bound_scene->frame->triangle_method
 #define HAS_BVH bound_scene->has_bvh
 #define QUANTISED_NODES bound_scene->quantised_nodes
@@ -148,6 +152,7 @@ void show(const char* name, uint line, const T& shown) {
 #include "cameras/all.glsl"
 #include "samplers/all.glsl"
 #include "lights/all.glsl"
+#include "emitters/all.glsl"
 #include "integrators/all.glsl"
 #include "kernels/pixel.glsl"
 #include "kernels/cooperative/shaft.glsl"

@@ -7,69 +7,77 @@
 //   NAME_scatter     how the path goes on
 #ifndef INTEGRATOR_GLSL
 #define INTEGRATOR_GLSL
+#include "integrators/continuation.glsl"
 #include "integrators/interaction.glsl"
-#include "integrators/path.glsl"
 
 SHADER_BEGIN
 
 // Whether paths go on.
 bool scatters() {
   bool any = false;
-#define SCATTERS_OF(name, number, shadow_rays, scatters) \
-  if (INTEGRATOR_IS(number)) any = scatters;
+#define SCATTERS_OF(name, number, lights, ways) \
+  if (INTEGRATOR_IS(number)) any = ways > 0u;
   INTEGRATORS(SCATTERS_OF)
   return any;
 }
 
-// A path that begins at the eye. Media count only for those that go on.
-Path begin(Frame frame, Ray camera_ray) {
+// The path of a pixel's sample that begins at the eye. Media count only for those that go on.
+Path begin(Frame frame, Ray camera_ray, uint pixel, uint index) {
   Path path;
   path.o = camera_ray.o;
   path.d = camera_ray.d;
   path.throughput = vec3(1.0f, 1.0f, 1.0f);
   path.depth = 0u;
   path.media = scatters() ? frame.media : 0u;
+#if RANDOM_WALK
+  path.density = 0.0f;
+  path.pixel = pixel;
+  path.index = index;
+#endif
 #if RAY_KINDS
   path.refracted = false;
 #endif
   return path;
 }
 
+#define SHADOW_RAYS_TO_no_light 0u
+#define SHADOW_RAYS_TO_each_light LIGHT_COUNT
+#define SHADOW_RAYS_TO_one_light (EMITTER_COUNT > 0u ? 1u : 0u)
 uint shadow_rays() {
   uint count = 0u;
-#define SHADOW_RAYS_OF(name, number, shadow_rays, scatters) \
-  if (INTEGRATOR_IS(number) && shadow_rays) count = LIGHT_COUNT;
+#define SHADOW_RAYS_OF(name, number, lights, ways) \
+  if (INTEGRATOR_IS(number)) count = SHADOW_RAYS_TO_##lights;
   INTEGRATORS(SHADOW_RAYS_OF)
   return count;
 }
 
-vec3 missed(Frame frame) {
+vec3 missed(Frame frame, Path path) {
   vec3 light = vec3(0.0f, 0.0f, 0.0f);
-#define MISSED_OF(name, number, shadow_rays, scatters) \
-  if (INTEGRATOR_IS(number)) light = name##_missed(frame);
+#define MISSED_OF(name, number, lights, ways) \
+  if (INTEGRATOR_IS(number)) light = name##_missed(frame, path);
   INTEGRATORS(MISSED_OF)
   return light;
 }
 
-vec3 emitted(Frame frame, Interaction at) {
+vec3 emitted(Frame frame, Path path, Interaction at) {
   vec3 light = vec3(0.0f, 0.0f, 0.0f);
-#define EMITTED_OF(name, number, shadow_rays, scatters) \
-  if (INTEGRATOR_IS(number)) light = name##_emitted(frame, at);
+#define EMITTED_OF(name, number, lights, ways) \
+  if (INTEGRATOR_IS(number)) light = name##_emitted(frame, path, at);
   INTEGRATORS(EMITTED_OF)
   return light;
 }
 
-bool shadow_ray(Frame frame, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
+bool shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
   bool counts = false;
-#define SHADOW_RAY_OF(name, number, shadow_rays, scatters) \
-  if (INTEGRATOR_IS(number)) counts = name##_shadow_ray(frame, at, i, ray, distance, contribution);
+#define SHADOW_RAY_OF(name, number, lights, ways) \
+  if (INTEGRATOR_IS(number)) counts = name##_shadow_ray(frame, path, at, i, ray, distance, contribution);
   INTEGRATORS(SHADOW_RAY_OF)
   return counts;
 }
 
 Continuations scatter(Frame frame, Path path, Interaction at) {
   Continuations all = no_continuation(path);
-#define SCATTER_OF(name, number, shadow_rays, scatters) \
+#define SCATTER_OF(name, number, lights, ways) \
   if (INTEGRATOR_IS(number)) all = name##_scatter(frame, path, at);
   INTEGRATORS(SCATTER_OF)
   return all;

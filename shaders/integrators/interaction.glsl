@@ -11,6 +11,7 @@ struct Interaction {
   Surface surface;             // as the shape has it
   Surface seen;                // the same with its normals towards where the ray came from
   vec3 d;                      // the direction that the ray came in, unit
+  uint primitive;              // the scene's index of what was hit
   Material material;
   ScatteringContext context;   // what the material's scattering depends on
   Scattering scattering;       // towards where the ray came from
@@ -23,6 +24,7 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   uint material = material_of(primitive);
   Interaction at;
   at.d = ray.d;
+  at.primitive = hit.id;
   at.material = load_material(material);
   at.surface = surface_at(primitive, ray, hit);
   bool front = dot3(ray.d, at.surface.normal_geometric) < 0.0f;
@@ -59,6 +61,16 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   PROBE(transmitted, at.scattering.transmitted);
   PROBE(emitted, at.scattering.emitted);
   return at;
+}
+
+vec3 reflected_direction(Interaction at) { return normalize3(at.d + at.seen.normal * (2.0f * at.context.cos_view)); }
+
+// Only asked for where refraction is possible.
+vec3 refracted_direction(Interaction at) {
+  float eta = at.context.ior_from / at.context.ior_to;
+  float cos_view = at.context.cos_view;
+  float cos_squared = 1.0f - eta * eta * (1.0f - cos_view * cos_view);
+  return normalize3(at.d * eta + at.seen.normal * (eta * cos_view - sqrt(maximum(cos_squared, 0.0f))));
 }
 
 #if HAS_ABSORPTION

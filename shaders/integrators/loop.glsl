@@ -6,7 +6,7 @@
 SHADER_BEGIN
 
 #if HAS_SECONDARY
-vec3 radiance(Frame frame, Ray camera_ray, INOUT(uvec4) counts) {
+vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) counts) {
 #if PATH_STACK > 0
   Path stack[PATH_STACK];
   uint pending = 0u;
@@ -17,7 +17,7 @@ vec3 radiance(Frame frame, Ray camera_ray, INOUT(uvec4) counts) {
   uint total_reflections = 0u;
 #endif
   vec3 color = vec3(0.0f, 0.0f, 0.0f);
-  Path path = begin(frame, camera_ray);
+  Path path = begin(frame, camera_ray, pixel, index);
   bool going = true;
   for (; going;) {
     Ray ray = make_ray(path.o, path.d);
@@ -66,13 +66,13 @@ vec3 radiance(Frame frame, Ray camera_ray, INOUT(uvec4) counts) {
 }
 #else
 // No path goes on: there is nothing to loop for.
-vec3 radiance(Frame frame, Ray camera_ray, INOUT(uvec4) counts) {
+vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) counts) {
   vec3 color = vec3(0.0f, 0.0f, 0.0f);
   PROBE_RAY(RAY_EYE, 0u, 0u);
   PROBE(origin, camera_ray.o);
   PROBE(direction, camera_ray.d);
   Hit hit = trace(camera_ray, counts.z);
-  shade(frame, begin(frame, camera_ray), camera_ray, hit, color, counts);
+  shade(frame, begin(frame, camera_ray, pixel, index), camera_ray, hit, color, counts);
 #if RAY_KINDS
   counts = counts_by_kind(counts, 0u, 0u, 0u);
 #endif

@@ -1,40 +1,157 @@
-// A path while it is traced, and the ways in which it may go on. Integrators make these; they never trace.
+// Path tracing (Kajiya, "The Rendering Equation", SIGGRAPH 1986): one path a sample, and at each vertex a shadow ray to a place on one light.
+// What both a shadow ray and the path itself may find is weighed by the power heuristic (Veach and Guibas, "Optimally Combining Sampling
+// Techniques for Monte Carlo Rendering", SIGGRAPH 1995); paths end by Russian roulette (Arvo and Kirk, "Particle Transport and Image
+// Synthesis", SIGGRAPH 1990).
 #ifndef PATH_GLSL
 #define PATH_GLSL
-#include "geometry/ray.glsl"
+#include "emitters/emitter.glsl"
+#include "integrators/continuation.glsl"
+#include "integrators/interaction.glsl"
+#include "lights/light.glsl"
+#include "math/rng.glsl"
+#include "samplers/sampler.glsl"
 
 SHADER_BEGIN
 
-struct Path {
-  vec3 o;
-  vec3 d;
-  vec3 throughput;  // the share of its radiance that arrives in the pixel
-  uint depth;       // reflections and refractions so far
-  uint media;       // that it is in (materials/media.glsl)
-#if RAY_KINDS
-  bool refracted;  // its last ray, else reflected
-#endif
+#define FIRST_ROULETTE 3u       // vertex
+#define LEAST_SURVIVAL 0.05f    // its probability
+
+vec2 path_pair(Frame frame, Path path, uint pair) {
+  return sample_pair(frame, path.pixel, path.index, pair + PAIRS_A_VERTEX * path.depth);
+}
+
+// How likely each lobe of a material is followed.
+struct LobeShares {
+  float diffuse;
+  float reflected;
+  float transmitted;
 };
 
-// How a path goes on from where it hit something: not, in one way, or in two of which one waits.
-struct Continuations {
-  uint count;
-  Path next;
-  Path waiting;
-#if RAY_KINDS
-  bool total_reflection;
-#endif
-};
+LobeShares lobe_shares(Scattering scattering) {
+  float diffuse = max_component(scattering.diffuse);
+  float reflected = max_component(scattering.reflected);
+  float transmitted = max_component(scattering.transmitted);
+  float all = diffuse + reflected + transmitted;
+  float scale = all > 0.0f ? 1.0f / all : 0.0f;
+  LobeShares shares;
+  shares.diffuse = diffuse * scale;
+  shares.reflected = reflected * scale;
+  shares.transmitted = transmitted * scale;
+  return shares;
+}
 
-Continuations no_continuation(Path path) {
-  Continuations none;
-  none.count = 0u;
-  none.next = path;
-  none.waiting = path;
-#if RAY_KINDS
-  none.total_reflection = false;
+// The power heuristic of what was chosen with density p, and could have been with density q. The ratio is squared: densities may be too large.
+float power_heuristic(float p, float q) {
+  float ratio = q / p;
+  return 1.0f / (1.0f + ratio * ratio);
+}
+
+vec3 path_missed(Frame frame, Path path) { return frame.background; }
+
+// The surface's own light, less what shadow rays to it have brought already.
+vec3 path_emitted(Frame frame, Path path, Interaction at) {
+  vec3 light = vec3(0.0f, 0.0f, 0.0f);
+#if HAS_EMISSION
+  light = at.scattering.emitted;
+  uint emitter = EMITTER_COUNT > 0u && path.density > 0.0f ? emitter_of(at.primitive) : NONE;
+  if (emitter != NONE) {
+    Place place;
+    place.p = at.surface.p;
+    place.normal = at.surface.normal_geometric;
+    float density = emitter_share(emitter) * place_density(load_emitter(emitter), path.o, place);
+    light = light * power_heuristic(path.density, density);
+  }
 #endif
-  return none;
+  return light;
+}
+
+bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
+  uint light = emitter_chosen_by(path_pair(frame, path, PAIR_LIGHT).x);
+  float share = emitter_share(light);
+  vec3 direction = vec3(0.0f, 1.0f, 0.0f);
+  contribution = vec3(0.0f, 0.0f, 0.0f);
+  distance = 0.0f;
+  ray = make_ray(at.seen.p, direction);
+  float cosine = 0.0f;
+  if (light < LIGHT_COUNT) {
+    LightSample s = sample_light(load_light(light), at.seen.p);
+    direction = s.direction;
+    distance = s.distance;
+    cosine = dot3(at.seen.normal, direction);
+    ray = spawn_ray(at.seen, direction);
+    contribution = s.color * at.scattering.diffuse * (cosine / share);
+  }
+#if HAS_EMISSION
+  if (light >= LIGHT_COUNT) {
+    Emitter emitter = load_emitter(light);
+    Place place = place_on(emitter, at.seen.p, path_pair(frame, path, PAIR_EMITTER));
+    direction = normalize3(place.p - at.seen.p);
+    cosine = dot3(at.seen.normal, direction);
+    // The ray ends as far off the emitter as rays start off surfaces.
+    float side = dot3(direction, place.normal) < 0.0f ? emitter.offset : -emitter.offset;
+    vec3 start = spawn_ray(at.seen, direction).o;
+    vec3 way = place.p + place.normal * side - start;
+    distance = sqrt(dot3(way, way));
+    ray = make_ray(start, way / distance);
+    float density = share * place_density(emitter, at.seen.p, place);
+    float as_scattered = lobe_shares(at.scattering).diffuse * maximum(cosine, 0.0f) / PI;
+    contribution = emitter.radiance * at.scattering.diffuse * (cosine / (PI * density) * power_heuristic(density, as_scattered));
+  }
+#endif
+  return cosine > 0.0f && dot3(at.seen.normal_geometric, direction) > 0.0f && max_component(at.scattering.diffuse) > 0.0f &&
+         path.depth <= frame.max_depth;
+}
+
+// Cosine-weighted about the unit normal: Malley's, from the disk.
+vec3 cosine_direction(vec3 normal, vec2 u) {
+  vec2 at = on_disk(u);
+  vec3 s;
+  vec3 t;
+  tangents(normal, s, t);
+  return normalize3(s * at.x + t * at.y + normal * sqrt(maximum(1.0f - at.x * at.x - at.y * at.y, 0.0f)));
+}
+
+// By one of its lobes. The vertex behind the last is there for its light alone.
+Continuations path_scatter(Frame frame, Path path, Interaction at) {
+  Continuations all = no_continuation(path);
+  LobeShares shares = lobe_shares(at.scattering);
+  vec2 choice = path_pair(frame, path, PAIR_SCATTER);
+  bool diffuse = choice.x < shares.diffuse || shares.reflected + shares.transmitted == 0.0f;
+  bool reflected = !diffuse && (choice.x < shares.diffuse + shares.reflected || shares.transmitted == 0.0f);
+
+  Path next = path;
+  next.d = cosine_direction(at.seen.normal, path_pair(frame, path, PAIR_DIRECTION));
+  next.density = shares.diffuse * dot3(at.seen.normal, next.d) / PI;
+  vec3 weight = at.scattering.diffuse / shares.diffuse;
+  bool lost = diffuse && !(next.density > 0.0f && dot3(at.seen.normal_geometric, next.d) > 0.0f);
+  if (!diffuse) {
+    next.density = 0.0f;
+    next.d = reflected_direction(at);
+    weight = at.scattering.reflected / shares.reflected;
+  }
+#if HAS_MEDIA
+  if (!diffuse && !reflected) {
+    next.d = refracted_direction(at);
+    weight = at.scattering.transmitted / shares.transmitted;
+    next.media = at.media_behind;
+  }
+#endif
+#if RAY_KINDS
+  next.refracted = !diffuse && !reflected;
+#endif
+  next.o = spawn_ray(at.surface, next.d).o;
+  next.throughput = path.throughput * weight;
+  next.depth = path.depth + 1u;
+
+  // Roulette.
+  float survival = path.depth < FIRST_ROULETTE ? 1.0f : minimum(maximum(max_component(next.throughput), LEAST_SURVIVAL), 1.0f);
+  next.throughput = next.throughput / survival;
+  all.next = next;
+  all.count = shares.diffuse + shares.reflected + shares.transmitted > 0.0f && !lost && choice.y < survival && path.depth <= frame.max_depth
+                  ? 1u
+                  : 0u;
+  PROBE(survival, survival);
+  return all;
 }
 
 SHADER_END

@@ -1,16 +1,16 @@
 // Eye rays only: the base colour, shaded by light and normal, without shadows.
 #ifndef RAYCAST_GLSL
 #define RAYCAST_GLSL
+#include "integrators/continuation.glsl"
 #include "integrators/interaction.glsl"
-#include "integrators/path.glsl"
 #include "lights/light.glsl"
 #include "textures/texture.glsl"
 
 SHADER_BEGIN
 
-vec3 raycast_missed(Frame frame) { return frame.background; }
+vec3 raycast_missed(Frame frame, Path path) { return frame.background; }
 
-vec3 raycast_emitted(Frame frame, Interaction at) {
+vec3 raycast_emitted(Frame frame, Path path, Interaction at) {
   // Add up the lights; without any, the viewer holds one.
   vec3 light = frame.ambient;
   for (uint i = 0u; i < LIGHT_COUNT; i++) {
@@ -30,7 +30,7 @@ vec3 raycast_emitted(Frame frame, Interaction at) {
   return base * light;
 }
 
-bool raycast_shadow_ray(Frame frame, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
+bool raycast_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
   ray = make_ray(at.seen.p, at.d);
   distance = 0.0f;
   contribution = vec3(0.0f, 0.0f, 0.0f);

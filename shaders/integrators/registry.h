@@ -1,7 +1,8 @@
-// Every integrator; see shapes/registry.h. A row says whether the integrator casts shadow rays, one to each light, and whether its paths
-// go on where they hit something.
+// Every integrator; see shapes/registry.h. A row says to which lights the integrator casts shadow rays where a path hits something, and in
+// how many ways at most the path goes on from there.
 #ifndef INTEGRATORS
-#define INTEGRATORS(X)        \
-  X(raycast, 0u, false, false) \
-  X(whitted, 1u, true, true)
+#define INTEGRATORS(X)           \
+  X(raycast, 0u, no_light, 0u)    \
+  X(whitted, 1u, each_light, 2u)  \
+  X(path, 2u, one_light, 1u)
 #endif

@@ -16,15 +16,15 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
   PROBE(primitive, struck ? int(hit.id) : -1);
   if (!struck) {
     PROBE(throughput, path.throughput);
-    PROBE(light, missed(frame));
-    color = color + path.throughput * missed(frame);
+    PROBE(light, missed(frame, path));
+    color = color + path.throughput * missed(frame, path);
   } else {
     Interaction at = interaction_at(ray, hit, path.media, counts.z);
 #if HAS_ABSORPTION
     path.throughput = path.throughput * medium_transmittance(path.media, hit.t);
 #endif
     PROBE(throughput, path.throughput);
-    vec3 light = emitted(frame, at);
+    vec3 light = emitted(frame, path, at);
     // Tested at the bottom: Mesa 22.3.6 would go round once more, with all lanes idle.
     uint i = 0u;
     if (shadow_rays() > 0u) do {
@@ -32,7 +32,7 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
       Ray to_light;
       float distance;
       vec3 contribution;
-      if (shadow_ray(frame, at, i, to_light, distance, contribution)) {
+      if (shadow_ray(frame, path, at, i, to_light, distance, contribution)) {
         counts.x += 1u;
         PROBE_RAY(RAY_SHADOW, i, path.depth);
         PROBE(origin, to_light.o);

@@ -2,16 +2,16 @@
 // mirrors and refraction.
 #ifndef WHITTED_GLSL
 #define WHITTED_GLSL
+#include "integrators/continuation.glsl"
 #include "integrators/interaction.glsl"
-#include "integrators/path.glsl"
 #include "lights/light.glsl"
 
 SHADER_BEGIN
 
-vec3 whitted_missed(Frame frame) { return frame.background; }
+vec3 whitted_missed(Frame frame, Path path) { return frame.background; }
 
 // The ambient light, and the surface's own.
-vec3 whitted_emitted(Frame frame, Interaction at) {
+vec3 whitted_emitted(Frame frame, Path path, Interaction at) {
   vec3 color = at.scattering.ambient * frame.ambient;
 #if HAS_EMISSION
   color = color + at.scattering.emitted;
@@ -20,7 +20,7 @@ vec3 whitted_emitted(Frame frame, Interaction at) {
 }
 
 // To light i, where that is in front.
-bool whitted_shadow_ray(Frame frame, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
+bool whitted_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
   LightSample light = sample_light(load_light(i), at.seen.p);
   float cosine = dot3(at.seen.normal, light.direction);
   ray = spawn_ray(at.seen, light.direction);
@@ -30,18 +30,12 @@ bool whitted_shadow_ray(Frame frame, Interaction at, uint i, OUT(Ray) ray, OUT(f
   return cosine > 0.0f && dot3(at.seen.normal_geometric, light.direction) > 0.0f;
 }
 
-// The refracted direction; only asked for when refraction is possible.
-vec3 refracted(vec3 d, vec3 n, float cos_view, float eta) {
-  float cos_squared = 1.0f - eta * eta * (1.0f - cos_view * cos_view);
-  return normalize3(d * eta + n * (eta * cos_view - sqrt(maximum(cos_squared, 0.0f))));
-}
-
 // Reflection and refraction, each where it counts for enough. Of both the refracted ray is next.
 Continuations whitted_scatter(Frame frame, Path path, Interaction at) {
   Continuations all = no_continuation(path);
   bool deeper = path.depth < frame.max_depth;
   Path reflected = path;
-  reflected.d = normalize3(at.d + at.seen.normal * (2.0f * at.context.cos_view));
+  reflected.d = reflected_direction(at);
   reflected.o = spawn_ray(at.surface, reflected.d).o;
   reflected.throughput = path.throughput * at.scattering.reflected;
   reflected.depth = path.depth + 1u;
@@ -53,7 +47,7 @@ Continuations whitted_scatter(Frame frame, Path path, Interaction at) {
   all.count = reflects ? 1u : 0u;
 #if HAS_MEDIA
   Path transmitted = path;
-  transmitted.d = refracted(at.d, at.seen.normal, at.context.cos_view, at.context.ior_from / at.context.ior_to);
+  transmitted.d = refracted_direction(at);
   transmitted.o = spawn_ray(at.surface, transmitted.d).o;
   transmitted.throughput = path.throughput * at.scattering.transmitted;
   transmitted.depth = path.depth + 1u;

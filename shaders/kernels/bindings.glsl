@@ -38,5 +38,6 @@ layout(std430, binding = BINDING_MATERIALS) readonly restrict buffer Materials {
 layout(std430, binding = BINDING_TEXTURES) readonly restrict buffer Textures { Texture textures[]; };
 layout(std430, binding = BINDING_MEDIA) readonly restrict buffer Media { Medium media[]; };
 layout(std430, binding = BINDING_LIGHTS) readonly restrict buffer Lights { Light lights[]; };
+layout(std430, binding = BINDING_EMITTERS) readonly restrict buffer Emitters { Emitter emitters[]; };
 
 #endif

@@ -51,6 +51,7 @@
 #endif
 // No default; the twin asks its PackedScene.
 //   LIGHT_COUNT        how many lights there are
+//   EMITTER_COUNT      how many lights and surfaces one is chosen from; 0 where none is
 //   INSTANCE_COUNT     how many instances
 //   TRIANGLE_METHOD    TRIANGLE_WOOP or TRIANGLE_MOLLER_TRUMBORE
 //   HAS_BVH            true or false: whether there is a BVH of the world
@@ -77,6 +78,7 @@
 //   SAMPLERS
 //   SAMPLER_IS         (number): whether that is the frame's
 //   LIGHTS
+//   EMITTERS
 //   INTEGRATORS
 //   INTEGRATOR_IS      (number): whether that is the frame's
 
@@ -106,6 +108,9 @@
 #endif
 #ifndef PATH_STACK  // paths of a pixel that wait; 0 where no ray splits in two
 #define PATH_STACK 64
+#endif
+#ifndef RANDOM_WALK  // whether paths draw random numbers on their way
+#define RANDOM_WALK 1
 #endif
 #ifndef TRACE_ITERATIONS  // that a ray makes outside BVHs
 #define TRACE_ITERATIONS 0u

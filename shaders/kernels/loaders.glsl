@@ -30,7 +30,7 @@ Frame load_frame() {
   vec4 background = uintBitsToFloat(imageLoad(frame_words, 6));
   vec4 ambient = uintBitsToFloat(imageLoad(frame_words, 7));
   return Frame(image.x, image.y, image.z, image.w, camera.x, camera.y, camera.z, camera.w, counts.x, counts.y, counts.z, counts.w,
-               vec3(right), right.w, vec3(up), up.w, vec3(forward), forward.w, vec3(background), 0.0f, vec3(ambient), 0.0f);
+               vec3(right), right.w, vec3(up), up.w, vec3(forward), forward.w, vec3(background), floatBitsToUint(background.w), vec3(ambient), 0.0f);
 }
 #else
 Frame load_frame() { return frame_record; }
@@ -60,6 +60,7 @@ Material load_material(uint i) { return materials[i]; }
 Texture load_texture(uint i) { return textures[i]; }
 Medium load_medium(uint i) { return media[i]; }
 Light load_light(uint i) { return lights[i]; }
+Emitter load_emitter(uint i) { return emitters[i]; }
 #endif
 
 #endif

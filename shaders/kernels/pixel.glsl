@@ -13,7 +13,7 @@ SHADER_BEGIN
 SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
   Ray ray = camera_ray(frame, sample_position(frame, x, y, index));
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
-  vec3 color = radiance(frame, ray, counts);
+  vec3 color = radiance(frame, ray, y * frame.width + x, index, counts);
   PROBE_BACK(NONE);
   counts.z = counts.z | loops_cut_off(LOOP_PROBE);
   return sample_result(positive_zeros(color), counts);

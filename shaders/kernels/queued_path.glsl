@@ -1,8 +1,8 @@
 // A path as the kernels of the wavefront hand it on: `paths`, by the place of its pixel in the tile. Only paths that never split wait
-// there, and none of those is in a medium.
+// there.
 #ifndef QUEUED_PATH_GLSL
 #define QUEUED_PATH_GLSL
-#include "integrators/path.glsl"
+#include "integrators/continuation.glsl"
 
 Path queued_path(uint place) {
   Path path;
@@ -10,11 +10,29 @@ Path queued_path(uint place) {
   path.d = paths[place].direction;
   path.throughput = paths[place].throughput;
   path.depth = dispatch.depth;
-  path.media = 0u;
+  path.media = paths[place].media;
+#if RANDOM_WALK
+  path.density = paths[place].density;
+  path.pixel = paths[place].pixel;
+  path.index = dispatch.sample_index;
+#endif
 #if RAY_KINDS
   path.refracted = false;
 #endif
   return path;
 }
+
+#ifdef QUEUES_PATHS
+void queue_path(uint place, Path path) {
+  paths[place].origin = path.o;
+  paths[place].direction = path.d;
+  paths[place].throughput = path.throughput;
+  paths[place].media = path.media;
+#if RANDOM_WALK
+  paths[place].density = path.density;
+  paths[place].pixel = path.pixel;
+#endif
+}
+#endif
 
 #endif

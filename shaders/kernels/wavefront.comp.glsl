@@ -16,6 +16,7 @@ layout(std430, binding = BINDING_PATHS) restrict buffer Paths { PathState paths[
 // How many go on, then the places of their pixels in the tile.
 layout(std430, binding = BINDING_LIST) readonly restrict buffer List { uint list[]; };
 layout(std430, binding = BINDING_NEXT_LIST) restrict buffer NextList { uint next_list[]; };
+#define QUEUES_PATHS
 #include "kernels/queued_path.glsl"
 
 void main() {
@@ -23,6 +24,9 @@ void main() {
   uint group = swizzled_workgroup(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE);
   vec3 color = vec3(0.0f, 0.0f, 0.0f);
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
+#if RAY_KINDS
+  uvec3 kinds = uvec3(0u, 0u, 0u);
+#endif
 #ifdef LISTED
   uint i = group * 64u + gl_LocalInvocationIndex;
   if (i >= list[0]) return;
@@ -30,12 +34,18 @@ void main() {
   Path path = queued_path(place);
   color = results[place].color;
   counts = counts_of(results[place]);
+#if RAY_KINDS
+  kinds = uvec3(reflected_of(results[place]), refracted_of(results[place]), total_reflections_of(results[place]));
+  counts.z = flags_of(results[place]);
+#endif
 #else
   uvec2 pixel = pixel_of_block(group, gl_LocalInvocationIndex, dispatch.tile_width);
   if (pixel.x >= dispatch.tile_width || pixel.y >= dispatch.tile_height) return;
   uint place = pixel.y * dispatch.tile_width + pixel.x;
-  Path path = begin(frame, camera_ray(frame, sample_position(frame, dispatch.tile_x + pixel.x, dispatch.tile_y + pixel.y,
-                                                             dispatch.sample_index)));
+  uint x = dispatch.tile_x + pixel.x;
+  uint y = dispatch.tile_y + pixel.y;
+  Path path = begin(frame, camera_ray(frame, sample_position(frame, x, y, dispatch.sample_index)), y * frame.width + x,
+                    dispatch.sample_index);
 #endif
 
   Ray ray = make_ray(path.o, path.d);
@@ -48,8 +58,11 @@ void main() {
   Continuations all = shade(frame, path, ray, hit, color, counts);
   counts.z = counts.z | loops_cut_off(LOOP_PROBE);
 #if RAY_KINDS
-  // A bounce is one reflection of a path that never splits, or all of one that ends at once.
-  counts = counts_by_kind(counts, path.depth, 0u, all.total_reflection ? 1u : 0u);
+  // How the path goes on counts here, and its way here did before.
+  bool goes_on = all.count > 0u;
+  bool refracted = goes_on && all.next.refracted;
+  counts = counts_by_kind(counts, kinds.x + (goes_on && !refracted ? 1u : 0u), kinds.y + (refracted ? 1u : 0u),
+                          kinds.z + (all.total_reflection ? 1u : 0u));
 #endif
 
 #ifdef ENDS_ONLY
@@ -61,9 +74,7 @@ void main() {
   results[place] = sample_result(positive_zeros(color), counts);
 #ifndef ENDS_ONLY
   if (all.count > 0u) {
-    paths[place].origin = all.next.o;
-    paths[place].direction = all.next.d;
-    paths[place].throughput = all.next.throughput;
+    queue_path(place, all.next);
     next_list[1u + atomicAdd(next_list[0], 1u)] = place;
   }
 #endif

@@ -13,10 +13,25 @@ uint pcg_hash(uint x) {
   return (word >> 22u) ^ word;
 }
 
+// What a pair of random numbers is for. Each use has its own, whatever a path does.
+#define PAIR_PLACE 0u     // in the pixel
+#define PAIR_LENS 1u      // and on the lens
+#define PAIR_SCATTER 4u   // of the first vertex: which lobe, and whether the path ends; PAIRS_A_VERTEX further on those of the next
+#define PAIR_DIRECTION 5u
+#define PAIR_LIGHT 6u     // which light
+#define PAIR_EMITTER 7u   // where on it
+#define PAIRS_A_VERTEX 4u
+
+// The upper 24 bits as a number in [0, 1): exactly.
+float unit_float(uint bits) { return float(bits >> 8u) * 5.9604645e-8f; }
+
 // In [0, 1), a multiple of 2^-24.
 float random_number(uint pixel, uint sample_index, uint dimension, uint seed) {
-  uint bits = pcg_hash(pixel + pcg_hash(sample_index + pcg_hash(dimension + pcg_hash(seed))));
-  return float(bits >> 8u) * 5.9604645e-8f;
+  return unit_float(pcg_hash(pixel + pcg_hash(sample_index + pcg_hash(dimension + pcg_hash(seed)))));
+}
+
+vec2 independent_pair(uint pixel, uint sample_index, uint pair, uint seed) {
+  return vec2(random_number(pixel, sample_index, 2u * pair, seed), random_number(pixel, sample_index, 2u * pair + 1u, seed));
 }
 
 SHADER_END

@@ -2,13 +2,14 @@
 #ifndef JITTERED_GLSL
 #define JITTERED_GLSL
 #include "math/rng.glsl"
-#include "records.h"
+#include "samplers/grid.glsl"
 
 SHADER_BEGIN
 
-vec2 jittered_in_cell(Frame frame, uint pixel, uint index) {
-  return vec2(random_number(pixel, index, 0u, frame.seed), random_number(pixel, index, 1u, frame.seed));
+vec2 jittered_place(Frame frame, uint pixel, uint index) {
+  return in_grid(frame, index, independent_pair(pixel, index, PAIR_PLACE, frame.seed));
 }
+vec2 jittered_pair(Frame frame, uint pixel, uint index, uint pair) { return independent_pair(pixel, index, pair, frame.seed); }
 
 SHADER_END
 #endif

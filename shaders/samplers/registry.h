@@ -1,6 +1,8 @@
-// Every sampler, the `pattern` of a picture; see shapes/registry.h.
+// Every sampler, the `pattern` of a picture; see shapes/registry.h. A row says how many samples a pixel may have: n × n, or any number.
 #ifndef SAMPLERS
-#define SAMPLERS(X) \
-  X(regular, 0u)    \
-  X(jittered, 1u)
+#define SAMPLERS(X)      \
+  X(regular, 0u, square)  \
+  X(jittered, 1u, square) \
+  X(random, 2u, any)      \
+  X(sobol, 3u, any)
 #endif

@@ -1,19 +1,28 @@
-// Where in the picture a pixel's samples lie.
+// Where in the picture a pixel's samples lie, and the random numbers of their paths: asks the sampler.
 #ifndef SAMPLER_GLSL
 #define SAMPLER_GLSL
 #include "records.h"
 
 SHADER_BEGIN
 
-// Where sample `index` of pixel (x, y) lies, in pixels from the picture's top left: in one of n × n cells, where the sampler says.
+// Where sample `index` of pixel (x, y) lies, in pixels from the picture's top left.
 vec2 sample_position(Frame frame, uint x, uint y, uint index) {
-  uint n = frame.samples_per_side;
   uint pixel = y * frame.width + x;
-  vec2 in_cell = vec2(0.5f, 0.5f);
-#define IN_CELL_OF(name, number) \
-  if (SAMPLER_IS(number)) in_cell = name##_in_cell(frame, pixel, index);
-  SAMPLERS(IN_CELL_OF)
-  return vec2(float(x) + (float(index % n) + in_cell.x) / float(n), float(y) + (float(index / n) + in_cell.y) / float(n));
+  vec2 place = vec2(0.5f, 0.5f);
+#define PLACE_OF(name, number, count) \
+  if (SAMPLER_IS(number)) place = name##_place(frame, pixel, index);
+  SAMPLERS(PLACE_OF)
+  return vec2(float(x) + place.x, float(y) + place.y);
+}
+
+// A pair of random numbers in [0, 1), multiples of 2^-24, for one use of a sample: a PAIR_ of math/rng.glsl, of a vertex after the first
+// PAIRS_A_VERTEX further on.
+vec2 sample_pair(Frame frame, uint pixel, uint index, uint pair) {
+  vec2 numbers = vec2(0.5f, 0.5f);
+#define PAIR_OF(name, number, count) \
+  if (SAMPLER_IS(number)) numbers = name##_pair(frame, pixel, index, pair);
+  SAMPLERS(PAIR_OF)
+  return numbers;
 }
 
 SHADER_END

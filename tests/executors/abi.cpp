@@ -91,8 +91,8 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Frame, right),       MEMBER(Frame, min_throughput),
                 MEMBER(Frame, up),          MEMBER(Frame, pixel_width),
                 MEMBER(Frame, forward),     MEMBER(Frame, pixel_height),
-                MEMBER(Frame, background),  MEMBER(Frame, unused_0),
-                MEMBER(Frame, ambient),     MEMBER(Frame, unused_1)});
+                MEMBER(Frame, background),  MEMBER(Frame, emitter_count),
+                MEMBER(Frame, ambient),     MEMBER(Frame, unused_0)});
   check_struct(samples, "Dispatch", sizeof(shader::Dispatch),
                {MEMBER(Dispatch, tile_x), MEMBER(Dispatch, tile_y), MEMBER(Dispatch, tile_width),
                 MEMBER(Dispatch, tile_height), MEMBER(Dispatch, sample_index), MEMBER(Dispatch, depth),
@@ -108,6 +108,14 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                {MEMBER(ProbeRecord, name), MEMBER(ProbeRecord, line), MEMBER(ProbeRecord, type),
                 MEMBER(ProbeRecord, size), MEMBER(ProbeRecord, value)});
   CHECK(samples.push_constant_bytes == sizeof(shader::Dispatch));
+  PackedScene paths = scene;
+  paths.frame.integrator = uint32_t(IntegratorType::path);
+  paths.emitters.resize(2);
+  check_struct(gpu::reflect(test::compile_entry("kernels/render.comp.glsl", paths, {})), "Emitter",
+               sizeof(shader::Emitter),
+               {MEMBER(Emitter, radiance), MEMBER(Emitter, kind), MEMBER(Emitter, a), MEMBER(Emitter, b),
+                MEMBER(Emitter, c), MEMBER(Emitter, primitive), MEMBER(Emitter, end), MEMBER(Emitter, area),
+                MEMBER(Emitter, offset)});
 
   const gpu::Reflection wavefront =
       gpu::reflect(test::compile_entry("kernels/wavefront.comp.glsl", scene, {}, "#define STORED_HITS 1\n"));
@@ -116,8 +124,8 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
       {MEMBER(PacketHit, t), MEMBER(PacketHit, slot), MEMBER(PacketHit, id), MEMBER(PacketHit, flags),
        MEMBER(PacketHit, u), MEMBER(PacketHit, v), MEMBER(PacketHit, unused_0), MEMBER(PacketHit, unused_1)});
   check_struct(wavefront, "PathState", sizeof(shader::PathState),
-               {MEMBER(PathState, origin), MEMBER(PathState, unused_0), MEMBER(PathState, direction),
-                MEMBER(PathState, unused_1), MEMBER(PathState, throughput), MEMBER(PathState, unused_2)});
+               {MEMBER(PathState, origin), MEMBER(PathState, media), MEMBER(PathState, direction),
+                MEMBER(PathState, density), MEMBER(PathState, throughput), MEMBER(PathState, pixel)});
 
   const gpu::Reflection hits =
       gpu::reflect(test::compile_entry("kernels/render.comp.glsl", scene, {}, "#define FIRST_HITS\n"));

@@ -50,13 +50,18 @@ uint place_of(uint packet, uint i) {
 }
 
 #if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
-// The sample's ray through the pixel at `place` of the tile.
-Ray eye_ray(uint place) {
+// The sample's path through the pixel at `place` of the tile.
+Path eye_path(uint place) {
   uint row = quotient(place, dispatch.tile_width);
   uint x = dispatch.tile_x + place - row * dispatch.tile_width;
   uint y = dispatch.tile_y + row;
   Frame frame = load_frame();
-  return camera_ray(frame, sample_position(frame, x, y, dispatch.sample_index));
+  return begin(frame, camera_ray(frame, sample_position(frame, x, y, dispatch.sample_index)), y * frame.width + x,
+               dispatch.sample_index);
+}
+Ray eye_ray(uint place) {
+  Path path = eye_path(place);
+  return make_ray(path.o, path.d);
 }
 #endif
 
@@ -69,8 +74,8 @@ Interaction interaction_of(uint place, out bool struck) {
   struck = place != NONE && hit.slot != NONE;
   hit.slot = struck ? hit.slot : 0u;
   uint flags = 0u;
-  Ray eye = eye_ray(there);
-  return interaction_at(eye, hit, begin(load_frame(), eye).media, flags);
+  Path path = eye_path(there);
+  return interaction_at(make_ray(path.o, path.d), hit, path.media, flags);
 }
 #endif
 
@@ -95,7 +100,7 @@ void main() {
       Ray to_light;
       float distance;
       vec3 contribution;
-      bool counts = shadow_ray(frame, at_hit[k], light, to_light, distance, contribution) && struck[k];
+      bool counts = shadow_ray(frame, eye_path(place[k] == NONE ? 0u : place[k]), at_hit[k], light, to_light, distance, contribution) && struck[k];
       ray[k] = make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
       if (counts) ray[k] = to_light;
       state[k] = traversal_state(counts ? distance : -1.0f);

@@ -1,0 +1,12 @@
+// From the lights that a path may choose from to their records.
+#pragma once
+
+#include "host/records/packer.hpp"
+#include "host/scene/emitters.hpp"
+
+namespace eyeray::pack {
+
+// Appends the scene's lights and surfaces as PackedScene::emitters.
+void pack_light_choice(const LightChoice& choice, records::Packer& packer);
+
+}  // namespace eyeray::pack

@@ -1,0 +1,16 @@
+// What samplers share that cut a pixel into n × n cells.
+#pragma once
+
+#include <cmath>
+
+#include "host/core/vec.hpp"
+
+namespace eyeray::reference {
+
+// The place in the pixel of what lies at `in_cell` of cell `index` of `samples`, a square number.
+inline Vec2 in_grid(int samples, uint32_t index, const Vec2& in_cell) {
+  const auto n = uint32_t(std::lround(std::sqrt(samples)));
+  return (Vec2(index % n, index / n) + in_cell) / double(n);
+}
+
+}  // namespace eyeray::reference

@@ -1,0 +1,200 @@
+// Kajiya: The Rendering Equation, SIGGRAPH 1986. Veach, Guibas: Optimally Combining Sampling Techniques for
+// Monte Carlo Rendering, SIGGRAPH 1995. Arvo, Kirk: Particle Transport and Image Synthesis, SIGGRAPH 1990.
+#include <algorithm>
+#include <cmath>
+
+#include "host/reference/integrator.hpp"
+#include "host/reference/places.hpp"
+#include "host/reference/sample_rays.hpp"
+#include "host/reference/sampler.hpp"
+
+namespace eyeray::reference {
+
+extern const Integrator path_integrator;
+
+namespace {
+
+constexpr std::string_view manual =
+    "Path tracing: all light that surfaces scatter, reflect and refract among each other, by one random path "
+    "a sample. Surfaces that emit are lights, and `background` is light from everywhere. What stands for "
+    "such light in Whitted's pictures counts for nothing here: `ambient`, highlights (`specular`), `shadow` "
+    "and `min_throughput`. `max_depth` surfaces are lit after the first.";
+
+// What pairs of random numbers are for; of the vertices after the first, `pairs_a_vertex` further on each.
+constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, place_pair = 7, pairs_a_vertex = 4;
+constexpr int first_roulette = 3;
+constexpr double least_survival = 0.05;
+
+double largest(const Vec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+// The weight of a technique of density p beside one of density q.
+double power_heuristic(double p, double q) {
+  return p * p / (p * p + q * q);
+}
+
+class Walk {
+ public:
+  Walk(const Tracer& tracer, const SampleId& id, const RayOffset& ray_offset, const Observer& observer)
+      : tracer_(tracer),
+        scene_(tracer.scene()),
+        id_(id),
+        rays_(tracer, ray_offset, observer),
+        observer_(observer) {}
+
+  PixelSample sample(Ray ray, MediaStack media);
+
+ private:
+  Vec2 pair(uint32_t use) const {
+    return sampler(scene_.image.pattern)
+        .pair(id_.pixel, id_.index, use + pairs_a_vertex * uint32_t(depth_), scene_.render.seed);
+  }
+  Vec3 emitted(const Interaction& at, const Vec3& from) const;
+  Vec3 direct(const Interaction& at);
+  std::optional<Ray> scatter(const Interaction& at, MediaStack& media);
+
+  const Tracer& tracer_;
+  const Scene& scene_;
+  const SampleId id_;
+  SampleRays rays_;
+  const Observer& observer_;
+  int depth_ = 0;
+  Vec3 throughput_{1};
+  double density_ = 0;  // by solid angle, of the ray's direction; 0 where there was no choice
+};
+
+// How likely the lobes are followed: diffuse, reflected, transmitted.
+Vec3 lobe_shares(const Scattering& scattering) {
+  const Vec3 weights(largest(scattering.diffuse), largest(scattering.reflected),
+                     largest(scattering.transmitted));
+  const double sum = weights.x + weights.y + weights.z;
+  return sum > 0 ? weights / sum : Vec3(0);
+}
+
+// Its own light, less what shadow rays to it have brought already.
+Vec3 Walk::emitted(const Interaction& at, const Vec3& from) const {
+  const Vec3& light = at.scattering.emitted;
+  const LightChoice& choice = tracer_.light_choice();
+  if (density_ == 0) return light;
+  const auto found = std::ranges::lower_bound(choice.emitters, at.primitive, {}, &Emitter::primitive);
+  if (found == choice.emitters.end() || found->primitive != at.primitive) return light;
+  const double share = choice.share(scene_.lights.size() + size_t(found - choice.emitters.begin()));
+  const Place place{at.surface.position, at.surface.normal_geometric};
+  return light * power_heuristic(density_, share * place_density(found->form, from, place));
+}
+
+// What one light, chosen at random, brings to a diffuse surface.
+Vec3 Walk::direct(const Interaction& at) {
+  const LightChoice& choice = tracer_.light_choice();
+  if (choice.ends.empty() || depth_ > scene_.render.max_depth) return Vec3(0);
+  const auto number = uint32_t(pair(light_pair).x * 0x1p24);
+  const auto light = size_t(std::ranges::upper_bound(choice.ends, number) - choice.ends.begin());
+  const double share = choice.share(light);
+
+  Ray ray;
+  double distance = 0;
+  Vec3 contribution(0);
+  if (light < scene_.lights.size()) {
+    // Classic units: a light of intensity 1 is π times that.
+    const Illumination arriving = scene_.lights[light]->illuminate(at.surface.position);
+    if (!rays_.faces(at.surface, arriving.l, arriving.distance)) return Vec3(0);
+    ray = rays_.spawn_ray(at.surface, arriving.l);
+    distance = arriving.distance;
+    const double cosine = std::max(0.0, glm::dot(at.surface.normal, arriving.l));
+    contribution = arriving.color * at.scattering.diffuse * cosine / share;
+  } else {
+    const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
+    const Place place = choose_place(emitter.form, at.surface.position, pair(place_pair));
+    const Vec3 way = place.position - at.surface.position;
+    const Vec3 l = glm::normalize(way);
+    if (!rays_.faces(at.surface, l, glm::length(way))) return Vec3(0);
+    ray = rays_.spawn_ray(at.surface, l);
+    ray.d = glm::normalize(place.position - ray.o);
+    distance = glm::length(place.position - ray.o) * (1 - 1e-9);
+    const double cosine = std::max(0.0, glm::dot(at.surface.normal, l));
+    const double density = share * place_density(emitter.form, at.surface.position, place);
+    const double as_scattered = lobe_shares(at.scattering).x * cosine / M_PI;
+    contribution = emitter.radiance * at.scattering.diffuse / M_PI * cosine / density *
+                   power_heuristic(density, as_scattered);
+  }
+  if (at.scattering.diffuse == Vec3(0)) return Vec3(0);
+  const double seen = rays_.shadow(ray, distance);
+  observer_.ray(RayKind::shadow, ray, depth_, 0);
+  observer_.value("contribution", contribution);
+  observer_.value("visibility", seen);
+  observer_.back(depth_);
+  return seen * contribution;
+}
+
+// Evenly on the disk, then up to the half sphere: Malley's.
+Vec3 cosine_direction(const Vec3& normal, const Vec2& u) {
+  const Vec2 at = on_disk(u);
+  const auto [s, t] = tangents(normal);
+  return at.x * s + at.y * t + std::sqrt(std::max(0.0, 1 - glm::dot(at, at))) * normal;
+}
+
+std::optional<Ray> Walk::scatter(const Interaction& at, MediaStack& media) {
+  const Vec3 shares = lobe_shares(at.scattering);
+  if (shares == Vec3(0) || depth_ > scene_.render.max_depth) return std::nullopt;
+  const Vec2 chance = pair(scatter_pair);  // of a lobe, and of going on
+  Vec3 d;
+  RayKind kind = RayKind::reflected;
+  density_ = 0;
+  if (chance.x < shares.x) {
+    d = cosine_direction(at.surface.normal, pair(direction_pair));
+    density_ = shares.x * glm::dot(at.surface.normal, d) / M_PI;
+    if (!(density_ > 0 && glm::dot(at.surface.normal_geometric, d) > 0)) return std::nullopt;
+    throughput_ *= at.scattering.diffuse / shares.x;
+  } else if (chance.x < shares.x + shares.y || shares.z == 0) {
+    d = at.mirrored();
+    throughput_ *= at.scattering.reflected / shares.y;
+  } else {
+    d = at.refracted();
+    kind = RayKind::refracted;
+    throughput_ *= at.scattering.transmitted / shares.z;
+    media = at.media_beyond;
+  }
+
+  const double survival = depth_ < first_roulette ? 1 : std::clamp(largest(throughput_), least_survival, 1.0);
+  observer_.value("survival", survival);
+  if (!(chance.y < survival)) return std::nullopt;
+  throughput_ /= survival;
+  ++depth_;
+  ++(kind == RayKind::reflected ? rays_.reflected : rays_.refracted);
+  const Ray next = rays_.spawn_ray(at.surface, d);
+  observer_.ray(kind, next, depth_);
+  return next;
+}
+
+PixelSample Walk::sample(Ray ray, MediaStack media) {
+  Vec3 color(0);
+  for (;;) {
+    const auto at = rays_.hit(ray, media, throughput_);
+    if (!at) {
+      color += throughput_ * scene_.render.background;
+      break;
+    }
+    throughput_ *= at->dimming;
+    const Vec3 light = emitted(*at, ray.o) + direct(*at);
+    observer_.value("light", light);
+    color += throughput_ * light;
+    if (at->has_medium && at->scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)
+      ++rays_.total_reflections;
+    const auto next = scatter(*at, media);
+    if (!next) break;
+    ray = *next;
+  }
+  return rays_.sample(color);
+}
+
+PixelSample path(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
+                 const RayOffset& ray_offset, const Observer& observer) {
+  return Walk(tracer, id, ray_offset, observer).sample(ray, media);
+}
+
+}  // namespace
+
+extern const Integrator path_integrator{.manual = manual, .sample = path};
+
+}  // namespace eyeray::reference

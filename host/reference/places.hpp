@@ -1,0 +1,25 @@
+// Places on surfaces that emit, chosen at random: in float64, from the formulas.
+#pragma once
+
+#include <utility>
+
+#include "host/scene/emitters.hpp"
+
+namespace eyeray::reference {
+
+struct Place {
+  Vec3 position;
+  Vec3 normal;  // unit, of either side
+};
+
+// A place for `from` to be lit from; u: two random numbers in [0, 1).
+Place choose_place(const EmitterForm& form, const Vec3& from, const Vec2& u);
+// By solid angle at `from`, the density with which that chooses `place`.
+double place_density(const EmitterForm& form, const Vec3& from, const Place& place);
+
+// Evenly on the disk of radius 1. Shirley, Chiu: A Low Distortion Map Between Disk and Square, 1997.
+Vec2 on_disk(const Vec2& u);
+// Two unit vectors that are square to the unit vector n and to each other, as all executors choose them.
+std::pair<Vec3, Vec3> tangents(const Vec3& n);
+
+}  // namespace eyeray::reference

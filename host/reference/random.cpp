@@ -1,0 +1,14 @@
+#include "host/reference/rng.hpp"
+#include "host/reference/sampler.hpp"
+
+namespace eyeray::reference {
+
+extern const Sampler random_sampler{
+    .manual =
+        "Every number is random for itself, by `seed` of [render](#render): any number of samples, for "
+        "statistics.",
+    .place = [](int, uint32_t pixel, uint32_t index,
+                uint32_t seed) { return random_pair(pixel, index, 0, seed); },
+    .pair = random_pair};
+
+}  // namespace eyeray::reference

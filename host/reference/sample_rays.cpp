@@ -1,0 +1,141 @@
+#include "host/reference/sample_rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/core/termination.hpp"
+#include "host/reference/crossings.hpp"
+#include "host/reference/rng.hpp"
+
+namespace eyeray::reference {
+
+Vec3 Interaction::refracted() const {
+  if (ior_before == ior_beyond) return d;
+  const double eta = ior_before / ior_beyond;
+  const double cos2_squared = 1 - eta * eta * (1 - cos_view * cos_view);
+  return glm::normalize(eta * d + (eta * cos_view - std::sqrt(std::max(0.0, cos2_squared))) * surface.normal);
+}
+
+// The vacuum where no medium is.
+Medium SampleRays::medium(const MediaStack& media) const {
+  return media.top() < 0 ? Medium{} : *scene_.materials[size_t(media.top())]->medium();
+}
+
+Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d) {
+  if (ray_offset_.textures != TextureChoice::at_hit) return {spawn_origin(point, d), d};
+  const Vec3 from_eye = glm::abs(point.position - scene_.camera.eye);
+  const double least = ray_offset_.share * glm::dot(glm::abs(point.normal_geometric), from_eye);
+  Ray ray{spawn_origin(point, d, least, ray_offset_.along_normal), d};
+  if (ray_offset_.share == 0) return ray;
+
+  Vec3 aside;
+  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(ray_offset_.seed, spawned_, i, 0) - 1;
+  ++spawned_;
+  aside -= glm::dot(aside, point.normal_geometric) * point.normal_geometric;
+  ray.o += ray_offset_.share * glm::length(from_eye) * aside;
+  return ray;
+}
+
+// What float32 may add at most to the cosine between a surface and what lies at that distance from it.
+double SampleRays::cosine_rounding(const SurfacePoint& point, double distance) const {
+  if (ray_offset_.share == 0) return 0;
+  return ray_offset_.share * (1 + glm::length(point.position - scene_.camera.eye) / distance);
+}
+
+bool SampleRays::faces(const SurfacePoint& point, const Vec3& l, double distance) const {
+  const double tilt = cosine_rounding(point, distance) * (2 * random(ray_offset_.seed, spawned_, 3, 0) - 1);
+  return glm::dot(point.normal, l) + tilt > 0 && glm::dot(point.normal_geometric, l) + tilt > 0;
+}
+
+double SampleRays::shadow(const Ray& ray, double t_end) {
+  ++rays_;
+  return tracer_.transmittance(ray, t_end, flags_);
+}
+
+// A ray may run along the border of two checks through many walls of glass, and be rounded to either side at
+// each: of so many ways the bounds are known without trying them, since no colour falls where a texture's
+// rises.
+Scattering SampleRays::scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
+                                  ScatteringContext context) const {
+  const Material& material = *scene_.materials[size_t(hit.material)];
+  Scattering result = material.scattering(context);
+  if (ray_offset_.textures == TextureChoice::at_hit) return result;
+
+  const auto choose = [&](Vec3& value, const Vec3& other) {
+    value = ray_offset_.textures == TextureChoice::darkest ? glm::min(value, other) : glm::max(value, other);
+  };
+  const Vec3 u = glm::normalize(glm::cross(ray.d, std::abs(ray.d.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+  const Vec3 v = glm::cross(ray.d, u);
+  const double aside = ray_offset_.share * glm::length(point.position - scene_.camera.eye);
+  for (int i = 0; i < 8; ++i) {
+    const Ray moved{ray.o + aside * (std::cos(i * M_PI / 4) * u + std::sin(i * M_PI / 4) * v), ray.d};
+    const auto other_hit = tracer_.trace(moved);
+    if (!other_hit || other_hit->primitive != hit.primitive) continue;
+    context.uv = tracer_.surface(moved, *other_hit).uv;
+    const Scattering other = material.scattering(context);
+    choose(result.ambient, other.ambient);
+    choose(result.diffuse, other.diffuse);
+    choose(result.specular, other.specular);
+    choose(result.reflected, other.reflected);
+    choose(result.transmitted, other.transmitted);
+    choose(result.emitted, other.emitted);
+  }
+  return result;
+}
+
+std::optional<Interaction> SampleRays::hit(const Ray& ray, const MediaStack& media, const Vec3& throughput) {
+  stop_if_interrupted();
+  ++rays_;
+  const auto hit = tracer_.trace(ray, flags_, ray_offset_.coincident);
+  if (!hit) {
+    observer_.miss(throughput, scene_.render.background);
+    return std::nullopt;
+  }
+  ++hits_;
+
+  // Turn the surface to the viewer. Float32 may see either side of one that the ray runs along.
+  Interaction at{.surface = tracer_.surface(ray, *hit), .d = ray.d, .primitive = hit->primitive};
+  observer_.hit(tracer_, ray, *hit, at.surface);
+  const double cosine = glm::dot(at.d, at.surface.normal_geometric);
+  const bool along = std::abs(cosine) < cosine_rounding(at.surface, hit->at.t);
+  const bool front = (cosine < 0) != (along && ray_offset_.along_normal);
+  if (!front) {
+    at.surface.normal_geometric = -at.surface.normal_geometric;
+    at.surface.normal = -at.surface.normal;
+  }
+  at.cos_view = std::clamp(-glm::dot(at.d, at.surface.normal), 0.0, 1.0);
+
+  // Say which media hit here.
+  const Material& material = *scene_.materials[size_t(hit->material)];
+  const Medium before = medium(media);
+  at.has_medium = material.medium().has_value();
+  at.media_beyond = media;
+  if (at.has_medium) {
+    if (!front) {
+      at.media_beyond.remove(hit->material);
+    } else if (!at.media_beyond.push(hit->material)) {
+      flags_ |= media_overflow;
+    }
+  }
+  at.dimming = glm::exp(-before.absorption * hit->at.t);
+  at.ior_before = before.ior;
+  at.ior_beyond = medium(at.media_beyond).ior;
+  at.scattering = scattering(ray, *hit, at.surface,
+                             {at.surface.uv, at.cos_view, at.ior_before, at.ior_beyond, at.surface.color});
+
+  observer_.value("ior", Vec2(at.ior_before, at.ior_beyond));
+  observer_.value("ambient", at.scattering.ambient);
+  observer_.value("diffuse", at.scattering.diffuse);
+  observer_.value("specular", at.scattering.specular);
+  observer_.value("reflected", at.scattering.reflected);
+  observer_.value("transmitted", at.scattering.transmitted);
+  observer_.value("emitted", at.scattering.emitted);
+  observer_.value("throughput", throughput * at.dimming);
+  return at;
+}
+
+PixelSample SampleRays::sample(const Vec3& color) const {
+  return {color, rays_, hits_, flags_, reflected, refracted, total_reflections};
+}
+
+}  // namespace eyeray::reference

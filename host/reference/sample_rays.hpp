@@ -1,0 +1,66 @@
+// The rays of one sample, as integrators trace them whose paths go on: what they hit, how they leave it, and
+// how many there were.
+#pragma once
+
+#include <optional>
+
+#include "host/reference/integrator.hpp"
+
+namespace eyeray::reference {
+
+// Where a ray hits a surface, seen from the viewer's side.
+struct Interaction {
+  SurfacePoint surface;  // both normals towards where the ray came from
+  Vec3 d;                // unit, of the ray
+  double cos_view = 0;   // between the shading normal and the way back, in [0, 1]
+  uint64_t primitive;
+  bool has_medium = false;  // its material fills it
+  Vec3 dimming{1};          // what the medium leaves of the light on its way here
+  double ior_before = 1, ior_beyond = 1;
+  MediaStack media_beyond = {};  // that a refracted ray is in
+  Scattering scattering = {};
+
+  Vec3 mirrored() const { return glm::normalize(d + 2 * cos_view * surface.normal); }
+  // Of a ray that is bent; there is no total reflection.
+  Vec3 refracted() const;
+};
+
+class SampleRays {
+ public:
+  SampleRays(const Tracer& tracer, const RayOffset& ray_offset, const Observer& observer)
+      : tracer_(tracer), scene_(tracer.scene()), ray_offset_(ray_offset), observer_(observer) {}
+
+  // What the ray, which is in `media`, hits; nothing where it hits nothing. `throughput`: the share of its
+  // light that arrives in the pixel.
+  std::optional<Interaction> hit(const Ray& ray, const MediaStack& media, const Vec3& throughput);
+  // A ray that leaves the surface, as float32 may round it.
+  Ray spawn_ray(const SurfacePoint& point, const Vec3& d);
+  // Whether a light in direction l at that distance stands before the surface. In its plane float32 may say
+  // either.
+  bool faces(const SurfacePoint& point, const Vec3& l, double distance) const;
+  // The share of light that a shadow ray to `t_end` brings.
+  double shadow(const Ray& ray, double t_end);
+
+  PixelSample sample(const Vec3& color) const;
+
+  uint32_t reflected = 0;
+  uint32_t refracted = 0;
+  uint32_t total_reflections = 0;
+
+ private:
+  Scattering scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
+                        ScatteringContext context) const;
+  Medium medium(const MediaStack& media) const;
+  double cosine_rounding(const SurfacePoint& point, double distance) const;
+
+  const Tracer& tracer_;
+  const Scene& scene_;
+  RayOffset ray_offset_;
+  const Observer& observer_;
+  uint32_t spawned_ = 0;
+  uint32_t rays_ = 0;
+  uint32_t hits_ = 0;
+  uint32_t flags_ = 0;
+};
+
+}  // namespace eyeray::reference

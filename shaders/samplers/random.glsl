@@ -1,0 +1,13 @@
+// Independent random numbers.
+#ifndef RANDOM_GLSL
+#define RANDOM_GLSL
+#include "math/rng.glsl"
+#include "records.h"
+
+SHADER_BEGIN
+
+vec2 random_place(Frame frame, uint pixel, uint index) { return independent_pair(pixel, index, PAIR_PLACE, frame.seed); }
+vec2 random_pair(Frame frame, uint pixel, uint index, uint pair) { return independent_pair(pixel, index, pair, frame.seed); }
+
+SHADER_END
+#endif

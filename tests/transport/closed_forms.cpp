@@ -1,0 +1,253 @@
+// Path tracing where the answer is known: what all executors share, the formula itself, is proved by others.
+// Each picture is of one small patch, so that its pixels are 64 estimates of one value, independent of each
+// other. A test whose error is above half a percent could not fail, and is an error itself.
+#include "estimate.hpp"
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::test;
+using executors::Backend;
+
+namespace {
+
+constexpr double albedo = 0.8;
+
+// Seen from `eye`, so narrowly that the picture is a point of it.
+Scene patch(const Vec3& eye, const Vec3& target, int samples = 256) {
+  Scene scene = one_pixel(eye, target);
+  scene.image = {.width = 8, .height = 8, .samples = samples, .pattern = SamplePattern::sobol};
+  scene.camera.projection = cameras::make_projection(PerspectiveCamera{.fov_degrees = 1e-3});
+  scene.render.integrator = IntegratorType::path;
+  scene.render.max_depth = 0;
+  return scene;
+}
+
+// A white floor at y = 0, seen around the origin.
+Scene floor(int samples = 256) {
+  Scene scene = patch({0.4, 0.9, 0.5}, {0, 0, 0}, samples);
+  add(scene, make_plane({0, 0, 0}, {0, 1, 0}), add(scene, make_phong({.diffuse = gray(albedo)})));
+  return scene;
+}
+
+int lamp(Scene& scene, double radiance = 1) {
+  return add(scene, make_phong({.diffuse = gray(0), .emission = gray(radiance)}));
+}
+
+// What a floor shows of an irradiance.
+double shown(double irradiance) {
+  return albedo * irradiance / M_PI;
+}
+
+void check(const Scene& scene, double expected, double least_error = 2e-6) {
+  CAPTURE(expected);
+  for (const Backend backend : {Backend::twin, Backend::reference}) {
+    const auto [mean, error] = estimate(scene, backend);
+    CAPTURE(int(backend));
+    CAPTURE(mean);
+    CAPTURE(error);
+    CHECK(error < 0.005 * expected);
+    // At five standard errors one of a million and a half such tests fails by chance.
+    CHECK(std::abs(mean - expected) < 5 * error + least_error * expected);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("point and directional lights: as Whitted's, L = ρ I cos θ / d²") {
+  Scene scene = floor(4);
+  add_point_light(scene, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
+  check(scene, albedo * 3 / 4, 1e-5);
+  add_sun(scene, {0, 1, 1}, Vec3(0.5));
+  scene.image.samples = 256;
+  check(scene, albedo * (3.0 / 4 + 0.5 * std::sqrt(0.5)));
+}
+
+TEST_CASE("a sphere above the horizon: E = π L R² cos θ / d²") {
+  Scene scene = floor();
+  add(scene, make_sphere({0, 1.6, 1.2}, 0.7), lamp(scene));
+  check(scene, shown(M_PI * 0.7 * 0.7 * 0.8 / 4));
+}
+
+TEST_CASE("a distant, small sphere, whose cone is nothing in 1 − cos") {
+  Scene scene = floor(16);
+  add(scene, make_sphere({0, 1000, 0}, 0.01), lamp(scene, 1e6));
+  check(scene, shown(M_PI * 1e6 * 1e-10), 1e-5);
+}
+
+TEST_CASE("a sphere that the horizon cuts (Snyder 1996)") {
+  const double radius = 0.9, distance = 1.5, theta = 1.2;
+  Scene scene = floor(1024);
+  add(scene, make_sphere(distance * Vec3(0, std::cos(theta), std::sin(theta)), radius), lamp(scene));
+  const double h = distance / radius, x = std::sqrt(h * h - 1), y = -x / std::tan(theta);
+  const double root = std::sin(theta) * std::sqrt(1 - y * y);
+  check(scene, shown((std::cos(theta) * std::acos(y) - x * root) / (h * h) + std::atan(root / x)));
+}
+
+TEST_CASE("a disk above the floor, off its axis, and a ring") {
+  const double h = 1.3, a = 0.6;
+  const auto irradiance = [&](double radius) {
+    const double sum = h * h + a * a, square = radius * radius;
+    return M_PI / 2 * (1 - (sum - square) / std::sqrt((sum + square) * (sum + square) - 4 * a * a * square));
+  };
+  Scene disk = floor();
+  add(disk, make_disk({a, h, 0}, {0, -1, 0}, 0.8), lamp(disk));
+  check(disk, shown(irradiance(0.8)));
+  Scene ring = floor();
+  add(ring, make_disk({a, h, 0}, {0, 1, 0}, 0.8, 0.5), lamp(ring));
+  check(ring, shown(irradiance(0.8) - irradiance(0.5)));
+}
+
+TEST_CASE("polygons above the horizon (Lambert 1760): a triangle, a parallelogram, a mesh of both") {
+  const auto irradiance = [](const std::vector<Vec3>& corners) {
+    double sum = 0;
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const Vec3 a = glm::normalize(corners[i]), b = glm::normalize(corners[(i + 1) % corners.size()]);
+      sum += std::acos(glm::dot(a, b)) * glm::normalize(glm::cross(a, b)).y;
+    }
+    return std::abs(sum) / 2;
+  };
+  const Vec3 a(-0.5, 0.6, 0.2), b(0.7, 1.1, 0.4), c(0.1, 0.9, 1.2);
+  const double of_triangle = irradiance({a, b, c}), of_both = irradiance({a, b, b + c - a, c});
+
+  Scene triangle = floor();
+  add(triangle, make_triangle({.vertices = {a, b, c}}), lamp(triangle));
+  check(triangle, shown(of_triangle));
+  Scene parallelogram = floor();
+  add(parallelogram, make_parallelogram(a, b - a, c - a), lamp(parallelogram));
+  check(parallelogram, shown(of_both));
+  Scene mesh = floor();
+  mesh.meshes.push_back({.name = "",
+                         .positions = {a, b, c, b + c - a},
+                         .triangles = {{0, 1, 2}, {1, 3, 2}},
+                         .normals = {},
+                         .uv = {}});
+  mesh.instances.push_back({.mesh = 0, .transform = Mat4(1.0), .material = lamp(mesh), .position = {}});
+  check(mesh, shown(of_both));
+}
+
+TEST_CASE("opposite and adjacent faces of a closed cube: their form factors") {
+  // The mean over the face: the picture is the whole of it.
+  const auto face = [](bool opposite) {
+    Scene scene = patch({0.5, 0.5, 0.5}, {0.5, 0, 0.5}, 1024);
+    scene.camera.projection = cameras::make_projection(OrthographicCamera{.size = 0.5});
+    scene.camera.up = {0, 0, 1};
+    const int white = add(scene, make_phong({.diffuse = gray(albedo)})), hot = lamp(scene);
+    add(scene, make_parallelogram({0, 0, 0}, {1, 0, 0}, {0, 0, 1}), white);
+    add(scene,
+        opposite ? make_parallelogram({0, 1, 0}, {1, 0, 0}, {0, 0, 1})
+                 : make_parallelogram({0, 0, 0}, {0, 1, 0}, {0, 0, 1}),
+        hot);
+    return scene;
+  };
+  // Pixels see different values here: the error is a bound, not an estimate.
+  const auto mean_of = [](const Scene& scene, Backend backend) { return estimate(scene, backend).mean; };
+  for (const Backend backend : {Backend::twin, Backend::reference}) {
+    CHECK(mean_of(face(true), backend) == doctest::Approx(shown(M_PI * 0.1998248957)).epsilon(0.001));
+    CHECK(mean_of(face(false), backend) == doctest::Approx(shown(M_PI * 0.2000437761)).epsilon(0.002));
+  }
+}
+
+TEST_CASE("a background that is the same everywhere, and half of it behind a wall") {
+  Scene open = floor();
+  open.render.background = Vec3(2);
+  check(open, albedo * 2);
+  Scene walled = floor(1024);
+  walled.render.background = Vec3(2);
+  add(walled, make_plane({-1e-6, 0, 0}, {1, 0, 0}), add(walled, make_phong({.diffuse = gray(0)})));
+  walled.camera.target = {1e-4, 0, 0};
+  check(walled, albedo * 1, 2e-3);
+}
+
+TEST_CASE("two endless walls that face each other: L₁ = L / (1 − ρ₁ρ₂), L₂ = ρ₂ L₁") {
+  Scene scene = patch({0, 0.5, 0}, {0.1, 0, 0.1}, 4096);
+  scene.render.max_depth = 64;
+  add(scene, make_plane({0, 0, 0}, {0, 1, 0}),
+      add(scene, make_phong({.diffuse = gray(0.5), .emission = gray(1)})));
+  add(scene, make_plane({0, 1, 0}, {0, -1, 0}), add(scene, make_phong({.diffuse = gray(0.6)})));
+  check(scene, 1 / (1 - 0.5 * 0.6), 1e-4);
+  scene.camera.target = {0.1, 1, 0.1};
+  check(scene, 0.6 / (1 - 0.5 * 0.6), 1e-4);
+}
+
+TEST_CASE("inside a sphere: light of its own, and a point's") {
+  Scene own = patch({0.1, 0.2, 0.3}, {0.1, 0, -2}, 1024);
+  own.render.max_depth = 64;
+  add(own, make_sphere({0, 0, 0}, 2), add(own, make_phong({.diffuse = gray(0.6), .emission = gray(1)})));
+  check(own, 1 / (1 - 0.6), 1e-4);
+
+  Scene point = patch({0.1, 0.2, 0.3}, {0, 0, -2}, 4096);
+  point.render.max_depth = 64;
+  add(point, make_sphere({0, 0, 0}, 2), add(point, make_phong({.diffuse = gray(0.6)})));
+  add_point_light(point, {0, 0, 1}, Vec3(5), Falloff::inverse_square);
+  const double direct = M_PI * 5 / 9, mean = M_PI * 5 / 4;
+  check(point, 0.6 / M_PI * (direct + 0.6 * mean / (1 - 0.6)), 1e-4);
+}
+
+TEST_CASE("glass takes nothing: a ball of it in a furnace, and a pane before a lamp") {
+  Scene ball = patch({0, 0, 4}, {0.3, 0.4, 0}, 1024);
+  ball.render.background = Vec3(1);
+  ball.render.max_depth = 64;
+  add(ball, make_sphere({0, 0, 0}, 1), add(ball, make_dielectric({.ior = 1.5})));
+  check(ball, 1, 1e-5);
+
+  // T = (1 − R)² / (1 − R²), straight on.
+  Scene pane = patch({0, 0, 4}, {0, 0, 0}, 4096);
+  pane.render.max_depth = 64;
+  add(pane, make_box({-1, -1, 0}, {1, 1, 0.1}), add(pane, make_dielectric({.ior = 1.5})));
+  add(pane, make_disk({0, 0, -1}, {0, 0, 1}, 1), lamp(pane));
+  check(pane, 0.923077, 1e-5);
+}
+
+TEST_CASE("a lamp between two mirrors shows Σ rⁿ") {
+  Scene scene = patch({0, 0, 0.5}, {0, 0, 0}, 1024);
+  scene.render.max_depth = 64;
+  const int mirror = add(scene, make_mirror({.reflectance = gray(0.9)}));
+  add(scene, make_plane({0, 0, 0}, {0, 0, 1}), mirror);
+  add(scene, make_plane({0, 0, 1}, {0, 0, -1}), mirror);
+  // Some way aside stands the lamp.
+  scene.camera.target = {0.021, 0, 0};
+  add(scene, make_plane({0.5, 0, 0}, {-1, 0, 0}), lamp(scene));
+  // On its way to x = 0.5 the ray goes 11.9 in z.
+  check(scene, std::pow(0.9, 12), 1e-4);
+}
+
+TEST_CASE("a white ball in the sun behind the eye: two thirds of it") {
+  Scene scene = patch({0, 0, 4}, {0, 0, 0}, 64);
+  scene.camera.projection = cameras::make_projection(OrthographicCamera{.size = 1});
+  add(scene, make_sphere({0, 0, 0}, 1), add(scene, make_phong({.diffuse = gray(albedo)})));
+  add_sun(scene, {0, 0, 1}, Vec3(1));
+  for (const Backend backend : {Backend::twin, Backend::reference})
+    CHECK(estimate(scene, backend).mean == doctest::Approx(M_PI / 4 * 2.0 / 3 * albedo).epsilon(1e-3));
+}
+
+TEST_CASE("N lamps on a ring are N times one; one behind a wall is none") {
+  const auto ring = [](int lamps, int hidden) {
+    Scene scene = floor(1024);
+    const int material = lamp(scene);
+    for (int i = 0; i < lamps; ++i) {
+      const double angle = 2 * M_PI * i / lamps;
+      add(scene, make_sphere({std::cos(angle), 1, std::sin(angle)}, 0.1), material);
+    }
+    const int black = add(scene, make_phong({.diffuse = gray(0)}));
+    for (int i = 0; i < hidden; ++i) {
+      const double angle = 2 * M_PI * i / lamps;
+      add(scene, make_sphere({0.5 * std::cos(angle), 0.5, 0.5 * std::sin(angle)}, 0.06), black);
+    }
+    return scene;
+  };
+  const double one = shown(M_PI * 0.01 / 2 * std::sqrt(0.5));
+  check(ring(7, 0), 7 * one);
+  check(ring(7, 2), 5 * one);
+}
+
+TEST_CASE("half a sphere behind an edge is half its light") {
+  Scene scene = floor(1024);
+  add(scene, make_sphere({0, 2, 0}, 0.5), lamp(scene));
+  add(scene, make_parallelogram({0, 1, -50}, {50, 0, 0}, {0, 0, 100}),
+      add(scene, make_phong({.diffuse = gray(0)})));
+  scene.camera.eye = {-0.4, 0.9, 0.5};
+  check(scene, shown(M_PI * 0.25 / 4) / 2, 1e-3);
+}

@@ -1,0 +1,34 @@
+// What an executor's path tracer says a picture's mean radiance is, and how sure it is of that.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "host/executors/executor.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace eyeray::test {
+
+struct Estimate {
+  double mean;
+  double error;  // standard
+};
+
+// Of the first channel, every pixel being an estimate of the same value.
+inline Estimate estimate(const Scene& scene, executors::Backend backend) {
+  const auto executor = executors::make_executor(backend, scene, {});
+  const Rect tile{0, 0, scene.image.width, scene.image.height};
+  const auto pixels = size_t(tile.pixels());
+  std::vector<PixelSample> samples(pixels);
+  std::vector<double> sums(pixels);
+  for (int i = 0; i < scene.image.samples; ++i) {
+    executor->sample(tile, uint32_t(i), samples);
+    for (size_t p = 0; p < pixels; ++p) sums[p] += samples[p].color.x / scene.image.samples;
+  }
+  double mean = 0, squares = 0;
+  for (const double value : sums) mean += value / double(pixels);
+  for (const double value : sums) squares += (value - mean) * (value - mean);
+  return {mean, std::sqrt(squares / double(pixels * (pixels - 1)))};
+}
+
+}  // namespace eyeray::test

@@ -1,0 +1,70 @@
+// How likely each light is chosen: by whole numbers, which every executor shares.
+#include <numeric>
+
+#include "host/core/error.hpp"
+#include "host/scene/emitters.hpp"
+#include "tests/support/scenes.hpp"
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::test;
+
+namespace {
+
+int lamp(Scene& scene, double radiance) {
+  return add(scene, make_phong({.diffuse = gray(0), .emission = gray(radiance)}));
+}
+
+}  // namespace
+
+TEST_CASE("lights are chosen by power, and all shares are one together") {
+  Scene scene = empty_scene();
+  add_point_light(scene, {0, 5, 0}, Vec3(1 / M_PI), Falloff::inverse_square);
+  const int bright = lamp(scene, 4);
+  add(scene, make_sphere({0, 0, 0}, 1), bright);
+  add(scene, make_sphere({5, 0, 0}, 0.5), bright);
+  add(scene, make_parallelogram({0, 9, 0}, {1, 0, 0}, {0, 0, 2}), lamp(scene, 0.001));
+  const LightChoice choice = light_choice(scene);
+  REQUIRE(choice.emitters.size() == 3);
+  REQUIRE(choice.ends.size() == 4);
+  CHECK(choice.ends.back() == 1u << 24);
+  CHECK(choice.unsampled.empty());
+  // A sixteenth is shared evenly.
+  const double powers[] = {4 * M_PI, 2 * M_PI * 4 * M_PI * 4, 2 * M_PI * M_PI * 4, 2 * M_PI * 2 * 0.001};
+  const double sum = std::accumulate(std::begin(powers), std::end(powers), 0.0);
+  for (size_t i = 0; i < 4; ++i)
+    CHECK(choice.share(i) == doctest::Approx(15.0 / 16 * powers[i] / sum + 1.0 / 64).epsilon(1e-5));
+}
+
+TEST_CASE("what emits and has no place to choose is told, with holes, textures, or of other shapes") {
+  Scene scene = empty_scene();
+  add(scene, make_box({0, 0, 0}, {1, 1, 1}), lamp(scene, 1));
+  const int checkered =
+      add(scene, make_phong({.emission = textures::make_checker(Vec3(0), Vec3(1), Vec2(1))}));
+  add(scene, make_sphere({3, 0, 0}, 1), checkered);
+  add(scene, make_sphere({6, 0, 0}, 1), lamp(scene, 0));
+  const LightChoice choice = light_choice(scene);
+  CHECK(choice.emitters.empty());
+  CHECK(choice.ends.empty());
+  CHECK(choice.unsampled.size() == 2);
+}
+
+TEST_CASE("a lamp without power has its share, and more than 2^20 are refused") {
+  Scene scene = empty_scene();
+  scene.meshes.push_back({.name = "",
+                          .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                          .triangles = {{0, 1, 2}},
+                          .normals = {},
+                          .uv = {}});
+  scene.meshes[0].triangles.resize(size_t{1} << 20, {0, 1, 2});
+  scene.instances.push_back(
+      {.mesh = 0, .transform = Mat4(1.0), .material = lamp(scene, 1e-30), .position = {}});
+  const LightChoice choice = light_choice(scene);
+  CHECK(choice.ends.back() == 1u << 24);
+  CHECK(std::ranges::adjacent_find(choice.ends, std::greater_equal()) == choice.ends.end());
+  scene.meshes[0].triangles.push_back({0, 1, 2});
+  CHECK_THROWS_AS(light_choice(scene), Error);
+}
