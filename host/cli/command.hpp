@@ -66,6 +66,7 @@ class SceneOptions {
   loader::Trust trust_;
   std::string size_;
   std::string samples_;
+  std::string exposure_;
   std::string integrator_;
   std::string seed_;
   std::string triangle_;

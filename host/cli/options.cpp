@@ -109,10 +109,12 @@ void SceneOptions::add_to(CLI::App& command) {
                 "Refuse a scene that brings functions of its own ([[implicit]] with `code` or `file`).")
       ->group(group);
   add("-s,--size", size_, "WxH", "Picture size in pixels, as 640x480.");
-  add("--spp", samples_, "N", "Samples a pixel, a square number.");
-  add("--integrator", integrator_, "NAME", "whitted, or raycast: eye rays only.");
+  add("--spp", samples_, "N", "Samples a pixel, of some patterns a square number.");
+  add("--exposure", exposure_, "STOPS", "Of a .png: twice as bright with each.");
+  add("--integrator", integrator_, "NAME",
+      "whitted; path: all light, with noise; or raycast: eye rays only.");
   add("--max-depth", max_depth_, "N", "Reflections and refractions in a row.");
-  add("--seed", seed_, "N", "Of the random numbers that jittered sampling draws.");
+  add("--seed", seed_, "N", "Of all random numbers.");
   add("--triangle", triangle_, "METHOD", "Triangle intersection: woop or moller-trumbore.");
 }
 
@@ -124,6 +126,7 @@ std::string SceneOptions::as_written() const {
   };
   add("-s", size_);
   add("--spp", samples_);
+  add("--exposure", exposure_);
   add("--integrator", integrator_);
   add("--max-depth", max_depth_);
   add("--seed", seed_);
@@ -143,6 +146,7 @@ Scene SceneOptions::load() const {
     if (!value.empty()) overrides.push_back({fmt::format("{}={}", key, value)});
   };
   add("image.samples", samples_);
+  add("image.exposure", exposure_);
   add("render.integrator", integrator_);
   add("render.max_depth", max_depth_);
   add("render.seed", seed_);

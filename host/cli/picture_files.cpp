@@ -76,7 +76,8 @@ void AovFiles::finish(std::vector<fs::path>& files) {
 }
 
 PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::vector<aov::Aov>& aovs,
-                           int width, int height, bool half, const Scene& scene) {
+                           int width, int height, bool half, const Scene& scene)
+    : tone_(scene.image.tone) {
   for (const std::string& output : outputs) {
     const bool exr = is_exr(output);
     if (exr && &output == &outputs[0] && !aovs.empty())
@@ -91,7 +92,9 @@ PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::v
 }
 
 void PictureFiles::write(const render::FinishedRows& rows) {
-  for (auto& [name, writer] : writers_) writer.write(rows.color);
+  for (auto& [name, writer] : writers_)
+    writer.write(image::image_format(name) == image::ImageFormat::png ? image::toned(rows.color, tone_)
+                                                                      : rows.color);
   for (AovFiles& files : aovs_) files.write(rows);
   if (layered_) layered_->write(rows);
 }

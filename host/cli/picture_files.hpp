@@ -65,6 +65,7 @@ class PictureFiles {
   void finish_without_aovs(std::vector<std::filesystem::path>& files);
 
  private:
+  image::Tone tone_;
   std::vector<std::pair<std::string, image::ImageWriter>> writers_;  // one an output that is not layered_
   std::optional<LayeredFile> layered_;
   std::vector<AovFiles> aovs_;

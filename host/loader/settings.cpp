@@ -41,6 +41,19 @@ constexpr Key image_table[] = {
          "nothing is said.",
      .choices = sample_patterns,
      .optional = true},
+    {.name = "exposure",
+     .type = KeyType::number,
+     .doc = "Of a .png, in stops: light is multiplied by 2^exposure. Other formats have the light itself.",
+     .fallback = "0",
+     .min = -32,
+     .max = 32},
+    {.name = "tone",
+     .type = KeyType::choice,
+     .doc =
+         "Of a .png, what becomes of light beyond 1: it is cut off, or squeezed towards white (Khronos PBR "
+         "Neutral).",
+     .fallback = "\"none\"",
+     .choices = image::tone_curves},
 };
 
 constexpr Key render_table[] = {
@@ -140,6 +153,7 @@ ImageSettings read_image(TableReader& table, IntegratorType integrator) {
   image.height = static_cast<int>(table.integer("height"));
   if (table.has("samples")) image.samples = static_cast<int>(table.integer("samples"));
   if (table.has("pattern")) image.pattern = static_cast<SamplePattern>(table.choice("pattern"));
+  image.tone = {table.number("exposure"), static_cast<image::ToneCurve>(table.choice("tone"))};
   if (sample_count_of(image.pattern) == SampleCount::square) check_samples(table, image.samples);
   const int64_t pixels = int64_t{image.width} * image.height;
   if (pixels > most_pixels) {

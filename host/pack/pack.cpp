@@ -6,6 +6,7 @@
 #include "host/pack/emitter_records.hpp"
 #include "host/pack/geometry.hpp"
 #include "host/reference/media.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::pack {
 namespace {
@@ -62,8 +63,7 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
   }
   pack_geometry(scene, options, packer);
   for (const auto& light : scene.lights) light->pack(packer);
-  if (walks_at_random(scene.render.integrator))
-    pack_light_choice(light_choice(scene), packer);
+  if (walks_at_random(scene.render.integrator)) pack_light_choice(light_choice(scene), packer);
   packer.scene.frame = pack_frame(scene, packer.scene);
   return packer;
 }

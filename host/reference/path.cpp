@@ -29,9 +29,9 @@ double largest(const Vec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
-// The weight of a technique of density p beside one of density q.
+// The weight of a technique of density p beside one of density q. On edge a place is infinitely dense.
 double power_heuristic(double p, double q) {
-  return p * p / (p * p + q * q);
+  return 1 / (1 + (q / p) * (q / p));
 }
 
 class Walk {
@@ -87,7 +87,8 @@ Vec3 Walk::emitted(const Interaction& at, const Vec3& from) const {
 // What one light, chosen at random, brings to a diffuse surface.
 Vec3 Walk::direct(const Interaction& at) {
   const LightChoice& choice = tracer_.light_choice();
-  if (choice.ends.empty() || depth_ > scene_.render.max_depth) return Vec3(0);
+  const Vec3& diffuse = at.scattering.diffuse;
+  if (choice.ends.empty() || diffuse == Vec3(0) || depth_ > scene_.render.max_depth) return Vec3(0);
   const auto number = uint32_t(pair(light_pair).x * 0x1p24);
   const auto light = size_t(std::ranges::upper_bound(choice.ends, number) - choice.ends.begin());
   const double share = choice.share(light);
@@ -102,7 +103,7 @@ Vec3 Walk::direct(const Interaction& at) {
     ray = rays_.spawn_ray(at.surface, arriving.l);
     distance = arriving.distance;
     const double cosine = std::max(0.0, glm::dot(at.surface.normal, arriving.l));
-    contribution = arriving.color * at.scattering.diffuse * cosine / share;
+    contribution = arriving.color * diffuse * cosine / share;
   } else {
     const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
     const Place place = choose_place(emitter.form, at.surface.position, pair(place_pair));
@@ -115,10 +116,9 @@ Vec3 Walk::direct(const Interaction& at) {
     const double cosine = std::max(0.0, glm::dot(at.surface.normal, l));
     const double density = share * place_density(emitter.form, at.surface.position, place);
     const double as_scattered = lobe_shares(at.scattering).x * cosine / M_PI;
-    contribution = emitter.radiance * at.scattering.diffuse / M_PI * cosine / density *
-                   power_heuristic(density, as_scattered);
+    contribution =
+        emitter.radiance * diffuse / M_PI * cosine / density * power_heuristic(density, as_scattered);
   }
-  if (at.scattering.diffuse == Vec3(0)) return Vec3(0);
   const double seen = rays_.shadow(ray, distance);
   observer_.ray(RayKind::shadow, ray, depth_, 0);
   observer_.value("contribution", contribution);

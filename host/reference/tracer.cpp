@@ -1,4 +1,5 @@
 #include "host/reference/tracer.hpp"
+#include "host/scene/integrator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +24,7 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene), i
   }
   group_bvh_ = Bvh(
       uint32_t(groups_.size()), [this](uint32_t i) { return groups_[i].bounds(); }, acceleration);
-  if (walks_at_random(scene.render.integrator))
-    light_choice_ = eyeray::light_choice(scene);
+  if (walks_at_random(scene.render.integrator)) light_choice_ = eyeray::light_choice(scene);
 }
 
 BoxRay Tracer::group_box_ray(const Ray& ray) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/core/vec.hpp"
+#include "host/image/tone.hpp"
 #include "host/scene/camera.hpp"
 #include "host/scene/group.hpp"
 #include "host/scene/light.hpp"
@@ -25,8 +26,9 @@ enum class IntegratorType : uint32_t;
 struct ImageSettings {
   int width = 640;
   int height = 480;
-  int samples = 1;           // a pixel; a square number n², laid out n × n
+  int samples = 1;           // a pixel; of some patterns a square number n², laid out n × n
   SamplePattern pattern{0};  // regular
+  image::Tone tone = {};     // of pictures as .png
 
   Vec2 size() const { return {width, height}; }  // in pixels
 };

@@ -5,6 +5,7 @@
 
 #include "host/executors/shader_probe.hpp"
 #include "host/gpu/reflect.hpp"
+#include "host/scene/integrator.hpp"
 #include "tests/support/entries.hpp"
 #include "tests/support/random_scene.hpp"
 

@@ -78,7 +78,8 @@ TEST_CASE("a wrong override is refused, and says which it is") {
       {"render.max_dept=3", "unknown key `max_dept` in [render]; did you mean `max_depth`?"},
       {"render.max_depth=99", "`max_depth` must be an integer from 0 to 64, not 99"},
       {"render.integrator=whited",
-       "`integrator` must be \"raycast\", \"whitted\" or \"path\", not \"whited\"; did you mean \"whitted\"?"},
+       "`integrator` must be \"raycast\", \"whitted\" or \"path\", not \"whited\"; did you mean "
+       "\"whitted\"?"},
       {"sphere.7.radius=2", "there is no sphere.7: the scene has 2 [[sphere]], from 0 to 1"},
       {"sphere.-1.radius=2", "there is no sphere.-1: the scene has 2 [[sphere]], from 0 to 1"},
       {"light.0.intensity=2", "the scene has no [[light]]"},

@@ -33,6 +33,8 @@ std::vector<Fault> faults() {
   const char* colors = "gate B: gpu against the reference, colours";
   const char* first_hits = "gate C: gpu against the reference, first hits";
   const char* counts = "gate C: gpu against the reference, surfaces and rays";
+  const std::vector<std::string> lamps = {"scenes/path/lamps.toml", "--spp", "2"};
+  const std::vector<std::string> box = {"scenes/path/cornell_box.toml", "--spp", "2"};
   return {
       {"near_root", {bits, counts, colors}},
       {"edge", {bits, first_hits, counts, colors, "parts at primitive"}},
@@ -65,6 +67,14 @@ std::vector<Fault> faults() {
       {"steps",
        {" incomplete pixels: a shape was not found in the steps allowed", bits},
        {"scenes/shapes/superellipsoid.toml"}},
+      {"mis", {bits, colors}, box},
+      {"twice", {bits, colors}, box},
+      {"share", {bits, colors}, lamps},
+      {"density", {bits, colors}, lamps},
+      {"cosine", {bits, colors}, box},
+      {"roulette", {bits, counts, colors}, box},
+      {"shadow_end", {bits, colors}, box},
+      {"pairs", {bits, counts, colors}, box},
   };
 }
 

@@ -2,6 +2,10 @@
 # validation layers (ctest -L validation). What a failing gate leaves behind lies in the build folder.
 file(GLOB_RECURSE SCENES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/scenes/*.toml)
 list(FILTER SCENES EXCLUDE REGEX "/include/")
+# Those of path tracing have many samples a pixel: a few show as much of two executors' agreement.
+set(PATHS ${SCENES})
+list(FILTER PATHS INCLUDE REGEX "^scenes/path/")
+list(REMOVE_ITEM SCENES ${PATHS})
 set(SHAPE_SCENES ${SCENES})
 list(FILTER SHAPE_SCENES INCLUDE REGEX "^scenes/shapes/")
 # The gallery has what the others have, in one kernel that takes seconds to make, and the Mandelbulb takes seconds to trace: once is enough.
@@ -38,6 +42,15 @@ foreach(scene IN LISTS SCENES)
   string(REPLACE "/" "." name ${name})
   eyeray_verify(scene.${name} scene ${scene})
 endforeach()
+
+# Paths, traced in every way and by every sampler.
+set(paths ${PATHS} -s 96x72 --spp 4)
+eyeray_verify(scenes.paths scene QUICK ${paths})
+eyeray_verify(scenes.paths.large scene ${PATHS} -s 320x240 --spp 4)
+eyeray_verify(mode.paths.packets mode ${paths} --acceleration bvh --no-constants --rays packets)
+eyeray_verify(mode.paths.cooperative mode ${paths} --acceleration bvh --rays packets --incoherent cooperative)
+eyeray_verify(mode.paths.random mode ${paths} --seed 7 -D image.pattern=random)
+eyeray_verify(mode.paths.jittered mode ${paths} --seed 7 -D image.pattern=jittered)
 
 # Every mode, on small pictures. The edge scenes put whole rows of pixels where the picture jumps, for one size and one sample.
 set(small ${SCENES} -s 96x72)

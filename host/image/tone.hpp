@@ -1,0 +1,23 @@
+// From the light of a picture to what a screen shows of it: for .png, whose colours end at 1.
+#pragma once
+
+#include <string_view>
+
+#include "host/image/image.hpp"
+
+namespace eyeray::image {
+
+enum class ToneCurve { none, neutral };
+// As scenes name them.
+inline constexpr std::string_view tone_curves[] = {"none", "neutral"};
+
+struct Tone {
+  double exposure = 0;  // in stops: light is multiplied by 2^exposure
+  ToneCurve curve = ToneCurve::none;
+};
+
+// A picture of 3 channels, still linear, as a .png is to show it. `neutral` keeps what is below 0.76, and
+// squeezes what is brighter below 1, towards white: Khronos PBR Neutral Tone Mapper, 2024.
+Image toned(const Image& image, const Tone& tone);
+
+}  // namespace eyeray::image
