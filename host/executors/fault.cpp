@@ -119,10 +119,7 @@ constexpr FaultType types[] = {
      .file = "integrators/path.glsl",
      .from = "ray = make_ray(start, way / distance);",
      .to = "ray = make_ray(start, way / distance);\n    distance = T_MISS;"},
-    {.name = "pairs",
-     .file = "math/rng.glsl",
-     .from = "#define PAIR_DIRECTION 5u",
-     .to = "#define PAIR_DIRECTION 7u"},
+    {.name = "pairs", .file = "math/rng.glsl", .from = "PAIR_DIRECTION 5u", .to = "PAIR_DIRECTION 7u"},
     // Random numbers.
     {.name = "random", .file = "math/rng.glsl", .from = "2891336453u", .to = "2891336455u"},
     // Packing.

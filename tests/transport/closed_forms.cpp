@@ -2,6 +2,8 @@
 // Each picture is of one small patch, so that its pixels are 64 estimates of one value, independent of each
 // other. A test whose error is above half a percent could not fail, and is an error itself.
 #include "estimate.hpp"
+#include "host/scene/integrator.hpp"
+#include "host/scene/sampler.hpp"
 
 #include "tests/support/doctest.hpp"
 
@@ -44,13 +46,13 @@ double shown(double irradiance) {
 void check(const Scene& scene, double expected, double least_error = 2e-6) {
   CAPTURE(expected);
   for (const Backend backend : {Backend::twin, Backend::reference}) {
-    const auto [mean, error] = estimate(scene, backend);
+    const Estimate found = estimate(scene, backend);
     CAPTURE(int(backend));
-    CAPTURE(mean);
-    CAPTURE(error);
-    CHECK(error < 0.005 * expected);
+    CAPTURE(found.mean);
+    CAPTURE(found.error);
+    CHECK(found.error < 0.005 * expected);
     // At five standard errors one of a million and a half such tests fails by chance.
-    CHECK(std::abs(mean - expected) < 5 * error + least_error * expected);
+    CHECK(std::abs(found.mean - expected) < 5 * found.error + least_error * expected);
   }
 }
 
