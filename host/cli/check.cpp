@@ -35,6 +35,7 @@ struct Inventory {
   Counts shapes;
   Counts materials;
   Counts lights;
+  size_t emitters = 0;             // surfaces that a path may choose
   size_t mesh_triangles = 0;       // each mesh's, however often it is shown
   size_t bytes = 0;                // on the device, pixels not counted
   size_t named = 0;                // shapes and meshes that have a name of their own
@@ -94,12 +95,14 @@ Inventory take_inventory(const Scene& scene) {
   kinds.clear();
   for (const shader::Light& light : packed.lights) kinds.push_back(light.kind);
   inventory.lights = count_kinds(lights::types(), kinds);
+  inventory.emitters = packed.emitters.empty() ? 0 : packed.emitters.size() - packed.lights.size();
   list_names(scene, inventory);
   for (const Mesh& mesh : scene.meshes) inventory.mesh_triangles += mesh.triangles.size();
   inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.nodes) +
                     bytes(packed.bvhs) + bytes(packed.instances) + bytes(packed.materials) +
                     bytes(packed.textures) + packed.texel_count * sizeof(packed.texels[0]) +
-                    bytes(packed.media) + bytes(packed.lights) + sizeof(packed.frame);
+                    bytes(packed.media) + bytes(packed.lights) + bytes(packed.emitters) +
+                    sizeof(packed.frame);
   return inventory;
 }
 
@@ -135,11 +138,12 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   for (const CameraFact& fact : scene.camera.projection->facts(image.size()))
     line(fmt::format("  {}", fact.label), fact.text);
   const IntegratorType integrator = scene.render.integrator;
-  line("integrator", fmt::format("{}{}", integrator_names[uint32_t(integrator)],
-                                 traits_of(integrator).ways > 0
-                                     ? fmt::format(", max_depth {}, min_throughput {:g}",
-                                                   scene.render.max_depth, scene.render.min_throughput)
-                                     : ""));
+  line("integrator",
+       fmt::format(
+           "{}{}{}", integrator_names[uint32_t(integrator)],
+           traits_of(integrator).ways > 0 ? fmt::format(", max_depth {}", scene.render.max_depth) : "",
+           traits_of(integrator).ways > 1 ? fmt::format(", min_throughput {:g}", scene.render.min_throughput)
+                                          : ""));
   line("shapes", format_counts(inventory.shapes));
   if (!scene.meshes.empty()) {
     line("meshes", fmt::format("{} of {} triangles, shown {} times", scene.meshes.size(),
@@ -158,6 +162,8 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   }
   line("materials", format_counts(inventory.materials));
   line("lights", format_counts(inventory.lights));
+  if (inventory.emitters > 0)
+    line("emitters", fmt::format("{} surface{}", inventory.emitters, inventory.emitters == 1 ? "" : "s"));
   line("memory", fmt::format("{} bytes of scene, {} bytes of picture", inventory.bytes,
                              size_t(image.width) * size_t(image.height) * 3 * sizeof(float)));
   for (const auto& file : scene.files) line("read", file.string());
@@ -199,6 +205,7 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
       {"names", {{"count", inventory.named}, {"first", inventory.names}}},
       {"materials", json_of(inventory.materials)},
       {"lights", json_of(inventory.lights)},
+      {"emitters", inventory.emitters},
       {"scene_bytes", inventory.bytes},
       {"files", Json::array()},
       {"warnings", Json::array()}};
