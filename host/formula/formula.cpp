@@ -112,7 +112,9 @@ std::shared_ptr<const Compiled> compiled(const Entry& entry, const Text& text,
   const std::string key = mangled(entry) + constants(parameters) + text.glsl();
   const std::scoped_lock lock(mutex);
   std::erase_if(known, [](const auto& known_text) { return known_text.second.expired(); });
-  if (const auto found = known.find(key); found != known.end()) return found->second.lock();
+  // Who has it may let go of it meanwhile.
+  if (const auto found = known.find(key); found != known.end())
+    if (auto still_there = found->second.lock()) return still_there;
 
   Module module(spirv_of(entry, text, parameters));
   ir::Program program = lower(module, mangled(entry), text.has_gradient ? mangled(gradient_entry) : "");

@@ -123,7 +123,7 @@ class Builder {
   void add_instance(TableReader& reader, const Placing& placing);
   Group build_group(const toml::table& table, const Mat4& to_world);
   void check_idle_patterns();
-  void check_emitters();
+  void check_paths();
   void check_whole();
 
   const toml::table& root_;
@@ -306,7 +306,16 @@ void Builder::add_mesh(TableReader& reader, const Placing& placing) {
   }
 }
 
-void Builder::check_emitters() {
+void Builder::check_paths() {
+  for (const auto& material : scene_.materials) {
+    const Vec3 diffuse =
+        material->scattering({.uv = Vec2(0.5), .cos_view = 1, .ior_from = 1, .ior_to = 1}).diffuse;
+    if (glm::any(glm::greaterThan(diffuse, Vec3(1))))
+      log_.warning(
+          {}, fmt::format("material \"{}\" would scatter more light than it gets: its `diffuse` counts as 1 "
+                          "where it is more",
+                          material->name));
+  }
   const LightChoice choice = light_choice(scene_);
   const std::vector<SourcePosition>& unsampled = choice.unsampled;
   if (choice.ends.empty() && unsampled.empty() && scene_.render.background == Vec3(0))
@@ -328,7 +337,7 @@ void Builder::check_whole() {
       !empty) {
     log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");
   }
-  if (walks_at_random(scene_.render.integrator) && !empty && !log_.has_errors()) check_emitters();
+  if (walks_at_random(scene_.render.integrator) && !empty && !log_.has_errors()) check_paths();
   materials_.check();
 }
 

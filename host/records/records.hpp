@@ -26,7 +26,7 @@ MATERIALS(X)
 #define X(name, number) inline constexpr uint LIGHT_##name = number;
 LIGHTS(X)
 #undef X
-#define X(name, number) inline constexpr uint EMITTER_##name = number;
+#define X(name, number, ...) inline constexpr uint EMITTER_##name = number;
 EMITTERS(X)
 #undef X
 #define X(name, number, ...) inline constexpr uint TEXTURE_##name = number;

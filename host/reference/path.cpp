@@ -18,7 +18,7 @@ constexpr std::string_view manual =
     "Path tracing: all light that surfaces scatter, reflect and refract among each other, by one random path "
     "a sample. Surfaces that emit are lights, and `background` is light from everywhere. What stands for "
     "such light in Whitted's pictures counts for nothing here: `ambient`, highlights (`specular`), `shadow` "
-    "and `min_throughput`. `max_depth` surfaces are lit after the first.";
+    "and `min_throughput`. `diffuse` beyond 1 counts as 1. `max_depth` surfaces are lit after the first.";
 
 // What pairs of random numbers are for; of the vertices after the first, `pairs_a_vertex` further on each.
 constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, place_pair = 7, pairs_a_vertex = 4;
@@ -64,9 +64,14 @@ class Walk {
   double density_ = 0;  // by solid angle, of the ray's direction; 0 where there was no choice
 };
 
+// The share of light that is scattered evenly: no more of it than there was.
+Vec3 diffuse_albedo(const Scattering& scattering) {
+  return glm::min(scattering.diffuse, Vec3(1));
+}
+
 // How likely the lobes are followed: diffuse, reflected, transmitted.
 Vec3 lobe_shares(const Scattering& scattering) {
-  const Vec3 weights(largest(scattering.diffuse), largest(scattering.reflected),
+  const Vec3 weights(largest(diffuse_albedo(scattering)), largest(scattering.reflected),
                      largest(scattering.transmitted));
   const double sum = weights.x + weights.y + weights.z;
   return sum > 0 ? weights / sum : Vec3(0);
@@ -87,7 +92,7 @@ Vec3 Walk::emitted(const Interaction& at, const Vec3& from) const {
 // What one light, chosen at random, brings to a diffuse surface.
 Vec3 Walk::direct(const Interaction& at) {
   const LightChoice& choice = tracer_.light_choice();
-  const Vec3& diffuse = at.scattering.diffuse;
+  const Vec3 diffuse = diffuse_albedo(at.scattering);
   if (choice.ends.empty() || diffuse == Vec3(0) || depth_ > scene_.render.max_depth) return Vec3(0);
   const auto number = uint32_t(pair(light_pair).x * 0x1p24);
   const auto light = size_t(std::ranges::upper_bound(choice.ends, number) - choice.ends.begin());
@@ -106,6 +111,9 @@ Vec3 Walk::direct(const Interaction& at) {
     contribution = arriving.color * diffuse * cosine / share;
   } else {
     const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
+    // What is flat does not light itself.
+    if (emitter.primitive == at.primitive && !std::holds_alternative<SphereForm>(emitter.form))
+      return Vec3(0);
     const Place place = choose_place(emitter.form, at.surface.position, pair(place_pair));
     const Vec3 way = place.position - at.surface.position;
     const Vec3 l = glm::normalize(way);
@@ -145,7 +153,7 @@ std::optional<Ray> Walk::scatter(const Interaction& at, MediaStack& media) {
     d = cosine_direction(at.surface.normal, pair(direction_pair));
     density_ = shares.x * glm::dot(at.surface.normal, d) / M_PI;
     if (!(density_ > 0 && glm::dot(at.surface.normal_geometric, d) > 0)) return std::nullopt;
-    throughput_ *= at.scattering.diffuse / shares.x;
+    throughput_ *= diffuse_albedo(at.scattering) / shares.x;
   } else if (chance.x < shares.x + shares.y || shares.z == 0) {
     d = at.mirrored();
     throughput_ *= at.scattering.reflected / shares.y;

@@ -10,7 +10,7 @@ Place place_on(Emitter e, vec3 from, vec2 u) {
   Place place;
   place.p = vec3(e.a);
   place.normal = vec3(0.0f, 0.0f, 0.0f);
-#define PLACE_ON_EMITTER(name, number) \
+#define PLACE_ON_EMITTER(name, number, itself) \
   if (e.kind == number) place = name##_place_on(e, from, u);
   EMITTERS(PLACE_ON_EMITTER)
   return place;
@@ -19,10 +19,19 @@ Place place_on(Emitter e, vec3 from, vec2 u) {
 // By solid angle at `from`, that place_on chooses `place`.
 float place_density(Emitter e, vec3 from, Place place) {
   float density = 0.0f;
-#define DENSITY_OF_EMITTER(name, number) \
+#define DENSITY_OF_EMITTER(name, number, itself) \
   if (e.kind == number) density = name##_density(e, from, place);
   EMITTERS(DENSITY_OF_EMITTER)
   return density;
+}
+
+// Whether it may light a point of that primitive.
+bool may_light(Emitter e, uint primitive) {
+  bool itself = true;
+#define LIGHTS_ITSELF(name, number, itself_too) \
+  if (e.kind == number) itself = itself_too;
+  EMITTERS(LIGHTS_ITSELF)
+  return itself || e.primitive != primitive;
 }
 
 // How likely an emitter is chosen: it has the numbers of 2^24 from where the one before ends.

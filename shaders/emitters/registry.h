@@ -1,8 +1,9 @@
-// Every kind of surface that a point can choose a place on to be lit from; see shapes/registry.h.
+// Every kind of surface that a point can choose a place on to be lit from; see shapes/registry.h. A row says whether such a surface may
+// light itself, as the inside of a sphere does.
 #ifndef EMITTERS
-#define EMITTERS(X) \
-  X(sphere, 0u)     \
-  X(disk, 1u)       \
-  X(triangle, 2u)   \
-  X(parallelogram, 3u)
+#define EMITTERS(X)       \
+  X(sphere, 0u, true)     \
+  X(disk, 1u, false)      \
+  X(triangle, 2u, false)  \
+  X(parallelogram, 3u, false)
 #endif

@@ -20,6 +20,12 @@ vec2 path_pair(Frame frame, Path path, uint pair) {
   return sample_pair(frame, path.pixel, path.index, pair + PAIRS_A_VERTEX * path.depth);
 }
 
+// The share of light that is scattered evenly: no more of it than there was, or paths would gain light without end.
+vec3 diffuse_albedo(Scattering scattering) {
+  vec3 albedo = scattering.diffuse;
+  return vec3(minimum(albedo.x, 1.0f), minimum(albedo.y, 1.0f), minimum(albedo.z, 1.0f));
+}
+
 // How likely each lobe of a material is followed.
 struct LobeShares {
   float diffuse;
@@ -28,7 +34,7 @@ struct LobeShares {
 };
 
 LobeShares lobe_shares(Scattering scattering) {
-  float diffuse = max_component(scattering.diffuse);
+  float diffuse = max_component(diffuse_albedo(scattering));
   float reflected = max_component(scattering.reflected);
   float transmitted = max_component(scattering.transmitted);
   float all = diffuse + reflected + transmitted;
@@ -79,14 +85,14 @@ bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ra
     distance = s.distance;
     cosine = dot3(at.seen.normal, direction);
     ray = spawn_ray(at.seen, direction);
-    contribution = s.color * at.scattering.diffuse * (cosine / share);
+    contribution = s.color * diffuse_albedo(at.scattering) * (cosine / share);
   }
 #if HAS_EMISSION
   if (light >= LIGHT_COUNT) {
     Emitter emitter = load_emitter(light);
     Place place = place_on(emitter, at.seen.p, path_pair(frame, path, PAIR_EMITTER));
     direction = normalize3(place.p - at.seen.p);
-    cosine = dot3(at.seen.normal, direction);
+    cosine = may_light(emitter, at.primitive) ? dot3(at.seen.normal, direction) : 0.0f;
     // The ray ends as far off the emitter as rays start off surfaces.
     float side = dot3(direction, place.normal) < 0.0f ? emitter.offset : -emitter.offset;
     vec3 start = spawn_ray(at.seen, direction).o;
@@ -95,7 +101,7 @@ bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ra
     ray = make_ray(start, way / distance);
     float density = share * place_density(emitter, at.seen.p, place);
     float as_scattered = lobe_shares(at.scattering).diffuse * maximum(cosine, 0.0f) / PI;
-    contribution = emitter.radiance * at.scattering.diffuse * (cosine / (PI * density) * power_heuristic(density, as_scattered));
+    contribution = emitter.radiance * diffuse_albedo(at.scattering) * (cosine / (PI * density) * power_heuristic(density, as_scattered));
   }
 #endif
   return cosine > 0.0f && dot3(at.seen.normal_geometric, direction) > 0.0f && max_component(at.scattering.diffuse) > 0.0f &&
@@ -122,7 +128,7 @@ Continuations path_scatter(Frame frame, Path path, Interaction at) {
   Path next = path;
   next.d = cosine_direction(at.seen.normal, path_pair(frame, path, PAIR_DIRECTION));
   next.density = shares.diffuse * dot3(at.seen.normal, next.d) / PI;
-  vec3 weight = at.scattering.diffuse / shares.diffuse;
+  vec3 weight = diffuse_albedo(at.scattering) / shares.diffuse;
   bool lost = diffuse && !(next.density > 0.0f && dot3(at.seen.normal_geometric, next.d) > 0.0f);
   if (!diffuse) {
     next.density = 0.0f;

@@ -70,6 +70,15 @@ Scene extreme_scene(const std::string& text) {
   return shrunk(parse_scene(text, "scene.toml"), 8, 6);
 }
 
+// Whether nothing is unexplained. A picture of 432 pixels that is all one grazing patch has more to explain
+// than any scene that is meant.
+bool agree(const ReferenceComparison& comparison) {
+  const auto sound = [](const Tally& tally) {
+    return tally.unexplained == 0 && tally.explained_pixels() <= 16;
+  };
+  return sound(comparison.first_hits) && sound(comparison.counts) && sound(comparison.colors);
+}
+
 }  // namespace
 
 TEST_CASE("scenes with extreme values: a clear error or a sound picture") {
@@ -181,7 +190,7 @@ TEST_CASE("scenes at random: the twin agrees with the reference, the GPU with th
     explained += int(comparison.colors.explained_pixels());
     if (comparison.first_hits.passes() && comparison.colors.unexplained == 1) {
       ++creases;
-    } else if (!comparison.passes()) {
+    } else if (!agree(comparison)) {
       const auto line = [](const Tally& t) {
         return fmt::format("{} explained, {} unexplained, worst at {},{} ({:.3g} tolerances, {})",
                            t.explained_pixels(), t.unexplained, t.worst.pixel.x, t.worst.pixel.y,
