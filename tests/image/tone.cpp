@@ -21,8 +21,8 @@ TEST_CASE("exposure counts in stops") {
 
 TEST_CASE("the neutral curve keeps base colours, less 0.04, and ends below 1") {
   const Tone neutral{.curve = ToneCurve::neutral};
-  const auto grey = pixel_toned({0.5f, 0.5f, 0.5f}, neutral);
-  CHECK(grey[0] == doctest::Approx(0.46));
+  const auto middle = pixel_toned({0.5f, 0.5f, 0.5f}, neutral);
+  CHECK(middle[0] == doctest::Approx(0.46));
   const auto red = pixel_toned({0.7f, 0.1f, 0.2f}, neutral);
   CHECK(red[0] == doctest::Approx(0.66));
   CHECK(red[1] == doctest::Approx(0.06));
