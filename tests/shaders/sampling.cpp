@@ -96,7 +96,7 @@ TEST_CASE("places on emitters and their densities are those of the reference") {
                                  DiskForm{map, random.uniform(0, 0.9)}, TriangleForm{{a, a + b, a + c}},
                                  ParallelogramForm{a, b, c}};
     for (const EmitterForm& form : forms) {
-      const shader::vec2 u(float(random.below(1 << 24)) * 0x1p-24f, float(random.below(1 << 24)) * 0x1p-24f);
+      const shader::vec2 u{float(random.below(1 << 24)) * 0x1p-24f, float(random.below(1 << 24)) * 0x1p-24f};
       const shader::Emitter record = packed(form);
       const shader::vec3 rounded(from);
       const shader::Place ours = shader::place_on(record, rounded, u);
@@ -115,6 +115,7 @@ TEST_CASE("places on emitters and their densities are those of the reference") {
     }
   }
   MESSAGE("places are up to " << apart << " apart, densities to " << denser << " of themselves");
-  CHECK(apart < 1e-5);
+  // At a sphere's rim places run like a square root.
+  CHECK(apart < 1e-4);
   CHECK(denser < 2e-6);
 }
