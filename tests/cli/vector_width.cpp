@@ -1,4 +1,6 @@
 // The vectors that llvmpipe computes in: as the picture wants them, or as LP_NATIVE_VECTOR_WIDTH says.
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "scene.hpp"
@@ -10,13 +12,11 @@ using namespace eyeray::test;
 
 namespace {
 
+// As the kernel has it, which asks the processor by itself.
 bool has_wide_vectors() {
-#ifdef __x86_64__
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-#else
-  return false;
-#endif
+  const std::string processor = read_text("/proc/cpuinfo");
+  return std::ranges::all_of(std::array{" avx512f", " avx512bw", " avx512dq", " avx512vl"},
+                             [&](const char* flag) { return processor.find(flag) != std::string::npos; });
 }
 
 // Pictures made on lavapipe, with caches in this folder.
