@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/reference/emitter_sample.hpp"
 #include "host/reference/integrator.hpp"
-#include "host/reference/places.hpp"
 #include "host/reference/sample_rays.hpp"
 #include "host/reference/sampler.hpp"
 
@@ -34,9 +34,9 @@ double power_heuristic(double p, double q) {
   return 1 / (1 + (q / p) * (q / p));
 }
 
-class Walk {
+class PathSample {
  public:
-  Walk(const Tracer& tracer, const SampleId& id, const RayOffset& ray_offset, const Observer& observer)
+  PathSample(const Tracer& tracer, const SampleId& id, const RayOffset& ray_offset, const Observer& observer)
       : tracer_(tracer),
         scene_(tracer.scene()),
         id_(id),
@@ -78,19 +78,19 @@ Vec3 lobe_shares(const Scattering& scattering) {
 }
 
 // Its own light, less what shadow rays to it have brought already.
-Vec3 Walk::emitted(const Interaction& at, const Vec3& from) const {
+Vec3 PathSample::emitted(const Interaction& at, const Vec3& from) const {
   const Vec3& light = at.scattering.emitted;
   const LightChoice& choice = tracer_.light_choice();
   if (density_ == 0) return light;
   const auto found = std::ranges::lower_bound(choice.emitters, at.primitive, {}, &Emitter::primitive);
   if (found == choice.emitters.end() || found->primitive != at.primitive) return light;
   const double share = choice.share(scene_.lights.size() + size_t(found - choice.emitters.begin()));
-  const Place place{at.surface.position, at.surface.normal_geometric};
-  return light * power_heuristic(density_, share * place_density(found->form, from, place));
+  const EmitterSample place{at.surface.position, at.surface.normal_geometric};
+  return light * power_heuristic(density_, share * emitter_density(found->form, from, place));
 }
 
 // What one light, chosen at random, brings to a diffuse surface.
-Vec3 Walk::direct(const Interaction& at) {
+Vec3 PathSample::direct(const Interaction& at) {
   const LightChoice& choice = tracer_.light_choice();
   const Vec3 diffuse = diffuse_albedo(at.scattering);
   if (choice.ends.empty() || diffuse == Vec3(0) || depth_ > scene_.render.max_depth) return Vec3(0);
@@ -114,7 +114,7 @@ Vec3 Walk::direct(const Interaction& at) {
     // What is flat does not light itself.
     if (emitter.primitive == at.primitive && !std::holds_alternative<SphereForm>(emitter.form))
       return Vec3(0);
-    const Place place = choose_place(emitter.form, at.surface.position, pair(place_pair));
+    const EmitterSample place = sample_emitter(emitter.form, at.surface.position, pair(place_pair));
     const Vec3 way = place.position - at.surface.position;
     const Vec3 l = glm::normalize(way);
     if (!rays_.faces(at.surface, l, glm::length(way))) return Vec3(0);
@@ -122,7 +122,7 @@ Vec3 Walk::direct(const Interaction& at) {
     ray.d = glm::normalize(place.position - ray.o);
     distance = glm::length(place.position - ray.o) * (1 - 1e-9);
     const double cosine = std::max(0.0, glm::dot(at.surface.normal, l));
-    const double density = share * place_density(emitter.form, at.surface.position, place);
+    const double density = share * emitter_density(emitter.form, at.surface.position, place);
     const double as_scattered = lobe_shares(at.scattering).x * cosine / M_PI;
     contribution =
         emitter.radiance * diffuse / M_PI * cosine / density * power_heuristic(density, as_scattered);
@@ -142,7 +142,7 @@ Vec3 cosine_direction(const Vec3& normal, const Vec2& u) {
   return at.x * s + at.y * t + std::sqrt(std::max(0.0, 1 - glm::dot(at, at))) * normal;
 }
 
-std::optional<Ray> Walk::scatter(const Interaction& at, MediaStack& media) {
+std::optional<Ray> PathSample::scatter(const Interaction& at, MediaStack& media) {
   const Vec3 shares = lobe_shares(at.scattering);
   if (shares == Vec3(0) || depth_ > scene_.render.max_depth) return std::nullopt;
   const Vec2 chance = pair(scatter_pair);  // of a lobe, and of going on
@@ -175,7 +175,7 @@ std::optional<Ray> Walk::scatter(const Interaction& at, MediaStack& media) {
   return next;
 }
 
-PixelSample Walk::sample(Ray ray, MediaStack media) {
+PixelSample PathSample::sample(Ray ray, MediaStack media) {
   Vec3 color(0);
   for (;;) {
     const auto at = rays_.hit(ray, media, throughput_);
@@ -198,7 +198,7 @@ PixelSample Walk::sample(Ray ray, MediaStack media) {
 
 PixelSample path(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
                  const RayOffset& ray_offset, const Observer& observer) {
-  return Walk(tracer, id, ray_offset, observer).sample(ray, media);
+  return PathSample(tracer, id, ray_offset, observer).sample(ray, media);
 }
 
 }  // namespace

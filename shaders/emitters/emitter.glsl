@@ -1,26 +1,26 @@
 // The surfaces that light a scene, for integrators that choose one light and a place on it: asks the kind of emitter.
 #ifndef EMITTER_GLSL
 #define EMITTER_GLSL
-#include "emitters/place.glsl"
+#include "emitters/emitter_sample.glsl"
 #include "records.h"
 
 SHADER_BEGIN
 
-Place place_on(Emitter e, vec3 from, vec2 u) {
-  Place place;
+EmitterSample sample_emitter(Emitter e, vec3 from, vec2 u) {
+  EmitterSample place;
   place.p = vec3(e.a);
   place.normal = vec3(0.0f, 0.0f, 0.0f);
-#define PLACE_ON_EMITTER(name, number, itself) \
-  if (e.kind == number) place = name##_place_on(e, from, u);
-  EMITTERS(PLACE_ON_EMITTER)
+#define SAMPLE_OF_EMITTER(name, number, itself) \
+  if (e.kind == number) place = name##_emitter_sample(e, from, u);
+  EMITTERS(SAMPLE_OF_EMITTER)
   return place;
 }
 
-// By solid angle at `from`, that place_on chooses `place`.
-float place_density(Emitter e, vec3 from, Place place) {
+// By solid angle at `from`, that sample_emitter chooses `place`.
+float emitter_density(Emitter e, vec3 from, EmitterSample place) {
   float density = 0.0f;
 #define DENSITY_OF_EMITTER(name, number, itself) \
-  if (e.kind == number) density = name##_density(e, from, place);
+  if (e.kind == number) density = name##_emitter_density(e, from, place);
   EMITTERS(DENSITY_OF_EMITTER)
   return density;
 }

@@ -1,7 +1,7 @@
 // a = the centre, r
 #ifndef EMITTER_SPHERE_GLSL
 #define EMITTER_SPHERE_GLSL
-#include "emitters/place.glsl"
+#include "emitters/emitter_sample.glsl"
 
 SHADER_BEGIN
 
@@ -14,7 +14,7 @@ bool sphere_is_seen_from_outside(Emitter e, vec3 from) {
 // One less the cosine of the cone's half angle, whose sine's square is given: without cancellation.
 float versine(float sine_squared) { return sine_squared / (1.0f + sqrt(1.0f - sine_squared)); }
 
-Place sphere_place_on(Emitter e, vec3 from, vec2 u) {
+EmitterSample sphere_emitter_sample(Emitter e, vec3 from, vec2 u) {
   vec3 way = vec3(e.a) - from;
   float squared = dot3(way, way);
   bool outside = sphere_is_seen_from_outside(e, from);
@@ -29,13 +29,13 @@ Place sphere_place_on(Emitter e, vec3 from, vec2 u) {
   tangents(axis, s, t);
   vec3 d = axis * cosine + (s * turn.y + t * turn.x) * sqrt(maximum(sine_squared, 0.0f));
   float near = distance * cosine - sqrt(maximum(e.a.w * e.a.w - squared * sine_squared, 0.0f));
-  Place place;
+  EmitterSample place;
   place.normal = outside ? normalize3(d * near - way) : d;
   place.p = vec3(e.a) + place.normal * e.a.w;
   return place;
 }
 
-float sphere_density(Emitter e, vec3 from, Place place) {
+float sphere_emitter_density(Emitter e, vec3 from, EmitterSample place) {
   vec3 way = vec3(e.a) - from;
   float sine_squared = e.a.w * e.a.w / dot3(way, way);
   return sphere_is_seen_from_outside(e, from) ? 1.0f / (2.0f * PI * versine(sine_squared))

@@ -61,10 +61,10 @@ vec3 path_emitted(Frame frame, Path path, Interaction at) {
   light = at.scattering.emitted;
   uint emitter = EMITTER_COUNT > 0u && path.density > 0.0f ? emitter_of(at.primitive) : NONE;
   if (emitter != NONE) {
-    Place place;
+    EmitterSample place;
     place.p = at.surface.p;
     place.normal = at.surface.normal_geometric;
-    float density = emitter_share(emitter) * place_density(load_emitter(emitter), path.o, place);
+    float density = emitter_share(emitter) * emitter_density(load_emitter(emitter), path.o, place);
     light = light * power_heuristic(path.density, density);
   }
 #endif
@@ -90,7 +90,7 @@ bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ra
 #if HAS_EMISSION
   if (light >= LIGHT_COUNT) {
     Emitter emitter = load_emitter(light);
-    Place place = place_on(emitter, at.seen.p, path_pair(frame, path, PAIR_EMITTER));
+    EmitterSample place = sample_emitter(emitter, at.seen.p, path_pair(frame, path, PAIR_EMITTER));
     direction = normalize3(place.p - at.seen.p);
     cosine = may_light(emitter, at.primitive) ? dot3(at.seen.normal, direction) : 0.0f;
     // The ray ends as far off the emitter as rays start off surfaces.
@@ -99,7 +99,7 @@ bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ra
     vec3 way = place.p + place.normal * side - start;
     distance = sqrt(dot3(way, way));
     ray = make_ray(start, way / distance);
-    float density = share * place_density(emitter, at.seen.p, place);
+    float density = share * emitter_density(emitter, at.seen.p, place);
     float as_scattered = lobe_shares(at.scattering).diffuse * maximum(cosine, 0.0f) / PI;
     contribution = emitter.radiance * diffuse_albedo(at.scattering) * (cosine / (PI * density) * power_heuristic(density, as_scattered));
   }

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "host/pack/emitter_records.hpp"
-#include "host/reference/places.hpp"
+#include "host/reference/emitter_sample.hpp"
 #include "host/reference/sampler.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "tests/support/random.hpp"
@@ -99,19 +99,20 @@ TEST_CASE("places on emitters and their densities are those of the reference") {
       const shader::vec2 u{float(random.below(1 << 24)) * 0x1p-24f, float(random.below(1 << 24)) * 0x1p-24f};
       const shader::Emitter record = packed(form);
       const shader::vec3 rounded(from);
-      const shader::Place ours = shader::place_on(record, rounded, u);
-      const reference::Place theirs = reference::choose_place(form, Vec3(rounded), Vec2(u));
+      const shader::EmitterSample ours = shader::sample_emitter(record, rounded, u);
+      const reference::EmitterSample theirs = reference::sample_emitter(form, Vec3(rounded), Vec2(u));
       apart = std::max(apart, glm::length(Vec3(ours.p) - theirs.position));
 
       // Of the same place; one that is seen edge-on is as dense as its normal is rounded.
-      const reference::Place same{Vec3(ours.p), Vec3(ours.normal)};
-      const double density = reference::place_density(form, Vec3(rounded), same);
+      const reference::EmitterSample same{Vec3(ours.p), Vec3(ours.normal)};
+      const double density = reference::emitter_density(form, Vec3(rounded), same);
       const Vec3 way = glm::normalize(same.position - Vec3(rounded));
       const bool sphere = std::holds_alternative<SphereForm>(form);
       const double edge_on = sphere ? 1 : std::abs(glm::dot(way, same.normal));
       const double near = std::min(1.0, glm::length(same.position - Vec3(rounded)));
-      denser = std::max(denser, std::abs(double(shader::place_density(record, rounded, ours)) / density - 1) *
-                                    edge_on * near);
+      denser =
+          std::max(denser, std::abs(double(shader::emitter_density(record, rounded, ours)) / density - 1) *
+                               edge_on * near);
     }
   }
   MESSAGE("places are up to " << apart << " apart, densities to " << denser << " of themselves");

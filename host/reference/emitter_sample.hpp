@@ -7,15 +7,15 @@
 
 namespace eyeray::reference {
 
-struct Place {
+struct EmitterSample {
   Vec3 position;
   Vec3 normal;  // unit, of either side
 };
 
 // A place for `from` to be lit from; u: two random numbers in [0, 1).
-Place choose_place(const EmitterForm& form, const Vec3& from, const Vec2& u);
+EmitterSample sample_emitter(const EmitterForm& form, const Vec3& from, const Vec2& u);
 // By solid angle at `from`, the density with which that chooses `place`.
-double place_density(const EmitterForm& form, const Vec3& from, const Place& place);
+double emitter_density(const EmitterForm& form, const Vec3& from, const EmitterSample& place);
 
 // Evenly on the disk of radius 1. Shirley, Chiu: A Low Distortion Map Between Disk and Square, 1997.
 Vec2 on_disk(const Vec2& u);

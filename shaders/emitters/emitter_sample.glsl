@@ -1,18 +1,18 @@
 // A place on an emitter, as a point sees it.
-#ifndef PLACE_GLSL
-#define PLACE_GLSL
+#ifndef EMITTER_SAMPLE_GLSL
+#define EMITTER_SAMPLE_GLSL
 #include "math/trigonometry.glsl"
 #include "records.h"
 
 SHADER_BEGIN
 
-struct Place {
+struct EmitterSample {
   vec3 p;
   vec3 normal;  // unit, of either side
 };
 
 // The density, by solid angle at `from`, of a place chosen evenly on `area`.
-float density_of_area(float area, vec3 from, Place place) {
+float density_of_area(float area, vec3 from, EmitterSample place) {
   vec3 way = place.p - from;
   float squared = dot3(way, way);
   return squared * sqrt(squared) / (area * maximum(abs(dot3(way, place.normal)), 1.0e-30f));

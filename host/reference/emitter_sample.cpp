@@ -1,4 +1,4 @@
-#include "host/reference/places.hpp"
+#include "host/reference/emitter_sample.hpp"
 
 #include <cmath>
 
@@ -23,7 +23,7 @@ struct Chooser {
   const Vec2& u;
 
   // Wang: Physically Correct Direct Lighting for Distribution Ray Tracing, Graphics Gems III, 1992.
-  Place operator()(const SphereForm& sphere) const {
+  EmitterSample operator()(const SphereForm& sphere) const {
     const double turn = 2 * M_PI * u.y;
     const bool seen = outside(sphere, from);
     const Vec3 way = sphere.center - from;
@@ -40,7 +40,7 @@ struct Chooser {
     return {sphere.center + sphere.radius * normal, normal};
   }
 
-  Place operator()(const DiskForm& disk) const {
+  EmitterSample operator()(const DiskForm& disk) const {
     const Vec3 x(disk.to_world[0]), z(disk.to_world[2]);
     const Vec2 at = on_disk(u);
     const double r = glm::length(at);
@@ -49,24 +49,24 @@ struct Chooser {
     return {Vec3(disk.to_world[3]) + grow * (at.x * x + at.y * z), glm::normalize(glm::cross(x, z))};
   }
 
-  Place operator()(const TriangleForm& triangle) const {
+  EmitterSample operator()(const TriangleForm& triangle) const {
     const auto& [a, b, c] = triangle.vertices;
     const double root = std::sqrt(u.x);
     return {(1 - root) * a + root * (1 - u.y) * b + root * u.y * c, glm::normalize(glm::cross(b - a, c - a))};
   }
 
-  Place operator()(const ParallelogramForm& it) const {
+  EmitterSample operator()(const ParallelogramForm& it) const {
     return {it.corner + u.x * it.edge_u + u.y * it.edge_v, glm::normalize(glm::cross(it.edge_u, it.edge_v))};
   }
 };
 
 }  // namespace
 
-Place choose_place(const EmitterForm& form, const Vec3& from, const Vec2& u) {
+EmitterSample sample_emitter(const EmitterForm& form, const Vec3& from, const Vec2& u) {
   return std::visit(Chooser{from, u}, form);
 }
 
-double place_density(const EmitterForm& form, const Vec3& from, const Place& place) {
+double emitter_density(const EmitterForm& form, const Vec3& from, const EmitterSample& place) {
   if (const auto* sphere = std::get_if<SphereForm>(&form); sphere && outside(*sphere, from))
     return 1 / (2 * M_PI * versine(*sphere, from));
   const Vec3 way = place.position - from;
