@@ -34,6 +34,15 @@ double power_heuristic(double p, double q) {
   return 1 / (1 + (q / p) * (q / p));
 }
 
+// From a light: by direction l, along the ray where nothing stands before `distance`.
+struct Arriving {
+  Vec3 l;
+  Ray ray;
+  double distance;
+  Vec3 radiance;   // divided by the density of the choice
+  double density;  // by solid angle, with the light's choice; 0 of a light without extent
+};
+
 class PathSample {
  public:
   PathSample(const Tracer& tracer, const SampleId& id, const RayOffset& ray_offset, const Observer& observer)
@@ -51,6 +60,7 @@ class PathSample {
         .pair(id_.pixel, id_.index, use + pairs_a_vertex * uint32_t(depth_), scene_.render.seed);
   }
   Vec3 emitted(const Interaction& at, const Vec3& from) const;
+  std::optional<Arriving> arriving(const Interaction& at);
   Vec3 direct(const Interaction& at);
   std::optional<Ray> scatter(const Interaction& at, MediaStack& media);
 
@@ -89,46 +99,46 @@ Vec3 PathSample::emitted(const Interaction& at, const Vec3& from) const {
   return light * power_heuristic(density_, share * emitter_density(found->form, from, place));
 }
 
-// What one light, chosen at random, brings to a diffuse surface.
-Vec3 PathSample::direct(const Interaction& at) {
+// What one light, chosen at random, sends to the point. Classic units: one of intensity 1 is π times that.
+std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const LightChoice& choice = tracer_.light_choice();
-  const Vec3 diffuse = diffuse_albedo(at.scattering);
-  if (choice.ends.empty() || diffuse == Vec3(0) || depth_ > scene_.render.max_depth) return Vec3(0);
   const auto number = uint32_t(pair(light_pair).x * 0x1p24);
   const auto light = size_t(std::ranges::upper_bound(choice.ends, number) - choice.ends.begin());
   const double share = choice.share(light);
-
-  Ray ray;
-  double distance = 0;
-  Vec3 contribution(0);
+  const Vec3& p = at.surface.position;
   if (light < scene_.lights.size()) {
-    // Classic units: a light of intensity 1 is π times that.
-    const Illumination arriving = scene_.lights[light]->illuminate(at.surface.position);
-    if (!rays_.faces(at.surface, arriving.l, arriving.distance)) return Vec3(0);
-    ray = rays_.spawn_ray(at.surface, arriving.l);
-    distance = arriving.distance;
-    const double cosine = std::max(0.0, glm::dot(at.surface.normal, arriving.l));
-    contribution = arriving.color * diffuse * cosine / share;
-  } else {
-    const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
-    // What is flat does not light itself.
-    if (emitter.primitive == at.primitive && !std::holds_alternative<SphereForm>(emitter.form))
-      return Vec3(0);
-    const EmitterSample place = sample_emitter(emitter.form, at.surface.position, pair(place_pair));
-    const Vec3 way = place.position - at.surface.position;
-    const Vec3 l = glm::normalize(way);
-    if (!rays_.faces(at.surface, l, glm::length(way))) return Vec3(0);
-    ray = rays_.spawn_ray(at.surface, l);
-    ray.d = glm::normalize(place.position - ray.o);
-    distance = glm::length(place.position - ray.o) * (1 - 1e-9);
-    const double cosine = std::max(0.0, glm::dot(at.surface.normal, l));
-    const double density = share * emitter_density(emitter.form, at.surface.position, place);
-    const double as_scattered = lobe_shares(at.scattering).x * cosine / M_PI;
-    contribution =
-        emitter.radiance * diffuse / M_PI * cosine / density * power_heuristic(density, as_scattered);
+    const Illumination arriving = scene_.lights[light]->illuminate(p);
+    if (!rays_.faces(at.surface, arriving.l, arriving.distance)) return std::nullopt;
+    return Arriving{arriving.l, rays_.spawn_ray(at.surface, arriving.l), arriving.distance,
+                    M_PI / share * arriving.color, 0};
   }
-  const double seen = rays_.shadow(ray, distance);
-  observer_.ray(RayKind::shadow, ray, depth_, 0);
+  const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
+  // What is flat does not light itself.
+  if (emitter.primitive == at.primitive && !std::holds_alternative<SphereForm>(emitter.form))
+    return std::nullopt;
+  const EmitterSample place = sample_emitter(emitter.form, p, pair(place_pair));
+  const Vec3 l = glm::normalize(place.position - p);
+  if (!rays_.faces(at.surface, l, glm::length(place.position - p))) return std::nullopt;
+  Ray ray = rays_.spawn_ray(at.surface, l);
+  ray.d = glm::normalize(place.position - ray.o);
+  const double density = share * emitter_density(emitter.form, p, place);
+  return Arriving{l, ray, glm::length(place.position - ray.o) * (1 - 1e-9), emitter.radiance / density,
+                  density};
+}
+
+// What that brings to the viewer.
+Vec3 PathSample::direct(const Interaction& at) {
+  const Vec3 diffuse = diffuse_albedo(at.scattering);
+  if (tracer_.light_choice().ends.empty() || diffuse == Vec3(0) || depth_ > scene_.render.max_depth)
+    return Vec3(0);
+  const auto light = arriving(at);
+  if (!light) return Vec3(0);
+  const double cosine = std::max(0.0, glm::dot(at.surface.normal, light->l));
+  const double as_scattered = lobe_shares(at.scattering).x * cosine / M_PI;
+  const double weight = light->density > 0 ? power_heuristic(light->density, as_scattered) : 1;
+  const Vec3 contribution = light->radiance * diffuse / M_PI * cosine * weight;
+  const double seen = rays_.shadow(light->ray, light->distance);
+  observer_.ray(RayKind::shadow, light->ray, depth_, 0);
   observer_.value("contribution", contribution);
   observer_.value("visibility", seen);
   observer_.back(depth_);

@@ -71,41 +71,60 @@ vec3 path_emitted(Frame frame, Path path, Interaction at) {
   return light;
 }
 
-bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
+// What one light, chosen at random, sends to the point: from `direction`, if nothing stands on the way of `ray`.
+struct Arriving {
+  vec3 direction;
+  Ray ray;
+  float distance;
+  vec3 radiance;  // of a light without extent π · its intensity, a density being 1
+  float density;  // by solid angle, with that of the light's choice; 0 without extent
+  float share;    // of the light among all
+};
+
+Arriving light_arriving(Frame frame, Path path, Interaction at) {
   uint light = emitter_chosen_by(path_pair(frame, path, PAIR_LIGHT).x);
-  float share = emitter_share(light);
-  vec3 direction = vec3(0.0f, 1.0f, 0.0f);
-  contribution = vec3(0.0f, 0.0f, 0.0f);
-  distance = 0.0f;
-  ray = make_ray(at.seen.p, direction);
-  float cosine = 0.0f;
+  Arriving arriving;
+  arriving.share = emitter_share(light);
+  arriving.direction = vec3(0.0f, 1.0f, 0.0f);
+  arriving.ray = make_ray(at.seen.p, arriving.direction);
+  arriving.distance = 0.0f;
+  arriving.radiance = vec3(0.0f, 0.0f, 0.0f);
+  arriving.density = 0.0f;
   if (light < LIGHT_COUNT) {
     LightSample s = sample_light(load_light(light), at.seen.p);
-    direction = s.direction;
-    distance = s.distance;
-    cosine = dot3(at.seen.normal, direction);
-    ray = spawn_ray(at.seen, direction);
-    contribution = s.color * diffuse_albedo(at.scattering) * (cosine / share);
+    arriving.direction = s.direction;
+    arriving.ray = spawn_ray(at.seen, s.direction);
+    arriving.distance = s.distance;
+    arriving.radiance = s.color * PI;
   }
 #if HAS_EMISSION
   if (light >= LIGHT_COUNT) {
     Emitter emitter = load_emitter(light);
     EmitterSample place = sample_emitter(emitter, at.seen.p, path_pair(frame, path, PAIR_EMITTER));
-    direction = normalize3(place.p - at.seen.p);
-    cosine = may_light(emitter, at.primitive) ? dot3(at.seen.normal, direction) : 0.0f;
+    arriving.direction = normalize3(place.p - at.seen.p);
     // The ray ends as far off the emitter as rays start off surfaces.
-    float side = dot3(direction, place.normal) < 0.0f ? emitter.offset : -emitter.offset;
-    vec3 start = spawn_ray(at.seen, direction).o;
+    float side = dot3(arriving.direction, place.normal) < 0.0f ? emitter.offset : -emitter.offset;
+    vec3 start = spawn_ray(at.seen, arriving.direction).o;
     vec3 way = place.p + place.normal * side - start;
-    distance = sqrt(dot3(way, way));
-    ray = make_ray(start, way / distance);
-    float density = share * emitter_density(emitter, at.seen.p, place);
-    float as_scattered = lobe_shares(at.scattering).diffuse * maximum(cosine, 0.0f) / PI;
-    contribution = emitter.radiance * diffuse_albedo(at.scattering) * (cosine / (PI * density) * power_heuristic(density, as_scattered));
+    arriving.distance = sqrt(dot3(way, way));
+    arriving.ray = make_ray(start, way / arriving.distance);
+    if (may_light(emitter, at.primitive)) arriving.radiance = emitter.radiance;
+    arriving.density = arriving.share * emitter_density(emitter, at.seen.p, place);
   }
 #endif
-  return cosine > 0.0f && dot3(at.seen.normal_geometric, direction) > 0.0f && max_component(at.scattering.diffuse) > 0.0f &&
-         path.depth <= frame.max_depth;
+  return arriving;
+}
+
+bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
+  Arriving arriving = light_arriving(frame, path, at);
+  ray = arriving.ray;
+  distance = arriving.distance;
+  float cosine = maximum(dot3(at.seen.normal, arriving.direction), 0.0f);
+  vec3 value = diffuse_albedo(at.scattering) * (cosine / PI);
+  float as_scattered = lobe_shares(at.scattering).diffuse * cosine / PI;
+  float density = arriving.density;
+  contribution = arriving.radiance * value * (density > 0.0f ? power_heuristic(density, as_scattered) / density : 1.0f / arriving.share);
+  return max_component(contribution) > 0.0f && dot3(at.seen.normal_geometric, arriving.direction) > 0.0f && path.depth <= frame.max_depth;
 }
 
 // Cosine-weighted about the unit normal: Malley's, from the disk.
