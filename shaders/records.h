@@ -194,7 +194,7 @@ struct Emitter {
   float offset;  // what stands this far off it is off it, however it is rounded
 };
 
-// ---- Frame: what is the same for all pixels, 128 bytes --------------------------------------------------------------
+// ---- Frame: what is the same for all pixels, 144 bytes --------------------------------------------------------------
 struct Frame {
   uint width;
   uint height;
@@ -217,7 +217,11 @@ struct Frame {
   vec3 background;
   uint emitter_count;
   vec3 ambient;
-  float unused_0;
+  float aperture;        // radius of the lens
+  float sharpness;       // the share of the way to the plane in focus at which `forward` ends
+  float blade_rotation;  // radians
+  uint blades;           // corners of the lens; 0: it is round
+  uint unused_0;
 };
 
 // ---- Push constants: what changes from dispatch to dispatch, 32 bytes -----------------------------------------------
@@ -357,7 +361,7 @@ static_assert(sizeof(eyeray::shader::Medium) == 16);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);
 static_assert(sizeof(eyeray::shader::Emitter) == 80);
-static_assert(sizeof(eyeray::shader::Frame) == 128);
+static_assert(sizeof(eyeray::shader::Frame) == 144);
 static_assert(sizeof(eyeray::shader::Dispatch) == 32);
 static_assert(sizeof(eyeray::shader::SampleResult) == 32);
 static_assert(sizeof(eyeray::shader::HitResult) == 80);

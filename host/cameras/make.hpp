@@ -7,5 +7,8 @@ namespace eyeray::cameras {
 
 std::shared_ptr<const Projection> make_projection(const PerspectiveCamera& values);
 std::shared_ptr<const Projection> make_projection(const OrthographicCamera& values);
+std::shared_ptr<const Projection> make_projection(const FisheyeCamera& values);
+std::shared_ptr<const Projection> make_projection(const PanoramaCamera& values);
+std::shared_ptr<const Projection> make_projection(const CylindricalCamera& values);
 
 }  // namespace eyeray::cameras

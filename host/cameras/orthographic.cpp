@@ -37,7 +37,7 @@ class Orthographic final : public Projection {
 
   Vec3 scale(const Vec2& size) const override { return {values_.size, values_.size * (size.y / size.x), 1}; }
 
-  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2&) const override {
+  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2&, const Vec2&) const override {
     return {camera.eye + values_.size * (place.x * camera.u + place.y * camera.v), camera.w};
   }
 

@@ -22,6 +22,25 @@ eye = [0, 1, 6]
 target = [0, 0, 0]
 fov = 35
 ```
+
+With an `aperture` rays start on a lens around the eye. What stands at the distance `focus`, measured along
+the way the camera looks, is sharp; a point before or behind is seen as a disk, or as a polygon with as many
+corners as the aperture has `blades`. An aperture takes many samples a pixel, the more, the larger it is:
+
+```toml
+[image]
+samples = 64
+
+[camera]
+eye = [0, 1, 6]
+target = [0, 0, 0]
+aperture = 0.1
+focus = 5
+blades = 6
+```
+
+A photographer's lens of focal length f at f/N has the aperture f / 2N, in units of the scene. First hits, and
+the AOVs made of them, are those of the middle of the lens.
 )";
 
 constexpr Key keys[] = {
@@ -38,6 +57,29 @@ constexpr Key keys[] = {
      .doc = "The side of the picture that `fov` spans.",
      .fallback = "\"horizontal\"",
      .choices = fov_axis_names},
+    {.name = "aperture",
+     .type = KeyType::number,
+     .doc = "Radius of the lens; 0: all rays come from the eye, and all is sharp.",
+     .fallback = "0",
+     .min = 0},
+    {.name = "focus",
+     .type = KeyType::number,
+     .doc =
+         "How far away things are sharp, along the way the camera looks; that of `target` where nothing is "
+         "said.",
+     .min = 0,
+     .above_min = true,
+     .optional = true},
+    {.name = "blades",
+     .type = KeyType::integer,
+     .doc = "Corners of the lens, on the circle of that radius; a disk where nothing is said.",
+     .min = 3,
+     .max = 64,
+     .optional = true},
+    {.name = "blade_rotation",
+     .type = KeyType::number,
+     .doc = "Turns the corners, in degrees: at 0 one is at the right, at 90 one is above.",
+     .fallback = "0"},
 };
 
 double degrees_from_tangent(double half) {
@@ -53,21 +95,26 @@ class Perspective final : public Projection {
   // `forward` ends on an image plane whose X reaches from −1 to 1.
   Vec3 scale(const Vec2& size) const override { return {1, size.y / size.x, 1 / half_width(size)}; }
 
-  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& size) const override {
+  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2& size) const override {
     const double distance = 1.0 / horizontal_tangent(size);
-    return {camera.eye, glm::normalize(place.x * camera.u + place.y * camera.v + distance * camera.w)};
+    const Vec3 way = place.x * camera.u + place.y * camera.v + distance * camera.w;
+    if (values_.aperture.radius == 0) return {camera.eye, glm::normalize(way)};
+    const Vec3 start = lens.x * camera.u + lens.y * camera.v;
+    return {camera.eye + start, glm::normalize(values_.aperture.focus / distance * way - start)};
   }
+
+  Aperture aperture() const override { return values_.aperture; }
 
   std::shared_ptr<const Projection> widened(double factor, const Vec2& size) const override {
     const double degrees = std::atan2(factor, scale(size).z) * 360 / std::numbers::pi;
-    return make_projection(PerspectiveCamera{degrees, FovAxis::horizontal});
+    return make_projection(PerspectiveCamera{degrees, FovAxis::horizontal, values_.aperture});
   }
 
   std::vector<CameraFact> facts(const Vec2& size) const override {
     const double distance = scale(size).z;
     const double across = degrees_from_tangent(half_width(size));
     const double down = degrees_from_tangent(half_width(size) * (size.y / size.x));
-    return {
+    std::vector<CameraFact> all{
         {"D",
          fmt::format("{:.6g}, the image plane's distance in half widths", distance),
          {{"distance", distance}}},
@@ -75,6 +122,12 @@ class Perspective final : public Projection {
          fmt::format("{:.6g}° horizontal, {:.6g}° vertical", across, down),
          {{"horizontal_fov_degrees", across}, {"vertical_fov_degrees", down}}},
     };
+    if (const Aperture& lens = values_.aperture; lens.radius > 0)
+      all.push_back({"lens",
+                     fmt::format("radius {:.6g}, {}in focus at {:.6g}", lens.radius,
+                                 lens.blades ? fmt::format("{} blades, ", lens.blades) : "", lens.focus),
+                     {{"aperture", lens.radius}, {"focus", lens.focus}}});
+    return all;
   }
 
   CameraForm form() const override { return values_; }
@@ -107,7 +160,15 @@ class Perspective final : public Projection {
 };
 
 std::shared_ptr<const Projection> parse(TableReader& table) {
-  const PerspectiveCamera values{table.number("fov"), static_cast<FovAxis>(table.choice("fov_axis"))};
+  const Aperture aperture{
+      .radius = table.number("aperture"),
+      .focus =
+          table.has("focus") ? table.number("focus") : glm::length(table.vec3("target") - table.vec3("eye")),
+      .blades = table.has("blades") ? int(table.integer("blades")) : 0,
+      .blade_rotation = glm::radians(table.number("blade_rotation")),
+  };
+  const PerspectiveCamera values{table.number("fov"), static_cast<FovAxis>(table.choice("fov_axis")),
+                                 aperture};
   if (table.failed()) return nullptr;
   return make_projection(values);
 }

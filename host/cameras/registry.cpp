@@ -5,12 +5,12 @@
 namespace eyeray::cameras {
 
 // Each camera's .cpp defines its own; one that is missing is a link error that bears its name.
-#define X(name, number) extern const CameraType name##_type;
+#define X(name, ...) extern const CameraType name##_type;
 CAMERAS(X)
 #undef X
 
 std::span<const CameraType* const> types() {
-#define X(name, number) &name##_type,
+#define X(name, ...) &name##_type,
   static constexpr const CameraType* types[] = {CAMERAS(X)};
 #undef X
   return types;

@@ -30,27 +30,57 @@ double mean(const Vec3& v) {
   return (v.x + v.y + v.z) / 3;
 }
 
-std::string_view camera_word(const PerspectiveCamera&) {
-  return "perspective";
-}
-
-std::string_view camera_word(const OrthographicCamera&) {
-  return "orthographic";
-}
-
-std::string_view camera_word(std::monostate) {
-  throw Error(ExitCode::bad_input, "the scene has a camera that is not written for POV-Ray");
-}
-
 // POV-Ray's rays go along direction + x·right + y·up with x, y in [−½, ½]; given all three, handedness is
 // ours.
-std::string camera(const Scene& scene, int width, int height) {
-  const CameraFrame frame = camera_frame(scene.camera, {width, height});
-  const CameraForm form = scene.camera.projection->form();
-  return fmt::format("camera {{ {} location {} direction {} right {} up {} }}\n",
-                     std::visit([](const auto& values) { return camera_word(values); }, form),
-                     vector(scene.camera.eye), vector(frame.forward), vector(2.0 * frame.right),
+std::string plane_camera(std::string_view word, const CameraFrame& frame) {
+  return fmt::format("{} direction {} right {} up {}", word, vector(frame.forward), vector(2.0 * frame.right),
                      vector(2.0 * frame.up));
+}
+
+struct CameraText {
+  const Scene& scene;
+  Vec2 size;
+  CameraFrame frame = camera_frame(scene.camera, size);
+  CameraAxes axes = camera_axes(scene.camera);
+
+  // POV-Ray's aperture is twice the lens' diameter, found by trial; its lenses are round.
+  std::string operator()(const PerspectiveCamera& camera) const {
+    std::string text = plane_camera("perspective", frame);
+    if (camera.aperture.radius == 0) return text;
+    if (camera.aperture.blades > 0) throw Error(ExitCode::bad_input, "POV-Ray's lenses have no blades");
+    return text + fmt::format(" aperture {} focal_point {} blur_samples {} confidence 0 variance 0",
+                              4 * camera.aperture.radius, vector(axes.eye + camera.aperture.focus * axes.w),
+                              scene.image.samples);
+  }
+  std::string operator()(const OrthographicCamera&) const { return plane_camera("orthographic", frame); }
+  // A circle that its picture's sides touch, whatever their lengths.
+  std::string operator()(const FisheyeCamera& camera) const {
+    if (size.x != size.y) throw Error(ExitCode::bad_input, "POV-Ray's fisheye is a circle in squares only");
+    return around("fisheye", fmt::format("{}", camera.fov_degrees), 1, 1);
+  }
+  // It turns the direction about the two other axes, the way that suits left hands.
+  std::string operator()(const PanoramaCamera& camera) const {
+    const double degrees = camera.fov_degrees;
+    return around("spherical", fmt::format("{} {}", degrees, degrees * size.y / size.x), -1, -1);
+  }
+  std::string operator()(const CylindricalCamera& camera) const {
+    return around("cylinder 1", fmt::format("{}", camera.fov_degrees), 1, 2 * glm::length(frame.up));
+  }
+  std::string operator()(std::monostate) const {
+    throw Error(ExitCode::bad_input, "the scene has a camera that is not written for POV-Ray");
+  }
+
+  // By angles alone.
+  std::string around(std::string_view word, const std::string& angle, double width, double height) const {
+    return fmt::format("{} direction {} right {} up {} angle {}", word, vector(axes.w),
+                       vector(width * axes.u), vector(height * axes.v), angle);
+  }
+};
+
+std::string camera(const Scene& scene, int width, int height) {
+  return fmt::format("camera {{ {} location {} }}\n",
+                     std::visit(CameraText{scene, Vec2(width, height)}, scene.camera.projection->form()),
+                     vector(scene.camera.eye));
 }
 
 std::string light_text(const DirectionalLight& light) {

@@ -47,6 +47,11 @@ shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed)
   frame.pixel_height = float(2.0 / scene.image.height);
   frame.background = glm::vec3(scene.render.background);
   frame.ambient = glm::vec3(scene.render.ambient);
+  const Aperture aperture = scene.camera.projection->aperture();
+  frame.aperture = float(aperture.radius);
+  frame.sharpness = float(glm::length(camera.forward) / aperture.focus);
+  frame.blade_rotation = float(aperture.blade_rotation);
+  frame.blades = uint32_t(aperture.blades);
   return frame;
 }
 

@@ -32,7 +32,7 @@ EMITTERS(X)
 #define X(name, number, ...) inline constexpr uint TEXTURE_##name = number;
 TEXTURES(X)
 #undef X
-#define X(name, number) inline constexpr uint CAMERA_##name = number;
+#define X(name, number, ...) inline constexpr uint CAMERA_##name = number;
 CAMERAS(X)
 #undef X
 

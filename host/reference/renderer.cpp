@@ -14,10 +14,17 @@ Renderer::Renderer(const Scene& scene, Acceleration acceleration)
     if (!media_.push(material)) flags_ |= media_overflow;
 }
 
-Ray Renderer::eye_ray(const Vec2& place, const Vec2& shift, double pivot) const {
-  const Ray moved = camera_.ray(place + shift);
+Renderer::Aim Renderer::aim(int x, int y, uint32_t index) const {
+  const ImageSettings& image = scene_.image;
+  const uint32_t pixel = uint32_t(y) * uint32_t(image.width) + uint32_t(x), seed = scene_.render.seed;
+  return {Vec2(x, y) + sample_position(image, seed, x, y, index),
+          camera_.lens_point(sampler(image.pattern).pair(pixel, index, 1, seed))};
+}
+
+Ray Renderer::eye_ray(const Aim& aim, const Vec2& shift, double pivot) const {
+  const Ray moved = camera_.ray(aim.place + shift, aim.lens);
   if (pivot == 0) return moved;
-  const Ray ray = camera_.ray(place);
+  const Ray ray = camera_.ray(aim.place, aim.lens);
   const Vec3 stays = ray.o + pivot * ray.d;
   const Vec3 start = ray.o + (moved.o + pivot * moved.d - stays);
   return {start, glm::normalize(stays - start)};
@@ -25,8 +32,9 @@ Ray Renderer::eye_ray(const Vec2& place, const Vec2& shift, double pivot) const 
 
 PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset,
                              const Observer& observer) const {
-  const Vec2 place = sample_position(scene_.image, scene_.render.seed, x, y, index);
-  const Ray ray = eye_ray(Vec2(x, y) + place, shift, ray_offset.pivot);
+  const Aim aim = this->aim(x, y, index);
+  if (!camera_.sees(aim.place + shift)) return {};
+  const Ray ray = eye_ray(aim, shift, ray_offset.pivot);
   const IntegratorType type = scene_.render.integrator;
   const uint32_t pixel = uint32_t(y) * uint32_t(scene_.image.width) + uint32_t(x);
   observer.ray(RayKind::eye, ray, 0);
@@ -36,8 +44,18 @@ PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const Ray
 }
 
 FirstHit Renderer::first_hit(int x, int y, Vec2 shift, const RayOffset& ray_offset) const {
-  const Ray ray = eye_ray(Vec2(x, y) + Vec2(0.5), shift, ray_offset.pivot);
+  return hit({Vec2(x, y) + Vec2(0.5)}, shift, ray_offset);
+}
+
+FirstHit Renderer::first_hit_of_sample(int x, int y, uint32_t index, Vec2 shift,
+                                       const RayOffset& ray_offset) const {
+  return hit(aim(x, y, index), shift, ray_offset);
+}
+
+FirstHit Renderer::hit(const Aim& aim, const Vec2& shift, const RayOffset& ray_offset) const {
   FirstHit result;
+  if (!camera_.sees(aim.place + shift)) return result;
+  const Ray ray = eye_ray(aim, shift, ray_offset.pivot);
   const auto hit = tracer_.trace(ray, result.flags, ray_offset.coincident);
   if (!hit) return result;
   const SurfacePoint surface = tracer_.surface(ray, *hit);

@@ -18,9 +18,11 @@ class Renderer {
   // ray_offset.pivot before that (integrator.hpp).
   PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0}, const RayOffset& ray_offset = {},
                      const Observer& observer = {}) const;
-  // What the ray through the pixel's centre hits, `shift` aside. Of `ray_offset`, its pivot and `coincident`
-  // count.
+  // What the ray through the pixel's centre hits, and the lens' where there is one, `shift` aside. Of
+  // `ray_offset`, its pivot and `coincident` count.
   FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}, const RayOffset& ray_offset = {}) const;
+  // The same of the eye ray of sample `index`.
+  FirstHit first_hit_of_sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset) const;
   // How many pixels aside float32 may take the ray through the pixel's centre, where it has come to `t`.
   double rounding(int x, int y, double t) const;
   // A RayOffset::pivot a little behind what that ray hits: `which` of eight, modulo 8; 0 where it hits
@@ -30,7 +32,14 @@ class Renderer {
   const Tracer& tracer() const { return tracer_; }
 
  private:
-  Ray eye_ray(const Vec2& place, const Vec2& shift, double pivot) const;
+  // A place in the picture and one on the lens.
+  struct Aim {
+    Vec2 place;
+    Vec2 lens{0.0};
+  };
+  Aim aim(int x, int y, uint32_t index) const;
+  Ray eye_ray(const Aim& aim, const Vec2& shift, double pivot) const;
+  FirstHit hit(const Aim& aim, const Vec2& shift, const RayOffset& ray_offset) const;
 
   const Scene& scene_;
   Tracer tracer_;

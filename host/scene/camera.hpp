@@ -24,17 +24,40 @@ struct CameraAxes {
 enum class FovAxis { horizontal, vertical, shorter, diagonal };
 inline constexpr std::string_view fov_axis_names[] = {"horizontal", "vertical", "shorter", "diagonal"};
 
+// Where rays start: on a disk, or on a polygon, around the eye. What stands in the plane at `focus` is sharp.
+struct Aperture {
+  double radius = 0;  // 0: all rays come from the eye. Of a polygon that of the circle through its corners.
+  double focus = 1;   // from the eye along the way it looks
+  int blades = 0;     // corners; 0: a disk
+  double blade_rotation = 0;  // of the first corner, from the right towards up, in radians
+};
+
 struct PerspectiveCamera {
   double fov_degrees = 45;  // full angle along fov_axis
   FovAxis fov_axis = FovAxis::horizontal;
+  Aperture aperture = {};
 };
 
 struct OrthographicCamera {
   double size = 1;  // half the width of what is seen
 };
 
+struct FisheyeCamera {
+  double fov_degrees = 180;             // full angle that the circle spans
+  FovAxis fov_axis = FovAxis::shorter;  // the side of the picture that is as long as the circle is wide
+};
+
+struct PanoramaCamera {
+  double fov_degrees = 360;  // that the picture's width spans; its height as much a pixel
+};
+
+struct CylindricalCamera {
+  double fov_degrees = 180;  // that the picture's width spans
+};
+
 // monostate: what other programs have no word for.
-using CameraForm = std::variant<std::monostate, PerspectiveCamera, OrthographicCamera>;
+using CameraForm = std::variant<std::monostate, PerspectiveCamera, OrthographicCamera, FisheyeCamera,
+                                PanoramaCamera, CylindricalCamera>;
 
 // A line of `eyeray check` and the numbers in it, as JSON names them.
 struct CameraFact {
@@ -53,9 +76,13 @@ class Projection {
   // What the shaders' `right`, `up` and `forward` are as multiples of the axes. X·right + Y·up, with X and Y
   // in [−1, 1], spans the picture.
   virtual Vec3 scale(const Vec2& size) const = 0;
-  // The ray, its direction unit, at `place`: from the picture's middle to the right and up, in half widths.
-  // The reference's half: written from the mathematics, not from `scale` and the shader.
-  virtual Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& size) const = 0;
+  // The ray, its direction unit, at `place`: from the picture's middle to the right and up, in half widths;
+  // and from `lens`, to the right and up of the eye, where rays start on an aperture. The reference's half:
+  // written from the mathematics, not from `scale` and the shader.
+  virtual Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2& size) const = 0;
+  // Whether anything is seen there; else the picture is black.
+  virtual bool sees(const Vec2& /*place*/, const Vec2& /*size*/) const { return true; }
+  virtual Aperture aperture() const { return {}; }
   // The same with `factor` times the width of a picture of this size in view, at the same scale in both
   // directions.
   virtual std::shared_ptr<const Projection> widened(double factor, const Vec2& size) const = 0;

@@ -22,6 +22,8 @@ constexpr Word words[] = {
     {"up", " sky vup upvector updirection "},
     {"fov", " angle fieldofview viewangle hfov xfov "},
     {"fov_axis", " axis "},
+    {"aperture", " lensradius apertureradius aperturesize "},
+    {"focus", " focaldistance focusdistance focaldist focalpoint "},
     {"size", " orthoscale screenwindow "},
     // The picture and how it comes about
     {"width", " resolution xresolution resolutionx resx xres size w "},

@@ -2,8 +2,6 @@
 
 #include <bit>
 
-#include "host/reference/sampler.hpp"
-
 namespace eyeray::verify {
 namespace {
 
@@ -51,8 +49,8 @@ compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& rend
       for (const auto textures : {TextureChoice::darkest, TextureChoice::brightest})
         add_rounded(false, textures);
     result.direct = result.direct && sample.hits <= 1;
-    const Vec2 place = reference::sample_position(scene.image, scene.render.seed, x, y, uint32_t(i));
-    add_first_hit(result, scene, renderer.first_hit(x, y, place - 0.5 + shift, {.coincident = coincident}));
+    add_first_hit(result, scene,
+                  renderer.first_hit_of_sample(x, y, uint32_t(i), shift, {.coincident = coincident}));
   }
   result.first_hit = renderer.first_hit(x, y, shift, {.coincident = coincident, .pivot = pivot});
   result.rounding = renderer.rounding(x, y, result.first_hit.t);

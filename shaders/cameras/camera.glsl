@@ -7,15 +7,32 @@
 SHADER_BEGIN
 
 // place: in pixels from the top left.
-Ray camera_ray(Frame frame, vec2 place) {
+vec3 across_picture(Frame frame, vec2 place) {
   float x = (place.x - 0.5f * float(frame.width)) * frame.pixel_width;
   float y = (0.5f * float(frame.height) - place.y) * frame.pixel_height;
-  vec3 across = frame.right * x + frame.up * y;
+  return frame.right * x + frame.up * y;
+}
+
+// lens: the point of the lens that the ray starts from, to the right and up of its middle.
+Ray camera_ray(Frame frame, vec2 place, vec2 lens) {
+  vec3 across = across_picture(frame, place);
   Ray ray = make_ray(across, frame.forward);
-#define RAY_OF(name, number) \
-  if (CAMERA_IS(number)) ray = name##_ray(frame, across);
+#define RAY_OF(name, number, seen) \
+  if (CAMERA_IS(number)) ray = name##_ray(frame, across, lens);
   CAMERAS(RAY_OF)
   return ray;
+}
+
+#define SEEN_IN_picture(across, forward) true
+#define SEEN_IN_circle(across, forward) (dot3(across, across) <= dot3(forward, forward))
+// Whether anything is seen there; else the picture is black, and there is no ray.
+bool camera_sees(Frame frame, vec2 place) {
+  vec3 across = across_picture(frame, place);
+  bool sees = true;
+#define SEEN_OF(name, number, seen) \
+  if (CAMERA_IS(number)) sees = SEEN_IN_##seen(across, frame.forward);
+  CAMERAS(SEEN_OF)
+  return sees;
 }
 
 SHADER_END

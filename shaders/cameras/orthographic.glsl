@@ -7,7 +7,7 @@
 SHADER_BEGIN
 
 // across: from the eye to where the ray starts.
-Ray orthographic_ray(Frame frame, vec3 across) { return make_ray(across, frame.forward); }
+Ray orthographic_ray(Frame frame, vec3 across, vec2 lens) { return make_ray(across, frame.forward); }
 
 SHADER_END
 #endif

@@ -1,14 +1,23 @@
-// All rays come from the eye, which is the origin.
+// All rays come from the eye, which is the origin, or from a lens around it. Those of one place in the picture meet in the plane in focus.
 #ifndef PERSPECTIVE_GLSL
 #define PERSPECTIVE_GLSL
 #include "geometry/ray.glsl"
+#include "kernels/features.h"
 #include "records.h"
 
 SHADER_BEGIN
 
 // across: from the middle of the picture to a place in it, on the plane that `forward` ends on.
-Ray perspective_ray(Frame frame, vec3 across) {
-  return make_ray(vec3(0.0f, 0.0f, 0.0f), normalize3(across + frame.forward));
+Ray perspective_ray(Frame frame, vec3 across, vec2 lens) {
+  vec3 start = vec3(0.0f, 0.0f, 0.0f);
+  vec3 way = across + frame.forward;
+#if HAS_LENS
+  if (frame.aperture > 0.0f) {
+    start = normalize3(frame.right) * lens.x + normalize3(frame.up) * lens.y;
+    way = way - start * frame.sharpness;
+  }
+#endif
+  return make_ray(start, normalize3(way));
 }
 
 SHADER_END

@@ -1,6 +1,10 @@
-// Every kind of camera; see shapes/registry.h.
+// Every kind of camera; see shapes/registry.h. A row says where in the picture the camera sees anything: all over the picture, or in a
+// circle, whose radius, as `across` has it, is the length of `forward`.
 #ifndef CAMERAS
-#define CAMERAS(X)    \
-  X(perspective, 0u) \
-  X(orthographic, 1u)
+#define CAMERAS(X)               \
+  X(perspective, 0u, picture)    \
+  X(orthographic, 1u, picture)   \
+  X(fisheye, 2u, circle)         \
+  X(panorama, 3u, picture)       \
+  X(cylindrical, 4u, picture)
 #endif

@@ -19,6 +19,9 @@
 #ifndef HAS_ABSORPTION  // a medium absorbs
 #define HAS_ABSORPTION 1
 #endif
+#ifndef HAS_LENS  // the camera has one that rays start from
+#define HAS_LENS 1
+#endif
 #ifndef HAS_SECONDARY  // rays are reflected or refracted
 #define HAS_SECONDARY 1
 #endif

@@ -29,8 +29,10 @@ Frame load_frame() {
   vec4 forward = uintBitsToFloat(imageLoad(frame_words, 5));
   vec4 background = uintBitsToFloat(imageLoad(frame_words, 6));
   vec4 ambient = uintBitsToFloat(imageLoad(frame_words, 7));
+  uvec4 lens = imageLoad(frame_words, 8);
   return Frame(image.x, image.y, image.z, image.w, camera.x, camera.y, camera.z, camera.w, counts.x, counts.y, counts.z, counts.w,
-               vec3(right), right.w, vec3(up), up.w, vec3(forward), forward.w, vec3(background), floatBitsToUint(background.w), vec3(ambient), 0.0f);
+               vec3(right), right.w, vec3(up), up.w, vec3(forward), forward.w, vec3(background), floatBitsToUint(background.w), vec3(ambient), ambient.w,
+               uintBitsToFloat(lens.x), uintBitsToFloat(lens.y), lens.z, lens.w);
 }
 #else
 Frame load_frame() { return frame_record; }

@@ -2,6 +2,7 @@
 #ifndef PIXEL_GLSL
 #define PIXEL_GLSL
 #include "cameras/camera.glsl"
+#include "cameras/lens.glsl"
 #include "kernels/loops.glsl"
 #include "geometry/surface.glsl"
 #include "bvh/traverse.glsl"
@@ -10,19 +11,33 @@
 
 SHADER_BEGIN
 
+// The eye ray of sample `index` of pixel (x, y); false where the camera sees nothing, and there is none.
+bool eye_ray(Frame frame, uint x, uint y, uint index, OUT(Ray) ray) {
+  vec2 place = sample_position(frame, x, y, index);
+  vec2 lens = vec2(0.0f, 0.0f);
+#if HAS_LENS
+  lens = point_on_lens(frame, sample_pair(frame, y * frame.width + x, index, PAIR_LENS));
+#endif
+  ray = camera_ray(frame, place, lens);
+  return camera_sees(frame, place);
+}
+
 SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
-  Ray ray = camera_ray(frame, sample_position(frame, x, y, index));
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
+  Ray ray;
+  if (!eye_ray(frame, x, y, index, ray)) return sample_result(vec3(0.0f, 0.0f, 0.0f), counts);
   vec3 color = radiance(frame, ray, y * frame.width + x, index, counts);
   PROBE_BACK(NONE);
   counts.z = counts.z | loops_cut_off(LOOP_PROBE);
   return sample_result(positive_zeros(color), counts);
 }
 
+// Through the middle of the pixel, from that of the lens.
 HitResult first_hit(Frame frame, uint x, uint y) {
-  Ray ray = camera_ray(frame, vec2(float(x) + 0.5f, float(y) + 0.5f));
+  vec2 place = vec2(float(x) + 0.5f, float(y) + 0.5f);
+  Ray ray = camera_ray(frame, place, vec2(0.0f, 0.0f));
   uint flags = 0u;
-  TraversalState state = search(ray, T_MISS, false);
+  TraversalState state = search(ray, camera_sees(frame, place) ? T_MISS : -1.0f, false);
   Hit hit = state.hit;
   flags = flags | iteration_limit(state) | loops_cut_off(LOOP_PROBE);
   HitResult result;

@@ -44,8 +44,12 @@ void main() {
   uint place = pixel.y * dispatch.tile_width + pixel.x;
   uint x = dispatch.tile_x + pixel.x;
   uint y = dispatch.tile_y + pixel.y;
-  Path path = begin(frame, camera_ray(frame, sample_position(frame, x, y, dispatch.sample_index)), y * frame.width + x,
-                    dispatch.sample_index);
+  Ray first;
+  if (!eye_ray(frame, x, y, dispatch.sample_index, first)) {
+    results[place] = sample_result(color, counts);
+    return;
+  }
+  Path path = begin(frame, first, y * frame.width + x, dispatch.sample_index);
 #endif
 
   Ray ray = make_ray(path.o, path.d);

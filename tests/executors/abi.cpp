@@ -93,7 +93,9 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Frame, up),          MEMBER(Frame, pixel_width),
                 MEMBER(Frame, forward),     MEMBER(Frame, pixel_height),
                 MEMBER(Frame, background),  MEMBER(Frame, emitter_count),
-                MEMBER(Frame, ambient),     MEMBER(Frame, unused_0)});
+                MEMBER(Frame, ambient),     MEMBER(Frame, aperture),
+                MEMBER(Frame, sharpness),   MEMBER(Frame, blade_rotation),
+                MEMBER(Frame, blades),      MEMBER(Frame, unused_0)});
   check_struct(samples, "Dispatch", sizeof(shader::Dispatch),
                {MEMBER(Dispatch, tile_x), MEMBER(Dispatch, tile_y), MEMBER(Dispatch, tile_width),
                 MEMBER(Dispatch, tile_height), MEMBER(Dispatch, sample_index), MEMBER(Dispatch, depth),

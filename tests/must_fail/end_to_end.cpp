@@ -34,6 +34,9 @@ std::vector<Fault> faults() {
   const char* first_hits = "gate C: gpu against the reference, first hits";
   const char* counts = "gate C: gpu against the reference, surfaces and rays";
   const std::vector<std::string> lamps = {"scenes/path/lamps.toml", "--spp", "2"};
+  const auto seen_by = [](const std::string& camera) {
+    return std::vector<std::string>{"scenes/cameras/" + camera + ".toml", "--spp", "4"};
+  };
   const std::vector<std::string> box = {"scenes/path/cornell_box.toml", "--spp", "2"};
   return {
       {"near_root", {bits, counts, colors}},
@@ -43,6 +46,13 @@ std::vector<Fault> faults() {
       {"uv", {bits, first_hits, "parts at uv"}},
       {"ids", {bits, first_hits, "parts at primitive"}},
       {"camera", {bits, first_hits, counts, colors}},
+      {"lens", {bits, colors}, seen_by("thin_lens")},
+      {"blades", {bits, colors}, seen_by("thin_lens")},
+      {"focus", {bits, colors}, seen_by("thin_lens")},
+      {"fisheye", {bits, first_hits, colors}, seen_by("fisheye")},
+      {"circle", {bits, first_hits, counts, colors}, seen_by("fisheye")},
+      {"panorama", {bits, first_hits, colors}, seen_by("panorama")},
+      {"cylindrical", {bits, first_hits, colors}, seen_by("cylindrical")},
       {"shadow", {bits, colors, "parts at color"}},
       {"fresnel", {bits, colors, "parts at color"}},
       {"refraction", {bits, counts, colors}},

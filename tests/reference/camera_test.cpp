@@ -56,6 +56,60 @@ TEST_CASE("an orthographic camera moves the origin") {
   CHECK(rays.ray({0, 0}).d == Vec3(0, 0, -1));
 }
 
+TEST_CASE("a fisheye's distance from the middle is the angle, up to its circle") {
+  const Camera camera{.eye = {0, 0, 5}, .projection = make_projection(FisheyeCamera{240})};
+  const reference::CameraRays rays(camera, {.width = 200, .height = 100});
+  const double third = M_PI / 3;  // of 120° at 50 pixels
+  CHECK(near(rays.ray({100, 50}).d, Vec3(0, 0, -1), 1e-15));
+  CHECK(near(rays.ray({125, 50}).d, Vec3(std::sin(third), 0, -std::cos(third)), 1e-15));
+  CHECK(near(rays.ray({100, 0}).d, Vec3(0, std::sin(2 * third), -std::cos(2 * third)), 1e-15));
+  CHECK(rays.sees({149, 50}));
+  CHECK_FALSE(rays.sees({151, 50}));
+  CHECK_FALSE(rays.sees({140, 10}));
+  const Camera across{.projection = make_projection(FisheyeCamera{240, FovAxis::horizontal})};
+  CHECK(reference::CameraRays(across, {.width = 200, .height = 100}).sees({180, 50}));
+}
+
+TEST_CASE("a panorama's places are longitude and latitude, a cylinder's longitude and height") {
+  const ImageSettings image{.width = 400, .height = 200};
+  const Camera sphere{.eye = {0, 0, 5}, .projection = make_projection(PanoramaCamera{})};
+  const reference::CameraRays all(sphere, image);
+  CHECK(near(all.ray({200, 100}).d, Vec3(0, 0, -1), 1e-15));
+  CHECK(near(all.ray({300, 100}).d, Vec3(1, 0, 0), 1e-15));
+  CHECK(near(all.ray({0, 100}).d, Vec3(0, 0, 1), 1e-15));
+  CHECK(near(all.ray({77, 0}).d, Vec3(0, 1, 0), 1e-15));
+  CHECK(near(all.ray({250, 150}).d, Vec3(0.5, -std::sqrt(0.5), -0.5), 1e-15));
+  const Camera wrapped{.eye = {0, 0, 5}, .projection = make_projection(CylindricalCamera{360})};
+  const reference::CameraRays around(wrapped, image);
+  CHECK(near(around.ray({300, 100}).d, Vec3(1, 0, 0), 1e-15));
+  CHECK(near(around.ray({300, 0}).d, glm::normalize(Vec3(1, M_PI / 2, 0)), 1e-15));
+}
+
+TEST_CASE("rays through a lens meet in the plane in focus") {
+  PerspectiveCamera values{70};
+  const Vec2 place(130, 20);
+  const auto rays = [&] {
+    return reference::CameraRays(looking_along_z(values), {.width = 200, .height = 100});
+  };
+  const Ray pinhole = rays().ray(place);
+  values.aperture = {.radius = 0.5, .focus = 3};
+  for (const Vec2& u : {Vec2(0.1, 0.2), Vec2(0.9, 0.4), Vec2(0.5, 0.99)}) {
+    for (const int blades : {0, 3, 6}) {
+      values.aperture.blades = blades;
+      const Vec2 lens = rays().lens_point(u);
+      CHECK(glm::length(lens) <= 0.5);
+      const Ray ray = rays().ray(place, lens);
+      CHECK(near(ray.o, Vec3(lens, 5), 1e-15));
+      CHECK(glm::length(ray.d) == doctest::Approx(1).epsilon(1e-14));
+      CHECK(near(ray.o - 3 / ray.d.z * ray.d, pinhole.o - 3 / pinhole.d.z * pinhole.d, 1e-13));
+    }
+  }
+  // The first corner is at the right, the next further up.
+  values.aperture.blades = 4;
+  CHECK(near(Vec3(rays().lens_point({0, 1}), 0), Vec3(0.5, 0, 0), 1e-15));
+  CHECK(near(Vec3(rays().lens_point({0.25, 1}), 0), Vec3(0, 0.5, 0), 1e-15));
+}
+
 TEST_CASE("a known picture stands upright") {
   // Red to the right, green above, blue to the left of the middle.
   Scene scene = test::empty_scene();

@@ -253,3 +253,33 @@ TEST_CASE("half a sphere behind an edge is half its light") {
   scene.camera.eye = {-0.4, 0.9, 0.5};
   check(scene, shown(M_PI * 0.25 / 4) / 2, 1e-3);
 }
+
+TEST_CASE("a thin lens: a straight bright edge out of focus, (arccos x − x √(1 − x²)) / π") {
+  // The eye looks along −z. Rays that meet in (0, 0, −focus) are spread over a disk in the plane z = −2.
+  const auto edge = [](double e, const Aperture& aperture) {
+    Scene scene = patch({0, 0, 0}, {0, 0, -1}, 1024);
+    scene.camera.projection =
+        cameras::make_projection(PerspectiveCamera{.fov_degrees = 1e-3, .aperture = aperture});
+    add(scene, make_parallelogram({e, -5, -2}, {10, 0, 0}, {0, 10, 0}), lamp(scene));
+    return scene;
+  };
+  for (const double focus : {1.25, 4.0, 100.0}) {
+    const double confusion = 0.4 * std::abs(1 - 2 / focus);
+    for (const double x : {-0.7, 0.0, 0.3, 0.6}) {
+      CAPTURE(focus);
+      CAPTURE(x);
+      check(edge(x * confusion, {.radius = 0.4, .focus = focus}),
+            (std::acos(x) - x * std::sqrt(1 - x * x)) / M_PI, 1e-4);
+    }
+  }
+  // Through a square that stands upright, as far as its sides are from its middle.
+  const double side = 0.4 * std::sqrt(0.5) * 0.5;
+  check(edge(0.3 * side, {.radius = 0.4, .focus = 4, .blades = 4, .blade_rotation = M_PI / 4}), 0.35, 1e-4);
+  // A triangle with a corner at the right; the eye sees it mirrored where what it looks at is behind the
+  // focus.
+  const auto triangle = [&](double focus) {
+    return edge(0.4 * 0.5 * 0.25, {.radius = 0.4, .focus = focus, .blades = 3});
+  };
+  check(triangle(4), 0.75 * 0.75 / (1.5 * 1.5), 1e-4);
+  check(triangle(4.0 / 3), 1 - 1.25 * 1.25 / (1.5 * 1.5), 1e-4);
+}

@@ -50,16 +50,18 @@ uint place_of(uint packet, uint i) {
 }
 
 #if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
-// The sample's path through the pixel at `place` of the tile.
+// The sample's path through the pixel at `place` of the tile. Where the camera sees nothing there is a ray all the same, whose hit nobody
+// asks for.
 Path eye_path(uint place) {
   uint row = quotient(place, dispatch.tile_width);
   uint x = dispatch.tile_x + place - row * dispatch.tile_width;
   uint y = dispatch.tile_y + row;
   Frame frame = load_frame();
-  return begin(frame, camera_ray(frame, sample_position(frame, x, y, dispatch.sample_index)), y * frame.width + x,
-               dispatch.sample_index);
+  Ray ray;
+  eye_ray(frame, x, y, dispatch.sample_index, ray);
+  return begin(frame, ray, y * frame.width + x, dispatch.sample_index);
 }
-Ray eye_ray(uint place) {
+Ray eye_ray_of(uint place) {
   Path path = eye_path(place);
   return make_ray(path.o, path.d);
 }
@@ -120,7 +122,7 @@ void main() {
 #else
   EACH {
 #ifdef PACKET_PRIMARY
-    ray[k] = eye_ray(place[k] == NONE ? 0u : place[k]);
+    ray[k] = eye_ray_of(place[k] == NONE ? 0u : place[k]);
     state[k] = traversal_state(place[k] == NONE ? -1.0f : T_MISS);
 #else
     QueryRay asked = rays[place[k] == NONE ? 0u : place[k]];

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/cameras/make.hpp"
+#include "host/records/records.hpp"
+
+namespace eyeray::cameras {
+
+extern const CameraType cylindrical_type;
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(The picture is wrapped round the eye: what is upright stays straight, and all the horizon may be in view.
+
+```toml
+[image]
+width = 960
+height = 240
+
+[camera]
+type = "cylindrical"
+eye = [0, 1, 0]
+target = [0, 1, -1]
+fov = 360
+```
+)";
+
+constexpr Key keys[] = {
+    {.name = "fov",
+     .type = KeyType::number,
+     .doc = "Angle that the picture's width spans, in degrees.",
+     .fallback = "180",
+     .min = 0,
+     .max = 360,
+     .above_min = true},
+};
+
+class Cylindrical final : public Projection {
+ public:
+  explicit Cylindrical(const CylindricalCamera& values) : values_(values) {}
+
+  uint32_t kind() const override { return shader::CAMERA_cylindrical; }
+
+  Vec3 scale(const Vec2& size) const override { return {half(), half() * (size.y / size.x), 1}; }
+
+  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2&, const Vec2&) const override {
+    const Vec2 on_cylinder = half() * place;
+    return {camera.eye, glm::normalize(std::sin(on_cylinder.x) * camera.u + on_cylinder.y * camera.v +
+                                       std::cos(on_cylinder.x) * camera.w)};
+  }
+
+  std::shared_ptr<const Projection> widened(double factor, const Vec2&) const override {
+    return make_projection(CylindricalCamera{values_.fov_degrees * factor});
+  }
+
+  std::vector<CameraFact> facts(const Vec2&) const override {
+    return {{"fov",
+             fmt::format("{:.6g}° around", values_.fov_degrees),
+             {{"horizontal_fov_degrees", values_.fov_degrees}}}};
+  }
+
+  CameraForm form() const override { return values_; }
+
+ private:
+  // The angle that half the width spans, in radians.
+  double half() const { return glm::radians(values_.fov_degrees) / 2; }
+
+  CylindricalCamera values_;
+};
+
+std::shared_ptr<const Projection> parse(TableReader& table) {
+  const CylindricalCamera values{table.number("fov")};
+  if (table.failed()) return nullptr;
+  return make_projection(values);
+}
+
+}  // namespace
+
+extern const CameraType cylindrical_type{
+    .name = "cylindrical", .manual = manual, .keys = keys, .parse = parse};
+
+std::shared_ptr<const Projection> make_projection(const CylindricalCamera& values) {
+  return std::make_shared<Cylindrical>(values);
+}
+
+}  // namespace eyeray::cameras

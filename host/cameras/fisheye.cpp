@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/cameras/make.hpp"
+#include "host/records/records.hpp"
+
+namespace eyeray::cameras {
+
+extern const CameraType fisheye_type;
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(A circle that shows up to all directions there are: the distance from its middle is the angle from the
+way the camera looks (equidistant). The picture is black around it.
+
+```toml
+[camera]
+type = "fisheye"
+eye = [0, 1, 0]
+target = [0, 2, 0]
+up = [0, 0, -1]
+fov = 180
+```
+)";
+
+constexpr Key keys[] = {
+    {.name = "fov",
+     .type = KeyType::number,
+     .doc = "Full angle that the circle spans, in degrees.",
+     .fallback = "180",
+     .min = 0,
+     .max = 360,
+     .above_min = true},
+    {.name = "fov_axis",
+     .type = KeyType::choice,
+     .doc = "The side of the picture that is as long as the circle is wide.",
+     .fallback = "\"shorter\"",
+     .choices = fov_axis_names},
+};
+
+class Fisheye final : public Projection {
+ public:
+  // `wider`: times as much is in view as `values` say, but in the same circle.
+  explicit Fisheye(const FisheyeCamera& values, double wider = 1) : values_(values), wider_(wider) {}
+
+  uint32_t kind() const override { return shader::CAMERA_fisheye; }
+
+  Vec3 scale(const Vec2& size) const override {
+    const double across = wider_ * rim() * size.x / diameter(size);
+    return {across, across * (size.y / size.x), rim()};
+  }
+
+  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2&, const Vec2& size) const override {
+    const double angle = this->angle(place, size), turn = std::atan2(place.y, place.x);
+    const Vec3 aside = std::cos(turn) * camera.u + std::sin(turn) * camera.v;
+    return {camera.eye, glm::normalize(std::sin(angle) * aside + std::cos(angle) * camera.w)};
+  }
+
+  bool sees(const Vec2& place, const Vec2& size) const override { return angle(place, size) <= rim(); }
+
+  std::shared_ptr<const Projection> widened(double factor, const Vec2&) const override {
+    return std::make_shared<Fisheye>(values_, wider_ * factor);
+  }
+
+  std::vector<CameraFact> facts(const Vec2& size) const override {
+    return {{"circle",
+             fmt::format("{:.6g}° in {:.6g} pixels", values_.fov_degrees, diameter(size)),
+             {{"circle_fov_degrees", values_.fov_degrees}, {"circle_pixels", diameter(size)}}}};
+  }
+
+  CameraForm form() const override { return values_; }
+
+ private:
+  double rim() const { return values_.fov_degrees * std::numbers::pi / 360; }
+
+  // In pixels.
+  double diameter(const Vec2& size) const {
+    const double lengths[] = {size.x, size.y, std::min(size.x, size.y), std::hypot(size.x, size.y)};
+    return lengths[size_t(values_.fov_axis)];
+  }
+
+  // Between the ray at `place` and the way the camera looks.
+  double angle(const Vec2& place, const Vec2& size) const {
+    return wider_ * glm::length(place) * (size.x / 2) * (glm::radians(values_.fov_degrees) / diameter(size));
+  }
+
+  FisheyeCamera values_;
+  double wider_;
+};
+
+std::shared_ptr<const Projection> parse(TableReader& table) {
+  const FisheyeCamera values{table.number("fov"), static_cast<FovAxis>(table.choice("fov_axis"))};
+  if (table.failed()) return nullptr;
+  return make_projection(values);
+}
+
+}  // namespace
+
+extern const CameraType fisheye_type{.name = "fisheye", .manual = manual, .keys = keys, .parse = parse};
+
+std::shared_ptr<const Projection> make_projection(const FisheyeCamera& values) {
+  return std::make_shared<Fisheye>(values);
+}
+
+}  // namespace eyeray::cameras

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/cameras/make.hpp"
+#include "host/records/records.hpp"
+
+namespace eyeray::cameras {
+
+extern const CameraType panorama_type;
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(The sphere around the eye, longitude across and latitude up (equirectangular), as environment maps
+have it. A picture twice as wide as high shows all of it; what is higher goes on over the poles.
+
+```toml
+[image]
+width = 1024
+height = 512
+
+[camera]
+type = "panorama"
+eye = [0, 1, 0]
+target = [0, 1, -1]
+```
+)";
+
+constexpr Key keys[] = {
+    {.name = "fov",
+     .type = KeyType::number,
+     .doc = "Angle that the picture's width spans, in degrees; its height spans as much a pixel.",
+     .fallback = "360",
+     .min = 0,
+     .max = 360,
+     .above_min = true},
+};
+
+class Panorama final : public Projection {
+ public:
+  explicit Panorama(const PanoramaCamera& values) : values_(values) {}
+
+  uint32_t kind() const override { return shader::CAMERA_panorama; }
+
+  Vec3 scale(const Vec2& size) const override { return {half(), half() * (size.y / size.x), 1}; }
+
+  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2&, const Vec2&) const override {
+    const double longitude = half() * place.x, latitude = half() * place.y;
+    const Vec3 level = std::sin(longitude) * camera.u + std::cos(longitude) * camera.w;
+    return {camera.eye, glm::normalize(std::cos(latitude) * level + std::sin(latitude) * camera.v)};
+  }
+
+  std::shared_ptr<const Projection> widened(double factor, const Vec2&) const override {
+    return make_projection(PanoramaCamera{values_.fov_degrees * factor});
+  }
+
+  std::vector<CameraFact> facts(const Vec2&) const override {
+    return {{"fov",
+             fmt::format("{:.6g}° around", values_.fov_degrees),
+             {{"horizontal_fov_degrees", values_.fov_degrees}}}};
+  }
+
+  CameraForm form() const override { return values_; }
+
+ private:
+  // The angle that half the width spans, in radians.
+  double half() const { return glm::radians(values_.fov_degrees) / 2; }
+
+  PanoramaCamera values_;
+};
+
+std::shared_ptr<const Projection> parse(TableReader& table) {
+  const PanoramaCamera values{table.number("fov")};
+  if (table.failed()) return nullptr;
+  return make_projection(values);
+}
+
+}  // namespace
+
+extern const CameraType panorama_type{.name = "panorama", .manual = manual, .keys = keys, .parse = parse};
+
+std::shared_ptr<const Projection> make_projection(const PanoramaCamera& values) {
+  return std::make_shared<Panorama>(values);
+}
+
+}  // namespace eyeray::cameras

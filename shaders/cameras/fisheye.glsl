@@ -1,0 +1,19 @@
+// All rays come from the eye; how far off the middle a place is, is its angle. |forward| is the angle of the circle's rim.
+#ifndef FISHEYE_GLSL
+#define FISHEYE_GLSL
+#include "geometry/ray.glsl"
+#include "math/trigonometry.glsl"
+#include "records.h"
+
+SHADER_BEGIN
+
+// across: from the middle of the picture to a place in it, as long as the angle between its ray and the middle's.
+Ray fisheye_ray(Frame frame, vec3 across, vec2 lens) {
+  float angle = sqrt(dot3(across, across));
+  vec2 turn = sine_cosine(angle);
+  vec3 aside = across * (angle > 0.0f ? turn.x / angle : 1.0f);
+  return make_ray(vec3(0.0f, 0.0f, 0.0f), normalize3(aside + normalize3(frame.forward) * turn.y));
+}
+
+SHADER_END
+#endif
