@@ -31,6 +31,7 @@ SHADER_BEGIN
 #define BINDING_PROBE 19
 #define BINDING_TUNABLES 20
 #define BINDING_EMITTERS 21
+#define BINDING_ENVIRONMENT 22
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
@@ -194,7 +195,12 @@ struct Emitter {
   float offset;  // what stands this far off it is off it, however it is rounded
 };
 
-// ---- Frame: what is the same for all pixels, 144 bytes --------------------------------------------------------------
+// ---- Environment: 16 bytes a texel; empty without one ---------------------------------------------------------------
+// height + 1 rows of width + 1 texels: red, green and blue as the bits of floats. The last row and the last column are the picture's last
+// row and first column again. The fourth word says where the numbers end by which the cell is chosen whose lower left corner this is,
+// among those of its row; in the last column, those by which the row is.
+
+// ---- Frame: what is the same for all pixels, 160 bytes --------------------------------------------------------------
 struct Frame {
   uint width;
   uint height;
@@ -222,6 +228,10 @@ struct Frame {
   float blade_rotation;  // radians
   uint blades;           // corners of the lens; 0: it is round
   uint unused_0;
+  uint environment_width;    // of the picture; 0 without one
+  uint environment_height;
+  uint environment_numbers;  // of 2^24, that choose the environment and not a light
+  float environment_turn;    // by how much of a whole turn it is turned about y
 };
 
 // ---- Push constants: what changes from dispatch to dispatch, 32 bytes -----------------------------------------------
@@ -361,7 +371,7 @@ static_assert(sizeof(eyeray::shader::Medium) == 16);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);
 static_assert(sizeof(eyeray::shader::Emitter) == 80);
-static_assert(sizeof(eyeray::shader::Frame) == 144);
+static_assert(sizeof(eyeray::shader::Frame) == 160);
 static_assert(sizeof(eyeray::shader::Dispatch) == 32);
 static_assert(sizeof(eyeray::shader::SampleResult) == 32);
 static_assert(sizeof(eyeray::shader::HitResult) == 80);

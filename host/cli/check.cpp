@@ -10,6 +10,7 @@
 #include "host/lights/registry.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/materials/registry.hpp"
+#include "host/pack/environment_records.hpp"
 #include "host/pack/pack.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/objects.hpp"
@@ -85,6 +86,7 @@ void list_names(const Scene& scene, Inventory& inventory) {
 Inventory take_inventory(const Scene& scene) {
   const records::PackedScene packed = pack::pack_without_texels(scene);
   Inventory inventory;
+  const size_t environment_texels = scene.environment ? pack::environment_texels(*scene.environment) : 0;
   std::vector<uint32_t> kinds;
   for (const auto& shape : scene.shapes)
     kinds.push_back(uint32_t(std::ranges::find(shapes::types(), shape->type) - shapes::types().begin()));
@@ -102,7 +104,7 @@ Inventory take_inventory(const Scene& scene) {
                     bytes(packed.bvhs) + bytes(packed.instances) + bytes(packed.materials) +
                     bytes(packed.textures) + packed.texel_count * sizeof(packed.texels[0]) +
                     bytes(packed.media) + bytes(packed.lights) + bytes(packed.emitters) +
-                    sizeof(packed.frame);
+                    environment_texels * sizeof(packed.environment[0]) + sizeof(packed.frame);
   return inventory;
 }
 

@@ -3,7 +3,9 @@
 #include "host/cli/generate_files.hpp"
 #include "host/cli/within.hpp"
 #include "host/generate/sphereflake.hpp"
+#include "host/generate/studio.hpp"
 #include "host/generate/terrain.hpp"
+#include "host/image/image_file.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -167,6 +169,28 @@ void add_classic(CLI::App& generate, const generate::Classic& classic, Run& run)
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 
+void add_studio(CLI::App& generate, Run& run) {
+  struct Options {
+    std::filesystem::path picture;
+    int width = 1024;
+  };
+  CLI::App* const command = generate.add_subcommand("studio", "Light from all around, for [environment].");
+  const auto options = std::make_shared<Options>();
+  command->add_option("-o,--output", options->picture, "The picture.")
+      ->option_text("FILE.hdr|.exr|.pfm")
+      ->required();
+  command->add_option("--width", options->width, "Pixels across; half as many down.")
+      ->option_text("N=1024")
+      ->check(CLI::Range(2, generate::most_studio_width));
+  command->footer("Example: eyeray generate studio -o studio.hdr");
+  command->callback([options, &run] {
+    run = [options] {
+      image::write_image(options->picture, generate::studio(options->width));
+      return ExitCode::ok;
+    };
+  });
+}
+
 }  // namespace
 
 void add_generate(CLI::App& app, Run& run) {
@@ -174,6 +198,7 @@ void add_generate(CLI::App& app, Run& run) {
   add_sphereflake(*command, run);
   for (const generate::Classic& classic : generate::classics()) add_classic(*command, classic, run);
   add_terrain(*command, run);
+  add_studio(*command, run);
   command->footer(
       "Each has its own --help, and answers in JSON under --json.\n"
       "Example: eyeray generate terrain -o terrain.toml --triangles 1000000\n"

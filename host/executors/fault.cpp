@@ -145,6 +145,10 @@ constexpr FaultType types[] = {
      .from = "ray = make_ray(start, way / distance);",
      .to = "ray = make_ray(start, way / distance);\n    distance = T_MISS;"},
     {.name = "pairs", .file = "math/rng.glsl", .from = "PAIR_DIRECTION 5u", .to = "PAIR_DIRECTION 7u"},
+    {.name = "half_texel",
+     .file = "emitters/environment.glsl",
+     .from = "* float(frame.environment_width) - 0.5f;",
+     .to = "* float(frame.environment_width);"},
     // Random numbers.
     {.name = "random", .file = "math/rng.glsl", .from = "2891336453u", .to = "2891336455u"},
     // Packing.

@@ -68,7 +68,7 @@ uint32_t shadow_rays(const records::PackedScene& scene) {
     case ShadowRays::each_light:
       return uint32_t(scene.lights.size());
     case ShadowRays::one_light:
-      return scene.emitters.empty() ? 0 : 1;
+      return scene.emitters.empty() && scene.frame.environment_numbers == 0 ? 0 : 1;
   }
   return 0;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/core/error.hpp"
+#include "host/image/image_file.hpp"
 #include "host/scene/image_texture_file.hpp"
 
 namespace eyeray::loader {
@@ -11,6 +12,17 @@ namespace {
 
 bool same_settings(const ImageTexture& a, const ImageTexture& b) {
   return a.srgb == b.srgb && a.filter == b.filter && a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v;
+}
+
+// Grey becomes equal red, green and blue.
+image::Image read_light(const std::filesystem::path& path) {
+  check_image_file(path);
+  image::Image image = image::read_image(path);
+  if (image.channels() == 3) return image;
+  image::Image colored(image.width(), image.height(), 3);
+  for (size_t i = 0; i < image.sample_count(); ++i)
+    std::fill_n(&colored.samples()[3 * i], 3, image.samples()[i]);
+  return colored;
 }
 
 // `from` with the settings of `wanted`.
@@ -24,15 +36,38 @@ std::shared_ptr<const ImageTexture> with_settings(ImageTexture from, const Image
 
 }  // namespace
 
+AllowedFolders::File ImageFiles::find(const std::string& name, const SourcePosition& position) {
+  const auto source = std::ranges::find(sources_, std::filesystem::path(position.file));
+  return folders_.find("image", name, source != sources_.end() ? *source : sources_.front());
+}
+
+void ImageFiles::take_note(const std::filesystem::path& path) {
+  if (std::ranges::find(files_, path) == files_.end()) files_.push_back(path);
+}
+
+std::optional<image::Image> ImageFiles::load_light(const std::string& name, const SourcePosition& position) {
+  try {
+    const auto [path, whole] = find(name, position);
+    if (image::image_format(path) == image::ImageFormat::png)
+      throw Error(ExitCode::bad_input,
+                  "{}: a .png does not hold light, but what a screen shows; take a .hdr, "
+                  ".exr or .pfm",
+                  path.string());
+    take_note(path);
+    return read_light(path);
+  } catch (const Error& unreadable) {
+    log_.error(position, unreadable.what());
+    return std::nullopt;
+  }
+}
+
 std::shared_ptr<const ImageTexture> ImageFiles::load(ImageTexture wanted, const SourcePosition& position) {
   try {
-    const auto source = std::ranges::find(sources_, std::filesystem::path(position.file));
-    const auto [path, whole] =
-        folders_.find("image", wanted.name, source != sources_.end() ? *source : sources_.front());
+    const auto [path, whole] = find(wanted.name, position);
     const auto [entry, fresh] = images_.try_emplace(whole);
     auto& [variants, refused] = entry->second;
     if (fresh) {
-      if (std::ranges::find(files_, path) == files_.end()) files_.push_back(path);
+      take_note(path);
       try {
         variants.push_back(with_settings(load_image_texture(path, budget_), wanted));
       } catch (const Error& unreadable) {

@@ -21,11 +21,15 @@ class ImageFiles final : public ImageSource {
       : folders_(folders), sources_(std::move(sources)), budget_(budget), log_(log) {}
 
   std::shared_ptr<const ImageTexture> load(ImageTexture wanted, const SourcePosition& position) override;
+  std::optional<image::Image> load_light(const std::string& name, const SourcePosition& position) override;
 
   // Every file that was to be read, in the order in which they were first named.
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:
+  AllowedFolders::File find(const std::string& name, const SourcePosition& position);
+  void take_note(const std::filesystem::path& path);
+
   const AllowedFolders& folders_;
   std::vector<std::filesystem::path> sources_;  // the scene first
   image::PixelBudget& budget_;

@@ -2,6 +2,7 @@
 
 #include "host/cameras/registry.hpp"
 #include "host/lights/registry.hpp"
+#include "host/loader/environments.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
 #include "host/materials/registry.hpp"
@@ -92,6 +93,7 @@ std::string scene_manual() {
       text += values_manual("integrator", integrator_names,
                             [](uint32_t i) { return reference::integrator(IntegratorType(i)).manual; });
     if (section.kind == camera) text += kinds_manual(cameras::types());
+    if (section.kind == environment) text += kinds_manual(environment_types());
     if (section.kind == light) text += kinds_manual(lights::types());
     if (section.kind != material) continue;
     text += kinds_manual(materials::types());

@@ -115,15 +115,17 @@ decltype(importers::ImportedScene::lights) studio_lights(const importers::Import
 
 }  // namespace
 
-toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import) {
+toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,
+                       bool around) {
   const importers::ImportedCamera camera = import.camera ? *import.camera : framing(import);
   toml::array lights;
-  for (const auto& light : import.lights.empty() ? studio_lights(camera) : import.lights)
+  for (const auto& light : import.lights.empty() && !around ? studio_lights(camera) : import.lights)
     lights.push_back(std::visit([](const auto& form) { return table(form); }, light));
 
   toml::table root;
   root.insert("camera", table(camera));
-  root.insert("render", toml::table{{"background", toml::array{0.34, 0.41, 0.5}}, {"ambient", 0.14}});
+  if (!around)
+    root.insert("render", toml::table{{"background", toml::array{0.34, 0.41, 0.5}}, {"ambient", 0.14}});
   root.insert("light", std::move(lights));
   root.insert("mesh", toml::array{toml::table{{"file", file.filename().string()}}});
   return root;

@@ -6,6 +6,7 @@
 #include "host/loader/batch.hpp"
 #include "host/loader/cameras.hpp"
 #include "host/loader/csg_reader.hpp"
+#include "host/loader/environments.hpp"
 #include "host/loader/group_placement.hpp"
 #include "host/loader/group_plan.hpp"
 #include "host/loader/lights.hpp"
@@ -47,6 +48,11 @@ class Builder {
     scene_.render = read_render(render);
     TableReader image = read_single("image");
     scene_.image = read_image(image, scene_.render.integrator);
+    const toml::table* around = single("environment");
+    scene_.environment = read_environment(*find_section("environment"), around, values_, log_);
+    if (around && render.has("background"))
+      render.error("background",
+                   "[environment] takes the place of `background`: a scene has one or the other");
     TableReader verify = read_single("verify");
     scene_.verify = read_verify(verify);
 
@@ -318,8 +324,9 @@ void Builder::check_paths() {
   }
   const LightChoice choice = light_choice(scene_);
   const std::vector<SourcePosition>& unsampled = choice.unsampled;
-  if (choice.ends.empty() && unsampled.empty() && scene_.render.background == Vec3(0))
-    log_.warning({}, "nothing shines: there is no [[light]], no `emission` and no `background`");
+  if (choice.ends.empty() && unsampled.empty() && scene_.render.background == Vec3(0) && !scene_.environment)
+    log_.warning(
+        {}, "nothing shines: there is no [[light]], no `emission`, no `background` and no [environment]");
   if (!unsampled.empty())
     log_.warning(
         unsampled.front(),

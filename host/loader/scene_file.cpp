@@ -1,5 +1,7 @@
 #include "host/loader/scene_file.hpp"
 
+#include <algorithm>
+
 #include "host/loader/document.hpp"
 #include "host/loader/formula_files.hpp"
 #include "host/loader/formula_refusal.hpp"
@@ -31,11 +33,14 @@ Scene finish(Document document, const fs::path& file, std::span<const Override> 
 }
 
 // The mesh file as if a scene showed it.
-Document read_mesh(const fs::path& file, MeshImports& meshes, DiagnosticLog& log) {
+Document read_mesh(const fs::path& file, std::span<const Override> overrides, MeshImports& meshes,
+                   DiagnosticLog& log) {
   log.add_source(file.string(), "");
   const MeshImports::Loaded loaded = meshes.load_alone(file);
   for (const std::string& warning : loaded.scene->warnings) log.warning({}, warning);
-  return {mesh_scene(file, *loaded.scene), {}};
+  const bool around = std::ranges::any_of(
+      overrides, [](const Override& each) { return each.text.starts_with("environment"); });
+  return {mesh_scene(file, *loaded.scene, around), {}};
 }
 
 }  // namespace
@@ -48,7 +53,7 @@ Scene load_scene(const fs::path& file, std::span<const Override> overrides, cons
   trees.push_back(file.parent_path());
   if (importers::is_mesh_file(file)) {
     MeshImports meshes(folders, std::move(trees), {file}, pixels);
-    Document document = read_mesh(file, meshes, log);
+    Document document = read_mesh(file, overrides, meshes, log);
     ImageFiles images(folders, document.files, pixels, log);
     return finish(std::move(document), file, overrides, &images, &meshes, nullptr, log);
   }

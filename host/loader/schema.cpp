@@ -6,6 +6,7 @@
 
 #include "host/cameras/registry.hpp"
 #include "host/lights/registry.hpp"
+#include "host/loader/environments.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
 #include "host/materials/registry.hpp"
@@ -231,6 +232,7 @@ Json section_schema(const Section& section) {
   if (section.is_placed()) return list_schema(world_ray(section));
   if (section.kind == Section::Kind::material) return list_schema(kinds_schema(section, materials::types()));
   if (section.kind == Section::Kind::camera) return kinds_schema(section, cameras::types());
+  if (section.kind == Section::Kind::environment) return kinds_schema(section, environment_types());
   if (section.kind == Section::Kind::light) return list_schema(kinds_schema(section, lights::types()));
   return section.many() ? list_schema(table_schema(section.keys)) : table_schema(section.keys);
 }

@@ -6,6 +6,7 @@
 #include "host/cameras/registry.hpp"
 #include "host/core/diagnostic.hpp"
 #include "host/lights/registry.hpp"
+#include "host/loader/environments.hpp"
 #include "host/loader/settings.hpp"
 #include "host/materials/registry.hpp"
 #include "host/scene/foreign_words.hpp"
@@ -215,6 +216,8 @@ std::vector<Section> make_sections() {
       {image, "image", "[image]", "The picture.", image_keys()},
       {camera, "camera", "[camera]", "Where from and how the scene is seen.", camera_keys()},
       {render, "render", "[render]", "How the picture is computed.", render_keys()},
+      {environment, "environment", "[environment]",
+       "Light from all around, in place of the `background` of [render].", environment_keys()},
       {verify, "verify", "[verify]", "What `eyeray verify` is told of the scene.", verify_keys()},
       {light, "light", "[[light]]", "A light.", light_keys()},
       {material, "material", "[[material]]", "What surfaces are made of.", material_keys()},

@@ -14,7 +14,19 @@
 namespace eyeray::loader {
 
 struct Section {
-  enum class Kind { image, camera, render, verify, light, material, group, instance, mesh, shape };
+  enum class Kind {
+    image,
+    camera,
+    render,
+    environment,
+    verify,
+    light,
+    material,
+    group,
+    instance,
+    mesh,
+    shape
+  };
 
   Kind kind;
   std::string_view name;

@@ -4,6 +4,7 @@
 
 #include "host/core/error.hpp"
 #include "host/pack/emitter_records.hpp"
+#include "host/pack/environment_records.hpp"
 #include "host/pack/geometry.hpp"
 #include "host/reference/media.hpp"
 #include "host/scene/integrator.hpp"
@@ -52,6 +53,13 @@ shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed)
   frame.sharpness = float(glm::length(camera.forward) / aperture.focus);
   frame.blade_rotation = float(aperture.blade_rotation);
   frame.blades = uint32_t(aperture.blades);
+  if (const EnvironmentMap* environment = scene.environment.get()) {
+    frame.environment_width = uint32_t(environment->width());
+    frame.environment_height = uint32_t(environment->height());
+    frame.environment_turn = float(environment->turn());
+    if (walks_at_random(scene.render.integrator))
+      frame.environment_numbers = environment_numbers(environment, !packed.emitters.empty());
+  }
   return frame;
 }
 
@@ -78,6 +86,7 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
 records::PackedScene pack(const Scene& scene, const PackOptions& options) {
   records::Packer packer = pack_records(scene, options);
   packer.write_texels();
+  if (scene.environment) packer.scene.environment = pack_environment(*scene.environment);
   return std::move(packer.scene);
 }
 

@@ -59,6 +59,7 @@ struct PackedScene {
   std::vector<uint32_t> texels;                       // records.h says how
   std::vector<shader::Medium> media{{{0, 0, 0}, 1}};  // by number; 0 is the vacuum
   std::vector<shader::Light> lights;
+  RawVector<shader::uvec4> environment;   // records.h says how; empty without one, or not written
   std::vector<shader::Emitter> emitters;  // lights, then surfaces in the order of their primitives
   shader::Frame frame{};
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/reference/emitter_sample.hpp"
+#include "host/reference/environment.hpp"
 #include "host/reference/integrator.hpp"
 #include "host/reference/sample_rays.hpp"
 #include "host/reference/sampler.hpp"
@@ -60,7 +61,10 @@ class PathSample {
         .pair(id_.pixel, id_.index, use + pairs_a_vertex * uint32_t(depth_), scene_.render.seed);
   }
   Vec3 emitted(const Interaction& at, const Vec3& from) const;
+  Vec3 missed(const Vec3& d) const;
+  double environment_share() const;
   std::optional<Arriving> arriving(const Interaction& at);
+  std::optional<Arriving> arriving_from_around(const Interaction& at);
   Vec3 direct(const Interaction& at);
   std::optional<Ray> scatter(const Interaction& at, MediaStack& media);
 
@@ -94,17 +98,43 @@ Vec3 PathSample::emitted(const Interaction& at, const Vec3& from) const {
   if (density_ == 0) return light;
   const auto found = std::ranges::lower_bound(choice.emitters, at.primitive, {}, &Emitter::primitive);
   if (found == choice.emitters.end() || found->primitive != at.primitive) return light;
-  const double share = choice.share(scene_.lights.size() + size_t(found - choice.emitters.begin()));
+  const double share = (1 - environment_share()) *
+                       choice.share(scene_.lights.size() + size_t(found - choice.emitters.begin()));
   const EmitterSample place{at.surface.position, at.surface.normal_geometric};
   return light * power_heuristic(density_, share * emitter_density(found->form, from, place));
+}
+
+// How likely the environment is chosen, and not a light.
+double PathSample::environment_share() const {
+  return environment_numbers(scene_.environment.get(), !tracer_.light_choice().ends.empty()) * 0x1p-24;
+}
+
+// What the path sees that hits nothing, likewise.
+Vec3 PathSample::missed(const Vec3& d) const {
+  const Vec3 light = rays_.surroundings(d);
+  const double share = environment_share();
+  if (density_ == 0 || share == 0) return light;
+  return light *
+         power_heuristic(density_, share * environment_density(*scene_.environment, rays_.rounded(d)));
+}
+
+std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) {
+  const auto [l, by_angle] = sample_environment(*scene_.environment, pair(place_pair));
+  if (!rays_.faces(at.surface, l, std::numeric_limits<double>::infinity())) return std::nullopt;
+  const double density = environment_share() * by_angle;
+  return Arriving{l, rays_.spawn_ray(at.surface, l), std::numeric_limits<double>::infinity(),
+                  rays_.surroundings(l) / density, density};
 }
 
 // What one light, chosen at random, sends to the point. Classic units: one of intensity 1 is π times that.
 std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const LightChoice& choice = tracer_.light_choice();
-  const auto number = uint32_t(pair(light_pair).x * 0x1p24);
+  const Vec2 chance = pair(light_pair);
+  if (chance.y < environment_share()) return arriving_from_around(at);
+  if (choice.ends.empty()) return std::nullopt;
+  const auto number = uint32_t(chance.x * 0x1p24);
   const auto light = size_t(std::ranges::upper_bound(choice.ends, number) - choice.ends.begin());
-  const double share = choice.share(light);
+  const double share = (1 - environment_share()) * choice.share(light);
   const Vec3& p = at.surface.position;
   if (light < scene_.lights.size()) {
     const Illumination arriving = scene_.lights[light]->illuminate(p);
@@ -129,8 +159,7 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
 // What that brings to the viewer.
 Vec3 PathSample::direct(const Interaction& at) {
   const Vec3 diffuse = diffuse_albedo(at.scattering);
-  if (tracer_.light_choice().ends.empty() || diffuse == Vec3(0) || depth_ > scene_.render.max_depth)
-    return Vec3(0);
+  if (diffuse == Vec3(0) || depth_ > scene_.render.max_depth) return Vec3(0);
   const auto light = arriving(at);
   if (!light) return Vec3(0);
   const double cosine = std::max(0.0, glm::dot(at.surface.normal, light->l));
@@ -190,7 +219,7 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
   for (;;) {
     const auto at = rays_.hit(ray, media, throughput_);
     if (!at) {
-      color += throughput_ * scene_.render.background;
+      color += throughput_ * missed(ray.d);
       break;
     }
     throughput_ *= at->dimming;

@@ -1,3 +1,4 @@
+#include "host/reference/environment.hpp"
 #include "host/reference/integrator.hpp"
 
 namespace eyeray::reference {
@@ -16,8 +17,10 @@ PixelSample raycast(const Tracer& tracer, const SampleId&, const Ray& ray, const
   uint32_t flags = 0;
   const auto hit = tracer.trace(ray, flags, ray_offset.coincident);
   if (!hit) {
-    observer.miss(Vec3(1), scene.render.background);
-    return {.color = scene.render.background, .rays = 1, .flags = flags};
+    const Vec3 color =
+        scene.environment ? environment_radiance(*scene.environment, ray.d) : scene.render.background;
+    observer.miss(Vec3(1), color);
+    return {.color = color, .rays = 1, .flags = flags};
   }
 
   const SurfacePoint surface = tracer.surface(ray, *hit);

@@ -5,6 +5,7 @@
 
 #include "host/core/termination.hpp"
 #include "host/reference/crossings.hpp"
+#include "host/reference/environment.hpp"
 #include "host/reference/rng.hpp"
 
 namespace eyeray::reference {
@@ -34,6 +35,18 @@ Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d) {
   aside -= glm::dot(aside, point.normal_geometric) * point.normal_geometric;
   ray.o += ray_offset_.share * glm::length(from_eye) * aside;
   return ray;
+}
+
+Vec3 SampleRays::rounded(const Vec3& d) const {
+  if (ray_offset_.share == 0) return d;
+  Vec3 aside;
+  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(ray_offset_.seed, spawned_, 4 + i, 0) - 1;
+  return glm::normalize(d + ray_offset_.share * aside);
+}
+
+Vec3 SampleRays::surroundings(const Vec3& d) const {
+  return scene_.environment ? environment_radiance(*scene_.environment, rounded(d))
+                            : scene_.render.background;
 }
 
 // What float32 may add at most to the cosine between a surface and what lies at that distance from it.
@@ -88,7 +101,7 @@ std::optional<Interaction> SampleRays::hit(const Ray& ray, const MediaStack& med
   ++rays_;
   const auto hit = tracer_.trace(ray, flags_, ray_offset_.coincident);
   if (!hit) {
-    observer_.miss(throughput, scene_.render.background);
+    observer_.miss(throughput, surroundings(ray.d));
     return std::nullopt;
   }
   ++hits_;

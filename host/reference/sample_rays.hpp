@@ -33,6 +33,10 @@ class SampleRays {
   // What the ray, which is in `media`, hits; nothing where it hits nothing. `throughput`: the share of its
   // light that arrives in the pixel.
   std::optional<Interaction> hit(const Ray& ray, const MediaStack& media, const Vec3& throughput);
+  // What a ray in that unit direction sees where it hits nothing.
+  Vec3 surroundings(const Vec3& d) const;
+  // The unit direction as float32 may round it.
+  Vec3 rounded(const Vec3& d) const;
   // A ray that leaves the surface, as float32 may round it.
   Ray spawn_ray(const SurfacePoint& point, const Vec3& d);
   // Whether a light in direction l at that distance stands before the surface. In its plane float32 may say

@@ -44,7 +44,7 @@ class Recursion {
 
 Vec3 Recursion::radiance(const Path& path) {
   const auto at = rays.hit(path.ray, path.media, path.throughput);
-  if (!at) return scene_.render.background;
+  if (!at) return rays.surroundings(path.ray.d);
 
   // Add up the light that the point scatters, mirrors and lets through, and dim it on its way here.
   const Scattering& scattering = at->scattering;

@@ -7,21 +7,18 @@
 
 #include "host/core/error.hpp"
 #include "host/scene/affine.hpp"
+#include "host/scene/luminance.hpp"
 #include "host/scene/primitive_ids.hpp"
 #include "host/scene/scene.hpp"
+#include "host/scene/whole_shares.hpp"
 
 namespace eyeray {
 
 namespace {
 
-constexpr uint32_t numbers = 1u << 24;
 constexpr size_t most_emitters = size_t{1} << 20;
 // Of all weight, what is shared evenly.
 constexpr double even_share = 1.0 / 16;
-
-double luminance(const Vec3& color) {
-  return glm::dot(color, Vec3(0.2126, 0.7152, 0.0722));
-}
 
 std::optional<EmitterForm> emitter_form(const ShapeForm& form) {
   if (const auto* sphere = std::get_if<SphereForm>(&form)) return *sphere;
@@ -124,19 +121,14 @@ class Collector {
   const PrimitiveIds ids_{scene_};
 };
 
-// Whole numbers in proportion to the weights: each is one at least, and all are `numbers` together.
-std::vector<uint32_t> stretches(const std::vector<double>& weights) {
+// The share of each weight among all, a sixteenth of which is even.
+std::vector<double> shares_of(const std::vector<double>& weights) {
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   const auto count = double(weights.size());
-  std::vector<uint32_t> result;
-  uint32_t left = numbers;
-  for (const double weight : weights) {
-    const double share = sum > 0 ? (1 - even_share) * weight / sum + even_share / count : 1 / count;
-    result.push_back(1 + uint32_t(share * (numbers - count)));
-    left -= std::min(left, result.back());
-  }
-  if (!result.empty()) *std::ranges::max_element(result) += left;
-  return result;
+  std::vector<double> shares;
+  for (const double weight : weights)
+    shares.push_back(sum > 0 ? (1 - even_share) * weight / sum + even_share / count : 1 / count);
+  return shares;
 }
 
 }  // namespace
@@ -167,8 +159,8 @@ LightChoice light_choice(const Scene& scene) {
   for (const auto& light : scene.lights) weights.push_back(power(*light, radius));
   for (const Emitter& emitter : choice.emitters)
     weights.push_back(2 * M_PI * emitter.area * luminance(emitter.radiance));
-  uint32_t end = 0;
-  for (const uint32_t stretch : stretches(weights)) choice.ends.push_back(end += stretch);
+  choice.ends.resize(weights.size());
+  whole_shares(shares_of(weights), choice.ends);
   return choice;
 }
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "host/core/diagnostic.hpp"
+#include "host/image/image.hpp"
 #include "host/scene/image_texture.hpp"
 
 namespace eyeray {
@@ -16,6 +18,8 @@ class ImageSource {
   // `wanted` with its texels: its name is a file's as it stands at `position`, its size and texels are still
   // empty. Null, with an error in the log, where that cannot be had.
   virtual std::shared_ptr<const ImageTexture> load(ImageTexture wanted, const SourcePosition& position) = 0;
+  // The light that a file holds, of three channels: a .hdr, .exr or .pfm. Without an answer as above.
+  virtual std::optional<image::Image> load_light(const std::string& name, const SourcePosition& position) = 0;
 };
 
 }  // namespace eyeray

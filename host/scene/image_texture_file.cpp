@@ -10,7 +10,7 @@ namespace eyeray {
 
 namespace fs = std::filesystem;
 
-ImageTexture load_image_texture(const fs::path& path, image::PixelBudget& budget) {
+void check_image_file(const fs::path& path) {
   const auto fail = [&](const std::string& why) {
     return Error(ExitCode::file_io, "cannot read {}: {}", path.string(), why);
   };
@@ -23,6 +23,10 @@ ImageTexture load_image_texture(const fs::path& path, image::PixelBudget& budget
   if (!fs::is_regular_file(status)) throw fail("it is not a regular file");
   if (const auto size = fs::file_size(path, error); !error && size > image::most_coded_bytes)
     throw fail(fmt::format("it has {} bytes; the most is {} (1 GiB)", size, image::most_coded_bytes));
+}
+
+ImageTexture load_image_texture(const fs::path& path, image::PixelBudget& budget) {
+  check_image_file(path);
   const std::string bytes = read_file(path);
   return decode_image_texture(std::as_bytes(std::span(bytes)), path.string(), budget);
 }

@@ -11,6 +11,9 @@
 
 namespace eyeray {
 
+// Error (file_io), as below, where there is no regular file of at most 1 GiB.
+void check_image_file(const std::filesystem::path& path);
+
 // The picture in a regular file of at most 1 GiB and 16384 pixels a side, named after the path; filter, wrap
 // and colour space are an ImageTexture's defaults. Error (file_io), one sentence with the path and the
 // reason, where it cannot be read or the budget has fewer pixels left.

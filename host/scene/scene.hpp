@@ -23,6 +23,8 @@ namespace eyeray {
 enum class SamplePattern : uint32_t;
 enum class IntegratorType : uint32_t;
 
+class EnvironmentMap;  // scene/environment.hpp
+
 struct ImageSettings {
   int width = 640;
   int height = 480;
@@ -60,6 +62,7 @@ struct Scene {
   Camera camera;
   RenderSettings render;
   VerifySettings verify;
+  std::shared_ptr<const EnvironmentMap> environment;  // in place of the background; null where there is none
   std::vector<std::unique_ptr<Light>> lights;
   std::vector<std::unique_ptr<Material>> materials;
   // In registry order, within a kind in file order (an included file's where its name stands); then those of

@@ -58,6 +58,7 @@ SceneView view_of(const records::PackedScene& scene) {
           .materials = scene.materials.data(),
           .textures = scene.textures.data(),
           .texels = scene.texels.data(),
+          .environment = scene.environment.data(),
           .media = scene.media.data(),
           .lights = scene.lights.data(),
           .emitters = scene.emitters.data(),

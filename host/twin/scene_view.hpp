@@ -32,6 +32,7 @@ struct SceneView {
   const shader::Material* materials;
   const shader::Texture* textures;
   const uint32_t* texels;
+  const shader::uvec4* environment;
   const shader::Medium* media;
   const shader::Light* lights;
   const shader::Emitter* emitters;

@@ -65,6 +65,9 @@ class Binding {
 [[maybe_unused]] uint load_texel(uint i) {
   return bound_scene->texels[i];
 }
+[[maybe_unused]] const uvec4& load_environment(uint i) {
+  return bound_scene->environment[i];
+}
 [[maybe_unused]] const Medium& load_medium(uint i) {
   return bound_scene->media[i];
 }
@@ -98,6 +101,7 @@ void show(const char* name, uint line, const T& shown) {
 #define KIND_END(name) bound_scene->linear_ends[KIND_##name]
 #define LIGHT_COUNT bound_scene->frame->light_count
 #define EMITTER_COUNT bound_scene->frame->emitter_count
+#define HAS_ENVIRONMENT_LIGHT (bound_scene->frame->environment_numbers > 0u)
 #define TRIANGLE_METHOD bound_scene->frame->triangle_method
 #define HAS_BVH bound_scene->has_bvh
 #define QUANTISED_NODES bound_scene->quantised_nodes

@@ -42,7 +42,7 @@ Path begin(Frame frame, Ray camera_ray, uint pixel, uint index) {
 
 #define SHADOW_RAYS_TO_no_light 0u
 #define SHADOW_RAYS_TO_each_light LIGHT_COUNT
-#define SHADOW_RAYS_TO_one_light (EMITTER_COUNT > 0u ? 1u : 0u)
+#define SHADOW_RAYS_TO_one_light (EMITTER_COUNT > 0u || HAS_ENVIRONMENT_LIGHT ? 1u : 0u)
 uint shadow_rays() {
   uint count = 0u;
 #define SHADOW_RAYS_OF(name, number, lights, ways) \

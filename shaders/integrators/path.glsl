@@ -5,6 +5,7 @@
 #ifndef PATH_GLSL
 #define PATH_GLSL
 #include "emitters/emitter.glsl"
+#include "emitters/environment.glsl"
 #include "integrators/continuation.glsl"
 #include "integrators/interaction.glsl"
 #include "lights/light.glsl"
@@ -52,7 +53,14 @@ float power_heuristic(float p, float q) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
-vec3 path_missed(Frame frame, Path path) { return frame.background; }
+vec3 path_missed(Frame frame, Path path) {
+  vec3 light = surroundings(frame, path.d);
+#if HAS_ENVIRONMENT
+  if (frame.environment_numbers > 0u && path.density > 0.0f)
+    light = light * power_heuristic(path.density, environment_share(frame) * environment_density(frame, path.d));
+#endif
+  return light;
+}
 
 // The surface's own light, less what shadow rays to it have brought already.
 vec3 path_emitted(Frame frame, Path path, Interaction at) {
@@ -64,14 +72,14 @@ vec3 path_emitted(Frame frame, Path path, Interaction at) {
     EmitterSample place;
     place.p = at.surface.p;
     place.normal = at.surface.normal_geometric;
-    float density = emitter_share(emitter) * emitter_density(load_emitter(emitter), path.o, place);
+    float density = emitter_share(emitter) * (1.0f - environment_share(frame)) * emitter_density(load_emitter(emitter), path.o, place);
     light = light * power_heuristic(path.density, density);
   }
 #endif
   return light;
 }
 
-// What one light, chosen at random, sends to the point: from `direction`, if nothing stands on the way of `ray`.
+// What a light sends to the point: from `direction`, if nothing stands on the way of `ray`.
 struct Arriving {
   vec3 direction;
   Ray ray;
@@ -81,15 +89,22 @@ struct Arriving {
   float share;    // of the light among all
 };
 
-Arriving light_arriving(Frame frame, Path path, Interaction at) {
-  uint light = emitter_chosen_by(path_pair(frame, path, PAIR_LIGHT).x);
+Arriving nothing_arriving(Interaction at) {
   Arriving arriving;
-  arriving.share = emitter_share(light);
   arriving.direction = vec3(0.0f, 1.0f, 0.0f);
   arriving.ray = make_ray(at.seen.p, arriving.direction);
   arriving.distance = 0.0f;
   arriving.radiance = vec3(0.0f, 0.0f, 0.0f);
   arriving.density = 0.0f;
+  arriving.share = 1.0f;
+  return arriving;
+}
+
+// From one light or surface, chosen at random.
+Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) {
+  uint light = emitter_chosen_by(chance);
+  Arriving arriving = nothing_arriving(at);
+  arriving.share = emitter_share(light) * (1.0f - environment_share(frame));
   if (light < LIGHT_COUNT) {
     LightSample s = sample_light(load_light(light), at.seen.p);
     arriving.direction = s.direction;
@@ -112,6 +127,33 @@ Arriving light_arriving(Frame frame, Path path, Interaction at) {
     arriving.density = arriving.share * emitter_density(emitter, at.seen.p, place);
   }
 #endif
+  return arriving;
+}
+
+#if HAS_ENVIRONMENT
+Arriving environment_arriving(Frame frame, Path path, Interaction at) {
+  EnvironmentSample chosen = sample_environment(frame, path_pair(frame, path, PAIR_EMITTER));
+  Arriving arriving = nothing_arriving(at);
+  arriving.share = environment_share(frame);
+  arriving.direction = chosen.direction;
+  arriving.ray = spawn_ray(at.seen, chosen.direction);
+  arriving.distance = T_MISS;
+  arriving.radiance = environment_radiance(frame, chosen.direction);
+  arriving.density = arriving.share * chosen.density;
+  return arriving;
+}
+#endif
+
+// What comes from the one light that the vertex asks.
+Arriving light_arriving(Frame frame, Path path, Interaction at) {
+  vec2 chance = path_pair(frame, path, PAIR_LIGHT);
+  bool around = false;
+  Arriving arriving = nothing_arriving(at);
+#if HAS_ENVIRONMENT
+  around = uint(chance.y * 16777216.0f) < frame.environment_numbers;
+  if (around) arriving = environment_arriving(frame, path, at);
+#endif
+  if (!around && EMITTER_COUNT > 0u) arriving = emitter_arriving(frame, path, at, chance.x);
   return arriving;
 }
 

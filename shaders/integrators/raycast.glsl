@@ -1,6 +1,7 @@
 // Eye rays only: the base colour, shaded by light and normal, without shadows.
 #ifndef RAYCAST_GLSL
 #define RAYCAST_GLSL
+#include "emitters/environment.glsl"
 #include "integrators/continuation.glsl"
 #include "integrators/interaction.glsl"
 #include "lights/light.glsl"
@@ -8,7 +9,7 @@
 
 SHADER_BEGIN
 
-vec3 raycast_missed(Frame frame, Path path) { return frame.background; }
+vec3 raycast_missed(Frame frame, Path path) { return surroundings(frame, path.d); }
 
 vec3 raycast_emitted(Frame frame, Path path, Interaction at) {
   // Add up the lights; without any, the viewer holds one.

@@ -2,13 +2,14 @@
 // mirrors and refraction.
 #ifndef WHITTED_GLSL
 #define WHITTED_GLSL
+#include "emitters/environment.glsl"
 #include "integrators/continuation.glsl"
 #include "integrators/interaction.glsl"
 #include "lights/light.glsl"
 
 SHADER_BEGIN
 
-vec3 whitted_missed(Frame frame, Path path) { return frame.background; }
+vec3 whitted_missed(Frame frame, Path path) { return surroundings(frame, path.d); }
 
 // The ambient light, and the surface's own.
 vec3 whitted_emitted(Frame frame, Path path, Interaction at) {

@@ -17,6 +17,7 @@ layout(rgba32ui, binding = BINDING_PRIMITIVES) readonly restrict uniform uimageB
 layout(rgba32ui, binding = BINDING_VERTICES) readonly restrict uniform uimageBuffer vertices;
 layout(rgba32ui, binding = BINDING_NODES) readonly restrict uniform uimageBuffer nodes;
 layout(rgba32ui, binding = BINDING_TEXELS) readonly restrict uniform uimageBuffer texels;
+layout(rgba32ui, binding = BINDING_ENVIRONMENT) readonly restrict uniform uimageBuffer environment;
 layout(rgba32ui, binding = BINDING_FRAME) readonly restrict uniform uimageBuffer frame_words;
 #define LOOP_PROBE imageLoad(frame_words, 2).y
 #else
@@ -24,6 +25,7 @@ layout(std430, binding = BINDING_PRIMITIVES) readonly restrict buffer Primitives
 layout(std430, binding = BINDING_VERTICES) readonly restrict buffer Vertices { uvec4 vertices[]; };
 layout(std430, binding = BINDING_NODES) readonly restrict buffer Nodes { uvec4 nodes[]; };
 layout(std430, binding = BINDING_TEXELS) readonly restrict buffer Texels { uint texels[]; };
+layout(std430, binding = BINDING_ENVIRONMENT) readonly restrict buffer EnvironmentBuffer { uvec4 environment[]; };
 layout(std430, binding = BINDING_FRAME) readonly restrict buffer FrameBuffer { Frame frame_record; };
 #define LOOP_PROBE frame_record.loop_probe
 #endif

@@ -10,6 +10,9 @@
 #ifndef HAS_EMISSION  // a material emits light
 #define HAS_EMISSION 1
 #endif
+#ifndef HAS_ENVIRONMENT  // there is an environment in place of the background
+#define HAS_ENVIRONMENT 1
+#endif
 #ifndef HAS_ALPHA_TEST  // a material has an alpha
 #define HAS_ALPHA_TEST 1
 #endif
@@ -55,6 +58,7 @@
 // No default; the twin asks its PackedScene.
 //   LIGHT_COUNT        how many lights there are
 //   EMITTER_COUNT      how many lights and surfaces one is chosen from; 0 where none is
+//   HAS_ENVIRONMENT_LIGHT  true or false: whether one is chosen from the environment
 //   INSTANCE_COUNT     how many instances
 //   TRIANGLE_METHOD    TRIANGLE_WOOP or TRIANGLE_MOLLER_TRUMBORE
 //   HAS_BVH            true or false: whether there is a BVH of the world

@@ -30,9 +30,11 @@ Frame load_frame() {
   vec4 background = uintBitsToFloat(imageLoad(frame_words, 6));
   vec4 ambient = uintBitsToFloat(imageLoad(frame_words, 7));
   uvec4 lens = imageLoad(frame_words, 8);
+  uvec4 around = imageLoad(frame_words, 9);
   return Frame(image.x, image.y, image.z, image.w, camera.x, camera.y, camera.z, camera.w, counts.x, counts.y, counts.z, counts.w,
                vec3(right), right.w, vec3(up), up.w, vec3(forward), forward.w, vec3(background), floatBitsToUint(background.w), vec3(ambient), ambient.w,
-               uintBitsToFloat(lens.x), uintBitsToFloat(lens.y), lens.z, lens.w);
+               uintBitsToFloat(lens.x), uintBitsToFloat(lens.y), lens.z, lens.w, around.x, around.y,
+               around.z, uintBitsToFloat(around.w));
 }
 #else
 Frame load_frame() { return frame_record; }
@@ -48,6 +50,7 @@ Instance load_instance(uint i) { return instances[i]; }
 // Vertices that a loop looks up: a choice among constants would be made anew at each turn.
 #if TEXEL_BUFFERS
 uvec4 load_outline(uint i) { return imageLoad(vertices, int(i)); }
+uvec4 load_environment(uint i) { return imageLoad(environment, int(i)); }
 uint load_texel(uint i) {
   uvec4 four = imageLoad(texels, int(i >> 2u));
   uint which = i & 3u;
@@ -55,6 +58,7 @@ uint load_texel(uint i) {
 }
 #else
 uvec4 load_outline(uint i) { return vertices[i]; }
+uvec4 load_environment(uint i) { return environment[i]; }
 uint load_texel(uint i) { return texels[i]; }
 #endif
 #ifndef SHADING_AS_CONSTANTS

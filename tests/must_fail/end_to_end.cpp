@@ -85,6 +85,7 @@ std::vector<Fault> faults() {
       {"roulette", {bits, counts, colors}, box},
       {"shadow_end", {bits, colors}, box},
       {"pairs", {bits, counts, colors}, box},
+      {"half_texel", {bits, colors}, {"scenes/path/environment.toml", "--spp", "2"}},
   };
 }
 

@@ -2,9 +2,12 @@
 #include <set>
 
 #include "host/pack/emitter_records.hpp"
+#include "host/pack/environment_records.hpp"
 #include "host/reference/emitter_sample.hpp"
+#include "host/reference/environment.hpp"
 #include "host/reference/sampler.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "tests/support/environments.hpp"
 #include "tests/support/random.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -119,4 +122,58 @@ TEST_CASE("places on emitters and their densities are those of the reference") {
   // At a sphere's rim places run like a square root.
   CHECK(apart < 1e-4);
   CHECK(denser < 2e-6);
+}
+
+TEST_CASE("light from all around, its density and places in it are those of the reference") {
+  Random random(3);
+  for (const auto& [width, height] :
+       {std::pair(1, 1), std::pair(1, 7), std::pair(5, 1), std::pair(33, 16), std::pair(700, 900)}) {
+    CAPTURE(width);
+    CAPTURE(height);
+    const auto map = test::environment(
+        width, height,
+        [&](const Vec3&) {
+          return random.below(3) == 0 ? Vec3(0) : Vec3(std::pow(10, random.uniform(-3, 3)), 1, 0.2);
+        },
+        random.uniform(-1, 1));
+    const auto texels = pack::pack_environment(*map);
+    shader::Frame frame{};
+    frame.environment_width = uint32_t(width);
+    frame.environment_height = uint32_t(height);
+    frame.environment_turn = float(map->turn());
+    twin::SceneView scene{};
+    scene.environment = texels.data();
+    const shader::Binding binding(scene);
+
+    double apart = 0, denser = 0, brighter = 0, sum = 0, steepest = 0;
+    int elsewhere = 0;
+    constexpr int count = 100'000;
+    for (int i = 0; i < count; ++i) {
+      const shader::vec2 u{float(random.below(1 << 24)) * 0x1p-24f, float(random.below(1 << 24)) * 0x1p-24f};
+      const shader::EnvironmentSample ours = shader::sample_environment(frame, u);
+      const reference::EnvironmentSample theirs = reference::sample_environment(*map, Vec2(u));
+      apart = std::max(apart, glm::length(Vec3(ours.direction) - theirs.d));
+      denser = std::max(denser, std::abs(double(ours.density) / theirs.density - 1));
+      // The density of a direction is that of its choice, but on the border of two cells.
+      const auto differs = [](double a, double b) { return std::abs(a / b - 1) > 1e-5; };
+      elsewhere +=
+          differs(double(shader::environment_density(frame, ours.direction)), double(ours.density)) ||
+          differs(reference::environment_density(*map, theirs.d), theirs.density);
+      const Vec3 here = reference::environment_radiance(*map, theirs.d);
+      brighter = std::max(brighter,
+                          std::abs(double(shader::environment_radiance(frame, ours.direction).x) - here.x));
+      steepest = std::max(steepest, here.x);
+
+      // Of even directions: the mean density is 1 / 4π.
+      const double y = random.uniform(-1, 1), azimuth = random.uniform(0, 2 * M_PI),
+                   across = std::sqrt(1 - y * y);
+      sum +=
+          reference::environment_density(*map, {across * std::cos(azimuth), y, across * std::sin(azimuth)});
+    }
+    CHECK(apart < 2e-6);
+    CHECK(denser < 2e-6);
+    CHECK(elsewhere < 20);
+    CHECK(brighter < 1e-5 * width * steepest);
+    CHECK(4 * M_PI * sum / count == doctest::Approx(1).epsilon(0.1));
+  }
 }

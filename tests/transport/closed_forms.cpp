@@ -4,6 +4,7 @@
 #include "estimate.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
+#include "tests/support/environments.hpp"
 
 #include "tests/support/doctest.hpp"
 
@@ -161,6 +162,75 @@ TEST_CASE("a background that is the same everywhere, and half of it behind a wal
   add(walled, make_plane({-1e-6, 0, 0}, {1, 0, 0}), add(walled, make_phong({.diffuse = gray(0)})));
   walled.camera.target = {1e-4, 0, 0};
   check(walled, albedo * 1, 2e-3);
+}
+
+TEST_CASE("an environment that is the same everywhere is a background, of whatever size") {
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 5), std::pair(7, 1), std::pair(16, 8)}) {
+    CAPTURE(width);
+    Scene open = floor();
+    open.environment = environment(width, height, [](const Vec3&) { return Vec3(2); });
+    check(open, albedo * 2);
+  }
+  Scene walled = floor(1024);
+  walled.environment = environment(5, 4, [](const Vec3&) { return Vec3(2); });
+  add(walled, make_plane({-1e-6, 0, 0}, {1, 0, 0}), add(walled, make_phong({.diffuse = gray(0)})));
+  walled.camera.target = {1e-4, 0, 0};
+  check(walled, albedo * 1, 2e-3);
+}
+
+TEST_CASE("an environment L(1 + a ω·z), its axis at an angle γ to the floor's: E = π L (1 + ⅔ a cos γ)") {
+  for (const double turn : {0.0, 0.37}) {
+    const Vec3 axis = glm::normalize(Vec3(0.3, 0.6, -0.7));
+    Scene scene = floor();
+    scene.environment = environment(
+        256, 128, [&](const Vec3& d) { return Vec3(2 * (1 + 0.9 * glm::dot(d, axis))); }, turn);
+    check(scene, shown(M_PI * 2 * (1 + 2.0 / 3 * 0.9 * axis.y)), 2e-4);
+  }
+}
+
+TEST_CASE("an environment L cosⁿ θ above the horizon: E = 2π L / (n + 2); and on its side, a wall") {
+  for (const double n : {1.0, 30.0}) {
+    Scene scene = floor();
+    scene.environment =
+        environment(256, 512, [&](const Vec3& d) { return Vec3(3 * std::pow(std::max(0.0, d.y), n)); });
+    check(scene, shown(2 * M_PI * 3 / (n + 2)), 2e-4);
+  }
+  // About the x axis, by which it is turned from −z: before a wall, whose light is that of a floor above.
+  Scene scene = patch({2, 0.3, 0.2}, {0, 0, 0});
+  add(scene, make_plane({0, 0, 0}, {1, 0, 0}), add(scene, make_phong({.diffuse = gray(albedo)})));
+  scene.environment = environment(
+      512, 256, [&](const Vec3& d) { return Vec3(3 * std::pow(std::max(0.0, -d.z), 30)); }, -0.25);
+  check(scene, shown(2 * M_PI * 3 / 32), 1e-3);
+}
+
+TEST_CASE("an environment and lamps beside it, whatever share of the choices each has") {
+  for (const double share : {0.1, 0.5, 0.95}) {
+    Scene scene = floor(1024);
+    const auto around = environment(16, 8, [](const Vec3&) { return Vec3(0.5); });
+    around->share = share;
+    scene.environment = around;
+    add(scene, make_sphere({0, 1.6, 1.2}, 0.7), lamp(scene, 2));
+    add_point_light(scene, {1.6, 1.2, 0}, Vec3(0.3), Falloff::inverse_square);
+    // The lamp stands before a part of the environment.
+    const double of_lamp = M_PI * 0.7 * 0.7 * 0.8 / 4;
+    check(scene, shown(0.5 * (M_PI - of_lamp) + 2 * of_lamp) + albedo * 0.3 * 0.6 / 4, 1e-4);
+  }
+}
+
+TEST_CASE("one bright texel of many is found, and no more than it is") {
+  Scene scene = floor();
+  image::Image picture(64, 32, 3);
+  std::fill_n(picture.pixel(40, 9), 3, 5000.0f);
+  scene.environment = std::make_shared<EnvironmentMap>(std::move(picture), 0.1);
+  // ∫ of its tent by cos θ sin θ: the integral over the rows is by Simpson's rule, that over columns a
+  // texel's width.
+  double sum = 0;
+  constexpr int steps = 2000;
+  for (int i = 0; i <= steps; ++i) {
+    const double v = -1 + 2.0 * i / steps, polar = M_PI * (9.5 + v) / 32;
+    sum += (i == 0 || i == steps ? 1 : i % 2 ? 4 : 2) * (1 - std::abs(v)) * std::cos(polar) * std::sin(polar);
+  }
+  check(scene, shown(5000 * (2 * M_PI / 64) * (M_PI / 32) * sum * (2.0 / steps) / 3), 1e-4);
 }
 
 TEST_CASE("two endless walls that face each other: L₁ = L / (1 − ρ₁ρ₂), L₂ = ρ₂ L₁") {

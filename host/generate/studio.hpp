@@ -1,0 +1,14 @@
+// The light of a photographer's studio, as a picture of all directions: something to light a scene by.
+#pragma once
+
+#include "host/image/image.hpp"
+
+namespace eyeray::generate {
+
+inline constexpr int most_studio_width = 4096;
+
+// Equirectangular, of `width` × `width` / 2: a grey room with a soft box, a strip of light and a small lamp.
+// The same on every machine.
+image::Image studio(int width);
+
+}  // namespace eyeray::generate

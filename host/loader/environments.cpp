@@ -1,0 +1,122 @@
+#include "host/loader/environments.hpp"
+
+#include <tuple>
+
+#include "host/loader/kinds.hpp"
+
+namespace eyeray::loader {
+
+namespace {
+
+constexpr double brightest = 1e15;
+// 16 bytes each on the device, and what stands for one must be an index.
+constexpr int64_t most_texels = int64_t{1} << 26;
+
+constexpr std::string_view image_manual =
+    R"(A picture of light from everywhere: `.hdr`, `.exr` or `.pfm`, equirectangular, as most HDRIs are. Its middle is in direction −z, its
+right beside it in +x, its top is up. It is looked up bilinearly, and a path chooses directions by how bright they are.
+
+```
+[environment]
+image = "sky.hdr"
+rotate = 90
+```
+)";
+
+constexpr Key keys_of_image[] = {
+    {.name = "image", .type = KeyType::string, .doc = "The name of the file, relative to this one."},
+    {.name = "scale",
+     .type = KeyType::color,
+     .doc = "What the picture's light is multiplied by, in all or in each channel.",
+     .fallback = "1"},
+    {.name = "rotate",
+     .type = KeyType::number,
+     .doc = "By how much it is turned about y, in degrees, counter-clockwise seen from above.",
+     .fallback = "0"},
+};
+
+// What is wrong with the texels, or "".
+std::string fault_of(const image::Image& image) {
+  int64_t wrong = 0;
+  int x = 0, y = 0;
+  float value = 0;
+  for (int row = 0; row < image.height(); ++row)
+    for (int column = 0; column < image.width(); ++column)
+      for (int c = 0; c < 3; ++c) {
+        const float sample = image.pixel(column, row)[c];
+        if (sample >= 0 && double(sample) <= brightest) continue;
+        if (wrong++ == 0) std::tie(x, y, value) = std::tuple(column, row, sample);
+      }
+  if (wrong == 0) return "";
+  return fmt::format(
+      "{} value{} of the picture {} no light, which is from 0 to {:g}; the first is {:g}, in column {} of "
+      "row "
+      "{}",
+      wrong, wrong == 1 ? "" : "s", wrong == 1 ? "is" : "are", brightest, value, x, y);
+}
+
+std::shared_ptr<EnvironmentMap> parse_image(TableReader& table, const ValueSources& sources,
+                                            DiagnosticLog& log) {
+  if (!table.valid("image")) return nullptr;
+  if (!sources.images) return table.error("image", "only a scene in a file can have images"), nullptr;
+  std::optional<image::Image> image =
+      sources.images->load_light(table.string("image"), table.position("image"));
+  if (!image || table.failed()) return nullptr;
+  if (const int64_t texels = int64_t{image->width()} * image->height(); texels > most_texels)
+    return table.error("image", fmt::format("the picture has {} × {} texels; an environment has at most {}",
+                                            image->width(), image->height(), most_texels)),
+           nullptr;
+  const Vec3 scale = table.color("scale");
+  for (size_t i = 0; i < image->sample_count(); ++i)
+    image->samples()[i] = float(double(image->samples()[i]) * scale[int(i % 3)]);
+  if (const std::string fault = fault_of(*image); !fault.empty()) return table.error("image", fault), nullptr;
+  auto environment = std::make_shared<EnvironmentMap>(std::move(*image), table.number("rotate") / 360);
+  if (!environment->cells().lit())
+    log.warning(table.position("image"), "the environment is black: it lights nothing");
+  return environment;
+}
+
+constexpr EnvironmentType of_image{
+    .name = "image", .manual = image_manual, .keys = keys_of_image, .parse = parse_image};
+
+}  // namespace
+
+std::span<const EnvironmentType* const> environment_types() {
+  static constexpr const EnvironmentType* types[] = {&of_image};
+  return types;
+}
+
+std::span<const Key> environment_keys() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const EnvironmentType* type : environment_types()) all.push_back(type->name);
+    return all;
+  }();
+  static const Key keys[] = {
+      {.name = "type",
+       .type = KeyType::choice,
+       .doc = "Its kind; see below.",
+       .fallback = "\"image\"",
+       .choices = names},
+      {.name = "share",
+       .type = KeyType::number,
+       .doc = "How often `path` looks for light in the environment, where there are lights as well.",
+       .fallback = "0.5",
+       .min = 0,
+       .max = 1,
+       .above_min = true,
+       .below_max = true},
+  };
+  return keys;
+}
+
+std::shared_ptr<const EnvironmentMap> read_environment(const Section& section, const toml::table* table,
+                                                       const ValueSources& sources, DiagnosticLog& log) {
+  if (!table) return nullptr;
+  auto [type, reader] = read_kind(section, table, environment_types(), sources, log);
+  const std::shared_ptr<EnvironmentMap> environment = type ? type->parse(reader, sources, log) : nullptr;
+  if (environment) environment->share = reader.number("share");
+  return environment;
+}
+
+}  // namespace eyeray::loader

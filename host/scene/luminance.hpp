@@ -1,0 +1,12 @@
+#pragma once
+
+#include "host/core/vec.hpp"
+
+namespace eyeray {
+
+// Of linear RGB with the primaries of Rec. 709.
+inline double luminance(const Vec3& color) {
+  return glm::dot(color, Vec3(0.2126, 0.7152, 0.0722));
+}
+
+}  // namespace eyeray
