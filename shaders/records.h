@@ -200,7 +200,7 @@ struct Emitter {
 // row and first column again. The fourth word says where the numbers end by which the cell is chosen whose lower left corner this is,
 // among those of its row; in the last column, those by which the row is.
 
-// ---- Frame: what is the same for all pixels, 160 bytes --------------------------------------------------------------
+// ---- Frame: what is the same for all pixels, 176 bytes --------------------------------------------------------------
 struct Frame {
   uint width;
   uint height;
@@ -227,12 +227,19 @@ struct Frame {
   float sharpness;       // the share of the way to the plane in focus at which `forward` ends
   float blade_rotation;  // radians
   uint blades;           // corners of the lens; 0: it is round
-  uint unused_0;
+  uint pixel_filter;     // FILTER_
   uint environment_width;    // of the picture; 0 without one
   uint environment_height;
   uint environment_numbers;  // of 2^24, that choose the environment and not a light
   float environment_turn;    // by how much of a whole turn it is turned about y
+  float filter_width;        // pixels
+  uint unused_0;
+  uint unused_1;
+  uint unused_2;
 };
+#define FILTER_BOX 0u
+#define FILTER_GAUSSIAN 1u
+#define FILTER_BLACKMAN_HARRIS 2u
 
 // ---- Push constants: what changes from dispatch to dispatch, 32 bytes -----------------------------------------------
 struct Dispatch {
@@ -371,7 +378,7 @@ static_assert(sizeof(eyeray::shader::Medium) == 16);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);
 static_assert(sizeof(eyeray::shader::Emitter) == 80);
-static_assert(sizeof(eyeray::shader::Frame) == 160);
+static_assert(sizeof(eyeray::shader::Frame) == 176);
 static_assert(sizeof(eyeray::shader::Dispatch) == 32);
 static_assert(sizeof(eyeray::shader::SampleResult) == 32);
 static_assert(sizeof(eyeray::shader::HitResult) == 80);

@@ -82,6 +82,10 @@ constexpr FaultType types[] = {
      .file = "cameras/cylindrical.glsl",
      .from = "v * dot3(across, v)",
      .to = "v * (0.999f * dot3(across, v))"},
+    {.name = "filter",
+     .file = "samplers/filter.glsl",
+     .from = "from_middle * frame.filter_width",
+     .to = "from_middle * frame.filter_width * 1.1f"},
     // Shading.
     {.name = "shadow",
      .file = "bvh/traverse.glsl",

@@ -61,8 +61,8 @@ std::string literal(const shader::Frame& f) {
                         f.max_depth, f.light_count, f.loop_probe, f.integrator, f.triangle_method, f.right,
                         f.min_throughput, f.up, f.pixel_width, f.forward, f.pixel_height, f.background,
                         f.emitter_count, f.ambient, f.aperture, f.sharpness, f.blade_rotation, f.blades,
-                        f.unused_0, f.environment_width, f.environment_height, f.environment_numbers,
-                        f.environment_turn);
+                        f.pixel_filter, f.environment_width, f.environment_height, f.environment_numbers,
+                        f.environment_turn, f.filter_width, f.unused_0, f.unused_1, f.unused_2);
 }
 
 // A loader that chooses among constants. A driver that runs both sides of every branch selects between

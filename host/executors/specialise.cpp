@@ -72,6 +72,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_BVH", scene.has_bvh ? "true" : "false");
   define("QUANTISED_NODES", scene.quantised_nodes ? "true" : "false");
   define("HAS_LENS", int(scene.frame.aperture > 0));
+  define("HAS_FILTER", int(scene.frame.pixel_filter != FILTER_BOX));
   define("HAS_SECONDARY", int(most_bounces(scene) > 0));
   // Of these only one is compiled.
   define("CAMERA_IS(number)", "true");

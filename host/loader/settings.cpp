@@ -14,6 +14,9 @@ constexpr int64_t most_pixels = int64_t{1} << 28;
 constexpr std::string_view triangle_methods[] = {"woop", "moller-trumbore"};
 constexpr std::string_view group_storages[] = {"automatic", "instanced", "flat"};
 
+constexpr std::string_view pixel_filters[] = {"box", "gaussian", "blackman-harris"};
+constexpr double usual_filter_width = 3;
+
 constexpr Key image_table[] = {
     {.name = "width",
      .type = KeyType::integer,
@@ -40,6 +43,22 @@ constexpr Key image_table[] = {
          "Where in a pixel samples lie; see below. `sobol` for the integrator `path`, else `regular`, where "
          "nothing is said.",
      .choices = sample_patterns,
+     .optional = true},
+    {.name = "filter",
+     .type = KeyType::choice,
+     .doc =
+         "What of the picture a pixel shows: its square, or what is around its middle, the nearer the more. "
+         "Samples are drawn from it.",
+     .fallback = "\"box\"",
+     .choices = pixel_filters},
+    {.name = "filter_width",
+     .type = KeyType::number,
+     .doc =
+         "Of `gaussian`, which is cut off at three standard deviations, and `blackman-harris`, from end to "
+         "end, in pixels; 3 where nothing is said.",
+     .min = 0,
+     .max = 64,
+     .above_min = true,
      .optional = true},
     {.name = "exposure",
      .type = KeyType::number,
@@ -153,6 +172,12 @@ ImageSettings read_image(TableReader& table, IntegratorType integrator) {
   image.height = static_cast<int>(table.integer("height"));
   if (table.has("samples")) image.samples = static_cast<int>(table.integer("samples"));
   if (table.has("pattern")) image.pattern = static_cast<SamplePattern>(table.choice("pattern"));
+  image.filter = static_cast<PixelFilter>(table.choice("filter"));
+  if (image.filter != PixelFilter::box) {
+    image.filter_width = table.has("filter_width") ? table.number("filter_width") : usual_filter_width;
+  } else if (table.has("filter_width")) {
+    table.error("filter_width", "`filter_width` is for filter = \"gaussian\" or \"blackman-harris\" only");
+  }
   image.tone = {table.number("exposure"), static_cast<image::ToneCurve>(table.choice("tone"))};
   if (sample_count_of(image.pattern) == SampleCount::square) check_samples(table, image.samples);
   const int64_t pixels = int64_t{image.width} * image.height;

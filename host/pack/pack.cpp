@@ -60,6 +60,8 @@ shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed)
     if (walks_at_random(scene.render.integrator))
       frame.environment_numbers = environment_numbers(environment, !packed.emitters.empty());
   }
+  frame.pixel_filter = uint32_t(scene.image.filter);
+  frame.filter_width = float(scene.image.filter_width);
   return frame;
 }
 

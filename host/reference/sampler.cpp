@@ -1,5 +1,7 @@
 #include "host/reference/sampler.hpp"
 
+#include "host/reference/filter.hpp"
+
 namespace eyeray::reference {
 
 // Each sampler's .cpp defines its own; one that is missing is a link error that bears its name.
@@ -16,7 +18,7 @@ const Sampler& sampler(SamplePattern pattern) {
 
 Vec2 sample_position(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index) {
   const uint32_t pixel = uint32_t(y) * uint32_t(image.width) + uint32_t(x);
-  return sampler(image.pattern).place(image.samples, pixel, index, seed);
+  return filtered(image, sampler(image.pattern).place(image.samples, pixel, index, seed));
 }
 
 }  // namespace eyeray::reference

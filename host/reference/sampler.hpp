@@ -20,7 +20,8 @@ struct Sampler {
 
 const Sampler& sampler(SamplePattern pattern);
 
-// Where in pixel (x, y) its sample `index` lies, in pixels from the pixel's top left corner.
+// Where around pixel (x, y) its sample `index` lies, by pattern and filter, in pixels from the pixel's top
+// left corner.
 Vec2 sample_position(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index);
 
 }  // namespace eyeray::reference

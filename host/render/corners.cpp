@@ -53,6 +53,7 @@ void sample_corners(Scene& scene) {
   scene.image.height += 1;
   scene.image.samples = 1;
   scene.image.pattern = SamplePattern::regular;
+  scene.image.filter = PixelFilter::box;
 }
 
 Rect corners_of(const Rect& pixels) {

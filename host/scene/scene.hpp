@@ -25,12 +25,17 @@ enum class IntegratorType : uint32_t;
 
 class EnvironmentMap;  // scene/environment.hpp
 
+// What of the picture around its middle a pixel shows, each sample for as much: samples are drawn from it.
+enum class PixelFilter : uint32_t { box, gaussian, blackman_harris };
+
 struct ImageSettings {
   int width = 640;
   int height = 480;
   int samples = 1;           // a pixel; of some patterns a square number n², laid out n × n
   SamplePattern pattern{0};  // regular
-  image::Tone tone = {};     // of pictures as .png
+  PixelFilter filter = PixelFilter::box;
+  double filter_width = 1;  // pixels, from end to end; 1 of a box
+  image::Tone tone = {};    // of pictures as .png
 
   Vec2 size() const { return {width, height}; }  // in pixels
 };

@@ -25,6 +25,9 @@
 #ifndef HAS_LENS  // the camera has one that rays start from
 #define HAS_LENS 1
 #endif
+#ifndef HAS_FILTER  // pixels have one that is no box
+#define HAS_FILTER 1
+#endif
 #ifndef HAS_SECONDARY  // rays are reflected or refracted
 #define HAS_SECONDARY 1
 #endif

@@ -31,10 +31,11 @@ Frame load_frame() {
   vec4 ambient = uintBitsToFloat(imageLoad(frame_words, 7));
   uvec4 lens = imageLoad(frame_words, 8);
   uvec4 around = imageLoad(frame_words, 9);
+  uvec4 pixel = imageLoad(frame_words, 10);
   return Frame(image.x, image.y, image.z, image.w, camera.x, camera.y, camera.z, camera.w, counts.x, counts.y, counts.z, counts.w,
                vec3(right), right.w, vec3(up), up.w, vec3(forward), forward.w, vec3(background), floatBitsToUint(background.w), vec3(ambient), ambient.w,
                uintBitsToFloat(lens.x), uintBitsToFloat(lens.y), lens.z, lens.w, around.x, around.y,
-               around.z, uintBitsToFloat(around.w));
+               around.z, uintBitsToFloat(around.w), uintBitsToFloat(pixel.x), pixel.y, pixel.z, pixel.w);
 }
 #else
 Frame load_frame() { return frame_record; }

@@ -1,7 +1,9 @@
 // Where in the picture a pixel's samples lie, and the random numbers of their paths: asks the sampler.
 #ifndef SAMPLER_GLSL
 #define SAMPLER_GLSL
+#include "kernels/features.h"
 #include "records.h"
+#include "samplers/filter.glsl"
 
 SHADER_BEGIN
 
@@ -12,6 +14,9 @@ vec2 sample_position(Frame frame, uint x, uint y, uint index) {
 #define PLACE_OF(name, number, count) \
   if (SAMPLER_IS(number)) place = name##_place(frame, pixel, index);
   SAMPLERS(PLACE_OF)
+#if HAS_FILTER
+  place = filtered(frame, place);
+#endif
   return vec2(float(x) + place.x, float(y) + place.y);
 }
 

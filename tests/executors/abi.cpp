@@ -108,11 +108,15 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Frame, sharpness),
                 MEMBER(Frame, blade_rotation),
                 MEMBER(Frame, blades),
-                MEMBER(Frame, unused_0),
+                MEMBER(Frame, pixel_filter),
                 MEMBER(Frame, environment_width),
                 MEMBER(Frame, environment_height),
                 MEMBER(Frame, environment_numbers),
-                MEMBER(Frame, environment_turn)});
+                MEMBER(Frame, environment_turn),
+                MEMBER(Frame, filter_width),
+                MEMBER(Frame, unused_0),
+                MEMBER(Frame, unused_1),
+                MEMBER(Frame, unused_2)});
   check_struct(samples, "Dispatch", sizeof(shader::Dispatch),
                {MEMBER(Dispatch, tile_x), MEMBER(Dispatch, tile_y), MEMBER(Dispatch, tile_width),
                 MEMBER(Dispatch, tile_height), MEMBER(Dispatch, sample_index), MEMBER(Dispatch, depth),

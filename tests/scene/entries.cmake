@@ -52,6 +52,11 @@ eyeray_verify(mode.paths.cooperative mode ${paths} --acceleration bvh --rays pac
 eyeray_verify(mode.paths.random mode ${paths} --seed 7 -D image.pattern=random)
 eyeray_verify(mode.paths.jittered mode ${paths} --seed 7 -D image.pattern=jittered)
 
+# Samples that lie outside of their pixels, too.
+foreach(filter IN ITEMS gaussian blackman-harris)
+  eyeray_verify(mode.filter.${filter} mode scenes/whitted.toml scenes/cameras/fisheye.toml scenes/path/lamps.toml -s 96x72 --spp 4 -D image.filter=${filter})
+endforeach()
+
 # Every mode, on small pictures. The edge scenes put whole rows of pixels where the picture jumps, for one size and one sample.
 set(small ${SCENES} -s 96x72)
 list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes|/forest|/shapes/(algebraic|bezier|implicit|mandelbulb|sculpture|csg)")

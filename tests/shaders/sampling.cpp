@@ -5,6 +5,7 @@
 #include "host/pack/environment_records.hpp"
 #include "host/reference/emitter_sample.hpp"
 #include "host/reference/environment.hpp"
+#include "host/reference/filter.hpp"
 #include "host/reference/sampler.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "tests/support/environments.hpp"
@@ -176,4 +177,103 @@ TEST_CASE("light from all around, its density and places in it are those of the 
     CHECK(brighter < 1e-5 * width * steepest);
     CHECK(4 * M_PI * sum / count == doctest::Approx(1).epsilon(0.1));
   }
+}
+
+namespace {
+
+// Places of pixel filters, from the middle, in widths, by the shaders.
+std::vector<Vec2> filtered_places(PixelFilter filter, uint32_t count) {
+  shader::Frame frame = seeded(3);
+  frame.pixel_filter = uint32_t(filter);
+  frame.filter_width = 1;
+  std::vector<Vec2> places;
+  for (uint32_t i = 0; i < count; ++i)
+    places.push_back(Vec2(shader::filtered(frame, shader::random_pair(frame, 5, i, 0))) - Vec2(0.5));
+  return places;
+}
+
+// Of cells as likely as each other: how many standard deviations chi² is too large.
+double excess(const std::vector<int>& cells, uint32_t count) {
+  const double expected = double(count) / double(cells.size());
+  double chi_squared = 0;
+  for (const int found : cells) chi_squared += (found - expected) * (found - expected) / expected;
+  const double degrees = double(cells.size()) - 1;
+  return (chi_squared - degrees) / std::sqrt(2 * degrees);
+}
+
+// The cell of 0 … n − 1 that a share of [0, 1] belongs to.
+int cell(double share, int n) {
+  return std::clamp(int(share * n), 0, n - 1);
+}
+
+constexpr double blackman_harris[] = {0.35875, 0.48829, 0.14128, 0.01168};
+
+}  // namespace
+
+TEST_CASE("a pixel's filter: shaders and reference take a sample to the same place") {
+  Random random(11);
+  for (const PixelFilter filter : {PixelFilter::gaussian, PixelFilter::blackman_harris}) {
+    shader::Frame frame{};
+    frame.pixel_filter = uint32_t(filter);
+    frame.filter_width = 3;
+    double worst = 0, mean = 0;
+    constexpr int count = 20'000;
+    for (int i = 0; i < count; ++i) {
+      const shader::vec2 u(float(random.below(1 << 24)) * 0x1p-24f, float(random.below(1 << 24)) * 0x1p-24f);
+      const Vec2 expected = reference::filtered({.filter = filter, .filter_width = 3}, Vec2(u));
+      const double apart = glm::length(Vec2(shader::filtered(frame, u)) - expected);
+      worst = std::max(worst, apart);
+      mean += apart / count;
+    }
+    CHECK(mean < 1e-6);
+    CHECK(worst < 1e-3);  // far out, where the filter is next to nothing
+    // The middle stays, and what is drawn on one side of it is there.
+    CHECK(Vec2(shader::filtered(frame, {0.5f, 0.5f})) == Vec2(0.5));
+    CHECK(shader::filtered(frame, {0.25f, 0.5f}).x < 0.5f);
+    CHECK(shader::filtered(frame, {0.5f, 0.75f}).y > 0.5f);
+  }
+}
+
+TEST_CASE(
+    "a Gauss filter's places: as many in each ring and sector, and the variance of the truncated bell") {
+  constexpr uint32_t count = 400'000;
+  std::vector<int> cells(16 * 16);
+  double squares = 0;
+  int outside = 0;
+  for (const Vec2& place : filtered_places(PixelFilter::gaussian, count)) {
+    const double r2 = 36 * glm::dot(place, place);  // in standard deviations
+    const double within = std::expm1(-r2 / 2) / std::expm1(-4.5);
+    outside += within > 1 + 1e-5;
+    const double turn = std::atan2(place.y, place.x) / (2 * M_PI) + 0.5;
+    ++cells[size_t(16 * cell(within, 16) + cell(turn, 16))];
+    squares += r2 / count;
+  }
+  CHECK(outside == 0);
+  CHECK(excess(cells, count) < 4);
+  CHECK(squares == doctest::Approx(2 * (1 - 4.5 * std::exp(-4.5) / (1 - std::exp(-4.5)))).epsilon(0.01));
+}
+
+TEST_CASE("a Blackman-Harris filter's places: as many in each cell, and its variance") {
+  constexpr uint32_t count = 400'000;
+  const auto below = [&](double x) {
+    double share = 0.5 + x;
+    for (int k = 1; k < 4; ++k)
+      share += blackman_harris[k] / blackman_harris[0] * std::sin(2 * M_PI * k * x) / (2 * M_PI * k);
+    return share;
+  };
+  double variance = 1.0 / 12;
+  for (int k = 1; k < 4; ++k)
+    variance += blackman_harris[k] / blackman_harris[0] * (k % 2 ? -1 : 1) / (2 * M_PI * M_PI * k * k);
+  std::vector<int> cells(16 * 16);
+  Vec2 squares(0.0);
+  int outside = 0;
+  for (const Vec2& place : filtered_places(PixelFilter::blackman_harris, count)) {
+    outside += std::max(std::abs(place.x), std::abs(place.y)) > 0.5;
+    ++cells[size_t(16 * cell(below(place.x), 16) + cell(below(place.y), 16))];
+    squares += place * place / double(count);
+  }
+  CHECK(outside == 0);
+  CHECK(excess(cells, count) < 4);
+  CHECK(squares.x == doctest::Approx(variance).epsilon(0.01));
+  CHECK(squares.y == doctest::Approx(variance).epsilon(0.01));
 }
