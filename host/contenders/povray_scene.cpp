@@ -98,6 +98,10 @@ std::string light_text(const PointLight& light) {
                      vector(light.position), vector(light.intensity / (2 * d * d)), d);
 }
 
+std::string light_text(const SpotLight&) {
+  throw Error(ExitCode::bad_input, "the scene has a spot light, which is not written for POV-Ray");
+}
+
 std::string light_text(std::monostate) {
   throw Error(ExitCode::bad_input, "the scene has a light that is not written for POV-Ray");
 }

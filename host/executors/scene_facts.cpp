@@ -45,6 +45,12 @@ bool any_absorbs(const records::PackedScene& scene) {
       scene.media, [](const shader::Medium& medium) { return medium.absorption != shader::vec3(0); });
 }
 
+bool any_light_disk(const records::PackedScene& scene) {
+  return std::ranges::any_of(scene.lights, [](const shader::Light& light) {
+    return light.kind == shader::LIGHT_directional && light.a.w > 0;
+  });
+}
+
 uint32_t most_bounces(const records::PackedScene& scene) {
   switch (traits_of(IntegratorType(scene.frame.integrator)).ways) {
     case 0:

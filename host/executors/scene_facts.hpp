@@ -11,6 +11,8 @@ namespace eyeray::executors {
 bool varies(const records::PackedScene& scene, const shader::Material& material);
 bool any_emits(const records::PackedScene& scene);
 bool any_absorbs(const records::PackedScene& scene);
+// Whether a light is seen under an angle.
+bool any_light_disk(const records::PackedScene& scene);
 // How often a path may go on: 0 where no material sends rays on, or the integrator none.
 uint32_t most_bounces(const records::PackedScene& scene);
 // Whether a path may go on in two ways at once.

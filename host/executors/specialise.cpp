@@ -57,6 +57,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("LIGHT_COUNT", fmt::format("{}u", scene.lights.size()));
   define("EMITTER_COUNT", fmt::format("{}u", scene.emitters.size()));
   define("HAS_ENVIRONMENT", int(scene.frame.environment_width > 0));
+  define("HAS_LIGHT_DISKS", int(any_light_disk(scene)));
   define("HAS_ENVIRONMENT_LIGHT", scene.frame.environment_numbers > 0 ? "true" : "false");
   define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.triangle_method));
   define("HAS_COLORS", int(scene.vertex_colors));

@@ -39,6 +39,8 @@ constexpr size_t most_instances = size_t{1} << 20;
 
 // The lights of glTF shine on surfaces that scatter 1/π of what arrives; ours scatter all of it.
 constexpr double unit_of_light = 1 / std::numbers::pi;
+// Of a spot light's cone, in radians: lights/spot.cpp wants a little less.
+constexpr double least_border = 2e-5;
 
 class GltfReader {
  public:
@@ -82,7 +84,7 @@ class GltfReader {
   void read_mesh(const GltfObject& node, size_t mesh, const Mat4& world);
   void read_camera(const GltfObject& source, const Mat4& world);
   void read_light(const GltfObject& source, const Mat4& world);
-  void read_cone(const GltfObject& light);
+  void read_spot(const GltfObject& light, const Mat4& world, const Vec3& arriving);
   Mat4 transform(const GltfObject& node);
   void check_roots(const std::vector<size_t>& order) const;
 
@@ -264,15 +266,25 @@ void GltfReader::read_camera(const GltfObject& source, const Mat4& world) {
   scene_.camera = camera;
 }
 
-// Of which nothing is taken but its rules.
-void GltfReader::read_cone(const GltfObject& light) {
-  left_out_.add("cones of spot lights (they shine as points)");
+// It shines along −z. What has no cone shines as a point.
+void GltfReader::read_spot(const GltfObject& light, const Mat4& world, const Vec3& arriving) {
   const auto cone = light.object("spot");
   const double inner = cone ? cone->number("innerConeAngle", 0) : 0;
   const double outer = cone ? cone->number("outerConeAngle", std::numbers::pi / 4) : 0;
   // A quarter turn in float32 is a little more.
-  if (!(inner >= 0 && inner < outer && outer <= std::numbers::pi / 2 + 1e-6))
-    breaches_.add("spot lights without angles that grow from 0 to a quarter turn", light.place());
+  if (!(inner >= 0 && inner < outer && outer <= std::numbers::pi / 2 + 1e-6)) {
+    breaches_.add("spot lights without angles that grow from 0 to a quarter turn, taken as points",
+                  light.place());
+    scene_.lights.push_back(PointLight{.position = Vec3(world[3]), .intensity = arriving});
+    return;
+  }
+  // Angles of nearly the same size are a sharp border all the same.
+  const double most_inner = outer - least_border;
+  scene_.lights.push_back(SpotLight{.position = Vec3(world[3]),
+                                    .direction = -unit(Vec3(world[2])),
+                                    .intensity = arriving,
+                                    .inner = std::max(0.0, std::min(inner, most_inner)),
+                                    .outer = std::clamp(outer, least_border, std::numbers::pi / 2)});
 }
 
 void GltfReader::read_light(const GltfObject& source, const Mat4& world) {
@@ -289,9 +301,10 @@ void GltfReader::read_light(const GltfObject& source, const Mat4& world) {
     breaches_.add("ranges of lights that are not above 0", source.place());
   if (type == "directional") {
     scene_.lights.push_back(DirectionalLight{unit(Vec3(world[2])), arriving});
-  } else if (type == "point" || type == "spot") {
+  } else if (type == "point") {
     scene_.lights.push_back(PointLight{.position = Vec3(world[3]), .intensity = arriving});
-    if (type == "spot") read_cone(source);
+  } else if (type == "spot") {
+    read_spot(source, world, arriving);
   } else {
     source.fail("has a type that glTF does not know");
   }

@@ -38,7 +38,7 @@ struct ImportedScene {
   std::vector<Mesh> meshes;         // as scene/mesh.hpp promises
   std::vector<Instance> instances;  // `material` is an index of `materials`, or −1: the file names none
   std::vector<std::unique_ptr<Material>> materials;
-  std::vector<std::variant<PointLight, DirectionalLight>> lights;
+  std::vector<std::variant<PointLight, DirectionalLight, SpotLight>> lights;
   std::optional<ImportedCamera> camera;
   std::vector<std::string> warnings;         // what was left out, once each, with counts
   std::vector<std::filesystem::path> files;  // every file read, this one first

@@ -7,5 +7,6 @@ namespace eyeray::lights {
 
 std::unique_ptr<Light> make_light(const PointLight& values);
 std::unique_ptr<Light> make_light(const DirectionalLight& values);
+std::unique_ptr<Light> make_light(const SpotLight& values);
 
 }  // namespace eyeray::lights

@@ -101,6 +101,15 @@ toml::table table(const DirectionalLight& light) {
       {"type", "directional"}, {"intensity", list(light.intensity)}, {"direction", list(-light.to_light)}};
 }
 
+toml::table table(const SpotLight& light) {
+  return toml::table{{"type", "spot"},
+                     {"intensity", list(light.intensity)},
+                     {"position", list(light.position)},
+                     {"direction", list(light.direction)},
+                     {"inner_angle", glm::degrees(light.inner)},
+                     {"outer_angle", std::min(glm::degrees(light.outer), 90.0)}};
+}
+
 // The two lights of a studio: a key light over the left shoulder of whoever looks, and a weak one from the
 // right that gives the shadows form.
 decltype(importers::ImportedScene::lights) studio_lights(const importers::ImportedCamera& camera) {

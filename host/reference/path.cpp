@@ -6,6 +6,7 @@
 #include "host/reference/emitter_sample.hpp"
 #include "host/reference/environment.hpp"
 #include "host/reference/integrator.hpp"
+#include "host/reference/light_disk.hpp"
 #include "host/reference/sample_rays.hpp"
 #include "host/reference/sampler.hpp"
 
@@ -111,11 +112,16 @@ double PathSample::environment_share() const {
 
 // What the path sees that hits nothing, likewise.
 Vec3 PathSample::missed(const Vec3& d) const {
-  const Vec3 light = rays_.surroundings(d);
+  Vec3 light = rays_.surroundings(d);
   const double share = environment_share();
-  if (density_ == 0 || share == 0) return light;
-  return light *
-         power_heuristic(density_, share * environment_density(*scene_.environment, rays_.rounded(d)));
+  const auto weight = [&](double density) { return density_ > 0 ? power_heuristic(density_, density) : 1; };
+  if (share > 0) light *= weight(share * environment_density(*scene_.environment, rays_.rounded(d)));
+  for (size_t i = 0; i < scene_.lights.size(); ++i) {
+    const Illumination disk = scene_.lights[i]->illuminate(Vec3(0));
+    if (disk.angle == 0 || !in_disk(disk, rays_.rounded(d))) continue;
+    light += disk_radiance(disk) * weight((1 - share) * tracer_.light_choice().share(i) * disk_density(disk));
+  }
+  return light;
 }
 
 std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) {
@@ -138,6 +144,13 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const Vec3& p = at.surface.position;
   if (light < scene_.lights.size()) {
     const Illumination arriving = scene_.lights[light]->illuminate(p);
+    if (arriving.angle > 0) {
+      const Vec3 l = disk_direction(arriving, pair(place_pair));
+      if (!rays_.faces(at.surface, l, arriving.distance)) return std::nullopt;
+      const double density = share * disk_density(arriving);
+      return Arriving{l, rays_.spawn_ray(at.surface, l), arriving.distance, disk_radiance(arriving) / density,
+                      density};
+    }
     if (!rays_.faces(at.surface, arriving.l, arriving.distance)) return std::nullopt;
     return Arriving{arriving.l, rays_.spawn_ray(at.surface, arriving.l), arriving.distance,
                     M_PI / share * arriving.color, 0};
@@ -161,7 +174,7 @@ Vec3 PathSample::direct(const Interaction& at) {
   const Vec3 diffuse = diffuse_albedo(at.scattering);
   if (diffuse == Vec3(0) || depth_ > scene_.render.max_depth) return Vec3(0);
   const auto light = arriving(at);
-  if (!light) return Vec3(0);
+  if (!light || light->radiance == Vec3(0)) return Vec3(0);
   const double cosine = std::max(0.0, glm::dot(at.surface.normal, light->l));
   const double as_scattered = lobe_shares(at.scattering).x * cosine / M_PI;
   const double weight = light->density > 0 ? power_heuristic(light->density, as_scattered) : 1;

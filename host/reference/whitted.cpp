@@ -80,7 +80,7 @@ Vec3 Recursion::direct(const Interaction& at, int depth) {
   const Scattering& scattering = at.scattering;
   Vec3 color = scattering.emitted + scattering.ambient * scene_.render.ambient;
   for (size_t i = 0; i < scene_.lights.size(); ++i) {
-    const auto [l, arriving, distance] = scene_.lights[i]->illuminate(at.surface.position);
+    const auto [l, arriving, distance, angle] = scene_.lights[i]->illuminate(at.surface.position);
     if (!rays.faces(at.surface, l, distance)) continue;
     const Ray ray = rays.spawn_ray(at.surface, l);
     const double seen = rays.shadow(ray, distance);

@@ -56,6 +56,10 @@ double power(const Light& light, double radius) {
   const LightForm form = light.form();
   if (const auto* point = std::get_if<PointLight>(&form); point && point->falloff == Falloff::inverse_square)
     return 4 * M_PI * M_PI * luminance(point->intensity);
+  if (const auto* spot = std::get_if<SpotLight>(&form)) {
+    const double inner = std::cos(spot->inner), outer = std::cos(spot->outer);
+    return 2 * M_PI * M_PI * luminance(spot->intensity) * (1 - inner + (inner - outer) / 3);
+  }
   Vec3 intensity(1);
   if (const auto* point = std::get_if<PointLight>(&form)) intensity = point->intensity;
   if (const auto* directional = std::get_if<DirectionalLight>(&form)) intensity = directional->intensity;

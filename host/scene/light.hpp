@@ -19,9 +19,10 @@ struct LightType;
 
 // A light as a point sees it.
 struct Illumination {
-  Vec3 l;           // unit, towards the light
-  Vec3 color;       // what arrives, were nothing between
-  double distance;  // infinite for a light without a place
+  Vec3 l;            // unit, towards the light
+  Vec3 color;        // what arrives, were nothing between
+  double distance;   // infinite for a light without a place
+  double angle = 0;  // half of that under which it is seen, in radians: it is spread evenly over such a disk
 };
 
 // Lights in the terms that other programs share.
@@ -36,10 +37,19 @@ struct PointLight {
 struct DirectionalLight {
   Vec3 to_light{0, 1, 0};  // unit, from the scene towards the light
   Vec3 intensity{1.0};
+  double angle = 0;  // under which it is seen, in radians
+};
+
+// As glTF has it: full within the inner angle from its axis, and none beyond the outer one.
+struct SpotLight {
+  Vec3 position{0.0};
+  Vec3 direction{0, -1, 0};  // unit, the way that its light travels
+  Vec3 intensity{1.0};
+  double inner = 0, outer = 0;  // in radians, 0 ≤ inner < outer ≤ π / 2
 };
 
 // monostate: what other programs have no word for.
-using LightForm = std::variant<std::monostate, PointLight, DirectionalLight>;
+using LightForm = std::variant<std::monostate, PointLight, DirectionalLight, SpotLight>;
 
 class Light {
  public:

@@ -6,6 +6,7 @@
 #define PATH_GLSL
 #include "emitters/emitter.glsl"
 #include "emitters/environment.glsl"
+#include "emitters/light_disk.glsl"
 #include "integrators/continuation.glsl"
 #include "integrators/interaction.glsl"
 #include "lights/light.glsl"
@@ -59,6 +60,14 @@ vec3 path_missed(Frame frame, Path path) {
   if (frame.environment_numbers > 0u && path.density > 0.0f)
     light = light * power_heuristic(path.density, environment_share(frame) * environment_density(frame, path.d));
 #endif
+#if HAS_LIGHT_DISKS
+  for (uint i = 0u; i < LIGHT_COUNT; i++) {
+    LightSample disk = sample_light(load_light(i), path.o);
+    float density = emitter_share(i) * (1.0f - environment_share(frame)) * disk_density(disk);
+    float weight = path.density > 0.0f ? power_heuristic(path.density, density) : 1.0f;
+    if (disk.versine > 0.0f && in_disk(disk, path.d)) light = light + disk_radiance(disk) * weight;
+  }
+#endif
   return light;
 }
 
@@ -108,9 +117,16 @@ Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) 
   if (light < LIGHT_COUNT) {
     LightSample s = sample_light(load_light(light), at.seen.p);
     arriving.direction = s.direction;
-    arriving.ray = spawn_ray(at.seen, s.direction);
-    arriving.distance = s.distance;
     arriving.radiance = s.color * PI;
+#if HAS_LIGHT_DISKS
+    if (s.versine > 0.0f) {
+      arriving.direction = disk_direction(s, path_pair(frame, path, PAIR_EMITTER));
+      arriving.radiance = disk_radiance(s);
+      arriving.density = arriving.share * disk_density(s);
+    }
+#endif
+    arriving.ray = spawn_ray(at.seen, arriving.direction);
+    arriving.distance = s.distance;
   }
 #if HAS_EMISSION
   if (light >= LIGHT_COUNT) {

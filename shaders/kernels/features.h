@@ -13,6 +13,9 @@
 #ifndef HAS_ENVIRONMENT  // there is an environment in place of the background
 #define HAS_ENVIRONMENT 1
 #endif
+#ifndef HAS_LIGHT_DISKS  // a light is seen under an angle
+#define HAS_LIGHT_DISKS 1
+#endif
 #ifndef HAS_ALPHA_TEST  // a material has an alpha
 #define HAS_ALPHA_TEST 1
 #endif

@@ -10,6 +10,7 @@ struct LightSample {
   vec3 direction;  // unit, towards the light
   float distance;  // T_MISS for a light without a place
   vec3 color;      // what arrives when nothing is in between
+  float versine;   // of half the angle under which it is seen: one less the cosine; 0 of a light that is a point
 };
 
 LightSample no_light() {
@@ -17,6 +18,7 @@ LightSample no_light() {
   s.direction = vec3(0.0f, 0.0f, 0.0f);
   s.distance = T_MISS;
   s.color = vec3(0.0f, 0.0f, 0.0f);
+  s.versine = 0.0f;
   return s;
 }
 

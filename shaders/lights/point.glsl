@@ -8,7 +8,7 @@ SHADER_BEGIN
 LightSample point_sample(Light light, vec3 p) {
   vec3 way = vec3(light.a) - p;
   float distance = sqrt(dot3(way, way));
-  LightSample s;
+  LightSample s = no_light();
   s.direction = way / distance;
   s.distance = distance;
   s.color = light.a.w != 0.0f ? light.intensity / (distance * distance) : light.intensity;

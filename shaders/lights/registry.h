@@ -1,6 +1,7 @@
 // Every kind of light; see shapes/registry.h.
 #ifndef LIGHTS
 #define LIGHTS(X) \
-  X(point, 0u)    \
-  X(directional, 1u)
+  X(point, 0u)       \
+  X(directional, 1u) \
+  X(spot, 2u)
 #endif

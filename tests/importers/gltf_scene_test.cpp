@@ -121,12 +121,20 @@ TEST_CASE("the first camera and all lights") {
   CHECK(glm::length(sun.to_light - Vec3(0, 1, 0)) < 1e-6);  // it shines along −z, turned to −y
   CHECK(sun.intensity.x == doctest::Approx(2));
   CHECK(std::holds_alternative<PointLight>(scene.lights[2]));
-  CHECK(warns(scene, "cones of spot lights"));
+  CHECK(warns(scene, "spot lights without angles"));
   CHECK(warns(scene, "ranges of lights"));
 
+  file.json["extensions"]["KHR_lights_punctual"]["lights"][2] = {
+      {"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.6}}}};
+  file.json["nodes"][5]["translation"] = {7, 8, 9};
   file.json["nodes"][1].erase("camera");
   const ImportedScene second = import_sound(file.gltf(), "a.gltf");
   CHECK(std::get<OrthographicCamera>(second.camera->form).size == 3);
+  const auto& spot = std::get<SpotLight>(second.lights[2]);
+  CHECK(spot.position == Vec3(7, 8, 9));
+  CHECK(spot.direction == Vec3(0, 0, -1));
+  CHECK(spot.inner == 0.2);
+  CHECK(spot.outer == 0.6);
 }
 
 TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices; else alpha is not looked at") {

@@ -32,8 +32,12 @@ inline void add_point_light(Scene& scene, const Vec3& position, const Vec3& inte
   scene.lights.push_back(lights::make_light(PointLight{position, intensity, falloff}));
 }
 
-inline void add_sun(Scene& scene, const Vec3& to_light, const Vec3& intensity) {
-  scene.lights.push_back(lights::make_light(DirectionalLight{glm::normalize(to_light), intensity}));
+inline void add_sun(Scene& scene, const Vec3& to_light, const Vec3& intensity, double angle = 0) {
+  scene.lights.push_back(lights::make_light(DirectionalLight{glm::normalize(to_light), intensity, angle}));
+}
+
+inline void add_spot(Scene& scene, const SpotLight& values) {
+  scene.lights.push_back(lights::make_light(values));
 }
 
 // A scene of one pixel, whose ray runs from `eye` exactly towards `target`.

@@ -58,6 +58,10 @@ inline std::string broken_promise(const importers::ImportedScene& scene) {
   for (const auto& light : scene.lights) {
     const auto* point = std::get_if<PointLight>(&light);
     const auto* sun = std::get_if<DirectionalLight>(&light);
+    const auto* spot = std::get_if<SpotLight>(&light);
+    if (spot && !(finite(spot->position) && finite(spot->intensity) && finite(spot->direction) &&
+                  spot->inner >= 0 && spot->inner < spot->outer))
+      return "spot light";
     if (point && !(finite(point->position) && finite(point->intensity))) return "point light";
     if (sun && !(finite(sun->to_light) && finite(sun->intensity))) return "directional light";
   }

@@ -51,6 +51,10 @@ void check(const Scene& scene, double expected, double least_error = 2e-6) {
     CAPTURE(int(backend));
     CAPTURE(found.mean);
     CAPTURE(found.error);
+    if (expected == 0) {
+      CHECK(found.mean == 0);
+      continue;
+    }
     CHECK(found.error < 0.005 * expected);
     // At five standard errors one of a million and a half such tests fails by chance.
     CHECK(std::abs(found.mean - expected) < 5 * found.error + least_error * expected);
@@ -66,6 +70,40 @@ TEST_CASE("point and directional lights: as Whitted's, L = ρ I cos θ / d²") {
   add_sun(scene, {0, 1, 1}, Vec3(0.5));
   scene.image.samples = 256;
   check(scene, albedo * (3.0 / 4 + 0.5 * std::sqrt(0.5)));
+}
+
+TEST_CASE("a sun of an angle brings what it brings without, and is seen; beside an environment too") {
+  for (const double degrees : {0.05, 0.533, 40.0}) {
+    CAPTURE(degrees);
+    Scene scene = floor();
+    add_sun(scene, {0, 1, 1}, Vec3(0.5), glm::radians(degrees));
+    check(scene, albedo * 0.5 * std::sqrt(0.5), 1e-5);
+    scene.environment = environment(4, 2, [](const Vec3&) { return Vec3(0.25); });
+    check(scene, albedo * (0.5 * std::sqrt(0.5) + 0.25), 1e-5);
+
+    Scene above = patch({0, 1, 0}, {0, 2, 1}, 4);
+    add_sun(above, {0, 1, 1}, Vec3(0.5), glm::radians(degrees));
+    check(above, 0.5 / std::pow(std::sin(glm::radians(degrees / 2)), 2), 1e-4);
+    const double beside = M_PI / 4 + 1.1 * glm::radians(degrees / 2);
+    above.camera.target = above.camera.eye + Vec3(0, std::cos(beside), std::sin(beside));
+    check(above, 0, 1e-4);
+  }
+}
+
+TEST_CASE("a spot: I s² cos θ / d², s from one angle's cosine to the other's") {
+  const double inner = 0.3, outer = 0.7;
+  const auto seen = [&](double angle, double distance) {
+    const double s = (std::cos(angle) - std::cos(outer)) / (std::cos(inner) - std::cos(outer));
+    return albedo * 3 * std::pow(std::clamp(s, 0.0, 1.0), 2) / (distance * distance);
+  };
+  for (const double angle : {0.0, 0.25, 0.5, 0.69, 0.75}) {
+    CAPTURE(angle);
+    Scene scene = floor(4);
+    add_spot(scene, {{0, 2, 0}, {std::sin(angle), -std::cos(angle), 0}, Vec3(3), inner, outer});
+    check(scene, seen(angle, 2), 1e-5);
+    scene.render.integrator = IntegratorType::whitted;
+    check(scene, seen(angle, 2), 1e-5);
+  }
 }
 
 TEST_CASE("a sphere above the horizon: E = π L R² cos θ / d²") {

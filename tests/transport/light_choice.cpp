@@ -39,6 +39,21 @@ TEST_CASE("lights are chosen by power, and all shares are one together") {
     CHECK(choice.share(i) == doctest::Approx(15.0 / 16 * powers[i] / sum + 1.0 / 64).epsilon(1e-5));
 }
 
+TEST_CASE("a spot's power is that of its cone") {
+  Scene scene = empty_scene();
+  add_spot(scene, {{0, 5, 0}, {0, -1, 0}, Vec3(1), 0.2, 0.5});
+  add_point_light(scene, {0, 5, 0}, Vec3(1), Falloff::inverse_square);
+  // ∫ s² dω by the midpoint rule.
+  double sum = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const double angle = 0.5 * (i + 0.5) / 100'000;
+    const double s = std::min(1.0, (std::cos(angle) - std::cos(0.5)) / (std::cos(0.2) - std::cos(0.5)));
+    sum += 2 * M_PI * s * s * std::sin(angle) * 0.5 / 100'000;
+  }
+  const double part = sum / (sum + 4 * M_PI);
+  CHECK(light_choice(scene).share(0) == doctest::Approx(15.0 / 16 * part + 1.0 / 32).epsilon(1e-5));
+}
+
 TEST_CASE("what emits and has no place to choose is told, with holes, textures, or of other shapes") {
   Scene scene = empty_scene();
   add(scene, make_box({0, 0, 0}, {1, 1, 1}), lamp(scene, 1));

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cmath>
+
+namespace eyeray::lights {
+
+// One less the cosine, also of small angles.
+inline double versine(double angle) {
+  return 2 * std::sin(angle / 2) * std::sin(angle / 2);
+}
+
+}  // namespace eyeray::lights
