@@ -1,7 +1,10 @@
 #include "host/loader/environments.hpp"
 
+#include <algorithm>
 #include <tuple>
 
+#include "host/lights/make.hpp"
+#include "host/lights/sky.hpp"
 #include "host/loader/kinds.hpp"
 
 namespace eyeray::loader {
@@ -55,34 +58,76 @@ std::string fault_of(const image::Image& image) {
       wrong, wrong == 1 ? "" : "s", wrong == 1 ? "is" : "are", brightest, value, x, y);
 }
 
-std::shared_ptr<EnvironmentMap> parse_image(TableReader& table, const ValueSources& sources,
-                                            DiagnosticLog& log) {
-  if (!table.valid("image")) return nullptr;
-  if (!sources.images) return table.error("image", "only a scene in a file can have images"), nullptr;
+Surroundings parse_image(TableReader& table, const ValueSources& sources, DiagnosticLog& log) {
+  if (!table.valid("image")) return Surroundings();
+  if (!sources.images) return table.error("image", "only a scene in a file can have images"), Surroundings();
   std::optional<image::Image> image =
       sources.images->load_light(table.string("image"), table.position("image"));
-  if (!image || table.failed()) return nullptr;
+  if (!image || table.failed()) return Surroundings();
   if (const int64_t texels = int64_t{image->width()} * image->height(); texels > most_texels)
     return table.error("image", fmt::format("the picture has {} × {} texels; an environment has at most {}",
                                             image->width(), image->height(), most_texels)),
-           nullptr;
+           Surroundings();
   const Vec3 scale = table.color("scale");
   for (size_t i = 0; i < image->sample_count(); ++i)
     image->samples()[i] = float(double(image->samples()[i]) * scale[int(i % 3)]);
-  if (const std::string fault = fault_of(*image); !fault.empty()) return table.error("image", fault), nullptr;
+  if (const std::string fault = fault_of(*image); !fault.empty())
+    return table.error("image", fault), Surroundings();
   auto environment = std::make_shared<EnvironmentMap>(std::move(*image), table.number("rotate") / 360);
   if (!environment->cells().lit())
     log.warning(table.position("image"), "the environment is black: it lights nothing");
-  return environment;
+  return {environment, nullptr};
 }
 
 constexpr EnvironmentType of_image{
     .name = "image", .manual = image_manual, .keys = keys_of_image, .parse = parse_image};
 
+constexpr std::string_view sky_manual =
+    R"(A clear sky over a round, matt ground, and the sun in it as a light of an angle of 0.533°: what Hillaire's atmosphere
+scatters, once and many times. Beyond the atmosphere a surface square to the sun gets what a directional light of
+`intensity = 1` brings.
+
+```
+[environment]
+type = "sky"
+sun = [0.3, 0.5, -1]
+```
+)";
+
+constexpr Key keys_of_sky[] = {
+    {.name = "sun",
+     .type = KeyType::vec3,
+     .doc = "The direction in which the sun stands, of any length but 0."},
+    {.name = "ground",
+     .type = KeyType::color,
+     .doc = "How much light the ground scatters, which is seen below the horizon.",
+     .fallback = "0.3",
+     .max = 1},
+    {.name = "scale",
+     .type = KeyType::color,
+     .doc = "What the light of sky and sun is multiplied by, in all or in each channel.",
+     .fallback = "1"},
+};
+
+Surroundings parse_sky(TableReader& table, const ValueSources&, DiagnosticLog& log) {
+  const Vec3 sun = table.vec3("sun");
+  if (table.valid("sun") && !(glm::length(sun) > 1e-15)) table.error("sun", "`sun` has no length");
+  if (const Vec3 scale = table.color("scale"); std::max({scale.x, scale.y, scale.z}) > 1e9)
+    table.error("scale", "`scale` must be at most 1e9");
+  if (table.failed()) return {};
+  const lights::Sky sky =
+      lights::make_sky({glm::normalize(sun), table.color("ground"), table.color("scale")});
+  if (!sky.map->cells().lit()) log.warning(table.position(), "the environment is black: it lights nothing");
+  return {sky.map, sky.sun ? lights::make_light(*sky.sun) : nullptr};
+}
+
+constexpr EnvironmentType of_sky{
+    .name = "sky", .manual = sky_manual, .keys = keys_of_sky, .parse = parse_sky};
+
 }  // namespace
 
 std::span<const EnvironmentType* const> environment_types() {
-  static constexpr const EnvironmentType* types[] = {&of_image};
+  static constexpr const EnvironmentType* types[] = {&of_image, &of_sky};
   return types;
 }
 
@@ -110,13 +155,13 @@ std::span<const Key> environment_keys() {
   return keys;
 }
 
-std::shared_ptr<const EnvironmentMap> read_environment(const Section& section, const toml::table* table,
-                                                       const ValueSources& sources, DiagnosticLog& log) {
-  if (!table) return nullptr;
+Surroundings read_environment(const Section& section, const toml::table* table, const ValueSources& sources,
+                              DiagnosticLog& log) {
+  if (!table) return {};
   auto [type, reader] = read_kind(section, table, environment_types(), sources, log);
-  const std::shared_ptr<EnvironmentMap> environment = type ? type->parse(reader, sources, log) : nullptr;
-  if (environment) environment->share = reader.number("share");
-  return environment;
+  Surroundings around = type ? type->parse(reader, sources, log) : Surroundings();
+  if (around.map) around.map->share = reader.number("share");
+  return around;
 }
 
 }  // namespace eyeray::loader

@@ -9,21 +9,26 @@
 
 namespace eyeray::loader {
 
+// What is around a scene, and what shines from there; of both there may be none.
+struct Surroundings {
+  std::shared_ptr<EnvironmentMap> map;
+  std::unique_ptr<Light> sun;
+};
+
 // A kind of environment: `type` in the table, and how it comes to be.
 struct EnvironmentType {
   std::string_view name;
   std::string_view manual;
   std::span<const Key> keys;  // beside those that all have
-  // Null after an error, which is reported to the table.
-  std::shared_ptr<EnvironmentMap> (*parse)(TableReader& table, const ValueSources& sources,
-                                           DiagnosticLog& log);
+  // Nothing after an error, which is reported to the table.
+  Surroundings (*parse)(TableReader& table, const ValueSources& sources, DiagnosticLog& log);
 };
 
 std::span<const EnvironmentType* const> environment_types();
 std::span<const Key> environment_keys();
 
-// Null where the table is not written, or after an error.
-std::shared_ptr<const EnvironmentMap> read_environment(const Section& section, const toml::table* table,
-                                                       const ValueSources& sources, DiagnosticLog& log);
+// Nothing where the table is not written, or after an error.
+Surroundings read_environment(const Section& section, const toml::table* table, const ValueSources& sources,
+                              DiagnosticLog& log);
 
 }  // namespace eyeray::loader

@@ -49,7 +49,8 @@ class Builder {
     TableReader image = read_single("image");
     scene_.image = read_image(image, scene_.render.integrator);
     const toml::table* around = single("environment");
-    scene_.environment = read_environment(*find_section("environment"), around, values_, log_);
+    Surroundings surroundings = read_environment(*find_section("environment"), around, values_, log_);
+    scene_.environment = std::move(surroundings.map);
     if (around && render.has("background"))
       render.error("background",
                    "[environment] takes the place of `background`: a scene has one or the other");
@@ -65,6 +66,7 @@ class Builder {
       if (std::unique_ptr<Light> light = read_light(section, table, values_, log_))
         scene_.lights.push_back(std::move(light));
     });
+    if (surroundings.sun) scene_.lights.push_back(std::move(surroundings.sun));
     for_each(root_, "material",
              [&](const Section& section, const toml::table& table) { materials_.add(section, table); });
     plan_.emplace(root_, scene_.render.groups, log_);

@@ -111,3 +111,25 @@ TEST_CASE("what is no file of light is an error at its name") {
   CHECK(said_of(folder, "image = 'b.pfm'", "[render]\nbackground = 1") ==
         "[environment] takes the place of `background`: a scene has one or the other");
 }
+
+TEST_CASE("a sky has its sun among the lights, the last; by night there is none") {
+  const test::Folder folder;
+  const std::string day = "[environment]\ntype = 'sky'\nsun = [0, 2, -2]\nscale = 3\n";
+  const Scene scene =
+      load_scene(folder.write("day.toml", day + "[[light]]\ntype = 'point'\nposition = [0, 1, 0]\n"));
+  REQUIRE(scene.environment);
+  REQUIRE(scene.lights.size() == 2);
+  const auto sun = std::get<DirectionalLight>(scene.lights[1]->form());
+  CHECK(glm::length(sun.to_light - glm::normalize(Vec3(0, 1, -1))) < 1e-12);
+  CHECK(sun.intensity.x > 1);
+  CHECK(load_scene(folder.write("night.toml", "[environment]\ntype = 'sky'\nsun = [0, -1, -9]\n"))
+            .lights.empty());
+
+  CHECK(said_of(folder, "type = 'sky'").starts_with("[environment] of type sky needs `sun`"));
+  CHECK(said_of(folder, "type = 'sky'\nsun = [0, 0, 0]") == "`sun` has no length");
+  CHECK(said_of(folder, "type = 'sky'\nsun = [0, 1, 0]\nrotate = 3") ==
+        "`rotate` is for type = \"image\" only");
+  CHECK(said_of(folder, "type = 'sky'\nsun = [0, 1, 0]\nscale = 1e10") == "`scale` must be at most 1e9");
+  CHECK(said_of(folder, "type = 'sky'\nsun = [0, 1, 0]\nscale = 0") ==
+        "warning: the environment is black: it lights nothing");
+}

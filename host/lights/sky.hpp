@@ -1,0 +1,29 @@
+// A clear sky over a round, matt ground, as light from all around; and the sun in it as a light of its own.
+// Hillaire: A Scalable and Production Ready Sky and Atmosphere Rendering Technique, EGSR 2020; its atmosphere
+// is that of Bruneton and Neyret: Precomputed Atmospheric Scattering, EGSR 2008.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "host/scene/environment.hpp"
+#include "host/scene/light.hpp"
+
+namespace eyeray::lights {
+
+struct SkySettings {
+  Vec3 to_sun{0, 1, 0};  // unit; also below the horizon
+  Vec3 ground{0.3};      // its albedo
+  Vec3 scale{
+      1};  // beyond the atmosphere a surface square to the sun gets the light of an intensity of `scale`
+};
+
+struct Sky {
+  std::shared_ptr<EnvironmentMap> map;
+  std::optional<DirectionalLight> sun;  // none below the horizon
+};
+
+// A tenth of a second or two.
+Sky make_sky(const SkySettings& settings);
+
+}  // namespace eyeray::lights
