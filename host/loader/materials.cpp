@@ -35,6 +35,8 @@ void Materials::add(const Section& section, const toml::table& table) {
     if (material->medium())
       reader.error("alpha", "what light passes through fills its shape, which can have no cutouts");
     material->mask = AlphaMask{reader.texture("alpha"), reader.number("alpha_cutoff")};
+    if (material->mask->alpha && material->mask->alpha->in_space())
+      reader.error("alpha", "a pattern in space can cut nothing out");
   } else if (reader.has("alpha_cutoff")) {
     reader.error("alpha_cutoff", "without `alpha` there is nothing to cut off");
   }

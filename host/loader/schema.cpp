@@ -108,6 +108,11 @@ Json value_schema(const Key& key) {
       list["maxItems"] = 4;
       return {{"type", "object"}, {"additionalProperties", either({{"type", "number"}}, std::move(list))}};
     }
+    case KeyType::color_map: {
+      Json pair = list_schema(either(number_schema(positive, "number"), vector_schema(positive, 3)));
+      pair["minItems"] = pair["maxItems"] = 2;
+      return list_schema(std::move(pair));
+    }
     case KeyType::color:
       return either(number_schema(positive, "number"), vector_schema(positive, 3));
     case KeyType::scale2:

@@ -79,7 +79,7 @@ class Dielectric final : public Material {
     return scattering;
   }
 
-  Vec3 base_color(const Vec2&) const override { return Vec3(1); }
+  Vec3 base_color(const TexturePlace&) const override { return Vec3(1); }
 
   std::optional<Medium> medium() const override { return Medium{values_.ior, values_.absorption}; }
 

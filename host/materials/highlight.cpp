@@ -4,7 +4,7 @@
 
 namespace eyeray::materials {
 
-void Highlight::apply(const Vec2& uv, Scattering& scattering) const {
+void Highlight::apply(const TexturePlace& uv, Scattering& scattering) const {
   scattering.specular = specular->at(uv);
   scattering.shininess = shininess;
   scattering.blinn = blinn;

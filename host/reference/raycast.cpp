@@ -39,7 +39,8 @@ PixelSample raycast(const Tracer& tracer, const SampleId&, const Ray& ray, const
       if (cosine > 0) light += illumination.color * cosine;
     }
   }
-  const Vec3 base = scene.materials[size_t(hit->material)]->base_color(surface.uv) * surface.color;
+  const Vec3 base =
+      scene.materials[size_t(hit->material)]->base_color({surface.uv, surface.position}) * surface.color;
   observer.value("light", base * light);
   return {.color = base * light, .rays = 1, .hits = 1, .flags = flags};
 }

@@ -84,7 +84,8 @@ Scattering SampleRays::scattering(const Ray& ray, const Hit& hit, const SurfaceP
     const Ray moved{ray.o + aside * (std::cos(i * M_PI / 4) * u + std::sin(i * M_PI / 4) * v), ray.d};
     const auto other_hit = tracer_.trace(moved);
     if (!other_hit || other_hit->primitive != hit.primitive) continue;
-    context.uv = tracer_.surface(moved, *other_hit).uv;
+    const SurfacePoint other_point = tracer_.surface(moved, *other_hit);
+    context.uv = {other_point.uv, other_point.position};
     const Scattering other = material.scattering(context);
     choose(result.ambient, other.ambient);
     choose(result.diffuse, other.diffuse);
@@ -133,8 +134,9 @@ std::optional<Interaction> SampleRays::hit(const Ray& ray, const MediaStack& med
   at.dimming = glm::exp(-before.absorption * hit->at.t);
   at.ior_before = before.ior;
   at.ior_beyond = medium(at.media_beyond).ior;
-  at.scattering = scattering(ray, *hit, at.surface,
-                             {at.surface.uv, at.cos_view, at.ior_before, at.ior_beyond, at.surface.color});
+  at.scattering = scattering(
+      ray, *hit, at.surface,
+      {{at.surface.uv, at.surface.position}, at.cos_view, at.ior_before, at.ior_beyond, at.surface.color});
 
   observer_.value("ior", Vec2(at.ior_before, at.ior_beyond));
   observer_.value("ambient", at.scattering.ambient);

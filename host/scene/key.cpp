@@ -88,6 +88,8 @@ std::string describe(const Key& declared) {
       return "the name of a file";
     case KeyType::parameters:
       return "a table { NAME = number or [2 to 4 numbers], … }";
+    case KeyType::color_map:
+      return "a list of colors [[t, color], …], t rising from 0 to 1 at most";
     case KeyType::color:
       return "a color [r, g, b] or one number for all three" + each(key);
     case KeyType::texture:

@@ -38,7 +38,7 @@ struct Scattering {
 
 // What a material may depend on at a point.
 struct ScatteringContext {
-  Vec2 uv;
+  TexturePlace uv;
   double cos_view;  // cosine between the shading normal and the direction back along the ray, in [0, 1]
   double ior_from;  // of the medium the ray comes through
   double ior_to;    // of the medium behind the surface
@@ -61,7 +61,7 @@ class Material {
 
   virtual Scattering scattering(const ScatteringContext& context) const = 0;
   // The colour that `raycast` shades.
-  virtual Vec3 base_color(const Vec2& uv) const = 0;
+  virtual Vec3 base_color(const TexturePlace& uv) const = 0;
   // Whether it has light of its own, and that light where it is the same everywhere.
   virtual bool emits() const { return false; }
   virtual std::optional<Vec3> constant_emission() const { return std::nullopt; }

@@ -174,6 +174,9 @@ formula::FormulaText TableReader::formula(std::string_view key) const {
 std::vector<formula::FormulaParameter> TableReader::parameters(std::string_view key) const {
   return table_->get<std::vector<formula::FormulaParameter>>(key);
 }
+std::vector<Vec4> TableReader::color_map(std::string_view key) const {
+  return table_->get<std::vector<Vec4>>(key);
+}
 Vec3 TableReader::color(std::string_view key) const {
   return table_->get<Vec3>(key);
 }

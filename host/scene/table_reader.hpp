@@ -39,6 +39,7 @@ enum class KeyType {
   formula,       // GLSL, best in """…"""
   formula_file,  // the name of a file of it
   parameters,    // { NAME = number or [2 to 4 numbers], … }
+  color_map,     // [[t, color], …], t rising from 0 to 1 at most
   color,         // [r, g, b], each ≥ 0, or one number for all three
   texture,       // a color, or a table of a kind of texture
   scale2,        // [u, v], or one number for both
@@ -89,6 +90,7 @@ class TableReader {
   formula::FormulaText formula(std::string_view key) const;  // of formula and formula_file
   std::vector<formula::FormulaParameter> parameters(std::string_view key) const;
   Vec3 color(std::string_view key) const;
+  std::vector<Vec4> color_map(std::string_view key) const;  // color, then where it is
   TexturePtr texture(std::string_view key) const;
   // `wanted` with the texels of the file that the key names; null where it cannot be had, which is an error
   // then.

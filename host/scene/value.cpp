@@ -62,6 +62,7 @@ class Reader {
   template <int N>
   std::vector<glm::vec<N, double>> vector_list(const toml::node& node);
   std::vector<std::vector<Vec3>> vector_lists(const toml::node& node);
+  std::vector<Vec4> color_map(const toml::node& node);
   formula::FormulaText formula_file(const toml::node& node);
   std::vector<formula::FormulaParameter> parameters(const toml::node& node);
 
@@ -157,6 +158,25 @@ std::vector<std::vector<Vec3>> Reader::vector_lists(const toml::node& node) {
   return values;
 }
 
+std::vector<Vec4> Reader::color_map(const toml::node& node) {
+  std::vector<Vec4> colors;
+  const toml::array* list = node.as_array();
+  if (!list || list->empty()) return mismatch(node), colors;
+  for (const toml::node& element : *list) {
+    const toml::array* pair = element.as_array();
+    if (!pair || pair->size() != 2) return mismatch(element), colors;
+    const double at = (*pair)[0].value<double>().value_or(-1);
+    if (!(at >= (colors.empty() ? 0 : colors.back().w) && at <= 1))
+      return fail((*pair)[0],
+                  fmt::format(
+                      "where a color of `{}` is must be a number from 0 to 1, none less than that before it",
+                      key_.name)),
+             colors;
+    colors.emplace_back(vector<3>((*pair)[1], true), at);
+  }
+  return colors;
+}
+
 formula::FormulaText Reader::formula_file(const toml::node& node) {
   if (!node.is_string()) return mismatch(node), formula::FormulaText{};
   if (!sources_.formulas)
@@ -209,7 +229,7 @@ TexturePtr Reader::texture(const TextureType& type, const toml::table& table) {
   // Its colors have the range of the texture's; of an image no texel is above 1.
   std::vector<Key> keys(type.keys.begin(), type.keys.end());
   for (Key& key : keys)
-    if (key.type == KeyType::color) key.max = std::min(key.max, key_.max);
+    if (key.type == KeyType::color || key.type == KeyType::color_map) key.max = std::min(key.max, key_.max);
   const std::string title = fmt::format("{{ {} = … }}", type.name);
   TableReader reader =
       read_table({.title = title, .table = &table, .keys = {keys}, .sources = sources_}, log_);
@@ -262,6 +282,8 @@ Value Reader::value(const toml::node& node) {
       return formula_file(node);
     case KeyType::parameters:
       return parameters(node);
+    case KeyType::color_map:
+      return color_map(node);
     case KeyType::color:
       return vector<3>(node, true);
     case KeyType::texture:
@@ -289,7 +311,8 @@ Value Reader::value(const toml::node& node) {
 std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log,
                                 const ValueSources& sources) {
   Key ranged = key;
-  if (key.type == KeyType::color || key.type == KeyType::texture) ranged.min = std::max(ranged.min, 0.0);
+  if (key.type == KeyType::color || key.type == KeyType::color_map || key.type == KeyType::texture)
+    ranged.min = std::max(ranged.min, 0.0);
   Reader reader(ranged, log, sources);
   Value value = reader.value(node);
   if (!reader.ok()) return std::nullopt;
@@ -325,6 +348,8 @@ Value stand_in(const Key& key, const ValueSources& sources) {
       return std::vector<Vec2>();
     case KeyType::vec3_list:
       return std::vector<Vec3>();
+    case KeyType::color_map:
+      return std::vector<Vec4>();
     case KeyType::outlines:
       return std::vector<std::vector<Vec3>>();
     case KeyType::formula:

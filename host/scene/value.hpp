@@ -17,9 +17,10 @@ namespace eyeray {
 
 // boolean bool; integer and choice int64_t; choice2 two of them; number double; string std::string; color
 // Vec3; scale2, scale3 Vec2, Vec3.
-using Value = std::variant<bool, int64_t, std::array<int64_t, 2>, double, std::string, Vec2, Vec3,
-                           std::vector<Vec2>, std::vector<Vec3>, std::vector<std::vector<Vec3>>,
-                           formula::FormulaText, std::vector<formula::FormulaParameter>, TexturePtr, Mat4>;
+using Value =
+    std::variant<bool, int64_t, std::array<int64_t, 2>, double, std::string, Vec2, Vec3, std::vector<Vec2>,
+                 std::vector<Vec3>, std::vector<Vec4>, std::vector<std::vector<Vec3>>, formula::FormulaText,
+                 std::vector<formula::FormulaParameter>, TexturePtr, Mat4>;
 
 // What values are made of beside TOML.
 struct ValueSources {

@@ -111,8 +111,12 @@ class Image final : public Texture {
   Image(std::shared_ptr<const ImageTexture> image, const Vec3& tint, const Vec2& size)
       : image_(std::move(image)), tint_(tint), size_(size) {}
 
-  Vec3 at(const Vec2& uv) const override { return tint_ * Vec3(filtered(*image_, uv / size_)); }
-  double alpha_at(const Vec2& uv) const override { return tint_.x * filtered(*image_, uv / size_).w; }
+  Vec3 at(const TexturePlace& place) const override {
+    return tint_ * Vec3(filtered(*image_, place.uv / size_));
+  }
+  double alpha_at(const TexturePlace& place) const override {
+    return tint_.x * filtered(*image_, place.uv / size_).w;
+  }
 
   uint32_t pack(records::Packer& packer) const override {
     return packer.add(shader::Texture{.color = glm::vec3(tint_),

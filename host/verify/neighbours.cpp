@@ -13,7 +13,7 @@ uint64_t mix(uint64_t hash, uint64_t value) {
 void add_first_hit(compare::Neighbour& neighbour, const Scene& scene, const FirstHit& hit) {
   neighbour.first_surfaces = mix(neighbour.first_surfaces, uint64_t(hit.primitive));
   if (hit.primitive < 0) return;
-  const Vec3 color = scene.materials[size_t(hit.material)]->base_color(hit.uv);
+  const Vec3 color = scene.materials[size_t(hit.material)]->base_color({hit.uv, hit.position});
   for (int c = 0; c < 3; ++c)
     neighbour.first_colors = mix(neighbour.first_colors, std::bit_cast<uint64_t>(color[c]));
 }

@@ -9,7 +9,7 @@
 SHADER_BEGIN
 
 struct ScatteringContext {
-  vec2 uv;
+  TexturePlace uv;  // and where that is in space
   vec3 color;      // of a mesh's vertices, white where they have none
   float cos_view;  // in [0, 1]
   float ior_from;

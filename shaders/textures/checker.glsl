@@ -2,17 +2,18 @@
 #ifndef CHECKER_GLSL
 #define CHECKER_GLSL
 #include "records.h"
+#include "textures/place.glsl"
 
 SHADER_BEGIN
 
-vec3 checker_color(Texture texture, vec2 uv) {
+vec3 checker_color(Texture texture, TexturePlace place) {
   // The parity is taken in floats, where an int could overflow.
-  float check = floor(uv.x * texture.b.x) + floor(uv.y * texture.b.y);
+  float check = floor(place.uv.x * texture.b.x) + floor(place.uv.y * texture.b.y);
   bool odd = check - 2.0f * floor(0.5f * check) != 0.0f;
   return odd ? vec3(texture.a) : texture.color;
 }
 
-float checker_alpha(Texture texture, vec2 uv) { return checker_color(texture, uv).x; }
+float checker_alpha(Texture texture, TexturePlace place) { return checker_color(texture, place).x; }
 
 SHADER_END
 #endif

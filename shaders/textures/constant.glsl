@@ -2,12 +2,13 @@
 #ifndef CONSTANT_GLSL
 #define CONSTANT_GLSL
 #include "records.h"
+#include "textures/place.glsl"
 
 SHADER_BEGIN
 
-vec3 constant_color(Texture texture, vec2 uv) { return texture.color; }
+vec3 constant_color(Texture texture, TexturePlace place) { return texture.color; }
 
-float constant_alpha(Texture texture, vec2 uv) { return texture.color.x; }
+float constant_alpha(Texture texture, TexturePlace place) { return texture.color.x; }
 
 SHADER_END
 #endif

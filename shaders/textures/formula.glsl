@@ -3,18 +3,19 @@
 #define TEXTURES_FORMULA_GLSL
 #include "math/math.glsl"
 #include "records.h"
+#include "textures/place.glsl"
 
 SHADER_BEGIN
 
 // Nobody knows what a function says: what is no number is 0.
 float formula_share(float x) { return x > 0.0f ? minimum(x, 1.0f) : 0.0f; }
 
-vec3 formula_color(Texture texture, vec2 uv) {
-  vec3 color = FORMULA_COLOR(texture.c.x, uv);
+vec3 formula_color(Texture texture, TexturePlace place) {
+  vec3 color = FORMULA_COLOR(texture.c.x, place.uv);
   return texture.color * vec3(formula_share(color.x), formula_share(color.y), formula_share(color.z));
 }
 
-float formula_alpha(Texture texture, vec2 uv) { return formula_color(texture, uv).x; }
+float formula_alpha(Texture texture, TexturePlace place) { return formula_color(texture, place).x; }
 
 SHADER_END
 #endif

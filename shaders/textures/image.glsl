@@ -3,6 +3,7 @@
 #define IMAGE_GLSL
 #include "math/math.glsl"
 #include "records.h"
+#include "textures/place.glsl"
 
 SHADER_BEGIN
 
@@ -79,8 +80,8 @@ TexelQuad texels_at(Texture texture, vec2 uv) {
   return place;
 }
 
-vec3 image_color(Texture texture, vec2 uv) {
-  TexelQuad at = texels_at(texture, uv);
+vec3 image_color(Texture texture, TexturePlace place) {
+  TexelQuad at = texels_at(texture, place.uv);
   vec3 bottom_left = texel_color(texture, at.left, at.bottom);
   vec3 top_left = texel_color(texture, at.left, at.top);
   vec3 lower = bottom_left + (texel_color(texture, at.right, at.bottom) - bottom_left) * at.to_right;
@@ -92,8 +93,8 @@ float texel_alpha(Texture texture, uint column, uint row) {
   return uintBitsToFloat(load_texel(TEXELS_LINEAR + (texel_codes(texture, column, row) >> 24u)));
 }
 
-float image_alpha(Texture texture, vec2 uv) {
-  TexelQuad at = texels_at(texture, uv);
+float image_alpha(Texture texture, TexturePlace place) {
+  TexelQuad at = texels_at(texture, place.uv);
   float bottom_left = texel_alpha(texture, at.left, at.bottom);
   float top_left = texel_alpha(texture, at.left, at.top);
   float lower = bottom_left + (texel_alpha(texture, at.right, at.bottom) - bottom_left) * at.to_right;

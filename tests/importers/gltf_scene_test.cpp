@@ -20,7 +20,7 @@ GltfFile with_material(const Json& material) {
 Scattering scattering_of(const Json& material) {
   const ImportedScene scene = import_sound(with_material(material).gltf(), "a.gltf");
   REQUIRE(scene.instances[0].material == 0);
-  return scene.materials[0]->scattering({{0.25, 0.75}, 1, 1, 1});
+  return scene.materials[0]->scattering({Vec2(0.25, 0.75), 1, 1, 1});
 }
 
 Json surface(const Json& color, double metallic, double roughness) {
@@ -80,7 +80,7 @@ TEST_CASE("pictures, from data and files, with their samplers") {
     file.json["images"] = {{{"uri", uri}}};
     const ImportedScene without = import_sound(file.gltf(), "a.gltf");
     CHECK(warns(without, "a picture was left out: "));
-    CHECK(without.materials[0]->base_color({0, 0}) == Vec3(1));
+    CHECK(without.materials[0]->base_color(Vec2{0, 0}) == Vec3(1));
   }
   file.json["textures"] = {{{"extensions", Json::object()}}};
   CHECK(warns(import_sound(file.gltf(), "a.gltf"), "textures without a picture (1)"));
@@ -209,8 +209,8 @@ TEST_CASE("emission, by factor, strength and picture; what is unlit emits its ba
   const ImportedScene alone = import_sound(file.gltf(), "a.gltf");
   CHECK(alone.warnings.empty());
   CHECK(alone.meshes[0].uv.size() == 4);
-  CHECK(alone.materials[0]->scattering({{0.1, 0.9}, 1, 1, 1}).emitted !=
-        alone.materials[0]->scattering({{0.9, 0.1}, 1, 1, 1}).emitted);
+  CHECK(alone.materials[0]->scattering({Vec2(0.1, 0.9), 1, 1, 1}).emitted !=
+        alone.materials[0]->scattering({Vec2(0.9, 0.1), 1, 1, 1}).emitted);
   file.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
   CHECK(warns(import_sound(file.gltf(), "a.gltf"), "emission maps with uv of their own (1)"));
 }

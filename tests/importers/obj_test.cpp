@@ -94,7 +94,7 @@ TEST_CASE("each material has its mesh, and its .mtl is read") {
   for (const Instance& instance : scene.instances) materials.push_back(instance.material);
   CHECK(materials == std::vector{-1, 0, 1, 2, 3, -1});
 
-  const ScatteringContext context{{0, 0}, 1, 1, 1};
+  const ScatteringContext context{Vec2(0), 1, 1, 1};
   CHECK(scene.materials[0]->name == "red");
   CHECK(scene.materials[0]->scattering(context).diffuse == Vec3(1, 0, 0));
   CHECK(scene.materials[0]->scattering(context).specular == Vec3(0.5));

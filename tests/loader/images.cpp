@@ -113,7 +113,7 @@ TEST_CASE("an override's image is relative to the scene") {
   const Folder folder;
   const std::string scene = folder.write("scene.toml", scene_with("0.5"));
   const Override change{"material.m.diffuse={ image = \"a.png\", filter = \"nearest\" }"};
-  CHECK(load_scene(scene, {&change, 1}).materials[0]->base_color({0.1, 0.9}) == Vec3(1, 0, 0));
+  CHECK(load_scene(scene, {&change, 1}).materials[0]->base_color(Vec2{0.1, 0.9}) == Vec3(1, 0, 0));
   const Override wrong{"material.m.diffuse={ image = \"b.png\" }"};
   CHECK(refusal(scene, {&wrong, 1}) == "-D material.m.diffuse={ image = \"b.png\" }: error: cannot read " +
                                            (folder / "b.png") + ": No such file or directory");

@@ -64,7 +64,7 @@ TEST_CASE("elements are named by index or by name") {
   CHECK(scene.shapes[0]->bounds().max.x == 5);
   CHECK(scene.shapes[2]->bounds().max.x == 8);
   CHECK(scene.materials[0]->medium()->ior == 1.25);
-  CHECK(scene.materials[1]->base_color({1.5, 0}) == Vec3(0.5));
+  CHECK(scene.materials[1]->base_color(Vec2{1.5, 0}) == Vec3(0.5));
 }
 
 TEST_CASE("an override mends a wrong value") {

@@ -137,9 +137,9 @@ ior = 1.75
 )");
   REQUIRE(scene.materials.size() == 3);
   CHECK(scene.materials[0]->name == "checks");
-  CHECK(scene.materials[0]->base_color({1.5, 0.5}) == Vec3(1, 2, 3));
-  CHECK(scene.materials[0]->base_color({2.5, 0.5}) == Vec3(0.5));
-  CHECK(scene.materials[1]->base_color({0, 0}) == Vec3(0.25));
+  CHECK(scene.materials[0]->base_color(Vec2{1.5, 0.5}) == Vec3(1, 2, 3));
+  CHECK(scene.materials[0]->base_color(Vec2{2.5, 0.5}) == Vec3(0.5));
+  CHECK(scene.materials[1]->base_color(Vec2{0, 0}) == Vec3(0.25));
   CHECK(scene.materials[2]->medium()->ior == 1.75);
 }
 

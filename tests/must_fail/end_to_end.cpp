@@ -63,6 +63,7 @@ std::vector<Fault> faults() {
       {"mirror", {bits, counts, colors}},
       {"depth", {bits, counts, colors}},
       {"checker", {bits, colors}},
+      {"noise", {bits, colors}, {"scenes/solid_patterns.toml"}},
       {"counts", {bits, counts, "parts at counts"}},
       {"offset", {bits, counts, colors}},
       {"ior", {bits, counts, colors}},

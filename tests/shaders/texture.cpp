@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
+#include "host/loader/scene_file.hpp"
 #include "host/textures/make.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "host/twin/twin.hpp"
@@ -41,7 +43,7 @@ Vec3 shaded(const TexturePtr& texture, const Vec2& uv) {
   const uint32_t index = texture->pack(packer);
   packer.write_texels();
   const shader::Binding binding(twin::view_of(packer.scene));
-  return Vec3(shader::texture_color(index, glm::vec2(uv)));
+  return Vec3(shader::texture_color(index, shader::place_of_uv(glm::vec2(uv))));
 }
 
 Texel random_texel(Random& random) {
@@ -99,8 +101,8 @@ TEST_CASE("a row of texels goes on beyond its edges as `wrap` says, and bilinear
         const TexturePtr upward = make_image(linear_image(1, 6, column, filter, wrap));
         CHECK(std::abs(shaded(across, {place, 0.3}).x - value) < 2e-6);
         CHECK(std::abs(shaded(upward, {0.3, place}).y - value) < 2e-6);
-        CHECK(std::abs(across->at({place, 0.3}).z - value) < 1e-14);
-        CHECK(std::abs(upward->at({0.3, place}).x - value) < 1e-14);
+        CHECK(std::abs(across->at(Vec2{place, 0.3}).z - value) < 1e-14);
+        CHECK(std::abs(upward->at(Vec2{0.3, place}).x - value) < 1e-14);
       };
       const double here = texels[size_t(k)] / 5.0, next = texels[size_t(k) + 1] / 5.0;
       check(Filter::nearest, centre, here);
@@ -140,7 +142,7 @@ TEST_CASE("codes stand for what IEC 61966-2-1 says, or for shares of 255") {
           linear_image(1, 1, {{uint8_t(code), uint8_t(255 - code), 7, 0}}, Filter::nearest, Wrap::repeat);
       image->srgb = srgb;
       const Vec3 color = shaded(make_image(image), {0.3, 0.8});
-      CHECK(glm::vec3(color) == glm::vec3(make_image(image)->at({0.3, 0.8})));
+      CHECK(glm::vec3(color) == glm::vec3(make_image(image)->at(Vec2{0.3, 0.8})));
       CHECK(color.x > last.x);
       if (!srgb) CHECK(color.x == double(float(code / 255.0)));
       // Values of the standard's formula, worked out by hand.
@@ -187,7 +189,8 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
       const Vec2 error = (glm::abs(place) + Vec2(width, height)) * 3.0 * 0x1p-24;
       const Vec2 to_border = glm::abs(place - glm::round(place));
       if (filter == Filter::nearest && (to_border.x <= error.x || to_border.y <= error.y)) continue;
-      const Vec3 difference = glm::abs(Vec3(shader::texture_color(index, uv)) - texture->at(Vec2(uv)));
+      const Vec3 difference =
+          glm::abs(Vec3(shader::texture_color(index, shader::place_of_uv(uv))) - texture->at(Vec2(uv)));
       const double allowed = (filter == Filter::nearest ? 0 : error.x + error.y) + 1e-6;
       worst = std::max(worst, std::max({difference.x, difference.y, difference.z}) / allowed);
       ++compared;
@@ -226,12 +229,12 @@ TEST_CASE("no uv whatever leaves the image") {
         const shader::Binding binding(twin::view_of(packer.scene));
         for (const float u : places)
           for (const float v : places) {
-            const glm::vec3 color = shader::texture_color(index, {u, v});
+            const glm::vec3 color = shader::texture_color(index, shader::place_of_uv({u, v}));
             CAPTURE(u);
             CAPTURE(v);
             REQUIRE(color == glm::vec3(0, 1, 0.2f));
             if (std::isfinite(u) && std::isfinite(v))
-              REQUIRE(glm::length(make_image(image)->at({u, v}) - Vec3(0, 1, 0.2)) < 1e-14);
+              REQUIRE(glm::length(make_image(image)->at(Vec2{u, v}) - Vec3(0, 1, 0.2)) < 1e-14);
           }
       }
     }
@@ -257,4 +260,34 @@ TEST_CASE("images of the same texels share them; equal textures are one") {
   CHECK(packer.scene.textures[2].c.y == 1);
   CHECK(packer.scene.textures[2].c.z == TEXELS_FIRST + 2);
   CHECK(packer.scene.textures[2].c.w == packer.scene.textures[0].c.w);
+}
+
+TEST_CASE(
+    "patterns in space: 400 000 places, shader and reference agree but at steps; each is as it was made") {
+  const Scene scene = loader::load_scene("scenes/solid_patterns.toml");
+  Random random(21);
+  const Vec3 eye(3, -2, 5);
+  std::set<uint32_t> kinds;
+  for (const auto& material : scene.materials) {
+    CAPTURE(material->name);
+    Packer packer(eye);
+    material->pack(packer);
+    const uint32_t index = packer.scene.materials.back().base;
+    kinds.insert(packer.scene.textures[index].kind);
+    const shader::Binding binding(twin::view_of(packer.scene));
+    int apart = 0;
+    double worst = 0;
+    constexpr int count = 50'000;
+    for (int i = 0; i < count; ++i) {
+      const glm::vec3 p(random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(-6, 6));
+      const Vec3 difference = glm::abs(Vec3(shader::texture_color(index, {{0, 0}, p})) -
+                                       material->base_color({Vec2(0), Vec3(p) + eye}));
+      const double most = std::max({difference.x, difference.y, difference.z});
+      apart += most > 2e-4;
+      worst = std::max(worst, most);
+    }
+    MESSAGE(material->name, ": ", apart, " of ", count, " apart, the worst by ", worst);
+    CHECK(apart < count / 5000);
+  }
+  CHECK(kinds.size() == 7);
 }

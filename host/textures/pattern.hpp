@@ -1,0 +1,64 @@
+// Patterns in space: a share of [0, 1] at each place of the world, and a color for each share.
+#pragma once
+
+#include <vector>
+
+#include "host/records/records.hpp"
+#include "host/scene/affine.hpp"
+#include "host/scene/texture.hpp"
+
+namespace eyeray::textures {
+
+// The keys that all patterns have.
+inline constexpr Key pattern_transform_key{
+    .name = "transform",
+    .type = KeyType::transform,
+    .doc = "Steps that move the pattern, which else lies as described, in units of the world.",
+    .fallback = "[]"};
+inline constexpr Key octaves_key{
+    .name = "octaves",
+    .type = KeyType::integer,
+    .doc = "Of the noise, each twice as fine as the one before and half as strong.",
+    .fallback = "4",
+    .min = 1,
+    .max = 10};
+constexpr Key colors_key(std::string_view fallback) {
+  return {
+      .name = "colors",
+      .type = KeyType::color_map,
+      .doc = "Which color is where; between two it goes from one to the other, and two at one t are a step.",
+      .fallback = fallback};
+}
+
+class Pattern : public Texture {
+ public:
+  // `parameters`: what the .glsl says.
+  Pattern(const TableReader& table, uint32_t kind, const Vec4& parameters = Vec4(0));
+
+  Vec3 at(const TexturePlace& place) const final;
+  bool in_space() const final { return true; }
+  uint32_t pack(records::Packer& packer) const final;
+
+ protected:
+  // In [0, 1], at a place of the pattern's own space.
+  virtual double share(const Vec3& p) const = 0;
+
+ private:
+  Affine to_pattern_;
+  std::vector<Vec4> colors_;
+  uint32_t kind_;
+  Vec4 parameters_;
+};
+
+// Whether the table's transform can be undone; else an error is reported.
+bool pattern_stands(TableReader& table);
+
+// 0 at whole numbers, 1 half way between them.
+double triangle_wave(double x);
+// Octaves of Perlin's noise.
+double turbulence(const Vec3& p, int octaves);
+// The hash of the cell whose lower corner that is.
+uint32_t cell_hash(const Vec3& corner);
+uint32_t next_hash(uint32_t hash);
+
+}  // namespace eyeray::textures

@@ -1,0 +1,18 @@
+// A ramp along x, again and again.
+#ifndef TEXTURES_GRADIENT_GLSL
+#define TEXTURES_GRADIENT_GLSL
+#include "textures/pattern.glsl"
+
+SHADER_BEGIN
+
+float gradient_share(Texture texture, vec3 p) {
+  return fraction(p.x);
+}
+
+vec3 gradient_color(Texture texture, TexturePlace place) {
+  return pattern_color(texture, gradient_share(texture, pattern_place(texture, place.p)));
+}
+float gradient_alpha(Texture texture, TexturePlace place) { return gradient_color(texture, place).x; }
+
+SHADER_END
+#endif

@@ -1,0 +1,22 @@
+// Where a texture is asked: on the surface, and in space.
+#ifndef TEXTURES_PLACE_GLSL
+#define TEXTURES_PLACE_GLSL
+#include "language.h"
+
+SHADER_BEGIN
+
+struct TexturePlace {
+  vec2 uv;
+  vec3 p;  // from the eye
+};
+
+// For those that no pattern in space is asked by.
+TexturePlace place_of_uv(vec2 uv) {
+  TexturePlace place;
+  place.uv = uv;
+  place.p = vec3(0.0f, 0.0f, 0.0f);
+  return place;
+}
+
+SHADER_END
+#endif
