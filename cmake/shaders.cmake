@@ -5,7 +5,7 @@ file(GLOB_RECURSE SHADER_FILES CONFIGURE_DEPENDS RELATIVE ${SHADER_ROOT} ${SHADE
 list(TRANSFORM SHADER_FILES PREPEND ${SHADER_ROOT}/ OUTPUT_VARIABLE SHADER_PATHS)
 
 # The twin compiles every row of the registries; a GPU kernel, its scene's only (executors/specialise.cpp).
-set(REGISTRIES cameras samplers textures shapes materials lights emitters integrators)
+set(REGISTRIES cameras samplers textures bsdf shapes materials lights emitters integrators)
 foreach(registry IN LISTS REGISTRIES)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${SHADER_ROOT}/${registry}/registry.h)
   file(STRINGS ${SHADER_ROOT}/${registry}/registry.h rows REGEX "^  (X\\(|R\\(X, )[a-z_]+,")

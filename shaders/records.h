@@ -32,6 +32,7 @@ SHADER_BEGIN
 #define BINDING_TUNABLES 20
 #define BINDING_EMITTERS 21
 #define BINDING_ENVIRONMENT 22
+#define BINDING_GGX_ALBEDOS 23
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
@@ -120,13 +121,13 @@ INLINE uint mesh_optical_depth(Instance instance) { return of_group(instance) ? 
 INLINE uint first_triangle_of(Instance instance) { return instance.depth_or_triangle; }
 #define ID_OF_TRIANGLE 0x80000000u
 
-// ---- Material: 64 bytes ---------------------------------------------------------------------------------------------
+// ---- Material: 128 bytes --------------------------------------------------------------------------------------------
 struct Material {
   uint kind;
   uint flags;
   uint medium;  // that fills the shape: 1…255, 0 for none
   uint optical_depth;
-  uint base;  // indices into textures; base, with emission, is what raycast shades
+  uint base;  // indices into textures
   uint specular;
   uint reflected;
   uint ambient;
@@ -134,7 +135,17 @@ struct Material {
   uint alpha;
   float alpha_cutoff;  // below which alpha is cut out; 0 without cutouts
   float shininess;
-  vec4 a;  // what it holds is said in the material's .glsl
+  vec4 a;  // what these hold is said in the material's .glsl
+  uint color;  // more textures, of BSDFs; of roughness the green channel counts, of metallic the blue one; raycast shades color + emission
+  uint roughness;
+  uint metallic;
+  uint coat;
+  uint coat_roughness;
+  uint unused_0;
+  uint unused_1;
+  uint unused_2;
+  vec4 b;
+  vec4 c;
 };
 #define MATERIAL_BLINN 1u
 // Optical depth: what each primitive that a shadow ray hits takes from it, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
@@ -199,6 +210,10 @@ struct Emitter {
 // height + 1 rows of width + 1 texels: red, green and blue as the bits of floats. The last row and the last column are the picture's last
 // row and first column again. The fourth word says where the numbers end by which the cell is chosen whose lower left corner this is,
 // among those of its row; in the last column, those by which the row is.
+
+// ---- The directional albedo of GGX: 16 bytes a place (bsdf/ggx_albedo.glsl) -----------------------------------------
+// GGX_ALBEDOS rows by roughness, of as many each by √cosine. Empty where no surface is glossy.
+#define GGX_ALBEDOS 64
 
 // ---- Frame: what is the same for all pixels, 176 bytes --------------------------------------------------------------
 struct Frame {
@@ -373,7 +388,7 @@ SHADER_END
 static_assert(sizeof(eyeray::shader::Primitive) == 64);
 static_assert(sizeof(eyeray::shader::Bvh) == 64);
 static_assert(sizeof(eyeray::shader::Instance) == 112);
-static_assert(sizeof(eyeray::shader::Material) == 64);
+static_assert(sizeof(eyeray::shader::Material) == 128);
 static_assert(sizeof(eyeray::shader::Medium) == 16);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);

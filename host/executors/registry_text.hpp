@@ -26,6 +26,7 @@ inline constexpr Row immediate_leaves[] = {IMMEDIATE_LEAVES(ROW)};
 inline constexpr Row deferred_leaves[] = {DEFERRED_LEAVES(ROW)};
 inline constexpr Row deferred_shapes[] = {DEFERRED_SHAPES(ROW)};
 inline constexpr Row textures[] = {TEXTURES(ROW)};
+inline constexpr Row lobes[] = {LOBES(ROW)};
 inline constexpr Row materials[] = {MATERIALS(ROW)};
 inline constexpr Row cameras[] = {CAMERAS(ROW)};
 inline constexpr Row lights[] = {LIGHTS(ROW)};

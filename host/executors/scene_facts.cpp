@@ -29,14 +29,22 @@ bool any_reflects(const records::PackedScene& scene) {
 }  // namespace
 
 bool varies(const records::PackedScene& scene, const shader::Material& material) {
-  return std::ranges::any_of(std::array{material.base, material.specular, material.reflected,
-                                        material.ambient, material.emission, material.alpha},
-                             [&](uint32_t texture) { return varies(scene.textures[texture]); });
+  return std::ranges::any_of(
+      std::array{material.base, material.specular, material.reflected, material.color, material.roughness,
+                 material.metallic, material.coat, material.coat_roughness, material.ambient,
+                 material.emission, material.alpha},
+      [&](uint32_t texture) { return varies(scene.textures[texture]); });
 }
 
 bool any_emits(const records::PackedScene& scene) {
   return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
     return !is_black(scene.textures[material.emission]);
+  });
+}
+
+bool any_rough_diffuse(const records::PackedScene& scene) {
+  return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
+    return material.kind == shader::MATERIAL_diffuse && !is_black(scene.textures[material.roughness]);
   });
 }
 

@@ -10,6 +10,8 @@ namespace eyeray::executors {
 // Whether any texture of the material varies over a surface.
 bool varies(const records::PackedScene& scene, const shader::Material& material);
 bool any_emits(const records::PackedScene& scene);
+// Whether any diffuse material is not Lambert's.
+bool any_rough_diffuse(const records::PackedScene& scene);
 bool any_absorbs(const records::PackedScene& scene);
 // Whether a light is seen under an angle.
 bool any_light_disk(const records::PackedScene& scene);

@@ -62,6 +62,11 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.triangle_method));
   define("HAS_COLORS", int(scene.vertex_colors));
   define("HAS_EMISSION", int(any_emits(scene)));
+  define("HAS_GLOSSY", int(scene.lobes.contains(shader::LOBE_glossy)));
+  define("HAS_CONDUCTORS", int(scene.has_conductors));
+  define("HAS_ROUGH_DIFFUSE", int(any_rough_diffuse(scene)));
+  define("HAS_COAT", int(scene.lobes.contains(shader::LOBE_coat)));
+  define("HAS_ROUGH_GLASS", int(scene.lobes.contains(shader::LOBE_rough_glass)));
   define("HAS_ALPHA_TEST", int(!used.alpha_tested.empty()));
   define("HAS_MEDIA", int(media));
   define("HAS_ABSORPTION", int(any_absorbs(scene)));
@@ -134,6 +139,7 @@ std::string registries(const records::PackedScene& scene, const Used& used) {
   text += registry_text("IMMEDIATE_SHAPES", "shapes", rows::shapes, immediate);
   text += registry_text("DEFERRED_SHAPES", "shapes", rows::shapes, used.deferred);
   text += registry_text("ALPHA_TESTED_SHAPES", "shapes", rows::shapes, used.alpha_tested);
+  text += registry_text("LOBES", "bsdf", rows::lobes, scene.lobes);
   text += registry_text("MATERIALS", "materials", rows::materials, used.material_kinds);
   text += registry_text("LIGHTS", "lights", rows::lights, light_kinds);
   text += registry_text("EMITTERS", "emitters", rows::emitters, emitter_kinds);

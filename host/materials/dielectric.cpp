@@ -38,6 +38,12 @@ constexpr Key keys[] = {
      .fallback = "1.5",
      .min = 1,
      .max = 4},
+    {.name = "roughness",
+     .type = KeyType::texture,
+     .doc = "Under `path`, of frosted glass: from 0, polished, to 1. The green channel counts. What is not 0 "
+            "is at least 0.032.",
+     .fallback = "0",
+     .max = 1},
     {.name = "absorption",
      .type = KeyType::color,
      .doc = "Light is weakened by exp(-absorption * distance) inside; per unit of length.",
@@ -53,30 +59,30 @@ constexpr Key keys[] = {
     highlight_key,
 };
 
-// The share of unpolarised light that the boundary from ior n1 to n2 mirrors, cos1 being that of the incident
-// angle.
-double fresnel(double cos1, double n1, double n2) {
-  if (n1 == n2) return 0;
-  const double eta = n1 / n2;
-  const double sin2_squared = eta * eta * (1 - cos1 * cos1);
-  if (sin2_squared >= 1) return 1;
-  const double cos2 = std::sqrt(1 - sin2_squared);
-  const double rs = (n1 * cos1 - n2 * cos2) / (n1 * cos1 + n2 * cos2);
-  const double rp = (n1 * cos2 - n2 * cos1) / (n1 * cos2 + n2 * cos1);
-  return (rs * rs + rp * rp) / 2;
-}
-
 class Dielectric final : public Material {
  public:
   explicit Dielectric(const DielectricValues& values) : values_(values) {}
 
   Scattering scattering(const ScatteringContext& context) const override {
-    const double mirrored = fresnel(context.cos_view, context.ior_from, context.ior_to);
+    const double mirrored =
+        optics::dielectric_reflectance(context.cos_view, context.ior_from, context.ior_to);
     Scattering scattering;
     scattering.reflected = Vec3(mirrored);
     scattering.transmitted = Vec3(1 - mirrored);
     values_.highlight.apply(context.uv, scattering);
     return scattering;
+  }
+
+  Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const override {
+    Bsdf bsdf = Material::bsdf(context, scattering);
+    bsdf.roughness = values_.roughness->at(context.uv).y;
+    if (bsdf.roughness > 0 && context.ior_from != context.ior_to) {
+      bsdf.mirror = bsdf.transmitted = Vec3(0);
+      bsdf.glass = Vec3(1);
+      bsdf.ior_from = context.ior_from;
+      bsdf.ior_to = context.ior_to;
+    }
+    return bsdf;
   }
 
   Vec3 base_color(const TexturePlace&) const override { return Vec3(1); }
@@ -91,16 +97,21 @@ class Dielectric final : public Material {
   void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_dielectric, values_.highlight, shadow_transmittance(), packer);
     record.medium = packer.add_medium(values_.ior, values_.absorption);
-    record.base = record.reflected = textures::make_constant(Vec3(1))->pack(packer);
+    record.color = record.reflected = textures::make_constant(Vec3(1))->pack(packer);
+    record.roughness = values_.roughness->pack(packer);
     packer.add(record);
+    if (rough()) packer.scene.lobes.insert(shader::LOBE_rough_glass);
   }
 
  private:
+  bool rough() const { return values_.roughness->constant() != Vec3(0); }
+
   DielectricValues values_;
 };
 
 std::unique_ptr<Material> parse(TableReader& table) {
   DielectricValues values{.ior = table.number("ior"),
+                          .roughness = table.texture("roughness"),
                           .absorption = table.color("absorption"),
                           .highlight = read_highlight(table)};
   if (table.has("shadow")) values.shadow = table.number("shadow");

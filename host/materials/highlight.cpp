@@ -36,7 +36,17 @@ shader::Material make_record(uint32_t kind, const Highlight& highlight, double s
           .alpha = black,
           .alpha_cutoff = 0,
           .shininess = float(highlight.shininess),
-          .a = shader::vec4(0)};
+          .a = shader::vec4(0),
+          .color = black,
+          .roughness = black,
+          .metallic = black,
+          .coat = black,
+          .coat_roughness = black,
+          .unused_0 = 0,
+          .unused_1 = 0,
+          .unused_2 = 0,
+          .b = shader::vec4(0),
+          .c = shader::vec4(0)};
 }
 
 }  // namespace eyeray::materials

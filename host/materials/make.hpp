@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "host/materials/highlight.hpp"
+#include "host/optics/fresnel.hpp"
 #include "host/scene/material.hpp"
 
 namespace eyeray::materials {
@@ -27,10 +28,40 @@ std::unique_ptr<Material> make_mirror(const MirrorValues& values);
 
 struct DielectricValues {
   double ior = 1.5;
+  TexturePtr roughness = textures::make_constant(Vec3(0));
   Vec3 absorption{0.0};
   std::optional<double> shadow = {};  // absent: what Fresnel lets through at normal incidence
   Highlight highlight = {};
 };
 std::unique_ptr<Material> make_dielectric(const DielectricValues& values);
+
+struct DiffuseValues {
+  TexturePtr color = textures::make_constant(Vec3(0.8));
+  TexturePtr roughness = textures::make_constant(Vec3(0));
+  TexturePtr emission = textures::make_constant(Vec3(0));
+};
+std::unique_ptr<Material> make_diffuse(const DiffuseValues& values);
+
+struct ConductorValues {
+  optics::Fresnel index;       // a conductor's
+  TexturePtr color = nullptr;  // or, unless null, this
+  TexturePtr roughness = textures::make_constant(Vec3(0.5));
+};
+std::unique_ptr<Material> make_conductor(const ConductorValues& values);
+
+struct PrincipledValues {
+  TexturePtr color = textures::make_constant(Vec3(0.8));
+  TexturePtr metallic = textures::make_constant(Vec3(0));
+  TexturePtr roughness = textures::make_constant(Vec3(0.5));
+  double ior = 1.5;
+  double specular = 1;
+  Vec3 specular_color{1};
+  TexturePtr coat = textures::make_constant(Vec3(0));
+  TexturePtr coat_roughness = textures::make_constant(Vec3(0));
+  TexturePtr emission = textures::make_constant(Vec3(0));
+};
+// `stand_in`: what Whitted's pictures show; null: one that is made of the values.
+std::unique_ptr<Material> make_principled(const PrincipledValues& values,
+                                          std::unique_ptr<Material> stand_in = nullptr);
 
 }  // namespace eyeray::materials

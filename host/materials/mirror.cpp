@@ -50,7 +50,7 @@ class Mirror final : public Material {
 
   void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_mirror, values_.highlight, shadow_transmittance(), packer);
-    record.base = record.reflected = values_.reflectance->pack(packer);
+    record.color = record.reflected = values_.reflectance->pack(packer);
     packer.add(record);
   }
 

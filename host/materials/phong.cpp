@@ -75,11 +75,12 @@ class Phong final : public Material {
 
   void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_phong, values_.highlight, shadow_transmittance(), packer);
-    record.base = values_.diffuse->pack(packer);
+    record.base = record.color = values_.diffuse->pack(packer);
     record.reflected = values_.reflectance->pack(packer);
     record.ambient = ambient()->pack(packer);
     record.emission = values_.emission->pack(packer);
     packer.add(record);
+    packer.scene.lobes.insert(shader::LOBE_diffuse);
   }
 
  private:

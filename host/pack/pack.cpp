@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/core/error.hpp"
+#include "host/optics/ggx_albedo.hpp"
 #include "host/pack/emitter_records.hpp"
 #include "host/pack/environment_records.hpp"
 #include "host/pack/geometry.hpp"
@@ -65,6 +66,14 @@ shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed)
   return frame;
 }
 
+// Of lobes that ask for it.
+void pack_ggx_albedos(records::PackedScene& packed) {
+  if (!packed.lobes.contains(shader::LOBE_glossy)) return;
+  static_assert(optics::ggx_albedos == GGX_ALBEDOS);
+  for (const auto& [once, edge, mean_once, mean_edge] : optics::ggx_albedo_table())
+    packed.ggx_albedos.emplace_back(once, edge, mean_once, mean_edge);
+}
+
 records::Packer pack_records(const Scene& scene, const PackOptions& options) {
   records::Packer packer(scene.camera.eye);
   for (const auto& material : scene.materials) {
@@ -78,7 +87,12 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
   }
   pack_geometry(scene, options, packer);
   for (const auto& light : scene.lights) light->pack(packer);
-  if (walks_at_random(scene.render.integrator)) pack_light_choice(light_choice(scene), packer);
+  if (walks_at_random(scene.render.integrator)) {
+    pack_light_choice(light_choice(scene), packer);
+    pack_ggx_albedos(packer.scene);
+  } else {
+    packer.scene.lobes.clear();
+  }
   packer.scene.frame = pack_frame(scene, packer.scene);
   return packer;
 }

@@ -5,6 +5,7 @@
 #pragma GCC diagnostic ignored "-Wpedantic"
 #include "shaders/records.h"
 #pragma GCC diagnostic pop
+#include "shaders/bsdf/registry.h"
 #include "shaders/cameras/registry.h"
 #include "shaders/emitters/registry.h"
 #include "shaders/integrators/registry.h"
@@ -22,6 +23,9 @@ SHAPES(X)
 #undef X
 #define X(name, number) inline constexpr uint MATERIAL_##name = number;
 MATERIALS(X)
+#undef X
+#define X(name, number, ...) inline constexpr uint LOBE_##name = number;
+LOBES(X)
 #undef X
 #define X(name, number) inline constexpr uint LIGHT_##name = number;
 LIGHTS(X)

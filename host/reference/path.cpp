@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/reference/bsdf.hpp"
 #include "host/reference/emitter_sample.hpp"
 #include "host/reference/environment.hpp"
 #include "host/reference/integrator.hpp"
@@ -36,6 +37,28 @@ double power_heuristic(double p, double q) {
   return 1 / (1 + (q / p) * (q / p));
 }
 
+constexpr double least_cosine = 1e-4;  // towards the viewer: what bent normals turn away is seen edge-on
+
+// A point's own frame: z is the normal towards where the ray came from.
+class LocalFrame {
+ public:
+  explicit LocalFrame(const Interaction& at) : n_(at.surface.normal) {
+    const auto [s, t] = tangents(n_);
+    s_ = s;
+    t_ = t;
+    const Vec3 o = into(-at.d);
+    viewer = glm::normalize(Vec3(o.x, o.y, std::max(o.z, least_cosine)));
+  }
+
+  Vec3 into(const Vec3& v) const { return {glm::dot(v, s_), glm::dot(v, t_), glm::dot(v, n_)}; }
+  Vec3 out_of(const Vec3& v) const { return v.x * s_ + v.y * t_ + v.z * n_; }
+
+  Vec3 viewer;
+
+ private:
+  Vec3 s_, t_, n_;
+};
+
 // From a light: by direction l, along the ray where nothing stands before `distance`.
 struct Arriving {
   Vec3 l;
@@ -66,8 +89,9 @@ class PathSample {
   double environment_share() const;
   std::optional<Arriving> arriving(const Interaction& at);
   std::optional<Arriving> arriving_from_around(const Interaction& at);
-  Vec3 direct(const Interaction& at);
-  std::optional<Ray> scatter(const Interaction& at, MediaStack& media);
+  Vec3 direct(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf);
+  std::optional<Ray> scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                             MediaStack& media);
 
   const Tracer& tracer_;
   const Scene& scene_;
@@ -78,19 +102,6 @@ class PathSample {
   Vec3 throughput_{1};
   double density_ = 0;  // by solid angle, of the ray's direction; 0 where there was no choice
 };
-
-// The share of light that is scattered evenly: no more of it than there was.
-Vec3 diffuse_albedo(const Scattering& scattering) {
-  return glm::min(scattering.diffuse, Vec3(1));
-}
-
-// How likely the lobes are followed: diffuse, reflected, transmitted.
-Vec3 lobe_shares(const Scattering& scattering) {
-  const Vec3 weights(largest(diffuse_albedo(scattering)), largest(scattering.reflected),
-                     largest(scattering.transmitted));
-  const double sum = weights.x + weights.y + weights.z;
-  return sum > 0 ? weights / sum : Vec3(0);
-}
 
 // Its own light, less what shadow rays to it have brought already.
 Vec3 PathSample::emitted(const Interaction& at, const Vec3& from) const {
@@ -126,7 +137,6 @@ Vec3 PathSample::missed(const Vec3& d) const {
 
 std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) {
   const auto [l, by_angle] = sample_environment(*scene_.environment, pair(place_pair));
-  if (!rays_.faces(at.surface, l, std::numeric_limits<double>::infinity())) return std::nullopt;
   const double density = environment_share() * by_angle;
   return Arriving{l, rays_.spawn_ray(at.surface, l), std::numeric_limits<double>::infinity(),
                   rays_.surroundings(l) / density, density};
@@ -146,12 +156,10 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
     const Illumination arriving = scene_.lights[light]->illuminate(p);
     if (arriving.angle > 0) {
       const Vec3 l = disk_direction(arriving, pair(place_pair));
-      if (!rays_.faces(at.surface, l, arriving.distance)) return std::nullopt;
       const double density = share * disk_density(arriving);
       return Arriving{l, rays_.spawn_ray(at.surface, l), arriving.distance, disk_radiance(arriving) / density,
                       density};
     }
-    if (!rays_.faces(at.surface, arriving.l, arriving.distance)) return std::nullopt;
     return Arriving{arriving.l, rays_.spawn_ray(at.surface, arriving.l), arriving.distance,
                     M_PI / share * arriving.color, 0};
   }
@@ -161,7 +169,6 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
     return std::nullopt;
   const EmitterSample place = sample_emitter(emitter.form, p, pair(place_pair));
   const Vec3 l = glm::normalize(place.position - p);
-  if (!rays_.faces(at.surface, l, glm::length(place.position - p))) return std::nullopt;
   Ray ray = rays_.spawn_ray(at.surface, l);
   ray.d = glm::normalize(place.position - ray.o);
   const double density = share * emitter_density(emitter.form, p, place);
@@ -170,15 +177,16 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
 }
 
 // What that brings to the viewer.
-Vec3 PathSample::direct(const Interaction& at) {
-  const Vec3 diffuse = diffuse_albedo(at.scattering);
-  if (diffuse == Vec3(0) || depth_ > scene_.render.max_depth) return Vec3(0);
+Vec3 PathSample::direct(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf) {
+  if (bsdf.black() || depth_ > scene_.render.max_depth) return Vec3(0);
   const auto light = arriving(at);
   if (!light || light->radiance == Vec3(0)) return Vec3(0);
-  const double cosine = std::max(0.0, glm::dot(at.surface.normal, light->l));
-  const double as_scattered = lobe_shares(at.scattering).x * cosine / M_PI;
-  const double weight = light->density > 0 ? power_heuristic(light->density, as_scattered) : 1;
-  const Vec3 contribution = light->radiance * diffuse / M_PI * cosine * weight;
+  const Vec3 i = frame.into(light->l);
+  const BsdfValue scattered = bsdf.at(i);
+  if (scattered.value == Vec3(0)) return Vec3(0);
+  if (!rays_.on_side(at.surface, light->l, light->distance, i.z > 0)) return Vec3(0);
+  const double weight = light->density > 0 ? power_heuristic(light->density, scattered.density) : 1;
+  const Vec3 contribution = light->radiance * scattered.value * weight;
   const double seen = rays_.shadow(light->ray, light->distance);
   observer_.ray(RayKind::shadow, light->ray, depth_, 0);
   observer_.value("contribution", contribution);
@@ -187,34 +195,28 @@ Vec3 PathSample::direct(const Interaction& at) {
   return seen * contribution;
 }
 
-// Evenly on the disk, then up to the half sphere: Malley's.
-Vec3 cosine_direction(const Vec3& normal, const Vec2& u) {
-  const Vec2 at = on_disk(u);
-  const auto [s, t] = tangents(normal);
-  return at.x * s + at.y * t + std::sqrt(std::max(0.0, 1 - glm::dot(at, at))) * normal;
-}
-
-std::optional<Ray> PathSample::scatter(const Interaction& at, MediaStack& media) {
-  const Vec3 shares = lobe_shares(at.scattering);
-  if (shares == Vec3(0) || depth_ > scene_.render.max_depth) return std::nullopt;
+std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                                       MediaStack& media) {
+  if (bsdf.black() || depth_ > scene_.render.max_depth) return std::nullopt;
   const Vec2 chance = pair(scatter_pair);  // of a lobe, and of going on
+  const BsdfSample sample = bsdf.sample(chance.x, pair(direction_pair));
   Vec3 d;
   RayKind kind = RayKind::reflected;
   density_ = 0;
-  if (chance.x < shares.x) {
-    d = cosine_direction(at.surface.normal, pair(direction_pair));
-    density_ = shares.x * glm::dot(at.surface.normal, d) / M_PI;
-    if (!(density_ > 0 && glm::dot(at.surface.normal_geometric, d) > 0)) return std::nullopt;
-    throughput_ *= diffuse_albedo(at.scattering) / shares.x;
-  } else if (chance.x < shares.x + shares.y || shares.z == 0) {
-    d = at.mirrored();
-    throughput_ *= at.scattering.reflected / shares.y;
+  if (sample.kind == BsdfSample::Kind::lobe) {
+    const BsdfValue value = bsdf.at(sample.i);
+    d = frame.out_of(sample.i);
+    const bool before = glm::dot(at.surface.normal_geometric, d) > 0;
+    if (!(value.density > 0) || before != (sample.i.z > 0)) return std::nullopt;
+    density_ = value.density;
+    throughput_ *= value.value / value.density;
+    if (!before) kind = RayKind::refracted;
   } else {
-    d = at.refracted();
-    kind = RayKind::refracted;
-    throughput_ *= at.scattering.transmitted / shares.z;
-    media = at.media_beyond;
+    throughput_ *= sample.weight;
+    if (sample.kind == BsdfSample::Kind::refracted) kind = RayKind::refracted;
+    d = kind == RayKind::refracted ? at.refracted() : at.mirrored();
   }
+  if (kind == RayKind::refracted) media = at.media_beyond;
 
   const double survival = depth_ < first_roulette ? 1 : std::clamp(largest(throughput_), least_survival, 1.0);
   observer_.value("survival", survival);
@@ -236,12 +238,14 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
       break;
     }
     throughput_ *= at->dimming;
-    const Vec3 light = emitted(*at, ray.o) + direct(*at);
+    const LocalFrame frame(*at);
+    const ViewedBsdf bsdf(at->bsdf, frame.viewer);
+    const Vec3 light = emitted(*at, ray.o) + direct(*at, frame, bsdf);
     observer_.value("light", light);
     color += throughput_ * light;
     if (at->has_medium && at->scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)
       ++rays_.total_reflections;
-    const auto next = scatter(*at, media);
+    const auto next = scatter(*at, frame, bsdf, media);
     if (!next) break;
     ray = *next;
   }

@@ -55,9 +55,18 @@ double SampleRays::cosine_rounding(const SurfacePoint& point, double distance) c
   return ray_offset_.share * (1 + glm::length(point.position - scene_.camera.eye) / distance);
 }
 
+// What it may be of that.
+double SampleRays::tilt(const SurfacePoint& point, double distance) const {
+  return cosine_rounding(point, distance) * (2 * random(ray_offset_.seed, spawned_, 3, 0) - 1);
+}
+
 bool SampleRays::faces(const SurfacePoint& point, const Vec3& l, double distance) const {
-  const double tilt = cosine_rounding(point, distance) * (2 * random(ray_offset_.seed, spawned_, 3, 0) - 1);
-  return glm::dot(point.normal, l) + tilt > 0 && glm::dot(point.normal_geometric, l) + tilt > 0;
+  const double by = tilt(point, distance);
+  return glm::dot(point.normal, l) + by > 0 && glm::dot(point.normal_geometric, l) + by > 0;
+}
+
+bool SampleRays::on_side(const SurfacePoint& point, const Vec3& l, double distance, bool before) const {
+  return (glm::dot(point.normal_geometric, l) + tilt(point, distance) > 0) == before;
 }
 
 double SampleRays::shadow(const Ray& ray, double t_end) {
@@ -134,9 +143,10 @@ std::optional<Interaction> SampleRays::hit(const Ray& ray, const MediaStack& med
   at.dimming = glm::exp(-before.absorption * hit->at.t);
   at.ior_before = before.ior;
   at.ior_beyond = medium(at.media_beyond).ior;
-  at.scattering = scattering(
-      ray, *hit, at.surface,
-      {{at.surface.uv, at.surface.position}, at.cos_view, at.ior_before, at.ior_beyond, at.surface.color});
+  const ScatteringContext context{
+      {at.surface.uv, at.surface.position}, at.cos_view, at.ior_before, at.ior_beyond, at.surface.color};
+  at.scattering = scattering(ray, *hit, at.surface, context);
+  if (walks_at_random(scene_.render.integrator)) at.bsdf = material.bsdf(context, at.scattering);
 
   observer_.value("ior", Vec2(at.ior_before, at.ior_beyond));
   observer_.value("ambient", at.scattering.ambient);

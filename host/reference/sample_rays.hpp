@@ -19,6 +19,7 @@ struct Interaction {
   double ior_before = 1, ior_beyond = 1;
   MediaStack media_beyond = {};  // that a refracted ray is in
   Scattering scattering = {};
+  Bsdf bsdf = {};
 
   Vec3 mirrored() const { return glm::normalize(d + 2 * cos_view * surface.normal); }
   // Of a ray that is bent; there is no total reflection.
@@ -42,6 +43,8 @@ class SampleRays {
   // Whether a light in direction l at that distance stands before the surface. In its plane float32 may say
   // either.
   bool faces(const SurfacePoint& point, const Vec3& l, double distance) const;
+  // Whether it stands on the side of the surface where the viewer is, if `before`, or else beyond it.
+  bool on_side(const SurfacePoint& point, const Vec3& l, double distance, bool before) const;
   // The share of light that a shadow ray to `t_end` brings.
   double shadow(const Ray& ray, double t_end);
 
@@ -56,6 +59,7 @@ class SampleRays {
                         ScatteringContext context) const;
   Medium medium(const MediaStack& media) const;
   double cosine_rounding(const SurfacePoint& point, double distance) const;
+  double tilt(const SurfacePoint& point, double distance) const;
 
   const Tracer& tracer_;
   const Scene& scene_;

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "host/core/vec.hpp"
+#include "host/scene/bsdf.hpp"
 #include "host/scene/table_reader.hpp"
 #include "host/scene/texture.hpp"
 
@@ -60,6 +61,8 @@ class Material {
   virtual ~Material() = default;
 
   virtual Scattering scattering(const ScatteringContext& context) const = 0;
+  // For paths; `scattering`: what that said. By default these terms, none of them above 1.
+  virtual Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const;
   // The colour that `raycast` shades.
   virtual Vec3 base_color(const TexturePlace& uv) const = 0;
   // Whether it has light of its own, and that light where it is the same everywhere.

@@ -77,6 +77,9 @@ class Binding {
 [[maybe_unused]] const Emitter& load_emitter(uint i) {
   return bound_scene->emitters[i];
 }
+[[maybe_unused]] vec4 load_ggx_albedo(uint i) {
+  return bound_scene->ggx_albedos ? bound_scene->ggx_albedos[i] : vec4(0);
+}
 
 // PROBE, where somebody looks.
 template <typename T>
@@ -151,6 +154,7 @@ void show(const char* name, uint line, const T& shown) {
 #include "shapes/implicit/bounded_search.glsl"
 #undef FORMULA_NAME
 #include "textures/all.glsl"
+#include "bsdf/all.glsl"
 #include "shapes/all.glsl"
 #include "materials/all.glsl"
 #include "cameras/all.glsl"

@@ -1,7 +1,7 @@
 // Where on the lens a ray starts.
 #ifndef LENS_GLSL
 #define LENS_GLSL
-#include "math/disk.glsl"
+#include "math/sampling.glsl"
 #include "records.h"
 
 SHADER_BEGIN

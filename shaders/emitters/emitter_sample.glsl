@@ -1,7 +1,7 @@
 // A place on an emitter, as a point sees it.
 #ifndef EMITTER_SAMPLE_GLSL
 #define EMITTER_SAMPLE_GLSL
-#include "math/disk.glsl"
+#include "math/sampling.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -16,12 +16,6 @@ float density_of_area(float area, vec3 from, EmitterSample place) {
   vec3 way = place.p - from;
   float squared = dot3(way, way);
   return squared * sqrt(squared) / (area * maximum(abs(dot3(way, place.normal)), 1.0e-30f));
-}
-
-// Two directions that are square to the unit vector n and to each other. The first turns about an axis that no wall stands along.
-void tangents(vec3 n, OUT(vec3) s, OUT(vec3) t) {
-  s = normalize3(cross3(vec3(0.31753204f, 0.90757246f, 0.27474649f), n));
-  t = cross3(n, s);
 }
 
 SHADER_END

@@ -15,6 +15,9 @@ struct Interaction {
   Material material;
   ScatteringContext context;   // what the material's scattering depends on
   Scattering scattering;       // towards where the ray came from
+#if RANDOM_WALK
+  Bsdf bsdf;
+#endif
   uint media_behind;           // that a refracted ray is in (materials/media.glsl)
 };
 
@@ -55,6 +58,9 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
 #endif
   PROBE(ior, vec2(at.context.ior_from, at.context.ior_to));
   at.scattering = scattering_of(material, at.material, at.context);
+#if RANDOM_WALK
+  at.bsdf = bsdf_of(material, at.material, at.context, at.scattering);
+#endif
   PROBE(ambient, at.scattering.ambient);
   PROBE(diffuse, at.scattering.diffuse);
   PROBE(specular, at.scattering.specular);

@@ -4,6 +4,7 @@
 // Synthesis", SIGGRAPH 1990).
 #ifndef PATH_GLSL
 #define PATH_GLSL
+#include "bsdf/bsdf.glsl"
 #include "emitters/emitter.glsl"
 #include "emitters/environment.glsl"
 #include "emitters/light_disk.glsl"
@@ -22,31 +23,32 @@ vec2 path_pair(Frame frame, Path path, uint pair) {
   return sample_pair(frame, path.pixel, path.index, pair + PAIRS_A_VERTEX * path.depth);
 }
 
-// The share of light that is scattered evenly: no more of it than there was, or paths would gain light without end.
-vec3 diffuse_albedo(Scattering scattering) {
-  vec3 albedo = scattering.diffuse;
-  return vec3(minimum(albedo.x, 1.0f), minimum(albedo.y, 1.0f), minimum(albedo.z, 1.0f));
-}
-
-// How likely each lobe of a material is followed.
-struct LobeShares {
-  float diffuse;
-  float reflected;
-  float transmitted;
+// A point's own frame: z is the normal towards where the ray came from.
+struct LocalFrame {
+  vec3 s;
+  vec3 t;
+  vec3 n;
 };
 
-LobeShares lobe_shares(Scattering scattering) {
-  float diffuse = max_component(diffuse_albedo(scattering));
-  float reflected = max_component(scattering.reflected);
-  float transmitted = max_component(scattering.transmitted);
-  float all = diffuse + reflected + transmitted;
-  float scale = all > 0.0f ? 1.0f / all : 0.0f;
-  LobeShares shares;
-  shares.diffuse = diffuse * scale;
-  shares.reflected = reflected * scale;
-  shares.transmitted = transmitted * scale;
-  return shares;
+#define LEAST_COSINE 1.0e-4f  // towards the viewer: what bent normals turn away is seen edge-on
+
+LocalFrame local_frame(Interaction at) {
+  LocalFrame local;
+  local.n = at.seen.normal;
+  tangents(local.n, local.s, local.t);
+  return local;
 }
+vec3 into_frame(LocalFrame local, vec3 v) { return vec3(dot3(v, local.s), dot3(v, local.t), dot3(v, local.n)); }
+vec3 out_of_frame(LocalFrame local, vec3 v) { return local.s * v.x + local.t * v.y + local.n * v.z; }
+
+vec3 towards_viewer(LocalFrame local, Interaction at) {
+  vec3 o = into_frame(local, -at.d);
+  o.z = maximum(o.z, LEAST_COSINE);
+  return normalize3(o);
+}
+
+// Whether the surface may send light on from direction d: that is on the side of it where the normals, which may be bent, have it.
+bool on_its_side(Interaction at, vec3 d, float cosine) { return (dot3(at.seen.normal_geometric, d) > 0.0f) == (cosine > 0.0f); }
 
 // The power heuristic of what was chosen with density p, and could have been with density q. The ratio is squared: densities may be too large.
 float power_heuristic(float p, float q) {
@@ -177,50 +179,47 @@ bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ra
   Arriving arriving = light_arriving(frame, path, at);
   ray = arriving.ray;
   distance = arriving.distance;
-  float cosine = maximum(dot3(at.seen.normal, arriving.direction), 0.0f);
-  vec3 value = diffuse_albedo(at.scattering) * (cosine / PI);
-  float as_scattered = lobe_shares(at.scattering).diffuse * cosine / PI;
+  LocalFrame local = local_frame(at);
+  vec3 i_local = into_frame(local, arriving.direction);
+  LobeValue lobes = bsdf_value(at.bsdf, lobe_shares(at.bsdf), towards_viewer(local, at), i_local);
   float density = arriving.density;
-  contribution = arriving.radiance * value * (density > 0.0f ? power_heuristic(density, as_scattered) / density : 1.0f / arriving.share);
-  return max_component(contribution) > 0.0f && dot3(at.seen.normal_geometric, arriving.direction) > 0.0f && path.depth <= frame.max_depth;
-}
-
-// Cosine-weighted about the unit normal: Malley's, from the disk.
-vec3 cosine_direction(vec3 normal, vec2 u) {
-  vec2 at = on_disk(u);
-  vec3 s;
-  vec3 t;
-  tangents(normal, s, t);
-  return normalize3(s * at.x + t * at.y + normal * sqrt(maximum(1.0f - at.x * at.x - at.y * at.y, 0.0f)));
+  contribution =
+      arriving.radiance * lobes.value * (density > 0.0f ? power_heuristic(density, lobes.density) / density : 1.0f / arriving.share);
+  return max_component(contribution) > 0.0f && on_its_side(at, arriving.direction, i_local.z) && path.depth <= frame.max_depth;
 }
 
 // By one of its lobes. The vertex behind the last is there for its light alone.
 Continuations path_scatter(Frame frame, Path path, Interaction at) {
   Continuations all = no_continuation(path);
-  LobeShares shares = lobe_shares(at.scattering);
+  LocalFrame local = local_frame(at);
+  vec3 o = towards_viewer(local, at);
+  LobeShares shares = lobe_shares(at.bsdf);
   vec2 choice = path_pair(frame, path, PAIR_SCATTER);
-  bool diffuse = choice.x < shares.diffuse || shares.reflected + shares.transmitted == 0.0f;
-  bool reflected = !diffuse && (choice.x < shares.diffuse + shares.reflected || shares.transmitted == 0.0f);
+  BsdfSample s = sample_bsdf(at.bsdf, shares, o, choice.x, path_pair(frame, path, PAIR_DIRECTION));
 
   Path next = path;
-  next.d = cosine_direction(at.seen.normal, path_pair(frame, path, PAIR_DIRECTION));
-  next.density = shares.diffuse * dot3(at.seen.normal, next.d) / PI;
-  vec3 weight = diffuse_albedo(at.scattering) / shares.diffuse;
-  bool lost = diffuse && !(next.density > 0.0f && dot3(at.seen.normal_geometric, next.d) > 0.0f);
-  if (!diffuse) {
+  next.d = out_of_frame(local, s.i);
+  next.d = next.d / sqrt(maximum(dot3(next.d, next.d), 1.0e-30f));
+  LobeValue lobes = bsdf_value(at.bsdf, shares, o, s.i);
+  next.density = lobes.density;
+  bool lost = !(lobes.density > 0.0f) || !on_its_side(at, next.d, s.i.z);
+  vec3 weight = lobes.value / maximum(lobes.density, 1.0e-30f);
+  bool refracted = s.refracted || s.i.z < 0.0f;
+  if (s.mirrored || s.refracted) {
     next.density = 0.0f;
     next.d = reflected_direction(at);
-    weight = at.scattering.reflected / shares.reflected;
+    weight = at.bsdf.mirror / shares.mirror;
+    lost = false;
   }
 #if HAS_MEDIA
-  if (!diffuse && !reflected) {
+  if (s.refracted) {
     next.d = refracted_direction(at);
-    weight = at.scattering.transmitted / shares.transmitted;
-    next.media = at.media_behind;
+    weight = at.bsdf.transmitted / shares.transmitted;
   }
+  if (refracted) next.media = at.media_behind;
 #endif
 #if RAY_KINDS
-  next.refracted = !diffuse && !reflected;
+  next.refracted = refracted;
 #endif
   next.o = spawn_ray(at.surface, next.d).o;
   next.throughput = path.throughput * weight;
@@ -230,9 +229,7 @@ Continuations path_scatter(Frame frame, Path path, Interaction at) {
   float survival = path.depth < FIRST_ROULETTE ? 1.0f : minimum(maximum(max_component(next.throughput), LEAST_SURVIVAL), 1.0f);
   next.throughput = next.throughput / survival;
   all.next = next;
-  all.count = shares.diffuse + shares.reflected + shares.transmitted > 0.0f && !lost && choice.y < survival && path.depth <= frame.max_depth
-                  ? 1u
-                  : 0u;
+  all.count = !lost && choice.y < survival && path.depth <= frame.max_depth ? 1u : 0u;
   PROBE(survival, survival);
   return all;
 }

@@ -41,5 +41,8 @@ layout(std430, binding = BINDING_TEXTURES) readonly restrict buffer Textures { T
 layout(std430, binding = BINDING_MEDIA) readonly restrict buffer Media { Medium media[]; };
 layout(std430, binding = BINDING_LIGHTS) readonly restrict buffer Lights { Light lights[]; };
 layout(std430, binding = BINDING_EMITTERS) readonly restrict buffer Emitters { Emitter emitters[]; };
+#if RANDOM_WALK
+layout(std430, binding = BINDING_GGX_ALBEDOS) readonly restrict buffer GgxAlbedos { vec4 ggx_albedos[]; };
+#endif
 
 #endif

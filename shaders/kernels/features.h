@@ -16,6 +16,21 @@
 #ifndef HAS_LIGHT_DISKS  // a light is seen under an angle
 #define HAS_LIGHT_DISKS 1
 #endif
+#ifndef HAS_GLOSSY  // a surface has the lobe of bsdf/glossy.glsl …
+#define HAS_GLOSSY 1
+#endif
+#ifndef HAS_CONDUCTORS  // … and mirrors by the index of a metal
+#define HAS_CONDUCTORS 1
+#endif
+#ifndef HAS_ROUGH_DIFFUSE  // a diffuse lobe is not Lambert's
+#define HAS_ROUGH_DIFFUSE 1
+#endif
+#ifndef HAS_COAT  // a surface is coated
+#define HAS_COAT 1
+#endif
+#ifndef HAS_ROUGH_GLASS
+#define HAS_ROUGH_GLASS 1
+#endif
 #ifndef HAS_ALPHA_TEST  // a material has an alpha
 #define HAS_ALPHA_TEST 1
 #endif
@@ -86,6 +101,7 @@
 //   ALPHA_TESTED_SHAPES  those of a material with an alpha
 //   TEXTURES
 //   MATERIALS
+//   LOBES
 //   CAMERAS
 //   CAMERA_IS          (number): whether that is the frame's
 //   SAMPLERS

@@ -1,20 +1,10 @@
 // Glass and liquids: a smooth surface between two media, unpolarised Fresnel reflectance.
 #ifndef DIELECTRIC_GLSL
 #define DIELECTRIC_GLSL
+#include "bsdf/fresnel.glsl"
 #include "materials/scattering.glsl"
 
 SHADER_BEGIN
-
-// The reflected share; 1 under total internal reflection, which is decided before any square root.
-float fresnel_reflectance(float cos_from, float ior_from, float ior_to) {
-  float eta = ior_from / ior_to;
-  float cos_squared = 1.0f - eta * eta * (1.0f - cos_from * cos_from);
-  if (cos_squared <= 0.0f) return 1.0f;
-  float cos_to = sqrt(cos_squared);
-  float parallel = (ior_to * cos_from - ior_from * cos_to) / (ior_to * cos_from + ior_from * cos_to);
-  float crossed = (ior_from * cos_from - ior_to * cos_to) / (ior_from * cos_from + ior_to * cos_to);
-  return 0.5f * (parallel * parallel + crossed * crossed);
-}
 
 Scattering dielectric_scattering(Material material, ScatteringContext context) {
   Scattering s = no_scattering();
@@ -25,6 +15,23 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
   s.transmitted = vec3(1.0f - reflected, 1.0f - reflected, 1.0f - reflected);
   return s;
 }
+
+#if RANDOM_WALK
+Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering scattering) {
+  Bsdf bsdf = bsdf_of_scattering(scattering);
+#if HAS_ROUGH_GLASS
+  bsdf.roughness = texture_color(material.roughness, context.uv).y;
+  if (bsdf.roughness > 0.0f && context.ior_from != context.ior_to) {
+    bsdf.mirror = vec3(0.0f, 0.0f, 0.0f);
+    bsdf.transmitted = bsdf.mirror;
+    bsdf.glass = vec3(1.0f, 1.0f, 1.0f);
+    bsdf.ior_from = context.ior_from;
+    bsdf.ior_to = context.ior_to;
+  }
+#endif
+  return bsdf;
+}
+#endif
 
 SHADER_END
 #endif

@@ -1,4 +1,4 @@
-// From a material and a point to its scattering: asks the kind of material.
+// From a material and a point to its scattering, in Whitted's terms and as a BSDF: asks the kind of material.
 #ifndef MATERIAL_GLSL
 #define MATERIAL_GLSL
 #include "materials/scattering.glsl"
@@ -20,6 +20,22 @@ Scattering scattering_of(uint index, Material material, ScatteringContext contex
 #endif
   return s;
 }
+
+#if RANDOM_WALK
+Bsdf bsdf_of(uint index, Material material, ScatteringContext context, Scattering scattering) {
+  Bsdf bsdf = black_bsdf();
+#ifdef SCENE_MATERIALS
+#define BSDF_OF_ONE(name, i, constants) \
+  if (index == i) bsdf = name##_bsdf(constants, context, scattering);
+  SCENE_MATERIALS(BSDF_OF_ONE)
+#else
+#define BSDF_OF(name, number) \
+  if (material.kind == number) bsdf = name##_bsdf(material, context, scattering);
+  MATERIALS(BSDF_OF)
+#endif
+  return bsdf;
+}
+#endif
 
 SHADER_END
 #endif

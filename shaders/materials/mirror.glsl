@@ -12,5 +12,9 @@ Scattering mirror_scattering(Material material, ScatteringContext context) {
   return s;
 }
 
+#if RANDOM_WALK
+Bsdf mirror_bsdf(Material material, ScatteringContext context, Scattering scattering) { return bsdf_of_scattering(scattering); }
+#endif
+
 SHADER_END
 #endif

@@ -17,5 +17,9 @@ Scattering phong_scattering(Material material, ScatteringContext context) {
   return s;
 }
 
+#if RANDOM_WALK
+Bsdf phong_bsdf(Material material, ScatteringContext context, Scattering scattering) { return bsdf_of_scattering(scattering); }
+#endif
+
 SHADER_END
 #endif

@@ -2,6 +2,9 @@
 // Display" (CACM 1980).
 #ifndef SCATTERING_GLSL
 #define SCATTERING_GLSL
+#if RANDOM_WALK
+#include "bsdf/bsdf_record.glsl"
+#endif
 #include "math/math.glsl"
 #include "records.h"
 #include "textures/texture.glsl"
@@ -35,6 +38,18 @@ Scattering no_scattering() {
   s.emitted = s.ambient;
   return s;
 }
+
+#if RANDOM_WALK
+// Of a material in Whitted's terms. It scatters no more light than there was, or paths would gain light without end.
+Bsdf bsdf_of_scattering(Scattering scattering) {
+  Bsdf bsdf = black_bsdf();
+  vec3 diffuse = scattering.diffuse;
+  bsdf.diffuse = vec3(minimum(diffuse.x, 1.0f), minimum(diffuse.y, 1.0f), minimum(diffuse.z, 1.0f));
+  bsdf.mirror = scattering.reflected;
+  bsdf.transmitted = scattering.transmitted;
+  return bsdf;
+}
+#endif
 
 // The highlight: Phong's (r·v)^n or Blinn's (n·h)^n. All directions are unit and point away from the surface. The cosine of two unit vectors
 // is taken as 1 − |a − b|²/2, which keeps its precision where the lobe is narrow.

@@ -2,7 +2,7 @@
 // "Filter Importance Sampling" (2006).
 #ifndef FILTER_GLSL
 #define FILTER_GLSL
-#include "math/disk.glsl"
+#include "math/sampling.glsl"
 #include "records.h"
 
 SHADER_BEGIN

@@ -1,0 +1,57 @@
+// What materials have in common that are made for paths: Whitted's pictures show a stand-in of them.
+#pragma once
+
+#include "host/materials/make.hpp"
+#include "host/records/packer.hpp"
+
+namespace eyeray::materials {
+
+class Physical : public Material {
+ public:
+  explicit Physical(std::unique_ptr<Material> stand_in) : stand_in_(std::move(stand_in)) {}
+
+  Scattering scattering(const ScatteringContext& context) const override {
+    return stand_in_->scattering(context);
+  }
+  Vec3 base_color(const TexturePlace& uv) const override { return stand_in_->base_color(uv); }
+  bool emits() const override { return stand_in_->emits(); }
+  std::optional<Vec3> constant_emission() const override { return stand_in_->constant_emission(); }
+
+ protected:
+  // The stand-in's record as one of `kind`.
+  shader::Material& pack_stand_in(uint32_t kind, records::Packer& packer) const {
+    stand_in_->pack(packer);
+    packer.scene.materials.back().kind = kind;
+    return packer.scene.materials.back();
+  }
+
+ private:
+  std::unique_ptr<Material> stand_in_;
+};
+
+// What Whitted's pictures show of a surface that mirrors f0 at right angles: the smoother it is the more of
+// its surroundings, and of each light a Blinn highlight of exponent 2 / roughness⁴ − 2 (Karis: Specular BRDF
+// Reference, 2013). `body`: of
+// what is not mirrored.
+PhongValues stand_in(const TexturePtr& body, const Vec3& f0, double roughness);
+
+// Of a number in [0, 1], where it varies its value in the middle.
+double typical(const Texture& texture);
+
+// The keys that such materials share.
+inline constexpr Key roughness_key{
+    .name = "roughness",
+    .type = KeyType::texture,
+    .doc =
+        "From 0, polished, to 1; the slopes of the microfacets go by its square. The green channel "
+        "counts. Below 0.032 it counts as that.",
+    .fallback = "0.5",
+    .max = 1};
+inline constexpr Key emission_key{.name = "emission",
+                                  .type = KeyType::texture,
+                                  .doc =
+                                      "Light of the surface's own, whatever shines on it. Under `path` it "
+                                      "lights others.",
+                                  .fallback = "0"};
+
+}  // namespace eyeray::materials

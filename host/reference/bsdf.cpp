@@ -1,0 +1,226 @@
+// Portsmouth, Kutz, Hill: EON: A Practical Energy-Preserving Rough Diffuse BRDF, JCGT 2025. Kelemen,
+// Szirmay-Kalos: A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001. Walter, Marschner,
+// Li, Torrance: Microfacet Models for Refraction through Rough Surfaces, EGSR 2007. Heitz: Understanding the
+// Masking-Shadowing Function in Microfacet-Based BRDFs, JCGT 2014. Dupuy, Benyoub: Sampling Visible GGX
+// Normals with Spherical Caps, HPG 2023. Kulla, Conty: Revisiting Physically Based Shading at Imageworks,
+// SIGGRAPH 2017.
+#include "host/reference/bsdf.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/optics/ggx_albedo.hpp"
+#include "host/reference/emitter_sample.hpp"
+
+namespace eyeray::reference {
+
+namespace {
+
+using optics::Fresnel;
+using optics::GgxAlbedo;
+
+constexpr double least_width = 1e-3;
+
+double largest(const Vec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+const Fresnel& coat_fresnel() {
+  static const Fresnel fresnel = optics::schlick(Vec3(0.04), Vec3(1));
+  return fresnel;
+}
+
+double width_of(double roughness) {
+  return std::max(roughness * roughness, least_width);
+}
+
+// How many microfacets lie along h.
+double ggx(const Vec3& h, double width) {
+  const double tan_squared = (h.x * h.x + h.y * h.y) / (h.z * h.z);
+  const double cos_squared = h.z * h.z, sum = 1 + tan_squared / (width * width);
+  return 1 / (M_PI * width * width * cos_squared * cos_squared * sum * sum);
+}
+
+double lambda(const Vec3& w, double width) {
+  const double tan_squared = (w.x * w.x + w.y * w.y) / (w.z * w.z);
+  return (std::sqrt(1 + width * width * tan_squared) - 1) / 2;
+}
+
+// Of those microfacets that o sees, one.
+Vec3 ggx_normal(const Vec3& o, double width, const Vec2& u) {
+  const Vec3 stretch(width, width, 1);
+  const Vec3 v = glm::normalize(stretch * o);
+  const double z = 1 - u.y * (1 + v.z);
+  const double radius = std::sqrt(std::max(0.0, 1 - z * z)), turn = 2 * M_PI * u.x;
+  return glm::normalize(stretch * (v + Vec3(radius * std::cos(turn), radius * std::sin(turn), z)));
+}
+
+// Light that microfacets send from i to o, each a perfect mirror, and the density with which i is found.
+BsdfValue reflection(const Vec3& o, const Vec3& i, double width) {
+  if (i.z <= 0) return {};
+  const Vec3 h = glm::normalize(o + i);
+  const double along_o = glm::dot(o, h);
+  const double masking = 1 / (1 + lambda(o, width)), both = 1 / (1 + lambda(o, width) + lambda(i, width));
+  return {Vec3(ggx(h, width) * both / (4 * o.z)), ggx(h, width) * masking * along_o / o.z / (4 * along_o)};
+}
+
+// After more than one microfacet, by the share of light that is left over then.
+Vec3 often(const Fresnel& fresnel, const GgxAlbedo& albedo) {
+  return fresnel.mean * fresnel.mean * albedo.mean_once / (1.0 - fresnel.mean * (1 - albedo.mean_once));
+}
+
+Vec3 once(const Fresnel& fresnel, double once, double edge) {
+  return fresnel.f0 * (once - edge) + fresnel.f90 * edge;
+}
+
+// What a layer mirrors in all, of one direction and in the mean.
+Vec3 layer_albedo(const Fresnel& fresnel, const GgxAlbedo& albedo) {
+  return once(fresnel, albedo.once, albedo.edge) + often(fresnel, albedo) * (1 - albedo.once);
+}
+Vec3 mean_layer_albedo(const Fresnel& fresnel, const GgxAlbedo& albedo) {
+  return once(fresnel, albedo.mean_once, albedo.mean_edge) + often(fresnel, albedo) * (1 - albedo.mean_once);
+}
+
+// What a coat leaves of light that crosses it once.
+double through_coat(double coat, double roughness, double cosine) {
+  if (coat == 0) return 1;
+  const GgxAlbedo albedo = optics::ggx_albedo(cosine, roughness);
+  return 1 - coat * once(coat_fresnel(), albedo.once, albedo.edge).x;
+}
+
+// EON, without the light's cosine.
+Vec3 rough_diffuse(const Vec3& color, double r, const Vec3& o, const Vec3& i) {
+  const double a = 1 / (1 + r * (0.5 - 2 / (3 * M_PI)));
+  const auto albedo = [&](double cosine) {
+    const double theta = std::acos(std::min(cosine, 1.0)), sine = std::sin(theta);
+    const double g = sine * (theta - sine * cosine) +
+                     2.0 / 3 * (cosine > 0 ? std::tan(theta) * (1 - sine * sine * sine) - sine : -sine);
+    return a * (1 + r * g / M_PI);
+  };
+  const double s = glm::dot(i, o) - i.z * o.z;
+  const double single = a * (1 + r * (s > 0 ? s / std::max(i.z, o.z) : s));
+  const double mean = a * (1 + r * (2.0 / 3 - 28 / (15 * M_PI)));
+  const Vec3 several = color * color * mean / (1.0 - color * (1 - mean));
+  return (color * single + several * (1 - albedo(i.z)) * (1 - albedo(o.z)) / (1 - mean)) / M_PI;
+}
+
+}  // namespace
+
+ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : bsdf_(bsdf), o_(o) {
+  const bool any_glossy = bsdf.glossy.f90 != Vec3(0) || bsdf.layer.f90 != Vec3(0);
+  const GgxAlbedo albedo = any_glossy ? optics::ggx_albedo(o.z, bsdf.roughness) : GgxAlbedo{};
+  const double under = through_coat(bsdf.coat, bsdf.coat_roughness, o.z);
+  shares_[diffuse] = under * largest(bsdf.diffuse * (1.0 - layer_albedo(bsdf.layer, albedo)));
+  shares_[glossy] = under * largest(bsdf.glossy.conductor ? bsdf.glossy.mean * albedo.once
+                                                          : once(bsdf.glossy, albedo.once, albedo.edge));
+  shares_[multiple] = under * largest(often(bsdf.glossy, albedo) * (1 - albedo.once));
+  shares_[coat] = 1 - under;
+  shares_[glass] = largest(bsdf.glass);
+  shares_[mirror] = largest(bsdf.mirror);
+  shares_[transmitted] = largest(bsdf.transmitted);
+  for (const double share : shares_) sum_ += share;
+  if (sum_ > 0)
+    for (double& share : shares_) share /= sum_;
+}
+
+BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
+  const double cosine = std::max(0.0, i.z), even = cosine / M_PI;
+  const auto albedo = [&](const Vec3& w) { return optics::ggx_albedo(w.z, bsdf_.roughness); };
+  switch (lobe) {
+    case diffuse: {
+      if (cosine == 0) return {};
+      Vec3 value = bsdf_.diffuse_roughness > 0
+                       ? rough_diffuse(bsdf_.diffuse, bsdf_.diffuse_roughness, o_, i) * cosine
+                       : bsdf_.diffuse * even;
+      if (bsdf_.layer.f90 != Vec3(0))
+        value *= (1.0 - layer_albedo(bsdf_.layer, albedo(o_))) *
+                 (1.0 - layer_albedo(bsdf_.layer, albedo(i))) /
+                 (1.0 - mean_layer_albedo(bsdf_.layer, albedo(o_)));
+      return {value, even};
+    }
+    case glossy: {
+      BsdfValue result = reflection(o_, i, width_of(bsdf_.roughness));
+      result.value *= bsdf_.glossy.at(std::min(1.0, glm::dot(o_, glm::normalize(o_ + i))));
+      return result;
+    }
+    case multiple:
+      return {often(bsdf_.glossy, albedo(o_)) * (1 - albedo(o_).once) * (1 - albedo(i).once) /
+                  (1 - albedo(o_).mean_once) * even,
+              even};
+    case coat: {
+      BsdfValue result = reflection(o_, i, width_of(bsdf_.coat_roughness));
+      result.value *= bsdf_.coat * coat_fresnel().at(std::min(1.0, glm::dot(o_, glm::normalize(o_ + i))));
+      return result;
+    }
+    case glass: {
+      const double width = width_of(bsdf_.roughness), n_o = bsdf_.ior_from, n_i = bsdf_.ior_to;
+      const bool through = i.z < 0;
+      Vec3 h = glm::normalize(through ? n_o * o_ + n_i * i : o_ + i);
+      if (h.z < 0) h = -h;
+      const double along_o = glm::dot(o_, h), along_i = glm::dot(i, h);
+      if (along_o <= 0 || (along_i > 0) == through) return {};
+      const double mirrored = optics::dielectric_reflectance(std::min(1.0, along_o), n_o, n_i);
+      const double masking = 1 / (1 + lambda(o_, width));
+      const double both = 1 / (1 + lambda(o_, width) + lambda(i, width));
+      const double seen = ggx(h, width) * masking * along_o / o_.z;
+      const double sum = n_o * along_o + n_i * along_i;
+      const double density = through ? seen * (1 - mirrored) * n_i * n_i * std::abs(along_i) / (sum * sum)
+                                     : seen * mirrored / (4 * along_o);
+      return {bsdf_.glass * density * both / masking, density};
+    }
+    default:
+      return {};
+  }
+}
+
+BsdfValue ViewedBsdf::at(const Vec3& i) const {
+  const double coated = through_coat(bsdf_.coat, bsdf_.coat_roughness, o_.z) *
+                        through_coat(bsdf_.coat, bsdf_.coat_roughness, i.z);
+  BsdfValue all;
+  for (const Lobe lobe : {diffuse, glossy, multiple, coat, glass}) {
+    if (shares_[lobe] == 0) continue;
+    const BsdfValue one = value(lobe, i);
+    all.value += (lobe < coat ? coated : 1) * one.value;
+    all.density += shares_[lobe] * one.density;
+  }
+  return all;
+}
+
+Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
+  if (lobe == diffuse || lobe == multiple) {
+    // Evenly on the disk, then up to the half sphere: Malley's.
+    const double radius = std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1));
+    return {on_disk(u), std::sqrt(1 - radius * radius)};
+  }
+  const Vec3 h = ggx_normal(o_, width_of(lobe == coat ? bsdf_.coat_roughness : bsdf_.roughness), u);
+  const double along = std::min(1.0, glm::dot(o_, h));
+  if (lobe != glass) return 2 * along * h - o_;
+  // What a microfacet sends to the wrong side is lost.
+  const bool reflects = part < optics::dielectric_reflectance(along, bsdf_.ior_from, bsdf_.ior_to);
+  const Vec3 i = reflects ? 2 * along * h - o_ : glm::refract(-o_, h, bsdf_.ior_from / bsdf_.ior_to);
+  return (i.z > 0) == reflects ? i : Vec3(0);
+}
+
+BsdfSample ViewedBsdf::sample(double chance, const Vec2& u) const {
+  // The last whose numbers begin at or before `chance`.
+  double begin = 0, passed = 0;
+  Lobe chosen = diffuse;
+  for (int lobe = 0; lobe < lobes; ++lobe) {
+    if (shares_[lobe] > 0 && chance >= passed) {
+      chosen = Lobe(lobe);
+      begin = passed;
+    }
+    passed += shares_[lobe];
+  }
+  const double share = shares_[chosen];
+  switch (chosen) {
+    case mirror:
+      return {BsdfSample::Kind::mirrored, Vec3(0), bsdf_.mirror / share};
+    case transmitted:
+      return {BsdfSample::Kind::refracted, Vec3(0), bsdf_.transmitted / share};
+    default:
+      return {BsdfSample::Kind::lobe, direction(chosen, (chance - begin) / share, u), Vec3(0)};
+  }
+}
+
+}  // namespace eyeray::reference

@@ -1,0 +1,47 @@
+// BSDFs in float64: what all lobes together say of a direction, and directions by their density. Directions
+// are unit, in the surface's own frame, whose z is the normal on the viewer's side.
+#pragma once
+
+#include "host/scene/bsdf.hpp"
+
+namespace eyeray::reference {
+
+struct BsdfValue {
+  Vec3 value{0};       // BSDF · |cosine| of the light, of radiance / index²
+  double density = 0;  // by solid angle, with which sample() finds that direction
+};
+
+struct BsdfSample {
+  enum class Kind { lobe, mirrored, refracted };
+  Kind kind;
+  Vec3 i;       // of a lobe: where light may come from; 0 where the surface itself stands in the way
+  Vec3 weight;  // of a single direction: its throughput by how likely it was chosen
+};
+
+// A BSDF towards one viewer.
+class ViewedBsdf {
+ public:
+  // o: towards the viewer, o.z > 0.
+  ViewedBsdf(const Bsdf& bsdf, const Vec3& o);
+
+  // Of light from i; of all lobes, but not of the mirrored and the refracted direction.
+  BsdfValue at(const Vec3& i) const;
+  // chance and u: random numbers in [0, 1). Not of a black one.
+  BsdfSample sample(double chance, const Vec2& u) const;
+  // Whether it sends no light on at all.
+  bool black() const { return sum_ == 0; }
+
+ private:
+  // In the order in which they are chosen.
+  enum Lobe { diffuse, glossy, multiple, coat, glass, mirror, transmitted, lobes };
+
+  BsdfValue value(Lobe lobe, const Vec3& i) const;
+  Vec3 direction(Lobe lobe, double part, const Vec2& u) const;
+
+  const Bsdf& bsdf_;
+  Vec3 o_;
+  double shares_[lobes] = {};
+  double sum_ = 0;
+};
+
+}  // namespace eyeray::reference

@@ -1,0 +1,24 @@
+// A surface's BSDF at a point, as its material says it: which lobes there are, and how strong. What they are
+// is in reference/bsdf.hpp, and in shaders/bsdf.
+#pragma once
+
+#include "host/optics/fresnel.hpp"
+
+namespace eyeray {
+
+struct Bsdf {
+  Vec3 diffuse{0};  // albedo, under `layer`
+  double diffuse_roughness = 0;
+  optics::Fresnel layer = {};   // that light goes through on its way to the diffuse lobe and back
+  optics::Fresnel glossy = {};  // what its microfacets mirror; `layer` is part of it
+  double roughness = 1;         // of `layer`, `glossy` and `glass`
+  double coat = 0;              // the share of the surface that is coated
+  double coat_roughness = 1;
+  Vec3 glass{0};        // throughput of rough glass, before Fresnel
+  double ior_from = 1;  // of the media on either side of that
+  double ior_to = 1;
+  Vec3 mirror{0};       // throughput of the mirrored direction, …
+  Vec3 transmitted{0};  // … and of the refracted one
+};
+
+}  // namespace eyeray

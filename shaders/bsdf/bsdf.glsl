@@ -1,0 +1,98 @@
+// A surface's BSDF: its lobes together. One lobe chooses a direction; value and density are always those of all, so that no two can
+// disagree.
+#ifndef BSDF_GLSL
+#define BSDF_GLSL
+#include "bsdf/bsdf_record.glsl"
+#include "math/sampling.glsl"
+
+SHADER_BEGIN
+
+Directions directions(Bsdf bsdf, vec3 o, vec3 i) {
+  Directions at;
+  at.o = o;
+  at.i = i;
+  vec3 sum = o + i;
+  at.half_way = sum / sqrt(maximum(dot3(sum, sum), 1.0e-30f));
+#if HAS_GLOSSY
+  at.albedo = ggx_albedo(i.z, bsdf.roughness);
+#endif
+  return at;
+}
+
+// What a coat leaves of light on its way to the viewer.
+float under_coat(Bsdf bsdf) {
+  float left = 1.0f;
+#if HAS_COAT
+  left = coat_transmittance(bsdf, bsdf.coat_albedo);
+#endif
+  return left;
+}
+
+// How likely each lobe is followed, by how much light it sends; 1 all together, or all 0.
+struct LobeShares {
+#define SHARE(name, number, coated) float name;
+  LOBES(SHARE)
+  float mirror;
+  float transmitted;
+};
+
+LobeShares lobe_shares(Bsdf bsdf) {
+  LobeShares shares;
+  shares.mirror = max_component(bsdf.mirror);
+  shares.transmitted = max_component(bsdf.transmitted);
+  float all = shares.mirror + shares.transmitted;
+#define ALBEDO_OF_LOBE(name, number, coated)                                                \
+  shares.name = max_component(name##_albedo(bsdf)) * (coated ? under_coat(bsdf) : 1.0f); \
+  all = all + shares.name;
+  LOBES(ALBEDO_OF_LOBE)
+  float scale = all > 0.0f ? 1.0f / all : 0.0f;
+#define SCALE_SHARE(name, number, coated) shares.name = shares.name * scale;
+  LOBES(SCALE_SHARE)
+  shares.mirror = shares.mirror * scale;
+  shares.transmitted = shares.transmitted * scale;
+  return shares;
+}
+
+// Of all lobes but those of a single direction.
+LobeValue bsdf_value(Bsdf bsdf, LobeShares shares, vec3 o, vec3 i) {
+  Directions at = directions(bsdf, o, i);
+  LobeValue all = no_value();
+  float through_coat = 1.0f;
+#if HAS_COAT
+  through_coat = under_coat(bsdf) * coat_transmittance(bsdf, ggx_albedo(i.z, bsdf.coat_roughness));
+#endif
+#define ADD_VALUE(name, number, coated)                                              \
+  if (shares.name > 0.0f) {                                                          \
+    LobeValue of_lobe = name##_value(bsdf, at);                                      \
+    all.value = all.value + of_lobe.value * (coated ? through_coat : 1.0f);          \
+    all.density = all.density + of_lobe.density * shares.name;                       \
+  }
+  LOBES(ADD_VALUE)
+  return all;
+}
+
+// A direction that light may come from, by which the path goes on. The lobe is that within whose share `chance`, in [0, 1), lies;
+// No direction, 0, is one that the surface itself stands in the way of.
+struct BsdfSample {
+  vec3 i;
+  bool mirrored;   // instead: the mirrored direction …
+  bool refracted;  // … or the refracted one
+};
+
+BsdfSample sample_bsdf(Bsdf bsdf, LobeShares shares, vec3 o, float chance, vec2 u) {
+  BsdfSample s;
+  s.i = vec3(0.0f, 0.0f, 1.0f);
+  float passed = 0.0f;
+#define DIRECTION_OF_LOBE(name, number, coated)                                                                              \
+  if (shares.name > 0.0f && chance >= passed) s.i = name##_direction(bsdf, o, u, (chance - passed) / shares.name); \
+  passed = passed + shares.name;
+  LOBES(DIRECTION_OF_LOBE)
+  s.mirrored = shares.mirror > 0.0f && chance >= passed;
+  passed = passed + shares.mirror;
+  s.refracted = shares.transmitted > 0.0f && chance >= passed;
+  s.mirrored = s.mirrored && !s.refracted;
+  return s;
+}
+
+SHADER_END
+#endif

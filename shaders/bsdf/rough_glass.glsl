@@ -1,0 +1,53 @@
+// A rough surface between two media, by microfacets that mirror and refract: Walter et al., "Microfacet Models for Refraction through Rough
+// Surfaces" (EGSR 2007). Of radiance / index², which refraction leaves as it is.
+#ifndef ROUGH_GLASS_GLSL
+#define ROUGH_GLASS_GLSL
+#include "bsdf/bsdf_record.glsl"
+#include "bsdf/ggx.glsl"
+
+SHADER_BEGIN
+
+vec3 rough_glass_albedo(Bsdf bsdf) { return bsdf.glass; }
+
+LobeValue rough_glass_value(Bsdf bsdf, Directions at) {
+  float width = ggx_width(bsdf.roughness);
+  bool through = at.i.z < 0.0f;
+  float eta = bsdf.ior_to / bsdf.ior_from;
+  // The microfacet that would send i to o.
+  vec3 h = through ? at.o + at.i * eta : at.o + at.i;
+  h = h / sqrt(maximum(dot3(h, h), 1.0e-30f));
+  h = h.z < 0.0f ? -h : h;
+  float along_o = dot3(at.o, h);
+  float along_i = dot3(at.i, h);
+  bool possible = along_o > 0.0f && (through ? along_i < 0.0f : along_i > 0.0f);
+
+  // Of what goes through, both ways are known: at the critical angle Snell's law would lose all digits of one.
+  float mirrored = through ? fresnel_of_cosines(along_o, -along_i, bsdf.ior_from, bsdf.ior_to)
+                           : fresnel_reflectance(minimum(along_o, 1.0f), bsdf.ior_from, bsdf.ior_to);
+  float towards_o = 1.0f + ggx_lambda(at.o, width);
+  float seen = ggx_density(h, width) * along_o / (towards_o * at.o.z);
+  float q = along_i + along_o / eta;
+  float jacobian = through ? (1.0f - mirrored) * abs(along_i) / maximum(q * q, 1.0e-30f) : mirrored / (4.0f * along_o);
+  LobeValue result = no_value();
+  if (possible) {
+    result.density = seen * jacobian;
+    result.value = bsdf.glass * (result.density * towards_o / (towards_o + ggx_lambda(at.i, width)));
+  }
+  return result;
+}
+
+vec3 rough_glass_direction(Bsdf bsdf, vec3 o, vec2 u, float part) {
+  vec3 h = ggx_normal(o, ggx_width(bsdf.roughness), u);
+  float along = minimum(dot3(o, h), 1.0f);
+  float mirrored = fresnel_reflectance(along, bsdf.ior_from, bsdf.ior_to);
+  float ratio = bsdf.ior_from / bsdf.ior_to;
+  float cos_squared = maximum(1.0f - ratio * ratio * (1.0f - along * along), 0.0f);
+  vec3 refracted = h * (ratio * along - sqrt(cos_squared)) - o * ratio;
+  bool reflects = part < mirrored;
+  vec3 i = reflects ? mirror3(o, h) : normalize3(refracted);
+  // What a microfacet sends to the wrong side is lost: the density knows nothing of it.
+  return (i.z > 0.0f) == reflects ? i : vec3(0.0f, 0.0f, 0.0f);
+}
+
+SHADER_END
+#endif

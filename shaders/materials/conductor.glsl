@@ -1,0 +1,29 @@
+// A metal, rough or polished. material.b: n at red, green and blue, and whether these are to be taken; .c: k; .a: the mean reflectance.
+#ifndef CONDUCTOR_GLSL
+#define CONDUCTOR_GLSL
+#include "materials/phong.glsl"
+
+SHADER_BEGIN
+
+Scattering conductor_scattering(Material material, ScatteringContext context) { return phong_scattering(material, context); }
+
+#if RANDOM_WALK
+Bsdf conductor_bsdf(Material material, ScatteringContext context, Scattering scattering) {
+  Bsdf bsdf = black_bsdf();
+#if HAS_GLOSSY
+  bsdf.glossy = schlick(texture_color(material.color, context.uv) * context.color, vec3(1.0f, 1.0f, 1.0f));
+  if (material.b.w != 0.0f) {
+    bsdf.glossy.f0 = vec3(material.b);
+    bsdf.glossy.f90 = vec3(material.c);
+    bsdf.glossy.mean = vec3(material.a);
+    bsdf.glossy.conductor = true;
+  }
+  bsdf.roughness = texture_color(material.roughness, context.uv).y;
+  bsdf.albedo = ggx_albedo(context.cos_view, bsdf.roughness);
+#endif
+  return bsdf;
+}
+#endif
+
+SHADER_END
+#endif

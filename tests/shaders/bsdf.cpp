@@ -1,0 +1,299 @@
+// The lobes of BSDFs: what they say of a direction beside what they send there, in the shaders and in the
+// reference; and that none makes or loses light.
+#include <algorithm>
+#include <cmath>
+
+#include "host/optics/ggx_albedo.hpp"
+#include "host/optics/metals.hpp"
+#include "host/reference/bsdf.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
+#include "tests/support/random.hpp"
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using reference::BsdfValue;
+using reference::ViewedBsdf;
+using test::Random;
+
+namespace {
+
+struct Named {
+  const char* name;
+  Bsdf bsdf;
+};
+
+Bsdf conductor(const optics::Fresnel& fresnel, double roughness) {
+  return {.glossy = fresnel, .roughness = roughness};
+}
+Bsdf plastic(double color, double roughness, double coat = 0) {
+  const optics::Fresnel surface = optics::schlick(Vec3(0.04), Vec3(1));
+  return {.diffuse = Vec3(color), .layer = surface, .glossy = surface, .roughness = roughness, .coat = coat};
+}
+Bsdf glass(double roughness, double from, double to) {
+  return {.roughness = roughness, .glass = Vec3(1), .ior_from = from, .ior_to = to};
+}
+optics::Fresnel perfect() {
+  return optics::schlick(Vec3(1), Vec3(1));
+}
+optics::Fresnel gold() {
+  return optics::conductor(optics::metals[2].n, optics::metals[2].k);
+}
+
+std::vector<Named> examples(double roughness) {
+  Bsdf matte{.diffuse = {0.9, 0.5, 0.1}, .diffuse_roughness = roughness};
+  Bsdf car = plastic(0.4, roughness, 1);
+  car.coat_roughness = 0.4;
+  return {{"matte", matte},
+          {"gold", conductor(gold(), roughness)},
+          {"plastic", plastic(0.6, roughness)},
+          {"coated", car},
+          {"glass from outside", glass(roughness, 1, 1.5)},
+          {"glass from inside", glass(roughness, 1.5, 1)}};
+}
+
+// The shaders' record of it, towards o.
+shader::Bsdf packed(const Bsdf& bsdf, const glm::vec3& o) {
+  const auto fresnel = [](const optics::Fresnel& from) {
+    return shader::Fresnel{glm::vec3(from.f0), glm::vec3(from.f90), glm::vec3(from.mean), from.conductor};
+  };
+  shader::Bsdf record = shader::black_bsdf();
+  record.diffuse = glm::vec3(bsdf.diffuse);
+  record.diffuse_roughness = float(bsdf.diffuse_roughness);
+  record.glossy = fresnel(bsdf.glossy);
+  record.layer = fresnel(bsdf.layer);
+  record.roughness = float(bsdf.roughness);
+  record.albedo = shader::ggx_albedo(o.z, record.roughness);
+  record.coat = float(bsdf.coat);
+  record.coat_roughness = float(bsdf.coat_roughness);
+  record.coat_albedo = shader::ggx_albedo(o.z, record.coat_roughness);
+  record.glass = glm::vec3(bsdf.glass);
+  record.ior_from = float(bsdf.ior_from);
+  record.ior_to = float(bsdf.ior_to);
+  return record;
+}
+
+records::PackedScene scene_with_albedos() {
+  records::PackedScene scene;
+  for (const auto& [once, edge, mean_once, mean_edge] : optics::ggx_albedo_table())
+    scene.ggx_albedos.emplace_back(once, edge, mean_once, mean_edge);
+  scene.linear_ends.resize(shader::SHAPE_KINDS);
+  return scene;
+}
+
+Vec3 towards(double cosine, double turn = 0.7) {
+  const double sine = std::sqrt(1 - cosine * cosine);
+  return {sine * std::cos(turn), sine * std::sin(turn), cosine};
+}
+
+// What it sends on in all of light from everywhere, by its own samples: strata of 32 × 32, for 16 of the
+// lobe.
+Vec3 albedo(const Bsdf& bsdf, double cosine) {
+  const ViewedBsdf viewed(bsdf, towards(cosine));
+  constexpr int lobes = 16, side = 32;
+  Random random(11);
+  Vec3 sum(0);
+  for (int l = 0; l < lobes; ++l)
+    for (int x = 0; x < side; ++x)
+      for (int y = 0; y < side; ++y) {
+        const Vec2 u((x + random.uniform()) / side, (y + random.uniform()) / side);
+        const Vec3 i = viewed.sample((l + random.uniform()) / lobes, u).i;
+        const BsdfValue found = viewed.at(i);
+        if (found.density > 0) sum += found.value / found.density;
+      }
+  return sum / double(lobes * side * side);
+}
+
+constexpr double cosines[] = {1, 0.8, 0.4, 0.1, 0.02};
+
+}  // namespace
+
+TEST_CASE("a shader's BSDF is the reference's, in value and in density") {
+  const records::PackedScene scene = scene_with_albedos();
+  const shader::Binding binding(twin::view_of(scene));
+  Random random(1);
+  for (const double roughness : {0.05, 0.2, 0.5, 1.0}) {
+    for (const auto& [name, bsdf] : examples(roughness)) {
+      CAPTURE(name);
+      CAPTURE(roughness);
+      double worst = 0;
+      for (int n = 0; n < 20'000; ++n) {
+        const glm::vec3 o(glm::normalize(towards(random.uniform(0.01, 1), random.uniform(0, 6))));
+        const shader::Bsdf record = packed(bsdf, o);
+        const shader::LobeShares shares = shader::lobe_shares(record);
+        // Half of them where the lobes are.
+        const shader::vec2 u(float(random.below(1 << 24)) * 0x1p-24f,
+                             float(random.below(1 << 24)) * 0x1p-24f);
+        const float chance = float(random.below(1 << 24)) * 0x1p-24f;
+        const glm::vec3 i = n % 2 ? shader::sample_bsdf(record, shares, o, chance, u).i
+                                  : glm::vec3(glm::normalize(random.direction()));
+        if (i == glm::vec3(0) || std::abs(i.z) < 0.01f) continue;
+        const shader::LobeValue ours = shader::bsdf_value(record, shares, o, i);
+        const BsdfValue theirs = ViewedBsdf(bsdf, Vec3(o)).at(Vec3(i));
+        const auto apart = [&](double a, double b) {
+          if (std::max(std::abs(a), std::abs(b)) > 1e-6)
+            worst = std::max(worst, std::abs(a - b) / std::max(std::abs(b), 0.1));
+        };
+        apart(double(ours.density), theirs.density);
+        for (int c = 0; c < 3; ++c) apart(double(ours.value[c]), theirs.value[c]);
+      }
+      // The half-way vector has 6e-8, of which a narrow lobe makes more.
+      CHECK(worst < 2e-4 + 1e-5 / (roughness * roughness));
+      MESSAGE(name << ", roughness " << roughness << ": up to " << worst << " of themselves apart");
+    }
+  }
+}
+
+TEST_CASE("a shader's samples fall as the reference's density says: chi-squared") {
+  const records::PackedScene scene = scene_with_albedos();
+  const shader::Binding binding(twin::view_of(scene));
+  Random random(2);
+  constexpr int rows = 24, columns = 32, within = 16, samples = 60'000;
+  int tests = 0;
+  for (const double roughness : {0.35, 1.0}) {
+    for (const auto& [name, bsdf] : examples(roughness)) {
+      for (const double cosine : {1.0, 0.6, 0.1}) {
+        CAPTURE(name);
+        CAPTURE(roughness);
+        CAPTURE(cosine);
+        const glm::vec3 o(towards(cosine));
+        const ViewedBsdf viewed(bsdf, Vec3(o));
+        const shader::Bsdf record = packed(bsdf, o);
+        const shader::LobeShares shares = shader::lobe_shares(record);
+        // Cells of (angle, turn), and one of what goes the wrong way and is lost.
+        std::vector<double> counts(rows * columns), expected(rows * columns);
+        double lost = samples;
+        for (int n = 0; n < samples; ++n) {
+          const shader::vec2 u(float(random.below(1 << 24)) * 0x1p-24f,
+                               float(random.below(1 << 24)) * 0x1p-24f);
+          const float chance = float(random.below(1 << 24)) * 0x1p-24f;
+          const glm::vec3 i = shader::sample_bsdf(record, shares, o, chance, u).i;
+          if (!(shader::bsdf_value(record, shares, o, i).density > 0)) continue;
+          const int row =
+              std::clamp(int(std::acos(std::clamp(double(i.z), -1.0, 1.0)) / M_PI * rows), 0, rows - 1);
+          const double turn = std::atan2(double(i.y), double(i.x)) / (2 * M_PI);
+          const int column = std::clamp(int((turn - std::floor(turn)) * columns), 0, columns - 1);
+          ++counts[size_t(row * columns + column)];
+          --lost;
+        }
+        double sum = 0;
+        for (int row = 0; row < rows * within; ++row)
+          for (int column = 0; column < columns * within; ++column) {
+            const double angle = M_PI * (row + 0.5) / (rows * within);
+            const double turn = 2 * M_PI * (column + 0.5) / (columns * within);
+            const double density = viewed.at(towards(std::cos(angle), turn)).density;
+            const double share =
+                density * std::sin(angle) * 2 * M_PI * M_PI / (rows * within * columns * within);
+            expected[size_t(row / within * columns + column / within)] += samples * share;
+            sum += share;
+          }
+        // Density and what is lost are 1 together.
+        CHECK(std::abs(sum + lost / samples - 1) < 5e-3 + 4 * std::sqrt(lost) / samples);
+
+        // Few that are expected are counted together, as Pearson's test asks.
+        double statistic = 0, few = 0, few_expected = 0;
+        int freedom = -1;
+        for (size_t cell = 0; cell < counts.size(); ++cell) {
+          if (expected[cell] < 10) {
+            few += counts[cell];
+            few_expected += expected[cell];
+          } else {
+            statistic += (counts[cell] - expected[cell]) * (counts[cell] - expected[cell]) / expected[cell];
+            ++freedom;
+          }
+        }
+        CHECK(std::abs(few - few_expected) < 6 * std::sqrt(few_expected) + 10);
+        // Wilson and Hilferty: the cube root is normal. Of 36 tests one is above 4 in a thousand runs.
+        const double z =
+            (std::cbrt(statistic / freedom) - (1 - 2.0 / (9 * freedom))) / std::sqrt(2.0 / (9 * freedom));
+        CHECK(z < 4);
+        ++tests;
+      }
+    }
+  }
+  CHECK(tests == 36);
+}
+
+TEST_CASE("no BSDF sends on more light than it gets") {
+  for (const double roughness : {0.0, 0.1, 0.3, 0.6, 1.0})
+    for (const auto& [name, bsdf] : examples(roughness))
+      for (const double cosine : cosines) {
+        CAPTURE(name);
+        CAPTURE(roughness);
+        CAPTURE(cosine);
+        const Vec3 found = albedo(bsdf, cosine);
+        CHECK(std::max({found.x, found.y, found.z}) < 1.005);
+      }
+}
+
+TEST_CASE("a white furnace stays white: rough and smooth, matte, metal and plastic") {
+  for (const double roughness : {0.0, 0.1, 0.3, 0.6, 1.0}) {
+    for (const double cosine : cosines) {
+      CAPTURE(roughness);
+      CAPTURE(cosine);
+      const Bsdf matte{.diffuse = Vec3(1), .diffuse_roughness = roughness};
+      CHECK(albedo(matte, cosine).x == doctest::Approx(1).epsilon(0.002));
+      CHECK(albedo(conductor(perfect(), roughness), cosine).x == doctest::Approx(1).epsilon(0.01));
+      CHECK(albedo(plastic(1, roughness), cosine).x == doctest::Approx(1).epsilon(0.01));
+    }
+  }
+}
+
+TEST_CASE("light goes both ways alike: f(o, i) is f(i, o), of glass by the square of the index") {
+  Random random(3);
+  for (const double roughness : {0.1, 0.5, 1.0}) {
+    for (const auto& [name, bsdf] : examples(roughness)) {
+      CAPTURE(name);
+      CAPTURE(roughness);
+      double worst = 0;
+      for (int n = 0; n < 5'000; ++n) {
+        const Vec3 o = towards(random.uniform(0.05, 1), random.uniform(0, 6));
+        const Vec3 i = random.direction();
+        if (std::abs(i.z) < 0.05) continue;
+        Bsdf back = bsdf;
+        const bool through = i.z < 0;
+        if (through) std::swap(back.ior_from, back.ior_to);
+        // Seen from beyond, that side is above.
+        const Vec3 flip(1, 1, through ? -1 : 1);
+        const Vec3 there = ViewedBsdf(bsdf, o).at(i).value / std::abs(i.z);
+        const Vec3 again = ViewedBsdf(back, flip * i).at(flip * o).value / o.z;
+        const double ratio = through ? bsdf.ior_from / bsdf.ior_to : 1;
+        const double once = there.x * ratio * ratio, larger = std::max(once, again.x);
+        if (larger > 1e-9) worst = std::max(worst, std::abs(once - again.x) / larger);
+      }
+      CHECK(worst < 1e-7);
+    }
+  }
+}
+
+TEST_CASE("the directional albedo of GGX: 1 − ln 2 at roughness 1, and its table beside the integral") {
+  CHECK(optics::ggx_albedo(1, 1).once == doctest::Approx(1 - std::log(2.0)).epsilon(1e-4));
+  double worst = 0, sum = 0;
+  int count = 0;
+  for (double cosine = 0.02; cosine < 1; cosine += 0.0171)
+    for (double roughness = 0.06; roughness < 1; roughness += 0.0237) {
+      const double error = std::abs(optics::ggx_albedo(cosine, roughness).once -
+                                    optics::ggx_albedo_integral(cosine, roughness).once);
+      worst = std::max(worst, error);
+      sum += error;
+      ++count;
+    }
+  MESSAGE("off by up to " << worst << ", in the mean by " << sum / count);
+  CHECK(worst < 4e-3);
+  CHECK(sum / count < 2e-4);
+}
+
+TEST_CASE("metals mirror as tables say, and their mean is the integral") {
+  // At 549 nm and right angles: (n − 1)² + k² over (n + 1)² + k².
+  for (const optics::Metal& metal : optics::metals) {
+    const optics::Fresnel fresnel = optics::conductor(metal.n, metal.k);
+    for (int c = 0; c < 3; ++c) {
+      const double n = metal.n[c], k = metal.k[c];
+      CHECK(fresnel.at(1)[c] ==
+            doctest::Approx(((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k)).epsilon(1e-12));
+      CHECK(double(shader::conductor_reflectance(float(n), float(k), 0.3f)) ==
+            doctest::Approx(fresnel.at(0.3)[c]).epsilon(1e-5));
+    }
+  }
+}
