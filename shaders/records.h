@@ -121,7 +121,7 @@ INLINE uint mesh_optical_depth(Instance instance) { return of_group(instance) ? 
 INLINE uint first_triangle_of(Instance instance) { return instance.depth_or_triangle; }
 #define ID_OF_TRIANGLE 0x80000000u
 
-// ---- Material: 128 bytes --------------------------------------------------------------------------------------------
+// ---- Material: 112 bytes --------------------------------------------------------------------------------------------
 struct Material {
   uint kind;
   uint flags;
@@ -140,12 +140,9 @@ struct Material {
   uint roughness;
   uint metallic;
   uint coat;
-  uint coat_roughness;
-  uint unused_0;
-  uint unused_1;
-  uint unused_2;
   vec4 b;
-  vec4 c;
+  vec3 c;
+  uint coat_roughness;
 };
 #define MATERIAL_BLINN 1u
 // Optical depth: what each primitive that a shadow ray hits takes from it, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
@@ -210,10 +207,6 @@ struct Emitter {
 // height + 1 rows of width + 1 texels: red, green and blue as the bits of floats. The last row and the last column are the picture's last
 // row and first column again. The fourth word says where the numbers end by which the cell is chosen whose lower left corner this is,
 // among those of its row; in the last column, those by which the row is.
-
-// ---- The directional albedo of GGX: 16 bytes a place (bsdf/ggx_albedo.glsl) -----------------------------------------
-// GGX_ALBEDOS rows by roughness, of as many each by √cosine. Empty where no surface is glossy.
-#define GGX_ALBEDOS 64
 
 // ---- Frame: what is the same for all pixels, 176 bytes --------------------------------------------------------------
 struct Frame {
@@ -388,7 +381,7 @@ SHADER_END
 static_assert(sizeof(eyeray::shader::Primitive) == 64);
 static_assert(sizeof(eyeray::shader::Bvh) == 64);
 static_assert(sizeof(eyeray::shader::Instance) == 112);
-static_assert(sizeof(eyeray::shader::Material) == 128);
+static_assert(sizeof(eyeray::shader::Material) == 112);
 static_assert(sizeof(eyeray::shader::Medium) == 16);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);

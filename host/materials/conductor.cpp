@@ -79,7 +79,7 @@ class Conductor final : public Physical {
     record.roughness = roughness;
     record.a = records::to_vec4(values_.index.mean);
     record.b = records::to_vec4(values_.index.f0, values_.color ? 0 : 1);
-    record.c = records::to_vec4(values_.index.f90);
+    record.c = glm::vec3(values_.index.f90);
     packer.scene.lobes.insert({shader::LOBE_glossy, shader::LOBE_multiple});
     packer.scene.has_conductors |= !values_.color;
   }

@@ -41,12 +41,9 @@ shader::Material make_record(uint32_t kind, const Highlight& highlight, double s
           .roughness = black,
           .metallic = black,
           .coat = black,
-          .coat_roughness = black,
-          .unused_0 = 0,
-          .unused_1 = 0,
-          .unused_2 = 0,
           .b = shader::vec4(0),
-          .c = shader::vec4(0)};
+          .c = shader::vec3(0),
+          .coat_roughness = black};
 }
 
 }  // namespace eyeray::materials

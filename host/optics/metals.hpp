@@ -10,15 +10,15 @@ namespace eyeray::optics {
 
 struct Metal {
   std::string_view name;
-  Vec3 n, k;  // at 611, 549 and 464 nm
+  Vec3 n, k;  // that show its colour in linear Rec. 709 red, green and blue
 };
 
 inline constexpr std::array metals{
-    Metal{"silver", {0.128, 0.125, 0.140}, {3.82, 3.33, 2.61}},
-    Metal{"aluminium", {1.255, 0.955, 0.658}, {7.38, 6.68, 5.65}},
-    Metal{"gold", {0.204, 0.355, 1.379}, {3.04, 2.70, 1.83}},
-    Metal{"copper", {0.317, 0.965, 1.157}, {3.11, 2.58, 2.45}},
-    Metal{"brass", {0.452, 0.529, 0.954}, {3.36, 2.76, 1.92}},
+    Metal{"silver", {0.155, 0.117, 0.138}, {4.828, 3.123, 2.147}},
+    Metal{"aluminium", {1.657, 0.880, 0.521}, {9.224, 6.270, 4.837}},
+    Metal{"gold", {0.143, 0.375, 1.442}, {3.983, 2.386, 1.603}},
+    Metal{"copper", {0.200, 0.924, 1.102}, {3.913, 2.453, 2.142}},
+    Metal{"brass", {0.444, 0.527, 1.094}, {3.695, 2.765, 1.829}},
 };
 
 }  // namespace eyeray::optics

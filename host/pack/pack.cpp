@@ -69,7 +69,6 @@ shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed)
 // Of lobes that ask for it.
 void pack_ggx_albedos(records::PackedScene& packed) {
   if (!packed.lobes.contains(shader::LOBE_glossy)) return;
-  static_assert(optics::ggx_albedos == GGX_ALBEDOS);
   for (const auto& [once, edge, mean_once, mean_edge] : optics::ggx_albedo_table())
     packed.ggx_albedos.emplace_back(once, edge, mean_once, mean_edge);
 }

@@ -7,6 +7,8 @@
 
 SHADER_BEGIN
 
+#define GGX_ALBEDOS 64  // rows by roughness, and places in each by √cosine
+
 // .x of a perfect mirror, .y the same weighted by Schlick's (1 − cosine)⁵ at the microfacets; .z and .w: means of both over the half
 // sphere, by cosine.
 vec4 ggx_albedo(float cosine, float roughness) {

@@ -14,7 +14,7 @@ Bsdf conductor_bsdf(Material material, ScatteringContext context, Scattering sca
   bsdf.glossy = schlick(texture_color(material.color, context.uv) * context.color, vec3(1.0f, 1.0f, 1.0f));
   if (material.b.w != 0.0f) {
     bsdf.glossy.f0 = vec3(material.b);
-    bsdf.glossy.f90 = vec3(material.c);
+    bsdf.glossy.f90 = material.c;
     bsdf.glossy.mean = vec3(material.a);
     bsdf.glossy.conductor = true;
   }

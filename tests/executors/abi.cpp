@@ -75,7 +75,9 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Material, optical_depth), MEMBER(Material, base), MEMBER(Material, specular),
                 MEMBER(Material, reflected), MEMBER(Material, ambient), MEMBER(Material, emission),
                 MEMBER(Material, alpha), MEMBER(Material, alpha_cutoff), MEMBER(Material, shininess),
-                MEMBER(Material, a)});
+                MEMBER(Material, a), MEMBER(Material, color), MEMBER(Material, roughness),
+                MEMBER(Material, metallic), MEMBER(Material, coat), MEMBER(Material, b), MEMBER(Material, c),
+                MEMBER(Material, coat_roughness)});
   check_struct(samples, "Medium", sizeof(shader::Medium), {MEMBER(Medium, absorption), MEMBER(Medium, ior)});
   check_struct(samples, "Texture", sizeof(shader::Texture),
                {MEMBER(Texture, color), MEMBER(Texture, kind), MEMBER(Texture, a), MEMBER(Texture, b),

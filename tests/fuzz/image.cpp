@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       std::abort();
     const eyeray::TexturePtr texture = eyeray::textures::make_image(image);
     for (const double u : {-1e9, 0.0, 0.3, 1.0, 1e9}) {
-      const eyeray::Vec3 color = texture->at(Vec2{u, 1 - u});
+      const eyeray::Vec3 color = texture->at(eyeray::Vec2(u, 1 - u));
       for (int i = 0; i < 3; ++i)
         if (!(color[i] >= 0 && color[i] <= 1 + 1e-12)) std::abort();  // weights sum to 1 but for rounding
     }

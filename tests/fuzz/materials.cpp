@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   eyeray::importers::ObjMaterials materials(none, pixels);
   materials.parse({reinterpret_cast<const char*>(data), size});
   for (const auto& material : materials.materials) {
-    const eyeray::Scattering s = material->scattering({{0, 0}, 1, 1, 1});
+    const eyeray::Scattering s = material->scattering({eyeray::Vec2(0), 1, 1, 1});
     for (const eyeray::Vec3& share : {s.diffuse, s.specular, s.reflected, s.transmitted})
       for (int i = 0; i < 3; ++i)
         if (!(share[i] >= 0 && share[i] <= 1)) std::abort();

@@ -90,6 +90,8 @@ std::vector<Fault> faults() {
       {"roulette", {bits, counts, colors}, box},
       {"shadow_end", {bits, colors}, box},
       {"pairs", {bits, counts, colors}, box},
+      {"lobe", {bits, colors}, {"scenes/path/materials.toml", "--spp", "2"}},
+      {"masking", {bits, colors}, {"scenes/path/materials.toml", "--spp", "2"}},
       {"half_texel", {bits, colors}, {"scenes/path/environment.toml", "--spp", "2"}},
   };
 }

@@ -206,6 +206,10 @@ std::string Writer::value(const Key& key) {
       return fmt::format("[[{}, {}, {}]]", numbers(key, 3), numbers(key, 3), numbers(key, 3));
     case KeyType::color:
       return chance(0.7) ? numbers(key, 3) : fmt::format("{}", number(key));
+    case KeyType::color_map: {
+      const Key color{.name = "", .type = KeyType::color, .doc = "", .min = key.min, .max = key.max};
+      return fmt::format("[[0, {}], [1, {}]]", numbers(color, 3), numbers(color, 3));
+    }
     case KeyType::texture:
       return texture(key);
     case KeyType::scale2:
@@ -251,10 +255,14 @@ std::string Writer::write() {
   }
   for (int i = 0; i < materials; ++i) {
     const MaterialType& type = one_of(materials::types());
-    // Few shapes may have holes.
-    table("[[material]]", {type.keys},
-          chance(0.9) ? std::set<std::string_view>{"alpha", "alpha_cutoff"} : std::set<std::string_view>{},
-          fmt::format("name = \"m{}\"\ntype = \"{}\"\n", i, type.name));
+    // Few shapes may have holes. A conductor is one of several things.
+    std::set<std::string_view> left_out;
+    if (chance(0.9)) left_out = {"alpha", "alpha_cutoff"};
+    const bool conductor = type.name == "conductor";
+    if (conductor) left_out.insert({"metal", "n", "k", "color"});
+    table("[[material]]", {type.keys}, left_out,
+          fmt::format("name = \"m{}\"\ntype = \"{}\"\n{}", i, type.name,
+                      conductor ? "metal = \"gold\"\n" : ""));
   }
   for (int i = random_.below(6); i > 0; --i) {
     const ShapeType& type = one_of(shapes::types());

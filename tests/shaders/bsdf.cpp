@@ -105,6 +105,8 @@ Vec3 albedo(const Bsdf& bsdf, double cosine) {
   return sum / double(lobes * side * side);
 }
 
+static_assert(optics::ggx_albedos == GGX_ALBEDOS);
+
 constexpr double cosines[] = {1, 0.8, 0.4, 0.1, 0.02};
 
 }  // namespace
@@ -285,7 +287,7 @@ TEST_CASE("the directional albedo of GGX: 1 − ln 2 at roughness 1, and its tab
 }
 
 TEST_CASE("metals mirror as tables say, and their mean is the integral") {
-  // At 549 nm and right angles: (n − 1)² + k² over (n + 1)² + k².
+  // At right angles: (n − 1)² + k² over (n + 1)² + k².
   for (const optics::Metal& metal : optics::metals) {
     const optics::Fresnel fresnel = optics::conductor(metal.n, metal.k);
     for (int c = 0; c < 3; ++c) {

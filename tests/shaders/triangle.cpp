@@ -24,13 +24,13 @@ namespace {
 
 constexpr int chunks = 64;
 
-struct Mesh {
+struct ClosedMesh {
   std::vector<glm::vec3> vertices;
   std::vector<std::array<int, 3>> faces;
 };
 
 // An icosahedron, each face split in four, on a sphere; stretched along y.
-Mesh closed_mesh(const Vec3& centre, double radius, double stretch) {
+ClosedMesh closed_mesh(const Vec3& centre, double radius, double stretch) {
   const double g = (1 + std::sqrt(5.0)) / 2;
   std::vector<Vec3> v = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                          {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
@@ -44,7 +44,7 @@ Mesh closed_mesh(const Vec3& centre, double radius, double stretch) {
     if (fresh) v.push_back((v[size_t(a)] + v[size_t(b)]) * 0.5);
     return entry->second;
   };
-  Mesh mesh;
+  ClosedMesh mesh;
   for (const auto& [a, b, c] : faces) {
     const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
     for (const auto& face : {std::array{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}})
@@ -69,7 +69,8 @@ using Intersect = float (*)(shader::Primitive, shader::Ray, shader::vec2&);
 
 // How many of `count` rays from inside the mesh escape it, aimed at random, at its edges or at its vertices.
 enum class Aim { random, edges, vertices };
-int leaks(const Mesh& mesh, const Vec3& centre, const Vec3& reach, Aim aim, Intersect intersect, int count) {
+int leaks(const ClosedMesh& mesh, const Vec3& centre, const Vec3& reach, Aim aim, Intersect intersect,
+          int count) {
   std::vector<shader::Primitive> triangles;
   for (const auto& [a, b, c] : mesh.faces)
     triangles.push_back(
@@ -110,7 +111,7 @@ TEST_CASE("closed meshes: 0 of 12 million rays leak, at the origin, far away, ti
                 {"radius 0.01", {0, 0, 0}, 0.01, 1},
                 {"needles", {0, 0, 0}, 1, 0.001}};
   for (const auto& m : meshes) {
-    const Mesh mesh = closed_mesh(m.centre, m.radius, m.stretch);
+    const ClosedMesh mesh = closed_mesh(m.centre, m.radius, m.stretch);
     for (const Aim aim : {Aim::random, Aim::edges, Aim::vertices}) {
       const int escaped = leaks(mesh, m.centre, m.radius * Vec3(1, m.stretch, 1), aim,
                                 shader::triangle_intersect_woop, count);
@@ -125,7 +126,7 @@ TEST_CASE("closed meshes: 0 of 12 million rays leak, at the origin, far away, ti
 }
 
 TEST_CASE("the same test sees Moeller and Trumbore leak") {
-  const Mesh mesh = closed_mesh({0, 0, 0}, 1, 1);
+  const ClosedMesh mesh = closed_mesh({0, 0, 0}, 1, 1);
   for (const Aim aim : {Aim::edges, Aim::vertices}) {
     const int escaped =
         leaks(mesh, Vec3(0), Vec3(1), aim, shader::triangle_intersect_moller_trumbore, 200'000);
