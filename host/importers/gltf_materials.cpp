@@ -1,7 +1,8 @@
-// Metallic-roughness in the terms of Phong and Whitted. With F0 what the surface mirrors at right angles
-// (0.04, or the base colour of a metal) and r its roughness: what is smooth mirrors F0 · (1 − r)², the lights
-// show a Blinn highlight of exponent 2 / r⁴ − 2 (Karis: Specular BRDF Reference, 2013), and what a rough
-// metal does not mirror it scatters. What is unlit shows its base colour as light of its own.
+// Metallic-roughness, and for Whitted's pictures a stand-in in the terms of Phong. With F0 what the surface
+// mirrors at right angles (0.04, or the base colour of a metal) and r its roughness: what is smooth mirrors
+// F0 · (1 − r)², the lights show a Blinn highlight of exponent 2 / r⁴ − 2 (Karis: Specular BRDF Reference,
+// 2013), and what a rough metal does not mirror it scatters. What is unlit shows its base colour as light of
+// its own.
 #include "host/importers/gltf_materials.hpp"
 
 #include <algorithm>
@@ -64,9 +65,10 @@ GltfUv uv_of(const GltfObject& reference) {
   return uv;
 }
 
-std::unique_ptr<Material> make_glass(const GltfObject& material) {
+std::unique_ptr<Material> make_glass(const GltfObject& material, const TexturePtr& roughness) {
   const auto ior = material.extension("KHR_materials_ior");
   materials::DielectricValues glass;
+  glass.roughness = roughness;
   glass.ior = std::clamp(ior ? ior->number("ior", 1.5) : 1.5, 1.0, 4.0);
   if (const auto volume = material.extension("KHR_materials_volume")) {
     // Beer's law, from the colour that is left at a distance.
@@ -99,8 +101,16 @@ struct GltfMaterials::Surface {
   Vec3 base{1};
   TexturePtr emission;
   std::shared_ptr<const ImageTexture> image;
-  double metalness = 1;
+  double metalness = 1;  // in the mean, as the next
   double roughness = 1;
+  TexturePtr metal_rough;  // these two over the surface: of blue and green
+
+  TexturePtr metalness_texture() const {
+    return metal_rough ? metal_rough : textures::make_constant(Vec3(metalness));
+  }
+  TexturePtr roughness_texture() const {
+    return metal_rough ? metal_rough : textures::make_constant(Vec3(roughness));
+  }
 };
 
 GltfMaterials::GltfMaterials(const GltfObject& document, GltfBuffers& buffers, TextureFiles& textures,
@@ -164,7 +174,12 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
   });
 }
 
-// What its picture takes of a mesh's uv must be what the base colour takes: a vertex has one uv.
+// A vertex has one uv: that of the first of a material's pictures.
+bool GltfMaterials::shares_uv(const GltfObject& material, const GltfObject& reference) {
+  const auto first = first_texture(material);
+  return first && uv_of(*first) == uv_of(reference);
+}
+
 TexturePtr GltfMaterials::emission(const GltfObject& material) {
   const TexturePtr none = textures::make_constant(Vec3(0));
   Vec3 color = share(factors(material, "emissiveFactor", {0, 0, 0}));
@@ -175,7 +190,7 @@ TexturePtr GltfMaterials::emission(const GltfObject& material) {
   if (!reference) return textures::make_constant(color);
   const auto image = texture(*reference, true);
   if (!image) return none;
-  if (const auto base = base_texture(material); base && uv_of(*reference) != uv_of(*base)) {
+  if (!shares_uv(material, *reference)) {
     left_out_.add("emission maps with uv of their own");
     return none;
   }
@@ -200,10 +215,15 @@ GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
   surface.roughness = factor(*pbr, "roughnessFactor", 1);
   if (const auto reference = pbr->object("metallicRoughnessTexture")) {
     if (const auto image = texture(*reference, false)) {
-      left_out_.add("variations of metalness and roughness within textures");
+      const Vec3 factors(1, surface.roughness, surface.metalness);
       const Vec2 mean = mean_green_blue(*image);
       surface.roughness *= mean.x;
       surface.metalness *= mean.y;
+      if (shares_uv(material, *reference)) {
+        surface.metal_rough = textures::make_image(image, factors);
+      } else {
+        left_out_.add("variations of metalness and roughness with uv of their own");
+      }
     }
   }
   return surface;
@@ -215,7 +235,7 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
   std::unique_ptr<Material> made;
   const auto transmission = source.extension("KHR_materials_transmission");
   if (transmission && transmission->number("transmissionFactor", 0) >= 0.5) {
-    made = make_glass(source);
+    made = make_glass(source, surface(source).roughness_texture());
   } else if (source.extension("KHR_materials_unlit")) {
     const Surface s = surface(source);
     made = materials::make_phong(
@@ -232,12 +252,13 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
     const TexturePtr reflectance =
         textured(mirrors ? mirrored : Vec3(0), mirrors && s.metalness > 0.5 ? s.image : nullptr);
     const TexturePtr diffuse = textured(s.base * (1 - s.metalness * smooth), s.image);
-    if (s.metalness * smooth > 0.95) {
-      made = materials::make_mirror({.reflectance = reflectance, .highlight = highlight});
-    } else {
-      made = materials::make_phong(
-          {.diffuse = diffuse, .reflectance = reflectance, .emission = s.emission, .highlight = highlight});
-    }
+    // Of what is nothing but a mirror there is no body.
+    const bool mirror = s.metalness * smooth > 0.95;
+    auto stand_in = materials::make_phong({.diffuse = mirror ? textures::make_constant(Vec3(0)) : diffuse,
+                                           .reflectance = reflectance,
+                                           .emission = s.emission,
+                                           .highlight = highlight});
+    made = principled(source, s, std::move(stand_in));
   }
   if (source.text("alphaMode") == "MASK") {
     if (made->medium()) {
@@ -248,6 +269,32 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
   }
   made->name = printable(source.text("name"));
   return made;
+}
+
+// KHR_materials_ior, _specular and _clearcoat, by their factors.
+std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, const Surface& surface,
+                                                    std::unique_ptr<Material> stand_in) {
+  materials::PrincipledValues values;
+  values.color = textured(surface.base, surface.image);
+  values.metallic = surface.metalness_texture();
+  values.roughness = surface.roughness_texture();
+  values.emission = surface.emission;
+  if (const auto ior = source.extension("KHR_materials_ior"))
+    values.ior = std::clamp(ior->number("ior", 1.5), 1.0, 4.0);
+  if (const auto specular = source.extension("KHR_materials_specular")) {
+    values.specular = factor(*specular, "specularFactor", 1);
+    const std::vector<double> color = specular->numbers("specularColorFactor", {1, 1, 1});
+    values.specular_color = glm::max(Vec3(color[0], color[1], color[2]), Vec3(0));
+    for (const char* map : {"specularTexture", "specularColorTexture"})
+      if (specular->has(map)) left_out_.add("maps of specular");
+  }
+  if (const auto coat = source.extension("KHR_materials_clearcoat")) {
+    values.coat = textures::make_constant(Vec3(factor(*coat, "clearcoatFactor", 0)));
+    values.coat_roughness = textures::make_constant(Vec3(factor(*coat, "clearcoatRoughnessFactor", 0)));
+    for (const char* map : {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"})
+      if (coat->has(map)) left_out_.add("maps of clearcoat");
+  }
+  return materials::make_principled(values, std::move(stand_in));
 }
 
 // Nothing where the cutoff cuts nothing out.
@@ -270,10 +317,16 @@ std::optional<GltfObject> GltfMaterials::base_texture(const GltfObject& material
   return old ? old->object("diffuseTexture") : std::nullopt;
 }
 
+// That whose uv the material's other pictures have to share.
+std::optional<GltfObject> GltfMaterials::first_texture(const GltfObject& material) {
+  if (auto base = base_texture(material)) return base;
+  if (auto emissive = material.object("emissiveTexture")) return emissive;
+  const auto pbr = material.object("pbrMetallicRoughness");
+  return pbr ? pbr->object("metallicRoughnessTexture") : std::nullopt;
+}
+
 GltfUv GltfMaterials::uv(size_t index) const {
-  const GltfObject material = document_.element("materials", index);
-  auto reference = base_texture(material);
-  if (!reference) reference = material.object("emissiveTexture");
+  const auto reference = first_texture(document_.element("materials", index));
   return reference ? uv_of(*reference) : GltfUv{};
 }
 

@@ -49,10 +49,15 @@ class GltfMaterials {
 
   Surface surface(const GltfObject& material);
   TexturePtr emission(const GltfObject& material);
+  // `stand_in`: what Whitted's pictures show of it.
+  std::unique_ptr<Material> principled(const GltfObject& source, const Surface& surface,
+                                       std::unique_ptr<Material> stand_in);
   std::optional<AlphaMask> mask(const GltfObject& material);
   std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, bool srgb);
   ImageTexture decode_image(size_t index, image::PixelBudget& budget);
   static std::optional<GltfObject> base_texture(const GltfObject& material);
+  static std::optional<GltfObject> first_texture(const GltfObject& material);
+  static bool shares_uv(const GltfObject& material, const GltfObject& reference);
   void note_rest(const GltfObject& material);
   // Numbers that are shares, from 0 to 1.
   double factor(const GltfObject& owner, const char* key, double fallback);

@@ -60,6 +60,52 @@ TEST_CASE("metallic-roughness becomes what comes nearest") {
   CHECK(glass.materials[0]->medium()->absorption.y == doctest::Approx(std::log(2) / 2));
 }
 
+TEST_CASE("metallic-roughness as a BSDF, with its coat, its index and its map") {
+  const auto bsdf_of = [](const GltfFile& file, const Vec2& uv) {
+    const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
+    const ScatteringContext context{uv, 1, 1, 1};
+    return scene.materials[0]->bsdf(context, scene.materials[0]->scattering(context));
+  };
+  Json car = surface({0.5, 0.25, 0, 1}, 0.5, 0.4);
+  car["extensions"] = {
+      {"KHR_materials_clearcoat", {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.1}}},
+      {"KHR_materials_ior", {{"ior", 2}}},
+      {"KHR_materials_specular", {{"specularFactor", 0.5}}}};
+  const Bsdf painted = bsdf_of(with_material(car), Vec2(0));
+  CHECK(painted.diffuse == Vec3(0.25, 0.125, 0));
+  CHECK(painted.layer.f0.x == doctest::Approx(0.5 / 9));
+  CHECK(painted.layer.f90.x == 0.5);
+  CHECK(painted.glossy.f0.x == doctest::Approx(0.25 + 0.25 / 9));
+  CHECK(painted.roughness == 0.4);
+  CHECK(painted.coat == 0.75);
+  CHECK(painted.coat_roughness == 0.1);
+
+  // Of a map, green is roughness and blue metalness, whatever red is.
+  std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
+  const std::string picture{std::istreambuf_iterator<char>(png), {}};
+  GltfFile mapped = with_material({{"pbrMetallicRoughness",
+                                    {{"baseColorFactor", {1, 1, 1, 1}},
+                                     {"roughnessFactor", 0.5},
+                                     {"metallicRoughnessTexture", {{"index", 0}}}}}});
+  mapped.primitive()["attributes"]["TEXCOORD_0"] = mapped.add({0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
+  mapped.json["textures"] = {{{"source", 0}}};
+  mapped.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
+  const ImportedScene scene = import_sound(mapped.gltf(), "a.gltf");
+  CHECK(scene.warnings.empty());
+  double least = 1, most = 0, metal = 0;
+  for (double u = 0.05; u < 1; u += 0.1)
+    for (double v = 0.05; v < 1; v += 0.1) {
+      const Bsdf bsdf = bsdf_of(mapped, Vec2(u, v));
+      least = std::min(least, bsdf.roughness);
+      most = std::max(most, bsdf.roughness);
+      metal = std::max(metal, 1 - bsdf.diffuse.x);
+    }
+  CHECK(least < 0.25);
+  CHECK(most > 0.25);
+  CHECK(most <= 0.5);
+  CHECK(metal > 0.25);
+}
+
 TEST_CASE("pictures, from data and files, with their samplers") {
   std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
   const std::string picture{std::istreambuf_iterator<char>(png), {}};
@@ -164,7 +210,7 @@ TEST_CASE("what is left out is named once, and counted") {
   GltfFile file = with_material(
       {{"alphaMode", "BLEND"}, {"normalTexture", {{"index", 0}}}, {"occlusionTexture", {{"index", 0}}}});
   file.json["materials"].push_back(file.json["materials"][0]);
-  file.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_ior"};
+  file.json["extensionsUsed"] = {"KHR_materials_sheen", "KHR_materials_ior"};
   file.json["animations"] = Json::array({Json::object()});
   Json points = file.primitive();
   points["mode"] = 0;
@@ -172,7 +218,7 @@ TEST_CASE("what is left out is named once, and counted") {
   const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
   CHECK(scene.warnings ==
         std::vector<std::string>{
-            "left out: the extension KHR_materials_clearcoat (1), normal maps (2), occlusion maps (2), "
+            "left out: the extension KHR_materials_sheen (1), normal maps (2), occlusion maps (2), "
             "transparency by alpha (2), animations (1), points and lines (1)"});
 }
 
