@@ -64,7 +64,7 @@ class Conductor final : public Physical {
   Conductor(const ConductorValues& values, const PhongValues& stand_in)
       : Physical(make_phong(stand_in)), values_(values) {}
 
-  Vec3 base_color(const TexturePlace& uv) const override { return color()->at(uv); }
+  Vec3 base_color(const TextureContext& uv) const override { return color()->at(uv); }
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering&) const override {
     return {.glossy = values_.color ? optics::schlick(values_.color->at(context.uv) * context.color, Vec3(1))

@@ -85,7 +85,7 @@ class Dielectric final : public Material {
     return bsdf;
   }
 
-  Vec3 base_color(const TexturePlace&) const override { return Vec3(1); }
+  Vec3 base_color(const TextureContext&) const override { return Vec3(1); }
 
   std::optional<Medium> medium() const override { return Medium{values_.ior, values_.absorption}; }
 

@@ -4,7 +4,7 @@
 
 namespace eyeray::materials {
 
-void Highlight::apply(const TexturePlace& uv, Scattering& scattering) const {
+void Highlight::apply(const TextureContext& uv, Scattering& scattering) const {
   scattering.specular = specular->at(uv);
   scattering.shininess = shininess;
   scattering.blinn = blinn;

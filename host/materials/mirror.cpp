@@ -46,7 +46,7 @@ class Mirror final : public Material {
     return scattering;
   }
 
-  Vec3 base_color(const TexturePlace& uv) const override { return values_.reflectance->at(uv); }
+  Vec3 base_color(const TextureContext& uv) const override { return values_.reflectance->at(uv); }
 
   void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_mirror, values_.highlight, shadow_transmittance(), packer);

@@ -66,7 +66,7 @@ class Phong final : public Material {
     return scattering;
   }
 
-  Vec3 base_color(const TexturePlace& uv) const override {
+  Vec3 base_color(const TextureContext& uv) const override {
     return values_.diffuse->at(uv) + values_.emission->at(uv);
   }
 

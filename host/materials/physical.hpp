@@ -13,7 +13,7 @@ class Physical : public Material {
   Scattering scattering(const ScatteringContext& context) const override {
     return stand_in_->scattering(context);
   }
-  Vec3 base_color(const TexturePlace& uv) const override { return stand_in_->base_color(uv); }
+  Vec3 base_color(const TextureContext& uv) const override { return stand_in_->base_color(uv); }
   bool emits() const override { return stand_in_->emits(); }
   std::optional<Vec3> constant_emission() const override { return stand_in_->constant_emission(); }
 

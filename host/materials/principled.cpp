@@ -98,7 +98,7 @@ class Principled final : public Physical {
     f0_ = glm::min(Vec3(1), r * r * values.specular_color) * values.specular;
   }
 
-  Vec3 base_color(const TexturePlace& uv) const override {
+  Vec3 base_color(const TextureContext& uv) const override {
     return values_.color->at(uv) + values_.emission->at(uv);
   }
 

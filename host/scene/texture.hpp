@@ -18,8 +18,8 @@ class Packer;  // records/packer.hpp
 }
 
 // Where a texture is asked: on the surface, and in the world.
-struct TexturePlace {
-  TexturePlace(const Vec2& at_uv = Vec2(0.0), const Vec3& at_position = Vec3(0.0))
+struct TextureContext {
+  TextureContext(const Vec2& at_uv = Vec2(0.0), const Vec3& at_position = Vec3(0.0))
       : uv(at_uv), position(at_position) {}
 
   Vec2 uv;
@@ -31,11 +31,11 @@ class Texture {
   virtual ~Texture() = default;
 
   // Linear RGB. The reference's half: no float32.
-  virtual Vec3 at(const TexturePlace& place) const = 0;
+  virtual Vec3 at(const TextureContext& place) const = 0;
   // The colour of one that is the same everywhere.
   virtual std::optional<Vec3> constant() const { return std::nullopt; }
   // As an alpha.
-  virtual double alpha_at(const TexturePlace& place) const { return at(place).x; }
+  virtual double alpha_at(const TextureContext& place) const { return at(place).x; }
   // Whether it asks for the place in the world, which nothing knows where cutouts are looked at.
   virtual bool in_space() const { return false; }
   // The index of the texture's record, which is added unless there is an equal one.

@@ -14,7 +14,7 @@ class Constant final : public Texture {
  public:
   explicit Constant(const Vec3& color) : color_(color) {}
 
-  Vec3 at(const TexturePlace&) const override { return color_; }
+  Vec3 at(const TextureContext&) const override { return color_; }
   std::optional<Vec3> constant() const override { return color_; }
 
   uint32_t pack(records::Packer& packer) const override {

@@ -47,7 +47,7 @@ class FormulaTexture final : public Texture {
   FormulaTexture(std::shared_ptr<const formula::Formula> formula, const Vec3& tint)
       : formula_(std::move(formula)), tint_(tint) {}
 
-  Vec3 at(const TexturePlace& place) const override {
+  Vec3 at(const TextureContext& place) const override {
     const auto color = formula_->color(std::array{place.uv.x, place.uv.y});
     Vec3 shares(0.0);
     for (int i = 0; i < 3; ++i)

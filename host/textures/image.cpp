@@ -111,10 +111,10 @@ class Image final : public Texture {
   Image(std::shared_ptr<const ImageTexture> image, const Vec3& tint, const Vec2& size)
       : image_(std::move(image)), tint_(tint), size_(size) {}
 
-  Vec3 at(const TexturePlace& place) const override {
+  Vec3 at(const TextureContext& place) const override {
     return tint_ * Vec3(filtered(*image_, place.uv / size_));
   }
-  double alpha_at(const TexturePlace& place) const override {
+  double alpha_at(const TextureContext& place) const override {
     return tint_.x * filtered(*image_, place.uv / size_).w;
   }
 

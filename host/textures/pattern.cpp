@@ -72,7 +72,7 @@ Pattern::Pattern(const TableReader& table, uint32_t kind, const Vec4& parameters
       kind_(kind),
       parameters_(parameters) {}
 
-Vec3 Pattern::at(const TexturePlace& place) const {
+Vec3 Pattern::at(const TextureContext& place) const {
   const double t = share(to_pattern_.point(place.position));
   // The last color that is no farther than t, and the one behind it.
   const auto after = std::ranges::find_if(colors_, [&](const Vec4& color) { return color.w > t; });

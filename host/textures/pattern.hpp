@@ -35,7 +35,7 @@ class Pattern : public Texture {
   // `parameters`: what the .glsl says.
   Pattern(const TableReader& table, uint32_t kind, const Vec4& parameters = Vec4(0));
 
-  Vec3 at(const TexturePlace& place) const final;
+  Vec3 at(const TextureContext& place) const final;
   bool in_space() const final { return true; }
   uint32_t pack(records::Packer& packer) const final;
 

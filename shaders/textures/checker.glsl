@@ -6,14 +6,14 @@
 
 SHADER_BEGIN
 
-vec3 checker_color(Texture texture, TexturePlace place) {
+vec3 checker_color(Texture texture, TextureContext place) {
   // The parity is taken in floats, where an int could overflow.
   float check = floor(place.uv.x * texture.b.x) + floor(place.uv.y * texture.b.y);
   bool odd = check - 2.0f * floor(0.5f * check) != 0.0f;
   return odd ? vec3(texture.a) : texture.color;
 }
 
-float checker_alpha(Texture texture, TexturePlace place) { return checker_color(texture, place).x; }
+float checker_alpha(Texture texture, TextureContext place) { return checker_color(texture, place).x; }
 
 SHADER_END
 #endif

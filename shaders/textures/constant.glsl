@@ -6,9 +6,9 @@
 
 SHADER_BEGIN
 
-vec3 constant_color(Texture texture, TexturePlace place) { return texture.color; }
+vec3 constant_color(Texture texture, TextureContext place) { return texture.color; }
 
-float constant_alpha(Texture texture, TexturePlace place) { return texture.color.x; }
+float constant_alpha(Texture texture, TextureContext place) { return texture.color.x; }
 
 SHADER_END
 #endif

@@ -10,12 +10,12 @@ SHADER_BEGIN
 // Nobody knows what a function says: what is no number is 0.
 float formula_share(float x) { return x > 0.0f ? minimum(x, 1.0f) : 0.0f; }
 
-vec3 formula_color(Texture texture, TexturePlace place) {
+vec3 formula_color(Texture texture, TextureContext place) {
   vec3 color = FORMULA_COLOR(texture.c.x, place.uv);
   return texture.color * vec3(formula_share(color.x), formula_share(color.y), formula_share(color.z));
 }
 
-float formula_alpha(Texture texture, TexturePlace place) { return formula_color(texture, place).x; }
+float formula_alpha(Texture texture, TextureContext place) { return formula_color(texture, place).x; }
 
 SHADER_END
 #endif

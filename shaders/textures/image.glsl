@@ -80,7 +80,7 @@ TexelQuad texels_at(Texture texture, vec2 uv) {
   return place;
 }
 
-vec3 image_color(Texture texture, TexturePlace place) {
+vec3 image_color(Texture texture, TextureContext place) {
   TexelQuad at = texels_at(texture, place.uv);
   vec3 bottom_left = texel_color(texture, at.left, at.bottom);
   vec3 top_left = texel_color(texture, at.left, at.top);
@@ -93,7 +93,7 @@ float texel_alpha(Texture texture, uint column, uint row) {
   return uintBitsToFloat(load_texel(TEXELS_LINEAR + (texel_codes(texture, column, row) >> 24u)));
 }
 
-float image_alpha(Texture texture, TexturePlace place) {
+float image_alpha(Texture texture, TextureContext place) {
   TexelQuad at = texels_at(texture, place.uv);
   float bottom_left = texel_alpha(texture, at.left, at.bottom);
   float top_left = texel_alpha(texture, at.left, at.top);

@@ -5,14 +5,14 @@
 
 SHADER_BEGIN
 
-struct TexturePlace {
+struct TextureContext {
   vec2 uv;
   vec3 p;  // from the eye
 };
 
 // For those that no pattern in space is asked by.
-TexturePlace place_of_uv(vec2 uv) {
-  TexturePlace place;
+TextureContext place_of_uv(vec2 uv) {
+  TextureContext place;
   place.uv = uv;
   place.p = vec3(0.0f, 0.0f, 0.0f);
   return place;

@@ -6,7 +6,7 @@
 
 SHADER_BEGIN
 
-vec3 texture_color(uint index, TexturePlace place) {
+vec3 texture_color(uint index, TextureContext place) {
   Texture texture = load_texture(index);
   vec3 color = vec3(0.0f, 0.0f, 0.0f);
 #define COLOR_OF(name, number, varies) \
@@ -16,7 +16,7 @@ vec3 texture_color(uint index, TexturePlace place) {
 }
 
 #if HAS_ALPHA_TEST
-float texture_alpha(uint index, TexturePlace place) {
+float texture_alpha(uint index, TextureContext place) {
   Texture texture = load_texture(index);
   float alpha = 0.0f;
 #define ALPHA_OF(name, number, varies) \

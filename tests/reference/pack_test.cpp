@@ -102,7 +102,7 @@ TEST_CASE("material records") {
   const PackedScene mirror = packed(*make_mirror({.reflectance = textures::make_constant(Vec3(0.75))}));
   CHECK(mirror.materials.at(0).kind == shader::MATERIAL_mirror);
   CHECK(mirror.materials.at(0).optical_depth == OPTICAL_DEPTH_OPAQUE);
-  CHECK(color(mirror, &shader::Material::base) == glm::vec3(0.75f));
+  CHECK(color(mirror, &shader::Material::color) == glm::vec3(0.75f));
   CHECK(color(mirror, &shader::Material::reflected) == glm::vec3(0.75f));
   CHECK(color(mirror, &shader::Material::ambient) == glm::vec3(0));
 
@@ -112,7 +112,7 @@ TEST_CASE("material records") {
   CHECK(glass.materials.at(0).optical_depth == 2u << 20);
   CHECK(glass.media.at(1).absorption == shader::vec3(1, 2, 3));
   CHECK(glass.media.at(1).ior == 1.5f);
-  CHECK(color(glass, &shader::Material::base) == glm::vec3(1));
+  CHECK(color(glass, &shader::Material::color) == glm::vec3(1));
   CHECK(color(glass, &shader::Material::reflected) == glm::vec3(1));
   CHECK(packed(*make_dielectric({.ior = 1})).materials.at(0).optical_depth == 0);
   CHECK(packed(*make_dielectric({.shadow = 0.0})).materials.at(0).optical_depth == OPTICAL_DEPTH_OPAQUE);

@@ -102,6 +102,7 @@ double Writer::number(const Key& key) {
   const double high = share ? 1 : key.max <= 1000 ? key.max : 3;
   // Neither end, which may be excluded or extreme; and of great ranges no more than what is seen well.
   if (key.name == "fov") return random_.uniform(20, 110);
+  if (key.name == "turbulence") return random_.uniform(0, 2);
   return random_.uniform(low + (high - low) * 0.05, high - (high - low) * 0.02);
 }
 
