@@ -116,7 +116,9 @@ TEST_CASE("a shader's BSDF is the reference's, in value and in density") {
   const shader::Binding binding(twin::view_of(scene));
   Random random(1);
   for (const double roughness : {0.05, 0.2, 0.5, 1.0}) {
-    for (const auto& [name, bsdf] : examples(roughness)) {
+    for (const Named& example : examples(roughness)) {
+      const char* name = example.name;
+      const Bsdf& bsdf = example.bsdf;
       CAPTURE(name);
       CAPTURE(roughness);
       double worst = 0;
@@ -154,7 +156,9 @@ TEST_CASE("a shader's samples fall as the reference's density says: chi-squared"
   constexpr int rows = 24, columns = 32, within = 16, samples = 60'000;
   int tests = 0;
   for (const double roughness : {0.35, 1.0}) {
-    for (const auto& [name, bsdf] : examples(roughness)) {
+    for (const Named& example : examples(roughness)) {
+      const char* name = example.name;
+      const Bsdf& bsdf = example.bsdf;
       for (const double cosine : {1.0, 0.6, 0.1}) {
         CAPTURE(name);
         CAPTURE(roughness);
@@ -219,12 +223,13 @@ TEST_CASE("a shader's samples fall as the reference's density says: chi-squared"
 
 TEST_CASE("no BSDF sends on more light than it gets") {
   for (const double roughness : {0.0, 0.1, 0.3, 0.6, 1.0})
-    for (const auto& [name, bsdf] : examples(roughness))
+    for (const Named& example : examples(roughness))
       for (const double cosine : cosines) {
+        const char* name = example.name;
         CAPTURE(name);
         CAPTURE(roughness);
         CAPTURE(cosine);
-        const Vec3 found = albedo(bsdf, cosine);
+        const Vec3 found = albedo(example.bsdf, cosine);
         CHECK(std::max({found.x, found.y, found.z}) < 1.005);
       }
 }
@@ -245,7 +250,9 @@ TEST_CASE("a white furnace stays white: rough and smooth, matte, metal and plast
 TEST_CASE("light goes both ways alike: f(o, i) is f(i, o), of glass by the square of the index") {
   Random random(3);
   for (const double roughness : {0.1, 0.5, 1.0}) {
-    for (const auto& [name, bsdf] : examples(roughness)) {
+    for (const Named& example : examples(roughness)) {
+      const char* name = example.name;
+      const Bsdf& bsdf = example.bsdf;
       CAPTURE(name);
       CAPTURE(roughness);
       double worst = 0;

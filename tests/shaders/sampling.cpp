@@ -127,8 +127,9 @@ TEST_CASE("places on emitters and their densities are those of the reference") {
 
 TEST_CASE("light from all around, its density and places in it are those of the reference") {
   Random random(3);
-  for (const auto& [width, height] :
+  for (const auto& size :
        {std::pair(1, 1), std::pair(1, 7), std::pair(5, 1), std::pair(33, 16), std::pair(700, 900)}) {
+    const int width = size.first, height = size.second;
     CAPTURE(width);
     CAPTURE(height);
     const auto map = test::environment(
