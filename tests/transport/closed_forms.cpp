@@ -203,7 +203,8 @@ TEST_CASE("a background that is the same everywhere, and half of it behind a wal
 }
 
 TEST_CASE("an environment that is the same everywhere is a background, of whatever size") {
-  for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 5), std::pair(7, 1), std::pair(16, 8)}) {
+  for (const auto& size : {std::pair(1, 1), std::pair(1, 5), std::pair(7, 1), std::pair(16, 8)}) {
+    const int width = size.first, height = size.second;
     CAPTURE(width);
     Scene open = floor();
     open.environment = environment(width, height, [](const Vec3&) { return Vec3(2); });
