@@ -2,6 +2,7 @@
 // reference; and that none makes or loses light.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "host/optics/ggx_albedo.hpp"
 #include "host/optics/metals.hpp"
@@ -20,7 +21,7 @@ using test::Random;
 namespace {
 
 struct Named {
-  const char* name;
+  std::string name;
   Bsdf bsdf;
 };
 
@@ -87,19 +88,17 @@ Vec3 towards(double cosine, double turn = 0.7) {
   return {sine * std::cos(turn), sine * std::sin(turn), cosine};
 }
 
-// What it sends on in all of light from everywhere, by its own samples: strata of 32 × 32, for 16 of the
-// lobe.
+// What it sends on in all of light from everywhere, by its own samples, at the middles of 48 × 48 strata, and
+// of 16 of the lobe.
 Vec3 albedo(const Bsdf& bsdf, double cosine) {
   const ViewedBsdf viewed(bsdf, towards(cosine));
-  constexpr int lobes = 16, side = 32;
-  Random random(11);
+  constexpr int lobes = 16, side = 48;
   Vec3 sum(0);
   for (int l = 0; l < lobes; ++l)
     for (int x = 0; x < side; ++x)
       for (int y = 0; y < side; ++y) {
-        const Vec2 u((x + random.uniform()) / side, (y + random.uniform()) / side);
-        const Vec3 i = viewed.sample((l + random.uniform()) / lobes, u).i;
-        const BsdfValue found = viewed.at(i);
+        const Vec2 u((x + 0.5) / side, (y + 0.5) / side);
+        const BsdfValue found = viewed.at(viewed.sample((l + 0.5) / lobes, u).i);
         if (found.density > 0) sum += found.value / found.density;
       }
   return sum / double(lobes * side * side);
@@ -117,7 +116,7 @@ TEST_CASE("a shader's BSDF is the reference's, in value and in density") {
   Random random(1);
   for (const double roughness : {0.05, 0.2, 0.5, 1.0}) {
     for (const Named& example : examples(roughness)) {
-      const char* name = example.name;
+      const std::string& name = example.name;
       const Bsdf& bsdf = example.bsdf;
       CAPTURE(name);
       CAPTURE(roughness);
@@ -157,7 +156,7 @@ TEST_CASE("a shader's samples fall as the reference's density says: chi-squared"
   int tests = 0;
   for (const double roughness : {0.35, 1.0}) {
     for (const Named& example : examples(roughness)) {
-      const char* name = example.name;
+      const std::string& name = example.name;
       const Bsdf& bsdf = example.bsdf;
       for (const double cosine : {1.0, 0.6, 0.1}) {
         CAPTURE(name);
@@ -225,7 +224,7 @@ TEST_CASE("no BSDF sends on more light than it gets") {
   for (const double roughness : {0.0, 0.1, 0.3, 0.6, 1.0})
     for (const Named& example : examples(roughness))
       for (const double cosine : cosines) {
-        const char* name = example.name;
+        const std::string& name = example.name;
         CAPTURE(name);
         CAPTURE(roughness);
         CAPTURE(cosine);
@@ -240,7 +239,7 @@ TEST_CASE("a white furnace stays white: rough and smooth, matte, metal and plast
       CAPTURE(roughness);
       CAPTURE(cosine);
       const Bsdf matte{.diffuse = Vec3(1), .diffuse_roughness = roughness};
-      CHECK(albedo(matte, cosine).x == doctest::Approx(1).epsilon(0.002));
+      CHECK(albedo(matte, cosine).x == doctest::Approx(1).epsilon(0.005));
       CHECK(albedo(conductor(perfect(), roughness), cosine).x == doctest::Approx(1).epsilon(0.01));
       CHECK(albedo(plastic(1, roughness), cosine).x == doctest::Approx(1).epsilon(0.01));
     }
@@ -251,7 +250,7 @@ TEST_CASE("light goes both ways alike: f(o, i) is f(i, o), of glass by the squar
   Random random(3);
   for (const double roughness : {0.1, 0.5, 1.0}) {
     for (const Named& example : examples(roughness)) {
-      const char* name = example.name;
+      const std::string& name = example.name;
       const Bsdf& bsdf = example.bsdf;
       CAPTURE(name);
       CAPTURE(roughness);
