@@ -110,10 +110,10 @@ TEST_CASE("of several samples that is shown which differs, or which is asked for
 
 TEST_CASE("a PROBE in a user's shader is a line, and what the shader breaks is found at it") {
   const TemporaryFolder folder;
-  std::filesystem::create_directories(folder.path() / "materials");
-  const std::string shader = folder / "materials/dielectric.glsl";
+  std::filesystem::create_directories(folder.path() / "bsdf");
+  const std::string shader = folder / "bsdf/fresnel.glsl";
   const std::string whole = "return 0.5f * (parallel * parallel + crossed * crossed);";
-  write_text(shader, read_text("shaders/materials/dielectric.glsl"));
+  write_text(shader, read_text("shaders/bsdf/fresnel.glsl"));
   replace_in_file(shader, whole,
                   "PROBE(parallel, parallel);\n  return 0.4f * (parallel * parallel + crossed * crossed);");
   const Probed probed = probe({"scenes/whitted.toml", "48,45", "-s", "96x72", "--shaders", folder.path()});
@@ -129,7 +129,7 @@ TEST_CASE("a PROBE in a user's shader is a line, and what the shader breaks is f
   for (const Json& line : probed.json.at("rays")[1].at("values")) {
     if (line.at("name") != "parallel") continue;
     seen = true;
-    CHECK(line.at("file") == "materials/dielectric.glsl");
+    CHECK(line.at("file") == "bsdf/fresnel.glsl");
     CHECK(line.at("gpu").is_number());
     CHECK_FALSE(line.contains("twin"));
   }
