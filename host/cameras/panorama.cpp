@@ -1,8 +1,6 @@
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "host/cameras/make.hpp"
+#include "host/cameras/round.hpp"
 #include "host/records/records.hpp"
 
 namespace eyeray::cameras {
@@ -37,37 +35,17 @@ constexpr Key keys[] = {
      .above_min = true},
 };
 
-class Panorama final : public Projection {
+class Panorama final : public RoundProjection<PanoramaCamera> {
  public:
-  explicit Panorama(const PanoramaCamera& values) : values_(values) {}
+  using RoundProjection::RoundProjection;
 
   uint32_t kind() const override { return shader::CAMERA_panorama; }
-
-  Vec3 scale(const Vec2& size) const override { return {half(), half() * (size.y / size.x), 1}; }
 
   Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2&, const Vec2&) const override {
     const double longitude = half() * place.x, latitude = half() * place.y;
     const Vec3 level = std::sin(longitude) * camera.u + std::cos(longitude) * camera.w;
     return {camera.eye, glm::normalize(std::cos(latitude) * level + std::sin(latitude) * camera.v)};
   }
-
-  std::shared_ptr<const Projection> widened(double factor, const Vec2&) const override {
-    return make_projection(PanoramaCamera{values_.fov_degrees * factor});
-  }
-
-  std::vector<CameraFact> facts(const Vec2&) const override {
-    return {{"fov",
-             fmt::format("{:.6g}° around", values_.fov_degrees),
-             {{"horizontal_fov_degrees", values_.fov_degrees}}}};
-  }
-
-  CameraForm form() const override { return values_; }
-
- private:
-  // The angle that half the width spans, in radians.
-  double half() const { return glm::radians(values_.fov_degrees) / 2; }
-
-  PanoramaCamera values_;
 };
 
 std::shared_ptr<const Projection> parse(TableReader& table) {

@@ -314,18 +314,35 @@ void Builder::add_mesh(TableReader& reader, const Placing& placing) {
   }
 }
 
+// Of what Whitted's pictures show and paths cannot, or not by the numbers that are given.
 void Builder::check_paths() {
   for (const auto& material : scene_.materials) {
-    const Vec3 diffuse =
-        material->scattering({.uv = Vec2(0.5), .cos_view = 1, .ior_from = 1, .ior_to = 1}).diffuse;
-    if (glm::any(glm::greaterThan(diffuse, Vec3(1))))
+    const ScatteringContext context{.place = Vec2(0.5), .cos_view = 1, .ior_from = 1, .ior_to = 1};
+    const Scattering scattering = material->scattering(context);
+    const Bsdf bsdf = material->bsdf(context, scattering);
+    const auto exceeds = [](const Vec3& share) { return glm::any(glm::greaterThan(share, Vec3(1 + 1e-9))); };
+    if (exceeds(scattering.diffuse))
       log_.warning(
           {}, fmt::format("material \"{}\" would scatter more light than it gets: its `diffuse` counts as 1 "
                           "where it is more",
                           material->name));
+    else if (exceeds(bsdf.diffuse + bsdf.mirror + bsdf.transmitted))
+      log_.warning({}, fmt::format("material \"{}\" scatters more light than it gets: `diffuse` and "
+                                   "`reflectance` add up to more than 1",
+                                   material->name));
   }
   const LightChoice choice = light_choice(scene_);
   const std::vector<SourcePosition>& unsampled = choice.unsampled;
+  const auto has_size = [&](const auto& light) { return light->illuminate(scene_.camera.eye).angle > 0; };
+  const auto glass = std::ranges::find_if(
+      scene_.materials, [](const auto& material) { return material->medium().has_value(); });
+  if (glass != scene_.materials.end() && !scene_.lights.empty() && !scene_.environment &&
+      choice.emitters.empty() && unsampled.empty() && std::ranges::none_of(scene_.lights, has_size))
+    log_.warning({},
+                 fmt::format("no path finds the light of points through glass (material \"{}\"): its shadow "
+                             "is black; lamps with a size (`emission`, or the `angle` of a directional "
+                             "light) light through it",
+                             (*glass)->name));
   if (choice.ends.empty() && unsampled.empty() && scene_.render.background == Vec3(0) && !scene_.environment)
     log_.warning(
         {}, "nothing shines: there is no [[light]], no `emission`, no `background` and no [environment]");

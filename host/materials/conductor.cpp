@@ -64,12 +64,13 @@ class Conductor final : public Physical {
   Conductor(const ConductorValues& values, const PhongValues& stand_in)
       : Physical(make_phong(stand_in)), values_(values) {}
 
-  Vec3 base_color(const TextureContext& uv) const override { return color()->at(uv); }
+  Vec3 base_color(const TextureContext& place) const override { return color()->at(place); }
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering&) const override {
-    return {.glossy = values_.color ? optics::schlick(values_.color->at(context.uv) * context.color, Vec3(1))
-                                    : values_.index,
-            .roughness = values_.roughness->at(context.uv).y};
+    return {.glossy = values_.color
+                          ? optics::schlick(values_.color->at(context.place) * context.color, Vec3(1))
+                          : values_.index,
+            .roughness = values_.roughness->at(context.place).y};
   }
 
   void pack(records::Packer& packer) const override {

@@ -69,13 +69,13 @@ class Dielectric final : public Material {
     Scattering scattering;
     scattering.reflected = Vec3(mirrored);
     scattering.transmitted = Vec3(1 - mirrored);
-    values_.highlight.apply(context.uv, scattering);
+    values_.highlight.apply(context.place, scattering);
     return scattering;
   }
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const override {
     Bsdf bsdf = Material::bsdf(context, scattering);
-    bsdf.roughness = values_.roughness->at(context.uv).y;
+    bsdf.roughness = values_.roughness->at(context.place).y;
     if (bsdf.roughness > 0 && context.ior_from != context.ior_to) {
       bsdf.mirror = bsdf.transmitted = Vec3(0);
       bsdf.glass = Vec3(1);

@@ -43,7 +43,7 @@ class Diffuse final : public Physical {
       : Physical(make_phong(stand_in)), roughness_(roughness) {}
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const override {
-    return {.diffuse = scattering.diffuse, .diffuse_roughness = roughness_->at(context.uv).y};
+    return {.diffuse = scattering.diffuse, .diffuse_roughness = roughness_->at(context.place).y};
   }
 
   void pack(records::Packer& packer) const override {

@@ -4,8 +4,8 @@
 
 namespace eyeray::materials {
 
-void Highlight::apply(const TextureContext& uv, Scattering& scattering) const {
-  scattering.specular = specular->at(uv);
+void Highlight::apply(const TextureContext& place, Scattering& scattering) const {
+  scattering.specular = specular->at(place);
   scattering.shininess = shininess;
   scattering.blinn = blinn;
 }

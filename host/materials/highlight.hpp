@@ -14,7 +14,7 @@ struct Highlight {
   bool blinn = false;
 
   // Fills the highlight's part of a Scattering.
-  void apply(const TextureContext& uv, Scattering& scattering) const;
+  void apply(const TextureContext& place, Scattering& scattering) const;
 };
 
 // The keys that a material with a highlight declares, and their reading.

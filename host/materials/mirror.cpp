@@ -41,12 +41,12 @@ class Mirror final : public Material {
 
   Scattering scattering(const ScatteringContext& context) const override {
     Scattering scattering;
-    scattering.reflected = values_.reflectance->at(context.uv);
-    values_.highlight.apply(context.uv, scattering);
+    scattering.reflected = values_.reflectance->at(context.place);
+    values_.highlight.apply(context.place, scattering);
     return scattering;
   }
 
-  Vec3 base_color(const TextureContext& uv) const override { return values_.reflectance->at(uv); }
+  Vec3 base_color(const TextureContext& place) const override { return values_.reflectance->at(place); }
 
   void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_mirror, values_.highlight, shadow_transmittance(), packer);

@@ -58,16 +58,16 @@ class Phong final : public Material {
 
   Scattering scattering(const ScatteringContext& context) const override {
     Scattering scattering;
-    scattering.ambient = ambient()->at(context.uv) * context.color;
-    scattering.diffuse = values_.diffuse->at(context.uv) * context.color;
-    scattering.emitted = values_.emission->at(context.uv) * context.color;
-    scattering.reflected = values_.reflectance->at(context.uv);
-    values_.highlight.apply(context.uv, scattering);
+    scattering.ambient = ambient()->at(context.place) * context.color;
+    scattering.diffuse = values_.diffuse->at(context.place) * context.color;
+    scattering.emitted = values_.emission->at(context.place) * context.color;
+    scattering.reflected = values_.reflectance->at(context.place);
+    values_.highlight.apply(context.place, scattering);
     return scattering;
   }
 
-  Vec3 base_color(const TextureContext& uv) const override {
-    return values_.diffuse->at(uv) + values_.emission->at(uv);
+  Vec3 base_color(const TextureContext& place) const override {
+    return values_.diffuse->at(place) + values_.emission->at(place);
   }
 
   bool emits() const override { return constant_emission() != Vec3(0); }

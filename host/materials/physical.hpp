@@ -13,7 +13,7 @@ class Physical : public Material {
   Scattering scattering(const ScatteringContext& context) const override {
     return stand_in_->scattering(context);
   }
-  Vec3 base_color(const TextureContext& uv) const override { return stand_in_->base_color(uv); }
+  Vec3 base_color(const TextureContext& place) const override { return stand_in_->base_color(place); }
   bool emits() const override { return stand_in_->emits(); }
   std::optional<Vec3> constant_emission() const override { return stand_in_->constant_emission(); }
 
@@ -31,8 +31,7 @@ class Physical : public Material {
 
 // What Whitted's pictures show of a surface that mirrors f0 at right angles: the smoother it is the more of
 // its surroundings, and of each light a Blinn highlight of exponent 2 / roughness⁴ − 2 (Karis: Specular BRDF
-// Reference, 2013). `body`: of
-// what is not mirrored.
+// Reference, 2013). `body`: the colour of what is not mirrored.
 PhongValues stand_in(const TexturePtr& body, const Vec3& f0, double roughness);
 
 // Of a number in [0, 1], where it varies its value in the middle.

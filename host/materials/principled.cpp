@@ -98,20 +98,20 @@ class Principled final : public Physical {
     f0_ = glm::min(Vec3(1), r * r * values.specular_color) * values.specular;
   }
 
-  Vec3 base_color(const TextureContext& uv) const override {
-    return values_.color->at(uv) + values_.emission->at(uv);
+  Vec3 base_color(const TextureContext& place) const override {
+    return values_.color->at(place) + values_.emission->at(place);
   }
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering&) const override {
-    const Vec3 color = values_.color->at(context.uv) * context.color;
-    const double metallic = values_.metallic->at(context.uv).z;
+    const Vec3 color = values_.color->at(context.place) * context.color;
+    const double metallic = values_.metallic->at(context.place).z;
     const Vec3 edge(values_.specular);
     return {.diffuse = color * (1 - metallic),
             .layer = optics::schlick(f0_, edge),
             .glossy = optics::schlick(glm::mix(f0_, color, metallic), glm::mix(edge, Vec3(1), metallic)),
-            .roughness = values_.roughness->at(context.uv).y,
-            .coat = values_.coat->at(context.uv).x,
-            .coat_roughness = values_.coat_roughness->at(context.uv).y};
+            .roughness = values_.roughness->at(context.place).y,
+            .coat = values_.coat->at(context.place).x,
+            .coat_roughness = values_.coat_roughness->at(context.place).y};
   }
 
   void pack(records::Packer& packer) const override {

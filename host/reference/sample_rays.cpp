@@ -94,7 +94,7 @@ Scattering SampleRays::scattering(const Ray& ray, const Hit& hit, const SurfaceP
     const auto other_hit = tracer_.trace(moved);
     if (!other_hit || other_hit->primitive != hit.primitive) continue;
     const SurfacePoint other_point = tracer_.surface(moved, *other_hit);
-    context.uv = {other_point.uv, other_point.position};
+    context.place = {other_point.uv, other_point.position};
     const Scattering other = material.scattering(context);
     choose(result.ambient, other.ambient);
     choose(result.diffuse, other.diffuse);

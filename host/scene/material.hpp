@@ -39,7 +39,7 @@ struct Scattering {
 
 // What a material may depend on at a point.
 struct ScatteringContext {
-  TextureContext uv;
+  TextureContext place;
   double cos_view;  // cosine between the shading normal and the direction back along the ray, in [0, 1]
   double ior_from;  // of the medium the ray comes through
   double ior_to;    // of the medium behind the surface
@@ -64,7 +64,7 @@ class Material {
   // For paths; `scattering`: what that said. By default these terms, none of them above 1.
   virtual Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const;
   // The colour that `raycast` shades.
-  virtual Vec3 base_color(const TextureContext& uv) const = 0;
+  virtual Vec3 base_color(const TextureContext& place) const = 0;
   // Whether it has light of its own, and that light where it is the same everywhere.
   virtual bool emits() const { return false; }
   virtual std::optional<Vec3> constant_emission() const { return std::nullopt; }

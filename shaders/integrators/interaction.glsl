@@ -40,8 +40,8 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   PROBE(front, front);
   PROBE(material, int(material));
 
-  at.context.uv = place_of_uv(at.surface.uv);
-  at.context.uv.p = at.surface.p;
+  at.context.place = place_of_uv(at.surface.uv);
+  at.context.place.p = at.surface.p;
   at.context.color = vec3(1.0f, 1.0f, 1.0f);
 #if HAS_COLORS
   at.context.color = vertex_color(primitive, hit);

@@ -10,7 +10,7 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
   Scattering s = no_scattering();
   bool one_medium = context.ior_from == context.ior_to;
   float reflected = one_medium ? 0.0f : fresnel_reflectance(context.cos_view, context.ior_from, context.ior_to);
-  s.specular = texture_color(material.specular, context.uv);
+  s.specular = texture_color(material.specular, context.place);
   s.reflected = vec3(reflected, reflected, reflected);
   s.transmitted = vec3(1.0f - reflected, 1.0f - reflected, 1.0f - reflected);
   return s;
@@ -20,7 +20,7 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
 Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering scattering) {
   Bsdf bsdf = bsdf_of_scattering(scattering);
 #if HAS_ROUGH_GLASS
-  bsdf.roughness = texture_color(material.roughness, context.uv).y;
+  bsdf.roughness = texture_color(material.roughness, context.place).y;
   if (bsdf.roughness > 0.0f && context.ior_from != context.ior_to) {
     bsdf.mirror = vec3(0.0f, 0.0f, 0.0f);
     bsdf.transmitted = bsdf.mirror;

@@ -12,7 +12,7 @@
 SHADER_BEGIN
 
 struct ScatteringContext {
-  TextureContext uv;  // and where that is in space
+  TextureContext place;
   vec3 color;      // of a mesh's vertices, white where they have none
   float cos_view;  // in [0, 1]
   float ior_from;
