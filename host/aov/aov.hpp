@@ -26,7 +26,11 @@ struct EntryOfLegend {};
 using ValuesOfRows = image::Image (*)(const render::FinishedRows& rows);
 
 // What executors count only where it is asked for.
-enum class AovNeeds { nothing, ray_kinds, search_cost };
+enum class AovNeeds { nothing, ray_kinds, search_cost, noise };
+// Of it what PixelSums count.
+constexpr render::Counted counted_for(AovNeeds needs) {
+  return {.kinds = needs == AovNeeds::ray_kinds, .noise = needs == AovNeeds::noise};
+}
 
 struct AovType {
   std::string_view name;

@@ -44,6 +44,7 @@ class SceneOptions {
   // The scene with the options laid over it; prints its warnings on stderr. InputError or Error as
   // load_scene.
   Scene load() const;
+  bool gives_samples() const { return !samples_.empty(); }
   // The options that were given, to be pasted into another command: " -s 96x72 --spp 4".
   std::string as_written() const;
   const std::string& file() const { return file_; }

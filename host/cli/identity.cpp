@@ -17,6 +17,8 @@ std::vector<render::IdentityPart> identity_of(const PictureRequest& request, con
       {"crop", crop == Rect{} ? "none" : fmt::format("{},{},{},{}", crop.x, crop.y, crop.width, crop.height)},
       {"--classic", request.classic ? "on" : "off"},
       {"--aov of kinds of rays", aov::any_needs(request.aovs, aov::AovNeeds::ray_kinds) ? "on" : "off"},
+      {"--aov noise", aov::any_needs(request.aovs, aov::AovNeeds::noise) ? "on" : "off"},
+      {"--noise", std::to_string(request.noise)},
       {"samples a pixel", std::to_string(scene.image.samples)},
       {"backend", std::string(executors::backend_name(request.backend))},
       // The processors' executors compute the same wherever the same program runs.

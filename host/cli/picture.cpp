@@ -16,6 +16,7 @@
 #include "host/render/corners.hpp"
 #include "host/render/flags.hpp"
 #include "host/render/render.hpp"
+#include "host/scene/sampler.hpp"
 
 namespace fs = std::filesystem;
 
@@ -31,6 +32,17 @@ void make_classic(Scene& scene) {
   render::sample_corners(scene);
   scene.render.max_depth = 4;
   scene.render.min_throughput = 0;
+}
+
+// What `noise` needs of a scene: that samples may end anywhere. Without --spp the scene's samples, which are
+// chosen for pictures that all have the same, are no limit.
+void prepare_for_noise(const PictureRequest& request, Scene& scene) {
+  if (sample_count_of(scene.image.pattern) != SampleCount::any)
+    throw Error(ExitCode::bad_input,
+                "--noise stops after any number of samples, and of the pattern '{}' all are needed: "
+                "-D image.pattern=sobol or random",
+                sample_patterns[uint32_t(scene.image.pattern)]);
+  if (!request.scene.gives_samples()) scene.image.samples = most_samples_by_default;
 }
 
 // Throws where what is to be written would take the place of what was read, links followed.
@@ -86,7 +98,9 @@ void PictureRequest::check_outputs() {
   if (classic && aov::need_first_hits(aovs))
     throw Error(ExitCode::bad_input,
                 "--classic sends no rays through the centres of pixels, of which AOVs but hits, bounces, "
-                "rays, ray_kinds and flags are made");
+                "rays, ray_kinds, samples and flags are made");
+  if (classic && aov::any_needs(aovs, aov::AovNeeds::noise))
+    throw Error(ExitCode::bad_input, "--classic samples have no noise that could be measured");
   if (outputs.empty())
     outputs.push_back(fs::path(scene.file()).filename().replace_extension(".png").string());
   for (const std::string& output : outputs) {
@@ -109,6 +123,7 @@ Picture make_picture(const PictureRequest& request,
   check_crop(request.crop, scene.image);
   const Rect crop = request.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : request.crop;
   if (request.classic) make_classic(scene);
+  if (request.noise > 0) prepare_for_noise(request, scene);
   executors::ExecutorOptions executor_options = request.executor;
   const bool pixel_kinds = aov::any_needs(request.aovs, aov::AovNeeds::ray_kinds);
   executor_options.ray_kinds = request.ray_kinds || pixel_kinds;
@@ -123,6 +138,8 @@ Picture make_picture(const PictureRequest& request,
   options.crop = request.classic ? render::corners_of(crop) : crop;
   options.ray_kinds = request.ray_kinds;
   options.pixel_kinds = pixel_kinds;
+  options.pixel_noise = aov::any_needs(request.aovs, aov::AovNeeds::noise);
+  options.noise = request.noise;
   options.band_bytes = size_t(request.long_render.band_mebibytes) << 20;
   options.checkpoint = checkpoint ? &*checkpoint : nullptr;
   options.progress = [&, warned = false](const render::Progress& now) mutable {
@@ -178,7 +195,12 @@ Picture make_picture(const PictureRequest& request,
   picture.flagged_pixels = totals.flagged_pixels;
   picture.flags |= totals.flags;
   picture.bands = totals.bands;
-  picture.share = double(totals.samples_taken) / (double(options.crop.pixels()) * scene.image.samples);
+  picture.share = double(totals.samples_taken) / double(totals.samples_total);
+  const double pixels = double(options.crop.pixels());
+  picture.most_samples = totals.most_samples;
+  picture.mean_samples = double(totals.samples_taken) / pixels;
+  if (request.noise > 0)
+    picture.noise = Noise{request.noise, totals.greatest_noise, double(totals.quiet_pixels) / pixels};
   picture.samples_resumed = totals.samples_resumed;
   picture.rays_resumed = totals.rays_resumed;
   if (request.ray_kinds) picture.ray_kinds = totals.ray_kinds;
@@ -189,15 +211,34 @@ Picture make_picture(const PictureRequest& request,
   return picture;
 }
 
+namespace {
+
+std::string samples_of(const Picture& picture) {
+  const int least = picture.samples_done, most = picture.most_samples;
+  if (least == most) return fmt::format("{} sample{}", least, least == 1 ? "" : "s");
+  return fmt::format("{} to {} samples (mean {:.0f})", least, most, picture.mean_samples);
+}
+
+}  // namespace
+
 std::string summary(const Picture& picture) {
   std::vector<std::string> names;
   for (const fs::path& file : picture.files) names.push_back(file.string());
   return fmt::format(
-      "{}: {}×{}, {} sample{} a pixel, {}{} rays in {} ({}) on {}", fmt::join(names, ", "),
-      picture.crop.width, picture.crop.height, picture.samples_done, picture.samples_done == 1 ? "" : "s",
+      "{}: {}×{}, {} a pixel, {}{} rays in {} ({}) on {}", fmt::join(names, ", "), picture.crop.width,
+      picture.crop.height, samples_of(picture),
       picture.samples_resumed ? fmt::format("resumed with {} rays, then ", picture.rays_resumed) : "",
       picture.rays - picture.rays_resumed, format_seconds(picture.seconds),
       format_rate(rays_per_second(picture)), picture.device);
+}
+
+std::string noise_warning(const Picture& picture) {
+  if (!picture.noise || picture.noise->share == 1) return "";
+  return fmt::format(
+      "{:.2g} % of the pixels have more noise than {}, up to {:.2g}: {} samples a pixel were too "
+      "few{}",
+      100 * (1 - picture.noise->share), picture.noise->wanted, picture.noise->greatest, picture.most_samples,
+      picture.interrupted ? "" : "; --spp N allows more");
 }
 
 std::string stages(const StageTimes& times) {
@@ -225,6 +266,12 @@ Json to_json(const Picture& picture) {
             {"flags", Json::array()},
             {"interrupted", picture.interrupted},
             {"bands", picture.bands}};
+  if (const auto& noise = picture.noise)
+    json["noise"] = {{"wanted", noise->wanted},
+                     {"greatest", noise->greatest},
+                     {"share", noise->share},
+                     {"most_samples", picture.most_samples},
+                     {"mean_samples", picture.mean_samples}};
   if (const auto& kinds = picture.ray_kinds)
     json["ray_kinds"] = {{"eye", kinds->eye},
                          {"eye_hits", kinds->eye_hits},

@@ -22,6 +22,9 @@ struct LongRender {
   int band_mebibytes = 256;        // RenderOptions::band_bytes
 };
 
+// Of a pixel that does not reach the noise that is wanted, where nothing else is said.
+constexpr int most_samples_by_default = 1 << 14;
+
 struct PictureRequest {
   SceneOptions scene;
   executors::Backend backend = executors::Backend::gpu;
@@ -33,11 +36,19 @@ struct PictureRequest {
   LongRender long_render;
   bool ray_kinds = false;  // count rays by kind
   bool classic = false;    // sample as the published statistics of Haines' databases do
+  double noise = 0;        // RenderOptions::noise
 
   // The options that say all this.
   void add_to(CLI::App& command);
   // Names the default output, and throws Error now for an output that could not be written later.
   void check_outputs();
+};
+
+// How noisy a picture is that was rendered until it is not.
+struct Noise {
+  double wanted = 0;    // at most
+  double greatest = 0;  // of a pixel
+  double share = 0;     // of the pixels that are as wanted
 };
 
 struct Picture {
@@ -56,6 +67,9 @@ struct Picture {
   bool interrupted = false;
   int bands = 1;                       // of rows, in which it was rendered
   double share = 0;                    // of all samples that were taken
+  int most_samples = 0;                // of a pixel; samples_done where all have the same
+  double mean_samples = 0;             // of all pixels
+  std::optional<Noise> noise;          // where it was asked for
   uint64_t samples_resumed = 0;        // of pixels, taken from a checkpoint
   uint64_t rays_resumed = 0;           // of `rays`, those behind samples_resumed
   std::filesystem::path checkpoint;    // left behind, to go on from; empty: none
@@ -69,6 +83,8 @@ Picture make_picture(const PictureRequest& request,
                      const std::function<void(const render::Progress&)>& progress);
 // "whitted.png: 640×480, 4 samples a pixel, 1.2 M rays in 0.35 s (3.4 Mrays/s) on gpu: llvmpipe …".
 std::string summary(const Picture& picture);
+// What there is to say of noise that is more than was wanted; "" where none is.
+std::string noise_warning(const Picture& picture);
 // "load 1.2 ms, compile 30 ms, …".
 std::string stages(const StageTimes& times);
 Json to_json(const Picture& picture);

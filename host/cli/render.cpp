@@ -86,6 +86,8 @@ ExitCode RenderCommand::run() {
     fmt::print(stderr, "eyeray: warning: {}\n", warning);
   if (picture.interrupted && picture.files.empty())
     throw Error(ExitCode::interrupted, "{}", what_was_kept(picture, false));
+  if (const std::string warning = noise_warning(picture); !warning.empty())
+    fmt::print(stderr, "eyeray: warning: {}\n", warning);
   if (!quiet) fmt::print(stderr, "{}\n", summary(picture));
   if (stats) print_stages(picture);
   if (picture.ray_kinds) print_rays(*picture.ray_kinds, picture.sampling_seconds);
@@ -102,6 +104,16 @@ void add_render(CLI::App& app, Run& run) {
   const auto options = std::make_shared<RenderCommand>();
   options->request.add_to(*command);
   add_long_render_options(*command, options->request.long_render);
+  CLI::Option* const noise =
+      command
+          ->add_option(
+              "--noise", options->request.noise,
+              fmt::format(
+                  "Take samples until pixels are off by no more than this share of their brightness, as "
+                  "0.01, each as many as it needs; --spp N (without it {}) is the most.",
+                  most_samples_by_default))
+          ->option_text("SHARE")
+          ->check(within(1e-4, 1));
   command->add_flag(
       "--stats", options->stats,
       "Print how long each stage took, and how many eye, reflected, refracted and shadow rays there were.");
@@ -111,6 +123,7 @@ void add_render(CLI::App& app, Run& run) {
           "Sample as Haines' published statistics do: a ray a pixel corner, at most 5 in a row with the eye "
           "ray, none left out for counting little.")
       ->excludes("--spp")
+      ->excludes(noise)
       ->excludes("--max-depth");
   command->add_flag("-q,--quiet", options->quiet, "No progress and no summary; warnings and errors remain.");
   command->add_flag("--json", options->json, "Say what was done as JSON on standard output.");
@@ -119,6 +132,8 @@ void add_render(CLI::App& app, Run& run) {
       "  eyeray render scenes/whitted.toml                                   whitted.png\n"
       "  eyeray render scenes/whitted.toml -s 1920x1080 --spp 16 -o big.png -o big.pfm\n"
       "  eyeray render scenes/whitted.toml -D render.max_depth=2 --aov depth,normal\n"
+      "  eyeray render scenes/path/cornell_box.toml --noise 0.02             each pixel as many samples as "
+      "it needs\n"
       "  eyeray render scenes/whitted.toml --spp 10000 --checkpoint long.part    and, after Ctrl-C, --resume "
       "long.part\n"
       "Ctrl-C keeps what was rendered so far, if every pixel has a sample.");

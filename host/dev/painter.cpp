@@ -38,9 +38,9 @@ bool paint_coarsely(const View& view, const ImageSettings& image, executors::Exe
   std::vector<PixelSample> samples(size_t(width) * size_t(height));
   if (!executor.coarse_sample(coarse_stride, 0, samples)) return true;
   render::PixelSums sums;
-  sums.reset(width, height, view.needs() == aov::AovNeeds::ray_kinds);
-  sums.add(0, samples);
-  return sink({shown(view, sums.mean(0, height, 1, 0)), 0, coarse_stride});
+  sums.reset(width, height, aov::counted_for(view.needs()));
+  sums.add({0, 0, width, height}, samples);
+  return sink({shown(view, sums.mean(0, height)), 0, coarse_stride});
 }
 
 std::optional<Painted> paint_samples(const View& view, const ImageSettings& image,
@@ -48,16 +48,16 @@ std::optional<Painted> paint_samples(const View& view, const ImageSettings& imag
   if (!paint_coarsely(view, image, executor, sink)) return std::nullopt;
   Painted painted;
   render::PixelSums sums;
-  sums.reset(image.width, image.height, view.needs() == aov::AovNeeds::ray_kinds);
+  sums.reset(image.width, image.height, aov::counted_for(view.needs()));
   std::vector<PixelSample> samples;
   int band = std::clamp(first_pixels / image.width, 1, image.height);
   for (int sample = 0; sample < image.samples; ++sample) {
     const bool whole = for_bands(image, band, [&](int row, int rows) {
       samples.resize(size_t(rows) * size_t(image.width));
       if (!executor.sample({0, row, image.width, rows}, uint32_t(sample), samples)) return false;
-      sums.add(row, samples);
+      sums.add({0, row, image.width, rows}, samples);
       for (const PixelSample& each : samples) painted.rays += each.rays;
-      const render::FinishedRows finished = sums.mean(row, rows, sample + 1, 0);
+      const render::FinishedRows finished = sums.mean(row, rows);
       painted.flags |= finished.flags;
       if (sample + 1 == image.samples) painted.flagged_pixels += finished.flagged_pixels;
       return sink({shown(view, finished), row, 1, sample});

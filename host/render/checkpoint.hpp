@@ -4,16 +4,17 @@
 //
 //   offset   bytes
 //   0        8       "EYERAYCP"
-//   8        4       version of this layout: 4
+//   8        4       version of this layout: 5
 //   12       4       n, at most 65536
 //   16       n       the identity: a line "name: value\n" for each of its parts
 //   16 + n   8 each  RenderPosition, in the order of its members
 //            4       CRC-32 of FILE.rows as far as finished_rows go
 //            4       CRC-32 of all above
 //            40 each the sums of the band's pixels, top row first: red, green, blue (float64), hits, rays,
-//                    flags, 0 (uint32)
+//                    flags, samples and in the highest bit whether it takes no more (uint32)
 //            8 each  where rays are counted by kind (the identity says it), of the same pixels: reflected,
 //                    refracted (uint32)
+//            8 each  where noise is measured (likewise), the sums of their squared luminances (float64)
 //            4       CRC-32 of the sums
 //
 // FILE.rows holds the finished rows above the band (render/row_store.hpp); a picture of one band has none.
@@ -41,7 +42,7 @@ struct IdentityPart {
 // How far a render has come.
 struct RenderPosition {
   uint64_t finished_rows = 0;   // above the band, counted from the top of what is rendered
-  uint64_t samples = 0;         // a pixel, in the band's sums
+  uint64_t samples = 0;         // a pixel, in the band's sums; with adaptive sampling the most
   uint64_t extra_rows = 0;      // the band's rows, from its top, whose sums hold one more
   uint64_t rays = 0;            // all in all
   uint64_t flagged_pixels = 0;  // in the finished rows
@@ -64,8 +65,8 @@ class Checkpoint {
   // (file_io) when damaged; where that is found out after rows were given, check_rows says it.
   const RenderPosition& position() const { return position_; }
   void read_sums(PixelSums& sums);
-  FinishedRows read_rows(int first, int count, int width, bool kinds) {
-    return rows_->read(first, count, width, kinds);
+  FinishedRows read_rows(int first, int count, int width, Counted counted) {
+    return rows_->read(first, count, width, counted);
   }
   void check_rows() const;
   [[noreturn]] void damaged(const std::string& why) const;

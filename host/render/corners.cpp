@@ -66,6 +66,7 @@ FinishedRows CornerMean::add(const FinishedRows& corners) {
   rows.color = between(last_color_, corners.color, mean);
   rows.hits = between(last_hits_, corners.hits, mean);
   rows.rays_traced = between(last_rays_, corners.rays_traced, mean);
+  rows.samples = between(last_samples_, corners.samples, mean);
   if (corners.has_kinds()) rows.kinds = between(last_kinds_, corners.kinds, mean);
   rows.flagged = between(last_flagged_, corners.flagged, any_flag);
   rows.flagged_pixels = corners.flagged_pixels;

@@ -14,8 +14,8 @@ void sample_corners(Scene& scene);
 // The corners of some pixels, as a part of that picture.
 Rect corners_of(const Rect& pixels);
 
-// Rows of corners to rows of pixels, one fewer: means of colours, hits, rays and their kinds, and the flags
-// of all four.
+// Rows of corners to rows of pixels, one fewer: means of colours, hits, rays, samples and kinds of rays, and
+// the flags of all four.
 class CornerMean {
  public:
   // The rows of pixels that are whole with the next rows of corners, from the top down; images without height
@@ -24,7 +24,7 @@ class CornerMean {
 
  private:
   // The last row of corners so far; empty at the start.
-  image::Image last_color_, last_hits_, last_rays_, last_kinds_, last_flagged_;
+  image::Image last_color_, last_hits_, last_rays_, last_samples_, last_kinds_, last_flagged_;
 };
 
 }  // namespace eyeray::render

@@ -1,11 +1,14 @@
 #include "host/render/render.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <optional>
 
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 #include "host/core/termination.hpp"
+#include "host/render/adaptive.hpp"
 #include "host/render/checkpoint.hpp"
 
 namespace eyeray::render {
@@ -44,6 +47,9 @@ class Driver {
         sink_(sink),
         crop_(options.crop.pixels() ? options.crop : Rect{0, 0, scene.image.width, scene.image.height}),
         samples_(scene.image.samples),
+        counted_{.kinds = options.pixel_kinds, .noise = options.pixel_noise || options.noise > 0},
+        shown_as_one_(std::exp2(-scene.image.tone.exposure)),
+        least_samples_(samples_),
         at_a_time_(crop_.width) {
     const size_t most_rows = options.band_bytes / (size_t(crop_.width) * sizeof(PixelSums::Pixel));
     band_rows_ = int(std::clamp<size_t>(most_rows, 1, size_t(crop_.height)));
@@ -60,7 +66,7 @@ class Driver {
         save();
         const bool whole = bands() == 1 && position_.samples > 0;
         if (whole) hand_on();
-        return interrupted_totals(whole ? int(position_.samples) : 0);
+        return interrupted_totals(whole ? least_samples_ : 0);
       }
       const int next = int(position_.finished_rows) + sums_.height();
       if (next == crop_.height) break;
@@ -69,7 +75,7 @@ class Driver {
     }
     save();
     hand_on();
-    totals_.samples_done = samples_;
+    totals_.samples_done = least_samples_;
     return totals();
   }
 
@@ -81,7 +87,8 @@ class Driver {
     position_.samples = 0;
     position_.extra_rows = 0;
     progress_.band = row / band_rows_;
-    sums_.reset(crop_.width, std::min(band_rows_, crop_.height - row), options_.pixel_kinds);
+    sums_.reset(crop_.width, std::min(band_rows_, crop_.height - row), counted_, shown_as_one_);
+    look_for_what_is_left();
   }
 
   // Goes on where the checkpoint stands. Returns false when interrupted.
@@ -95,22 +102,20 @@ class Driver {
     begin_band(int(position.finished_rows));
     if (position.extra_rows >= uint64_t(sums_.height())) damaged();
     checkpoint.read_sums(sums_);
+    look_for_what_is_left();
     position_ = position;
-
-    const uint64_t rows = position.finished_rows * uint64_t(samples_) +
-                          position.samples * uint64_t(sums_.height()) + position.extra_rows;
-    progress_.samples_done = progress_.samples_resumed = rows * uint64_t(crop_.width);
-    totals_.samples_resumed = progress_.samples_resumed;
     totals_.rays_resumed = position.rays;
 
     // Hand the finished rows on again, to the files of this run.
     for (int row = 0; row < int(position.finished_rows);) {
       if (interrupted()) return false;
       const int count = std::min(rows_of(most_handed_on, crop_.width), int(position.finished_rows) - row);
-      sink_(checkpoint.read_rows(row, count, crop_.width, options_.pixel_kinds));
+      give(checkpoint.read_rows(row, count, crop_.width, counted_));
       row += count;
     }
     checkpoint.check_rows();
+    progress_.samples_done = progress_.samples_resumed = samples_given_ + sums_.samples();
+    totals_.samples_resumed = progress_.samples_resumed;
     watch_ = {};
     return true;
   }
@@ -118,12 +123,12 @@ class Driver {
   // Takes the samples of the band that are still missing. Returns false when interrupted.
   bool sample_band() {
     while (position_.samples < uint64_t(samples_)) {
+      if (adaptive_ && position_.extra_rows == 0 && !some_are_left()) break;
       const int row = int(position_.extra_rows);
       const int height = std::min(at_a_time_.rows(), sums_.height() - row);
-      const Rect tile{crop_.x, crop_.y + int(position_.finished_rows) + row, crop_.width, height};
-      if (interrupted() || !sample(tile)) return false;
-
-      sums_.add(row, tile_samples_);
+      const std::vector<Rect> parts =
+          adaptive_ ? adaptive_->left(row, height) : std::vector{Rect{0, row, crop_.width, height}};
+      if (interrupted() || !sample(parts)) return false;
       if (!saving_) saving_.emplace();
       position_.rays += parallel_sum(0, int(tile_samples_.size()),
                                      [&](int i) { return uint64_t{tile_samples_[size_t(i)].rays}; });
@@ -135,28 +140,61 @@ class Driver {
         position_.extra_rows = 0;
         ++position_.samples;
       }
-      report(tile);
+      report();
       if (options_.checkpoint && options_.checkpoint->due()) save();
     }
     return true;
   }
 
-  bool sample(const Rect& tile) {
-    tile_samples_.resize(size_t(tile.pixels()));
+  // One of every pixel of `parts` of the band, or none.
+  bool sample(const std::vector<Rect>& parts) {
+    size_t pixels = 0;
+    for (const Rect& part : parts) pixels += size_t(part.pixels());
+    tile_samples_.resize(pixels);
     const Stopwatch watch;
+    std::span<PixelSample> left = tile_samples_;
     try {
-      const bool done = executor_.sample(tile, uint32_t(position_.samples), tile_samples_);
-      at_a_time_.took(watch.seconds());
-      totals_.seconds += watch.seconds();
-      return done;
+      for (const Rect& part : parts) {
+        const Rect tile{crop_.x + part.x, crop_.y + int(position_.finished_rows) + part.y, part.width,
+                        part.height};
+        const std::span<PixelSample> out = left.first(size_t(part.pixels()));
+        if (!executor_.sample(tile, uint32_t(position_.samples), out)) return false;
+        left = left.subspan(out.size());
+      }
     } catch (...) {
       save();
       throw;
     }
+    at_a_time_.took(watch.seconds());
+    totals_.seconds += watch.seconds();
+    left = tile_samples_;
+    for (const Rect& part : parts) {
+      sums_.add(part, left.first(size_t(part.pixels())));
+      left = left.subspan(size_t(part.pixels()));
+    }
+    progress_.samples_done += pixels;
+    return true;
   }
 
-  void report(const Rect& tile) {
-    progress_.samples_done += uint64_t(tile.pixels());
+  void look_for_what_is_left() {
+    if (options_.noise > 0) adaptive_.emplace(options_.noise, sums_);
+  }
+
+  // Between two samples: whether the band needs another; and how many all will be.
+  bool some_are_left() {
+    const uint64_t samples = position_.samples;
+    if (AdaptiveSampling::judges_after(samples)) adaptive_->judge(sums_);
+    if (samples >= 8 && std::has_single_bit(samples)) {
+      // Bands to come are taken to be like those that were.
+      const double until_now =
+          double(progress_.samples_done) + adaptive_->samples_to_go(sums_, samples, samples_);
+      const double pixels = double(crop_.width) * double(position_.finished_rows + uint64_t(sums_.height()));
+      progress_.samples_total = uint64_t(until_now / pixels * double(crop_.pixels()));
+    }
+    return !adaptive_->finished();
+  }
+
+  void report() {
     progress_.rays = position_.rays - totals_.rays_resumed;
     progress_.seconds = watch_.seconds();
     progress_.sample = int(std::min(position_.samples, uint64_t(samples_ - 1)));
@@ -168,14 +206,28 @@ class Driver {
     const bool last = int(position_.finished_rows) + sums_.height() == crop_.height;
     for (int row = 0; row < sums_.height();) {
       const int count = std::min(rows_of(most_handed_on, crop_.width), sums_.height() - row);
-      FinishedRows rows = sums_.mean(row, count, int(position_.samples), int(position_.extra_rows));
+      FinishedRows rows = sums_.mean(row, count);
       rows.first += int(position_.finished_rows);
       position_.flags |= rows.flags;
       position_.flagged_pixels += rows.flagged_pixels;
       if (options_.checkpoint && !last) options_.checkpoint->append_rows(rows);
-      sink_(rows);
+      give(rows);
       row += count;
     }
+  }
+
+  void give(const FinishedRows& rows) {
+    const float* const noise = options_.noise > 0 ? rows.noise.samples().data() : nullptr;
+    for (size_t i = 0; i < rows.samples.sample_count(); ++i) {
+      const int samples = int(rows.samples.samples()[i]);
+      samples_given_ += uint64_t(samples);
+      least_samples_ = std::min(least_samples_, samples);
+      totals_.most_samples = std::max(totals_.most_samples, samples);
+      if (!noise) continue;
+      totals_.quiet_pixels += noise[i] <= float(options_.noise);
+      totals_.greatest_noise = std::max(totals_.greatest_noise, double(noise[i]));
+    }
+    sink_(rows);
   }
 
   void save() {
@@ -189,6 +241,7 @@ class Driver {
     totals.flags = uint32_t(position_.flags);
     totals.bands = bands();
     totals.samples_taken = progress_.samples_done;
+    totals.samples_total = progress_.samples_total;
     return totals;
   }
   RenderTotals interrupted_totals(int samples_done) {
@@ -202,10 +255,15 @@ class Driver {
   const RowSink& sink_;
   const Rect crop_;
   const int samples_;
+  const Counted counted_;
+  const double shown_as_one_;
   int band_rows_ = 1;  // of every band but the last, which may have fewer
 
   RenderPosition position_;
-  PixelSums sums_;  // of the band
+  PixelSums sums_;                            // of the band
+  std::optional<AdaptiveSampling> adaptive_;  // likewise
+  uint64_t samples_given_ = 0;                // of pixels of the rows that were handed on
+  int least_samples_;                         // of one of them
   std::vector<PixelSample> tile_samples_;
   RowsAtATime at_a_time_;
   Progress progress_;

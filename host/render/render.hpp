@@ -12,8 +12,8 @@ namespace eyeray::render {
 class Checkpoint;  // render/checkpoint.hpp
 
 struct Progress {
-  uint64_t samples_done = 0;  // of pixels, resumed ones included
-  uint64_t samples_total = 0;
+  uint64_t samples_done = 0;     // of pixels, resumed ones included
+  uint64_t samples_total = 0;    // with RenderOptions::noise an estimate
   uint64_t samples_resumed = 0;  // of samples_done, those that an earlier run took
   uint64_t rays = 0;             // traced by this run
   double seconds = 0;            // since this run's sampling began
@@ -27,14 +27,18 @@ struct RenderOptions {
   Rect crop;                                      // in pixels of the whole picture; empty: all of it
   bool first_hits = false;                        // for render(): whether they are wanted
   std::function<void(const Progress&)> progress;  // called between tiles; may be empty
-  // How many bytes of sums to hold (40 a pixel). A larger picture is rendered in bands of rows: all samples
-  // of one, then of the next. Else it is one band, and so one sample of the whole picture comes after the
-  // other.
+  // How many bytes of sums to hold (40 a pixel, and what is counted beside). A larger picture is rendered in
+  // bands of rows: all samples of one, then of the next. Else it is one band, and so one sample of the whole
+  // picture comes after the other.
   size_t band_bytes = size_t{256} << 20;
   // Count rays by kind, in all and in FinishedRows (8 bytes of sums a pixel more): for either the executor
   // must (ExecutorOptions::ray_kinds).
   bool ray_kinds = false;
   bool pixel_kinds = false;
+  bool pixel_noise = false;  // measure it, in FinishedRows (8 bytes a pixel more too)
+  // Above 0, pixels whose noise (PixelSums::noise) is no more take no more samples (render/adaptive.hpp), and
+  // scene.image.samples is the most that one takes.
+  double noise = 0;
   Checkpoint* checkpoint = nullptr;  // kept and resumed from; see render_rows
 };
 
@@ -43,14 +47,19 @@ struct RenderTotals {
   uint64_t rays = 0;            // resumed ones included
   uint64_t flagged_pixels = 0;  // pixels with any SampleFlag
   uint32_t flags = 0;           // all SampleFlags seen
-  int samples_done = 0;         // that every pixel of the picture has
-  int bands = 1;                // in which the picture was rendered
+  int samples_done = 0;  // that every pixel of the picture has, and with RenderOptions::noise some have more
+  int bands = 1;         // in which the picture was rendered
   bool interrupted = false;
   double seconds = 0;          // of this run, of sampling alone
   uint64_t samples_taken = 0;  // of pixels, resumed ones included
+  uint64_t samples_total = 0;  // as in Progress
   uint64_t samples_resumed = 0;
   uint64_t rays_resumed = 0;
-  RayCounts ray_kinds;  // of this run, where they were asked for
+  RayCounts ray_kinds;   // of this run, where they were asked for
+  int most_samples = 0;  // that a pixel has
+  // With RenderOptions::noise: how many pixels have no more, and the greatest that one has.
+  uint64_t quiet_pixels = 0;
+  double greatest_noise = 0;
 };
 
 using RowSink = std::function<void(const FinishedRows&)>;

@@ -17,11 +17,14 @@ namespace {
 // The images that hold what is stored of a pixel, in this order.
 template <typename Rows>
 auto stored_images(Rows& rows) {
-  return std::array{&rows.color, &rows.hits, &rows.rays_traced, &rows.flagged, &rows.kinds};
+  return std::array{&rows.color,   &rows.hits,  &rows.rays_traced, &rows.samples,
+                    &rows.flagged, &rows.kinds, &rows.noise};
 }
 
-size_t floats_of_pixel(const FinishedRows& rows) {
-  return rows.has_kinds() ? 9 : 6;
+size_t floats_of(const FinishedRows& rows) {
+  size_t count = 0;
+  for (const image::Image* image : stored_images(rows)) count += image->sample_count();
+  return count;
 }
 
 [[noreturn]] void fail(const char* what, const std::filesystem::path& file, int error) {
@@ -35,13 +38,12 @@ RowStore::~RowStore() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-FinishedRows RowStore::read(int first, int count, int width, bool kinds) {
+FinishedRows RowStore::read(int first, int count, int width, Counted counted) {
   if (descriptor_ < 0) descriptor_ = ::open(file_.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor_ < 0) fail("read", file_, errno);
 
-  FinishedRows rows(first, width, count);
-  if (kinds) rows.kinds = image::Image(width, count, 3);
-  std::vector<float> stored(floats_of_pixel(rows) * rows.hits.sample_count());
+  FinishedRows rows(first, width, count, counted);
+  std::vector<float> stored(floats_of(rows));
   const auto bytes = std::as_writable_bytes(std::span(stored));
   for (size_t done = 0; done < bytes.size();) {
     const ssize_t got = ::pread(descriptor_, &bytes[done], bytes.size() - done, off_t(end_ + done));
@@ -72,7 +74,7 @@ void RowStore::append(const FinishedRows& rows) {
   dropped_rest_ = true;
 
   std::vector<float> stored;
-  stored.reserve(floats_of_pixel(rows) * rows.hits.sample_count());
+  stored.reserve(floats_of(rows));
   for (size_t i = 0; i < rows.hits.sample_count(); ++i) {
     for (const image::Image* image : stored_images(rows)) {
       if (image->sample_count() == 0) continue;

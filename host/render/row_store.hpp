@@ -9,9 +9,9 @@
 
 namespace eyeray::render {
 
-// Rows from the top down; of each its pixels from left to right: the mean colour, the mean of `hits`,
-// `rays_traced` and the flags, six float32, and, if they have them, three of the kinds; little-endian. Every
-// failure is an Error (file_io).
+// Rows from the top down; of each its pixels from left to right: the mean colour, the mean of `hits` and
+// `rays_traced`, the samples and the flags, seven float32, and, if they have them, three of the kinds and one
+// of the noise; little-endian. Every failure is an Error (file_io).
 class RowStore {
  public:
   // Touches nothing yet.
@@ -22,7 +22,7 @@ class RowStore {
 
   // Rows [first, first + count) of a picture that is `width` wide. Read all from 0 on before appending: that
   // is where appending goes on, and whatever stands behind them is dropped.
-  FinishedRows read(int first, int count, int width, bool kinds);
+  FinishedRows read(int first, int count, int width, Counted counted);
   // Without a read before it, begins the file anew.
   void append(const FinishedRows& rows);
   // Makes the device keep what was appended.

@@ -131,7 +131,7 @@ TEST_CASE("a render that fails leaves its checkpoint, and one that is killed the
     CHECK(same_rendering(render::render(scene, copying, options_of(scene, 3, &checkpoint)), whole));
     std::filesystem::copy(file + ".rows", killed / "a.rows");
   }
-  CHECK(std::filesystem::file_size(killed / "a.rows") == 6 * 9 * 24);
+  CHECK(std::filesystem::file_size(killed / "a.rows") == 6 * 9 * 28);
   CHECK(Checkpoint::resume(killed / "a", identity, seldom).position().finished_rows == 3);
   CHECK(same_rendering(render_rest(scene, 3, killed / "a"), whole));
 }

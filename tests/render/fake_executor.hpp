@@ -11,7 +11,7 @@
 
 namespace eyeray::test {
 
-class FakeExecutor final : public executors::Executor {
+class FakeExecutor : public executors::Executor {
  public:
   // `before_call(n)` is asked before the n-th call of sample, from 0; false interrupts, and it may throw.
   explicit FakeExecutor(std::function<bool(int)> before_call = {}) : before_call_(std::move(before_call)) {}

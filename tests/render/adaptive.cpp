@@ -1,0 +1,169 @@
+// Adaptive sampling: pixels take as many samples as they need.
+#include "host/render/adaptive.hpp"
+
+#include "fake_executor.hpp"
+#include "host/render/checkpoint.hpp"
+#include "host/scene/luminance.hpp"
+#include "tests/support/process.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::render;
+using namespace eyeray::test;
+
+namespace {
+
+constexpr double target = 0.05;
+
+// Grey pixels of brightness 0.5: even ones on the left, and from column 40 on with noise of a known width.
+class NoisyExecutor final : public FakeExecutor {
+ public:
+  using FakeExecutor::FakeExecutor;
+
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+    if (!FakeExecutor::sample(tile, index, out)) return false;
+    for (int i = 0; i < tile.pixels(); ++i) {
+      const int x = tile.x + i % tile.width, y = tile.y + i / tile.width;
+      uint32_t hash = uint32_t(x) * 0x9E3779B9u ^ uint32_t(y) * 0x85EBCA6Bu ^ index * 0xC2B2AE35u;
+      for (const int shift : {16, 13, 16}) hash = (hash ^ hash >> shift) * 0x45D9F3Bu;
+      const double uniform = double(hash ^ hash >> 16) / 4294967296.0 - 0.5;
+      out[size_t(i)].color = Vec3(0.5 + (x < 40 ? 0 : 0.9 * uniform));
+    }
+    return true;
+  }
+};
+
+RenderOptions until(double noise, int rows, int width) {
+  RenderOptions options;
+  options.noise = noise;
+  options.band_bytes = size_t(rows) * size_t(width) * sizeof(PixelSums::Pixel);
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("pixels stop where they are good: at once, after what their variance wants, or at the most") {
+  // (1.96 σ / (target · 0.51))² samples, at the next judgement; σ² = 0.9²/12.
+  constexpr int wanted = 512;
+  for (const int most : {16384, 300}) {
+    CAPTURE(most);
+    const Scene scene = scene_of(81, 45, most);
+    NoisyExecutor executor;
+    std::vector<int> samples;
+    uint64_t shown = 0;
+    RenderOptions options = until(target, 45, 81);
+    options.progress = [&](const Progress& progress) {
+      CHECK(progress.samples_done > shown);
+      CHECK(progress.samples_done <= progress.samples_total);
+      shown = progress.samples_done;
+    };
+    const RenderTotals totals = render_rows(scene, executor, options, [&](const FinishedRows& rows) {
+      for (const float value : rows.samples.samples()) samples.push_back(int(value));
+    });
+    REQUIRE(samples.size() == 81u * 45u);
+    uint64_t sum = 0;
+    for (int y = 0; y < 45; ++y) {
+      for (int x = 0; x < 81; ++x) {
+        const int taken = samples[size_t(y * 81 + x)];
+        sum += uint64_t(taken);
+        // A block beside noisy ones waits for them.
+        if (x < 32) CHECK(taken == 64);
+        if (x >= 40) CHECK(taken == std::min(wanted, most));
+      }
+    }
+    CHECK(totals.samples_taken == sum);
+    CHECK(totals.samples_done == 64);
+    CHECK(totals.most_samples == std::min(wanted, most));
+    const bool reached = most > wanted;
+    CHECK(totals.quiet_pixels == (reached ? 81 : 40) * 45);
+    CHECK((totals.greatest_noise <= target) == reached);
+    CHECK(shown == sum);
+  }
+}
+
+TEST_CASE("the noise that is told is the noise there is") {
+  const Scene scene = scene_of(480, 160, 128);
+  NoisyExecutor executor;
+  RenderOptions options = until(0, 160, 480);
+  options.pixel_noise = true;
+  int within = 0, all = 0;
+  render_rows(scene, executor, options, [&](const FinishedRows& rows) {
+    for (int y = 0; y < rows.color.height(); ++y) {
+      for (int x = 48; x < 480; ++x) {
+        const double off = std::abs(double(rows.color.pixel(x, y)[0]) - 0.5);
+        within += off <= double(*rows.noise.pixel(x, y)) * (0.5 + 0.01);
+        ++all;
+      }
+    }
+  });
+  // A 95 % interval, of 69 120 pixels: 0.1 % is one standard error.
+  CHECK(double(within) / all == doctest::Approx(0.95).epsilon(0.005));
+}
+
+TEST_CASE("what is dark is measured against what the picture shows as 1") {
+  PixelSums sums;
+  for (const double exposure : {0.0, 3.0}) {
+    sums.reset(8, 8, {.noise = true}, std::exp2(-exposure));
+    std::vector<PixelSample> samples(64);
+    CHECK(std::isnan(sums.noise({0, 0, 8, 8})));
+    for (const double value : {0.0, 2e-3}) {
+      for (PixelSample& sample : samples) sample.color = Vec3(value);
+      sums.add({0, 0, 8, 8}, samples);
+    }
+    CHECK(sums.noise({0, 0, 8, 8}) ==
+          doctest::Approx(1.96 * 1e-3 / (1e-3 + 0.01 * std::exp2(-exposure))).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a picture that stops where it is good is the same in bands' own blocks, and resumed anywhere") {
+  const TemporaryFolder folder;
+  const std::string file = folder / "a";
+  const Scene scene = scene_of(70, 33, 2048);
+  for (const int rows : {33, 16}) {
+    CAPTURE(rows);
+    RenderOptions options = until(target, rows, 70);
+    NoisyExecutor counting([](int) { return true; });
+    const Rendering whole = render::render(scene, counting, options);
+    REQUIRE(whole.most_samples == 512);
+    for (int stop = 0; stop < counting.calls; stop += counting.calls / 23) {
+      CAPTURE(stop);
+      {
+        Checkpoint checkpoint = Checkpoint::begin(file, {}, 1e6);
+        options.checkpoint = &checkpoint;
+        NoisyExecutor executor([=](int call) { return call != stop; });
+        REQUIRE(render::render(scene, executor, options).interrupted);
+      }
+      Checkpoint checkpoint = Checkpoint::resume(file, {}, 1e6);
+      options.checkpoint = &checkpoint;
+      NoisyExecutor executor;
+      const Rendering rest = render::render(scene, executor, options);
+      CHECK(same_rendering(rest, whole));
+      CHECK(rest.samples_taken == whole.samples_taken);
+      CHECK(rest.quiet_pixels == whole.quiet_pixels);
+      CHECK(rest.greatest_noise == whole.greatest_noise);
+      checkpoint.remove();
+    }
+  }
+}
+
+TEST_CASE("what is left is covered once, by few rectangles") {
+  PixelSums sums;
+  sums.reset(100, 50, {.noise = true});
+  sums.finish({16, 8, 32, 16});
+  const AdaptiveSampling adaptive(target, sums);
+  std::vector<int> covered(100 * 50);
+  for (const auto& [row, height] : {std::pair{0, 11}, {11, 26}, {37, 13}}) {
+    const std::vector<Rect> parts = adaptive.left(row, height);
+    CHECK(parts.size() <= 4);
+    for (const Rect& part : parts) {
+      CHECK(part.y >= row);
+      CHECK(part.y + part.height <= row + height);
+      for (int i = 0; i < part.pixels(); ++i)
+        ++covered[size_t((part.y + i / part.width) * 100 + part.x + i % part.width)];
+    }
+  }
+  for (int y = 0; y < 50; ++y)
+    for (int x = 0; x < 100; ++x)
+      REQUIRE(covered[size_t(y * 100 + x)] == !(x >= 16 && x < 48 && y >= 8 && y < 24));
+}
