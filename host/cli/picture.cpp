@@ -215,8 +215,8 @@ namespace {
 
 std::string samples_of(const Picture& picture) {
   const int least = picture.samples_done, most = picture.most_samples;
-  if (least == most) return fmt::format("{} sample{}", least, least == 1 ? "" : "s");
-  return fmt::format("{} to {} samples (mean {:.0f})", least, most, picture.mean_samples);
+  if (least == most) return fmt::format("{} sample{} a pixel", least, least == 1 ? "" : "s");
+  return fmt::format("{} to {} samples a pixel (mean {:.0f})", least, most, picture.mean_samples);
 }
 
 }  // namespace
@@ -225,7 +225,7 @@ std::string summary(const Picture& picture) {
   std::vector<std::string> names;
   for (const fs::path& file : picture.files) names.push_back(file.string());
   return fmt::format(
-      "{}: {}×{}, {} a pixel, {}{} rays in {} ({}) on {}", fmt::join(names, ", "), picture.crop.width,
+      "{}: {}×{}, {}, {}{} rays in {} ({}) on {}", fmt::join(names, ", "), picture.crop.width,
       picture.crop.height, samples_of(picture),
       picture.samples_resumed ? fmt::format("resumed with {} rays, then ", picture.rays_resumed) : "",
       picture.rays - picture.rays_resumed, format_seconds(picture.seconds),
@@ -235,7 +235,7 @@ std::string summary(const Picture& picture) {
 std::string noise_warning(const Picture& picture) {
   if (!picture.noise || picture.noise->share == 1) return "";
   return fmt::format(
-      "{:.2g} % of the pixels have more noise than {}, up to {:.2g}: {} samples a pixel were too "
+      "{:.3g} % of the pixels have more noise than {}, up to {:.2g}: {} samples a pixel were too "
       "few{}",
       100 * (1 - picture.noise->share), picture.noise->wanted, picture.noise->greatest, picture.most_samples,
       picture.interrupted ? "" : "; --spp N allows more");
