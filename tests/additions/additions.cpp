@@ -92,7 +92,8 @@ class Tree {
                                                   "-DEYERAY_TESTS=OFF", "-DCMAKE_CXX_COMPILER=" CXX_COMPILER},
                                                  {}, 600);
     REQUIRE_MESSAGE(configured.code == 0, configured.err);
-    return run_process({"cmake", "--build", build_, "-j", "2", "--target", target, "--", "--quiet"}, {}, 7200);
+    return run_process({"cmake", "--build", build_, "-j", "2", "--target", target, "--", "--quiet"}, {},
+                       7200);
   }
 
   ProcessResult run(std::vector<std::string> arguments) const {
