@@ -62,7 +62,7 @@ TEST_CASE("interrupted at any time and resumed, all files are those of an uninte
   Random random(11);
   REQUIRE(run_eyeray(long_render(folder, "whole")).code == 0);
   const auto whole = files_of(folder, "whole");
-  REQUIRE(whole.size() == 2 + 2 * 16 + 3);  // pictures, AOVs as data and painted, legends of three
+  REQUIRE(whole.size() == 2 + 2 * 18 + 3);  // pictures, AOVs as data and painted, legends of three
 
   for (const std::string bands : {"256", "1"}) {
     const Arguments command = long_render(folder, "parts", bands);
