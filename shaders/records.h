@@ -149,11 +149,13 @@ struct Material {
 #define OPTICAL_DEPTH_OPAQUE 0x10000000u
 #define OPTICAL_DEPTH_SCALE 1048576.0f
 
-// ---- Medium: 16 bytes -----------------------------------------------------------------------------------------------
-// Number 0 is the vacuum.
+// ---- Medium: 32 bytes -----------------------------------------------------------------------------------------------
+// Number 0 is around all: the scene's own, or the vacuum.
 struct Medium {
-  vec3 absorption;
+  vec3 absorption;  // per unit of length, as …
   float ior;
+  vec3 scattering;  // … this is, which is 0 where paths do not walk at random
+  float anisotropy;
 };
 
 // ---- Texture: 64 bytes ----------------------------------------------------------------------------------------------
@@ -382,7 +384,7 @@ static_assert(sizeof(eyeray::shader::Primitive) == 64);
 static_assert(sizeof(eyeray::shader::Bvh) == 64);
 static_assert(sizeof(eyeray::shader::Instance) == 112);
 static_assert(sizeof(eyeray::shader::Material) == 112);
-static_assert(sizeof(eyeray::shader::Medium) == 16);
+static_assert(sizeof(eyeray::shader::Medium) == 32);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);
 static_assert(sizeof(eyeray::shader::Emitter) == 80);

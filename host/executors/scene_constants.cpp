@@ -49,7 +49,7 @@ std::string literal(const shader::Texture& t) {
   return record_literal("Texture", t.color, t.kind, t.a, t.b, t.c);
 }
 std::string literal(const shader::Medium& m) {
-  return record_literal("Medium", m.absorption, m.ior);
+  return record_literal("Medium", m.absorption, m.ior, m.scattering, m.anisotropy);
 }
 std::string literal(const shader::Light& l) {
   return record_literal("Light", l.intensity, l.kind, l.a, l.b);

@@ -48,9 +48,15 @@ bool any_rough_diffuse(const records::PackedScene& scene) {
   });
 }
 
-bool any_absorbs(const records::PackedScene& scene) {
+bool any_scatters(const records::PackedScene& scene) {
   return std::ranges::any_of(
-      scene.media, [](const shader::Medium& medium) { return medium.absorption != shader::vec3(0); });
+      scene.media, [](const shader::Medium& medium) { return medium.scattering != shader::vec3(0); });
+}
+
+bool any_dims(const records::PackedScene& scene) {
+  return any_scatters(scene) || std::ranges::any_of(scene.media, [](const shader::Medium& medium) {
+           return medium.absorption != shader::vec3(0);
+         });
 }
 
 bool any_light_disk(const records::PackedScene& scene) {

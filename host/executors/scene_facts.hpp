@@ -12,7 +12,8 @@ bool varies(const records::PackedScene& scene, const shader::Material& material)
 bool any_emits(const records::PackedScene& scene);
 // Whether any diffuse material is not Lambert's.
 bool any_rough_diffuse(const records::PackedScene& scene);
-bool any_absorbs(const records::PackedScene& scene);
+bool any_dims(const records::PackedScene& scene);
+bool any_scatters(const records::PackedScene& scene);
 // Whether a light is seen under an angle.
 bool any_light_disk(const records::PackedScene& scene);
 // How often a path may go on: 0 where no material sends rays on, or the integrator none.

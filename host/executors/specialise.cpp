@@ -69,7 +69,8 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_ROUGH_GLASS", int(scene.lobes.contains(shader::LOBE_rough_glass)));
   define("HAS_ALPHA_TEST", int(!used.alpha_tested.empty()));
   define("HAS_MEDIA", int(media));
-  define("HAS_ABSORPTION", int(any_absorbs(scene)));
+  define("HAS_ABSORPTION", int(any_dims(scene)));
+  define("HAS_SCATTERING", int(any_scatters(scene)));
   // Only where a ray splits in two does a child wait, and one a level at most.
   define("PATH_STACK", splits(scene) ? scene.frame.max_depth : 0u);
   define("RANDOM_WALK", int(walks_at_random(scene)));

@@ -54,6 +54,8 @@ class Builder {
     if (around && render.has("background"))
       render.error("background",
                    "[environment] takes the place of `background`: a scene has one or the other");
+    TableReader medium = read_single("medium");
+    scene_.medium = read_medium(medium, scene_.render.integrator);
     TableReader verify = read_single("verify");
     scene_.verify = read_verify(verify);
 

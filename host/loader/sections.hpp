@@ -19,6 +19,7 @@ struct Section {
     camera,
     render,
     environment,
+    medium,
     verify,
     light,
     material,

@@ -2,6 +2,7 @@
 
 #include "host/materials/highlight.hpp"
 #include "host/materials/make.hpp"
+#include "host/materials/medium_keys.hpp"
 
 namespace eyeray::materials {
 
@@ -18,6 +19,11 @@ type = "dielectric"
 ior = 1.5
 absorption = [0.2, 0.02, 0.1]
 ```
+
+With `scattering` it is clouded: under `path` light that comes a distance d through it is weakened by exp(-(absorption +
+scattering) d), and what is scattered goes on in directions after Henyey and Greenstein, p(cos θ) = (1 - g²) / (4π (1 + g² -
+2g cos θ)^(3/2)), g the `anisotropy`. Each time counts as one of `max_depth`. `whitted` and `raycast` know `absorption` alone.
+A medium without a surface has `ior = 1`.
 
 Media nest, up to four deep: a ray that leaves one is back in the one around it. A hollow ball is a sphere of glass with a
 sphere of `ior = 1` inside it. From ior n₁ to n₂, sin²θ₂ = (n₁/n₂)² (1 − cos²θ₁); where that reaches 1 all light is mirrored, and
@@ -44,10 +50,9 @@ constexpr Key keys[] = {
             "is at least 0.032.",
      .fallback = "0",
      .max = 1},
-    {.name = "absorption",
-     .type = KeyType::color,
-     .doc = "Light is weakened by exp(-absorption * distance) inside; per unit of length.",
-     .fallback = "0"},
+    absorption_key,
+    scattering_key,
+    anisotropy_key,
     {.name = "shadow",
      .type = KeyType::number,
      .doc = "Share of light that a shadow ray keeps for each shape it hits; from ior when absent.",
@@ -87,7 +92,9 @@ class Dielectric final : public Material {
 
   Vec3 base_color(const TextureContext&) const override { return Vec3(1); }
 
-  std::optional<Medium> medium() const override { return Medium{values_.ior, values_.absorption}; }
+  std::optional<Medium> medium() const override {
+    return Medium{values_.ior, values_.absorption, values_.scattering, values_.anisotropy};
+  }
 
   double shadow_transmittance() const override {
     const double r = (values_.ior - 1) / (values_.ior + 1);
@@ -96,7 +103,7 @@ class Dielectric final : public Material {
 
   void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_dielectric, values_.highlight, shadow_transmittance(), packer);
-    record.medium = packer.add_medium(values_.ior, values_.absorption);
+    record.medium = packer.add_medium(*medium());
     record.color = record.reflected = textures::make_constant(Vec3(1))->pack(packer);
     record.roughness = values_.roughness->pack(packer);
     packer.add(record);
@@ -110,9 +117,12 @@ class Dielectric final : public Material {
 };
 
 std::unique_ptr<Material> parse(TableReader& table) {
-  DielectricValues values{.ior = table.number("ior"),
+  const Medium medium = read_medium(table, table.number("ior"));
+  DielectricValues values{.ior = medium.ior,
                           .roughness = table.texture("roughness"),
-                          .absorption = table.color("absorption"),
+                          .absorption = medium.absorption,
+                          .scattering = medium.scattering,
+                          .anisotropy = medium.anisotropy,
                           .highlight = read_highlight(table)};
   if (table.has("shadow")) values.shadow = table.number("shadow");
   if (table.failed()) return nullptr;

@@ -30,6 +30,8 @@ struct DielectricValues {
   double ior = 1.5;
   TexturePtr roughness = textures::make_constant(Vec3(0));
   Vec3 absorption{0.0};
+  Vec3 scattering{0.0};
+  double anisotropy = 0;
   std::optional<double> shadow = {};  // absent: what Fresnel lets through at normal incidence
   Highlight highlight = {};
 };

@@ -87,10 +87,12 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
   pack_geometry(scene, options, packer);
   for (const auto& light : scene.lights) light->pack(packer);
   if (walks_at_random(scene.render.integrator)) {
+    packer.scene.media[0] = records::to_record(scene.medium);
     pack_light_choice(light_choice(scene), packer);
     pack_ggx_albedos(packer.scene);
   } else {
     packer.scene.lobes.clear();
+    for (shader::Medium& medium : packer.scene.media) medium.scattering = shader::vec3(0);
   }
   packer.scene.frame = pack_frame(scene, packer.scene);
   return packer;

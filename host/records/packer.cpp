@@ -44,9 +44,9 @@ uint32_t Packer::add_formula(const std::shared_ptr<const formula::Formula>& form
   return uint32_t(all.size() - 1);
 }
 
-uint32_t Packer::add_medium(double ior, const Vec3& absorption) {
+uint32_t Packer::add_medium(const Medium& medium) {
   CHECK_LT(scene.media.size(), size_t{256});
-  scene.media.push_back({glm::vec3(absorption), float(ior)});
+  scene.media.push_back(to_record(medium));
   return uint32_t(scene.media.size() - 1);
 }
 

@@ -15,6 +15,7 @@
 #include "host/records/records.hpp"
 #include "host/scene/bounds.hpp"
 #include "host/scene/image_texture.hpp"
+#include "host/scene/material.hpp"
 
 namespace eyeray::formula {
 class Formula;  // formula/formula.hpp
@@ -57,7 +58,7 @@ struct PackedScene {
   std::vector<shader::Texture> textures;
   size_t texel_count = 0;                             // of `texels`, written or not; 0 without images
   std::vector<uint32_t> texels;                       // records.h says how
-  std::vector<shader::Medium> media{{{0, 0, 0}, 1}};  // by number; 0 is the vacuum
+  std::vector<shader::Medium> media{{{0, 0, 0}, 1, {0, 0, 0}, 0}};  // by number; 0 is around all
   std::vector<shader::Light> lights;
   RawVector<shader::uvec4> environment;   // records.h says how; empty without one, or not written
   std::vector<shader::Emitter> emitters;  // lights, then surfaces in the order of their primitives
@@ -109,8 +110,8 @@ class Packer {
   // The number of a formula; equal formulas share one. `by_bounds`: rays find its surface by affine bounds.
   // InputError, at the text, where all formulas together are too much for a kernel.
   uint32_t add_formula(const std::shared_ptr<const formula::Formula>& formula, bool by_bounds = false);
-  // The number of a medium, 1 … 255; `absorption` per unit of length.
-  uint32_t add_medium(double ior, const Vec3& absorption);
+  // The number of a medium, 1 … 255.
+  uint32_t add_medium(const Medium& medium);
 
   PackedScene scene;
   std::vector<Bounds>
@@ -131,6 +132,10 @@ class Packer {
 };
 
 // Float32 records from float64 values.
+inline shader::Medium to_record(const Medium& medium) {
+  return {glm::vec3(medium.absorption), float(medium.ior), glm::vec3(medium.scattering),
+          float(medium.anisotropy)};
+}
 inline shader::vec4 to_vec4(const Vec3& v, double w = 0) {
   return shader::vec4(glm::vec3(v), float(w));
 }

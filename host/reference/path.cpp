@@ -8,6 +8,7 @@
 #include "host/reference/environment.hpp"
 #include "host/reference/integrator.hpp"
 #include "host/reference/light_disk.hpp"
+#include "host/reference/phase.hpp"
 #include "host/reference/sample_rays.hpp"
 #include "host/reference/sampler.hpp"
 
@@ -25,6 +26,7 @@ constexpr std::string_view manual =
 
 // What pairs of random numbers are for; of the vertices after the first, `pairs_a_vertex` further on each.
 constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, place_pair = 7, pairs_a_vertex = 4;
+constexpr uint32_t first_flight_pair = 0x10000;  // of the vertices after the first one further on each
 constexpr int first_roulette = 3;
 constexpr double least_survival = 0.05;
 
@@ -68,6 +70,22 @@ struct Arriving {
   double density;  // by solid angle, with the light's choice; 0 of a light without extent
 };
 
+// How far a path gets through a medium: up to a point of it, or to what the ray hits.
+struct Flight {
+  double t;
+  bool scattered;
+  Vec3 weight;  // of the light that comes from there
+};
+
+// What comes through a medium.
+Vec3 transmittance(const Medium& medium, double t) {
+  const Vec3 extinction = medium.absorption + medium.scattering;
+  Vec3 left(1);
+  for (int c = 0; c < 3; ++c)
+    if (extinction[c] > 0) left[c] = std::exp(-extinction[c] * t);
+  return left;
+}
+
 class PathSample {
  public:
   PathSample(const Tracer& tracer, const SampleId& id, const RayOffset& ray_offset, const Observer& observer)
@@ -84,12 +102,19 @@ class PathSample {
     return sampler(scene_.image.pattern)
         .pair(id_.pixel, id_.index, use + pairs_a_vertex * uint32_t(depth_), scene_.render.seed);
   }
+  Flight fly(const MediaStack& media, const std::optional<Hit>& hit) const;
+  Interaction scattered_at(const Ray& ray, double t) const;
+  std::optional<Ray> scatter_in(const Medium& medium, const Interaction& at);
   Vec3 emitted(const Interaction& at, const Vec3& from) const;
   Vec3 missed(const Vec3& d) const;
   double environment_share() const;
   std::optional<Arriving> arriving(const Interaction& at);
   std::optional<Arriving> arriving_from_around(const Interaction& at);
-  Vec3 direct(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf);
+  Vec3 direct(const Arriving& light, const BsdfValue& scattered, const Medium& medium);
+  Vec3 direct_on(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                 const MediaStack& media);
+  Vec3 direct_in(const Medium& medium, const Interaction& at);
+  std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, double chance);
   std::optional<Ray> scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                              MediaStack& media);
 
@@ -102,6 +127,29 @@ class PathSample {
   Vec3 throughput_{1};
   double density_ = 0;  // by solid angle, of the ray's direction; 0 where there was no choice
 };
+
+// A channel says how far, each as likely as it has light left; the density is that of all three.
+Flight PathSample::fly(const MediaStack& media, const std::optional<Hit>& hit) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Medium medium = rays_.medium(media);
+  const double end = hit ? hit->at.t : infinity;
+  if (medium.scattering == Vec3(0)) {
+    const bool open = !hit && media.top() >= 0;
+    return {end, false, open ? Vec3(1) : transmittance(medium, end)};
+  }
+  const Vec3 extinction = medium.absorption + medium.scattering;
+  const Vec2 chance = sampler(scene_.image.pattern)
+                          .pair(id_.pixel, id_.index, first_flight_pair + uint32_t(depth_), scene_.render.seed);
+  const Vec3 shares = throughput_ / (throughput_.x + throughput_.y + throughput_.z);
+  const int channel = chance.x < shares.x ? 0 : chance.x < shares.x + shares.y ? 1 : 2;
+  const double t = extinction[channel] > 0 ? -std::log1p(-chance.y) / extinction[channel] : infinity;
+  if (t < end) {
+    const Vec3 left = transmittance(medium, t);
+    return {t, true, medium.scattering * left / glm::dot(shares, extinction * left)};
+  }
+  const Vec3 left = transmittance(medium, end);
+  return {end, false, left / glm::dot(shares, left)};
+}
 
 // Its own light, less what shadow rays to it have brought already.
 Vec3 PathSample::emitted(const Interaction& at, const Vec3& from) const {
@@ -176,8 +224,22 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
                   density};
 }
 
-// What that brings to the viewer.
-Vec3 PathSample::direct(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf) {
+// What that brings to the viewer by a vertex that sends on `scattered`; surfaces keep the ray in `medium`.
+Vec3 PathSample::direct(const Arriving& light, const BsdfValue& scattered, const Medium& medium) {
+  const double weight = light.density > 0 ? power_heuristic(light.density, scattered.density) : 1;
+  const Vec3 contribution =
+      light.radiance * transmittance(medium, light.distance) * scattered.value * weight;
+  if (contribution == Vec3(0)) return Vec3(0);
+  const double seen = rays_.shadow(light.ray, light.distance);
+  observer_.ray(RayKind::shadow, light.ray, depth_, 0);
+  observer_.value("contribution", contribution);
+  observer_.value("visibility", seen);
+  observer_.back(depth_);
+  return seen * contribution;
+}
+
+Vec3 PathSample::direct_on(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                           const MediaStack& media) {
   if (bsdf.black() || depth_ > scene_.render.max_depth) return Vec3(0);
   const auto light = arriving(at);
   if (!light || light->radiance == Vec3(0)) return Vec3(0);
@@ -185,14 +247,15 @@ Vec3 PathSample::direct(const Interaction& at, const LocalFrame& frame, const Vi
   const BsdfValue scattered = bsdf.at(i);
   if (scattered.value == Vec3(0)) return Vec3(0);
   if (!rays_.on_side(at.surface, light->l, light->distance, i.z > 0)) return Vec3(0);
-  const double weight = light->density > 0 ? power_heuristic(light->density, scattered.density) : 1;
-  const Vec3 contribution = light->radiance * scattered.value * weight;
-  const double seen = rays_.shadow(light->ray, light->distance);
-  observer_.ray(RayKind::shadow, light->ray, depth_, 0);
-  observer_.value("contribution", contribution);
-  observer_.value("visibility", seen);
-  observer_.back(depth_);
-  return seen * contribution;
+  return direct(*light, scattered, rays_.medium(i.z > 0 ? media : at.media_beyond));
+}
+
+Vec3 PathSample::direct_in(const Medium& medium, const Interaction& at) {
+  if (depth_ > scene_.render.max_depth) return Vec3(0);
+  const auto light = arriving(at);
+  if (!light || light->radiance == Vec3(0)) return Vec3(0);
+  const double phase = phase_value(medium.anisotropy, glm::dot(at.d, light->l));
+  return direct(*light, {Vec3(phase), phase}, medium);
 }
 
 std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
@@ -218,9 +281,21 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
   }
   if (kind == RayKind::refracted) media = at.media_beyond;
 
+  return continued(kind, at, d, chance.y);
+}
+
+std::optional<Ray> PathSample::scatter_in(const Medium& medium, const Interaction& at) {
+  if (depth_ > scene_.render.max_depth) return std::nullopt;
+  const Vec3 d = phase_direction(medium.anisotropy, at.d, pair(direction_pair));
+  density_ = phase_value(medium.anisotropy, glm::dot(at.d, d));
+  return continued(RayKind::reflected, at, d, pair(scatter_pair).y);
+}
+
+// Roulette.
+std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, const Vec3& d, double chance) {
   const double survival = depth_ < first_roulette ? 1 : std::clamp(largest(throughput_), least_survival, 1.0);
   observer_.value("survival", survival);
-  if (!(chance.y < survival)) return std::nullopt;
+  if (!(chance < survival)) return std::nullopt;
   throughput_ /= survival;
   ++depth_;
   ++(kind == RayKind::reflected ? rays_.reflected : rays_.refracted);
@@ -229,23 +304,48 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
   return next;
 }
 
+// A point of a medium, in the place of a surface.
+Interaction PathSample::scattered_at(const Ray& ray, double t) const {
+  Interaction at{.surface = {}, .d = ray.d, .cos_view = 1, .primitive = ~uint64_t{0}};
+  at.surface.position = ray.o + t * ray.d;
+  at.surface.normal = at.surface.normal_geometric = -ray.d;
+  observer_.value("primitive", -1);
+  observer_.value("t", t);
+  observer_.value("position", at.surface.position);
+  observer_.value("throughput", throughput_);
+  return at;
+}
+
 PixelSample PathSample::sample(Ray ray, MediaStack media) {
   Vec3 color(0);
   for (;;) {
-    const auto at = rays_.hit(ray, media, throughput_);
-    if (!at) {
-      color += throughput_ * missed(ray.d);
-      break;
+    const auto hit = rays_.trace(ray);
+    const Flight flight = fly(media, hit);
+    const Vec3 before = throughput_;
+    throughput_ *= flight.weight;
+    std::optional<Ray> next;
+    if (flight.scattered) {
+      const Medium medium = rays_.medium(media);
+      const Interaction at = scattered_at(ray, flight.t);
+      const Vec3 light = direct_in(medium, at);
+      observer_.value("light", light);
+      color += throughput_ * light;
+      next = scatter_in(medium, at);
+    } else if (hit) {
+      const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
+      const LocalFrame frame(at);
+      const ViewedBsdf bsdf(at.bsdf, frame.viewer);
+      const Vec3 light = emitted(at, ray.o) + direct_on(at, frame, bsdf, media);
+      observer_.value("light", light);
+      color += throughput_ * light;
+      if (at.has_medium && at.scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)
+        ++rays_.total_reflections;
+      next = scatter(at, frame, bsdf, media);
+    } else {
+      const Vec3 light = missed(ray.d);
+      observer_.miss(throughput_, light);
+      color += throughput_ * light;
     }
-    throughput_ *= at->dimming;
-    const LocalFrame frame(*at);
-    const ViewedBsdf bsdf(at->bsdf, frame.viewer);
-    const Vec3 light = emitted(*at, ray.o) + direct(*at, frame, bsdf);
-    observer_.value("light", light);
-    color += throughput_ * light;
-    if (at->has_medium && at->scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)
-      ++rays_.total_reflections;
-    const auto next = scatter(*at, frame, bsdf, media);
     if (!next) break;
     ray = *next;
   }

@@ -17,9 +17,8 @@ Vec3 Interaction::refracted() const {
   return glm::normalize(eta * d + (eta * cos_view - std::sqrt(std::max(0.0, cos2_squared))) * surface.normal);
 }
 
-// The vacuum where no medium is.
 Medium SampleRays::medium(const MediaStack& media) const {
-  return media.top() < 0 ? Medium{} : *scene_.materials[size_t(media.top())]->medium();
+  return media.top() < 0 ? scene_.medium : *scene_.materials[size_t(media.top())]->medium();
 }
 
 Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d) {
@@ -107,20 +106,29 @@ Scattering SampleRays::scattering(const Ray& ray, const Hit& hit, const SurfaceP
 }
 
 std::optional<Interaction> SampleRays::hit(const Ray& ray, const MediaStack& media, const Vec3& throughput) {
-  stop_if_interrupted();
-  ++rays_;
-  const auto hit = tracer_.trace(ray, flags_, ray_offset_.coincident);
+  const auto hit = trace(ray);
   if (!hit) {
     observer_.miss(throughput, surroundings(ray.d));
     return std::nullopt;
   }
+  return interaction(ray, *hit, media, throughput, glm::exp(-medium(media).absorption * hit->at.t));
+}
+
+std::optional<Hit> SampleRays::trace(const Ray& ray) {
+  stop_if_interrupted();
+  ++rays_;
+  return tracer_.trace(ray, flags_, ray_offset_.coincident);
+}
+
+Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaStack& media,
+                                    const Vec3& throughput, const Vec3& dimming) {
   ++hits_;
 
   // Turn the surface to the viewer. Float32 may see either side of one that the ray runs along.
-  Interaction at{.surface = tracer_.surface(ray, *hit), .d = ray.d, .primitive = hit->primitive};
-  observer_.hit(tracer_, ray, *hit, at.surface);
+  Interaction at{.surface = tracer_.surface(ray, hit), .d = ray.d, .primitive = hit.primitive};
+  observer_.hit(tracer_, ray, hit, at.surface);
   const double cosine = glm::dot(at.d, at.surface.normal_geometric);
-  const bool along = std::abs(cosine) < cosine_rounding(at.surface, hit->at.t);
+  const bool along = std::abs(cosine) < cosine_rounding(at.surface, hit.at.t);
   const bool front = (cosine < 0) != (along && ray_offset_.along_normal);
   if (!front) {
     at.surface.normal_geometric = -at.surface.normal_geometric;
@@ -129,23 +137,23 @@ std::optional<Interaction> SampleRays::hit(const Ray& ray, const MediaStack& med
   at.cos_view = std::clamp(-glm::dot(at.d, at.surface.normal), 0.0, 1.0);
 
   // Say which media hit here.
-  const Material& material = *scene_.materials[size_t(hit->material)];
+  const Material& material = *scene_.materials[size_t(hit.material)];
   const Medium before = medium(media);
   at.has_medium = material.medium().has_value();
   at.media_beyond = media;
   if (at.has_medium) {
     if (!front) {
-      at.media_beyond.remove(hit->material);
-    } else if (!at.media_beyond.push(hit->material)) {
+      at.media_beyond.remove(hit.material);
+    } else if (!at.media_beyond.push(hit.material)) {
       flags_ |= media_overflow;
     }
   }
-  at.dimming = glm::exp(-before.absorption * hit->at.t);
+  at.dimming = dimming;
   at.ior_before = before.ior;
   at.ior_beyond = medium(at.media_beyond).ior;
   const ScatteringContext context{
       {at.surface.uv, at.surface.position}, at.cos_view, at.ior_before, at.ior_beyond, at.surface.color};
-  at.scattering = scattering(ray, *hit, at.surface, context);
+  at.scattering = scattering(ray, hit, at.surface, context);
   if (walks_at_random(scene_.render.integrator)) at.bsdf = material.bsdf(context, at.scattering);
 
   observer_.value("ior", Vec2(at.ior_before, at.ior_beyond));

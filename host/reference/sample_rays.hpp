@@ -34,6 +34,12 @@ class SampleRays {
   // What the ray, which is in `media`, hits; nothing where it hits nothing. `throughput`: the share of its
   // light that arrives in the pixel.
   std::optional<Interaction> hit(const Ray& ray, const MediaStack& media, const Vec3& throughput);
+  // The same in two steps. `dimming`: what the medium leaves of the light on its way.
+  std::optional<Hit> trace(const Ray& ray);
+  Interaction interaction(const Ray& ray, const Hit& hit, const MediaStack& media, const Vec3& throughput,
+                          const Vec3& dimming);
+  // The innermost.
+  Medium medium(const MediaStack& media) const;
   // What a ray in that unit direction sees where it hits nothing.
   Vec3 surroundings(const Vec3& d) const;
   // The unit direction as float32 may round it.
@@ -57,7 +63,6 @@ class SampleRays {
  private:
   Scattering scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
                         ScatteringContext context) const;
-  Medium medium(const MediaStack& media) const;
   double cosine_rounding(const SurfacePoint& point, double distance) const;
   double tilt(const SurfacePoint& point, double distance) const;
 

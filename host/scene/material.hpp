@@ -19,11 +19,16 @@ namespace records {
 class Packer;  // records/packer.hpp
 }
 
-// What fills a closed shape.
+// What fills a closed shape, or all that is outside of them. Light is weakened by exp(−absorption · distance),
+// and for paths also by scattering, which sends it elsewhere. By Henyey and Greenstein: g, the mean cosine of
+// the angle by which it is turned.
 struct Medium {
   double ior = 1.0;
-  Vec3 absorption{0.0};  // per unit of length: light is weakened by exp(−absorption · distance)
+  Vec3 absorption{0.0};  // per unit of length, as scattering
+  Vec3 scattering{0.0};
+  double anisotropy = 0;  // g, within ±most_anisotropy
 };
+constexpr double most_anisotropy = 0.99;
 
 // How a surface point scatters light towards the viewer, after Whitted 1980.
 struct Scattering {

@@ -19,6 +19,10 @@ struct Interaction {
   Bsdf bsdf;
 #endif
   uint media_behind;           // that a refracted ray is in (materials/media.glsl)
+#if HAS_SCATTERING
+  bool in_medium;              // no surface at all: a point of a medium that scatters (integrators/flight.glsl) …
+  float anisotropy;            // … in this way (materials/phase.glsl)
+#endif
 };
 
 // `hit`: that of `ray`, which came through `media`. Adds to `flags` where those are too many.
@@ -50,6 +54,10 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   at.context.ior_from = 1.0f;
   at.context.ior_to = 1.0f;
   at.media_behind = media;
+#if HAS_SCATTERING
+  at.in_medium = false;
+  at.anisotropy = 0.0f;
+#endif
 #if HAS_MEDIA
   if (at.material.medium != 0u)
     at.media_behind = front ? enter_medium(media, at.material.medium, flags) : leave_medium(media, at.material.medium);
@@ -79,14 +87,6 @@ vec3 refracted_direction(Interaction at) {
   float cos_squared = 1.0f - eta * eta * (1.0f - cos_view * cos_view);
   return normalize3(at.d * eta + at.seen.normal * (eta * cos_view - sqrt(maximum(cos_squared, 0.0f))));
 }
-
-#if HAS_ABSORPTION
-// The share of light that the medium lets through on the way to a hit at t.
-vec3 medium_transmittance(uint media, float t) {
-  vec3 absorption = load_medium(innermost_medium(media)).absorption;
-  return vec3(exp_negative(-absorption.x * t), exp_negative(-absorption.y * t), exp_negative(-absorption.z * t));
-}
-#endif
 
 SHADER_END
 #endif

@@ -9,8 +9,10 @@
 #include "emitters/environment.glsl"
 #include "emitters/light_disk.glsl"
 #include "integrators/continuation.glsl"
+#include "integrators/flight.glsl"
 #include "integrators/interaction.glsl"
 #include "lights/light.glsl"
+#include "materials/phase.glsl"
 #include "math/rng.glsl"
 #include "samplers/sampler.glsl"
 
@@ -182,10 +184,23 @@ bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ra
   LocalFrame local = local_frame(at);
   vec3 i_local = into_frame(local, arriving.direction);
   LobeValue lobes = bsdf_value(at.bsdf, lobe_shares(at.bsdf), towards_viewer(local, at), i_local);
+  bool on_side = on_its_side(at, arriving.direction, i_local.z);
+#if HAS_SCATTERING
+  if (at.in_medium) {
+    lobes.density = phase_value(at.anisotropy, at.d, arriving.direction);
+    lobes.value = vec3(lobes.density, lobes.density, lobes.density);
+    on_side = true;
+  }
+#endif
+#if HAS_ABSORPTION
+  // Surfaces keep shadow rays in the medium that they begin in.
+  arriving.radiance =
+      arriving.radiance * medium_transmittance(i_local.z > 0.0f ? path.media : at.media_behind, arriving.distance);
+#endif
   float density = arriving.density;
   contribution =
       arriving.radiance * lobes.value * (density > 0.0f ? power_heuristic(density, lobes.density) / density : 1.0f / arriving.share);
-  return max_component(contribution) > 0.0f && on_its_side(at, arriving.direction, i_local.z) && path.depth <= frame.max_depth;
+  return max_component(contribution) > 0.0f && on_side && path.depth <= frame.max_depth;
 }
 
 // By one of its lobes. The vertex behind the last is there for its light alone.
@@ -217,6 +232,15 @@ Continuations path_scatter(Frame frame, Path path, Interaction at) {
     weight = at.bsdf.transmitted / shares.transmitted;
   }
   if (refracted) next.media = at.media_behind;
+#endif
+#if HAS_SCATTERING
+  if (at.in_medium) {
+    next.d = normalize3(out_of_frame(local, phase_direction(at.anisotropy, path_pair(frame, path, PAIR_DIRECTION))));
+    next.density = phase_value(at.anisotropy, at.d, next.d);
+    weight = vec3(1.0f, 1.0f, 1.0f);
+    refracted = false;
+    lost = false;
+  }
 #endif
 #if RAY_KINDS
   next.refracted = refracted;

@@ -2,6 +2,7 @@
 #ifndef VERTEX_GLSL
 #define VERTEX_GLSL
 #include "bvh/traverse.glsl"
+#include "integrators/flight.glsl"
 #include "integrators/integrator.glsl"
 
 SHADER_BEGIN
@@ -10,18 +11,30 @@ SHADER_BEGIN
 Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color, INOUT(uvec4) counts) {
   Continuations all = no_continuation(path);
   bool struck = hit.slot != NONE;
+  bool scattered = false;
+#if HAS_ABSORPTION
+  Flight flight = flight_of(frame, path, hit);
+  path.throughput = path.throughput * flight.weight;
+  scattered = flight.scattered;
+  struck = struck && !scattered;
+#endif
   counts.x += 1u;
   counts.y += struck ? 1u : 0u;
   counts.w += TRACE_ITERATIONS + 1u;
   PROBE(primitive, struck ? int(hit.id) : -1);
-  if (!struck) {
+  if (!struck && !scattered) {
     PROBE(throughput, path.throughput);
     PROBE(light, missed(frame, path));
     color = color + path.throughput * missed(frame, path);
   } else {
+#if HAS_SCATTERING
+    Interaction at;
+    if (scattered)
+      at = scattered_at(path, flight);
+    else
+      at = interaction_at(ray, hit, path.media, counts.z);
+#else
     Interaction at = interaction_at(ray, hit, path.media, counts.z);
-#if HAS_ABSORPTION
-    path.throughput = path.throughput * medium_transmittance(path.media, hit.t);
 #endif
     PROBE(throughput, path.throughput);
     vec3 light = emitted(frame, path, at);

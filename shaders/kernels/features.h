@@ -37,8 +37,11 @@
 #ifndef HAS_MEDIA  // there is a medium beside the vacuum
 #define HAS_MEDIA 1
 #endif
-#ifndef HAS_ABSORPTION  // a medium absorbs
+#ifndef HAS_ABSORPTION  // a medium takes light away
 #define HAS_ABSORPTION 1
+#endif
+#ifndef HAS_SCATTERING  // … and sends some of it elsewhere
+#define HAS_SCATTERING 1
 #endif
 #ifndef HAS_LENS  // the camera has one that rays start from
 #define HAS_LENS 1

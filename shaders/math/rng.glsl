@@ -21,6 +21,7 @@ uint pcg_hash(uint x) {
 #define PAIR_LIGHT 6u     // which light
 #define PAIR_EMITTER 7u   // where on it
 #define PAIRS_A_VERTEX 4u
+#define PAIR_FLIGHT 0x10000u  // how far the path gets on its way to the first vertex; one further on to the next
 
 // The upper 24 bits as a number in [0, 1): exactly.
 float unit_float(uint bits) { return float(bits >> 8u) * 5.9604645e-8f; }

@@ -52,9 +52,8 @@ void main() {
   Frame frame = load_frame();
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   Hit hit = hit_of_packet(hits[place], counts);
-  bool struck = there && hit.slot != NONE;
-  hit.slot = struck ? hit.slot : 0u;
-  Interaction at_hit = interaction_at(bounced, hit, path.media, counts.z);
+  bool struck;
+  Interaction at_hit = vertex_at(frame, path, bounced, hit, there, struck);
   uint flags = 0u;
   uint light = 0u;
   do {

@@ -73,11 +73,8 @@ Interaction interaction_of(uint place, out bool struck) {
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   uint there = place == NONE ? 0u : place;
   Hit hit = hit_of_packet(hits[there], counts);
-  struck = place != NONE && hit.slot != NONE;
-  hit.slot = struck ? hit.slot : 0u;
-  uint flags = 0u;
   Path path = eye_path(there);
-  return interaction_at(make_ray(path.o, path.d), hit, path.media, flags);
+  return vertex_at(load_frame(), path, make_ray(path.o, path.d), hit, place != NONE, struck);
 }
 #endif
 

@@ -1,0 +1,107 @@
+// How far a path gets through the medium that it is in. Where that scatters light, the distance is drawn: of one channel's, each as likely
+// as it has light left; its density is that of all three (Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014).
+#ifndef FLIGHT_GLSL
+#define FLIGHT_GLSL
+#include "integrators/continuation.glsl"
+#include "integrators/interaction.glsl"
+#include "samplers/sampler.glsl"
+
+SHADER_BEGIN
+
+struct Flight {
+  float t;         // up to the hit, or to a point before it …
+  bool scattered;  // … where the path goes on, whatever it would have hit
+  vec3 weight;     // of the light that comes from there
+};
+
+#if HAS_ABSORPTION
+// The share of light that a medium lets through.
+vec3 medium_transmittance(uint media, float t) {
+  Medium medium = load_medium(innermost_medium(media));
+  vec3 extinction = medium.absorption;
+#if HAS_SCATTERING
+  extinction = extinction + medium.scattering;
+#endif
+  return vec3(exp_negative(-extinction.x * t), exp_negative(-extinction.y * t), exp_negative(-extinction.z * t));
+}
+#endif
+
+// Of the path whose ray has that hit.
+Flight flight_of(Frame frame, Path path, Hit hit) {
+  Flight flight;
+  flight.t = hit.t;
+  flight.scattered = false;
+  flight.weight = vec3(1.0f, 1.0f, 1.0f);
+#if HAS_ABSORPTION
+  // What is around all has no end; what is open and hit nowhere lets light through.
+  if (hit.slot != NONE || innermost_medium(path.media) == 0u) flight.weight = medium_transmittance(path.media, hit.t);
+#endif
+#if HAS_SCATTERING
+  Medium medium = load_medium(innermost_medium(path.media));
+  if (max_component(medium.scattering) > 0.0f) {
+    vec3 extinction = medium.absorption + medium.scattering;
+    vec2 chance = sample_pair(frame, path.pixel, path.index, PAIR_FLIGHT + path.depth);
+    float all = path.throughput.x + path.throughput.y + path.throughput.z;
+    vec3 shares = path.throughput / maximum(all, 1.0e-30f);
+    float rate = chance.x < shares.x ? extinction.x : chance.x < shares.x + shares.y ? extinction.y : extinction.z;
+    float t = rate > 0.0f ? -log_positive(1.0f - chance.y) / rate : T_MISS;
+    flight.scattered = t < hit.t;
+    flight.t = flight.scattered ? t : hit.t;
+    vec3 left = medium_transmittance(path.media, flight.t);
+    vec3 densities = shares * left;
+    if (flight.scattered) {
+      densities = densities * extinction;
+      left = left * medium.scattering;
+    }
+    flight.weight = left / maximum(densities.x + densities.y + densities.z, 1.0e-30f);
+  }
+#endif
+  return flight;
+}
+
+#if HAS_SCATTERING
+// The point of the medium where that ends. Its normals are towards where the ray came from.
+Interaction scattered_at(Path path, Flight flight) {
+  Interaction at;
+  at.surface = no_surface();
+  at.surface.p = path.o + path.d * flight.t;
+  at.surface.normal_geometric = -path.d;
+  at.surface.normal = -path.d;
+  at.seen = at.surface;
+  at.d = path.d;
+  at.primitive = NONE;
+  at.context.place = place_of_uv(at.surface.uv);
+  at.context.color = vec3(1.0f, 1.0f, 1.0f);
+  at.context.cos_view = 1.0f;
+  at.context.ior_from = 1.0f;
+  at.context.ior_to = 1.0f;
+  at.scattering = no_scattering();
+  at.bsdf = black_bsdf();
+  at.media_behind = path.media;
+  at.in_medium = true;
+  at.anisotropy = load_medium(innermost_medium(path.media)).anisotropy;
+  PROBE(t, flight.t);
+  PROBE(position, at.surface.p);
+  return at;
+}
+#endif
+
+// For kernels that trace shadow rays alone: the vertex that the path has behind `hit`, if it is `there`; struck: whether it has one.
+Interaction vertex_at(Frame frame, Path path, Ray ray, Hit hit, bool there, OUT(bool) struck) {
+  uint flags = 0u;
+  struck = there && hit.slot != NONE;
+  Hit some = hit;
+  some.slot = struck ? hit.slot : 0u;
+  Interaction at = interaction_at(ray, some, path.media, flags);
+#if HAS_SCATTERING
+  Flight flight = flight_of(frame, path, hit);
+  if (there && flight.scattered) {
+    at = scattered_at(path, flight);
+    struck = true;
+  }
+#endif
+  return at;
+}
+
+SHADER_END
+#endif

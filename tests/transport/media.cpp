@@ -1,0 +1,142 @@
+// Media that scatter light, where the answer is known.
+#include "estimate.hpp"
+#include "host/scene/integrator.hpp"
+#include "host/scene/sampler.hpp"
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::shapes;
+using namespace eyeray::materials;
+using namespace eyeray::test;
+using executors::Backend;
+
+namespace {
+
+Scene patch(const Vec3& eye, const Vec3& target, int samples) {
+  Scene scene = one_pixel(eye, target);
+  scene.image = {.width = 8, .height = 8, .samples = samples, .pattern = SamplePattern::sobol};
+  scene.camera.projection = cameras::make_projection(PerspectiveCamera{.fov_degrees = 1e-3});
+  scene.render.integrator = IntegratorType::path;
+  return scene;
+}
+
+void check(const Scene& scene, double expected, double least_error) {
+  CAPTURE(expected);
+  for (const Backend backend : {Backend::twin, Backend::reference}) {
+    const Estimate found = estimate(scene, backend);
+    CAPTURE(int(backend));
+    CAPTURE(found.mean);
+    CAPTURE(found.error);
+    CHECK(found.error < 0.005 * expected);
+    CHECK(std::abs(found.mean - expected) < 5 * found.error + least_error * expected);
+  }
+}
+
+// By Simpson's rule.
+template <typename Function>
+double integral(double from, double to, const Function& f) {
+  constexpr int steps = 20000;
+  double sum = 0;
+  for (int i = 0; i <= steps; ++i)
+    sum += (i == 0 || i == steps ? 1 : i % 2 ? 4 : 2) * f(from + (to - from) * i / steps);
+  return sum * (to - from) / (3 * steps);
+}
+
+double henyey_greenstein(double g, double cosine) {
+  return (1 - g * g) / (4 * M_PI * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+}
+
+}  // namespace
+
+TEST_CASE("what absorbs around all: light is weakened to the eye, and from a lamp") {
+  Scene scene = patch({0.4, 0.9, 0.5}, {0, 0, 0}, 4);
+  scene.render.max_depth = 0;
+  scene.medium.absorption = Vec3(0.3, 0, 0);
+  add(scene, make_plane({0, 0, 0}, {0, 1, 0}), add(scene, make_phong({.diffuse = gray(0.8)})));
+  add_point_light(scene, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
+  check(scene, 0.8 * 3 / 4 * std::exp(-0.3 * (2 + glm::length(scene.camera.eye))), 1e-5);
+}
+
+TEST_CASE("a lamp and a floor within an absorbing medium: their light too is weakened") {
+  Scene scene = patch({0.4, 0.9, 0.5}, {0, 0, 0}, 4);
+  scene.render.max_depth = 0;
+  add(scene, make_sphere({0, 0, 0}, 10), add(scene, make_dielectric({.absorption = Vec3(0.3)})));
+  add(scene, make_disk({0, 0, 0}, {0, 1, 0}, 5), add(scene, make_phong({.diffuse = gray(0.8)})));
+  add_point_light(scene, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
+  check(scene, 0.8 * 3 / 4 * std::exp(-0.3 * (2 + glm::length(scene.camera.eye))), 1e-5);
+}
+
+TEST_CASE("a white medium in a furnace is not seen, whatever it scatters") {
+  for (const double ior : {1.0, 1.5}) {
+    for (const double g : {0.0, 0.8, -0.5}) {
+      CAPTURE(ior);
+      CAPTURE(g);
+      Scene ball = patch({0, 0, 4}, {0.3, 0.4, 0}, 64);
+      ball.render.background = Vec3(1);
+      ball.render.max_depth = 1000;
+      add(ball, make_sphere({0, 0, 0}, 1),
+          add(ball, make_dielectric({.ior = ior, .scattering = Vec3(0.9, 2, 4), .anisotropy = g})));
+      check(ball, 1, 2e-5);
+    }
+  }
+}
+
+TEST_CASE("a white medium within a lamp: shadow rays and paths share one light") {
+  for (const double g : {0.0, 0.9, -0.7}) {
+    CAPTURE(g);
+    Scene scene = patch({0.1, 0.2, 0.3}, {0.1, 0, -2}, 1024);
+    scene.render.max_depth = 500;
+    scene.medium.scattering = Vec3(0.4, 0.1, 0.8);
+    scene.medium.anisotropy = g;
+    add(scene, make_sphere({0, 0, 0}, 2),
+        add(scene, make_phong({.diffuse = gray(0), .emission = gray(1)})));
+    check(scene, 1, 1e-4);
+  }
+}
+
+// ∫ σₛ p(cos θ) e^(−σ (t + d)) π I / d² dt along a ray that passes a point of light at distance 1.
+TEST_CASE("light of a point that fog scatters once") {
+  for (const double g : {0.0, 0.7, -0.4}) {
+    CAPTURE(g);
+    const double scattering = 0.2, absorption = 0.1, ahead = 3;
+    Scene scene = patch({0, 0, ahead}, {0, 0, 0}, 4096);
+    scene.render.max_depth = 0;
+    scene.medium = {.absorption = Vec3(absorption), .scattering = Vec3(scattering, 0.1, 0.4), .anisotropy = g};
+    add_point_light(scene, {0, 1, 0}, Vec3(2), Falloff::inverse_square);
+    const double expected = integral(0, 60, [&](double t) {
+      const double along = ahead - t, d = std::sqrt(1 + along * along);
+      // The ray goes on along −z; light comes along from the point.
+      const double phase = henyey_greenstein(g, along / d);
+      return scattering * phase * std::exp(-(scattering + absorption) * (t + d)) * M_PI * 2 / (d * d);
+    });
+    check(scene, expected, 1e-4);
+  }
+}
+
+// Chandrasekhar, Radiative Transfer, 1950: 1/H(μ) = √(1 − ϖ) + ½ϖ ∫ μ' H(μ') / (μ + μ') dμ'. Light that comes evenly from everywhere is
+// sent back as 1 − H(μ) √(1 − ϖ).
+TEST_CASE("half of space, filled with what scatters evenly, in light from everywhere") {
+  const double albedo = 0.8, mu = 0.6, root = std::sqrt(1 - albedo);
+  constexpr int steps = 400;
+  std::vector<double> h(steps, 1.0);
+  const auto one_over = [&](double at) {
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) sum += (i + 0.5) * h[size_t(i)] / (at + (i + 0.5) / steps);
+    return root + 0.5 * albedo * sum / (double(steps) * steps);
+  };
+  for (int turn = 0; turn < 60; ++turn) {
+    std::vector<double> next(steps);
+    for (int i = 0; i < steps; ++i) next[size_t(i)] = 1 / one_over((i + 0.5) / steps);
+    h = next;
+  }
+  Scene scene = patch({0, 2 * mu, 2 * std::sqrt(1 - mu * mu)}, {0, 0, 0}, 1024);
+  scene.render.max_depth = 200;
+  scene.render.background = Vec3(1);
+  const Vec3 extinction(1, 2, 0.5);
+  add(scene, make_plane({0, 0, 0}, {0, 1, 0}),
+      add(scene, make_dielectric({.ior = 1,
+                                  .absorption = (1 - albedo) * extinction,
+                                  .scattering = albedo * extinction})));
+  check(scene, 1 - root / one_over(mu), 1e-4);
+}
