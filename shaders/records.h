@@ -293,6 +293,14 @@ INLINE uint refracted_of(SampleResult result) { return result.flags >> REFRACTED
 INLINE uint reflected_of(SampleResult result) { return result.iterations & ((1u << TOTAL_SHIFT) - 1u); }
 INLINE uint total_reflections_of(SampleResult result) { return result.iterations >> TOTAL_SHIFT; }
 
+// What a denoiser asks of one sample of one pixel, 32 bytes.
+struct AuxiliaryResult {
+  vec3 albedo;
+  uint flags;
+  vec3 normal;
+  uint unused;
+};
+
 // The first hit of one pixel, 80 bytes. A miss has primitive = material = NONE and t = T_MISS.
 struct HitResult {
   vec3 position;  // relative to the eye
@@ -376,6 +384,7 @@ struct ProbeRecord {
 #define FLAG_LOOP_BUDGET 4u
 #define FLAG_ITERATION_LIMIT 8u
 #define FLAG_ENDLESS 16u  // a formula made more than FORMULA_TURNS turns of its loops in one call
+#define FLAG_CUT_OFF 32u  // with RAY_KINDS, and no fault: max_depth ended the path
 
 SHADER_END
 
@@ -391,6 +400,7 @@ static_assert(sizeof(eyeray::shader::Emitter) == 80);
 static_assert(sizeof(eyeray::shader::Frame) == 176);
 static_assert(sizeof(eyeray::shader::Dispatch) == 32);
 static_assert(sizeof(eyeray::shader::SampleResult) == 32);
+static_assert(sizeof(eyeray::shader::AuxiliaryResult) == 32);
 static_assert(sizeof(eyeray::shader::HitResult) == 80);
 static_assert(sizeof(eyeray::shader::QueryRay) == 32);
 static_assert(sizeof(eyeray::shader::QueryHit) == 16);

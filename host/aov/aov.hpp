@@ -26,10 +26,13 @@ struct EntryOfLegend {};
 using ValuesOfRows = image::Image (*)(const render::FinishedRows& rows);
 
 // What executors count only where it is asked for.
-enum class AovNeeds { nothing, ray_kinds, search_cost, noise };
+enum class AovNeeds { nothing, ray_kinds, search_cost, noise, brightest, auxiliary };
 // Of it what PixelSums count.
 constexpr render::Counted counted_for(AovNeeds needs) {
-  return {.kinds = needs == AovNeeds::ray_kinds, .noise = needs == AovNeeds::noise};
+  return {.kinds = needs == AovNeeds::ray_kinds,
+          .noise = needs == AovNeeds::noise,
+          .brightest = needs == AovNeeds::brightest,
+          .auxiliary = needs == AovNeeds::auxiliary};
 }
 
 struct AovType {

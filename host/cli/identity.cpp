@@ -18,7 +18,10 @@ std::vector<render::IdentityPart> identity_of(const PictureRequest& request, con
       {"--classic", request.classic ? "on" : "off"},
       {"--aov of kinds of rays", aov::any_needs(request.aovs, aov::AovNeeds::ray_kinds) ? "on" : "off"},
       {"--aov noise", aov::any_needs(request.aovs, aov::AovNeeds::noise) ? "on" : "off"},
+      {"--aov brightest", aov::any_needs(request.aovs, aov::AovNeeds::brightest) ? "on" : "off"},
+      {"--aov albedo or shading_normal", aov::any_needs(request.aovs, aov::AovNeeds::auxiliary) ? "on" : "off"},
       {"--noise", std::to_string(request.noise)},
+      {"--clamp", fmt::format("{}", request.clamp)},
       {"samples a pixel", std::to_string(scene.image.samples)},
       {"backend", std::string(executors::backend_name(request.backend))},
       // The processors' executors compute the same wherever the same program runs.

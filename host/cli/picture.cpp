@@ -16,6 +16,7 @@
 #include "host/render/corners.hpp"
 #include "host/render/flags.hpp"
 #include "host/render/render.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 
 namespace fs = std::filesystem;
@@ -43,6 +44,15 @@ void prepare_for_noise(const PictureRequest& request, Scene& scene) {
                 "-D image.pattern=sobol or random",
                 sample_patterns[uint32_t(scene.image.pattern)]);
   if (!request.scene.gives_samples()) scene.image.samples = most_samples_by_default;
+}
+
+// What a denoiser asks for is of paths alone: an error, or where all AOVs are wanted left out.
+void check_auxiliary(std::vector<aov::Aov>& aovs, const Scene& scene) {
+  if (walks_at_random(scene.render.integrator) || !aov::any_needs(aovs, aov::AovNeeds::auxiliary)) return;
+  if (aovs.size() != aov::aov_types().size())
+    throw Error(ExitCode::bad_input,
+                "the AOVs albedo and shading_normal are of paths: -D render.integrator=path, or see normal");
+  std::erase_if(aovs, [](aov::Aov each) { return each->needs == aov::AovNeeds::auxiliary; });
 }
 
 // Throws where what is to be written would take the place of what was read, links followed.
@@ -101,6 +111,9 @@ void PictureRequest::check_outputs() {
                 "rays, ray_kinds, samples and flags are made");
   if (classic && aov::any_needs(aovs, aov::AovNeeds::noise))
     throw Error(ExitCode::bad_input, "--classic samples have no noise that could be measured");
+  for (const aov::AovNeeds needs : {aov::AovNeeds::brightest, aov::AovNeeds::auxiliary})
+    if (classic && aov::any_needs(aovs, needs))
+      throw Error(ExitCode::bad_input, "--classic has not the AOVs brightest, albedo and shading_normal");
   if (outputs.empty())
     outputs.push_back(fs::path(scene.file()).filename().replace_extension(".png").string());
   for (const std::string& output : outputs) {
@@ -114,11 +127,11 @@ void PictureRequest::check_outputs() {
   }
 }
 
-Picture make_picture(const PictureRequest& request,
-                     const std::function<void(const render::Progress&)>& progress) {
+Picture make_picture(PictureRequest request, const std::function<void(const render::Progress&)>& progress) {
   const Stopwatch watch;
   Picture picture;
   Scene scene = picture.times.measure("load", [&] { return request.scene.load(); });
+  check_auxiliary(request.aovs, scene);
   spare_sources(request, scene);
   check_crop(request.crop, scene.image);
   const Rect crop = request.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : request.crop;
@@ -139,7 +152,10 @@ Picture make_picture(const PictureRequest& request,
   options.ray_kinds = request.ray_kinds;
   options.pixel_kinds = pixel_kinds;
   options.pixel_noise = aov::any_needs(request.aovs, aov::AovNeeds::noise);
+  options.pixel_brightest = aov::any_needs(request.aovs, aov::AovNeeds::brightest);
+  options.pixel_auxiliary = aov::any_needs(request.aovs, aov::AovNeeds::auxiliary);
   options.noise = request.noise;
+  options.clamp = request.clamp;
   options.band_bytes = size_t(request.long_render.band_mebibytes) << 20;
   options.checkpoint = checkpoint ? &*checkpoint : nullptr;
   options.progress = [&, warned = false](const render::Progress& now) mutable {
@@ -201,6 +217,9 @@ Picture make_picture(const PictureRequest& request,
   picture.mean_samples = double(totals.samples_taken) / pixels;
   if (request.noise > 0)
     picture.noise = Noise{request.noise, totals.greatest_noise, double(totals.quiet_pixels) / pixels};
+  picture.clamp = request.clamp;
+  picture.clamped = totals.clamped;
+  if (walks_at_random(scene.render.integrator)) picture.fireflies = totals.fireflies.samples;
   picture.samples_resumed = totals.samples_resumed;
   picture.rays_resumed = totals.rays_resumed;
   if (request.ray_kinds) picture.ray_kinds = totals.ray_kinds;
@@ -230,6 +249,21 @@ std::string summary(const Picture& picture) {
       picture.samples_resumed ? fmt::format("resumed with {} rays, then ", picture.rays_resumed) : "",
       picture.rays - picture.rays_resumed, format_seconds(picture.seconds),
       format_rate(rays_per_second(picture)), picture.device);
+}
+
+std::string firefly_warning(const Picture& picture) {
+  if (picture.fireflies == 0 || picture.clamp > 0) return "";
+  return fmt::format(
+      "{} sample{} more than {:g} times as bright as the picture is on the mean, and all of {} counts; the "
+      "AOV brightest shows where",
+      picture.fireflies, picture.fireflies == 1 ? " is" : "s are", render::Fireflies::times,
+      picture.fireflies == 1 ? "it" : "them");
+}
+
+std::string clamp_warning(const Picture& picture) {
+  if (picture.clamp == 0) return "";
+  return fmt::format("--clamp makes a biased picture: {} sample{} cut to {:g}", picture.clamped,
+                     picture.clamped == 1 ? " was" : "s were", picture.clamp);
 }
 
 std::string noise_warning(const Picture& picture) {
@@ -272,12 +306,15 @@ Json to_json(const Picture& picture) {
                      {"share", noise->share},
                      {"most_samples", picture.most_samples},
                      {"mean_samples", picture.mean_samples}};
+  if (picture.fireflies > 0) json["fireflies"] = picture.fireflies;
+  if (picture.clamp > 0) json["clamp"] = {{"at", picture.clamp}, {"samples", picture.clamped}};
   if (const auto& kinds = picture.ray_kinds)
     json["ray_kinds"] = {{"eye", kinds->eye},
                          {"eye_hits", kinds->eye_hits},
                          {"reflected", kinds->reflected},
                          {"refracted", kinds->refracted},
                          {"total_reflections", kinds->total_reflections},
+                         {"cut_off", kinds->cut_off},
                          {"shadow", kinds->shadow}};
   if (picture.samples_resumed > 0)
     json["resumed"] = {{"samples", picture.samples_resumed}, {"rays", picture.rays_resumed}};

@@ -37,6 +37,7 @@ struct PictureRequest {
   bool ray_kinds = false;  // count rays by kind
   bool classic = false;    // sample as the published statistics of Haines' databases do
   double noise = 0;        // RenderOptions::noise
+  double clamp = 0;        // RenderOptions::clamp
 
   // The options that say all this.
   void add_to(CLI::App& command);
@@ -70,6 +71,9 @@ struct Picture {
   int most_samples = 0;                // of a pixel; samples_done where all have the same
   double mean_samples = 0;             // of all pixels
   std::optional<Noise> noise;          // where it was asked for
+  double clamp = 0;                    // PictureRequest::clamp …
+  uint64_t clamped = 0;                // … and the samples of this run that it changed
+  uint64_t fireflies = 0;              // of this run, render::Fireflies
   uint64_t samples_resumed = 0;        // of pixels, taken from a checkpoint
   uint64_t rays_resumed = 0;           // of `rays`, those behind samples_resumed
   std::filesystem::path checkpoint;    // left behind, to go on from; empty: none
@@ -79,10 +83,14 @@ struct Picture {
 
 // Loads, renders and writes. `files` is empty when it was interrupted before every pixel had a sample, and,
 // for a picture of several bands, before all had all.
-Picture make_picture(const PictureRequest& request,
+Picture make_picture(PictureRequest request,
                      const std::function<void(const render::Progress&)>& progress);
 // "whitted.png: 640×480, 4 samples a pixel, 1.2 M rays in 0.35 s (3.4 Mrays/s) on gpu: llvmpipe …".
 std::string summary(const Picture& picture);
+// What there is to say of samples that are brighter than others by far; "" where none is, or they are seen to.
+std::string firefly_warning(const Picture& picture);
+// What --clamp did; "" without it.
+std::string clamp_warning(const Picture& picture);
 // What there is to say of noise that is more than was wanted; "" where none is.
 std::string noise_warning(const Picture& picture);
 // "load 1.2 ms, compile 30 ms, …".

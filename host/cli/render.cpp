@@ -33,6 +33,9 @@ void print_rays(const RayCounts& kinds, double seconds) {
   line("refracted rays", kinds.refracted,
        kinds.total_reflections ? fmt::format(", and {} total reflections", kinds.total_reflections) : "");
   line("shadow rays", kinds.shadow);
+  if (kinds.cut_off > 0)
+    line("cut-off paths", kinds.cut_off,
+         fmt::format(", {:.2g} % of all, by max_depth", 100 * double(kinds.cut_off) / double(kinds.eye)));
   line("rays", kinds.total(), fmt::format(", {}", format_rate(double(kinds.total()) / seconds)));
 }
 
@@ -88,6 +91,8 @@ ExitCode RenderCommand::run() {
     throw Error(ExitCode::interrupted, "{}", what_was_kept(picture, false));
   if (const std::string warning = noise_warning(picture); !warning.empty())
     fmt::print(stderr, "eyeray: warning: {}\n", warning);
+  for (const std::string& warning : {clamp_warning(picture), firefly_warning(picture)})
+    if (!warning.empty()) fmt::print(stderr, "eyeray: warning: {}\n", warning);
   if (!quiet) fmt::print(stderr, "{}\n", summary(picture));
   if (stats) print_stages(picture);
   if (picture.ray_kinds) print_rays(*picture.ray_kinds, picture.sampling_seconds);
@@ -114,6 +119,12 @@ void add_render(CLI::App& app, Run& run) {
                   most_samples_by_default))
           ->option_text("SHARE")
           ->check(within(1e-4, 1));
+  command
+      ->add_option("--clamp", options->request.clamp,
+                   "Cut every sample to this in any channel: no more bright dots, but a biased picture, which "
+                   "is darker than the truth.")
+      ->option_text("X")
+      ->check(within(1e-6, 1e15));
   command->add_flag(
       "--stats", options->stats,
       "Print how long each stage took, and how many eye, reflected, refracted and shadow rays there were.");

@@ -18,6 +18,15 @@ struct PixelSample {
   uint32_t reflected = 0;
   uint32_t refracted = 0;
   uint32_t total_reflections = 0;  // where a refracted ray would have been followed, had there been one
+  bool cut_off = false;            // whether `max_depth` ended its path; of those that walk at random
+};
+
+// What a denoiser asks of one sample of one pixel: of the first vertex of its path that sends light in more
+// than a direction or two. Of what shines, the sky included, the albedo is 1; of the sky the normal is 0.
+struct AuxiliarySample {
+  Vec3 albedo{0.0};
+  Vec3 normal{0.0};  // world, unit, shading normal towards where the path comes from
+  uint32_t flags = 0;
 };
 
 // Why a sample's colour may be incomplete. A flag is shown to the user and fails `verify`; it is never

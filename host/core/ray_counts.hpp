@@ -13,6 +13,7 @@ struct RayCounts {
   uint64_t reflected = 0;
   uint64_t refracted = 0;
   uint64_t total_reflections = 0;  // where light may pass and none does
+  uint64_t cut_off = 0;            // samples whose path `max_depth` ended
   uint64_t shadow = 0;             // one a light that stands before a surface, by both of its normals
 
   uint64_t total() const { return eye + reflected + refracted + shadow; }
@@ -25,6 +26,7 @@ struct RayCounts {
     reflected += sample.reflected;
     refracted += sample.refracted;
     total_reflections += sample.total_reflections;
+    cut_off += sample.cut_off;
     shadow += uint64_t{sample.rays} - 1 - sample.reflected - sample.refracted;
   }
 

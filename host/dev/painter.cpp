@@ -50,12 +50,18 @@ std::optional<Painted> paint_samples(const View& view, const ImageSettings& imag
   render::PixelSums sums;
   sums.reset(image.width, image.height, aov::counted_for(view.needs()));
   std::vector<PixelSample> samples;
+  std::vector<AuxiliarySample> auxiliaries;
   int band = std::clamp(first_pixels / image.width, 1, image.height);
   for (int sample = 0; sample < image.samples; ++sample) {
     const bool whole = for_bands(image, band, [&](int row, int rows) {
       samples.resize(size_t(rows) * size_t(image.width));
       if (!executor.sample({0, row, image.width, rows}, uint32_t(sample), samples)) return false;
       sums.add({0, row, image.width, rows}, samples);
+      if (view.needs() == aov::AovNeeds::auxiliary) {
+        auxiliaries.resize(samples.size());
+        if (!executor.auxiliary({0, row, image.width, rows}, uint32_t(sample), auxiliaries)) return false;
+        sums.add({0, row, image.width, rows}, auxiliaries);
+      }
       for (const PixelSample& each : samples) painted.rays += each.rays;
       const render::FinishedRows finished = sums.mean(row, rows);
       painted.flags |= finished.flags;

@@ -69,6 +69,12 @@ class TwinExecutor final : public Executor {
     });
   }
 
+  bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
+    return for_each_pixel(tile, out, [&](int x, int y) {
+      return to_auxiliary(functions().auxiliary(view_, uint32_t(x), uint32_t(y), index));
+    });
+  }
+
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     for_each_pixel(tile, out, [&](int x, int y) {
       return to_first_hit(functions().first_hit(view_, uint32_t(x), uint32_t(y)), eye_, true);
@@ -122,6 +128,10 @@ class ReferenceExecutor final : public Executor {
     return times_.measure("trace", [&] {
       return for_each_pixel(tile, out, [&](int x, int y) { return renderer_->sample(x, y, index); });
     });
+  }
+
+  bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
+    return for_each_pixel(tile, out, [&](int x, int y) { return renderer_->auxiliary(x, y, index); });
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {

@@ -44,6 +44,8 @@ class Executor {
   virtual bool coarse_sample(int /*stride*/, uint32_t /*index*/, std::span<PixelSample> /*out*/) {
     return false;
   }
+  // What a denoiser asks of the same samples. Only where paths walk at random (scene/integrator.hpp).
+  virtual bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) = 0;
   // What the ray through the centre of every pixel of `tile` hits; out.size() = tile.pixels().
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
 

@@ -79,6 +79,21 @@ class GpuExecutor final : public Executor {
                                            [&](size_t first, auto results) { take(results, first, out); });
   }
 
+  // By the loop, whatever makes the picture.
+  bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
+    if (!auxiliary_kernel_)
+      auxiliary_kernel_ = kernels_->make("kernels/render.comp.glsl", "#define AUXILIARY\n");
+    const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
+      return dispatch(*auxiliary_kernel_, push, output);
+    };
+    return for_bands<shader::AuxiliaryResult>(tile, 1, index, trace, [&](size_t first, auto results) {
+      for (size_t i = 0; i < results.size(); ++i) {
+        check_traced(results[i].flags, device_.info().driver_version);
+        out[first + i] = to_auxiliary(results[i]);
+      }
+    });
+  }
+
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     if (!hit_kernel_) hit_kernel_ = kernels_->make("kernels/render.comp.glsl", "#define FIRST_HITS\n");
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
@@ -253,7 +268,7 @@ class GpuExecutor final : public Executor {
   std::optional<GpuQueries> queries_;
   std::optional<Wavefront> wavefront_;          // makes samples,
   std::shared_ptr<gpu::Kernel> sample_kernel_;  // or else this
-  std::shared_ptr<gpu::Kernel> hit_kernel_;     // null until first hits are asked for
+  std::shared_ptr<gpu::Kernel> auxiliary_kernel_, hit_kernel_;  // null until they are asked for
   DispatchSize dispatch_size_;
 };
 

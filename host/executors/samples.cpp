@@ -12,6 +12,11 @@ static_assert(media_overflow == FLAG_MEDIA_OVERFLOW && stack_overflow == FLAG_ST
 static_assert(loop_budget == FLAG_LOOP_BUDGET && iteration_limit == FLAG_ITERATION_LIMIT);
 static_assert(endless == FLAG_ENDLESS);
 
+AuxiliarySample to_auxiliary(const shader::AuxiliaryResult& result) {
+  check_ended(result.flags);
+  return {Vec3(result.albedo), Vec3(result.normal), result.flags};
+}
+
 shader::QueryRay to_query_ray(const Query& ray, const Vec3& eye) {
   return {glm::vec3(ray.o - eye), 0.0f, glm::vec3(ray.d), float(ray.t_max)};
 }

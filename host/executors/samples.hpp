@@ -18,10 +18,14 @@ inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds)
     sample.refracted = refracted_of(result);
     sample.reflected = reflected_of(result);
     sample.total_reflections = total_reflections_of(result);
+    sample.cut_off = (sample.flags & FLAG_CUT_OFF) != 0;
+    sample.flags &= ~FLAG_CUT_OFF;
   }
   check_ended(sample.flags);
   return sample;
 }
+
+AuxiliarySample to_auxiliary(const shader::AuxiliaryResult& result);
 
 // A ray of the shaders' world, and what it hits.
 shader::QueryRay to_query_ray(const Query& ray, const Vec3& eye);

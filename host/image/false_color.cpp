@@ -76,6 +76,10 @@ Vec3 FalseColorPainter::color(const float* value) const {
       return std::isfinite(x) && x > 0 ? viridis(nearness(x)) : Vec3(grey);
     case FalseColor::ids:
       return x >= 0 && std::isfinite(x) ? id_color(x) : Vec3(grey);
+    case FalseColor::color: {
+      const Vec3 shown(x, double(value[1]), double(value[2]));
+      return {srgb_from_linear(shown.x), srgb_from_linear(shown.y), srgb_from_linear(shown.z)};
+    }
     case FalseColor::direction: {
       const Vec3 n(x, double(value[1]), double(value[2]));
       return glm::dot(n, n) > 0 ? 0.5 * (n + 1.0) : Vec3(grey);

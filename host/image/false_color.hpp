@@ -13,6 +13,7 @@ enum class FalseColor {
   scalar,     // 1 channel: viridis from the least to the greatest finite value
   depth,      // 1 channel: viridis, near is bright; logarithmic, since depths span decades
   ids,        // 1 channel: a colour of its own for every number ≥ 0
+  color,      // 3 channels: itself
   direction,  // 3 channels: (n + 1) / 2
   position,   // 2 or 3 channels: each from its least to its greatest finite value
 };

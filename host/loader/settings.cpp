@@ -86,9 +86,9 @@ constexpr Key render_table[] = {
      .type = KeyType::integer,
      .doc =
          "Reflections and refractions in a row; 0: eye and shadow rays only. 16 for the integrator `path`, "
-         "else 8, where nothing is said.",
+         "else 8, where nothing is said; above 64 for `path` alone.",
      .min = 0,
-     .max = 64,
+     .max = 1024,
      .optional = true},
     {.name = "min_throughput",
      .type = KeyType::number,
@@ -202,6 +202,9 @@ RenderSettings read_render(TableReader& table) {
   render.integrator = static_cast<IntegratorType>(table.choice("integrator"));
   if (walks_at_random(render.integrator)) render.max_depth = 16;
   if (table.has("max_depth")) render.max_depth = static_cast<int>(table.integer("max_depth"));
+  if (constexpr int most_waiting = 64; render.max_depth > most_waiting && !walks_at_random(render.integrator))
+    table.error("max_depth", fmt::format("`max_depth` must be at most {}, but for the integrator \"path\"",
+                                         most_waiting));
   render.min_throughput = table.number("min_throughput");
   render.seed = static_cast<uint32_t>(table.integer("seed"));
   render.triangle_method = static_cast<TriangleMethod>(table.choice("triangle"));

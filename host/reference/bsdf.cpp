@@ -110,14 +110,19 @@ ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : bsdf_(bsdf), o_(o) {
   const bool any_glossy = bsdf.glossy.f90 != Vec3(0) || bsdf.layer.f90 != Vec3(0);
   const GgxAlbedo albedo = any_glossy ? optics::ggx_albedo(o.z, bsdf.roughness) : GgxAlbedo{};
   const double under = through_coat(bsdf.coat, bsdf.coat_roughness, o.z);
-  shares_[diffuse] = under * largest(bsdf.diffuse * (1.0 - layer_albedo(bsdf.layer, albedo)));
-  shares_[glossy] = under * largest(bsdf.glossy.conductor ? bsdf.glossy.mean * albedo.once
-                                                          : once(bsdf.glossy, albedo.once, albedo.edge));
-  shares_[multiple] = under * largest(often(bsdf.glossy, albedo) * (1 - albedo.once));
-  shares_[coat] = 1 - under;
-  shares_[glass] = largest(bsdf.glass);
-  shares_[mirror] = largest(bsdf.mirror);
-  shares_[transmitted] = largest(bsdf.transmitted);
+  Vec3 albedos[lobes];
+  albedos[diffuse] = under * bsdf.diffuse * (1.0 - layer_albedo(bsdf.layer, albedo));
+  albedos[glossy] = under * (bsdf.glossy.conductor ? bsdf.glossy.mean * albedo.once
+                                                   : once(bsdf.glossy, albedo.once, albedo.edge));
+  albedos[multiple] = under * often(bsdf.glossy, albedo) * (1 - albedo.once);
+  albedos[coat] = Vec3(1 - under);
+  albedos[glass] = bsdf.glass;
+  albedos[mirror] = bsdf.mirror;
+  albedos[transmitted] = bsdf.transmitted;
+  for (int lobe = 0; lobe < lobes; ++lobe) {
+    shares_[lobe] = largest(albedos[lobe]);
+    albedo_ += albedos[lobe];
+  }
   for (const double share : shares_) sum_ += share;
   if (sum_ > 0)
     for (double& share : shares_) share /= sum_;

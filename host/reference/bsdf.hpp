@@ -28,6 +28,10 @@ class ViewedBsdf {
   BsdfValue at(const Vec3& i) const;
   // chance and u: random numbers in [0, 1). Not of a black one.
   BsdfSample sample(double chance, const Vec2& u) const;
+  // About the share of the light that it sends towards the viewer.
+  Vec3 albedo() const { return glm::min(albedo_, Vec3(1)); }
+  // Whether light leaves in one or two directions alone.
+  bool specular() const { return shares_[mirror] + shares_[transmitted] > 0 && !rough(); }
   // Whether it sends no light on at all.
   bool black() const { return sum_ == 0; }
 
@@ -35,6 +39,9 @@ class ViewedBsdf {
   // In the order in which they are chosen.
   enum Lobe { diffuse, glossy, multiple, coat, glass, mirror, transmitted, lobes };
 
+  bool rough() const {
+    return shares_[diffuse] + shares_[glossy] + shares_[multiple] + shares_[coat] + shares_[glass] > 0;
+  }
   BsdfValue value(Lobe lobe, const Vec3& i) const;
   Vec3 direction(Lobe lobe, double part, const Vec2& u) const;
 
@@ -42,6 +49,7 @@ class ViewedBsdf {
   Vec3 o_;
   double shares_[lobes] = {};
   double sum_ = 0;
+  Vec3 albedo_{0};
 };
 
 }  // namespace eyeray::reference

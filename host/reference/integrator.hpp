@@ -47,4 +47,8 @@ struct Integrator {
 
 const Integrator& integrator(IntegratorType type);
 
+// What a denoiser asks of that sample of `path`.
+AuxiliarySample path_auxiliary(const Tracer& tracer, const SampleId& id, const Ray& ray,
+                               const MediaStack& media);
+
 }  // namespace eyeray::reference

@@ -96,6 +96,7 @@ class PathSample {
         observer_(observer) {}
 
   PixelSample sample(Ray ray, MediaStack media);
+  AuxiliarySample auxiliary(Ray ray, MediaStack media);
 
  private:
   Vec2 pair(uint32_t use) const {
@@ -125,6 +126,7 @@ class PathSample {
   const Observer& observer_;
   int depth_ = 0;
   Vec3 throughput_{1};
+  bool roulette_ = true;
   double density_ = 0;  // by solid angle, of the ray's direction; 0 where there was no choice
 };
 
@@ -260,7 +262,7 @@ Vec3 PathSample::direct_in(const Medium& medium, const Interaction& at) {
 
 std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                                        MediaStack& media) {
-  if (bsdf.black() || depth_ > scene_.render.max_depth) return std::nullopt;
+  if (bsdf.black()) return std::nullopt;
   const Vec2 chance = pair(scatter_pair);  // of a lobe, and of going on
   const BsdfSample sample = bsdf.sample(chance.x, pair(direction_pair));
   Vec3 d;
@@ -285,7 +287,6 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
 }
 
 std::optional<Ray> PathSample::scatter_in(const Medium& medium, const Interaction& at) {
-  if (depth_ > scene_.render.max_depth) return std::nullopt;
   const Vec3 d = phase_direction(medium.anisotropy, at.d, pair(direction_pair));
   density_ = phase_value(medium.anisotropy, glm::dot(at.d, d));
   return continued(RayKind::reflected, at, d, pair(scatter_pair).y);
@@ -295,7 +296,9 @@ std::optional<Ray> PathSample::scatter_in(const Medium& medium, const Interactio
 std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, const Vec3& d, double chance) {
   const double survival = depth_ < first_roulette ? 1 : std::clamp(largest(throughput_), least_survival, 1.0);
   observer_.value("survival", survival);
-  if (!(chance < survival)) return std::nullopt;
+  if (roulette_ && !(chance < survival)) return std::nullopt;
+  rays_.cut_off = depth_ > scene_.render.max_depth;
+  if (rays_.cut_off) return std::nullopt;
   throughput_ /= survival;
   ++depth_;
   ++(kind == RayKind::reflected ? rays_.reflected : rays_.refracted);
@@ -352,12 +355,44 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
   return rays_.sample(color);
 }
 
+AuxiliarySample PathSample::auxiliary(Ray ray, MediaStack media) {
+  roulette_ = false;
+  for (;;) {
+    const auto hit = rays_.trace(ray);
+    const Flight flight = fly(media, hit);
+    const Vec3 before = throughput_;
+    throughput_ *= flight.weight;
+    if (flight.scattered) {
+      const Medium medium = rays_.medium(media);
+      Vec3 albedo(0);
+      for (int c = 0; c < 3; ++c)
+        if (medium.scattering[c] > 0)
+          albedo[c] = medium.scattering[c] / (medium.scattering[c] + medium.absorption[c]);
+      return {albedo, -ray.d};
+    }
+    if (!hit) return {Vec3(1), Vec3(0)};
+    const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
+    const LocalFrame frame(at);
+    const ViewedBsdf bsdf(at.bsdf, frame.viewer);
+    const bool shines = at.scattering.emitted != Vec3(0);
+    const AuxiliarySample found{shines ? Vec3(1) : bsdf.albedo(), at.surface.normal};
+    const auto next = bsdf.specular() ? scatter(at, frame, bsdf, media) : std::nullopt;
+    if (!next) return found;
+    ray = *next;
+  }
+}
+
 PixelSample path(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
                  const RayOffset& ray_offset, const Observer& observer) {
   return PathSample(tracer, id, ray_offset, observer).sample(ray, media);
 }
 
 }  // namespace
+
+AuxiliarySample path_auxiliary(const Tracer& tracer, const SampleId& id, const Ray& ray,
+                               const MediaStack& media) {
+  return PathSample(tracer, id, {}, {}).auxiliary(ray, media);
+}
 
 extern const Integrator path_integrator{.manual = manual, .sample = path};
 

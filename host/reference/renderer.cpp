@@ -30,15 +30,25 @@ Ray Renderer::eye_ray(const Aim& aim, const Vec2& shift, double pivot) const {
   return {start, glm::normalize(stays - start)};
 }
 
+SampleId Renderer::id(int x, int y, uint32_t index) const {
+  return {uint32_t(y) * uint32_t(scene_.image.width) + uint32_t(x), index};
+}
+
+AuxiliarySample Renderer::auxiliary(int x, int y, uint32_t index) const {
+  const Aim aim = this->aim(x, y, index);
+  if (!camera_.sees(aim.place)) return {};
+  return path_auxiliary(tracer_, id(x, y, index), eye_ray(aim, {0, 0}, 0), media_);
+}
+
 PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset,
                              const Observer& observer) const {
   const Aim aim = this->aim(x, y, index);
   if (!camera_.sees(aim.place + shift)) return {};
   const Ray ray = eye_ray(aim, shift, ray_offset.pivot);
   const IntegratorType type = scene_.render.integrator;
-  const uint32_t pixel = uint32_t(y) * uint32_t(scene_.image.width) + uint32_t(x);
   observer.ray(RayKind::eye, ray, 0);
-  PixelSample sample = integrator(type).sample(tracer_, {pixel, index}, ray, media_, ray_offset, observer);
+  PixelSample sample =
+      integrator(type).sample(tracer_, id(x, y, index), ray, media_, ray_offset, observer);
   if (traits_of(type).ways > 0) sample.flags |= flags_;
   return sample;
 }

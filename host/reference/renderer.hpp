@@ -18,6 +18,8 @@ class Renderer {
   // ray_offset.pivot before that (integrator.hpp).
   PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0}, const RayOffset& ray_offset = {},
                      const Observer& observer = {}) const;
+  // What a denoiser asks of that sample; of `path` alone.
+  AuxiliarySample auxiliary(int x, int y, uint32_t index) const;
   // What the ray through the pixel's centre hits, and the lens' where there is one, `shift` aside. Of
   // `ray_offset`, its pivot and `coincident` count.
   FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}, const RayOffset& ray_offset = {}) const;
@@ -38,6 +40,7 @@ class Renderer {
     Vec2 lens{0.0};
   };
   Aim aim(int x, int y, uint32_t index) const;
+  SampleId id(int x, int y, uint32_t index) const;
   Ray eye_ray(const Aim& aim, const Vec2& shift, double pivot) const;
   FirstHit hit(const Aim& aim, const Vec2& shift, const RayOffset& ray_offset) const;
 

@@ -168,7 +168,7 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
 }
 
 PixelSample SampleRays::sample(const Vec3& color) const {
-  return {color, rays_, hits_, flags_, reflected, refracted, total_reflections};
+  return {color, rays_, hits_, flags_, reflected, refracted, total_reflections, cut_off};
 }
 
 }  // namespace eyeray::reference

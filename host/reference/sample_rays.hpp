@@ -59,6 +59,7 @@ class SampleRays {
   uint32_t reflected = 0;
   uint32_t refracted = 0;
   uint32_t total_reflections = 0;
+  bool cut_off = false;  // by max_depth
 
  private:
   Scattering scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,

@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 static_assert(sizeof(RenderPosition) == 48, "the file holds it as it lies in memory");
 
 constexpr std::string_view magic = "EYERAYCP";
-constexpr uint32_t version = 5;
+constexpr uint32_t version = 6;
 constexpr uint32_t longest_identity = 65536;
 
 std::filesystem::path rows_of(const std::filesystem::path& file) {

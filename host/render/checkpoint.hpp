@@ -4,7 +4,7 @@
 //
 //   offset   bytes
 //   0        8       "EYERAYCP"
-//   8        4       version of this layout: 5
+//   8        4       version of this layout: 6
 //   12       4       n, at most 65536
 //   16       n       the identity: a line "name: value\n" for each of its parts
 //   16 + n   8 each  RenderPosition, in the order of its members
@@ -15,6 +15,8 @@
 //            8 each  where rays are counted by kind (the identity says it), of the same pixels: reflected,
 //                    refracted (uint32)
 //            8 each  where noise is measured (likewise), the sums of their squared luminances (float64)
+//            4 each  where it is asked for (likewise), their brightest samples (float32)
+//            48 each where they are asked for (likewise), the sums of their albedos and normals (float64)
 //            4       CRC-32 of the sums
 //
 // FILE.rows holds the finished rows above the band (render/row_store.hpp); a picture of one band has none.

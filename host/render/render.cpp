@@ -9,7 +9,9 @@
 #include "host/core/parallel_for.hpp"
 #include "host/core/termination.hpp"
 #include "host/render/adaptive.hpp"
+#include "host/render/brightness.hpp"
 #include "host/render/checkpoint.hpp"
+#include "host/scene/luminance.hpp"
 
 namespace eyeray::render {
 namespace {
@@ -47,7 +49,9 @@ class Driver {
         sink_(sink),
         crop_(options.crop.pixels() ? options.crop : Rect{0, 0, scene.image.width, scene.image.height}),
         samples_(scene.image.samples),
-        counted_{.kinds = options.pixel_kinds, .noise = options.pixel_noise || options.noise > 0},
+        counted_{.kinds = options.pixel_kinds, .noise = options.pixel_noise || options.noise > 0,
+                 .brightest = options.pixel_brightest,
+                 .auxiliary = options.pixel_auxiliary},
         shown_as_one_(std::exp2(-scene.image.tone.exposure)),
         least_samples_(samples_),
         at_a_time_(crop_.width) {
@@ -153,13 +157,19 @@ class Driver {
     tile_samples_.resize(pixels);
     const Stopwatch watch;
     std::span<PixelSample> left = tile_samples_;
+    if (counted_.auxiliary) tile_auxiliaries_.resize(pixels);
+    std::span<AuxiliarySample> auxiliaries = tile_auxiliaries_;
     try {
       for (const Rect& part : parts) {
         const Rect tile{crop_.x + part.x, crop_.y + int(position_.finished_rows) + part.y, part.width,
                         part.height};
         const std::span<PixelSample> out = left.first(size_t(part.pixels()));
         if (!executor_.sample(tile, uint32_t(position_.samples), out)) return false;
+        const std::span<AuxiliarySample> beside = auxiliaries.first(counted_.auxiliary ? out.size() : 0);
+        if (counted_.auxiliary && !executor_.auxiliary(tile, uint32_t(position_.samples), beside))
+          return false;
         left = left.subspan(out.size());
+        auxiliaries = auxiliaries.subspan(beside.size());
       }
     } catch (...) {
       save();
@@ -167,13 +177,29 @@ class Driver {
     }
     at_a_time_.took(watch.seconds());
     totals_.seconds += watch.seconds();
+    auxiliaries = tile_auxiliaries_;
+    brightness_.add(tile_samples_);
+    if (options_.clamp > 0) clamp_samples();
     left = tile_samples_;
     for (const Rect& part : parts) {
       sums_.add(part, left.first(size_t(part.pixels())));
+      if (counted_.auxiliary) sums_.add(part, auxiliaries.first(size_t(part.pixels())));
       left = left.subspan(size_t(part.pixels()));
+      if (counted_.auxiliary) auxiliaries = auxiliaries.subspan(size_t(part.pixels()));
     }
     progress_.samples_done += pixels;
     return true;
+  }
+
+  // Scaled, so that their colours stay.
+  void clamp_samples() {
+    totals_.clamped += parallel_sum(0, int(tile_samples_.size()), [&](int i) {
+      Vec3& color = tile_samples_[size_t(i)].color;
+      const double most = std::max({color.x, color.y, color.z});
+      if (!(most > options_.clamp)) return uint64_t{0};
+      color *= options_.clamp / most;
+      return uint64_t{1};
+    });
   }
 
   void look_for_what_is_left() {
@@ -217,6 +243,10 @@ class Driver {
   }
 
   void give(const FinishedRows& rows) {
+    for (size_t i = 0; i < rows.color.sample_count(); i += 3) {
+      const float* const color = &rows.color.samples()[i];
+      luminances_given_ += luminance(Vec3(color[0], color[1], color[2]));
+    }
     const float* const noise = options_.noise > 0 ? rows.noise.samples().data() : nullptr;
     for (size_t i = 0; i < rows.samples.sample_count(); ++i) {
       const int samples = int(rows.samples.samples()[i]);
@@ -241,6 +271,7 @@ class Driver {
     totals.flags = uint32_t(position_.flags);
     totals.bands = bands();
     totals.samples_taken = progress_.samples_done;
+    totals.fireflies.samples = brightness_.above(Fireflies::times * luminances_given_ / double(crop_.pixels()));
     totals.samples_total = progress_.samples_total;
     return totals;
   }
@@ -264,7 +295,10 @@ class Driver {
   std::optional<AdaptiveSampling> adaptive_;  // likewise
   uint64_t samples_given_ = 0;                // of pixels of the rows that were handed on
   int least_samples_;                         // of one of them
+  double luminances_given_ = 0;               // the sum of theirs
+  Brightness brightness_;                     // of all samples
   std::vector<PixelSample> tile_samples_;
+  std::vector<AuxiliarySample> tile_auxiliaries_;
   RowsAtATime at_a_time_;
   Progress progress_;
   RenderTotals totals_;

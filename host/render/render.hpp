@@ -35,11 +35,20 @@ struct RenderOptions {
   // must (ExecutorOptions::ray_kinds).
   bool ray_kinds = false;
   bool pixel_kinds = false;
-  bool pixel_noise = false;  // measure it, in FinishedRows (8 bytes a pixel more too)
+  bool pixel_noise = false;      // measure it, in FinishedRows (8 bytes a pixel more too)
+  bool pixel_brightest = false;  // likewise (4 bytes)
+  bool pixel_auxiliary = false;  // likewise (48 bytes); only where paths walk at random
   // Above 0, pixels whose noise (PixelSums::noise) is no more take no more samples (render/adaptive.hpp), and
   // scene.image.samples is the most that one takes.
   double noise = 0;
+  double clamp = 0;  // above 0, samples count for no more than this in any channel, which makes means too dark
   Checkpoint* checkpoint = nullptr;  // kept and resumed from; see render_rows
+};
+
+// Samples that stand out: rare ones that are so bright make dots.
+struct Fireflies {
+  static constexpr double times = 1000;  // as bright as the picture on the mean
+  uint64_t samples = 0;
 };
 
 // What a render came to, beside its pixels.
@@ -57,6 +66,8 @@ struct RenderTotals {
   uint64_t rays_resumed = 0;
   RayCounts ray_kinds;   // of this run, where they were asked for
   int most_samples = 0;  // that a pixel has
+  Fireflies fireflies;   // of this run
+  uint64_t clamped = 0;  // samples of this run that RenderOptions::clamp changed
   // With RenderOptions::noise: how many pixels have no more, and the greatest that one has.
   uint64_t quiet_pixels = 0;
   double greatest_noise = 0;

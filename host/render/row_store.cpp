@@ -17,8 +17,8 @@ namespace {
 // The images that hold what is stored of a pixel, in this order.
 template <typename Rows>
 auto stored_images(Rows& rows) {
-  return std::array{&rows.color,   &rows.hits,  &rows.rays_traced, &rows.samples,
-                    &rows.flagged, &rows.kinds, &rows.noise};
+  return std::array{&rows.color, &rows.hits,  &rows.rays_traced, &rows.samples, &rows.flagged,
+                    &rows.kinds, &rows.noise, &rows.brightest,   &rows.albedo,  &rows.normal};
 }
 
 size_t floats_of(const FinishedRows& rows) {

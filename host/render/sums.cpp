@@ -10,7 +10,8 @@
 
 namespace eyeray::render {
 
-static_assert(sizeof(PixelSums::Pixel) == 40 && sizeof(PixelSums::Kinds) == 8,
+static_assert(sizeof(PixelSums::Pixel) == 40 && sizeof(PixelSums::Kinds) == 8 &&
+                  sizeof(PixelSums::Auxiliary) == 48,
               "checkpoints hold them as they lie in memory");
 
 void PixelSums::reset(int width, int height, Counted counted, double shown_as_one) {
@@ -20,6 +21,8 @@ void PixelSums::reset(int width, int height, Counted counted, double shown_as_on
   pixels_.assign(size_t(width) * size_t(height), {});
   kinds_.assign(counted.kinds ? pixels_.size() : 0, {});
   squares_.assign(counted.noise ? pixels_.size() : 0, 0);
+  brightest_.assign(counted.brightest ? pixels_.size() : 0, 0);
+  auxiliaries_.assign(counted.auxiliary ? pixels_.size() : 0, {});
 }
 
 void PixelSums::add(const Rect& part, std::span<const PixelSample> samples) {
@@ -35,10 +38,21 @@ void PixelSums::add(const Rect& part, std::span<const PixelSample> samples) {
     pixel.flags |= sample.flags;
     ++pixel.samples;
     if (!squares_.empty()) squares_[at] += luminance(sample.color) * luminance(sample.color);
+    if (!brightest_.empty()) brightest_[at] = std::max(brightest_[at], float(luminance(sample.color)));
     if (kinds_.empty()) return;
     kinds_[at].reflected += sample.reflected;
     kinds_[at].refracted += sample.refracted;
   });
+}
+
+void PixelSums::add(const Rect& part, std::span<const AuxiliarySample> samples) {
+  CHECK_EQ(samples.size(), size_t(part.pixels()));
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const size_t at = index(part.x + int(i) % part.width, part.y + int(i) / part.width);
+    auxiliaries_[at].albedo += samples[i].albedo;
+    auxiliaries_[at].normal += samples[i].normal;
+    pixels_[at].flags |= samples[i].flags;
+  }
 }
 
 void PixelSums::finish(const Rect& part) {
@@ -68,7 +82,10 @@ double PixelSums::noise(const Rect& block) const {
 }
 
 FinishedRows PixelSums::mean(int first, int count) const {
-  FinishedRows rows(first, width_, count, {.kinds = !kinds_.empty(), .noise = !squares_.empty()});
+  FinishedRows rows(first, width_, count, {.kinds = !kinds_.empty(),
+                                       .noise = !squares_.empty(),
+                                       .brightest = !brightest_.empty(),
+                                       .auxiliary = !auxiliaries_.empty()});
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < width_; ++x) {
       const Pixel& sums = pixel(x, first + y);
@@ -85,6 +102,14 @@ FinishedRows PixelSums::mean(int first, int count) const {
         mean[0] = float(kinds.reflected / divisor);
         mean[1] = float(kinds.refracted / divisor);
         mean[2] = float(shadow / divisor);
+      }
+      if (!brightest_.empty()) *rows.brightest.pixel(x, y) = brightest_[index(x, first + y)];
+      if (!auxiliaries_.empty()) {
+        const Auxiliary& auxiliary = auxiliaries_[index(x, first + y)];
+        for (int c = 0; c < 3; ++c) {
+          rows.albedo.pixel(x, y)[c] = float(auxiliary.albedo[c] / divisor);
+          rows.normal.pixel(x, y)[c] = float(auxiliary.normal[c] / divisor);
+        }
       }
       rows.flags |= sums.flags;
       rows.flagged_pixels += sums.flags != 0;

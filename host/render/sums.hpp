@@ -15,6 +15,8 @@ namespace eyeray::render {
 struct Counted {
   bool kinds = false;  // of rays
   bool noise = false;
+  bool brightest = false;  // of the samples
+  bool auxiliary = false;  // what a denoiser asks for
 };
 
 // Finished rows of a picture; sinks get them from the top down, none twice.
@@ -30,6 +32,8 @@ struct FinishedRows {
         flagged(width, count, 1) {
     if (counted.kinds) kinds = image::Image(width, count, 3);
     if (counted.noise) noise = image::Image(width, count, 1);
+    if (counted.brightest) brightest = image::Image(width, count, 1);
+    if (counted.auxiliary) albedo = normal = image::Image(width, count, 3);
   }
 
   bool has_kinds() const { return kinds.height() > 0; }
@@ -41,7 +45,10 @@ struct FinishedRows {
   image::Image samples;      // 1 channel: how many a pixel has
   image::Image
       kinds;  // 3 channels: of these rays the reflected, refracted and shadow rays; empty unless asked for
-  image::Image noise;    // 1 channel: PixelSums::noise of a pixel's block; empty unless asked for
+  // Empty unless asked for:
+  image::Image noise;           // 1 channel: PixelSums::noise of a pixel's block
+  image::Image brightest;       // 1 channel: the greatest luminance of a sample
+  image::Image albedo, normal;  // 3 channels each: of AuxiliarySample, the mean of the samples
   image::Image flagged;  // 1 channel: the SampleFlags of all samples of a pixel, as a number
   uint64_t flagged_pixels = 0;
   uint32_t flags = 0;
@@ -67,6 +74,11 @@ class PixelSums {
     uint32_t refracted = 0;
   };
 
+  struct Auxiliary {
+    Vec3 albedo{0.0};
+    Vec3 normal{0.0};
+  };
+
   // All 0. `shown_as_one`: the luminance that a picture shows as 1, the measure of noise in the dark.
   void reset(int width, int height, Counted counted, double shown_as_one = 1);
   int width() const { return width_; }
@@ -74,6 +86,8 @@ class PixelSums {
 
   // One sample of every pixel of `part`, row by row.
   void add(const Rect& part, std::span<const PixelSample> samples);
+  // What a denoiser asks of the same.
+  void add(const Rect& part, std::span<const AuxiliarySample> samples);
   // The mean of rows [first, first + count).
   FinishedRows mean(int first, int count) const;
   // Pixels that take no more samples.
@@ -87,13 +101,15 @@ class PixelSums {
   double noise(const Rect& block) const;
 
   // As a checkpoint keeps them, one after the other, each row by row (render/checkpoint.hpp).
-  std::array<std::span<std::byte>, 3> parts() {
+  std::array<std::span<std::byte>, 5> parts() {
     return {std::as_writable_bytes(std::span(pixels_)), std::as_writable_bytes(std::span(kinds_)),
-            std::as_writable_bytes(std::span(squares_))};
+            std::as_writable_bytes(std::span(squares_)), std::as_writable_bytes(std::span(brightest_)),
+            std::as_writable_bytes(std::span(auxiliaries_))};
   }
-  std::array<std::span<const std::byte>, 3> parts() const {
+  std::array<std::span<const std::byte>, 5> parts() const {
     return {std::as_bytes(std::span(pixels_)), std::as_bytes(std::span(kinds_)),
-            std::as_bytes(std::span(squares_))};
+            std::as_bytes(std::span(squares_)), std::as_bytes(std::span(brightest_)),
+            std::as_bytes(std::span(auxiliaries_))};
   }
 
  private:
@@ -105,6 +121,8 @@ class PixelSums {
   std::vector<Pixel> pixels_;
   std::vector<Kinds> kinds_;     // as many, or none
   std::vector<double> squares_;  // of the samples' luminances; as many, or none
+  std::vector<float> brightest_;        // likewise
+  std::vector<Auxiliary> auxiliaries_;  // likewise
   double shown_as_one_ = 1;
 };
 

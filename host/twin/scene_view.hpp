@@ -60,6 +60,7 @@ struct Functions {
   // What kernels/render.comp.glsl computes for a pixel of the whole picture. `spectator`: null: nobody looks.
   shader::SampleResult (*sample)(const SceneView& scene, uint32_t x, uint32_t y, uint32_t index,
                                  const Spectator* spectator);
+  shader::AuxiliaryResult (*auxiliary)(const SceneView& scene, uint32_t x, uint32_t y, uint32_t index);
   shader::HitResult (*first_hit)(const SceneView& scene, uint32_t x, uint32_t y);
   // What kernels/query.comp.glsl computes for one ray.
   shader::QueryHit (*query)(const SceneView& scene, const shader::QueryRay& ray, bool any);

@@ -9,6 +9,11 @@ shader::SampleResult sample(const SceneView& scene, uint32_t x, uint32_t y, uint
   return shader::render_sample(*scene.frame, x, y, index);
 }
 
+shader::AuxiliaryResult auxiliary(const SceneView& scene, uint32_t x, uint32_t y, uint32_t index) {
+  const shader::Binding binding(scene);
+  return shader::render_auxiliary(*scene.frame, x, y, index);
+}
+
 shader::HitResult first_hit(const SceneView& scene, uint32_t x, uint32_t y) {
   const shader::Binding binding(scene);
   return shader::first_hit(*scene.frame, x, y);
@@ -23,6 +28,6 @@ shader::QueryHit query(const SceneView& scene, const shader::QueryRay& ray, bool
 
 // By this name executors/twin_module.cpp finds it in a shared object of the user's shaders.
 extern "C" [[gnu::visibility("default")]] const Functions eyeray_twin;
-const Functions eyeray_twin{sample, first_hit, query};
+const Functions eyeray_twin{sample, auxiliary, first_hit, query};
 
 }  // namespace eyeray::twin

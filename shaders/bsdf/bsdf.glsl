@@ -28,6 +28,22 @@ float under_coat(Bsdf bsdf) {
   return left;
 }
 
+// About the share of the light that all lobes send towards the viewer.
+vec3 bsdf_albedo(Bsdf bsdf) {
+  vec3 all = bsdf.mirror + bsdf.transmitted;
+#define ADD_ALBEDO(name, number, coated) all = all + name##_albedo(bsdf) * (coated ? under_coat(bsdf) : 1.0f);
+  LOBES(ADD_ALBEDO)
+  return vec3(minimum(all.x, 1.0f), minimum(all.y, 1.0f), minimum(all.z, 1.0f));
+}
+
+// Whether light leaves in one or two directions alone.
+bool is_specular(Bsdf bsdf) {
+  bool any = false;
+#define HAS_LOBE(name, number, coated) any = any || max_component(name##_albedo(bsdf)) > 0.0f;
+  LOBES(HAS_LOBE)
+  return !any && max_component(bsdf.mirror + bsdf.transmitted) > 0.0f;
+}
+
 // How likely each lobe is followed, by how much light it sends; 1 all together, or all 0.
 struct LobeShares {
 #define SHARE(name, number, coated) float name;

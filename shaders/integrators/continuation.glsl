@@ -28,6 +28,7 @@ struct Continuations {
   Path waiting;
 #if RAY_KINDS
   bool total_reflection;
+  bool cut_off;  // by max_depth
 #endif
 };
 
@@ -38,6 +39,7 @@ Continuations no_continuation(Path path) {
   none.waiting = path;
 #if RAY_KINDS
   none.total_reflection = false;
+  none.cut_off = false;
 #endif
   return none;
 }

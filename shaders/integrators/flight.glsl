@@ -86,22 +86,33 @@ Interaction scattered_at(Path path, Flight flight) {
 }
 #endif
 
+// What the path meets there.
+Interaction met_at(Path path, Ray ray, Hit hit, Flight flight, INOUT(uint) flags) {
+#if HAS_SCATTERING
+  if (flight.scattered) return scattered_at(path, flight);
+#endif
+  return interaction_at(ray, hit, path.media, flags);
+}
+
 // For kernels that trace shadow rays alone: the vertex that the path has behind `hit`, if it is `there`; struck: whether it has one.
 Interaction vertex_at(Frame frame, Path path, Ray ray, Hit hit, bool there, OUT(bool) struck) {
   uint flags = 0u;
-  struck = there && hit.slot != NONE;
-  Hit some = hit;
-  some.slot = struck ? hit.slot : 0u;
-  Interaction at = interaction_at(ray, some, path.media, flags);
-#if HAS_SCATTERING
   Flight flight = flight_of(frame, path, hit);
-  if (there && flight.scattered) {
-    at = scattered_at(path, flight);
-    struck = true;
-  }
-#endif
-  return at;
+  struck = there && (hit.slot != NONE || flight.scattered);
+  Hit some = hit;
+  some.slot = there && hit.slot != NONE ? hit.slot : 0u;
+  return met_at(path, ray, some, flight, flags);
 }
+
+#if HAS_SCATTERING
+// Of the light that the innermost medium takes away the share that it sends elsewhere.
+vec3 medium_albedo(uint media) {
+  Medium medium = load_medium(innermost_medium(media));
+  vec3 extinction = medium.absorption + medium.scattering;
+  return vec3(medium.scattering.x / maximum(extinction.x, 1.0e-30f), medium.scattering.y / maximum(extinction.y, 1.0e-30f),
+              medium.scattering.z / maximum(extinction.z, 1.0e-30f));
+}
+#endif
 
 SHADER_END
 #endif

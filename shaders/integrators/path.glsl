@@ -254,6 +254,9 @@ Continuations path_scatter(Frame frame, Path path, Interaction at) {
   next.throughput = next.throughput / survival;
   all.next = next;
   all.count = !lost && choice.y < survival && path.depth <= frame.max_depth ? 1u : 0u;
+#if RAY_KINDS
+  all.cut_off = !lost && choice.y < survival && path.depth > frame.max_depth;
+#endif
   PROBE(survival, survival);
   return all;
 }

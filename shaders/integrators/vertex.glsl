@@ -11,31 +11,21 @@ SHADER_BEGIN
 Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color, INOUT(uvec4) counts) {
   Continuations all = no_continuation(path);
   bool struck = hit.slot != NONE;
-  bool scattered = false;
-#if HAS_ABSORPTION
   Flight flight = flight_of(frame, path, hit);
+  struck = struck && !flight.scattered;
+#if HAS_ABSORPTION
   path.throughput = path.throughput * flight.weight;
-  scattered = flight.scattered;
-  struck = struck && !scattered;
 #endif
   counts.x += 1u;
   counts.y += struck ? 1u : 0u;
   counts.w += TRACE_ITERATIONS + 1u;
   PROBE(primitive, struck ? int(hit.id) : -1);
-  if (!struck && !scattered) {
+  if (!struck && !flight.scattered) {
     PROBE(throughput, path.throughput);
     PROBE(light, missed(frame, path));
     color = color + path.throughput * missed(frame, path);
   } else {
-#if HAS_SCATTERING
-    Interaction at;
-    if (scattered)
-      at = scattered_at(path, flight);
-    else
-      at = interaction_at(ray, hit, path.media, counts.z);
-#else
-    Interaction at = interaction_at(ray, hit, path.media, counts.z);
-#endif
+    Interaction at = met_at(path, ray, hit, flight, counts.z);
     PROBE(throughput, path.throughput);
     vec3 light = emitted(frame, path, at);
     // Tested at the bottom: Mesa 22.3.6 would go round once more, with all lanes idle.
@@ -66,6 +56,9 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
     color = color + path.throughput * light;
 #if HAS_SECONDARY
     all = scatter(frame, path, at);
+#if RAY_KINDS
+    counts.z = counts.z | (all.cut_off ? FLAG_CUT_OFF : 0u);
+#endif
 #endif
   }
   return all;

@@ -179,6 +179,7 @@
 #define STORED_HITS 0
 #endif
 //   FIRST_HITS            first hits instead of samples
+//   AUXILIARY             what a denoiser asks of them (integrators/auxiliary.glsl)
 //   QUERY_ANY             any hit will do
 //   LISTED                the pixels of a list
 //   ENDS_ONLY             of a wavefront: what goes on is only listed

@@ -6,6 +6,7 @@
 #include "kernels/loops.glsl"
 #include "geometry/surface.glsl"
 #include "bvh/traverse.glsl"
+#include "integrators/auxiliary.glsl"
 #include "integrators/loop.glsl"
 #include "samplers/sampler.glsl"
 
@@ -30,6 +31,20 @@ SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
   PROBE_BACK(NONE);
   counts.z = counts.z | loops_cut_off(LOOP_PROBE);
   return sample_result(positive_zeros(color), counts);
+}
+
+AuxiliaryResult render_auxiliary(Frame frame, uint x, uint y, uint index) {
+  AuxiliaryResult result = no_auxiliary();
+#if RANDOM_WALK
+  Ray ray;
+  if (eye_ray(frame, x, y, index, ray)) {
+    result = auxiliary_of(frame, ray, y * frame.width + x, index);
+    result.albedo = positive_zeros(result.albedo);
+    result.normal = positive_zeros(result.normal);
+  }
+  result.flags = result.flags | loops_cut_off(LOOP_PROBE);
+#endif
+  return result;
 }
 
 // Through the middle of the pixel, from that of the lens.

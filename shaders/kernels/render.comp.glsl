@@ -1,5 +1,5 @@
 // Entry: a tile of the picture. One sample of each pixel, or with LISTED of those in a list; or with FIRST_HITS what the ray through
-// the centre of each hits.
+// the centre of each hits, with AUXILIARY what a denoiser asks of the sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -10,6 +10,8 @@
 layout(local_size_x = 64) in;
 #ifdef FIRST_HITS
 layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { HitResult results[]; };
+#elif defined(AUXILIARY)
+layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { AuxiliaryResult results[]; };
 #else
 layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { SampleResult results[]; };
 #endif
@@ -38,6 +40,8 @@ void main() {
 
 #ifdef FIRST_HITS
   results[i] = first_hit(frame, x, y);
+#elif defined(AUXILIARY)
+  results[i] = render_auxiliary(frame, x, y, dispatch.sample_index);
 #else
   results[i] = render_sample(frame, x, y, dispatch.sample_index);
 #endif

@@ -79,7 +79,7 @@ TEST_CASE("AOVs hold what the eye rays hit") {
   std::set<std::string> expected{"scene.toml", "a.png"};
   for (const std::string name :
        {"depth", "position", "normal", "normal_geometric", "front", "uv", "shape", "primitive", "material",
-        "hits", "bounces", "rays", "ray_kinds", "samples", "noise", "nodes", "tests", "flags"})
+        "hits", "bounces", "rays", "ray_kinds", "samples", "noise", "brightest", "nodes", "tests", "flags"})
     expected.insert({"a." + name + ".pfm", "a." + name + ".png"});
   expected.insert({"a.shape.json", "a.primitive.json", "a.material.json"});
   CHECK(folder.names() == expected);

@@ -33,6 +33,11 @@ class FakeExecutor : public executors::Executor {
     }
     return true;
   }
+  bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
+    for (size_t i = 0; i < out.size(); ++i)
+      out[i] = {Vec3(1.0 / (1 + index + double(i))), Vec3(0, tile.y + double(i), index), 0};
+    return true;
+  }
   executors::Probed probe(int, int, uint32_t) override { return {}; }
   double query(const QueryBatch&, std::span<QueryHit>) override { return 0; }
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {

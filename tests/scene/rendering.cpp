@@ -39,6 +39,7 @@ class StoppingExecutor final : public Executor {
         out[size_t(y * tile.width + x)] = {Vec3(tile.x + x, tile.y + y, index), 2, 1, 0};
     return true;
   }
+  bool auxiliary(const Rect&, uint32_t, std::span<AuxiliarySample>) override { return false; }
   void first_hits(const Rect&, std::span<FirstHit>) override { asked_first_hits = true; }
   Probed probe(int, int, uint32_t) override { return {}; }
   double query(const QueryBatch&, std::span<QueryHit>) override {

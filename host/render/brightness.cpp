@@ -1,0 +1,28 @@
+#include "host/render/brightness.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "host/scene/luminance.hpp"
+
+namespace eyeray::render {
+namespace {
+
+size_t place_of(double luminance) {
+  return std::bit_cast<uint32_t>(float(std::max(luminance, 0.0))) >> 20;
+}
+
+}  // namespace
+
+void Brightness::add(std::span<const PixelSample> samples) {
+  for (const PixelSample& sample : samples) ++counts_[place_of(luminance(sample.color))];
+}
+
+uint64_t Brightness::above(double luminance) const {
+  if (!(luminance > 0)) return 0;
+  const auto first = counts_.begin() + std::ptrdiff_t(place_of(luminance)) + 1;
+  return std::accumulate(first, counts_.end(), uint64_t{0});
+}
+
+}  // namespace eyeray::render

@@ -1,0 +1,52 @@
+// What a denoiser wants to know of a sample: albedo and normal of the first vertex of its path that sends light in more than a direction
+// or two. The path is the picture's, but for roulette, which does not end it here.
+#ifndef AUXILIARY_GLSL
+#define AUXILIARY_GLSL
+#include "bvh/traverse.glsl"
+#include "integrators/flight.glsl"
+#include "integrators/integrator.glsl"
+
+SHADER_BEGIN
+
+AuxiliaryResult no_auxiliary() {
+  AuxiliaryResult none;
+  none.albedo = vec3(0.0f, 0.0f, 0.0f);
+  none.flags = 0u;
+  none.normal = vec3(0.0f, 0.0f, 0.0f);
+  none.unused = 0u;
+  return none;
+}
+
+#if RANDOM_WALK
+AuxiliaryResult auxiliary_of(Frame frame, Ray camera_ray, uint pixel, uint index) {
+  AuxiliaryResult result = no_auxiliary();
+  vec3 white = vec3(1.0f, 1.0f, 1.0f);
+  Path path = begin(frame, camera_ray, pixel, index);
+  bool going = true;
+  for (uint turn = 0u; turn < frame.max_depth + 2u; turn++) {
+    if (!going) break;
+    Ray ray = make_ray(path.o, path.d);
+    Hit hit = trace(ray, result.flags);
+    Flight flight = flight_of(frame, path, hit);
+    path.throughput = path.throughput * flight.weight;
+    going = hit.slot != NONE || flight.scattered;
+    if (!going) {
+      result.albedo = white;
+      result.normal = vec3(0.0f, 0.0f, 0.0f);
+    } else {
+      Interaction at = met_at(path, ray, hit, flight, result.flags);
+      result.albedo = max_component(at.scattering.emitted) > 0.0f ? white : bsdf_albedo(at.bsdf);
+      result.normal = at.seen.normal;
+#if HAS_SCATTERING
+      if (flight.scattered) result.albedo = medium_albedo(path.media);
+#endif
+      going = !flight.scattered && is_specular(at.bsdf);
+      path = scatter(frame, path, at).next;
+    }
+  }
+  return result;
+}
+#endif
+
+SHADER_END
+#endif
