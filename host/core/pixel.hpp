@@ -18,6 +18,7 @@ struct PixelSample {
   uint32_t reflected = 0;
   uint32_t refracted = 0;
   uint32_t total_reflections = 0;  // where a refracted ray would have been followed, had there been one
+  uint32_t trail = 1;  // a fingerprint of what a random path decided (docs/verification.md); else 1
 };
 
 // Why a sample's colour may be incomplete. A flag is shown to the user and fails `verify`; it is never

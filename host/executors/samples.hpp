@@ -19,6 +19,7 @@ inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds)
     sample.reflected = reflected_of(result);
     sample.total_reflections = total_reflections_of(result);
   }
+  sample.trail = result.trail;
   check_ended(sample.flags);
   return sample;
 }

@@ -8,6 +8,7 @@
 #include "host/reference/environment.hpp"
 #include "host/reference/integrator.hpp"
 #include "host/reference/light_disk.hpp"
+#include "host/reference/rng.hpp"
 #include "host/reference/sample_rays.hpp"
 #include "host/reference/sampler.hpp"
 
@@ -66,6 +67,7 @@ struct Arriving {
   double distance;
   Vec3 radiance;   // divided by the density of the choice
   double density;  // by solid angle, with the light's choice; 0 of a light without extent
+  uint64_t light;  // its number; of the environment −1
 };
 
 class PathSample {
@@ -74,6 +76,7 @@ class PathSample {
       : tracer_(tracer),
         scene_(tracer.scene()),
         id_(id),
+        numbers_(ray_offset.numbers),
         rays_(tracer, ray_offset, observer),
         observer_(observer) {}
 
@@ -81,8 +84,14 @@ class PathSample {
 
  private:
   Vec2 pair(uint32_t use) const {
-    return sampler(scene_.image.pattern)
-        .pair(id_.pixel, id_.index, use + pairs_a_vertex * uint32_t(depth_), scene_.render.seed);
+    const uint32_t number = use + pairs_a_vertex * uint32_t(depth_);
+    Vec2 pair = sampler(scene_.image.pattern).pair(id_.pixel, id_.index, number, scene_.render.seed);
+    // Moved, where it is asked what float32 makes of numbers that are near to a decision.
+    if (numbers_ != 0)
+      for (uint32_t i = 0; i < 2; ++i)
+        pair[int(i)] = std::clamp(pair[int(i)] + std::floor(9 * random(numbers_, number, i, 0) - 4) * 0x1p-24,
+                                  0.0, 1 - 0x1p-24);
+    return pair;
   }
   Vec3 emitted(const Interaction& at, const Vec3& from) const;
   Vec3 missed(const Vec3& d) const;
@@ -96,10 +105,13 @@ class PathSample {
   const Tracer& tracer_;
   const Scene& scene_;
   const SampleId id_;
+  const uint32_t numbers_;
   SampleRays rays_;
   const Observer& observer_;
   int depth_ = 0;
   Vec3 throughput_{1};
+  uint64_t asked_ = 0;  // by the last vertex: the value of its Event::light …
+  uint64_t way_ = 0;    // … and of its Event::way
   double density_ = 0;  // by solid angle, of the ray's direction; 0 where there was no choice
 };
 
@@ -138,8 +150,12 @@ Vec3 PathSample::missed(const Vec3& d) const {
 std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) {
   const auto [l, by_angle] = sample_environment(*scene_.environment, pair(place_pair));
   const double density = environment_share() * by_angle;
-  return Arriving{l, rays_.spawn_ray(at.surface, l), std::numeric_limits<double>::infinity(),
-                  rays_.surroundings(l) / density, density};
+  return Arriving{l,
+                  rays_.spawn_ray(at.surface, l),
+                  std::numeric_limits<double>::infinity(),
+                  rays_.surroundings(l) / density,
+                  density,
+                  uint64_t(-1)};
 }
 
 // What one light, chosen at random, sends to the point. Classic units: one of intensity 1 is π times that.
@@ -157,11 +173,16 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
     if (arriving.angle > 0) {
       const Vec3 l = disk_direction(arriving, pair(place_pair));
       const double density = share * disk_density(arriving);
-      return Arriving{l, rays_.spawn_ray(at.surface, l), arriving.distance, disk_radiance(arriving) / density,
-                      density};
+      return Arriving{
+          l,    rays_.spawn_ray(at.surface, l), arriving.distance, disk_radiance(arriving) / density, density,
+          light};
     }
-    return Arriving{arriving.l, rays_.spawn_ray(at.surface, arriving.l), arriving.distance,
-                    M_PI / share * arriving.color, 0};
+    return Arriving{arriving.l,
+                    rays_.spawn_ray(at.surface, arriving.l),
+                    arriving.distance,
+                    M_PI / share * arriving.color,
+                    0,
+                    light};
   }
   const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
   // What is flat does not light itself.
@@ -172,12 +193,13 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   Ray ray = rays_.spawn_ray(at.surface, l);
   ray.d = glm::normalize(place.position - ray.o);
   const double density = share * emitter_density(emitter.form, p, place);
-  return Arriving{l, ray, glm::length(place.position - ray.o) * (1 - 1e-9), emitter.radiance / density,
-                  density};
+  return Arriving{l,       ray,  glm::length(place.position - ray.o) * (1 - 1e-9), emitter.radiance / density,
+                  density, light};
 }
 
 // What that brings to the viewer.
 Vec3 PathSample::direct(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf) {
+  asked_ = 0;
   if (bsdf.black() || depth_ > scene_.render.max_depth) return Vec3(0);
   const auto light = arriving(at);
   if (!light || light->radiance == Vec3(0)) return Vec3(0);
@@ -192,11 +214,13 @@ Vec3 PathSample::direct(const Interaction& at, const LocalFrame& frame, const Vi
   observer_.value("contribution", contribution);
   observer_.value("visibility", seen);
   observer_.back(depth_);
+  asked_ = 2 * (light->light + 2) + (seen > 0 ? 1 : 0);
   return seen * contribution;
 }
 
 std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                                        MediaStack& media) {
+  way_ = 0;
   if (bsdf.black() || depth_ > scene_.render.max_depth) return std::nullopt;
   const Vec2 chance = pair(scatter_pair);  // of a lobe, and of going on
   const BsdfSample sample = bsdf.sample(chance.x, pair(direction_pair));
@@ -222,6 +246,7 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
   observer_.value("survival", survival);
   if (!(chance.y < survival)) return std::nullopt;
   throughput_ /= survival;
+  way_ = sample.lobe + 1 + (kind == RayKind::refracted ? through : 0);
   ++depth_;
   ++(kind == RayKind::reflected ? rays_.reflected : rays_.refracted);
   const Ray next = rays_.spawn_ray(at.surface, d);
@@ -233,6 +258,7 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
   Vec3 color(0);
   for (;;) {
     const auto at = rays_.hit(ray, media, throughput_);
+    rays_.decided(Event::hit, at ? at->primitive + 1 : 0);
     if (!at) {
       color += throughput_ * missed(ray.d);
       break;
@@ -242,10 +268,12 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
     const ViewedBsdf bsdf(at->bsdf, frame.viewer);
     const Vec3 light = emitted(*at, ray.o) + direct(*at, frame, bsdf);
     observer_.value("light", light);
+    rays_.decided(Event::light, asked_);
     color += throughput_ * light;
     if (at->has_medium && at->scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)
       ++rays_.total_reflections;
     const auto next = scatter(*at, frame, bsdf, media);
+    rays_.decided(Event::way, way_);
     if (!next) break;
     ray = *next;
   }

@@ -159,8 +159,14 @@ std::optional<Interaction> SampleRays::hit(const Ray& ray, const MediaStack& med
   return at;
 }
 
+void SampleRays::decided(Event kind, uint64_t value) {
+  const uint32_t event = event_of(kind, value);
+  trail_ = with_event(trail_, event);
+  observer_.event(event);
+}
+
 PixelSample SampleRays::sample(const Vec3& color) const {
-  return {color, rays_, hits_, flags_, reflected, refracted, total_reflections};
+  return {color, rays_, hits_, flags_, reflected, refracted, total_reflections, trail_};
 }
 
 }  // namespace eyeray::reference

@@ -160,6 +160,7 @@ class Driver {
         const std::span<PixelSample> out = left.first(size_t(part.pixels()));
         if (!executor_.sample(tile, uint32_t(position_.samples), out)) return false;
         left = left.subspan(out.size());
+        if (options_.witness) options_.witness(tile, uint32_t(position_.samples), out);
       }
     } catch (...) {
       save();
