@@ -270,16 +270,16 @@ struct Dispatch {
 // One sample of one pixel, 32 bytes.
 struct SampleResult {
   vec3 color;
-  float written;  // 1
+  uint trail;  // of a random walk (integrators/trail.glsl); else 1
   uint rays;
   uint hits;
   uint flags;       // with RAY_KINDS below refracted_of
   uint iterations;  // of loops; with RAY_KINDS reflected_of and total_reflections_of instead
 };
-INLINE SampleResult sample_result(vec3 color, uvec4 counts) {
+INLINE SampleResult sample_result(vec3 color, uvec4 counts, uint trail) {
   SampleResult result;
   result.color = color;
-  result.written = 1.0f;
+  result.trail = trail;
   result.rays = counts.x;
   result.hits = counts.y;
   result.flags = counts.z;

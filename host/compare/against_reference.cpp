@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/compare/paths.hpp"
 #include "host/core/parallel_for.hpp"
 
 namespace eyeray::compare {
@@ -35,10 +36,11 @@ bool equal(const FirstHit& value, const FirstHit& reference) {
 // Both frames and what was found so far, one judgement a pixel and gate.
 class Judge {
  public:
-  Judge(const Frame& value, const Frame& reference, const Tolerances& tolerances)
+  Judge(const Frame& value, const Frame& reference, const Tolerances& tolerances, bool hits_alone)
       : value_(value),
         reference_(reference),
         tolerances_(tolerances),
+        hits_alone_(hits_alone),
         colors_(size_t(value.area.pixels())),
         first_hits_(size_t(value.area.pixels())),
         counts_(size_t(value.area.pixels())) {}
@@ -48,10 +50,11 @@ class Judge {
     parallel_for(0, value_.area.height, [&](int y) {
       for (int x = 0; x < value_.area.width; ++x) {
         const WorstPixel p = at(index(x, y));
-        colors_[index(x, y)] =
-            judge(color_excess(p.value, p.reference, tolerances_.color), equal(p.value, p.reference));
         first_hits_[index(x, y)] =
             judge(hit_excess(p.value_hit, p.reference_hit, tolerances_), equal(p.value_hit, p.reference_hit));
+        if (hits_alone_) continue;
+        colors_[index(x, y)] =
+            judge(color_excess(p.value, p.reference, tolerances_.color), equal(p.value, p.reference));
         counts_[index(x, y)] =
             judge(counts_excess(p.value_counts, p.reference_counts), p.value_counts == p.reference_counts);
       }
@@ -86,10 +89,6 @@ class Judge {
 
  private:
   size_t index(int x, int y) const { return size_t(y) * size_t(value_.area.width) + size_t(x); }
-  int64_t cap() const {
-    return std::max(always_allowed,
-                    int64_t(std::ceil(tolerances_.max_explained * double(value_.area.pixels()))));
-  }
 
   // Both frames' values of a pixel.
   WorstPixel at(size_t i) const {
@@ -152,7 +151,7 @@ class Judge {
   Tally tally(const std::vector<Judgement>& judgements) const {
     Tally tally;
     tally.pixels = int64_t(judgements.size());
-    tally.may_be_explained = cap();
+    tally.may_be_explained = explained_cap(tolerances_, tally.pixels);
 
     // Count, and find the worst; an unexamined pixel stands for the report only where no unexplained one
     // does.
@@ -193,6 +192,7 @@ class Judge {
   const Frame& value_;
   const Frame& reference_;
   const Tolerances& tolerances_;
+  const bool hits_alone_;
   std::vector<Judgement> colors_;
   std::vector<Judgement> first_hits_;
   std::vector<Judgement> counts_;
@@ -208,31 +208,45 @@ int64_t Tally::capped_pixels() const {
   return explained_pixels() - explained[size_t(Cause::undecidable)];
 }
 
+int64_t explained_cap(const Tolerances& tolerances, int64_t pixels) {
+  return std::max(always_allowed, int64_t(std::ceil(tolerances.max_explained * double(pixels))));
+}
+
 bool Tally::passes() const {
   return pixels > 0 && unexplained == 0 && unexamined == 0 && capped_pixels() <= may_be_explained;
 }
 
+std::span<const TallyType> ReferenceComparison::types() const {
+  if (by_samples()) return path_tally_types;
+  return tally_types;
+}
+
 bool ReferenceComparison::passes() const {
-  return incomparable.empty() && std::ranges::all_of(tally_types, [&](const TallyType& type) {
-           return (this->*type.tally).passes();
-         });
+  return incomparable.empty() && (!by_samples() || paired_sum.excess() <= 1) &&
+         std::ranges::all_of(types(), [&](const TallyType& type) { return (this->*type.tally).passes(); });
 }
 
 ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference,
                                            const Reference& around, const Tolerances& tolerances,
-                                           std::vector<PixelOutcome>* outcomes) {
+                                           std::vector<PixelOutcome>* outcomes, const PathReference* paths) {
   tolerances.check();
   ReferenceComparison result;
   result.incomparable = why_incomparable(value, reference);
   if (!result.incomparable.empty()) return result;
 
-  Judge judge(value, reference, tolerances);
+  Judge judge(value, reference, tolerances, paths != nullptr);
   judge.compare_values();
   judge.explain(around);
-  result.colors = judge.count_colors();
   result.first_hits = judge.count_first_hits();
-  result.counts = judge.count_counts();
-  if (outcomes) *outcomes = judge.worst_outcomes();
+  std::vector<PixelOutcome> worst = judge.worst_outcomes();
+  if (paths) {
+    result.paths = compare_paths(value, reference, *paths, tolerances, worst);
+    result.paired_sum = worst_paired_sum(value, reference);
+  } else {
+    result.colors = judge.count_colors();
+    result.counts = judge.count_counts();
+  }
+  if (outcomes) *outcomes = std::move(worst);
   return result;
 }
 

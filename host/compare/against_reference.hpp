@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "host/compare/explain.hpp"
+#include "host/compare/paired_sums.hpp"
 
 namespace eyeray::compare {
 
@@ -36,12 +38,17 @@ struct Tally {
   bool passes() const;
 };
 
+struct TallyType;
 struct ReferenceComparison {
   std::string incomparable;  // why nothing was compared; empty when everything was
   Tally colors;              // gate B
   Tally first_hits;          // gate C
   Tally counts;              // gate C
+  Tally paths;               // gate D, of samples; in place of the two before where paths are random
+  PairedSum paired_sum;      // the worst of gate D
 
+  bool by_samples() const { return paths.pixels > 0; }
+  std::span<const TallyType> types() const;
   bool passes() const;
 };
 
@@ -50,19 +57,29 @@ struct TallyType {
   const char* gate;
   const char* of;  // "first hits"
   Tally ReferenceComparison::*tally;
+  const char* unit = "pixels";
 };
 inline constexpr TallyType tally_types[] = {
     {"C", "first hits", &ReferenceComparison::first_hits},
     {"C", "surfaces and rays", &ReferenceComparison::counts},
     {"B", "colours", &ReferenceComparison::colors},
 };
+inline constexpr TallyType path_tally_types[] = {
+    {"C", "first hits", &ReferenceComparison::first_hits},
+    {"D", "paths", &ReferenceComparison::paths, "samples"},
+};
 
 // What gate G looks at of one whose value is a golden picture (report.hpp).
 inline constexpr TallyType golden_type{"G", "colours", &ReferenceComparison::colors};
 
-// `outcomes`, where it is asked for: of every pixel, row by row, the worst of its tallies.
+// `outcomes`, where it is asked for: of every pixel, row by row, the worst of its tallies. `paths`: where
+// paths are random, samples are compared instead of their means.
 ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference,
                                            const Reference& around, const Tolerances& tolerances = {},
-                                           std::vector<PixelOutcome>* outcomes = nullptr);
+                                           std::vector<PixelOutcome>* outcomes = nullptr,
+                                           const PathReference* paths = nullptr);
+
+// Tally::may_be_explained of so many pixels, or samples.
+int64_t explained_cap(const Tolerances& tolerances, int64_t pixels);
 
 }  // namespace eyeray::compare

@@ -45,9 +45,10 @@ std::string side(const Report& report) {
 // What is wrong first along the life of a ray.
 std::string place(const ReferenceResult& result) {
   const ReferenceComparison& c = result.comparison;
-  const TallyType* const failing =
-      std::ranges::find_if(tally_types, [&](const TallyType& type) { return !(c.*type.tally).passes(); });
-  if (failing == std::end(tally_types)) return "";
+  const std::span<const TallyType> types = c.types();
+  const auto failing =
+      std::ranges::find_if(types, [&](const TallyType& type) { return !(c.*type.tally).passes(); });
+  if (failing == types.end()) return "";
   const Tally& tally = c.*failing->tally;
   switch (tally.worst.seam) {
     case Seam::primitive:
@@ -65,9 +66,13 @@ std::string place(const ReferenceResult& result) {
     case Seam::none:
     case Seam::color:
     case Seam::counts:
+    case Seam::trail:
       break;
   }
   if (!c.first_hits.passes()) return "first hits differ";
+  if (tally.worst.seam == Seam::trail) return "first hits agree, and paths part where the reference's do not";
+  if (c.by_samples())
+    return "paths decide the same, and bring other light: materials, densities, weights, lights or textures";
   if (!c.counts.passes()) {
     const bool further = tally.worst.reference_counts.x > 1 || tally.worst.value_counts.x > 1;
     return further ? "first hits agree, and reflected, refracted or shadow rays go or hit elsewhere"

@@ -1,9 +1,11 @@
 #include "host/compare/exact.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "host/core/error.hpp"
 
@@ -23,6 +25,19 @@ bool same_bits(const Vec3& a, const Vec3& b) {
   return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
 }
 
+std::span<const TracedSample> samples_at(const Frame& frame, size_t pixel) {
+  const size_t each = frame.samples.size() / size_t(frame.area.pixels());
+  return std::span(frame.samples).subspan(pixel * each, each);
+}
+
+bool same_sample(const TracedSample& a, const TracedSample& b) {
+  return same_bits(Vec3(a.color), Vec3(b.color)) && a.trail == b.trail && a.hits == b.hits &&
+         a.rays == b.rays;
+}
+bool same_trails(std::span<const TracedSample> a, std::span<const TracedSample> b) {
+  return std::ranges::equal(a, b, {}, &TracedSample::trail, &TracedSample::trail);
+}
+
 bool same_ids(const FirstHit& a, const FirstHit& b) {
   return a.primitive == b.primitive && a.material == b.material;
 }
@@ -32,7 +47,7 @@ bool same_bits(const FirstHit& a, const FirstHit& b) {
          same_bits(a.cosine, b.cosine) && same_bits(a.uv, b.uv);
 }
 
-Seam first_seam(const FirstHit& a, const FirstHit& b, bool colors_differ) {
+Seam first_seam(const FirstHit& a, const FirstHit& b, bool trails_differ, bool colors_differ) {
   if (a.primitive != b.primitive) return Seam::primitive;
   if (!same_bits(a.t, b.t)) return Seam::t;
   if (!same_bits(a.position, b.position)) return Seam::position;
@@ -41,6 +56,7 @@ Seam first_seam(const FirstHit& a, const FirstHit& b, bool colors_differ) {
     return Seam::geometric_normal;
   if (!same_bits(a.uv, b.uv)) return Seam::uv;
   if (a.material != b.material) return Seam::material;
+  if (trails_differ) return Seam::trail;
   return colors_differ ? Seam::color : Seam::counts;
 }
 
@@ -86,18 +102,26 @@ ExactComparison compare_exactly(const Frame& value, const Frame& other) {
       const Counts counts = counts_at(value, x, y), other_counts = counts_at(other, x, y);
 
       // Count what differs.
-      const bool colors_differ = !same_bits(color, other_color);
+      const size_t pixel = size_t(y) * size_t(value.area.width) + size_t(x);
+      const auto samples = samples_at(value, pixel), other_samples = samples_at(other, pixel);
+      const bool samples_differ = !std::ranges::equal(samples, other_samples, same_sample);
+      const bool trails_differ = samples_differ && !same_trails(samples, other_samples);
+      const bool colors_differ = !same_bits(color, other_color) || (samples_differ && !trails_differ);
       const bool first_hits_differ = !same_bits(hit, other_hit);
-      if (!colors_differ && !first_hits_differ && same_bits(counts, other_counts)) continue;
+      if (!colors_differ && !samples_differ && !first_hits_differ && same_bits(counts, other_counts))
+        continue;
       ++result.different_pixels;
       result.different_colors += colors_differ;
       result.different_first_hits += first_hits_differ;
-      result.different_ids += !same_ids(hit, other_hit);
+      result.different_ids += !same_ids(hit, other_hit) || trails_differ;
 
       // Measure how far.
       int64_t ulp = 0;
       for (int c = 0; c < 2; ++c) ulp = std::max(ulp, ulp_distance(float(counts[c]), float(other_counts[c])));
       for (int c = 0; c < 3; ++c) ulp = std::max(ulp, ulp_distance(float(color[c]), float(other_color[c])));
+      for (size_t i = 0; i < samples.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+          ulp = std::max(ulp, ulp_distance(samples[i].color[c], other_samples[i].color[c]));
       const auto a = values(hit), b = values(other_hit);
       for (size_t i = 0; i < a.size(); ++i) ulp = std::max(ulp, ulp_distance(float(a[i]), float(b[i])));
       if (result.worst.seam == Seam::none || ulp > result.max_ulp) {
@@ -109,7 +133,7 @@ ExactComparison compare_exactly(const Frame& value, const Frame& other) {
                         hit,
                         other_hit,
                         double(ulp),
-                        first_seam(hit, other_hit, colors_differ)};
+                        first_seam(hit, other_hit, trails_differ, colors_differ)};
       }
       result.max_ulp = std::max(result.max_ulp, ulp);
     }

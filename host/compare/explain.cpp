@@ -143,6 +143,8 @@ const char* name(Cause cause) {
       return "rounding";
     case Cause::undecidable:
       return "undecidable";
+    case Cause::parted:
+      return "parted";
   }
   return "unknown";
 }

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/compare/tolerance.hpp"
@@ -37,6 +38,18 @@ enum class Chance {
 // (x, y): a pixel of the whole picture; called from many threads at once.
 using Reference = std::function<Neighbour(int x, int y, const Vec2& shift, Chance chance)>;
 
+// The same for single samples whose paths are random.
+struct PathReference {
+  std::function<Reference(int sample)> around;  // of that sample of each pixel
+  // What the shaders' path decides, event by event; empty where that is not known to be what has the trail.
+  std::function<std::vector<uint32_t>(Pixel pixel, int sample, uint32_t trail)> shaders;
+  // What the reference's does, moved by `shift`, in one of `variants` ways that float32 may round it.
+  std::function<std::vector<uint32_t>(Pixel pixel, int sample, const Vec2& shift, int variant)> reference;
+  int variants = 1;
+  std::function<double(Pixel pixel)> rounding;  // Neighbour's
+  std::function<std::string(uint32_t event)> describe;
+};
+
 // Places around a pixel's own, in pixels: `angles` on each of four rings, and before them on one as wide as a
 // rounding error, where that is known. Of a pixel whose rays strike so many surfaces. `between`: half as many
 // on each ring between that and the four as well.
@@ -56,8 +69,9 @@ enum class Cause {
   grazing,      // of a first hit alone: the same surface, hit at so small an angle that t races
   undecidable,  // the jump is as near to the eye ray, or to a hit, as float32 rounds those: no float32
                 // renderer can tell
+  parted,       // of a sample alone: a random path goes another way, as one of the reference's nearby does
 };
-inline constexpr int cause_count = 8;
+inline constexpr int cause_count = 9;
 const char* name(Cause cause);
 
 // The reference in the neighbourhood of one pixel.

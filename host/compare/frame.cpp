@@ -27,6 +27,8 @@ std::string why_incomparable(const Frame& value, const Frame& reference) {
   if (!(value.area == reference.area)) {
     return fmt::format("wrong size: {} against {}", describe(value.area), describe(reference.area));
   }
+  if (value.samples.size() != reference.samples.size())
+    return fmt::format("wrong size: {} samples against {}", value.samples.size(), reference.samples.size());
   for (const Frame* frame : {&value, &reference}) {
     if (!whole(*frame)) {
       return fmt::format("wrong size: a frame of {} holds a picture of {}×{} and {} first hits",

@@ -11,6 +11,14 @@
 
 namespace eyeray::compare {
 
+// One sample of a pixel whose path is random.
+struct TracedSample {
+  glm::vec3 color{0.0f};
+  uint32_t trail = 0;  // PixelSample's
+  uint32_t hits = 0;
+  uint32_t rays = 0;
+};
+
 struct Frame {
   Rect area;                         // the pixels of the whole picture that it holds
   image::Image color;                // linear RGB, the mean of the samples
@@ -20,6 +28,9 @@ struct Frame {
   uint64_t rays = 0;                 // all of them
   uint64_t flagged_pixels = 0;       // pixels with any SampleFlag
   uint32_t flags = 0;                // all SampleFlags seen
+
+  std::vector<TracedSample> samples =
+      {};  // where paths are random: as many of each pixel, one after the other
 
   const FirstHit& first_hit(int x, int y) const {
     return first_hits[size_t(y) * size_t(area.width) + size_t(x)];

@@ -16,13 +16,20 @@ void add_failures(std::vector<std::string>& failures, const std::string& sides, 
   const auto add = [&](int64_t count, const std::string& what) {
     if (count <= 0) return;
     failures.push_back(
-        fmt::format("gate {}: {}, {}: {} of {} pixels differ {}; the worst is {},{}, which parts at {}",
-                    type.gate, sides, type.of, count, tally.pixels, what, tally.worst.pixel.x,
+        fmt::format("gate {}: {}, {}: {} of {} {} differ {}; the worst is {},{}, which parts at {}",
+                    type.gate, sides, type.of, count, tally.pixels, type.unit, what, tally.worst.pixel.x,
                     tally.worst.pixel.y, name(tally.worst.seam)));
   };
   add(tally.unexplained + tally.unexamined, "unexplained");
   if (tally.capped_pixels() > tally.may_be_explained)
     add(tally.capped_pixels(), fmt::format("explained, more than the {} allowed", tally.may_be_explained));
+}
+
+std::string describe(const PairedSum& sum) {
+  return fmt::format(
+      "the tile of {}×{} pixels at {},{} is off by {:.2g} in channel {} on the mean, and {:.2g} may be "
+      "chance",
+      sum.tile.width, sum.tile.height, sum.tile.x, sum.tile.y, sum.share, sum.channel, sum.allowed);
 }
 
 std::string describe(const ExactResult& result) {
@@ -66,8 +73,11 @@ std::vector<std::string> Report::failures() const {
       failures.push_back(fmt::format("gate B: {} against the reference: {}", result.value, c.incomparable));
       continue;
     }
-    for (const TallyType& type : tally_types)
+    for (const TallyType& type : c.types())
       add_failures(failures, result.value + " against the reference", type, c.*type.tally);
+    if (c.by_samples() && !(c.paired_sum.excess() <= 1))
+      failures.push_back(
+          fmt::format("gate D: {} against the reference: {}", result.value, describe(c.paired_sum)));
   }
   if (golden && !golden->passes()) {
     if (!golden->incomparable.empty())
@@ -90,7 +100,7 @@ std::optional<double> Report::healthy_allowance() const {
   double share = 0;
   for (ReferenceResult& result : uncapped.against_reference) {
     ReferenceComparison& c = result.comparison;
-    for (const TallyType& type : tally_types) {
+    for (const TallyType& type : c.types()) {
       Tally& tally = c.*type.tally;
       tally.may_be_explained = tally.pixels;
       share = std::max(share, double(tally.capped_pixels()) / double(std::max(tally.pixels, int64_t{1})));
@@ -110,7 +120,7 @@ std::optional<Pixel> Report::pixel_to_look_at() const {
   }
   for (const ReferenceResult& result : against_reference) {
     if (!result.comparison.incomparable.empty()) continue;
-    for (const TallyType& type : tally_types) {
+    for (const TallyType& type : result.comparison.types()) {
       const Tally& tally = result.comparison.*type.tally;
       if (!tally.passes()) return tally.worst.pixel;
     }
@@ -129,7 +139,7 @@ std::vector<FirstHit> Report::shown_hits() const {
     if (result.comparison.worst.seam != Seam::none) add(result.comparison.worst);
   }
   for (const ReferenceResult& result : against_reference) {
-    for (const TallyType& type : tally_types) {
+    for (const TallyType& type : result.comparison.types()) {
       const Tally& tally = result.comparison.*type.tally;
       if (tally.worst.excess > 0) add(tally.worst);
     }
@@ -157,7 +167,8 @@ std::string_view Report::verdict() const {
 int64_t Report::count(int64_t (*of)(const Tally&)) const {
   int64_t most = 0;
   for (const ReferenceResult& result : against_reference)
-    for (const TallyType& type : tally_types) most = std::max(most, of(result.comparison.*type.tally));
+    for (const TallyType& type : result.comparison.types())
+      most = std::max(most, of(result.comparison.*type.tally));
   return most;
 }
 

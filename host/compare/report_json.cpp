@@ -35,6 +35,8 @@ Json json(const WorstPixel& worst) {
   return {{"pixel", json(worst.pixel)},
           {"excess", worst.excess},
           {"seam", name(worst.seam)},
+          {"sample", worst.sample},
+          {"parting", worst.parting},
           {"value", side(worst.value, worst.value_counts, worst.value_hit)},
           {"reference", side(worst.reference, worst.reference_counts, worst.reference_hit)}};
 }
@@ -90,9 +92,19 @@ Json json(const ReferenceResult& result) {
   const Tolerances& t = result.tolerances;
   object["tolerances"] = {
       {"color", t.color}, {"t", t.t}, {"normal", t.normal}, {"uv", t.uv}, {"max_explained", t.max_explained}};
-  object["colors"] = json(c.colors);
   object["first_hits"] = json(c.first_hits);
-  object["counts"] = json(c.counts);
+  if (c.by_samples()) {
+    object["paths"] = json(c.paths);
+    const PairedSum& sum = c.paired_sum;
+    object["paired_sum"] = {{"passed", sum.excess() <= 1},
+                            {"tile", {sum.tile.x, sum.tile.y, sum.tile.width, sum.tile.height}},
+                            {"channel", sum.channel},
+                            {"share", sum.share},
+                            {"allowed", sum.allowed}};
+  } else {
+    object["colors"] = json(c.colors);
+    object["counts"] = json(c.counts);
+  }
   if (result.metrics) object["metrics"] = metrics_json(*result.metrics);
   return object;
 }

@@ -50,8 +50,10 @@ std::string explained(const Tally& tally) {
 void add_worst(std::string& text, const Report& report, const WorstPixel& worst, const std::string& value,
                const std::string& reference, const char* unit) {
   const std::string error = std::isinf(worst.excess) ? "beyond all" : fmt::format("{:.3g}", worst.excess);
-  line(text, "    worst pixel {},{}: {} {}{}", worst.pixel.x, worst.pixel.y, error, unit,
-       worst.seam == Seam::none ? "" : fmt::format(", parts at {}", name(worst.seam)));
+  line(text, "    worst pixel {},{}{}: {} {}{}{}", worst.pixel.x, worst.pixel.y,
+       worst.sample < 0 ? "" : fmt::format(", sample {}", worst.sample), error, unit,
+       worst.seam == Seam::none ? "" : fmt::format(", parts at {}", name(worst.seam)),
+       worst.parting.empty() ? "" : ", " + worst.parting);
   const auto side = [&](const std::string& who, const Vec3& color, const Counts& counts,
                         const FirstHit& hit) {
     line(text, "      {:9} color {}; {:.9g} surfaces, {:.9g} rays; {}", who, numbers(color), counts.x,
@@ -82,8 +84,14 @@ void add(std::string& text, const Report& report, const ExactResult& result) {
 }
 
 void add(std::string& text, const Report& report, const ReferenceResult& result) {
-  for (const TallyType& type : tally_types)
+  for (const TallyType& type : result.comparison.types())
     add_tally(text, report, result.value, "reference", type, result.comparison.*type.tally);
+  if (const PairedSum& sum = result.comparison.paired_sum; result.comparison.by_samples())
+    line(text,
+         "  gate D {} {} = reference, sums: {}×{} pixels at {},{} differ by {:.2g} on the mean of channel "
+         "{}; {:.2g} may be chance",
+         sum.excess() <= 1 ? "passed" : "FAILED", result.value, sum.tile.width, sum.tile.height, sum.tile.x,
+         sum.tile.y, sum.share, sum.channel, sum.allowed);
   if (result.metrics) line(text, "    {}", to_text(*result.metrics));
 }
 
@@ -156,7 +164,8 @@ std::string to_text(const Report& report) {
   for (const ReferenceResult& result : report.against_reference) {
     if (!result.comparison.incomparable.empty()) continue;
     if (same_as_first(report, result)) {
-      line(text, "  gates B and C {} {} = reference: the same as {}, bit by bit",
+      line(text, "  gates {} {} {} = reference: the same as {}, bit by bit",
+           result.comparison.by_samples() ? "C and D" : "B and C",
            result.comparison.passes() ? "passed" : "FAILED", result.value, report.against_reference[0].value);
     } else {
       add(text, report, result);

@@ -1,11 +1,25 @@
 // Where two executors part: the first value along the life of a ray that differs.
 #pragma once
 
+#include <string>
+
 #include "host/compare/frame.hpp"
 
 namespace eyeray::compare {
 
-enum class Seam { none, primitive, t, position, normal, geometric_normal, uv, material, color, counts };
+enum class Seam {
+  none,
+  primitive,
+  t,
+  position,
+  normal,
+  geometric_normal,
+  uv,
+  material,
+  color,
+  counts,
+  trail
+};
 
 // A pixel that stands for a comparison in its report: both values, and the seam.
 struct WorstPixel {
@@ -15,6 +29,8 @@ struct WorstPixel {
   FirstHit value_hit, reference_hit;
   double excess = 0;  // the largest error, in tolerances (or in ULP)
   Seam seam = Seam::none;
+  int sample = -1;           // of the pixel, whose colours and counts these are; −1: the mean of all
+  std::string parting = {};  // where its paths part, in words
 };
 
 // For reports: "first hit's t".

@@ -120,6 +120,8 @@ const char* name(Seam seam) {
       return "color";
     case Seam::counts:
       return "counts";
+    case Seam::trail:
+      return "what its path decides";
   }
   return "none";
 }

@@ -94,6 +94,13 @@ class TwinExecutor final : public Executor {
     return {sample, std::move(recorder.tree())};
   }
 
+  std::vector<uint32_t> events(int x, int y, uint32_t index) const override {
+    std::vector<uint32_t> events;
+    const twin::Spectator spectator = twin::spectator_for(events);
+    functions().sample(view_, uint32_t(x), uint32_t(y), index, &spectator);
+    return events;
+  }
+
   double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
     return timed_queries(batch.rays, hits, [&](const Query& ray) {
       return to_query_hit(functions().query(view_, to_query_ray(ray, eye_), batch.kind == QueryKind::any));

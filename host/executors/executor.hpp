@@ -52,6 +52,9 @@ class Executor {
   // Sample `index` of one pixel, and what is to be seen along its rays. Positions are the shaders', relative
   // to the eye, but the reference's. Only where ExecutorOptions::ray_kinds.
   virtual Probed probe(int x, int y, uint32_t index) = 0;
+  // What the random path of that sample decides, event by event (shaders/integrators/trail.glsl); empty where
+  // unknown. From many threads at once.
+  virtual std::vector<uint32_t> events(int /*x*/, int /*y*/, uint32_t /*index*/) const { return {}; }
 
   // Samples are from now on by the values that ExecutorOptions::tunables have now.
   virtual void reload_tunables() {}

@@ -21,6 +21,7 @@ inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds)
     sample.cut_off = (sample.flags & FLAG_CUT_OFF) != 0;
     sample.flags &= ~FLAG_CUT_OFF;
   }
+  sample.trail = result.trail;
   check_ended(sample.flags);
   return sample;
 }

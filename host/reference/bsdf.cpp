@@ -220,11 +220,12 @@ BsdfSample ViewedBsdf::sample(double chance, const Vec2& u) const {
   const double share = shares_[chosen];
   switch (chosen) {
     case mirror:
-      return {BsdfSample::Kind::mirrored, Vec3(0), bsdf_.mirror / share};
+      return {BsdfSample::Kind::mirrored, Vec3(0), bsdf_.mirror / share, 14};
     case transmitted:
-      return {BsdfSample::Kind::refracted, Vec3(0), bsdf_.transmitted / share};
+      return {BsdfSample::Kind::refracted, Vec3(0), bsdf_.transmitted / share, 15};
     default:
-      return {BsdfSample::Kind::lobe, direction(chosen, (chance - begin) / share, u), Vec3(0)};
+      return {BsdfSample::Kind::lobe, direction(chosen, (chance - begin) / share, u), Vec3(0),
+              uint32_t(chosen)};
   }
 }
 

@@ -14,8 +14,9 @@ struct BsdfValue {
 struct BsdfSample {
   enum class Kind { lobe, mirrored, refracted };
   Kind kind;
-  Vec3 i;       // of a lobe: where light may come from; 0 where the surface itself stands in the way
-  Vec3 weight;  // of a single direction: its throughput by how likely it was chosen
+  Vec3 i;         // of a lobe: where light may come from; 0 where the surface itself stands in the way
+  Vec3 weight;    // of a single direction: its throughput by how likely it was chosen
+  uint32_t lobe;  // as the shaders number them
 };
 
 // A BSDF towards one viewer.

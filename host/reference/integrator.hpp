@@ -24,6 +24,7 @@ struct RayOffset {
   uint32_t seed = 0;          // of where aside
   TextureChoice textures = TextureChoice::at_hit;
   bool coincident = false;  // of two surfaces that float32 cannot tell apart, the farther one is hit
+  uint32_t numbers = 0;     // unless 0, a seed of how far each random number is off, by some units of 2^-24
   double pivot = 0;  // unless 0, the eye's ray is turned: so far along it stays, and before that it is aside
 };
 

@@ -10,6 +10,8 @@ namespace eyeray::reference {
 class Observer {
  public:
   Observer(RayRecorder* recorder = nullptr) : recorder_(recorder) {}
+  // Takes what a random path decides alone (trail.hpp).
+  explicit Observer(std::vector<uint32_t>& events) : events_(&events) {}
 
   // Whether anybody looks.
   explicit operator bool() const { return recorder_ != nullptr; }
@@ -24,11 +26,16 @@ class Observer {
   void back(int depth) const;
   // What the ray hit, and the surface there, as the shape has it.
   void hit(const Tracer& tracer, const Ray& ray, const Hit& hit, const SurfacePoint& surface) const;
+  void event(uint32_t event) const {
+    if (events_) events_->push_back(event);
+    value("event", event);
+  }
   // What a ray that hits nothing sees.
   void miss(const Vec3& throughput, const Vec3& light) const;
 
  private:
-  RayRecorder* recorder_;
+  RayRecorder* recorder_ = nullptr;
+  std::vector<uint32_t>* events_ = nullptr;
 };
 
 }  // namespace eyeray::reference

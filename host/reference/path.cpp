@@ -9,6 +9,7 @@
 #include "host/reference/integrator.hpp"
 #include "host/reference/light_disk.hpp"
 #include "host/reference/phase.hpp"
+#include "host/reference/rng.hpp"
 #include "host/reference/sample_rays.hpp"
 #include "host/reference/sampler.hpp"
 
@@ -68,6 +69,7 @@ struct Arriving {
   double distance;
   Vec3 radiance;   // divided by the density of the choice
   double density;  // by solid angle, with the light's choice; 0 of a light without extent
+  uint64_t light;  // its number; of the environment −1
 };
 
 // How far a path gets through a medium: up to a point of it, or to what the ray hits.
@@ -92,6 +94,7 @@ class PathSample {
       : tracer_(tracer),
         scene_(tracer.scene()),
         id_(id),
+        numbers_(ray_offset.numbers),
         rays_(tracer, ray_offset, observer),
         observer_(observer) {}
 
@@ -100,8 +103,14 @@ class PathSample {
 
  private:
   Vec2 pair(uint32_t use) const {
-    return sampler(scene_.image.pattern)
-        .pair(id_.pixel, id_.index, use + pairs_a_vertex * uint32_t(depth_), scene_.render.seed);
+    const uint32_t number = use + pairs_a_vertex * uint32_t(depth_);
+    Vec2 pair = sampler(scene_.image.pattern).pair(id_.pixel, id_.index, number, scene_.render.seed);
+    // Moved, where it is asked what float32 makes of numbers that are near to a decision.
+    if (numbers_ != 0)
+      for (uint32_t i = 0; i < 2; ++i)
+        pair[int(i)] = std::clamp(pair[int(i)] + std::floor(9 * random(numbers_, number, i, 0) - 4) * 0x1p-24,
+                                  0.0, 1 - 0x1p-24);
+    return pair;
   }
   Flight fly(const MediaStack& media, const std::optional<Hit>& hit) const;
   Interaction scattered_at(const Ray& ray, double t) const;
@@ -115,18 +124,22 @@ class PathSample {
   Vec3 direct_on(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                  const MediaStack& media);
   Vec3 direct_in(const Medium& medium, const Interaction& at);
-  std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, double chance);
+  std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, double chance,
+                               uint32_t way);
   std::optional<Ray> scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                              MediaStack& media);
 
   const Tracer& tracer_;
   const Scene& scene_;
   const SampleId id_;
+  const uint32_t numbers_;
   SampleRays rays_;
   const Observer& observer_;
   int depth_ = 0;
   Vec3 throughput_{1};
   bool roulette_ = true;
+  uint64_t asked_ = 0;  // by the last vertex: the value of its Event::light …
+  uint64_t way_ = 0;    // … and of its Event::way
   double density_ = 0;  // by solid angle, of the ray's direction; 0 where there was no choice
 };
 
@@ -188,8 +201,12 @@ Vec3 PathSample::missed(const Vec3& d) const {
 std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) {
   const auto [l, by_angle] = sample_environment(*scene_.environment, pair(place_pair));
   const double density = environment_share() * by_angle;
-  return Arriving{l, rays_.spawn_ray(at.surface, l), std::numeric_limits<double>::infinity(),
-                  rays_.surroundings(l) / density, density};
+  return Arriving{l,
+                  rays_.spawn_ray(at.surface, l),
+                  std::numeric_limits<double>::infinity(),
+                  rays_.surroundings(l) / density,
+                  density,
+                  uint64_t(-1)};
 }
 
 // What one light, chosen at random, sends to the point. Classic units: one of intensity 1 is π times that.
@@ -207,11 +224,16 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
     if (arriving.angle > 0) {
       const Vec3 l = disk_direction(arriving, pair(place_pair));
       const double density = share * disk_density(arriving);
-      return Arriving{l, rays_.spawn_ray(at.surface, l), arriving.distance, disk_radiance(arriving) / density,
-                      density};
+      return Arriving{
+          l,    rays_.spawn_ray(at.surface, l), arriving.distance, disk_radiance(arriving) / density, density,
+          light};
     }
-    return Arriving{arriving.l, rays_.spawn_ray(at.surface, arriving.l), arriving.distance,
-                    M_PI / share * arriving.color, 0};
+    return Arriving{arriving.l,
+                    rays_.spawn_ray(at.surface, arriving.l),
+                    arriving.distance,
+                    M_PI / share * arriving.color,
+                    0,
+                    light};
   }
   const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
   // What is flat does not light itself.
@@ -222,8 +244,8 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   Ray ray = rays_.spawn_ray(at.surface, l);
   ray.d = glm::normalize(place.position - ray.o);
   const double density = share * emitter_density(emitter.form, p, place);
-  return Arriving{l, ray, glm::length(place.position - ray.o) * (1 - 1e-9), emitter.radiance / density,
-                  density};
+  return Arriving{l,       ray,  glm::length(place.position - ray.o) * (1 - 1e-9), emitter.radiance / density,
+                  density, light};
 }
 
 // What that brings to the viewer by a vertex that sends on `scattered`; surfaces keep the ray in `medium`.
@@ -237,6 +259,7 @@ Vec3 PathSample::direct(const Arriving& light, const BsdfValue& scattered, const
   observer_.value("contribution", contribution);
   observer_.value("visibility", seen);
   observer_.back(depth_);
+  asked_ = 2 * (light.light + 2) + (seen > 0 ? 1 : 0);
   return seen * contribution;
 }
 
@@ -283,23 +306,25 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
   }
   if (kind == RayKind::refracted) media = at.media_beyond;
 
-  return continued(kind, at, d, chance.y);
+  return continued(kind, at, d, chance.y, sample.lobe + 1 + (kind == RayKind::refracted ? through : 0));
 }
 
 std::optional<Ray> PathSample::scatter_in(const Medium& medium, const Interaction& at) {
   const Vec3 d = phase_direction(medium.anisotropy, at.d, pair(direction_pair));
   density_ = phase_value(medium.anisotropy, glm::dot(at.d, d));
-  return continued(RayKind::reflected, at, d, pair(scatter_pair).y);
+  return continued(RayKind::reflected, at, d, pair(scatter_pair).y, way_in_medium + 1);
 }
 
 // Roulette.
-std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, const Vec3& d, double chance) {
+std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, const Vec3& d, double chance,
+                                         uint32_t way) {
   const double survival = depth_ < first_roulette ? 1 : std::clamp(largest(throughput_), least_survival, 1.0);
   observer_.value("survival", survival);
   if (roulette_ && !(chance < survival)) return std::nullopt;
   rays_.cut_off = depth_ > scene_.render.max_depth;
   if (rays_.cut_off) return std::nullopt;
   throughput_ /= survival;
+  way_ = way;
   ++depth_;
   ++(kind == RayKind::reflected ? rays_.reflected : rays_.refracted);
   const Ray next = rays_.spawn_ray(at.surface, d);
@@ -322,29 +347,37 @@ Interaction PathSample::scattered_at(const Ray& ray, double t) const {
 PixelSample PathSample::sample(Ray ray, MediaStack media) {
   Vec3 color(0);
   for (;;) {
+    asked_ = way_ = 0;
     const auto hit = rays_.trace(ray);
     const Flight flight = fly(media, hit);
     const Vec3 before = throughput_;
     throughput_ *= flight.weight;
     std::optional<Ray> next;
     if (flight.scattered) {
+      rays_.decided(Event::hit, in_medium);
       const Medium medium = rays_.medium(media);
       const Interaction at = scattered_at(ray, flight.t);
       const Vec3 light = direct_in(medium, at);
       observer_.value("light", light);
+      rays_.decided(Event::light, asked_);
       color += throughput_ * light;
       next = scatter_in(medium, at);
+      rays_.decided(Event::way, way_);
     } else if (hit) {
       const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
+      rays_.decided(Event::hit, at.primitive + 1);
       const LocalFrame frame(at);
       const ViewedBsdf bsdf(at.bsdf, frame.viewer);
       const Vec3 light = emitted(at, ray.o) + direct_on(at, frame, bsdf, media);
       observer_.value("light", light);
+      rays_.decided(Event::light, asked_);
       color += throughput_ * light;
       if (at.has_medium && at.scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)
         ++rays_.total_reflections;
       next = scatter(at, frame, bsdf, media);
+      rays_.decided(Event::way, way_);
     } else {
+      rays_.decided(Event::hit, 0);
       const Vec3 light = missed(ray.d);
       observer_.miss(throughput_, light);
       color += throughput_ * light;

@@ -167,8 +167,14 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
   return at;
 }
 
+void SampleRays::decided(Event kind, uint64_t value) {
+  const uint32_t event = event_of(kind, value);
+  trail_ = with_event(trail_, event);
+  observer_.event(event);
+}
+
 PixelSample SampleRays::sample(const Vec3& color) const {
-  return {color, rays_, hits_, flags_, reflected, refracted, total_reflections, cut_off};
+  return {color, rays_, hits_, flags_, reflected, refracted, total_reflections, trail_, cut_off};
 }
 
 }  // namespace eyeray::reference

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host/reference/integrator.hpp"
+#include "host/reference/trail.hpp"
 
 namespace eyeray::reference {
 
@@ -54,6 +55,9 @@ class SampleRays {
   // The share of light that a shadow ray to `t_end` brings.
   double shadow(const Ray& ray, double t_end);
 
+  // What the path decides on its way, in order.
+  void decided(Event kind, uint64_t value);
+
   PixelSample sample(const Vec3& color) const;
 
   uint32_t reflected = 0;
@@ -75,6 +79,7 @@ class SampleRays {
   uint32_t rays_ = 0;
   uint32_t hits_ = 0;
   uint32_t flags_ = 0;
+  uint32_t trail_ = 1;
 };
 
 }  // namespace eyeray::reference

@@ -170,6 +170,7 @@ class Driver {
           return false;
         left = left.subspan(out.size());
         auxiliaries = auxiliaries.subspan(beside.size());
+        if (options_.witness) options_.witness(tile, uint32_t(position_.samples), out);
       }
     } catch (...) {
       save();

@@ -88,4 +88,15 @@ Spectator spectator_for(RayRecorder& recorder) {
           .back = [](void* to, uint32_t depth) { recorder_of(to).back(depth); }};
 }
 
+Spectator spectator_for(std::vector<uint32_t>& events) {
+  return {.recorder = &events,
+          .value =
+              [](void* to, const char* name, uint32_t, uint32_t, int, const double* numbers) {
+                if (std::string_view(name) == "event")
+                  static_cast<std::vector<uint32_t>*>(to)->push_back(uint32_t(numbers[0]));
+              },
+          .ray = [](void*, uint32_t, uint32_t, uint32_t) {},
+          .back = [](void*, uint32_t) {}};
+}
+
 }  // namespace eyeray::twin

@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "host/reference/trail.hpp"
+
 namespace eyeray::verify {
 namespace {
 
@@ -22,15 +24,19 @@ compare::Neighbour::Sample of(const PixelSample& sample) {
   return {sample.color, {double(sample.hits), double(sample.rays)}};
 }
 
-// All samples of pixel (x, y), every ray moved by `shift`.
+uint32_t seed_of(const Vec2& shift) {
+  return uint32_t(mix(std::bit_cast<uint64_t>(shift.x), std::bit_cast<uint64_t>(shift.y)) >> 32);
+}
+
+// `count` samples of pixel (x, y) from `first` on, every ray moved by `shift`.
 compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& renderer, int x, int y,
-                             const Vec2& shift, compare::Chance chance) {
+                             const Vec2& shift, compare::Chance chance, int first, int count) {
   compare::Neighbour result;
   result.samples.clear();
-  const auto seed = uint32_t(mix(std::bit_cast<uint64_t>(shift.x), std::bit_cast<uint64_t>(shift.y)) >> 32);
+  const uint32_t seed = seed_of(shift);
   const bool coincident = chance == compare::Chance::coincident;
   const double pivot = chance == compare::Chance::turned ? renderer.pivot(x, y, seed) : 0;
-  for (int i = 0; i < scene.image.samples; ++i) {
+  for (int i = first; i < first + count; ++i) {
     const auto rendered = [&](reference::RayOffset ray_offset) {
       ray_offset.coincident = coincident;
       ray_offset.pivot = pivot;
@@ -61,8 +67,46 @@ compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& rend
 
 compare::Reference neighbours(const Scene& scene, const reference::Renderer& renderer) {
   return [&](int x, int y, const Vec2& shift, compare::Chance chance) {
-    return neighbour(scene, renderer, x, y, shift, chance);
+    return neighbour(scene, renderer, x, y, shift, chance, 0, scene.image.samples);
   };
+}
+
+compare::PathReference path_neighbours(const Scene& scene, const reference::Renderer& renderer,
+                                       const executors::Executor* twin) {
+  compare::PathReference paths;
+  paths.around = [&](int sample) -> compare::Reference {
+    return [&scene, &renderer, sample](int x, int y, const Vec2& shift, compare::Chance chance) {
+      return neighbour(scene, renderer, x, y, shift, chance, sample, 1);
+    };
+  };
+  paths.shaders = [twin](compare::Pixel pixel, int sample, uint32_t trail) {
+    std::vector<uint32_t> events;
+    if (twin) events = twin->events(pixel.x, pixel.y, uint32_t(sample));
+    if (reference::trail_of(events) != trail) events.clear();
+    return events;
+  };
+  paths.variants = 7;
+  paths.reference = [&](compare::Pixel pixel, int sample, const Vec2& shift, int variant) {
+    const uint32_t seed = seed_of(shift) | 1;
+    constexpr double share = reference::float32_ray_offset;
+    const reference::RayOffset ways[] = {
+        {},
+        {.share = share, .seed = seed},
+        {.share = share, .along_normal = true, .seed = seed},
+        {.seed = seed, .numbers = seed},
+        {.share = share, .seed = seed, .numbers = seed},
+        {.share = share, .along_normal = true, .seed = seed, .coincident = true},
+        {.pivot = variant == 6 ? renderer.pivot(pixel.x, pixel.y, seed) : 0},
+    };
+    std::vector<uint32_t> events;
+    renderer.sample(pixel.x, pixel.y, uint32_t(sample), shift, ways[variant], reference::Observer(events));
+    return events;
+  };
+  paths.rounding = [&](compare::Pixel pixel) {
+    return renderer.rounding(pixel.x, pixel.y, renderer.first_hit(pixel.x, pixel.y).t);
+  };
+  paths.describe = reference::describe_event;
+  return paths;
 }
 
 }  // namespace eyeray::verify

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/compare/explain.hpp"
+#include "host/executors/executor.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/scene/scene.hpp"
 
@@ -9,5 +10,9 @@ namespace eyeray::verify {
 
 // `renderer` is that of `scene`; both must outlive what is returned.
 compare::Reference neighbours(const Scene& scene, const reference::Renderer& renderer);
+
+// The same of single samples, for gate D. `twin` must outlive it too; null: nobody knows the shaders' paths.
+compare::PathReference path_neighbours(const Scene& scene, const reference::Renderer& renderer,
+                                       const executors::Executor* twin);
 
 }  // namespace eyeray::verify

@@ -3,12 +3,33 @@
 #include "host/core/stopwatch.hpp"
 #include "host/executors/executors.hpp"
 #include "host/reference/renderer.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/scene/objects.hpp"
 #include "host/verify/evidence.hpp"
 #include "host/verify/neighbours.hpp"
 
 namespace eyeray::verify {
 namespace {
+
+// How many samples a pixel are kept, so that those of one executor fit into some 400 MB.
+constexpr size_t most_kept = size_t{1} << 24;
+
+// Keeps the first samples of each pixel, as Frame::samples has them.
+auto sample_keeper(const Rect& area, int samples, std::vector<compare::TracedSample>& kept) {
+  const size_t pixels = size_t(area.pixels()),
+               each = std::clamp(most_kept / pixels, size_t{1}, size_t(samples));
+  kept.resize(pixels * each);
+  return [&kept, area, each](const Rect& tile, uint32_t index, std::span<const PixelSample> taken) {
+    if (index >= each) return;
+    for (size_t i = 0; i < taken.size(); ++i) {
+      const size_t x = size_t(tile.x - area.x) + i % size_t(tile.width),
+                   y = size_t(tile.y - area.y) + i / size_t(tile.width);
+      const PixelSample& sample = taken[i];
+      kept[(y * size_t(area.width) + x) * each + index] = {glm::vec3(sample.color), sample.trail, sample.hits,
+                                                           sample.rays};
+    }
+  };
+}
 
 // Renders by one executor, which becomes a participant of the report.
 compare::Frame render_frame(executors::Backend backend, executors::Executor& executor, const Scene& scene,
@@ -17,6 +38,9 @@ compare::Frame render_frame(executors::Backend backend, executors::Executor& exe
   how.crop = options.crop;
   how.first_hits = true;
   if (options.progress) how.progress = options.progress();
+  std::vector<compare::TracedSample> samples;
+  if (walks_at_random(scene.render.integrator))
+    how.witness = sample_keeper(report.area, report.samples, samples);
   render::Rendering rendering = render::render(scene, executor, how);
   if (rendering.interrupted) throw Error(ExitCode::interrupted, "interrupted; nothing was decided");
 
@@ -29,6 +53,7 @@ compare::Frame render_frame(executors::Backend backend, executors::Executor& exe
   frame.rays = rendering.rays;
   frame.flagged_pixels = rendering.flagged_pixels;
   frame.flags = rendering.flags;
+  frame.samples = std::move(samples);
   report.participants.push_back({std::string(executors::backend_name(backend)), executor.description(),
                                  rendering.seconds, rendering.rays, compare::inspect(frame)});
   return frame;
@@ -47,7 +72,8 @@ void compare_backends(std::span<const compare::Frame> frames, const Options& opt
 // one's outcomes, pixel by pixel.
 std::vector<std::vector<compare::PixelOutcome>> compare_each_with_reference(
     std::span<const compare::Frame> frames, const compare::Reference& reference,
-    const compare::Tolerances& tolerances, const Options& options, compare::Report& report) {
+    const compare::PathReference* paths, const compare::Tolerances& tolerances, const Options& options,
+    compare::Report& report) {
   const compare::Frame& reference_frame = frames.back();
   std::vector<std::vector<compare::PixelOutcome>> outcomes(options.backends.size());
   for (size_t i = 0; i < options.backends.size(); ++i) {
@@ -62,8 +88,8 @@ std::vector<std::vector<compare::PixelOutcome>> compare_each_with_reference(
     compare::ReferenceResult result;
     result.value = value;
     result.tolerances = tolerances;
-    result.comparison =
-        compare::compare_with_reference(frames[i], reference_frame, reference, tolerances, &outcomes[i]);
+    result.comparison = compare::compare_with_reference(frames[i], reference_frame, reference, tolerances,
+                                                        &outcomes[i], paths);
     if (result.comparison.incomparable.empty()) {
       result.metrics = compare::measure(frames[i].color, reference_frame.color);
       result.metrics->max_at.x += report.area.x;
@@ -103,20 +129,27 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
 
   // Render, the reference last.
   std::vector<compare::Frame> frames;
-  const auto add_frame = [&](executors::Backend backend, std::unique_ptr<executors::Executor> executor) {
+  std::unique_ptr<executors::Executor> twin;
+  for (const executors::Backend backend : options.backends) {
+    std::unique_ptr<executors::Executor> executor =
+        executors::make_executor(backend, scene, options.executor);
     frames.push_back(render_frame(backend, *executor, scene, options, report));
-  };
-  for (const executors::Backend backend : options.backends)
-    add_frame(backend, executors::make_executor(backend, scene, options.executor));
+    if (backend == executors::Backend::twin) twin = std::move(executor);
+  }
   const auto renderer =
       std::make_shared<const reference::Renderer>(scene, options.executor.pack.acceleration);
-  add_frame(executors::Backend::reference, executors::make_reference_executor(renderer));
+  frames.push_back(render_frame(executors::Backend::reference, *executors::make_reference_executor(renderer),
+                                scene, options, report));
 
   compare_backends(frames, options, report);
   const compare::Reference reference = neighbours(scene, *renderer);
   const compare::Tolerances tolerances{.max_explained =
                                            options.max_explained.value_or(scene.verify.max_explained)};
-  const auto outcomes = compare_each_with_reference(frames, reference, tolerances, options, report);
+  const bool by_samples = walks_at_random(scene.render.integrator);
+  if (by_samples && !twin) twin = executors::make_executor(executors::Backend::twin, scene, options.executor);
+  const compare::PathReference paths = path_neighbours(scene, *renderer, twin.get());
+  const auto outcomes = compare_each_with_reference(frames, reference, by_samples ? &paths : nullptr,
+                                                    tolerances, options, report);
   if (subject.golden) {
     report.golden = compare_with_golden(*subject.golden, scene, frames[0], reference, tolerances, report);
     bless(*subject.golden, scene, frames[0], report);

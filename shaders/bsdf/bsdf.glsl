@@ -87,26 +87,35 @@ LobeValue bsdf_value(Bsdf bsdf, LobeShares shares, vec3 o, vec3 i) {
   return all;
 }
 
+#define LOBE_MIRROR 14u
+#define LOBE_TRANSMITTED 15u
+
 // A direction that light may come from, by which the path goes on. The lobe is that within whose share `chance`, in [0, 1), lies;
 // No direction, 0, is one that the surface itself stands in the way of.
 struct BsdfSample {
   vec3 i;
   bool mirrored;   // instead: the mirrored direction …
   bool refracted;  // … or the refracted one
+  uint lobe;       // its number, or LOBE_
 };
 
 BsdfSample sample_bsdf(Bsdf bsdf, LobeShares shares, vec3 o, float chance, vec2 u) {
   BsdfSample s;
   s.i = vec3(0.0f, 0.0f, 1.0f);
+  s.lobe = 0u;
   float passed = 0.0f;
-#define DIRECTION_OF_LOBE(name, number, coated)                                                                              \
-  if (shares.name > 0.0f && chance >= passed) s.i = name##_direction(bsdf, o, u, (chance - passed) / shares.name); \
+#define DIRECTION_OF_LOBE(name, number, coated)                          \
+  if (shares.name > 0.0f && chance >= passed) {                          \
+    s.i = name##_direction(bsdf, o, u, (chance - passed) / shares.name); \
+    s.lobe = number;                                                     \
+  }                                                                      \
   passed = passed + shares.name;
   LOBES(DIRECTION_OF_LOBE)
   s.mirrored = shares.mirror > 0.0f && chance >= passed;
   passed = passed + shares.mirror;
   s.refracted = shares.transmitted > 0.0f && chance >= passed;
   s.mirrored = s.mirrored && !s.refracted;
+  s.lobe = s.mirrored ? LOBE_MIRROR : s.refracted ? LOBE_TRANSMITTED : s.lobe;
   return s;
 }
 

@@ -2,6 +2,7 @@
 #ifndef CONTINUATION_GLSL
 #define CONTINUATION_GLSL
 #include "geometry/ray.glsl"
+#include "integrators/trail.glsl"
 
 SHADER_BEGIN
 
@@ -26,6 +27,9 @@ struct Continuations {
   uint count;
   Path next;
   Path waiting;
+#if RANDOM_WALK
+  uint way;  // by which lobe, and whether THROUGH the surface
+#endif
 #if RAY_KINDS
   bool total_reflection;
   bool cut_off;  // by max_depth
@@ -37,6 +41,9 @@ Continuations no_continuation(Path path) {
   none.count = 0u;
   none.next = path;
   none.waiting = path;
+#if RANDOM_WALK
+  none.way = 0u;
+#endif
 #if RAY_KINDS
   none.total_reflection = false;
   none.cut_off = false;

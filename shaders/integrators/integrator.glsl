@@ -3,7 +3,7 @@
 //   NAME_missed      the radiance of a ray that hits nothing
 //   NAME_emitted     what a path gains where it arrived, before any shadow ray, not yet weighted by its throughput
 //   NAME_shadow_ray  the i-th of shadow_rays(): false where it counts for nothing; else the ray, how far it goes, and what it adds if
-//                    nothing is in between, weighted as above
+//                    nothing is in between, weighted as above; and to which light
 //   NAME_scatter     how the path goes on
 #ifndef INTEGRATOR_GLSL
 #define INTEGRATOR_GLSL
@@ -18,6 +18,18 @@ bool scatters() {
 #define SCATTERS_OF(name, number, lights, ways) \
   if (INTEGRATOR_IS(number)) any = ways > 0u;
   INTEGRATORS(SCATTERS_OF)
+  return any;
+}
+
+#define WALKS_TO_no_light false
+#define WALKS_TO_each_light false
+#define WALKS_TO_one_light true
+// Whether they go on by chance.
+bool walks_at_random() {
+  bool any = false;
+#define WALKS_OF(name, number, lights, ways) \
+  if (INTEGRATOR_IS(number)) any = WALKS_TO_##lights;
+  INTEGRATORS(WALKS_OF)
   return any;
 }
 
@@ -67,10 +79,10 @@ vec3 emitted(Frame frame, Path path, Interaction at) {
   return light;
 }
 
-bool shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
+bool shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution, OUT(uint) light) {
   bool counts = false;
 #define SHADOW_RAY_OF(name, number, lights, ways) \
-  if (INTEGRATOR_IS(number)) counts = name##_shadow_ray(frame, path, at, i, ray, distance, contribution);
+  if (INTEGRATOR_IS(number)) counts = name##_shadow_ray(frame, path, at, i, ray, distance, contribution, light);
   INTEGRATORS(SHADOW_RAY_OF)
   return counts;
 }

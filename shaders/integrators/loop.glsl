@@ -6,7 +6,7 @@
 SHADER_BEGIN
 
 #if HAS_SECONDARY
-vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) counts) {
+vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) counts, INOUT(uint) trail) {
 #if PATH_STACK > 0
   Path stack[PATH_STACK];
   uint pending = 0u;
@@ -25,7 +25,7 @@ vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) 
     PROBE(origin, ray.o);
     PROBE(direction, ray.d);
     Hit hit = trace(ray, counts.z);
-    Continuations all = shade(frame, path, ray, hit, color, counts);
+    Continuations all = shade(frame, path, ray, hit, color, counts, trail);
     going = all.count > 0u;
     path = all.next;
 
@@ -66,13 +66,13 @@ vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) 
 }
 #else
 // No path goes on: there is nothing to loop for.
-vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) counts) {
+vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) counts, INOUT(uint) trail) {
   vec3 color = vec3(0.0f, 0.0f, 0.0f);
   PROBE_RAY(RAY_EYE, 0u, 0u);
   PROBE(origin, camera_ray.o);
   PROBE(direction, camera_ray.d);
   Hit hit = trace(camera_ray, counts.z);
-  shade(frame, begin(frame, camera_ray, pixel, index), camera_ray, hit, color, counts);
+  shade(frame, begin(frame, camera_ray, pixel, index), camera_ray, hit, color, counts, trail);
 #if RAY_KINDS
   counts = counts_by_kind(counts, 0u, 0u, 0u);
 #endif

@@ -100,6 +100,7 @@ struct Arriving {
   vec3 radiance;  // of a light without extent π · its intensity, a density being 1
   float density;  // by solid angle, with that of the light's choice; 0 without extent
   float share;    // of the light among all
+  uint light;     // its number; NONE: the environment, or nothing
 };
 
 Arriving nothing_arriving(Interaction at) {
@@ -110,6 +111,7 @@ Arriving nothing_arriving(Interaction at) {
   arriving.radiance = vec3(0.0f, 0.0f, 0.0f);
   arriving.density = 0.0f;
   arriving.share = 1.0f;
+  arriving.light = NONE;
   return arriving;
 }
 
@@ -117,6 +119,7 @@ Arriving nothing_arriving(Interaction at) {
 Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) {
   uint light = emitter_chosen_by(chance);
   Arriving arriving = nothing_arriving(at);
+  arriving.light = light;
   arriving.share = emitter_share(light) * (1.0f - environment_share(frame));
   if (light < LIGHT_COUNT) {
     LightSample s = sample_light(load_light(light), at.seen.p);
@@ -177,10 +180,12 @@ Arriving light_arriving(Frame frame, Path path, Interaction at) {
   return arriving;
 }
 
-bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
+bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution, OUT(uint) light) {
   Arriving arriving = light_arriving(frame, path, at);
   ray = arriving.ray;
-  distance = arriving.distance;
+  light = arriving.light;
+  // So that from afar, where t is rounded by more than the emitter's own offset, it does not stand in its own way.
+  distance = arriving.distance * (1.0f - 9.5367432e-7f);
   LocalFrame local = local_frame(at);
   vec3 i_local = into_frame(local, arriving.direction);
   LobeValue lobes = bsdf_value(at.bsdf, lobe_shares(at.bsdf), towards_viewer(local, at), i_local);
@@ -256,6 +261,10 @@ Continuations path_scatter(Frame frame, Path path, Interaction at) {
   all.count = !lost && choice.y < survival && path.depth <= frame.max_depth ? 1u : 0u;
 #if RAY_KINDS
   all.cut_off = !lost && choice.y < survival && path.depth > frame.max_depth;
+#endif
+  all.way = s.lobe | (refracted ? THROUGH : 0u);
+#if HAS_SCATTERING
+  if (at.in_medium) all.way = WAY_IN_MEDIUM;
 #endif
   PROBE(survival, survival);
   return all;

@@ -31,9 +31,10 @@ vec3 raycast_emitted(Frame frame, Path path, Interaction at) {
   return base * light;
 }
 
-bool raycast_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
+bool raycast_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution, OUT(uint) light) {
   ray = make_ray(at.seen.p, at.d);
   distance = 0.0f;
+  light = i;
   contribution = vec3(0.0f, 0.0f, 0.0f);
   return false;
 }

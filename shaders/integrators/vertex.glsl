@@ -7,8 +7,19 @@
 
 SHADER_BEGIN
 
-// Adds what `path` gains at the hit of `ray`, and finds how it goes on. `counts`: rays, hits, flags, loop iterations.
-Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color, INOUT(uvec4) counts) {
+#if RANDOM_WALK
+#define DECIDED(kind, value)                       \
+  if (walks_at_random()) {                         \
+    trail = with_event(trail, kind, value);        \
+    PROBE(event, kind | ((value) & EVENT_VALUE)); \
+  }
+#else
+#define DECIDED(kind, value)
+#endif
+
+// Adds what `path` gains at the hit of `ray`, and finds how it goes on. `counts`: rays, hits, flags, loop iterations; `trail`: what it decides
+// (integrators/trail.glsl).
+Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color, INOUT(uvec4) counts, INOUT(uint) trail) {
   Continuations all = no_continuation(path);
   bool struck = hit.slot != NONE;
   Flight flight = flight_of(frame, path, hit);
@@ -20,6 +31,7 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
   counts.y += struck ? 1u : 0u;
   counts.w += TRACE_ITERATIONS + 1u;
   PROBE(primitive, struck ? int(hit.id) : -1);
+  DECIDED(EVENT_HIT, flight.scattered ? EVENT_IN_MEDIUM : struck ? hit.id + 1u : 0u);
   if (!struck && !flight.scattered) {
     PROBE(throughput, path.throughput);
     PROBE(light, missed(frame, path));
@@ -30,12 +42,14 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
     vec3 light = emitted(frame, path, at);
     // Tested at the bottom: Mesa 22.3.6 would go round once more, with all lanes idle.
     uint i = 0u;
+    uint seen = 0u;
     if (shadow_rays() > 0u) do {
       counts.w += 1u + TRACE_ITERATIONS;
       Ray to_light;
       float distance;
       vec3 contribution;
-      if (shadow_ray(frame, path, at, i, to_light, distance, contribution)) {
+      uint number;
+      if (shadow_ray(frame, path, at, i, to_light, distance, contribution, number)) {
         counts.x += 1u;
         PROBE_RAY(RAY_SHADOW, i, path.depth);
         PROBE(origin, to_light.o);
@@ -49,10 +63,12 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
         PROBE(visibility, visibility(occluded));
         PROBE_BACK(path.depth);
         light = light + contribution * visibility(occluded);
+        seen = 2u * (number + 2u) + (visibility(occluded) > 0.0f ? 1u : 0u);
       }
       i += 1u;
     } while (i < shadow_rays());
     PROBE(light, light);
+    DECIDED(EVENT_LIGHT, seen);
     color = color + path.throughput * light;
 #if HAS_SECONDARY
     all = scatter(frame, path, at);
@@ -60,6 +76,7 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
     counts.z = counts.z | (all.cut_off ? FLAG_CUT_OFF : 0u);
 #endif
 #endif
+    DECIDED(EVENT_WAY, all.count > 0u ? all.way + 1u : 0u);
   }
   return all;
 }

@@ -21,14 +21,15 @@ vec3 whitted_emitted(Frame frame, Path path, Interaction at) {
 }
 
 // To light i, where that is in front.
-bool whitted_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution) {
-  LightSample light = sample_light(load_light(i), at.seen.p);
-  float cosine = dot3(at.seen.normal, light.direction);
-  ray = spawn_ray(at.seen, light.direction);
-  distance = light.distance;
-  float lobe = highlight(at.material, at.seen.normal, light.direction, -at.d);
-  contribution = light.color * (at.scattering.diffuse * cosine + at.scattering.specular * lobe);
-  return cosine > 0.0f && dot3(at.seen.normal_geometric, light.direction) > 0.0f;
+bool whitted_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution, OUT(uint) light) {
+  LightSample s = sample_light(load_light(i), at.seen.p);
+  float cosine = dot3(at.seen.normal, s.direction);
+  ray = spawn_ray(at.seen, s.direction);
+  distance = s.distance;
+  float lobe = highlight(at.material, at.seen.normal, s.direction, -at.d);
+  contribution = s.color * (at.scattering.diffuse * cosine + at.scattering.specular * lobe);
+  light = i;
+  return cosine > 0.0f && dot3(at.seen.normal_geometric, s.direction) > 0.0f;
 }
 
 // Reflection and refraction, each where it counts for enough. Of both the refracted ray is next.

@@ -26,11 +26,12 @@ bool eye_ray(Frame frame, uint x, uint y, uint index, OUT(Ray) ray) {
 SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   Ray ray;
-  if (!eye_ray(frame, x, y, index, ray)) return sample_result(vec3(0.0f, 0.0f, 0.0f), counts);
-  vec3 color = radiance(frame, ray, y * frame.width + x, index, counts);
+  if (!eye_ray(frame, x, y, index, ray)) return sample_result(vec3(0.0f, 0.0f, 0.0f), counts, 1u);
+  uint trail = 1u;
+  vec3 color = radiance(frame, ray, y * frame.width + x, index, counts, trail);
   PROBE_BACK(NONE);
   counts.z = counts.z | loops_cut_off(LOOP_PROBE);
-  return sample_result(positive_zeros(color), counts);
+  return sample_result(positive_zeros(color), counts, trail);
 }
 
 AuxiliaryResult render_auxiliary(Frame frame, uint x, uint y, uint index) {

@@ -24,6 +24,7 @@ void main() {
   uint group = swizzled_workgroup(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE);
   vec3 color = vec3(0.0f, 0.0f, 0.0f);
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
+  uint trail = 1u;
 #if RAY_KINDS
   uvec3 kinds = uvec3(0u, 0u, 0u);
 #endif
@@ -34,6 +35,7 @@ void main() {
   Path path = queued_path(place);
   color = results[place].color;
   counts = counts_of(results[place]);
+  trail = results[place].trail;
 #if RAY_KINDS
   kinds = uvec3(reflected_of(results[place]), refracted_of(results[place]), total_reflections_of(results[place]));
   counts.z = flags_of(results[place]);
@@ -46,7 +48,7 @@ void main() {
   uint y = dispatch.tile_y + pixel.y;
   Ray first;
   if (!eye_ray(frame, x, y, dispatch.sample_index, first)) {
-    results[place] = sample_result(color, counts);
+    results[place] = sample_result(color, counts, trail);
     return;
   }
   Path path = begin(frame, first, y * frame.width + x, dispatch.sample_index);
@@ -59,7 +61,7 @@ void main() {
 #else
   Hit hit = trace(ray, counts.z);
 #endif
-  Continuations all = shade(frame, path, ray, hit, color, counts);
+  Continuations all = shade(frame, path, ray, hit, color, counts, trail);
   counts.z = counts.z | loops_cut_off(LOOP_PROBE);
 #if RAY_KINDS
   // How the path goes on counts here, and its way here did before.
@@ -75,7 +77,7 @@ void main() {
     return;
   }
 #endif
-  results[place] = sample_result(positive_zeros(color), counts);
+  results[place] = sample_result(positive_zeros(color), counts, trail);
 #ifndef ENDS_ONLY
   if (all.count > 0u) {
     queue_path(place, all.next);

@@ -138,7 +138,7 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Dispatch, tile_height), MEMBER(Dispatch, sample_index), MEMBER(Dispatch, depth),
                 MEMBER(Dispatch, count), MEMBER(Dispatch, stride)});
   check_struct(samples, "SampleResult", sizeof(shader::SampleResult),
-               {MEMBER(SampleResult, color), MEMBER(SampleResult, written), MEMBER(SampleResult, rays),
+               {MEMBER(SampleResult, color), MEMBER(SampleResult, trail), MEMBER(SampleResult, rays),
                 MEMBER(SampleResult, hits), MEMBER(SampleResult, flags), MEMBER(SampleResult, iterations)});
   const std::string probing =
       executors::ShaderProbe(test::entry_source("kernels/render.comp.glsl", scene, {}).files).defines();

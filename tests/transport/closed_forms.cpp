@@ -1,7 +1,7 @@
 // Path tracing where the answer is known: what all executors share, the formula itself, is proved by others.
 // Each picture is of one small patch, so that its pixels are 64 estimates of one value, independent of each
 // other. A test whose error is above half a percent could not fail, and is an error itself.
-#include "estimate.hpp"
+#include "tests/support/estimate.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 #include "tests/support/environments.hpp"

@@ -67,3 +67,21 @@ TEST_CASE("a scene is rendered by each backend and by the reference, and the rep
   CHECK(report.kept == "");
   CHECK_FALSE(fs::exists(folder / "kept"));
 }
+
+TEST_CASE("random paths are compared sample by sample, in the text and in JSON") {
+  const TemporaryFolder folder;
+  Scene scene = loader::load_scene("scenes/path/cornell_box.toml");
+  scene.image.width = scene.image.height = 12;
+  scene.image.samples = 3;
+  verify::Options options;
+  options.backends = {Backend::twin};
+  options.crop = {1, 2, 10, 9};
+  const Report report = verify::verify_scene({scene, "box.toml", "", folder / "kept"}, options);
+  CHECK(report.failures() == std::vector<std::string>());
+  const ReferenceComparison& comparison = report.against_reference.at(0).comparison;
+  REQUIRE(comparison.by_samples());
+  CHECK(comparison.paths.pixels == 3 * 90);
+  CHECK(to_text(report).find("gate D passed twin = reference, paths: ") != std::string::npos);
+  CHECK(to_text(report).find("gate D passed twin = reference, sums: ") != std::string::npos);
+  CHECK(to_json(std::span(&report, 1)).find("\"paired_sum\":{\"passed\":true") != std::string::npos);
+}

@@ -60,7 +60,8 @@ void main() {
     Ray to_light;
     float distance;
     vec3 contribution;
-    bool asked = shadow_ray(frame, path, at_hit, light, to_light, distance, contribution) && struck;
+    uint number;
+    bool asked = shadow_ray(frame, path, at_hit, light, to_light, distance, contribution, number) && struck;
     if (!asked) to_light = make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
     TraversalState found = trace_cooperatively(to_light, asked ? distance : -1.0f);
     flags = flags | iteration_limit(found);

@@ -99,7 +99,8 @@ void main() {
       Ray to_light;
       float distance;
       vec3 contribution;
-      bool counts = shadow_ray(frame, eye_path(place[k] == NONE ? 0u : place[k]), at_hit[k], light, to_light, distance, contribution) && struck[k];
+      uint number;
+      bool counts = shadow_ray(frame, eye_path(place[k] == NONE ? 0u : place[k]), at_hit[k], light, to_light, distance, contribution, number) && struck[k];
       ray[k] = make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
       if (counts) ray[k] = to_light;
       state[k] = traversal_state(counts ? distance : -1.0f);

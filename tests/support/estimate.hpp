@@ -15,8 +15,9 @@ struct Estimate {
 };
 
 // Of the first channel, every pixel being an estimate of the same value.
-inline Estimate estimate(const Scene& scene, executors::Backend backend) {
-  const auto executor = executors::make_executor(backend, scene, {});
+inline Estimate estimate(const Scene& scene, executors::Backend backend,
+                         const executors::ExecutorOptions& options = {}) {
+  const auto executor = executors::make_executor(backend, scene, options);
   const Rect tile{0, 0, scene.image.width, scene.image.height};
   const auto pixels = size_t(tile.pixels());
   std::vector<PixelSample> samples(pixels);

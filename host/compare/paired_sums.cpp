@@ -1,0 +1,69 @@
+#include "host/compare/paired_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eyeray::compare {
+
+namespace {
+
+struct Sums {
+  Vec3 difference{0.0}, squares{0.0}, reference{0.0};
+
+  void add(const Sums& other) {
+    difference += other.difference;
+    squares += other.squares;
+    reference += other.reference;
+  }
+};
+
+Sums sums_of(const Frame& value, const Frame& reference, const Rect& tile) {
+  const size_t width = size_t(reference.area.width),
+               each = reference.samples.size() / size_t(reference.area.pixels());
+  Sums sums;
+  for (int y = tile.y; y < tile.y + tile.height; ++y) {
+    const size_t begin = (size_t(y) * width + size_t(tile.x)) * each;
+    for (size_t i = begin; i < begin + size_t(tile.width) * each; ++i) {
+      const Vec3 r(reference.samples[i].color), d = Vec3(value.samples[i].color) - r;
+      sums.add({d, d * d, glm::abs(r)});
+    }
+  }
+  return sums;
+}
+
+}  // namespace
+
+PairedSum worst_paired_sum(const Frame& value, const Frame& reference) {
+  const Rect& area = reference.area;
+  const auto along = [](int size) { return (size + paired_tile - 1) / paired_tile; };
+  const double count = 3.0 * (along(area.width) * along(area.height) + 1);
+  const double errors = std::sqrt(2 * std::log(2 * count / paired_false_alarms));
+
+  PairedSum worst{{}, 0, 0, 1};
+  const auto look_at = [&](const Rect& tile, const Sums& sums) {
+    for (int c = 0; c < 3; ++c) {
+      if (sums.difference[c] == 0) continue;
+      const double allowed = paired_rounding * sums.reference[c] + errors * std::sqrt(sums.squares[c]);
+      const double scale = std::max(sums.reference[c], 1e-300);
+      const PairedSum sum{{area.x + tile.x, area.y + tile.y, tile.width, tile.height},
+                          c,
+                          std::abs(sums.difference[c]) / scale,
+                          allowed / scale};
+      // So that a NaN is the worst.
+      if (!(sum.excess() <= worst.excess())) worst = sum;
+    }
+  };
+  Sums all;
+  for (int y = 0; y < area.height; y += paired_tile) {
+    for (int x = 0; x < area.width; x += paired_tile) {
+      const Rect tile{x, y, std::min(paired_tile, area.width - x), std::min(paired_tile, area.height - y)};
+      const Sums sums = sums_of(value, reference, tile);
+      look_at(tile, sums);
+      all.add(sums);
+    }
+  }
+  look_at({0, 0, area.width, area.height}, all);
+  return worst;
+}
+
+}  // namespace eyeray::compare

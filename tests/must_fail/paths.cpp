@@ -1,0 +1,165 @@
+// Gate D: what samples of random paths are excused, and what not.
+#include <cmath>
+
+#include "honest_frame.hpp"
+#include "host/compare/exact.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::compare;
+using namespace eyeray::test;
+
+namespace {
+
+constexpr int each = 4;
+constexpr double edge = 48.5 + beyond;  // a little right of a column of pixel centres, in the first rows
+constexpr int edge_rows = 4;
+
+using Events = std::vector<uint32_t>;
+
+// At x pixels from the left in that row: a wall on the left, and another on the right.
+bool on_right(double x, int y) {
+  return y < edge_rows && x >= edge;
+}
+Events events_at(double x, int y) {
+  return {7, on_right(x, y) ? 2u : 1u, 9};
+}
+Vec3 light_at(double x, int y, int sample) {
+  return Vec3(0.5, 0.4, 0.3) * (1 + 0.01 * x) * (sample + 1.0) * (on_right(x, y) ? 3 : 1);
+}
+uint32_t trail_of(const Events& events) {
+  uint32_t trail = 1;
+  for (const uint32_t event : events) trail = trail * 31 + event;
+  return trail;
+}
+
+// As an executor gives it that is so far off.
+Frame path_frame(double off = 0) {
+  Frame frame = picture_frame();
+  for (int y = 0; y < picture_height; ++y)
+    for (int x = 0; x < picture_width; ++x)
+      for (int i = 0; i < each; ++i) {
+        const double at = x + 0.5 + off;
+        frame.samples.push_back({glm::vec3(light_at(at, y, i)), trail_of(events_at(at, y)), 2, 3});
+      }
+  return frame;
+}
+TracedSample& sample_at(Frame& frame, int x, int y, int sample) {
+  return frame.samples[size_t((y * picture_width + x) * each + sample)];
+}
+
+// Whose twin is `off`.
+PathReference paths(double off = 0) {
+  PathReference paths;
+  paths.around = [](int sample) -> Reference {
+    return [sample](int x, int y, const Vec2& shift, Chance) {
+      Neighbour neighbour;
+      neighbour.samples = {{light_at(x + 0.5 + shift.x, y, sample), {2, 3}}};
+      return neighbour;
+    };
+  };
+  paths.shaders = [off](Pixel pixel, int, uint32_t trail) {
+    const Events events = events_at(pixel.x + 0.5 + off, pixel.y);
+    return trail_of(events) == trail ? events : Events{};
+  };
+  paths.reference = [](Pixel pixel, int, const Vec2& shift, int) {
+    return events_at(pixel.x + 0.5 + shift.x, pixel.y);
+  };
+  paths.rounding = [](Pixel) { return 0.0; };
+  paths.describe = [](uint32_t event) { return std::to_string(event); };
+  return paths;
+}
+
+ReferenceComparison compared_paths(const Frame& value, double off = 0) {
+  const PathReference reference = paths(off);
+  return compare_with_reference(value, path_frame(), picture_reference, {.max_explained = 0.05}, nullptr,
+                                &reference);
+}
+
+}  // namespace
+
+TEST_CASE("paths that part where the reference's do nearby are counted as such") {
+  const ReferenceComparison comparison = compared_paths(path_frame(5e-5), 5e-5);
+  CHECK(comparison.passes());
+  CHECK(comparison.paths.pixels == picture_width * picture_height * each);
+  CHECK(comparison.paths.explained[size_t(Cause::parted)] == edge_rows * each);
+  CHECK(comparison.paths.explained_pixels() == edge_rows * each);
+  CHECK(comparison.paths.worst.seam == Seam::trail);
+  CHECK(comparison.paths.worst.parting == "event 1: 2, and the reference's 1");
+}
+
+TEST_CASE("one sample's colour is wrong, by less than its pixel's mean would show") {
+  Frame gpu = path_frame();
+  sample_at(gpu, 20, 30, 0).color.x += 3e-4f;
+  const ReferenceComparison comparison = compared_paths(gpu);
+  CHECK_FALSE(comparison.passes());
+  CHECK(comparison.paths.unexplained == 1);
+  CHECK(comparison.paths.worst.pixel == Pixel{20, 30});
+  CHECK(comparison.paths.worst.sample == 0);
+  CHECK(comparison.paths.worst.seam == Seam::color);
+}
+
+TEST_CASE("a path goes where none of the reference's does, or nobody knows where") {
+  // The other wall, far from the edge.
+  Frame gpu = path_frame();
+  sample_at(gpu, 20, 2, 1) = sample_at(gpu, 60, 2, 1);
+  CHECK(compared_paths(gpu, 40).paths.unexplained == 1);
+  // The twin's path is another.
+  CHECK(compared_paths(gpu).paths.unexplained == 1);
+  // At the edge, but by an event that is on neither side.
+  gpu = path_frame();
+  const Events strange{7, 3, 9};
+  sample_at(gpu, 48, 2, 2) = {glm::vec3(9.0f), trail_of(strange), 2, 3};
+  PathReference reference = paths();
+  reference.shaders = [&](Pixel, int, uint32_t) { return strange; };
+  CHECK(compare_with_reference(gpu, path_frame(), picture_reference, {}, nullptr, &reference)
+            .paths.unexplained == 1);
+}
+
+TEST_CASE("the same path has another number of rays") {
+  Frame gpu = path_frame();
+  sample_at(gpu, 20, 30, 3).rays += 1;
+  const ReferenceComparison comparison = compared_paths(gpu);
+  CHECK(comparison.paths.unexplained == 1);
+  CHECK(comparison.paths.worst.seam == Seam::counts);
+}
+
+TEST_CASE("too many that part fail, all of them explained") {
+  const Frame gpu = path_frame(5e-5);
+  const PathReference reference = paths(5e-5);
+  const ReferenceComparison comparison =
+      compare_with_reference(gpu, path_frame(), picture_reference, {.max_explained = 0}, nullptr, &reference);
+  CHECK(comparison.paths.unexplained == 0);
+  CHECK(comparison.paths.capped_pixels() > comparison.paths.may_be_explained);
+  CHECK_FALSE(comparison.passes());
+}
+
+TEST_CASE("what is off by less than any sample may be, but everywhere, is found by its sums") {
+  for (const bool everywhere : {true, false}) {
+    Frame gpu = path_frame();
+    for (int y = 0; y < picture_height; ++y)
+      for (int x = 0; x < picture_width; ++x)
+        for (int i = 0; i < each; ++i)
+          if (everywhere || (x / 8 == 3 && y / 8 == 5)) sample_at(gpu, x, y, i).color *= 1.00004f;
+    const ReferenceComparison comparison = compared_paths(gpu);
+    CHECK(comparison.paths.unexplained == 0);
+    CHECK(comparison.paths.explained_pixels() == 0);
+    CHECK(comparison.paired_sum.excess() > 1);
+    CHECK_FALSE(comparison.passes());
+    if (!everywhere) CHECK(comparison.paired_sum.tile == Rect{24, 40, 8, 8});
+  }
+}
+
+TEST_CASE("gate A is of samples, too: a colour that the mean does not show, and another path") {
+  const Frame twin = path_frame();
+  Frame gpu = path_frame();
+  CHECK(compare_exactly(gpu, twin).passes(0));
+  sample_at(gpu, 20, 30, 0).color.y = std::nextafter(sample_at(gpu, 20, 30, 0).color.y, 1.0f);
+  CHECK_FALSE(compare_exactly(gpu, twin).passes(0));
+  CHECK(compare_exactly(gpu, twin).passes(1));
+  sample_at(gpu, 20, 30, 0).trail ^= 1;
+  const ExactComparison comparison = compare_exactly(gpu, twin);
+  CHECK_FALSE(comparison.passes(64));
+  CHECK(comparison.worst.seam == Seam::trail);
+}
