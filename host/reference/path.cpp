@@ -8,6 +8,7 @@
 #include "host/reference/environment.hpp"
 #include "host/reference/integrator.hpp"
 #include "host/reference/light_disk.hpp"
+#include "host/reference/light_pick.hpp"
 #include "host/reference/sample_rays.hpp"
 #include "host/reference/sampler.hpp"
 
@@ -59,6 +60,11 @@ class LocalFrame {
   Vec3 s_, t_, n_;
 };
 
+LitPoint lit_point(const Interaction& at) {
+  const bool transmits = at.bsdf.glass != Vec3(0);
+  return {at.surface.position, transmits ? std::nullopt : std::optional(at.surface.normal)};
+}
+
 // From a light: by direction l, along the ray where nothing stands before `distance`.
 struct Arriving {
   Vec3 l;
@@ -100,7 +106,8 @@ class PathSample {
   const Observer& observer_;
   int depth_ = 0;
   Vec3 throughput_{1};
-  double density_ = 0;  // by solid angle, of the ray's direction; 0 where there was no choice
+  double density_ = 0;    // by solid angle, of the ray's direction; 0 where there was no choice
+  LitPoint chosen_at_{};  // and where it was chosen
 };
 
 // Its own light, less what shadow rays to it have brought already.
@@ -110,8 +117,9 @@ Vec3 PathSample::emitted(const Interaction& at, const Vec3& from) const {
   if (density_ == 0) return light;
   const auto found = std::ranges::lower_bound(choice.emitters, at.primitive, {}, &Emitter::primitive);
   if (found == choice.emitters.end() || found->primitive != at.primitive) return light;
-  const double share = (1 - environment_share()) *
-                       choice.share(scene_.lights.size() + size_t(found - choice.emitters.begin()));
+  const double share =
+      (1 - environment_share()) *
+      light_share(choice, chosen_at_, scene_.lights.size() + size_t(found - choice.emitters.begin()));
   const EmitterSample place{at.surface.position, at.surface.normal_geometric};
   return light * power_heuristic(density_, share * emitter_density(found->form, from, place));
 }
@@ -148,9 +156,10 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const Vec2 chance = pair(light_pair);
   if (chance.y < environment_share()) return arriving_from_around(at);
   if (choice.ends.empty()) return std::nullopt;
-  const auto number = uint32_t(chance.x * 0x1p24);
-  const auto light = size_t(std::ranges::upper_bound(choice.ends, number) - choice.ends.begin());
-  const double share = (1 - environment_share()) * choice.share(light);
+  const auto pick = pick_light(choice, lit_point(at), chance.x);
+  if (!pick) return std::nullopt;
+  const size_t light = pick->light;
+  const double share = (1 - environment_share()) * pick->share;
   const Vec3& p = at.surface.position;
   if (light < scene_.lights.size()) {
     const Illumination arriving = scene_.lights[light]->illuminate(p);
@@ -165,15 +174,14 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   }
   const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
   // What is flat does not light itself.
-  if (emitter.primitive == at.primitive && !std::holds_alternative<SphereForm>(emitter.form))
-    return std::nullopt;
+  if (emitter.primitive == at.primitive && is_flat(emitter.form)) return std::nullopt;
   const EmitterSample place = sample_emitter(emitter.form, p, pair(place_pair));
   const Vec3 l = glm::normalize(place.position - p);
   Ray ray = rays_.spawn_ray(at.surface, l);
   ray.d = glm::normalize(place.position - ray.o);
   const double density = share * emitter_density(emitter.form, p, place);
-  return Arriving{l, ray, glm::length(place.position - ray.o) * (1 - 1e-9), emitter.radiance / density,
-                  density};
+  return Arriving{l, ray, glm::length(place.position - ray.o) * (1 - 1e-9),
+                  emitter_radiance(scene_, emitter, place, p) / density, density};
 }
 
 // What that brings to the viewer.
@@ -209,6 +217,7 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
     const bool before = glm::dot(at.surface.normal_geometric, d) > 0;
     if (!(value.density > 0) || before != (sample.i.z > 0)) return std::nullopt;
     density_ = value.density;
+    chosen_at_ = lit_point(at);
     throughput_ *= value.value / value.density;
     if (!before) kind = RayKind::refracted;
   } else {

@@ -146,6 +146,7 @@ std::optional<Interaction> SampleRays::hit(const Ray& ray, const MediaStack& med
   const ScatteringContext context{
       {at.surface.uv, at.surface.position}, at.cos_view, at.ior_before, at.ior_beyond, at.surface.color};
   at.scattering = scattering(ray, *hit, at.surface, context);
+  if (!front && material.emits_in_front) at.scattering.emitted = Vec3(0);
   if (walks_at_random(scene_.render.integrator)) at.bsdf = material.bsdf(context, at.scattering);
 
   observer_.value("ior", Vec2(at.ior_before, at.ior_beyond));

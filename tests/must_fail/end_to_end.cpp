@@ -92,6 +92,10 @@ std::vector<Fault> faults() {
       {"pairs", {bits, counts, colors}, box},
       {"lobe", {bits, colors}, {"scenes/path/materials.toml", "--spp", "2"}},
       {"masking", {bits, colors}, {"scenes/path/materials.toml", "--spp", "2"}},
+      {"emission_side", {bits, colors}, {"scenes/path/emitters.toml", "--spp", "2"}},
+      {"emission_uv", {bits, colors}, {"scenes/path/emitters.toml", "--spp", "2"}},
+      {"face", {bits, colors}, {"scenes/path/emitters.toml", "--spp", "2"}},
+      {"light_leaf", {bits, colors}, {"scenes/path/many_lamps.toml", "--spp", "2"}},
       {"half_texel", {bits, colors}, {"scenes/path/environment.toml", "--spp", "2"}},
   };
 }
