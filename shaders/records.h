@@ -33,6 +33,7 @@ SHADER_BEGIN
 #define BINDING_EMITTERS 21
 #define BINDING_ENVIRONMENT 22
 #define BINDING_GGX_ALBEDOS 23
+#define BINDING_LIGHT_NODES 24
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
@@ -145,6 +146,7 @@ struct Material {
   uint coat_roughness;
 };
 #define MATERIAL_BLINN 1u
+#define MATERIAL_EMITS_IN_FRONT 2u  // its own light goes only where normals point
 // Optical depth: what each primitive that a shadow ray hits takes from it, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
 #define OPTICAL_DEPTH_OPAQUE 0x10000000u
 #define OPTICAL_DEPTH_SCALE 1048576.0f
@@ -191,10 +193,10 @@ struct Light {
   vec4 b;
 };
 
-// ---- Emitter: a light that a path may choose, 80 bytes --------------------------------------------------------------
+// ---- Emitter: a light that a path may choose, 96 bytes --------------------------------------------------------------
 // The first LIGHT_COUNT stand for the lights, and of these only `end` counts. The others are surfaces.
 struct Emitter {
-  vec3 radiance;
+  vec3 radiance;  // where `texture` does not say it
   uint kind;
   vec4 a;  // what these hold is said in the emitter's .glsl
   vec4 b;
@@ -203,7 +205,25 @@ struct Emitter {
   uint end;        // of the numbers by which it is chosen (emitters/emitter.glsl)
   float area;
   float offset;  // what stands this far off it is off it, however it is rounded
+  uint trail;    // to it through the light BVH: bit k is set where it is the second child at level k; NONE where it is not in that
+  uint texture;  // of its radiance, or NONE
+  uint corners;  // of a triangle with a texture, four of vertices: color.rgb and u of each corner, the three v; or NONE
+  float side;    // 1 where it lights only what its normal points to, −1 what its normal points away from; 0 on both sides
 };
+
+// ---- A node of the light BVH: 48 bytes; nodes are pairs of children, the root's first -------------------------------
+struct LightNode {
+  vec3 center;  // of a sphere around its lights
+  float radius;
+  vec3 axis;  // that their normals are not far from
+  float power;
+  float cos_spread;  // of the largest angle between the two
+  float cos_reach;   // and of that between a normal and a way that light goes
+  uint child;        // its own pair of children; or LEAF | the light, as emitters are counted
+  uint both_sides;   // 1 where light also goes along the normals' opposites
+};
+#define LIGHT_BVH_DEPTH 24u
+#define LIGHT_BVH_LEVELS_A_NUMBER 4u  // that one random number is used for
 
 // ---- Environment: 16 bytes a texel; empty without one ---------------------------------------------------------------
 // height + 1 rows of width + 1 texels: red, green and blue as the bits of floats. The last row and the last column are the picture's last
@@ -243,7 +263,7 @@ struct Frame {
   uint environment_numbers;  // of 2^24, that choose the environment and not a light
   float environment_turn;    // by how much of a whole turn it is turned about y
   float filter_width;        // pixels
-  uint unused_0;
+  uint light_bvh_numbers;    // of 2^24, that choose a light by the light BVH; 0 without one
   uint unused_1;
   uint unused_2;
 };
@@ -348,7 +368,7 @@ struct PacketHit {
   uint unused_1;
 };
 
-// Where a pixel's path goes on, 48 bytes.
+// Where a pixel's path goes on, 64 bytes.
 struct PathState {
   vec3 origin;
   uint media;
@@ -356,6 +376,8 @@ struct PathState {
   float density;
   vec3 throughput;
   uint pixel;
+  vec3 normal;
+  uint unused;
 };
 
 // What a pixel's rays show to a probe, 32 bytes a value. The first of the buffer says in `name` how many there would be if all had room.
@@ -396,7 +418,8 @@ static_assert(sizeof(eyeray::shader::Material) == 112);
 static_assert(sizeof(eyeray::shader::Medium) == 32);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);
-static_assert(sizeof(eyeray::shader::Emitter) == 80);
+static_assert(sizeof(eyeray::shader::Emitter) == 96);
+static_assert(sizeof(eyeray::shader::LightNode) == 48);
 static_assert(sizeof(eyeray::shader::Frame) == 176);
 static_assert(sizeof(eyeray::shader::Dispatch) == 32);
 static_assert(sizeof(eyeray::shader::SampleResult) == 32);
@@ -405,7 +428,7 @@ static_assert(sizeof(eyeray::shader::HitResult) == 80);
 static_assert(sizeof(eyeray::shader::QueryRay) == 32);
 static_assert(sizeof(eyeray::shader::QueryHit) == 16);
 static_assert(sizeof(eyeray::shader::PacketHit) == 32);
-static_assert(sizeof(eyeray::shader::PathState) == 48);
+static_assert(sizeof(eyeray::shader::PathState) == 64);
 static_assert(sizeof(eyeray::shader::ProbeRecord) == 32);
 #endif
 #endif

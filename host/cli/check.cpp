@@ -37,6 +37,7 @@ struct Inventory {
   Counts materials;
   Counts lights;
   size_t emitters = 0;             // surfaces that a path may choose
+  size_t light_nodes = 0;          // of the BVH by which it does
   size_t mesh_triangles = 0;       // each mesh's, however often it is shown
   size_t bytes = 0;                // on the device, pixels not counted
   size_t named = 0;                // shapes and meshes that have a name of their own
@@ -98,13 +99,15 @@ Inventory take_inventory(const Scene& scene) {
   for (const shader::Light& light : packed.lights) kinds.push_back(light.kind);
   inventory.lights = count_kinds(lights::types(), kinds);
   inventory.emitters = packed.emitters.empty() ? 0 : packed.emitters.size() - packed.lights.size();
+  inventory.light_nodes = packed.light_nodes.size();
   list_names(scene, inventory);
   for (const Mesh& mesh : scene.meshes) inventory.mesh_triangles += mesh.triangles.size();
   inventory.bytes = bytes(packed.primitives) + bytes(packed.vertices) + bytes(packed.nodes) +
                     bytes(packed.bvhs) + bytes(packed.instances) + bytes(packed.materials) +
                     bytes(packed.textures) + packed.texel_count * sizeof(packed.texels[0]) +
                     bytes(packed.media) + bytes(packed.lights) + bytes(packed.emitters) +
-                    environment_texels * sizeof(packed.environment[0]) + sizeof(packed.frame);
+                    bytes(packed.light_nodes) + environment_texels * sizeof(packed.environment[0]) +
+                    sizeof(packed.frame);
   return inventory;
 }
 
@@ -166,6 +169,7 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   line("lights", format_counts(inventory.lights));
   if (inventory.emitters > 0)
     line("emitters", fmt::format("{} surface{}", inventory.emitters, inventory.emitters == 1 ? "" : "s"));
+  if (inventory.light_nodes > 0) line("light BVH", fmt::format("{} nodes", inventory.light_nodes));
   line("memory", fmt::format("{} bytes of scene, {} bytes of picture", inventory.bytes,
                              size_t(image.width) * size_t(image.height) * 3 * sizeof(float)));
   for (const auto& file : scene.files) line("read", file.string());
@@ -208,6 +212,7 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
       {"materials", json_of(inventory.materials)},
       {"lights", json_of(inventory.lights)},
       {"emitters", inventory.emitters},
+      {"light_nodes", inventory.light_nodes},
       {"scene_bytes", inventory.bytes},
       {"files", Json::array()},
       {"warnings", Json::array()}};

@@ -177,6 +177,28 @@ constexpr FaultType types[] = {
      .file = "emitters/environment.glsl",
      .from = "* float(frame.environment_width) - 0.5f;",
      .to = "* float(frame.environment_width);"},
+    {.name = "emission_side",
+     .file = "emitters/emitter.glsl",
+     .from = "e.side * dot3(place.normal, direction) > 0.0f",
+     .to = "e.side * dot3(place.normal, direction) < 0.0f"},
+    {.name = "emission_uv",
+     .file = "emitters/emitter.glsl",
+     .from = "place_of_uv(place.uv)",
+     .to = "place_of_uv(vec2(place.uv.y, place.uv.x))"},
+    {.name = "face",
+     .file = "emitters/box.glsl",
+     .from = "turned ? weight / sum : 0.0f",
+     .to = "turned ? 0.3333333f : 0.0f"},
+    // One light is no leaf of the BVH.
+    {.name = "light_leaf",
+     .scene =
+         [](records::PackedScene& scene) {
+           const auto is_leaf = [](const shader::LightNode& node) { return (node.child & LEAF) != 0; };
+           const auto first = std::ranges::find_if(scene.light_nodes, is_leaf);
+           if (first != scene.light_nodes.end())
+             first->child =
+                 std::ranges::find_if(scene.light_nodes.rbegin(), scene.light_nodes.rend(), is_leaf)->child;
+         }},
     // Random numbers.
     {.name = "random", .file = "math/rng.glsl", .from = "2891336453u", .to = "2891336455u"},
     // Packing.

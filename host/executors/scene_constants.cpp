@@ -55,7 +55,8 @@ std::string literal(const shader::Light& l) {
   return record_literal("Light", l.intensity, l.kind, l.a, l.b);
 }
 std::string literal(const shader::Emitter& e) {
-  return record_literal("Emitter", e.radiance, e.kind, e.a, e.b, e.c, e.primitive, e.end, e.area, e.offset);
+  return record_literal("Emitter", e.radiance, e.kind, e.a, e.b, e.c, e.primitive, e.end, e.area, e.offset,
+                        e.trail, e.texture, e.corners, e.side);
 }
 std::string literal(const shader::Frame& f) {
   return record_literal("Frame", f.width, f.height, f.seed, f.samples_per_side, f.camera, f.pattern, f.media,
@@ -63,7 +64,7 @@ std::string literal(const shader::Frame& f) {
                         f.min_throughput, f.up, f.pixel_width, f.forward, f.pixel_height, f.background,
                         f.emitter_count, f.ambient, f.aperture, f.sharpness, f.blade_rotation, f.blades,
                         f.pixel_filter, f.environment_width, f.environment_height, f.environment_numbers,
-                        f.environment_turn, f.filter_width, f.unused_0, f.unused_1, f.unused_2);
+                        f.environment_turn, f.filter_width, f.light_bvh_numbers, f.unused_1, f.unused_2);
 }
 
 // A loader that chooses among constants. A driver that runs both sides of every branch selects between

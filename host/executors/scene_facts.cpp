@@ -42,6 +42,17 @@ bool any_emits(const records::PackedScene& scene) {
   });
 }
 
+bool any_emission_texture(const records::PackedScene& scene) {
+  return std::ranges::any_of(scene.emitters,
+                             [](const shader::Emitter& emitter) { return emitter.texture != NONE; });
+}
+
+bool any_emits_in_front(const records::PackedScene& scene) {
+  return std::ranges::any_of(scene.materials, [](const shader::Material& material) {
+    return (material.flags & MATERIAL_EMITS_IN_FRONT) != 0;
+  });
+}
+
 bool any_rough_diffuse(const records::PackedScene& scene) {
   return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
     return material.kind == shader::MATERIAL_diffuse && !is_black(scene.textures[material.roughness]);

@@ -11,6 +11,9 @@ namespace eyeray::executors {
 bool varies(const records::PackedScene& scene, const shader::Material& material);
 bool any_emits(const records::PackedScene& scene);
 // Whether any diffuse material is not Lambert's.
+// Whether a surface that a path may choose has a texture for its light.
+bool any_emission_texture(const records::PackedScene& scene);
+bool any_emits_in_front(const records::PackedScene& scene);
 bool any_rough_diffuse(const records::PackedScene& scene);
 bool any_dims(const records::PackedScene& scene);
 bool any_scatters(const records::PackedScene& scene);

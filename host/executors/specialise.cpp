@@ -58,10 +58,13 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("EMITTER_COUNT", fmt::format("{}u", scene.emitters.size()));
   define("HAS_ENVIRONMENT", int(scene.frame.environment_width > 0));
   define("HAS_LIGHT_DISKS", int(any_light_disk(scene)));
+  define("HAS_LIGHT_BVH", int(!scene.light_nodes.empty()));
   define("HAS_ENVIRONMENT_LIGHT", scene.frame.environment_numbers > 0 ? "true" : "false");
   define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.triangle_method));
   define("HAS_COLORS", int(scene.vertex_colors));
   define("HAS_EMISSION", int(any_emits(scene)));
+  define("HAS_EMISSION_TEXTURES", int(any_emission_texture(scene)));
+  define("HAS_ONE_SIDED_EMISSION", int(any_emits_in_front(scene)));
   define("HAS_GLOSSY", int(scene.lobes.contains(shader::LOBE_glossy)));
   define("HAS_CONDUCTORS", int(scene.has_conductors));
   define("HAS_ROUGH_DIFFUSE", int(any_rough_diffuse(scene)));

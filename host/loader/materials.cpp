@@ -40,6 +40,9 @@ void Materials::add(const Section& section, const toml::table& table) {
   } else if (reader.has("alpha_cutoff")) {
     reader.error("alpha_cutoff", "without `alpha` there is nothing to cut off");
   }
+  material->emits_in_front = reader.choice("emission_side") == 1;
+  if (material->emits_in_front && !material->emits())
+    reader.error("emission_side", "without `emission` there is no light of its own");
   material->name = name;
   entry->second.index = static_cast<int>(scene_.materials.size());
   scene_.materials.push_back(std::move(material));

@@ -333,27 +333,28 @@ void Builder::check_paths() {
                                    "`reflectance` add up to more than 1",
                                    material->name));
   }
-  const LightChoice choice = light_choice(scene_);
-  const std::vector<SourcePosition>& unsampled = choice.unsampled;
+  const Emitters lamps = emitters(scene_);
+  const std::vector<SourcePosition>& unsampled = lamps.unsampled;
   const auto has_size = [&](const auto& light) { return light->illuminate(scene_.camera.eye).angle > 0; };
   const auto glass = std::ranges::find_if(
       scene_.materials, [](const auto& material) { return material->medium().has_value(); });
   if (glass != scene_.materials.end() && !scene_.lights.empty() && !scene_.environment &&
-      choice.emitters.empty() && unsampled.empty() && std::ranges::none_of(scene_.lights, has_size))
+      lamps.sampled.empty() && unsampled.empty() && std::ranges::none_of(scene_.lights, has_size))
     log_.warning({},
                  fmt::format("no path finds the light of points through glass (material \"{}\"): its shadow "
                              "is black; lamps with a size (`emission`, or the `angle` of a directional "
                              "light) light through it",
                              (*glass)->name));
-  if (choice.ends.empty() && unsampled.empty() && scene_.render.background == Vec3(0) && !scene_.environment)
+  if (scene_.lights.empty() && lamps.sampled.empty() && unsampled.empty() &&
+      scene_.render.background == Vec3(0) && !scene_.environment)
     log_.warning(
         {}, "nothing shines: there is no [[light]], no `emission`, no `background` and no [environment]");
   if (!unsampled.empty())
     log_.warning(
         unsampled.front(),
         fmt::format("paths find the light of this{} by chance alone, which is noisy: they choose places on "
-                    "spheres, disks, triangles, parallelograms and meshes, of one `emission` all over, "
-                    "in no group that is instanced",
+                    "spheres, ellipsoids, boxes, cylinders, disks, triangles, parallelograms and meshes "
+                    "without cutouts",
                     unsampled.size() == 1 ? "" : fmt::format(" and {} more", unsampled.size() - 1)));
 }
 

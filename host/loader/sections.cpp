@@ -56,6 +56,8 @@ std::span<const Key> light_keys() {
   return keys;
 }
 
+constexpr std::string_view emission_sides[] = {"both", "front"};
+
 std::span<const Key> material_keys() {
   static const std::vector<std::string_view> names = names_of(materials::types());
   static const Key keys[] = {
@@ -77,6 +79,12 @@ std::span<const Key> material_keys() {
        .min = 0,
        .max = 1,
        .above_min = true},
+      {.name = "emission_side",
+       .type = KeyType::choice,
+       .doc = "Where light of its own goes: to both sides of its surfaces, or only to where their normals "
+              "point.",
+       .fallback = "\"both\"",
+       .choices = emission_sides},
   };
   return keys;
 }

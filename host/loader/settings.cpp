@@ -12,6 +12,7 @@ namespace {
 
 constexpr int64_t most_pixels = int64_t{1} << 28;
 
+constexpr std::string_view light_samplers[] = {"automatic", "uniform", "power", "bvh"};
 constexpr std::string_view triangle_methods[] = {"woop", "moller-trumbore"};
 constexpr std::string_view group_storages[] = {"automatic", "instanced", "flat"};
 
@@ -102,6 +103,13 @@ constexpr Key render_table[] = {
      .fallback = "0",
      .min = 0,
      .max = 4294967295},
+    {.name = "light_sampler",
+     .type = KeyType::choice,
+     .doc = "How `path` chooses the light that a vertex asks: evenly, by power, or by a BVH of the lights, "
+            "which "
+            "knows what is near and shines this way; by itself, that from 64 lights on.",
+     .fallback = "\"automatic\"",
+     .choices = light_samplers},
     {.name = "triangle",
      .type = KeyType::choice,
      .doc = "How triangles are intersected; see [[triangle]].",
@@ -207,6 +215,7 @@ RenderSettings read_render(TableReader& table) {
                                          most_waiting));
   render.min_throughput = table.number("min_throughput");
   render.seed = static_cast<uint32_t>(table.integer("seed"));
+  render.light_sampler = static_cast<LightSampler>(table.choice("light_sampler"));
   render.triangle_method = static_cast<TriangleMethod>(table.choice("triangle"));
   render.groups = static_cast<GroupStorage>(table.choice("groups"));
   render.background = table.color("background");

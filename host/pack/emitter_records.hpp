@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/records/packer.hpp"
-#include "host/scene/emitters.hpp"
+#include "host/scene/light_choice.hpp"
 
 namespace eyeray::pack {
 

@@ -79,6 +79,7 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
     material->pack(packer);
     shader::Material& record = packer.scene.materials.back();
     if (walks_at_random(scene.render.integrator)) record.optical_depth = OPTICAL_DEPTH_OPAQUE;
+    if (material->emits_in_front) record.flags |= MATERIAL_EMITS_IN_FRONT;
     if (material->mask) {
       record.alpha = material->mask->alpha->pack(packer);
       record.alpha_cutoff = float(material->mask->cutoff);
@@ -86,15 +87,19 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
   }
   pack_geometry(scene, options, packer);
   for (const auto& light : scene.lights) light->pack(packer);
+  uint32_t light_bvh_numbers = 0;
   if (walks_at_random(scene.render.integrator)) {
     packer.scene.media[0] = records::to_record(scene.medium);
-    pack_light_choice(light_choice(scene), packer);
+    const LightChoice choice = light_choice(scene);
+    pack_light_choice(choice, packer);
+    light_bvh_numbers = choice.bvh_numbers();
     pack_ggx_albedos(packer.scene);
   } else {
     packer.scene.lobes.clear();
     for (shader::Medium& medium : packer.scene.media) medium.scattering = shader::vec3(0);
   }
   packer.scene.frame = pack_frame(scene, packer.scene);
+  packer.scene.frame.light_bvh_numbers = light_bvh_numbers;
   return packer;
 }
 

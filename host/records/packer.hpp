@@ -60,11 +60,12 @@ struct PackedScene {
   std::vector<uint32_t> texels;                       // records.h says how
   std::vector<shader::Medium> media{{{0, 0, 0}, 1, {0, 0, 0}, 0}};  // by number; 0 is around all
   std::vector<shader::Light> lights;
-  RawVector<shader::uvec4> environment;   // records.h says how; empty without one, or not written
-  std::vector<shader::Emitter> emitters;  // lights, then surfaces in the order of their primitives
-  std::set<uint32_t> lobes;               // that the materials' BSDFs have
-  bool has_conductors = false;            // whether any of them mirrors by a metal's index
-  std::vector<shader::vec4> ggx_albedos;  // of optics::ggx_albedo_table(); empty where no lobe asks
+  RawVector<shader::uvec4> environment;        // records.h says how; empty without one, or not written
+  std::vector<shader::Emitter> emitters;       // lights, then surfaces in the order of their primitives
+  std::vector<shader::LightNode> light_nodes;  // empty where no light BVH is asked
+  std::set<uint32_t> lobes;                    // that the materials' BSDFs have
+  bool has_conductors = false;                 // whether any of them mirrors by a metal's index
+  std::vector<shader::vec4> ggx_albedos;       // of optics::ggx_albedo_table(); empty where no lobe asks
   shader::Frame frame{};
 };
 

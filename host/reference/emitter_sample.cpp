@@ -1,6 +1,10 @@
 #include "host/reference/emitter_sample.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "host/scene/scene.hpp"
 
 namespace eyeray::reference {
 
@@ -12,33 +16,176 @@ bool outside(const SphereForm& sphere, const Vec3& from) {
   return glm::dot(way, way) > 1.0002 * sphere.radius * sphere.radius;
 }
 
+// By solid angle, of a place that is chosen evenly on an area.
+double density_of_area(double area, const Vec3& from, const EmitterSample& place) {
+  const Vec3 way = place.position - from;
+  const double distance = glm::length(way);
+  return distance * distance * distance / (area * std::abs(glm::dot(way, place.normal)));
+}
+
 // 1 − the cosine of half the angle under which the sphere is seen.
 double versine(const SphereForm& sphere, const Vec3& from) {
   const double sine = sphere.radius / glm::length(sphere.center - from);
   return 1 - std::sqrt((1 - sine) * (1 + sine));
 }
 
+// Longitude and latitude of a direction.
+Vec2 globe(const Vec3& n) {
+  const double u = 0.5 + std::atan2(-n.z, n.x) / (2 * M_PI);
+  return {u < 1 ? u : 0, std::atan2(std::hypot(n.x, n.z), -n.y) / M_PI};
+}
+
+// A place on the sphere as `from` sees it. Wang: Physically Correct Direct Lighting for Distribution Ray
+// Tracing, Graphics Gems III, 1992.
+EmitterSample on_sphere(const SphereForm& sphere, const Vec3& from, const Vec2& u) {
+  const double turn = 2 * M_PI * u.y;
+  const bool seen = outside(sphere, from);
+  const Vec3 way = sphere.center - from;
+  const Vec3 axis = seen ? glm::normalize(way) : Vec3(0, 0, 1);
+  const double cosine = 1 - (seen ? u.x * versine(sphere, from) : 2 * u.x);
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  const auto [s, t] = tangents(axis);
+  const Vec3 d = cosine * axis + sine * (std::cos(turn) * s + std::sin(turn) * t);
+  Vec3 normal = d;
+  if (seen) {
+    const double b = glm::dot(way, d);
+    const double c = glm::dot(way, way) - sphere.radius * sphere.radius;
+    const double near = b - std::sqrt(std::max(0.0, b * b - c));
+    normal = glm::normalize(near * d - way);
+  }
+  return {sphere.center + sphere.radius * normal, normal, globe(glm::transpose(sphere.axes) * normal)};
+}
+
+// The faces of a box, those of its x first.
+struct Face {
+  Vec3 center, half_u, half_v, normal;  // outward
+  double weight;                        // by which it is chosen
+  int axis, sign;
+
+  double area() const { return 4 * glm::length(glm::cross(half_u, half_v)); }
+};
+
+// From outside those that are turned to the point, by area · cosine / distance² of their centres; else by
+// area.
+std::array<Face, 6> faces(const BoxForm& box, const Vec3& from, bool& outside) {
+  const Mat3 m(box.to_world);
+  std::array<Face, 6> all;
+  outside = false;
+  for (int i = 0; i < 6; ++i) {
+    const int axis = i / 2, sign = i % 2 ? 1 : -1;
+    Face& face = all[size_t(i)];
+    face = {Vec3(box.to_world[3]) + double(sign) * m[axis],
+            m[(axis + 1) % 3],
+            m[(axis + 2) % 3],
+            {},
+            0,
+            axis,
+            sign};
+    const Vec3 across = glm::normalize(glm::cross(face.half_u, face.half_v));
+    face.normal = glm::dot(across, m[axis]) * sign > 0 ? across : -across;
+    const Vec3 way = from - face.center;
+    // A point on the box, which is a little larger, is not outside.
+    const double height = glm::dot(way, face.normal) - 0.0002 * std::abs(glm::dot(m[axis], face.normal));
+    face.weight = face.area() * height / std::pow(glm::length(way), 3);
+    outside = outside || face.weight > 0;
+  }
+  for (Face& face : all) face.weight = outside ? std::max(0.0, face.weight) : face.area();
+  return all;
+}
+
+EmitterSample on_box(const BoxForm& box, const Vec3& from, const Vec2& u) {
+  bool outside;
+  const auto all = faces(box, from, outside);
+  double sum = 0;
+  for (const Face& face : all) sum += face.weight;
+  double rest = u.x * sum;
+  size_t i = 0;
+  while (i < 5 && !(rest < all[i].weight)) rest -= all[i++].weight;
+  const Face& face = all[i];
+  // Along the two other axes in their order.
+  Vec3 p(0);
+  p[face.axis] = face.sign;
+  p[face.axis == 0 ? 1 : 0] = 2 * rest / face.weight - 1;
+  p[face.axis == 2 ? 1 : 2] = 2 * u.y - 1;
+  // Seen from outside u runs to the right and v up; what is up on top is −z, below +z.
+  Vec2 uv(p.x * face.sign, p.y);
+  if (face.axis == 0) uv = {-p.z * face.sign, p.y};
+  if (face.axis == 1) uv = {p.x, -p.z * face.sign};
+  return {Vec3(box.to_world * Vec4(p, 1)), face.normal, inner_uv(0.5 + 0.5 * uv)};
+}
+
+double box_density(const BoxForm& box, const Vec3& from, const EmitterSample& place) {
+  bool outside;
+  const auto all = faces(box, from, outside);
+  double sum = 0, nearest = 0;
+  const Face* of_place = nullptr;
+  for (const Face& face : all) {
+    sum += face.weight;
+    // The normal may be turned to either side.
+    const double cosine = glm::dot(face.normal, place.normal);
+    const double same =
+        glm::dot(place.position - Vec3(box.to_world[3]), face.normal) > 0 ? std::abs(cosine) : 0;
+    if (same > nearest) {
+      nearest = same;
+      of_place = &face;
+    }
+  }
+  if (!of_place) return 0;
+  return of_place->weight / sum * density_of_area(of_place->area(), from, place);
+}
+
+// The unit sphere in its own space, and the same place in the world.
+EmitterSample on_ellipsoid(const EllipsoidForm& it, const Vec3& from, const Vec2& u) {
+  const Affine map(it.to_world), back(glm::inverse(it.to_world));
+  const EmitterSample own = on_sphere({Vec3(0), 1}, back.point(from), u);
+  return {map.point(own.position), map.normal(own.normal), globe(own.normal)};
+}
+
+double ellipsoid_density(const EllipsoidForm& it, const Vec3& from, const EmitterSample& place) {
+  const Affine map(it.to_world), back(glm::inverse(it.to_world));
+  const SphereForm own{Vec3(0), 1};
+  const double determinant = std::abs(glm::determinant(back.linear));
+  if (outside(own, back.point(from))) {
+    // Solid angles there and here.
+    const double stretch = glm::length(back.linear * glm::normalize(place.position - from));
+    return determinant / std::pow(stretch, 3) / (2 * M_PI * versine(own, back.point(from)));
+  }
+  // Areas there and here.
+  const Vec3 normal = glm::normalize(glm::transpose(map.linear) * place.normal);
+  const double stretch = glm::length(map.cotangent * normal) / determinant;
+  return density_of_area(4 * M_PI * stretch, from, place);
+}
+
+EmitterSample on_cylinder(const CylinderForm& it, const Vec2& u) {
+  const Affine map(it.to_world);
+  const double side = share_of_side(it);
+  if (u.x < side) {
+    const double turn = 2 * M_PI * (u.x / side);
+    const Vec3 out(std::cos(turn), 0, std::sin(turn));
+    return {map.point(out + Vec3(0, 2 * u.y - 1, 0)), map.normal(out), {globe(out).x, u.y}};
+  }
+  double rest = 2 * (u.x - side) / (1 - side);
+  const double up = rest < 1 ? -1 : 1;
+  if (up > 0) rest -= 1;
+  const Vec2 at = on_disk({rest, u.y});
+  return {map.point({at.x, up, at.y}), map.normal({0, up, 0}), {0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y * up}};
+}
+
+double cylinder_density(const CylinderForm& it, const Vec3& from, const EmitterSample& place) {
+  const Mat3 m(it.to_world);
+  const double side = share_of_side(it);
+  const Vec3 own = glm::normalize(glm::transpose(m) * place.normal);
+  if (std::abs(own.y) > 0.7)
+    return (1 - side) / 2 * density_of_area(M_PI * glm::length(glm::cross(m[0], m[2])), from, place);
+  const Vec3 along = m * glm::normalize(Vec3(-own.z, 0, own.x));
+  return side * density_of_area(4 * M_PI * glm::length(glm::cross(along, m[1])), from, place);
+}
+
 struct Chooser {
   const Vec3& from;
   const Vec2& u;
 
-  // Wang: Physically Correct Direct Lighting for Distribution Ray Tracing, Graphics Gems III, 1992.
-  EmitterSample operator()(const SphereForm& sphere) const {
-    const double turn = 2 * M_PI * u.y;
-    const bool seen = outside(sphere, from);
-    const Vec3 way = sphere.center - from;
-    const Vec3 axis = seen ? glm::normalize(way) : Vec3(0, 0, 1);
-    const double cosine = 1 - (seen ? u.x * versine(sphere, from) : 2 * u.x);
-    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-    const auto [s, t] = tangents(axis);
-    const Vec3 d = cosine * axis + sine * (std::cos(turn) * s + std::sin(turn) * t);
-    if (!seen) return {sphere.center + sphere.radius * d, d};
-    const double b = glm::dot(way, d);
-    const double c = glm::dot(way, way) - sphere.radius * sphere.radius;
-    const double near = b - std::sqrt(std::max(0.0, b * b - c));
-    const Vec3 normal = glm::normalize(near * d - way);
-    return {sphere.center + sphere.radius * normal, normal};
-  }
+  EmitterSample operator()(const SphereForm& sphere) const { return on_sphere(sphere, from, u); }
 
   EmitterSample operator()(const DiskForm& disk) const {
     const Vec3 x(disk.to_world[0]), z(disk.to_world[2]);
@@ -46,18 +193,27 @@ struct Chooser {
     const double r = glm::length(at);
     const double hole = disk.inner * disk.inner;
     const double grow = r == 0 ? 1 : std::sqrt(hole + r * r * (1 - hole)) / r;
-    return {Vec3(disk.to_world[3]) + grow * (at.x * x + at.y * z), glm::normalize(glm::cross(x, z))};
+    return {Vec3(disk.to_world[3]) + grow * (at.x * x + at.y * z),
+            glm::normalize(glm::cross(x, z)),
+            {0.5 + 0.5 * grow * at.x, 0.5 - 0.5 * grow * at.y}};
   }
 
   EmitterSample operator()(const TriangleForm& triangle) const {
     const auto& [a, b, c] = triangle.vertices;
     const double root = std::sqrt(u.x);
-    return {(1 - root) * a + root * (1 - u.y) * b + root * u.y * c, glm::normalize(glm::cross(b - a, c - a))};
+    const Vec2 weights(root * (1 - u.y), root * u.y);
+    return {(1 - root) * a + weights.x * b + weights.y * c, glm::normalize(glm::cross(b - a, c - a)),
+            weights};
   }
 
   EmitterSample operator()(const ParallelogramForm& it) const {
-    return {it.corner + u.x * it.edge_u + u.y * it.edge_v, glm::normalize(glm::cross(it.edge_u, it.edge_v))};
+    return {it.corner + u.x * it.edge_u + u.y * it.edge_v, glm::normalize(glm::cross(it.edge_u, it.edge_v)),
+            u};
   }
+
+  EmitterSample operator()(const BoxForm& box) const { return on_box(box, from, u); }
+  EmitterSample operator()(const EllipsoidForm& ellipsoid) const { return on_ellipsoid(ellipsoid, from, u); }
+  EmitterSample operator()(const CylinderForm& cylinder) const { return on_cylinder(cylinder, u); }
 };
 
 }  // namespace
@@ -69,9 +225,26 @@ EmitterSample sample_emitter(const EmitterForm& form, const Vec3& from, const Ve
 double emitter_density(const EmitterForm& form, const Vec3& from, const EmitterSample& place) {
   if (const auto* sphere = std::get_if<SphereForm>(&form); sphere && outside(*sphere, from))
     return 1 / (2 * M_PI * versine(*sphere, from));
-  const Vec3 way = place.position - from;
-  const double distance = glm::length(way);
-  return distance * distance * distance / (area_of(form) * std::abs(glm::dot(way, place.normal)));
+  if (const auto* box = std::get_if<BoxForm>(&form)) return box_density(*box, from, place);
+  if (const auto* it = std::get_if<EllipsoidForm>(&form)) return ellipsoid_density(*it, from, place);
+  if (const auto* it = std::get_if<CylinderForm>(&form)) return cylinder_density(*it, from, place);
+  return density_of_area(area_of(form), from, place);
+}
+
+Vec3 emitter_radiance(const Scene& scene, const Emitter& emitter, const EmitterSample& place,
+                      const Vec3& from) {
+  if (emitter.side * glm::dot(place.normal, from - place.position) < 0) return Vec3(0);
+  if (!emitter.varies) return emitter.radiance;
+  Vec2 uv = place.uv;
+  Vec3 color(1);
+  if (const EmitterCorners* corners = emitter.corners.get()) {
+    const auto between = [&](const auto& values) {
+      return (1 - place.uv.x - place.uv.y) * values[0] + place.uv.x * values[1] + place.uv.y * values[2];
+    };
+    uv = between(corners->uv);
+    color = between(corners->colors);
+  }
+  return emitted(*scene.materials[size_t(emitter.material)], {uv, place.position}, color);
 }
 
 Vec2 on_disk(const Vec2& u) {

@@ -8,6 +8,7 @@
 #include "host/reference/environment.hpp"
 #include "host/reference/integrator.hpp"
 #include "host/reference/light_disk.hpp"
+#include "host/reference/light_pick.hpp"
 #include "host/reference/phase.hpp"
 #include "host/reference/rng.hpp"
 #include "host/reference/sample_rays.hpp"
@@ -61,6 +62,11 @@ class LocalFrame {
  private:
   Vec3 s_, t_, n_;
 };
+
+LitPoint lit_point(const Interaction& at) {
+  const bool all_around = at.bsdf.glass != Vec3(0) || at.in_medium();
+  return {at.surface.position, all_around ? std::nullopt : std::optional(at.surface.normal)};
+}
 
 // From a light: by direction l, along the ray where nothing stands before `distance`.
 struct Arriving {
@@ -138,9 +144,10 @@ class PathSample {
   int depth_ = 0;
   Vec3 throughput_{1};
   bool roulette_ = true;
-  uint64_t asked_ = 0;  // by the last vertex: the value of its Event::light …
-  uint64_t way_ = 0;    // … and of its Event::way
-  double density_ = 0;  // by solid angle, of the ray's direction; 0 where there was no choice
+  uint64_t asked_ = 0;    // by the last vertex: the value of its Event::light …
+  uint64_t way_ = 0;      // … and of its Event::way
+  double density_ = 0;    // by solid angle, of the ray's direction; 0 where there was no choice
+  LitPoint chosen_at_{};  // and where it was chosen
 };
 
 // A channel says how far, each as likely as it has light left; the density is that of all three.
@@ -173,8 +180,9 @@ Vec3 PathSample::emitted(const Interaction& at, const Vec3& from) const {
   if (density_ == 0) return light;
   const auto found = std::ranges::lower_bound(choice.emitters, at.primitive, {}, &Emitter::primitive);
   if (found == choice.emitters.end() || found->primitive != at.primitive) return light;
-  const double share = (1 - environment_share()) *
-                       choice.share(scene_.lights.size() + size_t(found - choice.emitters.begin()));
+  const double share =
+      (1 - environment_share()) *
+      light_share(choice, chosen_at_, scene_.lights.size() + size_t(found - choice.emitters.begin()));
   const EmitterSample place{at.surface.position, at.surface.normal_geometric};
   return light * power_heuristic(density_, share * emitter_density(found->form, from, place));
 }
@@ -215,9 +223,10 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const Vec2 chance = pair(light_pair);
   if (chance.y < environment_share()) return arriving_from_around(at);
   if (choice.ends.empty()) return std::nullopt;
-  const auto number = uint32_t(chance.x * 0x1p24);
-  const auto light = size_t(std::ranges::upper_bound(choice.ends, number) - choice.ends.begin());
-  const double share = (1 - environment_share()) * choice.share(light);
+  const auto pick = pick_light(choice, lit_point(at), chance.x);
+  if (!pick) return std::nullopt;
+  const size_t light = pick->light;
+  const double share = (1 - environment_share()) * pick->share;
   const Vec3& p = at.surface.position;
   if (light < scene_.lights.size()) {
     const Illumination arriving = scene_.lights[light]->illuminate(p);
@@ -237,15 +246,18 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   }
   const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
   // What is flat does not light itself.
-  if (emitter.primitive == at.primitive && !std::holds_alternative<SphereForm>(emitter.form))
-    return std::nullopt;
+  if (emitter.primitive == at.primitive && is_flat(emitter.form)) return std::nullopt;
   const EmitterSample place = sample_emitter(emitter.form, p, pair(place_pair));
   const Vec3 l = glm::normalize(place.position - p);
   Ray ray = rays_.spawn_ray(at.surface, l);
   ray.d = glm::normalize(place.position - ray.o);
   const double density = share * emitter_density(emitter.form, p, place);
-  return Arriving{l,       ray,  glm::length(place.position - ray.o) * (1 - 1e-9), emitter.radiance / density,
-                  density, light};
+  return Arriving{l,
+                  ray,
+                  glm::length(place.position - ray.o) * (1 - 1e-9),
+                  emitter_radiance(scene_, emitter, place, p) / density,
+                  density,
+                  light};
 }
 
 // What that brings to the viewer by a vertex that sends on `scattered`; surfaces keep the ray in `medium`.
@@ -297,6 +309,7 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
     const bool before = glm::dot(at.surface.normal_geometric, d) > 0;
     if (!(value.density > 0) || before != (sample.i.z > 0)) return std::nullopt;
     density_ = value.density;
+    chosen_at_ = lit_point(at);
     throughput_ *= value.value / value.density;
     if (!before) kind = RayKind::refracted;
   } else {
@@ -312,6 +325,7 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
 std::optional<Ray> PathSample::scatter_in(const Medium& medium, const Interaction& at) {
   const Vec3 d = phase_direction(medium.anisotropy, at.d, pair(direction_pair));
   density_ = phase_value(medium.anisotropy, glm::dot(at.d, d));
+  chosen_at_ = lit_point(at);
   return continued(RayKind::reflected, at, d, pair(scatter_pair).y, way_in_medium + 1);
 }
 

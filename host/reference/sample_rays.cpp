@@ -154,6 +154,7 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
   const ScatteringContext context{
       {at.surface.uv, at.surface.position}, at.cos_view, at.ior_before, at.ior_beyond, at.surface.color};
   at.scattering = scattering(ray, hit, at.surface, context);
+  if (!front && material.emits_in_front) at.scattering.emitted = Vec3(0);
   if (walks_at_random(scene_.render.integrator)) at.bsdf = material.bsdf(context, at.scattering);
 
   observer_.value("ior", Vec2(at.ior_before, at.ior_beyond));

@@ -14,7 +14,7 @@ struct Interaction {
   SurfacePoint surface;  // both normals towards where the ray came from
   Vec3 d;                // unit, of the ray
   double cos_view = 0;   // between the shading normal and the way back, in [0, 1]
-  uint64_t primitive;
+  uint64_t primitive;    // ~0: none, but a point of a medium
   bool has_medium = false;  // its material fills it
   Vec3 dimming{1};          // what the medium leaves of the light on its way here
   double ior_before = 1, ior_beyond = 1;
@@ -22,6 +22,7 @@ struct Interaction {
   Scattering scattering = {};
   Bsdf bsdf = {};
 
+  bool in_medium() const { return primitive == ~uint64_t{0}; }
   Vec3 mirrored() const { return glm::normalize(d + 2 * cos_view * surface.normal); }
   // Of a ray that is bent; there is no total reflection.
   Vec3 refracted() const;

@@ -5,7 +5,7 @@
 
 #include "host/core/pixel.hpp"
 #include "host/reference/group_geometry.hpp"
-#include "host/scene/emitters.hpp"
+#include "host/scene/light_choice.hpp"
 #include "host/scene/primitive_ids.hpp"
 #include "host/scene/scene.hpp"
 

@@ -1,171 +1,159 @@
 #include "host/scene/emitters.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <optional>
 
 #include "host/core/error.hpp"
-#include "host/scene/affine.hpp"
-#include "host/scene/luminance.hpp"
 #include "host/scene/primitive_ids.hpp"
 #include "host/scene/scene.hpp"
-#include "host/scene/whole_shares.hpp"
 
 namespace eyeray {
 
 namespace {
 
 constexpr size_t most_emitters = size_t{1} << 20;
-// Of all weight, what is shared evenly.
-constexpr double even_share = 1.0 / 16;
 
-std::optional<EmitterForm> emitter_form(const ShapeForm& form) {
-  if (const auto* sphere = std::get_if<SphereForm>(&form)) return *sphere;
-  if (const auto* disk = std::get_if<DiskForm>(&form)) return *disk;
-  if (const auto* triangle = std::get_if<TriangleForm>(&form)) return *triangle;
-  const auto* polygon = std::get_if<PolygonForm>(&form);
-  if (!polygon || polygon->outlines.size() != 1 || polygon->outlines[0].size() != 4) return std::nullopt;
-  const auto& corners = polygon->outlines[0];
-  const Vec3 u = corners[1] - corners[0], v = corners[3] - corners[0];
-  const double gap = glm::length(corners[2] - corners[0] - u - v);
-  if (gap > 1e-12 * (glm::length(u) + glm::length(v))) return std::nullopt;
-  return ParallelogramForm{corners[0], u, v};
+// Of what varies: over uv.
+Vec3 mean_radiance(const Material& material, const Vec3& position) {
+  constexpr int steps = 32;
+  Vec3 sum(0);
+  for (int y = 0; y < steps; ++y)
+    for (int x = 0; x < steps; ++x)
+      sum += emitted(material, {Vec2(x + 0.5, y + 0.5) / double(steps), position}, Vec3(1));
+  return sum / double(steps * steps);
 }
 
-// The radius of a sphere around all that has an end, and the eye.
-double reach(const Scene& scene) {
-  Bounds all;
-  all.include(scene.camera.eye);
-  const auto include = [&](const Bounds& box, const Affine& map) {
-    if (!std::isfinite(glm::length(box.max - box.min))) return;
-    for (int corner = 0; corner < 8; ++corner)
-      all.include(map.point({(corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
-                             (corner & 4 ? box.max : box.min).z}));
-  };
-  for (const auto& shape : scene.shapes) include(shape->bounds(), Affine(Mat4(1.0)));
-  for (const Instance& instance : scene.instances)
-    include(bounds(scene.meshes[size_t(instance.mesh)]), Affine(instance.transform));
-  for (const GroupInstance& instance : scene.group_instances)
-    include(bounds(scene.groups[size_t(instance.group)], scene.meshes), Affine(instance.transform));
-  return glm::length(all.max - all.min) / 2;
-}
-
-// What a light sends into the scene; of one that no other program knows, as if it stood everywhere.
-double power(const Light& light, double radius) {
-  const LightForm form = light.form();
-  if (const auto* point = std::get_if<PointLight>(&form); point && point->falloff == Falloff::inverse_square)
-    return 4 * M_PI * M_PI * luminance(point->intensity);
-  if (const auto* spot = std::get_if<SpotLight>(&form)) {
-    const double inner = std::cos(spot->inner), outer = std::cos(spot->outer);
-    return 2 * M_PI * M_PI * luminance(spot->intensity) * (1 - inner + (inner - outer) / 3);
-  }
-  Vec3 intensity(1);
-  if (const auto* point = std::get_if<PointLight>(&form)) intensity = point->intensity;
-  if (const auto* directional = std::get_if<DirectionalLight>(&form)) intensity = directional->intensity;
-  return M_PI * M_PI * radius * radius * luminance(intensity);
+// And over a triangle.
+Vec3 mean_radiance(const Material& material, const TriangleForm& triangle, const EmitterCorners& corners) {
+  constexpr int steps = 4;
+  Vec3 sum(0);
+  int count = 0;
+  for (int i = 0; i < steps; ++i)
+    for (int k = 0; k < steps - i; ++k, ++count) {
+      const double b = (i + 1.0 / 3) / steps, c = (k + 1.0 / 3) / steps, a = 1 - b - c;
+      const auto at = [&](const auto& values) { return a * values[0] + b * values[1] + c * values[2]; };
+      sum += emitted(material, {at(corners.uv), at(triangle.vertices)}, at(corners.colors));
+    }
+  return sum / double(count);
 }
 
 class Collector {
  public:
-  Collector(const Scene& scene, LightChoice& choice) : scene_(scene), choice_(choice) {}
+  Collector(const Scene& scene, Emitters& found) : scene_(scene), found_(found) {}
 
   void run() {
-    for (size_t i = 0; i < scene_.shapes.size(); ++i) add_shape(*scene_.shapes[i], ids_.of_shape(i));
-    for (size_t i = 0; i < scene_.instances.size(); ++i) add_mesh(scene_.instances[i], ids_.of_instance(i));
-    for (const Group& group : scene_.groups) {
-      for (const auto& shape : group.shapes)
-        if (emits(shape->material)) choice_.unsampled.push_back(shape->position);
-      for (const Instance& instance : group.instances)
-        if (emits(instance.material)) choice_.unsampled.push_back(instance.position);
-    }
-    std::ranges::sort(choice_.emitters, {}, &Emitter::primitive);
+    const Affine here(Mat4(1.0));
+    for (size_t i = 0; i < scene_.shapes.size(); ++i) add_shape(*scene_.shapes[i], ids_.of_shape(i), here);
+    for (size_t i = 0; i < scene_.instances.size(); ++i)
+      add_mesh(scene_.instances[i], ids_.of_instance(i), Affine(scene_.instances[i].transform));
+    for (size_t i = 0; i < scene_.group_instances.size(); ++i) add_group(i);
+    std::ranges::sort(found_.sampled, {}, &Emitter::primitive);
   }
 
  private:
   const Material& material(int index) const { return *scene_.materials[size_t(index)]; }
   bool emits(int index) const { return material(index).emits(); }
-  // What it emits everywhere, unless there are holes or it varies.
-  std::optional<Vec3> radiance(int index) const {
-    return material(index).mask ? std::nullopt : material(index).constant_emission();
-  }
 
-  void add_shape(const Shape& shape, uint64_t primitive) {
-    if (!emits(shape.material)) return;
-    const auto color = radiance(shape.material);
-    const auto form = emitter_form(shape.form());
-    if (color && form)
-      add({primitive, *color, *form, area_of(*form)});
-    else
-      choice_.unsampled.push_back(shape.position);
-  }
-
-  void add_mesh(const Instance& instance, uint64_t first) {
-    if (!emits(instance.material)) return;
-    const Mesh& mesh = scene_.meshes[size_t(instance.mesh)];
-    const auto color = radiance(instance.material);
-    if (!color || !mesh.colors.empty()) return choice_.unsampled.push_back(instance.position);
-    const Affine map(instance.transform);
-    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-      TriangleForm form;
-      for (size_t k = 0; k < 3; ++k) form.vertices[k] = map.point(mesh.positions[mesh.triangles[i][k]]);
-      add({first + i, *color, form, area_of(form)});
+  void add_group(size_t index) {
+    const GroupInstance& instance = scene_.group_instances[index];
+    const Group& group = scene_.groups[size_t(instance.group)];
+    auto [shape, triangle] = ids_.of_group(index);
+    for (const auto& each : group.shapes) add_shape(*each, shape++, Affine(instance.transform));
+    for (const Instance& each : group.instances) {
+      add_mesh(each, triangle, Affine(instance.transform * each.transform));
+      triangle += scene_.meshes[size_t(each.mesh)].triangles.size();
     }
   }
 
-  void add(const Emitter& emitter) {
-    if (emitter.area > 0) choice_.emitters.push_back(emitter);
-    if (choice_.emitters.size() > most_emitters)
+  // `map`: from where it stands into the world.
+  void add_shape(const Shape& shape, uint64_t primitive, const Affine& map) {
+    if (!emits(shape.material)) return;
+    const Material& its = material(shape.material);
+    const auto own = emitter_form(shape.form());
+    // A quadric has its own uv, whatever it looks like.
+    const bool other_uv = !its.constant_emission() && shape.type && shape.type->name == "quadric";
+    if (!own || its.mask || other_uv) return found_.unsampled.push_back(shape.position);
+    Emitter emitter{.primitive = primitive,
+                    .radiance = its.constant_emission().value_or(Vec3(0)),
+                    .form = mapped(*own, map),
+                    .area = 0,
+                    .side = its.emits_in_front ? side_of(shape, *own) : 0,
+                    .material = shape.material,
+                    .varies = !its.constant_emission()};
+    if (map.mirrors() && is_flat(*own)) emitter.side = -emitter.side;
+    if (emitter.varies) {
+      if (const auto* triangle = std::get_if<TriangleForm>(&emitter.form)) {
+        const auto uv = [&](double u, double v) { return shape.surface(Ray(), {.u = u, .v = v}).uv; };
+        emitter.corners = std::make_shared<EmitterCorners>(
+            EmitterCorners{{uv(0, 0), uv(1, 0), uv(0, 1)}, {Vec3(1), Vec3(1), Vec3(1)}});
+        emitter.radiance = mean_radiance(its, *triangle, *emitter.corners);
+      } else {
+        emitter.radiance = mean_radiance(its, point_of(emitter.form));
+      }
+    }
+    add(std::move(emitter));
+  }
+
+  // Whether the shape's normals point as its form's.
+  static double side_of(const Shape& shape, const EmitterForm& form) {
+    if (!is_flat(form)) return 1;
+    const Vec3 n = normal_of(form);
+    const Ray ray{point_of(form) + n, -n};
+    const auto hit = shape.intersect(ray);
+    return hit && glm::dot(shape.surface(ray, *hit).normal_geometric, n) < 0 ? -1 : 1;
+  }
+
+  void add_mesh(const Instance& instance, uint64_t first, const Affine& map) {
+    if (!emits(instance.material)) return;
+    const Mesh& mesh = scene_.meshes[size_t(instance.mesh)];
+    const Material& its = material(instance.material);
+    if (its.mask) return found_.unsampled.push_back(instance.position);
+    const bool varies = !its.constant_emission() || !mesh.colors.empty();
+    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+      TriangleForm form;
+      EmitterCorners corners{{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}, {Vec3(1), Vec3(1), Vec3(1)}};
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t vertex = mesh.triangles[i][k];
+        form.vertices[k] = map.point(mesh.positions[vertex]);
+        if (!mesh.uv.empty()) corners.uv[k] = mesh.uv[vertex];
+        if (!mesh.colors.empty()) corners.colors[k] = mesh.colors[vertex];
+      }
+      add({.primitive = first + i,
+           .radiance = varies ? mean_radiance(its, form, corners) : *its.constant_emission(),
+           .form = form,
+           .area = 0,
+           .side = !its.emits_in_front ? 0.0
+                   : map.mirrors()     ? -1.0
+                                       : 1.0,
+           .material = instance.material,
+           .varies = varies,
+           .corners = varies ? std::make_shared<EmitterCorners>(corners) : nullptr});
+    }
+  }
+
+  void add(Emitter emitter) {
+    emitter.area = area_of(emitter.form);
+    if (emitter.area > 0) found_.sampled.push_back(std::move(emitter));
+    if (found_.sampled.size() > most_emitters)
       throw Error(ExitCode::bad_input, "more than {} surfaces emit light; light fewer of them, or none",
                   most_emitters);
   }
 
   const Scene& scene_;
-  LightChoice& choice_;
+  Emitters& found_;
   const PrimitiveIds ids_{scene_};
 };
 
-// The share of each weight among all, a sixteenth of which is even.
-std::vector<double> shares_of(const std::vector<double>& weights) {
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  const auto count = double(weights.size());
-  std::vector<double> shares;
-  for (const double weight : weights)
-    shares.push_back(sum > 0 ? (1 - even_share) * weight / sum + even_share / count : 1 / count);
-  return shares;
-}
-
 }  // namespace
 
-double area_of(const EmitterForm& form) {
-  struct Area {
-    double operator()(const SphereForm& sphere) const { return 4 * M_PI * sphere.radius * sphere.radius; }
-    double operator()(const DiskForm& disk) const {
-      const Vec3 u(disk.to_world[0]), v(disk.to_world[2]);
-      return M_PI * (1 - disk.inner * disk.inner) * glm::length(glm::cross(u, v));
-    }
-    double operator()(const TriangleForm& triangle) const {
-      const auto& [a, b, c] = triangle.vertices;
-      return glm::length(glm::cross(b - a, c - a)) / 2;
-    }
-    double operator()(const ParallelogramForm& it) const {
-      return glm::length(glm::cross(it.edge_u, it.edge_v));
-    }
-  };
-  return std::visit(Area(), form);
+Vec3 emitted(const Material& material, const TextureContext& place, const Vec3& color) {
+  return material.scattering({.place = place, .cos_view = 1, .ior_from = 1, .ior_to = 1, .color = color})
+      .emitted;
 }
 
-LightChoice light_choice(const Scene& scene) {
-  LightChoice choice;
-  Collector(scene, choice).run();
-  std::vector<double> weights;
-  const double radius = reach(scene);
-  for (const auto& light : scene.lights) weights.push_back(power(*light, radius));
-  for (const Emitter& emitter : choice.emitters)
-    weights.push_back(2 * M_PI * emitter.area * luminance(emitter.radiance));
-  choice.ends.resize(weights.size());
-  whole_shares(shares_of(weights), choice.ends);
-  return choice;
+Emitters emitters(const Scene& scene) {
+  Emitters found;
+  Collector(scene, found).run();
+  return found;
 }
 
 }  // namespace eyeray

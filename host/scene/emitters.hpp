@@ -1,45 +1,46 @@
-// The surfaces that light a scene, and how likely each light is chosen: for integrators that cast one shadow
-// ray at each vertex of a path.
+// The surfaces that light a scene, for integrators that choose places on them.
 #pragma once
 
 #include <cstdint>
-#include <variant>
+#include <memory>
 #include <vector>
 
-#include "host/scene/shape.hpp"
+#include "host/scene/emitter_form.hpp"
 
 namespace eyeray {
 
+class Material;
+struct TextureContext;
 struct Scene;
 
-struct ParallelogramForm {
-  Vec3 corner, edge_u, edge_v;
+// What a triangle's light varies by, at its corners.
+struct EmitterCorners {
+  std::array<Vec2, 3> uv;
+  std::array<Vec3, 3> colors;
 };
-// Those on which a place can be chosen, in the world.
-using EmitterForm = std::variant<SphereForm, DiskForm, TriangleForm, ParallelogramForm>;
 
 struct Emitter {
   uint64_t primitive;
-  Vec3 radiance;  // everywhere, on both sides
+  Vec3 radiance;  // everywhere, or where it varies about the mean
   EmitterForm form;
   double area;
+  double side =
+      0;  // 1 where light goes only the way that normals point, −1 where it goes the other way alone
+  int material = 0;     // index in Scene::materials
+  bool varies = false;  // the radiance is what the material says, by uv, place and colour
+  std::shared_ptr<const EmitterCorners> corners = nullptr;  // of a triangle that varies
 };
 
-// Of its one side.
-double area_of(const EmitterForm& form);
-
-struct LightChoice {
-  std::vector<Emitter> emitters;  // in the order of their primitives
-  // Scene::lights, then `emitters`: light i is chosen by the numbers below ends[i] of 2²⁴, and not below
-  // those before it. Each has one at least.
-  std::vector<uint32_t> ends;
+// What of a scene emits.
+struct Emitters {
+  std::vector<Emitter> sampled;           // in the order of their primitives
   std::vector<SourcePosition> unsampled;  // of shapes and meshes that emit, and are found by chance alone
-
-  // How likely light i is chosen.
-  double share(size_t i) const { return (ends[i] - (i == 0 ? 0 : ends[i - 1])) * 0x1p-24; }
 };
 
-// By power, a sixteenth of it evenly. Error (bad_input) where more than 2²⁰ surfaces emit.
-LightChoice light_choice(const Scene& scene);
+// Error (bad_input) where more than 2²⁰ surfaces emit.
+Emitters emitters(const Scene& scene);
+
+// What a place of a surface emits.
+Vec3 emitted(const Material& material, const TextureContext& place, const Vec3& color);
 
 }  // namespace eyeray

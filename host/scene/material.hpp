@@ -81,6 +81,7 @@ class Material {
   virtual void pack(records::Packer& packer) const = 0;
 
   std::string name;
+  bool emits_in_front = false;    // light of its own only where normals point; else on both sides
   std::optional<AlphaMask> mask;  // never where there is a medium
 };
 

@@ -40,6 +40,8 @@ struct ImageSettings {
   Vec2 size() const { return {width, height}; }  // in pixels
 };
 
+// How integrators that ask one light at each vertex of a path choose it; by itself, by how many there are.
+enum class LightSampler { automatic, uniform, power, bvh };
 enum class TriangleMethod { woop, moller_trumbore };
 enum class GroupStorage { automatic, instanced, flat };
 
@@ -49,6 +51,7 @@ struct RenderSettings {
   double min_throughput = 0.001;  // a reflected or refracted ray that would count for less is not traced
   uint32_t seed = 0;
   TriangleMethod triangle_method = TriangleMethod::woop;
+  LightSampler light_sampler = LightSampler::automatic;
   GroupStorage groups = GroupStorage::automatic;  // which groups are instanced
   Vec3 background{0.0};                           // what a ray that hits nothing sees
   Vec3 ambient{0.0};                              // light that reaches every point from everywhere

@@ -63,6 +63,7 @@ inline Vec2 inner_uv(const Vec2& uv) {
 struct SphereForm {
   Vec3 center;
   double radius;
+  glm::dmat3 axes{1.0};  // its own x, y (the pole), z: orthonormal, left-handed under a mirror
 };
 struct PlaneForm {
   Vec3 point;

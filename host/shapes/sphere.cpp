@@ -75,7 +75,7 @@ class Sphere final : public Shape {
 
   Bounds bounds() const override { return {center_ - Vec3(radius_), center_ + Vec3(radius_)}; }
 
-  ShapeForm form() const override { return SphereForm{center_, radius_}; }
+  ShapeForm form() const override { return SphereForm{center_, radius_, axes_}; }
 
   void pack(records::Packer& packer) const override {
     const bool mirrored = glm::determinant(axes_) < 0;

@@ -62,6 +62,7 @@ SceneView view_of(const records::PackedScene& scene) {
           .media = scene.media.data(),
           .lights = scene.lights.data(),
           .emitters = scene.emitters.data(),
+          .light_nodes = scene.light_nodes.data(),
           .ggx_albedos = scene.ggx_albedos.empty() ? nullptr : scene.ggx_albedos.data(),
           .has_bvh = scene.has_bvh,
           .quantised_nodes = scene.quantised_nodes,

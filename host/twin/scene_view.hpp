@@ -36,6 +36,7 @@ struct SceneView {
   const shader::Medium* media;
   const shader::Light* lights;
   const shader::Emitter* emitters;
+  const shader::LightNode* light_nodes;
   const shader::vec4* ggx_albedos;  // null where there are none
   bool has_bvh, quantised_nodes;
   FormulaView formulas;

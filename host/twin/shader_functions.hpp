@@ -77,6 +77,9 @@ class Binding {
 [[maybe_unused]] const Emitter& load_emitter(uint i) {
   return bound_scene->emitters[i];
 }
+[[maybe_unused]] const LightNode& load_light_node(uint i) {
+  return bound_scene->light_nodes[i];
+}
 [[maybe_unused]] vec4 load_ggx_albedo(uint i) {
   return bound_scene->ggx_albedos ? bound_scene->ggx_albedos[i] : vec4(0);
 }

@@ -28,6 +28,15 @@ struct Bsdf {
 #endif
 };
 
+// Whether a lobe sends on light from behind the surface.
+bool transmits(Bsdf bsdf) {
+#if HAS_ROUGH_GLASS
+  return max_component(bsdf.glass) > 0.0f;
+#else
+  return false;
+#endif
+}
+
 // What all lobes ask of a pair of directions: towards the viewer, towards the light, unit, in the surface's frame.
 struct Directions {
   vec3 o;

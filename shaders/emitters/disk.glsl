@@ -13,6 +13,7 @@ EmitterSample disk_emitter_sample(Emitter e, vec3 from, vec2 u) {
   EmitterSample place;
   place.p = vec3(e.a) + (vec3(e.b) * (at.x * grow) + vec3(e.c) * (at.y * grow));
   place.normal = normalize3(cross3(vec3(e.b), vec3(e.c)));
+  place.uv = vec2(0.5f + 0.5f * (at.x * grow), 0.5f - 0.5f * (at.y * grow));
   return place;
 }
 

@@ -2,6 +2,8 @@
 #ifndef EMITTER_GLSL
 #define EMITTER_GLSL
 #include "emitters/emitter_sample.glsl"
+#include "emitters/light_bvh.glsl"
+#include "textures/texture.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -10,6 +12,7 @@ EmitterSample sample_emitter(Emitter e, vec3 from, vec2 u) {
   EmitterSample place;
   place.p = vec3(e.a);
   place.normal = vec3(0.0f, 0.0f, 0.0f);
+  place.uv = vec2(0.0f, 0.0f);
 #define SAMPLE_OF_EMITTER(name, number, itself) \
   if (e.kind == number) place = name##_emitter_sample(e, from, u);
   EMITTERS(SAMPLE_OF_EMITTER)
@@ -25,6 +28,32 @@ float emitter_density(Emitter e, vec3 from, EmitterSample place) {
   return density;
 }
 
+// What the place sends on to where `direction` comes from, which points at it.
+vec3 emitter_radiance(Emitter e, EmitterSample place, vec3 direction) {
+  vec3 light = e.radiance;
+#if HAS_EMISSION_TEXTURES
+  if (e.texture != NONE) {
+    TextureContext at = place_of_uv(place.uv);
+    at.p = place.p;
+    vec3 color = vec3(1.0f, 1.0f, 1.0f);
+    if (e.corners != NONE) {
+      float wa = (1.0f - place.uv.x) - place.uv.y;
+      vec4 c0 = bits_to_floats(load_vertex(e.corners));
+      vec4 c1 = bits_to_floats(load_vertex(e.corners + 1u));
+      vec4 c2 = bits_to_floats(load_vertex(e.corners + 2u));
+      vec4 v = bits_to_floats(load_vertex(e.corners + 3u));
+      at.uv = vec2((c0.w * wa + c1.w * place.uv.x) + c2.w * place.uv.y, (v.x * wa + v.y * place.uv.x) + v.z * place.uv.y);
+      color = (vec3(c0) * wa + vec3(c1) * place.uv.x) + vec3(c2) * place.uv.y;
+    }
+    light = texture_color(e.texture, at) * color;
+  }
+#endif
+#if HAS_ONE_SIDED_EMISSION
+  if (e.side * dot3(place.normal, direction) > 0.0f) light = vec3(0.0f, 0.0f, 0.0f);
+#endif
+  return light;
+}
+
 // Whether it may light a point of that primitive.
 bool may_light(Emitter e, uint primitive) {
   bool itself = true;
@@ -34,15 +63,14 @@ bool may_light(Emitter e, uint primitive) {
   return itself || e.primitive != primitive;
 }
 
-// How likely an emitter is chosen: it has the numbers of 2^24 from where the one before ends.
+// How likely an emitter is chosen that is in no BVH: it has the numbers of 2^24 from where the one before ends.
 float emitter_share(uint i) {
   uint begin = i == 0u ? 0u : load_emitter(i - 1u).end;
   return float(load_emitter(i).end - begin) * 5.9604645e-8f;
 }
 
-// The emitter that has the number u · 2^24.
-uint emitter_chosen_by(float u) {
-  uint number = uint(u * 16777216.0f);
+// The emitter that has the number.
+uint emitter_with_number(uint number) {
   uint low = 0u;
   uint high = EMITTER_COUNT - 1u;
   for (uint turn = 0u; turn < 32u; turn++) {
@@ -53,6 +81,32 @@ uint emitter_chosen_by(float u) {
     high = before ? high : middle;
   }
   return low;
+}
+
+// The light that the number u · 2^24 chooses for p, where the normal is n, and how likely it is.
+LightPick pick_light(Frame frame, vec3 p, vec3 n, float u) {
+  uint number = uint(u * 16777216.0f);
+  LightPick pick;
+#if HAS_LIGHT_BVH
+  uint others = 16777216u - frame.light_bvh_numbers;
+  if (number >= others) {
+    pick = pick_by_light_bvh(p, n, number - others, frame.light_bvh_numbers);
+    pick.share = pick.share * (float(frame.light_bvh_numbers) * 5.9604645e-8f);
+    return pick;
+  }
+#endif
+  pick.light = emitter_with_number(number);
+  pick.share = emitter_share(pick.light);
+  return pick;
+}
+
+// How likely that chooses the light.
+float light_share(Frame frame, vec3 p, vec3 n, uint light) {
+#if HAS_LIGHT_BVH
+  uint trail = load_emitter(light).trail;
+  if (trail != NONE) return light_bvh_share(p, n, trail) * (float(frame.light_bvh_numbers) * 5.9604645e-8f);
+#endif
+  return emitter_share(light);
 }
 
 // The emitter that a primitive is, or NONE.

@@ -8,7 +8,8 @@ SHADER_BEGIN
 
 struct EmitterSample {
   vec3 p;
-  vec3 normal;  // unit, of either side
+  vec3 normal;  // unit, of either side; of what is closed outward
+  vec2 uv;      // as textures have it; of a triangle the weights of the second and the third corner
 };
 
 // The density, by solid angle at `from`, of a place chosen evenly on `area`.

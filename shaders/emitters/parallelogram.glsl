@@ -9,6 +9,7 @@ EmitterSample parallelogram_emitter_sample(Emitter e, vec3 from, vec2 u) {
   EmitterSample place;
   place.p = vec3(e.a) + (vec3(e.b) * u.x + vec3(e.c) * u.y);
   place.normal = normalize3(cross3(vec3(e.b), vec3(e.c)));
+  place.uv = u;
   return place;
 }
 

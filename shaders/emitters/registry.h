@@ -5,5 +5,8 @@
   X(sphere, 0u, true)     \
   X(disk, 1u, false)      \
   X(triangle, 2u, false)  \
-  X(parallelogram, 3u, false)
+  X(parallelogram, 3u, false) \
+  X(box, 4u, true)        \
+  X(ellipsoid, 5u, true)  \
+  X(cylinder, 6u, true)
 #endif

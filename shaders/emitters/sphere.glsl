@@ -1,7 +1,8 @@
-// a = the centre, r
+// a = the centre, r    b = the pole    c = the meridian u = ½, handedness: as shapes/sphere.glsl has them
 #ifndef EMITTER_SPHERE_GLSL
 #define EMITTER_SPHERE_GLSL
 #include "emitters/emitter_sample.glsl"
+#include "shapes/sphere.glsl"
 
 SHADER_BEGIN
 
@@ -32,6 +33,10 @@ EmitterSample sphere_emitter_sample(Emitter e, vec3 from, vec2 u) {
   EmitterSample place;
   place.normal = outside ? normalize3(d * near - way) : d;
   place.p = vec3(e.a) + place.normal * e.a.w;
+  Primitive sphere;
+  sphere.b = e.b;
+  sphere.c = e.c;
+  place.uv = sphere_uv(sphere, place.normal);
   return place;
 }
 

@@ -11,6 +11,7 @@ EmitterSample triangle_emitter_sample(Emitter e, vec3 from, vec2 u) {
   EmitterSample place;
   place.p = vec3(e.a) + (vec3(e.b) * (root * (1.0f - u.y)) + vec3(e.c) * (root * u.y));
   place.normal = normalize3(cross3(vec3(e.b), vec3(e.c)));
+  place.uv = vec2(root * (1.0f - u.y), root * u.y);
   return place;
 }
 

@@ -14,6 +14,7 @@ struct Path {
   uint media;       // that it is in (materials/media.glsl)
 #if RANDOM_WALK
   float density;  // by solid angle, that its direction was chosen with; 0 from the eye, a mirror or glass, which leave no choice
+  vec3 normal;    // where it chose that, by which it asks for lights; 0 where light may come from either side
   uint pixel;     // of the picture, and which of its samples: what its random numbers go by
   uint index;
 #endif

@@ -43,6 +43,7 @@ Path begin(Frame frame, Ray camera_ray, uint pixel, uint index) {
   path.media = scatters() ? frame.media : 0u;
 #if RANDOM_WALK
   path.density = 0.0f;
+  path.normal = vec3(0.0f, 0.0f, 0.0f);
   path.pixel = pixel;
   path.index = index;
 #endif

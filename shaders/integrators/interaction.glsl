@@ -66,6 +66,9 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
 #endif
   PROBE(ior, vec2(at.context.ior_from, at.context.ior_to));
   at.scattering = scattering_of(material, at.material, at.context);
+#if HAS_ONE_SIDED_EMISSION
+  if (!front && (at.material.flags & MATERIAL_EMITS_IN_FRONT) != 0u) at.scattering.emitted = vec3(0.0f, 0.0f, 0.0f);
+#endif
 #if RANDOM_WALK
   at.bsdf = bsdf_of(material, at.material, at.context, at.scattering);
 #endif

@@ -85,11 +85,18 @@ vec3 path_emitted(Frame frame, Path path, Interaction at) {
     EmitterSample place;
     place.p = at.surface.p;
     place.normal = at.surface.normal_geometric;
-    float density = emitter_share(emitter) * (1.0f - environment_share(frame)) * emitter_density(load_emitter(emitter), path.o, place);
+    float share = light_share(frame, path.o, path.normal, emitter) * (1.0f - environment_share(frame));
+    float density = share * emitter_density(load_emitter(emitter), path.o, place);
     light = light * power_heuristic(path.density, density);
   }
 #endif
   return light;
+}
+
+// The normal that a light BVH is asked by; 0 where the surface also sends on what comes from behind it.
+vec3 normal_for_lights(Interaction at) {
+  bool all_around = transmits(at.bsdf) || at.in_medium;
+  return all_around ? vec3(0.0f, 0.0f, 0.0f) : at.seen.normal;
 }
 
 // What a light sends to the point: from `direction`, if nothing stands on the way of `ray`.
@@ -117,10 +124,14 @@ Arriving nothing_arriving(Interaction at) {
 
 // From one light or surface, chosen at random.
 Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) {
-  uint light = emitter_chosen_by(chance);
+  LightPick pick = pick_light(frame, at.seen.p, normal_for_lights(at), chance);
+  uint light = pick.light;
   Arriving arriving = nothing_arriving(at);
   arriving.light = light;
-  arriving.share = emitter_share(light) * (1.0f - environment_share(frame));
+#if HAS_LIGHT_BVH
+  if (light == NONE) return arriving;
+#endif
+  arriving.share = pick.share * (1.0f - environment_share(frame));
   if (light < LIGHT_COUNT) {
     LightSample s = sample_light(load_light(light), at.seen.p);
     arriving.direction = s.direction;
@@ -146,7 +157,7 @@ Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) 
     vec3 way = place.p + place.normal * side - start;
     arriving.distance = sqrt(dot3(way, way));
     arriving.ray = make_ray(start, way / arriving.distance);
-    if (may_light(emitter, at.primitive)) arriving.radiance = emitter.radiance;
+    if (may_light(emitter, at.primitive)) arriving.radiance = emitter_radiance(emitter, place, arriving.direction);
     arriving.density = arriving.share * emitter_density(emitter, at.seen.p, place);
   }
 #endif
@@ -222,6 +233,9 @@ Continuations path_scatter(Frame frame, Path path, Interaction at) {
   next.d = next.d / sqrt(maximum(dot3(next.d, next.d), 1.0e-30f));
   LobeValue lobes = bsdf_value(at.bsdf, shares, o, s.i);
   next.density = lobes.density;
+#if HAS_LIGHT_BVH
+  next.normal = normal_for_lights(at);
+#endif
   bool lost = !(lobes.density > 0.0f) || !on_its_side(at, next.d, s.i.z);
   vec3 weight = lobes.value / maximum(lobes.density, 1.0e-30f);
   bool refracted = s.refracted || s.i.z < 0.0f;

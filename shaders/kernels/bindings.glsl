@@ -41,6 +41,9 @@ layout(std430, binding = BINDING_TEXTURES) readonly restrict buffer Textures { T
 layout(std430, binding = BINDING_MEDIA) readonly restrict buffer Media { Medium media[]; };
 layout(std430, binding = BINDING_LIGHTS) readonly restrict buffer Lights { Light lights[]; };
 layout(std430, binding = BINDING_EMITTERS) readonly restrict buffer Emitters { Emitter emitters[]; };
+#if HAS_LIGHT_BVH
+layout(std430, binding = BINDING_LIGHT_NODES) readonly restrict buffer LightNodes { LightNode light_nodes[]; };
+#endif
 #if RANDOM_WALK
 layout(std430, binding = BINDING_GGX_ALBEDOS) readonly restrict buffer GgxAlbedos { vec4 ggx_albedos[]; };
 #endif

@@ -10,11 +10,20 @@
 #ifndef HAS_EMISSION  // a material emits light
 #define HAS_EMISSION 1
 #endif
+#ifndef HAS_EMISSION_TEXTURES  // … and not the same everywhere on a surface that a path may choose
+#define HAS_EMISSION_TEXTURES 1
+#endif
+#ifndef HAS_ONE_SIDED_EMISSION  // … only in front
+#define HAS_ONE_SIDED_EMISSION 1
+#endif
 #ifndef HAS_ENVIRONMENT  // there is an environment in place of the background
 #define HAS_ENVIRONMENT 1
 #endif
 #ifndef HAS_LIGHT_DISKS  // a light is seen under an angle
 #define HAS_LIGHT_DISKS 1
+#endif
+#ifndef HAS_LIGHT_BVH  // lights are chosen by one
+#define HAS_LIGHT_BVH 1
 #endif
 #ifndef HAS_GLOSSY  // a surface has the lobe of bsdf/glossy.glsl …
 #define HAS_GLOSSY 1

@@ -46,6 +46,9 @@ uint stored_place;  // of this invocation's pixel
 PacketHit load_packet_hit() { return packet_hits[stored_place]; }
 uint load_occlusion(uint light) { return occlusions[light * dispatch.count + stored_place]; }
 #endif
+#if HAS_LIGHT_BVH
+LightNode load_light_node(uint i) { return light_nodes[i]; }
+#endif
 #if RANDOM_WALK
 vec4 load_ggx_albedo(uint i) { return ggx_albedos[i]; }
 #endif

@@ -13,6 +13,10 @@ Path queued_path(uint place) {
   path.media = paths[place].media;
 #if RANDOM_WALK
   path.density = paths[place].density;
+  path.normal = vec3(0.0f, 0.0f, 0.0f);
+#if HAS_LIGHT_BVH
+  path.normal = paths[place].normal;
+#endif
   path.pixel = paths[place].pixel;
   path.index = dispatch.sample_index;
 #endif
@@ -30,6 +34,9 @@ void queue_path(uint place, Path path) {
   paths[place].media = path.media;
 #if RANDOM_WALK
   paths[place].density = path.density;
+#if HAS_LIGHT_BVH
+  paths[place].normal = path.normal;
+#endif
   paths[place].pixel = path.pixel;
 #endif
 }

@@ -130,7 +130,7 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Frame, environment_numbers),
                 MEMBER(Frame, environment_turn),
                 MEMBER(Frame, filter_width),
-                MEMBER(Frame, unused_0),
+                MEMBER(Frame, light_bvh_numbers),
                 MEMBER(Frame, unused_1),
                 MEMBER(Frame, unused_2)});
   check_struct(samples, "Dispatch", sizeof(shader::Dispatch),
@@ -155,7 +155,8 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                sizeof(shader::Emitter),
                {MEMBER(Emitter, radiance), MEMBER(Emitter, kind), MEMBER(Emitter, a), MEMBER(Emitter, b),
                 MEMBER(Emitter, c), MEMBER(Emitter, primitive), MEMBER(Emitter, end), MEMBER(Emitter, area),
-                MEMBER(Emitter, offset)});
+                MEMBER(Emitter, offset), MEMBER(Emitter, trail), MEMBER(Emitter, texture),
+                MEMBER(Emitter, corners), MEMBER(Emitter, side)});
 
   const gpu::Reflection wavefront =
       gpu::reflect(test::compile_entry("kernels/wavefront.comp.glsl", scene, {}, "#define STORED_HITS 1\n"));
@@ -165,7 +166,8 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
        MEMBER(PacketHit, u), MEMBER(PacketHit, v), MEMBER(PacketHit, unused_0), MEMBER(PacketHit, unused_1)});
   check_struct(wavefront, "PathState", sizeof(shader::PathState),
                {MEMBER(PathState, origin), MEMBER(PathState, media), MEMBER(PathState, direction),
-                MEMBER(PathState, density), MEMBER(PathState, throughput), MEMBER(PathState, pixel)});
+                MEMBER(PathState, density), MEMBER(PathState, throughput), MEMBER(PathState, pixel),
+                MEMBER(PathState, normal), MEMBER(PathState, unused)});
 
   const gpu::Reflection hits =
       gpu::reflect(test::compile_entry("kernels/render.comp.glsl", scene, {}, "#define FIRST_HITS\n"));

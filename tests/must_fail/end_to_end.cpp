@@ -99,6 +99,10 @@ std::vector<Fault> faults() {
        {bits, "parts at what its path decides", paths},
        {"scenes/path/materials.toml", "--spp", "2"}},
       {"clamp", {bits, paths}, box},
+      {"emission_side", {bits, paths}, {"scenes/path/emitters.toml", "--spp", "2"}},
+      {"emission_uv", {bits, paths}, {"scenes/path/emitters.toml", "--spp", "2"}},
+      {"face", {bits, paths}, {"scenes/path/emitters.toml", "--spp", "2"}},
+      {"light_leaf", {bits, paths}, {"scenes/path/many_lamps.toml", "--spp", "2"}},
   };
 }
 

@@ -34,8 +34,7 @@ Vec3 anywhere(Random& random, double reach) {
 
 shader::Emitter packed(const EmitterForm& form) {
   records::Packer packer(Vec3(0));
-  pack::pack_light_choice(
-      {.emitters = {{0, Vec3(1), form, area_of(form)}}, .ends = {1u << 24}, .unsampled = {}}, packer);
+  pack::pack_light_choice({.emitters = {{0, Vec3(1), form, area_of(form)}}, .ends = {1u << 24}}, packer);
   return packer.scene.emitters[0];
 }
 
@@ -96,9 +95,18 @@ TEST_CASE("places on emitters and their densities are those of the reference") {
     map[0] = {b, 0};
     map[2] = {c, 0};
     map[3] = {a, 1};
+    // Not too flat, or float32 has few digits left of the way back.
+    Mat4 solid(1.0);
+    for (int axis = 0; axis < 3; ++axis) solid[axis] = Vec4(anywhere(random, 0.2), 0);
+    for (int axis = 0; axis < 3; ++axis) solid[axis][axis] += random.uniform(0.5, 1);
+    solid[3] = {a, 1};
     const EmitterForm forms[] = {SphereForm{a, random.uniform(0.01, 2)},
-                                 DiskForm{map, random.uniform(0, 0.9)}, TriangleForm{{a, a + b, a + c}},
-                                 ParallelogramForm{a, b, c}};
+                                 DiskForm{map, random.uniform(0, 0.9)},
+                                 TriangleForm{{a, a + b, a + c}},
+                                 ParallelogramForm{a, b, c},
+                                 BoxForm{solid},
+                                 EllipsoidForm{solid},
+                                 CylinderForm{solid, i % 2 == 0}};
     for (const EmitterForm& form : forms) {
       const shader::vec2 u{float(random.below(1 << 24)) * 0x1p-24f, float(random.below(1 << 24)) * 0x1p-24f};
       const shader::Emitter record = packed(form);

@@ -1,9 +1,7 @@
 // Path tracing where the answer is known: what all executors share, the formula itself, is proved by others.
 // Each picture is of one small patch, so that its pixels are 64 estimates of one value, independent of each
 // other. A test whose error is above half a percent could not fail, and is an error itself.
-#include "tests/support/estimate.hpp"
-#include "host/scene/integrator.hpp"
-#include "host/scene/sampler.hpp"
+#include "patch.hpp"
 #include "tests/support/environments.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -13,55 +11,6 @@ using namespace eyeray::shapes;
 using namespace eyeray::materials;
 using namespace eyeray::test;
 using executors::Backend;
-
-namespace {
-
-constexpr double albedo = 0.8;
-
-// Seen from `eye`, so narrowly that the picture is a point of it.
-Scene patch(const Vec3& eye, const Vec3& target, int samples = 256) {
-  Scene scene = one_pixel(eye, target);
-  scene.image = {.width = 8, .height = 8, .samples = samples, .pattern = SamplePattern::sobol};
-  scene.camera.projection = cameras::make_projection(PerspectiveCamera{.fov_degrees = 1e-3});
-  scene.render.integrator = IntegratorType::path;
-  scene.render.max_depth = 0;
-  return scene;
-}
-
-// A white floor at y = 0, seen around the origin.
-Scene floor(int samples = 256) {
-  Scene scene = patch({0.4, 0.9, 0.5}, {0, 0, 0}, samples);
-  add(scene, make_plane({0, 0, 0}, {0, 1, 0}), add(scene, make_phong({.diffuse = gray(albedo)})));
-  return scene;
-}
-
-int lamp(Scene& scene, double radiance = 1) {
-  return add(scene, make_phong({.diffuse = gray(0), .emission = gray(radiance)}));
-}
-
-// What a floor shows of an irradiance.
-double shown(double irradiance) {
-  return albedo * irradiance / M_PI;
-}
-
-void check(const Scene& scene, double expected, double least_error = 2e-6) {
-  CAPTURE(expected);
-  for (const Backend backend : {Backend::twin, Backend::reference}) {
-    const Estimate found = estimate(scene, backend);
-    CAPTURE(int(backend));
-    CAPTURE(found.mean);
-    CAPTURE(found.error);
-    if (expected == 0) {
-      CHECK(found.mean == 0);
-      continue;
-    }
-    CHECK(found.error < 0.005 * expected);
-    // At five standard errors one of a million and a half such tests fails by chance.
-    CHECK(std::abs(found.mean - expected) < 5 * found.error + least_error * expected);
-  }
-}
-
-}  // namespace
 
 TEST_CASE("point and directional lights: as Whitted's, L = ρ I cos θ / d²") {
   Scene scene = floor(4);
@@ -142,16 +91,8 @@ TEST_CASE("a disk above the floor, off its axis, and a ring") {
 }
 
 TEST_CASE("polygons above the horizon (Lambert 1760): a triangle, a parallelogram, a mesh of both") {
-  const auto irradiance = [](const std::vector<Vec3>& corners) {
-    double sum = 0;
-    for (size_t i = 0; i < corners.size(); ++i) {
-      const Vec3 a = glm::normalize(corners[i]), b = glm::normalize(corners[(i + 1) % corners.size()]);
-      sum += std::acos(glm::dot(a, b)) * glm::normalize(glm::cross(a, b)).y;
-    }
-    return std::abs(sum) / 2;
-  };
   const Vec3 a(-0.5, 0.6, 0.2), b(0.7, 1.1, 0.4), c(0.1, 0.9, 1.2);
-  const double of_triangle = irradiance({a, b, c}), of_both = irradiance({a, b, b + c - a, c});
+  const double of_triangle = irradiance_of({a, b, c}), of_both = irradiance_of({a, b, b + c - a, c});
 
   Scene triangle = floor();
   add(triangle, make_triangle({.vertices = {a, b, c}}), lamp(triangle));

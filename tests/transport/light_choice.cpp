@@ -2,7 +2,7 @@
 #include <numeric>
 
 #include "host/core/error.hpp"
-#include "host/scene/emitters.hpp"
+#include "host/scene/light_choice.hpp"
 #include "tests/support/scenes.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -31,7 +31,7 @@ TEST_CASE("lights are chosen by power, and all shares are one together") {
   REQUIRE(choice.emitters.size() == 3);
   REQUIRE(choice.ends.size() == 4);
   CHECK(choice.ends.back() == 1u << 24);
-  CHECK(choice.unsampled.empty());
+  CHECK(emitters(scene).unsampled.empty());
   // A sixteenth is shared evenly.
   const double powers[] = {4 * M_PI, 2 * M_PI * 4 * M_PI * 4, 2 * M_PI * M_PI * 4, 2 * M_PI * 2 * 0.001};
   const double sum = std::accumulate(std::begin(powers), std::end(powers), 0.0);
@@ -61,14 +61,14 @@ TEST_CASE("what emits and has no place to choose is told, with holes, textures, 
       add(scene, make_phong({.emission = textures::make_checker(Vec3(0), Vec3(1), Vec2(1))}));
   add(scene, make_sphere({3, 0, 0}, 1), checkered);
   add(scene, make_sphere({6, 0, 0}, 1), lamp(scene, 0));
-  const LightChoice choice = light_choice(scene);
-  CHECK(choice.emitters.empty());
-  CHECK(choice.ends.empty());
-  CHECK(choice.unsampled.size() == 2);
+  CHECK(light_choice(scene).ends.empty());
+  CHECK(emitters(scene).sampled.empty());
+  CHECK(emitters(scene).unsampled.size() == 2);
 }
 
 TEST_CASE("a lamp without power has its share, and more than 2^20 are refused") {
   Scene scene = empty_scene();
+  scene.render.light_sampler = LightSampler::power;
   scene.meshes.push_back({.name = "",
                           .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                           .triangles = {{0, 1, 2}},

@@ -1,5 +1,5 @@
 // Media that scatter light, where the answer is known.
-#include "estimate.hpp"
+#include "tests/support/estimate.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 

@@ -1,0 +1,29 @@
+// Which light a vertex of a path asks: in float64, from the formulas.
+#pragma once
+
+#include <optional>
+
+#include "host/scene/light_choice.hpp"
+
+namespace eyeray::reference {
+
+struct LightPick {
+  size_t light;  // as LightChoice counts them
+  double share;  // how likely it is
+};
+
+// Where lights are asked from. `normal`: unit; none where the surface also sends on what comes from behind
+// it.
+struct LitPoint {
+  Vec3 position;
+  std::optional<Vec3> normal;
+};
+
+// By a random number u in [0, 1); none where no light shines there.
+std::optional<LightPick> pick_light(const LightChoice& choice, const LitPoint& point, double u);
+// How likely that picks the light.
+double light_share(const LightChoice& choice, const LitPoint& point, size_t light);
+// What of the light of a node may arrive in the point: above 0 wherever any does.
+double importance(const LightBounds& bounds, const LitPoint& point);
+
+}  // namespace eyeray::reference

@@ -1,0 +1,42 @@
+// Surfaces on which paths choose places to be lit from.
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "host/scene/affine.hpp"
+#include "host/scene/light_bvh.hpp"
+#include "host/scene/shape.hpp"
+
+namespace eyeray {
+
+struct ParallelogramForm {
+  Vec3 corner, edge_u, edge_v;
+};
+struct EllipsoidForm {  // the unit sphere
+  Mat4 to_world;
+};
+struct CylinderForm {  // x² + z² = 1 from y = −1 to 1, and, unless it is open, the caps
+  Mat4 to_world;
+  bool open;
+};
+using EmitterForm =
+    std::variant<SphereForm, DiskForm, TriangleForm, ParallelogramForm, BoxForm, EllipsoidForm, CylinderForm>;
+
+// None of a shape on which no place is chosen.
+std::optional<EmitterForm> emitter_form(const ShapeForm& form);
+EmitterForm mapped(const EmitterForm& form, const Affine& map);
+
+// Of its one side.
+double area_of(const EmitterForm& form);
+// The share of a cylinder's area that its side has.
+double share_of_side(const CylinderForm& cylinder);
+// Without its power.
+LightBounds bounds_of(const EmitterForm& form);
+// Whether it lies in a plane; and then its normal, by right hand from the first edge or axis to the second,
+// and a point of it.
+bool is_flat(const EmitterForm& form);
+Vec3 normal_of(const EmitterForm& form);
+Vec3 point_of(const EmitterForm& form);
+
+}  // namespace eyeray

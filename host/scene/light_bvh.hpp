@@ -1,0 +1,47 @@
+// A BVH over lights by which one is chosen, the likelier the more it may send to a point. Conty Estevez,
+// Kulla: Importance Sampling of Many Lights with Adaptive Tree Splitting, HPG 2018; here without splitting.
+// What it holds is made once, in a fixed order; how important a node is to a point, shaders and reference say
+// each for itself.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "host/core/vec.hpp"
+
+namespace eyeray {
+
+// Where light comes from, and which way it goes: from within the sphere, along normals that are no more than
+// `spread` from the axis, and from there no more than `reach`. Angles in radians; a spread of π is every way.
+struct LightBounds {
+  Vec3 center{0};
+  double radius = 0;
+  Vec3 axis{0, 0, 1};  // unit
+  double spread = M_PI;
+  double reach = M_PI / 2;
+  bool both_sides = false;  // also along the normals' opposites
+  double power = 0;         // above 0, so that no light is forgotten
+};
+
+struct LightBvh {
+  struct Node {
+    LightBounds bounds;
+    bool leaf;
+    uint32_t child;  // the index of the first of two children; of a leaf its light's
+  };
+  static constexpr uint32_t no_trail = std::numeric_limits<uint32_t>::max();
+  static constexpr int deepest = 24;  // levels
+
+  // Pairs of children, the root's first; empty for fewer than two lights.
+  std::vector<Node> nodes;
+  // By light, the way to its leaf: bit k is set where it is the second child at level k.
+  std::vector<uint32_t> trails;
+};
+
+// Over those of `lights` whose power is above 0; at most 2²³.
+LightBvh light_bvh(std::span<const LightBounds> lights);
+
+}  // namespace eyeray

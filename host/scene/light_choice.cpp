@@ -1,0 +1,132 @@
+#include "host/scene/light_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "host/scene/affine.hpp"
+#include "host/scene/luminance.hpp"
+#include "host/scene/scene.hpp"
+#include "host/scene/whole_shares.hpp"
+
+namespace eyeray {
+
+namespace {
+
+// Of all weight, what is shared evenly.
+constexpr double even_share = 1.0 / 16;
+// With fewer lights, asking a BVH costs more than it gains.
+constexpr size_t least_for_bvh = 64;
+
+// The radius of a sphere around all that has an end, and the eye.
+double reach(const Scene& scene) {
+  Bounds all;
+  all.include(scene.camera.eye);
+  const auto include = [&](const Bounds& box, const Affine& map) {
+    if (!std::isfinite(glm::length(box.max - box.min))) return;
+    for (int corner = 0; corner < 8; ++corner)
+      all.include(map.point({(corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
+                             (corner & 4 ? box.max : box.min).z}));
+  };
+  for (const auto& shape : scene.shapes) include(shape->bounds(), Affine(Mat4(1.0)));
+  for (const Instance& instance : scene.instances)
+    include(bounds(scene.meshes[size_t(instance.mesh)]), Affine(instance.transform));
+  for (const GroupInstance& instance : scene.group_instances)
+    include(bounds(scene.groups[size_t(instance.group)], scene.meshes), Affine(instance.transform));
+  return glm::length(all.max - all.min) / 2;
+}
+
+// What a light sends into the scene; of one that no other program knows, as if it stood everywhere.
+double power(const Light& light, double radius) {
+  const LightForm form = light.form();
+  if (const auto* point = std::get_if<PointLight>(&form); point && point->falloff == Falloff::inverse_square)
+    return 4 * M_PI * M_PI * luminance(point->intensity);
+  if (const auto* spot = std::get_if<SpotLight>(&form)) {
+    const double inner = std::cos(spot->inner), outer = std::cos(spot->outer);
+    return 2 * M_PI * M_PI * luminance(spot->intensity) * (1 - inner + (inner - outer) / 3);
+  }
+  Vec3 intensity(1);
+  if (const auto* point = std::get_if<PointLight>(&form)) intensity = point->intensity;
+  if (const auto* directional = std::get_if<DirectionalLight>(&form)) intensity = directional->intensity;
+  return M_PI * M_PI * radius * radius * luminance(intensity);
+}
+
+// The share of each weight among all, a sixteenth of which is even.
+std::vector<double> shares_of(const std::vector<double>& weights) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const auto count = double(weights.size());
+  std::vector<double> shares;
+  for (const double weight : weights)
+    shares.push_back(sum > 0 ? (1 - even_share) * weight / sum + even_share / count : 1 / count);
+  return shares;
+}
+
+// Of a light in the scene; none where it shines everywhere alike.
+std::optional<LightBounds> bounds_of(const Light& light) {
+  const LightForm form = light.form();
+  if (const auto* point = std::get_if<PointLight>(&form); point && point->falloff == Falloff::inverse_square)
+    return LightBounds{.center = point->position};
+  if (const auto* spot = std::get_if<SpotLight>(&form))
+    return LightBounds{.center = spot->position,
+                       .axis = spot->direction,
+                       .spread = spot->inner,
+                       .reach = spot->outer - spot->inner};
+  return std::nullopt;
+}
+
+// Their weights as powers.
+std::vector<LightBounds> all_bounds(const Scene& scene, const std::vector<Emitter>& emitters,
+                                    const std::vector<double>& shares) {
+  std::vector<LightBounds> all;
+  for (const auto& light : scene.lights) all.push_back(bounds_of(*light).value_or(LightBounds()));
+  for (const Emitter& emitter : emitters) {
+    LightBounds bounds = bounds_of(emitter.form);
+    if (emitter.side != 0) {
+      bounds.both_sides = false;
+      bounds.axis *= emitter.side;
+    }
+    all.push_back(bounds);
+  }
+  for (size_t i = 0; i < all.size(); ++i) all[i].power = shares[i];
+  for (size_t i = 0; i < scene.lights.size(); ++i)
+    if (!bounds_of(*scene.lights[i])) all[i].power = 0;
+  return all;
+}
+
+bool wants_bvh(const Scene& scene, size_t lights) {
+  return scene.render.light_sampler == LightSampler::bvh ||
+         (scene.render.light_sampler == LightSampler::automatic && lights >= least_for_bvh);
+}
+
+}  // namespace
+
+uint32_t LightChoice::bvh_numbers() const {
+  return bvh.nodes.empty() ? 0 : choice_numbers - ends.back();
+}
+
+LightChoice light_choice(const Scene& scene) {
+  LightChoice choice{.emitters = emitters(scene).sampled, .ends = {}};
+  std::vector<double> weights;
+  const double radius = reach(scene);
+  for (const auto& light : scene.lights) weights.push_back(power(*light, radius));
+  for (const Emitter& emitter : choice.emitters)
+    weights.push_back((emitter.side == 0 ? 2 : 1) * M_PI * emitter.area * luminance(emitter.radiance));
+  if (scene.render.light_sampler == LightSampler::uniform) std::ranges::fill(weights, 0);
+  std::vector<double> shares = shares_of(weights);
+  if (wants_bvh(scene, weights.size())) choice.bvh = light_bvh(all_bounds(scene, choice.emitters, shares));
+
+  // All in the BVH are as one more, the last.
+  double together = 0;
+  if (!choice.bvh.nodes.empty())
+    for (size_t i = 0; i < shares.size(); ++i)
+      if (choice.bvh.trails[i] != LightBvh::no_trail) together += std::exchange(shares[i], 0);
+  shares.push_back(together);
+  choice.ends.resize(shares.size());
+  whole_shares(shares, choice.ends);
+  choice.ends.pop_back();
+  return choice;
+}
+
+}  // namespace eyeray

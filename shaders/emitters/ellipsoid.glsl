@@ -1,0 +1,44 @@
+// |x| = 1 in a space of its own (emitters/object_map.glsl).
+#ifndef EMITTER_ELLIPSOID_GLSL
+#define EMITTER_ELLIPSOID_GLSL
+#include "emitters/object_map.glsl"
+#include "emitters/sphere.glsl"
+
+SHADER_BEGIN
+
+// There, a sphere.
+Emitter unit_sphere_emitter(Emitter e) {
+  Emitter sphere = e;
+  sphere.a = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  sphere.b = vec4(0.0f, 1.0f, 0.0f, 0.0f);
+  sphere.c = vec4(1.0f, 0.0f, 0.0f, 1.0f);
+  return sphere;
+}
+
+EmitterSample ellipsoid_emitter_sample(Emitter e, vec3 from, vec2 u) {
+  ObjectMap map = object_map(e);
+  EmitterSample own = sphere_emitter_sample(unit_sphere_emitter(e), map_into_object(map, from - map.center), u);
+  EmitterSample place;
+  place.p = map_out_of_object(map, own.p);
+  place.normal = normalize3(map_normal(map, own.normal));
+  place.uv = own.uv;
+  return place;
+}
+
+float ellipsoid_emitter_density(Emitter e, vec3 from, EmitterSample place) {
+  ObjectMap map = object_map(e);
+  vec3 from_there = map_into_object(map, from - map.center);
+  // Outside, solid angles there and here.
+  vec3 direction = normalize3(place.p - from);
+  vec3 stretched = map_into_object(map, direction);
+  float squared = dot3(stretched, stretched);
+  float cone = 1.0f / (2.0f * PI * versine(1.0f / dot3(from_there, from_there)));
+  float by_angle = cone / (abs(map.volume) * (squared * sqrt(squared)));
+  // Inside, areas.
+  vec3 image = map_normal(map, normal_in_object(map, place.normal));
+  float by_area = density_of_area(4.0f * PI * sqrt(dot3(image, image)), from, place);
+  return sphere_is_seen_from_outside(unit_sphere_emitter(e), from_there) ? by_angle : by_area;
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,227 @@
+// Lamps of each shape that paths choose places on, where the answer is known.
+#include <functional>
+
+#include "patch.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// What a convex body of radiance 1, above the floor, does to its origin: that of its facets that are turned
+// to it. at(u, v) is a place of the body's surface, which u and v in [0, 1] go round.
+double irradiance_of_body(const std::function<Vec3(double, double)>& at, const Vec3& middle) {
+  constexpr int steps = 400;
+  double sum = 0;
+  for (int i = 0; i < steps; ++i)
+    for (int k = 0; k < steps; ++k) {
+      const auto corner = [&](int x, int y) { return at(double(i + x) / steps, double(k + y) / steps); };
+      const Vec3 a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
+      Vec3 normal = glm::cross(c - a, d - b);
+      if (glm::length(normal) == 0) continue;
+      if (glm::dot(normal, a - middle) < 0) normal = -normal;
+      if (glm::dot(normal, a) >= 0) continue;
+      for (const auto& corners : {std::vector{a, b, c}, std::vector{a, c, d}})
+        if (glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0])) > 1e-14)
+          sum += irradiance_of(corners);
+    }
+  return sum;
+}
+
+Mat4 turned() {
+  return glm::rotate(glm::translate(Mat4(1.0), Vec3(0.4, 1.4, -0.3)), 0.7, glm::normalize(Vec3(1, 2, 3)));
+}
+
+}  // namespace
+
+TEST_CASE("a box above the floor: its faces'") {
+  const Vec3 size(0.4, 0.2, 0.3);
+  Scene scene = floor(1024);
+  add(scene, make_box(-size, size, turned()), lamp(scene));
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      std::vector<Vec3> corners;
+      for (const auto& [u, v] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
+        Vec3 p;
+        p[axis] = side * size[axis];
+        p[(axis + 1) % 3] = u * size[(axis + 1) % 3];
+        p[(axis + 2) % 3] = v * size[(axis + 2) % 3];
+        corners.push_back(Vec3(turned() * Vec4(p, 1)));
+      }
+      Vec3 normal(0);
+      normal[axis] = side;
+      if (glm::dot(Mat3(turned()) * normal, corners[0]) < 0) sum += irradiance_of(corners);
+    }
+  check(scene, shown(sum));
+}
+
+TEST_CASE("an ellipsoid and a sheared one above the floor") {
+  Mat4 shear(1.0);
+  shear[1].x = 0.5;
+  for (const Mat4& map : {turned(), turned() * shear}) {
+    const Vec3 radii(0.5, 0.2, 0.35);
+    Scene scene = floor();
+    add(scene, make_ellipsoid(Vec3(0), radii, map), lamp(scene));
+    const double expected = irradiance_of_body(
+        [&](double u, double v) {
+          const double across = std::sin(M_PI * v);
+          return Vec3(map * Vec4(radii * Vec3(across * std::cos(2 * M_PI * u), std::cos(M_PI * v),
+                                              across * std::sin(2 * M_PI * u)),
+                                 1));
+        },
+        Vec3(map[3]));
+    check(scene, shown(expected), 2e-4);
+  }
+}
+
+TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
+  Mat4 shear(1.0);
+  shear[1].x = 0.5;
+  for (const Mat4& map : {turned(), turned() * shear}) {
+    Scene scene = floor(1024);
+    add(scene, make_cylinder({0, -0.3, 0}, {0, 0.3, 0}, 0.25, false, map), lamp(scene));
+    const auto place = [&](double radius, double turn, double y) {
+      return Vec3(map * Vec4(radius * std::cos(2 * M_PI * turn), y, radius * std::sin(2 * M_PI * turn), 1));
+    };
+    // Up to the axis at the bottom, along the side, and at the top back to it.
+    const double expected = irradiance_of_body(
+        [&](double u, double v) {
+          if (v < 0.25) return place(v, u, -0.3);
+          if (v > 0.75) return place(1 - v, u, 0.3);
+          return place(0.25, u, -0.3 + 1.2 * (v - 0.25));
+        },
+        Vec3(map[3]));
+    check(scene, shown(expected), 2e-4);
+  }
+  // What is above it is seen through the tube, but for its own light: that of a disk as wide, at its foot.
+  Scene tube = floor(1024);
+  add(tube, make_cylinder({0, 1, 0}, {0, 3, 0}, 0.5, true), lamp(tube));
+  check(tube, shown(M_PI * (0.25 / 1.25 - 0.25 / 9.25)));
+}
+
+TEST_CASE("inside a body that shines: L / (1 − ρ)") {
+  const auto inside = [](std::unique_ptr<Shape> body) {
+    Scene scene = patch({0.1, 0.2, 0.15}, {0.1, -0.3, -0.4}, 1024);
+    scene.render.max_depth = 64;
+    add(scene, std::move(body), add(scene, make_phong({.diffuse = gray(0.6), .emission = gray(1)})));
+    check(scene, 1 / (1 - 0.6), 1e-4);
+  };
+  inside(make_box({-0.5, -0.5, -0.5}, {0.5, 0.7, 0.6}));
+  inside(make_ellipsoid({0, 0, 0}, {0.8, 0.6, 0.7}));
+  inside(make_cylinder({0, -0.5, 0}, {0, 0.6, 0}, 0.7));
+}
+
+TEST_CASE("a lamp with a front lights what is before it, and is dark from behind") {
+  const Vec3 a(-0.5, 0.6, 0.2), u(1.2, 0.5, 0.2), v(0.6, 0.3, 1);
+  const double of_both = irradiance_of({a, a + u, a + u + v, a + v}),
+               of_triangle = irradiance_of({a, a + u, a + v});
+  const auto lit = [&](std::unique_ptr<Shape> shape, double expected) {
+    Scene scene = floor();
+    const int front = lamp(scene);
+    scene.materials[size_t(front)]->emits_in_front = true;
+    add(scene, std::move(shape), front);
+    check(scene, shown(expected));
+  };
+  Mat4 mirror(1.0);
+  mirror[0].x = -1;
+  const auto mirrored = [](const Vec3& p) { return Vec3(-p.x, p.y, p.z); };
+  const double down = glm::dot(glm::cross(u, v), a);
+  CHECK(down > 0);  // a × b points away from the origin
+  lit(make_parallelogram(a, u, v), 0);
+  lit(make_parallelogram(a, v, u), of_both);
+  lit(make_triangle({.vertices = {a, a + u, a + v}}), 0);
+  lit(make_triangle({.vertices = {a, a + v, a + u}}), of_triangle);
+  lit(make_triangle({.vertices = {mirrored(a), mirrored(a + v), mirrored(a + u)}}, mirror), of_triangle);
+  const double of_disk = M_PI * 0.64 / (0.64 + 1.69);
+  lit(make_disk({0, 1.3, 0}, {0, -1, 0}, 0.8), of_disk);
+  lit(make_disk({0, 1.3, 0}, {0, 1, 0}, 0.8), 0);
+  lit(make_disk({0, -1.3, 0}, {0, 1, 0}, 0.8, 0, glm::rotate(Mat4(1.0), M_PI, Vec3(1, 0, 0))), of_disk);
+  lit(make_sphere({0, 1.6, 1.2}, 0.7), M_PI * 0.7 * 0.7 * 0.8 / 4);
+
+  // A mesh, as it is and mirrored.
+  for (const Mat4& map : {Mat4(1.0), mirror})
+    for (const bool away : {false, true}) {
+      Scene scene = floor();
+      scene.meshes.push_back(
+          {.name = "", .positions = {a, a + u, a + v}, .triangles = {{0, 2, 1}}, .normals = {}, .uv = {}});
+      if (away) scene.meshes[0].triangles[0] = {0, 1, 2};
+      const int front = lamp(scene);
+      scene.materials[size_t(front)]->emits_in_front = true;
+      scene.instances.push_back({.mesh = 0, .transform = map, .material = front, .position = {}});
+      std::vector<Vec3> corners{a, a + u, a + v};
+      if (map != Mat4(1.0))
+        for (Vec3& corner : corners) corner = mirrored(corner);
+      check(scene, away ? 0 : shown(irradiance_of(corners)));
+    }
+
+  // Seen from behind it shows nothing.
+  Scene behind = patch({0, 2, 0}, {0.1, 1.3, 0}, 4);
+  const int front = lamp(behind);
+  behind.materials[size_t(front)]->emits_in_front = true;
+  add(behind, make_disk({0, 1.3, 0}, {0, -1, 0}, 0.8), front);
+  check(behind, 0);
+}
+
+TEST_CASE("a lamp with a picture: each part as bright as it is") {
+  const Vec3 a(-0.5, 0.6, 0.2), u(1.2, 0.5, 0.2), v(0.6, 0.3, 1);
+  const double left = irradiance_of({a, a + u / 2.0, a + u / 2.0 + v, a + v}),
+               right = irradiance_of({a + u / 2.0, a + u, a + u + v, a + u / 2.0 + v});
+  const auto picture = [](Scene& scene, const Vec2& size) {
+    return add(scene, make_phong({.diffuse = gray(0),
+                                  .emission = textures::make_checker(Vec3(4), Vec3(0.5), size)}));
+  };
+  Scene scene = floor(1024);
+  add(scene, make_parallelogram(a, u, v), picture(scene, {0.5, 1}));
+  check(scene, shown(4 * left + 0.5 * right), 1e-4);
+
+  // The same as a mesh, its uv turned by a right angle, and with colours.
+  Scene mesh = floor(1024);
+  mesh.meshes.push_back({.name = "",
+                         .positions = {a, a + u, a + u + v, a + v},
+                         .triangles = {{0, 1, 2}, {0, 2, 3}},
+                         .normals = {},
+                         .uv = {{0, 0}, {0, 1}, {1, 1}, {1, 0}},
+                         .colors = {Vec3(0.5), Vec3(0.5), Vec3(0.5), Vec3(0.5)}});
+  mesh.instances.push_back(
+      {.mesh = 0, .transform = Mat4(1.0), .material = picture(mesh, {1, 0.5}), .position = {}});
+  check(mesh, shown(2 * left + 0.25 * right), 1e-4);
+
+  // A globe whose southern half is what the floor sees.
+  Scene globe = floor(1024);
+  add(globe, make_sphere({0, 2, 0}, 0.5), picture(globe, {2, 0.5}));
+  check(globe, shown(4 * M_PI * 0.25 / 4), 1e-4);
+}
+
+TEST_CASE("lamps of a group that is instanced: each where it stands") {
+  Scene scene = floor(1024);
+  const int material = lamp(scene);
+  Group group;
+  group.shapes.push_back(make_sphere({0, 0, 0}, 0.2));
+  group.shapes[0]->material = material;
+  scene.meshes.push_back({.name = "",
+                          .positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}},
+                          .triangles = {{0, 1, 2}},
+                          .normals = {},
+                          .uv = {}});
+  group.instances.push_back({.mesh = 0,
+                             .transform = glm::scale(glm::translate(Mat4(1.0), Vec3(0.5, 0.3, 0)), Vec3(0.5)),
+                             .material = material,
+                             .position = {}});
+  scene.groups.push_back(std::move(group));
+  double expected = 0;
+  for (const Vec3& at : {Vec3(0.3, 1.6, 0.2), Vec3(-0.7, 1.2, -0.6)}) {
+    Mat4 map = glm::translate(Mat4(1.0), at);
+    map[1].y = -1;
+    scene.group_instances.push_back({.group = 0,
+                                     .transform = map,
+                                     .shapes_before = scene.shapes.size(),
+                                     .instances_before = 0,
+                                     .position = {}});
+    const double h = glm::length(at);
+    const Vec3 corner = at + Vec3(0.5, -0.3, 0);
+    expected += M_PI * 0.04 / (h * h) * (at.y / h) +
+                irradiance_of({corner, corner + Vec3(0.5, 0, 0), corner + Vec3(0, 0, 0.5)});
+  }
+  check(scene, shown(expected), 1e-4);
+}
