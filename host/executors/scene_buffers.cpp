@@ -31,7 +31,7 @@ std::array<SceneBuffer, 14> scene_buffers(const records::PackedScene& scene) {
           buffer(BINDING_LIGHTS, "lights", some(scene.lights), storage, shading),
           buffer(BINDING_EMITTERS, "emitters", some(scene.emitters), storage, shading),
           buffer(BINDING_ENVIRONMENT, "environment", some(scene.environment), texels, shading),
-          buffer(BINDING_GGX_ALBEDOS, "GGX albedos", some(scene.ggx_albedos), storage, shading),
+          buffer(BINDING_ALBEDOS, "albedos", some(scene.albedos), storage, shading),
           buffer(BINDING_FRAME, "frame", std::span(&scene.frame, 1), texels, shading)};
 }
 

@@ -12,6 +12,11 @@ bool varies(const records::PackedScene& scene, const shader::Material& material)
 bool any_emits(const records::PackedScene& scene);
 // Whether any diffuse material is not Lambert's.
 bool any_rough_diffuse(const records::PackedScene& scene);
+// Whether light goes through any principled material, and through any at all.
+bool any_principled_transmits(const records::PackedScene& scene);
+bool transmits(const records::PackedScene& scene);
+// Whether `specular` or `specular_color` of any principled material is not the same everywhere.
+bool any_specular_varies(const records::PackedScene& scene);
 bool any_absorbs(const records::PackedScene& scene);
 // Whether a light is seen under an angle.
 bool any_light_disk(const records::PackedScene& scene);

@@ -82,14 +82,15 @@ class PathSample {
  private:
   Vec2 pair(uint32_t use) const {
     return sampler(scene_.image.pattern)
-        .pair(id_.pixel, id_.index, use + pairs_a_vertex * uint32_t(depth_), scene_.render.seed);
+        .pair(id_.pixel, id_.index, use + pairs_a_vertex * uint32_t(depth_ + all_panes_), scene_.render.seed);
   }
-  Vec3 emitted(const Interaction& at, const Vec3& from) const;
+  Vec3 emitted(const Interaction& at) const;
   Vec3 missed(const Vec3& d) const;
   double environment_share() const;
   std::optional<Arriving> arriving(const Interaction& at);
   std::optional<Arriving> arriving_from_around(const Interaction& at);
-  Vec3 direct(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf);
+  Vec3 direct(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+              const MediaStack& media);
   std::optional<Ray> scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                              MediaStack& media);
 
@@ -98,13 +99,16 @@ class PathSample {
   const SampleId id_;
   SampleRays rays_;
   const Observer& observer_;
+  const bool any_pane_ = std::ranges::any_of(scene_.materials, &Material::thin);
   int depth_ = 0;
+  int panes_ = 0, all_panes_ = 0;  // that the path has passed straight, since its last vertex and in all
+  Vec3 vertex_{0};                 // its last, or the eye
   Vec3 throughput_{1};
   double density_ = 0;  // by solid angle, of the ray's direction; 0 where there was no choice
 };
 
 // Its own light, less what shadow rays to it have brought already.
-Vec3 PathSample::emitted(const Interaction& at, const Vec3& from) const {
+Vec3 PathSample::emitted(const Interaction& at) const {
   const Vec3& light = at.scattering.emitted;
   const LightChoice& choice = tracer_.light_choice();
   if (density_ == 0) return light;
@@ -113,7 +117,7 @@ Vec3 PathSample::emitted(const Interaction& at, const Vec3& from) const {
   const double share = (1 - environment_share()) *
                        choice.share(scene_.lights.size() + size_t(found - choice.emitters.begin()));
   const EmitterSample place{at.surface.position, at.surface.normal_geometric};
-  return light * power_heuristic(density_, share * emitter_density(found->form, from, place));
+  return light * power_heuristic(density_, share * emitter_density(found->form, vertex_, place));
 }
 
 // How likely the environment is chosen, and not a light.
@@ -177,7 +181,8 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
 }
 
 // What that brings to the viewer.
-Vec3 PathSample::direct(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf) {
+Vec3 PathSample::direct(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                        const MediaStack& media) {
   if (bsdf.black() || depth_ > scene_.render.max_depth) return Vec3(0);
   const auto light = arriving(at);
   if (!light || light->radiance == Vec3(0)) return Vec3(0);
@@ -187,23 +192,33 @@ Vec3 PathSample::direct(const Interaction& at, const LocalFrame& frame, const Vi
   if (!rays_.on_side(at.surface, light->l, light->distance, i.z > 0)) return Vec3(0);
   const double weight = light->density > 0 ? power_heuristic(light->density, scattered.density) : 1;
   const Vec3 contribution = light->radiance * scattered.value * weight;
-  const double seen = rays_.shadow(light->ray, light->distance);
+  const bool beyond = glm::dot(light->ray.d, at.surface.normal_geometric) < 0;
+  const Vec3 seen = any_pane_
+                        ? rays_.through_panes(light->ray, light->distance, beyond ? at.media_beyond : media)
+                        : Vec3(rays_.shadow(light->ray, light->distance));
   observer_.ray(RayKind::shadow, light->ray, depth_, 0);
   observer_.value("contribution", contribution);
-  observer_.value("visibility", seen);
+  observer_.value("visibility", seen.x);
   observer_.back(depth_);
   return seen * contribution;
 }
 
 std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                                        MediaStack& media) {
-  if (bsdf.black() || depth_ > scene_.render.max_depth) return std::nullopt;
+  if (bsdf.black()) return std::nullopt;
   const Vec2 chance = pair(scatter_pair);  // of a lobe, and of going on
   const BsdfSample sample = bsdf.sample(chance.x, pair(direction_pair));
+  const bool passes = sample.kind == BsdfSample::Kind::passed;
+  const bool straight = passes && panes_ < most_panes;  // this is no vertex
+  if (!straight && depth_ > scene_.render.max_depth) return std::nullopt;
   Vec3 d;
   RayKind kind = RayKind::reflected;
-  density_ = 0;
-  if (sample.kind == BsdfSample::Kind::lobe) {
+  if (!straight) density_ = 0;
+  if (passes) {
+    d = at.d;
+    kind = RayKind::refracted;
+    throughput_ *= sample.weight;
+  } else if (sample.kind == BsdfSample::Kind::lobe) {
     const BsdfValue value = bsdf.at(sample.i);
     d = frame.out_of(sample.i);
     const bool before = glm::dot(at.surface.normal_geometric, d) > 0;
@@ -216,21 +231,29 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
     if (sample.kind == BsdfSample::Kind::refracted) kind = RayKind::refracted;
     d = kind == RayKind::refracted ? at.refracted() : at.mirrored();
   }
-  if (kind == RayKind::refracted) media = at.media_beyond;
+  if (kind == RayKind::refracted && !passes) media = at.media_beyond;
 
   const double survival = depth_ < first_roulette ? 1 : std::clamp(largest(throughput_), least_survival, 1.0);
   observer_.value("survival", survival);
   if (!(chance.y < survival)) return std::nullopt;
   throughput_ /= survival;
-  ++depth_;
+  if (straight) {
+    ++panes_;
+    ++all_panes_;
+  } else {
+    panes_ = 0;
+    ++depth_;
+  }
   ++(kind == RayKind::reflected ? rays_.reflected : rays_.refracted);
   const Ray next = rays_.spawn_ray(at.surface, d);
+  if (!straight) vertex_ = next.o;
   observer_.ray(kind, next, depth_);
   return next;
 }
 
 PixelSample PathSample::sample(Ray ray, MediaStack media) {
   Vec3 color(0);
+  vertex_ = ray.o;
   for (;;) {
     const auto at = rays_.hit(ray, media, throughput_);
     if (!at) {
@@ -240,7 +263,7 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
     throughput_ *= at->dimming;
     const LocalFrame frame(*at);
     const ViewedBsdf bsdf(at->bsdf, frame.viewer);
-    const Vec3 light = emitted(*at, ray.o) + direct(*at, frame, bsdf);
+    const Vec3 light = emitted(*at) + direct(*at, frame, bsdf, media);
     observer_.value("light", light);
     color += throughput_ * light;
     if (at->has_medium && at->scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)

@@ -2,7 +2,7 @@
 // disagree.
 #ifndef BSDF_GLSL
 #define BSDF_GLSL
-#include "bsdf/bsdf_record.glsl"
+#include "bsdf/layers.glsl"
 #include "math/sampling.glsl"
 
 SHADER_BEGIN
@@ -14,26 +14,20 @@ Directions directions(Bsdf bsdf, vec3 o, vec3 i) {
   vec3 sum = o + i;
   at.half_way = sum / sqrt(maximum(dot3(sum, sum), 1.0e-30f));
 #if HAS_GLOSSY
-  at.albedo = ggx_albedo(i.z, bsdf.roughness);
+  at.albedo = ggx_albedo(abs(i.z), bsdf.roughness);
 #endif
   return at;
 }
 
-// What a coat leaves of light on its way to the viewer.
-float under_coat(Bsdf bsdf) {
-  float left = 1.0f;
-#if HAS_COAT
-  left = coat_transmittance(bsdf, bsdf.coat_albedo);
-#endif
-  return left;
-}
-
 // How likely each lobe is followed, by how much light it sends; 1 all together, or all 0.
 struct LobeShares {
-#define SHARE(name, number, coated) float name;
+#define SHARE(name, number, layers) float name;
   LOBES(SHARE)
   float mirror;
   float transmitted;
+#if HAS_PANES
+  float passed;
+#endif
 };
 
 LobeShares lobe_shares(Bsdf bsdf) {
@@ -41,15 +35,22 @@ LobeShares lobe_shares(Bsdf bsdf) {
   shares.mirror = max_component(bsdf.mirror);
   shares.transmitted = max_component(bsdf.transmitted);
   float all = shares.mirror + shares.transmitted;
-#define ALBEDO_OF_LOBE(name, number, coated)                                                \
-  shares.name = max_component(name##_albedo(bsdf)) * (coated ? under_coat(bsdf) : 1.0f); \
+#if HAS_PANES
+  shares.passed = max_component(bsdf.passed);
+  all = all + shares.passed;
+#endif
+#define ALBEDO_OF_LOBE(name, number, layers)                                      \
+  shares.name = max_component(name##_albedo(bsdf)) * under_layers(bsdf, layers); \
   all = all + shares.name;
   LOBES(ALBEDO_OF_LOBE)
   float scale = all > 0.0f ? 1.0f / all : 0.0f;
-#define SCALE_SHARE(name, number, coated) shares.name = shares.name * scale;
+#define SCALE_SHARE(name, number, layers) shares.name = shares.name * scale;
   LOBES(SCALE_SHARE)
   shares.mirror = shares.mirror * scale;
   shares.transmitted = shares.transmitted * scale;
+#if HAS_PANES
+  shares.passed = shares.passed * scale;
+#endif
   return shares;
 }
 
@@ -57,15 +58,21 @@ LobeShares lobe_shares(Bsdf bsdf) {
 LobeValue bsdf_value(Bsdf bsdf, LobeShares shares, vec3 o, vec3 i) {
   Directions at = directions(bsdf, o, i);
   LobeValue all = no_value();
-  float through_coat = 1.0f;
+  // Layers are on the viewer's side.
+  bool before = i.z > 0.0f;
+  float through_coat = under_coat(bsdf);
+  float through_sheen = under_sheen(bsdf);
 #if HAS_COAT
-  through_coat = under_coat(bsdf) * coat_transmittance(bsdf, ggx_albedo(i.z, bsdf.coat_roughness));
+  if (before) through_coat = through_coat * coat_transmittance(bsdf, ggx_albedo(i.z, bsdf.coat_roughness));
 #endif
-#define ADD_VALUE(name, number, coated)                                              \
-  if (shares.name > 0.0f) {                                                          \
-    LobeValue of_lobe = name##_value(bsdf, at);                                      \
-    all.value = all.value + of_lobe.value * (coated ? through_coat : 1.0f);          \
-    all.density = all.density + of_lobe.density * shares.name;                       \
+#if HAS_SHEEN
+  if (before) through_sheen = through_sheen * (1.0f - max_component(bsdf.sheen) * sheen_table(i.z, bsdf.sheen_roughness).y);
+#endif
+#define ADD_VALUE(name, number, layers)                                                                                  \
+  if (shares.name > 0.0f) {                                                                                              \
+    LobeValue of_lobe = name##_value(bsdf, at);                                                                          \
+    all.value = all.value + of_lobe.value * (layers > 0u ? through_coat : 1.0f) * (layers > 1u ? through_sheen : 1.0f); \
+    all.density = all.density + of_lobe.density * shares.name;                                                           \
   }
   LOBES(ADD_VALUE)
   return all;
@@ -77,19 +84,28 @@ struct BsdfSample {
   vec3 i;
   bool mirrored;   // instead: the mirrored direction …
   bool refracted;  // … or the refracted one
+#if HAS_PANES
+  bool passed;     // … or straight on
+#endif
 };
 
 BsdfSample sample_bsdf(Bsdf bsdf, LobeShares shares, vec3 o, float chance, vec2 u) {
   BsdfSample s;
   s.i = vec3(0.0f, 0.0f, 1.0f);
   float passed = 0.0f;
-#define DIRECTION_OF_LOBE(name, number, coated)                                                                              \
+#define DIRECTION_OF_LOBE(name, number, layers)                                                                              \
   if (shares.name > 0.0f && chance >= passed) s.i = name##_direction(bsdf, o, u, (chance - passed) / shares.name); \
   passed = passed + shares.name;
   LOBES(DIRECTION_OF_LOBE)
   s.mirrored = shares.mirror > 0.0f && chance >= passed;
   passed = passed + shares.mirror;
   s.refracted = shares.transmitted > 0.0f && chance >= passed;
+#if HAS_PANES
+  passed = passed + shares.transmitted;
+  s.passed = shares.passed > 0.0f && chance >= passed;
+  s.refracted = s.refracted && !s.passed;
+  s.mirrored = s.mirrored && !s.passed;
+#endif
   s.mirrored = s.mirrored && !s.refracted;
   return s;
 }

@@ -15,6 +15,11 @@ struct Path {
   float density;  // by solid angle, that its direction was chosen with; 0 from the eye, a mirror or glass, which leave no choice
   uint pixel;     // of the picture, and which of its samples: what its random numbers go by
   uint index;
+#if HAS_PANES
+  vec3 from;        // where its last vertex is, or the eye: panes that it passes straight are none
+  uint panes;       // passed since then, …
+  uint past_panes;  // … and before
+#endif
 #endif
 #if RAY_KINDS
   bool refracted;  // its last ray, else reflected

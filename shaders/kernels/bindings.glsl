@@ -42,7 +42,7 @@ layout(std430, binding = BINDING_MEDIA) readonly restrict buffer Media { Medium 
 layout(std430, binding = BINDING_LIGHTS) readonly restrict buffer Lights { Light lights[]; };
 layout(std430, binding = BINDING_EMITTERS) readonly restrict buffer Emitters { Emitter emitters[]; };
 #if RANDOM_WALK
-layout(std430, binding = BINDING_GGX_ALBEDOS) readonly restrict buffer GgxAlbedos { vec4 ggx_albedos[]; };
+layout(std430, binding = BINDING_ALBEDOS) readonly restrict buffer Albedos { vec4 albedos[]; };
 #endif
 
 #endif

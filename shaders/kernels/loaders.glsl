@@ -47,7 +47,7 @@ PacketHit load_packet_hit() { return packet_hits[stored_place]; }
 uint load_occlusion(uint light) { return occlusions[light * dispatch.count + stored_place]; }
 #endif
 #if RANDOM_WALK
-vec4 load_ggx_albedo(uint i) { return ggx_albedos[i]; }
+vec4 load_albedo(uint i) { return albedos[i]; }
 #endif
 Bvh load_bvh(uint i) { return bvhs[i]; }
 Instance load_instance(uint i) { return instances[i]; }

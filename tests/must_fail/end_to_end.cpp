@@ -92,6 +92,8 @@ std::vector<Fault> faults() {
       {"pairs", {bits, counts, colors}, box},
       {"lobe", {bits, colors}, {"scenes/path/materials.toml", "--spp", "2"}},
       {"masking", {bits, colors}, {"scenes/path/materials.toml", "--spp", "2"}},
+      {"pane", {bits, colors}, {"scenes/path/panes.toml", "--spp", "2"}},
+      {"sheen", {bits, colors}, {"scenes/path/panes.toml", "--spp", "2"}},
       {"half_texel", {bits, colors}, {"scenes/path/environment.toml", "--spp", "2"}},
   };
 }
