@@ -32,7 +32,7 @@ SHADER_BEGIN
 #define BINDING_TUNABLES 20
 #define BINDING_EMITTERS 21
 #define BINDING_ENVIRONMENT 22
-#define BINDING_GGX_ALBEDOS 23
+#define BINDING_ALBEDOS 23
 #define BINDING_LIGHT_NODES 24
 
 #define NONE 0xffffffffu
@@ -122,7 +122,7 @@ INLINE uint mesh_optical_depth(Instance instance) { return of_group(instance) ? 
 INLINE uint first_triangle_of(Instance instance) { return instance.depth_or_triangle; }
 #define ID_OF_TRIANGLE 0x80000000u
 
-// ---- Material: 112 bytes --------------------------------------------------------------------------------------------
+// ---- Material: 144 bytes --------------------------------------------------------------------------------------------
 struct Material {
   uint kind;
   uint flags;
@@ -144,12 +144,35 @@ struct Material {
   vec4 b;
   vec3 c;
   uint coat_roughness;
+  uint specular_level;  // of these two textures the red channel counts, as of coat
+  uint transmission;
+  uint specular_color;
+  uint sheen;
+  uint sheen_roughness;  // the green channel
+  uint unused_0;
+  uint unused_1;
+  uint unused_2;
 };
 #define MATERIAL_BLINN 1u
-#define MATERIAL_EMITS_IN_FRONT 2u  // its own light goes only where normals point
+#define MATERIAL_PANE 2u   // it has no inside: paths may pass it straight
+#define MOST_PANES 8u      // that a shadow ray goes through
+#define MATERIAL_CLEAR 4u  // of principled: Whitted's pictures show glass, and `base` is its colour
+#define MATERIAL_EMITS_IN_FRONT 8u  // its own light goes only where normals point
 // Optical depth: what each primitive that a shadow ray hits takes from it, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
 #define OPTICAL_DEPTH_OPAQUE 0x10000000u
 #define OPTICAL_DEPTH_SCALE 1048576.0f
+
+// ---- Albedos: 16 bytes each; empty where no lobe asks -----------------------------------------------------------------
+// Tables of host/optics, of as many rows by roughness as places in each by √cosine: bsdf/ggx_albedo.glsl, then sheen.glsl, then
+// rough_glass.glsl, this one with GLASS_SLICES of them by the two indices.
+#define GGX_ALBEDOS 64u
+#define SHEEN_ALBEDOS 32u
+#define GLASS_ALBEDOS 32u
+#define GLASS_SLICES 16u  // one says what is at its begin and at its end, of (n₂ − n₁) / (n₂ + n₁) from −0.6 to 0.6
+#define GLASS_SPAN 1.2f
+#define FIRST_SHEEN_ALBEDO 4096u
+#define FIRST_GLASS_ALBEDO 5120u
+#define END_OF_ALBEDOS 21504u
 
 // ---- Medium: 32 bytes -----------------------------------------------------------------------------------------------
 // Number 0 is around all: the scene's own, or the vacuum.
@@ -414,7 +437,7 @@ SHADER_END
 static_assert(sizeof(eyeray::shader::Primitive) == 64);
 static_assert(sizeof(eyeray::shader::Bvh) == 64);
 static_assert(sizeof(eyeray::shader::Instance) == 112);
-static_assert(sizeof(eyeray::shader::Material) == 112);
+static_assert(sizeof(eyeray::shader::Material) == 144);
 static_assert(sizeof(eyeray::shader::Medium) == 32);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);

@@ -160,6 +160,8 @@ constexpr FaultType types[] = {
      .file = "bsdf/ggx.glsl",
      .from = "d / (towards_o + ggx_lambda(i, width))",
      .to = "d / towards_o"},
+    {.name = "pane", .file = "integrators/vertex.glsl", .from = "left * at.bsdf.passed", .to = "left"},
+    {.name = "sheen", .file = "bsdf/sheen.glsl", .from = "(seen * most)", .to = "seen"},
     {.name = "pairs", .file = "math/rng.glsl", .from = "PAIR_DIRECTION 5u", .to = "PAIR_DIRECTION 7u"},
     {.name = "albedo",
      .file = "bsdf/diffuse.glsl",

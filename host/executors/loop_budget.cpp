@@ -17,7 +17,8 @@ uint64_t trace_iterations(const records::PackedScene& scene, bool unrolled) {
 uint32_t loop_budget_of(const records::PackedScene& scene, std::string_view driver) {
   // One ray with its shadow rays must fit whatever came before it. In a BVH it makes far fewer iterations
   // than there are primitives; where it does not, the shader sees that the driver stopped it.
-  const uint64_t one_ray = (trace_iterations(scene, false) + 1) * (scene.lights.size() + 1);
+  const uint64_t one_ray =
+      (trace_iterations(scene, false) + 1) * (scene.lights.size() + 1 + (scene.panes ? MOST_PANES : 0));
   if (one_ray < granted_iterations) return uint32_t(granted_iterations - one_ray);
   throw Error(ExitCode::no_device,
               "{} ends loops after 65 535 iterations and says nothing, too few for {} primitives{} and "

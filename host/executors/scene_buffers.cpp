@@ -32,7 +32,7 @@ std::array<SceneBuffer, 15> scene_buffers(const records::PackedScene& scene) {
           buffer(BINDING_EMITTERS, "emitters", some(scene.emitters), storage, shading),
           buffer(BINDING_LIGHT_NODES, "light BVH", some(scene.light_nodes), storage, shading),
           buffer(BINDING_ENVIRONMENT, "environment", some(scene.environment), texels, shading),
-          buffer(BINDING_GGX_ALBEDOS, "GGX albedos", some(scene.ggx_albedos), storage, shading),
+          buffer(BINDING_ALBEDOS, "albedos", some(scene.albedos), storage, shading),
           buffer(BINDING_FRAME, "frame", std::span(&scene.frame, 1), texels, shading)};
 }
 

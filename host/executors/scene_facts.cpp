@@ -20,8 +20,7 @@ bool is_black(const shader::Texture& texture) {
 
 // Whether any material may send rays on.
 bool any_reflects(const records::PackedScene& scene) {
-  return scene.media.size() > 1 ||
-         std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
+  return transmits(scene) || std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
            return !is_black(scene.textures[material.reflected]);
          });
 }
@@ -31,8 +30,9 @@ bool any_reflects(const records::PackedScene& scene) {
 bool varies(const records::PackedScene& scene, const shader::Material& material) {
   return std::ranges::any_of(
       std::array{material.base, material.specular, material.reflected, material.color, material.roughness,
-                 material.metallic, material.coat, material.coat_roughness, material.ambient,
-                 material.emission, material.alpha},
+                 material.metallic, material.coat, material.coat_roughness, material.specular_level,
+                 material.transmission, material.specular_color, material.sheen, material.sheen_roughness,
+                 material.ambient, material.emission, material.alpha},
       [&](uint32_t texture) { return varies(scene.textures[texture]); });
 }
 
@@ -57,6 +57,24 @@ bool any_rough_diffuse(const records::PackedScene& scene) {
   return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
     return material.kind == shader::MATERIAL_diffuse && !is_black(scene.textures[material.roughness]);
   });
+}
+
+bool any_specular_varies(const records::PackedScene& scene) {
+  return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
+    return varies(scene.textures[material.specular_level]) || varies(scene.textures[material.specular_color]);
+  });
+}
+
+bool any_principled_transmits(const records::PackedScene& scene) {
+  return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
+    return !is_black(scene.textures[material.transmission]);
+  });
+}
+
+bool transmits(const records::PackedScene& scene) {
+  return scene.media.size() > 1 || std::ranges::any_of(scene.materials, [](const shader::Material& material) {
+           return (material.flags & MATERIAL_PANE) != 0;
+         });
 }
 
 bool any_scatters(const records::PackedScene& scene) {
@@ -89,7 +107,7 @@ uint32_t most_bounces(const records::PackedScene& scene) {
 }
 
 bool splits(const records::PackedScene& scene) {
-  return traits_of(IntegratorType(scene.frame.integrator)).ways > 1 && scene.media.size() > 1;
+  return traits_of(IntegratorType(scene.frame.integrator)).ways > 1 && transmits(scene);
 }
 
 uint32_t shadow_rays(const records::PackedScene& scene) {

@@ -15,6 +15,11 @@ bool any_emits(const records::PackedScene& scene);
 bool any_emission_texture(const records::PackedScene& scene);
 bool any_emits_in_front(const records::PackedScene& scene);
 bool any_rough_diffuse(const records::PackedScene& scene);
+// Whether light goes through any principled material, and through any at all.
+bool any_principled_transmits(const records::PackedScene& scene);
+bool transmits(const records::PackedScene& scene);
+// Whether `specular` or `specular_color` of any principled material is not the same everywhere.
+bool any_specular_varies(const records::PackedScene& scene);
 bool any_dims(const records::PackedScene& scene);
 bool any_scatters(const records::PackedScene& scene);
 // Whether a light is seen under an angle.

@@ -49,7 +49,6 @@ Used used_by(const records::PackedScene& scene) {
 // Each has its meaning in shaders/kernels/features.h.
 std::string defines(const records::PackedScene& scene, const Used& used, const Specialisation& options,
                     bool unrolled) {
-  const bool media = scene.media.size() > 1;
   std::string text;
   const auto define = [&](std::string_view name, const auto& value) {
     text += fmt::format("#define {} {}\n", name, value);
@@ -68,9 +67,15 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_GLOSSY", int(scene.lobes.contains(shader::LOBE_glossy)));
   define("HAS_CONDUCTORS", int(scene.has_conductors));
   define("HAS_ROUGH_DIFFUSE", int(any_rough_diffuse(scene)));
+  define("HAS_SPECULAR_TEXTURES", int(any_specular_varies(scene)));
   define("HAS_COAT", int(scene.lobes.contains(shader::LOBE_coat)));
   define("HAS_ROUGH_GLASS", int(scene.lobes.contains(shader::LOBE_rough_glass)));
   define("HAS_ALPHA_TEST", int(!used.alpha_tested.empty()));
+  define("HAS_SHEEN", int(scene.lobes.contains(shader::LOBE_sheen)));
+  define("HAS_THIN", int(scene.lobes.contains(shader::LOBE_thin)));
+  define("HAS_TRANSMISSION", int(any_principled_transmits(scene)));
+  define("HAS_PANES", int(scene.panes));
+  define("ANY_PANE", scene.panes ? "true" : "false");
   define("HAS_MEDIA", int(media));
   define("HAS_ABSORPTION", int(any_dims(scene)));
   define("HAS_SCATTERING", int(any_scatters(scene)));

@@ -57,7 +57,8 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
   plan.incoherent = incoherent_rays(profile, scene, packets, subgroup_size);
   const bool pays = samples_of(image) >= least_samples_in_wavefront &&
                     scene.primitives.size() <= most_in_wavefront && subgroup_size <= most_lanes_in_wavefront;
-  plan.wavefront = packets && (asked_for_packets || pays);
+  // A path that passes a pane straight stays at its depth, which no kernel of a bounce knows.
+  plan.wavefront = packets && (asked_for_packets || pays) && !scene.panes;
   // Most rays that leave a mesh hit no more of it: not worth kernels of their own (docs/performance.md).
   plan.bounced = only_triangles(scene) && !profile.incoherent ? Rays::lanes : plan.incoherent;
   return plan;

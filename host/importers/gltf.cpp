@@ -22,20 +22,11 @@ namespace {
 
 // Extensions that are read, or change nothing that is.
 constexpr std::string_view known_extensions[] = {
-    "KHR_lights_punctual",
-    "KHR_materials_ior",
-    "KHR_materials_transmission",
-    "KHR_materials_volume",
-    "KHR_materials_unlit",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_specular",
-    "KHR_materials_clearcoat",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
-    "KHR_materials_pbrSpecularGlossiness",
-    "EXT_meshopt_compression",
-    "KHR_meshopt_compression",
-    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",     "KHR_materials_ior",       "KHR_materials_transmission",
+    "KHR_materials_volume",    "KHR_materials_unlit",     "KHR_materials_emissive_strength",
+    "KHR_materials_specular",  "KHR_materials_clearcoat", "KHR_materials_sheen",
+    "KHR_mesh_quantization",   "KHR_texture_transform",   "KHR_materials_pbrSpecularGlossiness",
+    "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression",
 };
 
 constexpr size_t most_extensions_named = 16;

@@ -65,20 +65,6 @@ GltfUv uv_of(const GltfObject& reference) {
   return uv;
 }
 
-std::unique_ptr<Material> make_glass(const GltfObject& material, const TexturePtr& roughness) {
-  const auto ior = material.extension("KHR_materials_ior");
-  materials::DielectricValues glass;
-  glass.roughness = roughness;
-  glass.ior = std::clamp(ior ? ior->number("ior", 1.5) : 1.5, 1.0, 4.0);
-  if (const auto volume = material.extension("KHR_materials_volume")) {
-    // Beer's law, from the colour that is left at a distance.
-    const double distance = volume->number("attenuationDistance", 0);
-    const Vec3 color = share(volume->numbers("attenuationColor", {1, 1, 1}));
-    if (distance > 1e-12) glass.absorption = -glm::log(glm::max(color, Vec3(1e-6))) / distance;
-  }
-  return materials::make_dielectric(glass);
-}
-
 }  // namespace
 
 void GltfLeftOut::add(const std::string& what, size_t count) {
@@ -96,22 +82,6 @@ void GltfLeftOut::report(std::vector<std::string>& warnings) const {
     list += fmt::format("{}{} ({})", list.empty() ? "left out: " : ", ", what, count);
   if (!list.empty()) warnings.push_back(list);
 }
-
-struct GltfMaterials::Surface {
-  Vec3 base{1};
-  TexturePtr emission;
-  std::shared_ptr<const ImageTexture> image;
-  double metalness = 1;  // in the mean, as the next
-  double roughness = 1;
-  TexturePtr metal_rough;  // these two over the surface: of blue and green
-
-  TexturePtr metalness_texture() const {
-    return metal_rough ? metal_rough : textures::make_constant(Vec3(metalness));
-  }
-  TexturePtr roughness_texture() const {
-    return metal_rough ? metal_rough : textures::make_constant(Vec3(roughness));
-  }
-};
 
 GltfMaterials::GltfMaterials(const GltfObject& document, GltfBuffers& buffers, TextureFiles& textures,
                              GltfLeftOut& left_out, GltfBreaches& breaches)
@@ -131,7 +101,7 @@ ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budge
 }
 
 // Null where the picture cannot be had.
-std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& reference, bool srgb) {
+std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& reference, Content content) {
   const auto index = reference.index("index", document_.size("textures"));
   if (!index) reference.fail("has no index");
   const GltfObject texture = document_.element("textures", *index);
@@ -158,18 +128,21 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
 
   // The same picture with other settings is another texture.
   ImageTexture settings;
-  settings.srgb = srgb;
+  settings.srgb = content == Content::color;
   settings.filter = filter == nearest ? Filter::nearest : Filter::bilinear;
   settings.wrap_u = wrap(wrap_s);
   settings.wrap_v = wrap(wrap_t);
-  const std::string name = fmt::format("{} {} {} {} {}", *source, srgb, static_cast<int>(settings.filter),
-                                       static_cast<int>(settings.wrap_u), static_cast<int>(settings.wrap_v));
+  const std::string name =
+      fmt::format("{} {} {} {} {}", *source, static_cast<int>(content), static_cast<int>(settings.filter),
+                  static_cast<int>(settings.wrap_u), static_cast<int>(settings.wrap_v));
   return textures_.load(name, [&](image::PixelBudget& budget) {
     ImageTexture image = decode_image(*source, budget);
     image.srgb = settings.srgb;
     image.filter = settings.filter;
     image.wrap_u = settings.wrap_u;
     image.wrap_v = settings.wrap_v;
+    if (content == Content::alpha)
+      for (auto& texel : image.texels) texel = {texel[3], texel[3], texel[3], 255};
     return image;
   });
 }
@@ -188,7 +161,7 @@ TexturePtr GltfMaterials::emission(const GltfObject& material) {
     color *= std::clamp(strength->number("emissiveStrength", 1), 0.0, most_emission);
   const auto reference = material.object("emissiveTexture");
   if (!reference) return textures::make_constant(color);
-  const auto image = texture(*reference, true);
+  const auto image = texture(*reference, Content::color);
   if (!image) return none;
   if (!shares_uv(material, *reference)) {
     left_out_.add("emission maps with uv of their own");
@@ -199,7 +172,7 @@ TexturePtr GltfMaterials::emission(const GltfObject& material) {
 
 GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
   Surface surface;
-  if (const auto reference = base_texture(material)) surface.image = texture(*reference, true);
+  if (const auto reference = base_texture(material)) surface.image = texture(*reference, Content::color);
   surface.emission = emission(material);
   const auto pbr = material.object("pbrMetallicRoughness");
   if (!pbr) {
@@ -214,7 +187,7 @@ GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
   surface.metalness = factor(*pbr, "metallicFactor", 1);
   surface.roughness = factor(*pbr, "roughnessFactor", 1);
   if (const auto reference = pbr->object("metallicRoughnessTexture")) {
-    if (const auto image = texture(*reference, false)) {
+    if (const auto image = texture(*reference, Content::data)) {
       const Vec3 factors(1, surface.roughness, surface.metalness);
       const Vec2 mean = mean_green_blue(*image);
       surface.roughness *= mean.x;
@@ -234,8 +207,9 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
   note_rest(source);
   std::unique_ptr<Material> made;
   const auto transmission = source.extension("KHR_materials_transmission");
-  if (transmission && transmission->number("transmissionFactor", 0) >= 0.5) {
-    made = make_glass(source, surface(source).roughness_texture());
+  if (transmission && factor(*transmission, "transmissionFactor", 0) >= 0.5) {
+    const Surface s = surface(source);
+    made = principled(source, s, glass(source, s));
   } else if (source.extension("KHR_materials_unlit")) {
     const Surface s = surface(source);
     made = materials::make_phong(
@@ -271,32 +245,6 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
   return made;
 }
 
-// KHR_materials_ior, _specular and _clearcoat, by their factors.
-std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, const Surface& surface,
-                                                    std::unique_ptr<Material> stand_in) {
-  materials::PrincipledValues values;
-  values.color = textured(surface.base, surface.image);
-  values.metallic = surface.metalness_texture();
-  values.roughness = surface.roughness_texture();
-  values.emission = surface.emission;
-  if (const auto ior = source.extension("KHR_materials_ior"))
-    values.ior = std::clamp(ior->number("ior", 1.5), 1.0, 4.0);
-  if (const auto specular = source.extension("KHR_materials_specular")) {
-    values.specular = factor(*specular, "specularFactor", 1);
-    const std::vector<double> color = specular->numbers("specularColorFactor", {1, 1, 1});
-    values.specular_color = glm::max(Vec3(color[0], color[1], color[2]), Vec3(0));
-    for (const char* map : {"specularTexture", "specularColorTexture"})
-      if (specular->has(map)) left_out_.add("maps of specular");
-  }
-  if (const auto coat = source.extension("KHR_materials_clearcoat")) {
-    values.coat = textures::make_constant(Vec3(factor(*coat, "clearcoatFactor", 0)));
-    values.coat_roughness = textures::make_constant(Vec3(factor(*coat, "clearcoatRoughnessFactor", 0)));
-    for (const char* map : {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"})
-      if (coat->has(map)) left_out_.add("maps of clearcoat");
-  }
-  return materials::make_principled(values, std::move(stand_in));
-}
-
 // Nothing where the cutoff cuts nothing out.
 std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material) {
   const double cutoff = material.number("alphaCutoff", 0.5);
@@ -307,7 +255,7 @@ std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material) {
   if (pbr) alpha = factors(*pbr, "baseColorFactor", {1, 1, 1, 1})[3];
   if (old) alpha = factors(*old, "diffuseFactor", {1, 1, 1, 1})[3];
   const auto reference = base_texture(material);
-  return AlphaMask{textured(Vec3(alpha), reference ? texture(*reference, true) : nullptr), cutoff};
+  return AlphaMask{textured(Vec3(alpha), reference ? texture(*reference, Content::color) : nullptr), cutoff};
 }
 
 // Of metallic-roughness, or where there is only that of specular-glossiness.
@@ -321,8 +269,9 @@ std::optional<GltfObject> GltfMaterials::base_texture(const GltfObject& material
 std::optional<GltfObject> GltfMaterials::first_texture(const GltfObject& material) {
   if (auto base = base_texture(material)) return base;
   if (auto emissive = material.object("emissiveTexture")) return emissive;
-  const auto pbr = material.object("pbrMetallicRoughness");
-  return pbr ? pbr->object("metallicRoughnessTexture") : std::nullopt;
+  if (const auto pbr = material.object("pbrMetallicRoughness"))
+    if (auto metal_rough = pbr->object("metallicRoughnessTexture")) return metal_rough;
+  return first_extension_texture(material);
 }
 
 GltfUv GltfMaterials::uv(size_t index) const {

@@ -10,6 +10,7 @@
 #include "host/importers/gltf_buffers.hpp"
 #include "host/importers/texture_files.hpp"
 #include "host/scene/material.hpp"
+#include "host/textures/make.hpp"
 
 namespace eyeray::importers {
 
@@ -45,18 +46,43 @@ class GltfMaterials {
   GltfUv uv(size_t index) const;
 
  private:
-  struct Surface;  // metallic-roughness, as numbers and one picture
+  // Metallic-roughness, as numbers and pictures.
+  struct Surface {
+    Vec3 base{1};
+    TexturePtr emission;
+    std::shared_ptr<const ImageTexture> image;
+    double metalness = 1;  // in the mean, as the next
+    double roughness = 1;
+    TexturePtr metal_rough;  // these two over the surface: of blue and green
+
+    TexturePtr metalness_texture() const {
+      return metal_rough ? metal_rough : textures::make_constant(Vec3(metalness));
+    }
+    TexturePtr roughness_texture() const {
+      return metal_rough ? metal_rough : textures::make_constant(Vec3(roughness));
+    }
+  };
 
   Surface surface(const GltfObject& material);
   TexturePtr emission(const GltfObject& material);
   // `stand_in`: what Whitted's pictures show of it.
   std::unique_ptr<Material> principled(const GltfObject& source, const Surface& surface,
                                        std::unique_ptr<Material> stand_in);
+  // What Whitted's pictures show of what transmits.
+  std::unique_ptr<Material> glass(const GltfObject& material, const Surface& surface);
+  double ior(const GltfObject& material);
+  Vec3 absorption(const GltfObject& material);
   std::optional<AlphaMask> mask(const GltfObject& material);
-  std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, bool srgb);
+  // What of a picture counts: its sRGB colours, its numbers, or its alpha in place of each channel.
+  enum class Content { color, data, alpha };
+  std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, Content content);
+  // `factor` times the picture `map` of an extension, where that is to be had.
+  TexturePtr scaled(const GltfObject& material, const GltfObject& extension, const char* map,
+                    const Vec3& factor, Content content = Content::data);
   ImageTexture decode_image(size_t index, image::PixelBudget& budget);
   static std::optional<GltfObject> base_texture(const GltfObject& material);
   static std::optional<GltfObject> first_texture(const GltfObject& material);
+  static std::optional<GltfObject> first_extension_texture(const GltfObject& material);
   static bool shares_uv(const GltfObject& material, const GltfObject& reference);
   void note_rest(const GltfObject& material);
   // Numbers that are shares, from 0 to 1.

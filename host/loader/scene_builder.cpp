@@ -337,7 +337,7 @@ void Builder::check_paths() {
   const std::vector<SourcePosition>& unsampled = lamps.unsampled;
   const auto has_size = [&](const auto& light) { return light->illuminate(scene_.camera.eye).angle > 0; };
   const auto glass = std::ranges::find_if(
-      scene_.materials, [](const auto& material) { return material->medium().has_value(); });
+      scene_.materials, [&](const auto& material) { return fills(*material, scene_.render.integrator); });
   if (glass != scene_.materials.end() && !scene_.lights.empty() && !scene_.environment &&
       lamps.sampled.empty() && unsampled.empty() && std::ranges::none_of(scene_.lights, has_size))
     log_.warning({},

@@ -30,6 +30,9 @@ sphere of `ior = 1` inside it. From ior n₁ to n₂, sin²θ₂ = (n₁/n₂)²
 no root is taken. The reflected share is ½ (rₛ² + rₚ²), rₛ = (n₁cosθ₁ − n₂cosθ₂) / (n₁cosθ₁ + n₂cosθ₂),
 rₚ = (n₁cosθ₂ − n₂cosθ₁) / (n₁cosθ₂ + n₂cosθ₁); equal media do not mirror at all.
 
+With `thin` it is a pane, which has no inside: light that is mirrored to and fro between its faces adds up, R' = 2R / (1 + R), and the
+rest goes straight on. Under `path` lamps light through panes, up to eight of them, as nothing else that is clear lets them.
+
 Shadow rays go straight through and keep the share `shadow` for each shape that they hit, however often they cross it
 (a triangle is a shape). By default it is what a surface with air lets through at right angles,
 1 − ((ior − 1) / (ior + 1))². Bent light (caustics) and its absorption are not modelled.
@@ -44,6 +47,10 @@ constexpr Key keys[] = {
      .fallback = "1.5",
      .min = 1,
      .max = 4},
+    {.name = "thin",
+     .type = KeyType::boolean,
+     .doc = "Whether it is a pane: a surface without inside, such as a window or a bubble.",
+     .fallback = "false"},
     {.name = "roughness",
      .type = KeyType::texture,
      .doc = "Under `path`, of frosted glass: from 0, polished, to 1. The green channel counts. What is not 0 "
@@ -70,7 +77,9 @@ class Dielectric final : public Material {
 
   Scattering scattering(const ScatteringContext& context) const override {
     const double mirrored =
-        optics::dielectric_reflectance(context.cos_view, context.ior_from, context.ior_to);
+        values_.thin
+            ? of_pane(optics::dielectric_reflectance(context.cos_view, context.ior_from, values_.ior))
+            : optics::dielectric_reflectance(context.cos_view, context.ior_from, context.ior_to);
     Scattering scattering;
     scattering.reflected = Vec3(mirrored);
     scattering.transmitted = Vec3(1 - mirrored);
@@ -81,6 +90,12 @@ class Dielectric final : public Material {
   Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const override {
     Bsdf bsdf = Material::bsdf(context, scattering);
     bsdf.roughness = values_.roughness->at(context.place).y;
+    if (values_.thin) {
+      std::swap(bsdf.transmitted, bsdf.passed);
+      if (bsdf.roughness == 0) return bsdf;
+      const optics::Fresnel surface = optics::schlick(Vec3(1 - pane_transmittance()), Vec3(1));
+      return {.layer = surface, .glossy = surface, .roughness = bsdf.roughness, .thin = Vec3(1)};
+    }
     if (bsdf.roughness > 0 && context.ior_from != context.ior_to) {
       bsdf.mirror = bsdf.transmitted = Vec3(0);
       bsdf.glass = Vec3(1);
@@ -93,32 +108,52 @@ class Dielectric final : public Material {
   Vec3 base_color(const TextureContext&) const override { return Vec3(1); }
 
   std::optional<Medium> medium() const override {
+    if (values_.thin) return std::nullopt;
     return Medium{values_.ior, values_.absorption, values_.scattering, values_.anisotropy};
   }
+  bool thin() const override { return values_.thin; }
 
   double shadow_transmittance() const override {
     const double r = (values_.ior - 1) / (values_.ior + 1);
-    return values_.shadow.value_or(1 - r * r);
+    return values_.shadow.value_or(values_.thin ? pane_transmittance() : 1 - r * r);
   }
 
   void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_dielectric, values_.highlight, shadow_transmittance(), packer);
-    record.medium = packer.add_medium(*medium());
+    if (values_.thin) {
+      record.flags |= MATERIAL_PANE;
+      record.a = shader::vec4(values_.ior, 1 - pane_transmittance(), 0, 0);
+    } else {
+      record.medium = packer.add_medium(*medium());
+    }
     record.color = record.reflected = textures::make_constant(Vec3(1))->pack(packer);
     record.roughness = values_.roughness->pack(packer);
     packer.add(record);
-    if (rough()) packer.scene.lobes.insert(shader::LOBE_rough_glass);
+    if (rough() && !values_.thin) packer.scene.lobes.insert(shader::LOBE_rough_glass);
+    if (rough() && values_.thin)
+      packer.scene.lobes.insert({shader::LOBE_glossy, shader::LOBE_multiple, shader::LOBE_thin});
   }
 
  private:
+  // What both its faces mirror together, of what one does.
+  static double of_pane(double mirrored) { return 2 * mirrored / (1 + mirrored); }
+  double pane_transmittance() const {
+    const double r = (values_.ior - 1) / (values_.ior + 1);
+    return 1 - of_pane(r * r);
+  }
   bool rough() const { return values_.roughness->constant() != Vec3(0); }
 
   DielectricValues values_;
 };
 
 std::unique_ptr<Material> parse(TableReader& table) {
+  if (table.boolean("thin"))
+    for (const char* inside : {"absorption", "scattering"})
+      if (table.has(inside))
+        table.error(inside, "a thin pane has no inside that absorbs; `principled` has panes of a colour");
   const Medium medium = read_medium(table, table.number("ior"));
   DielectricValues values{.ior = medium.ior,
+                          .thin = table.boolean("thin"),
                           .roughness = table.texture("roughness"),
                           .absorption = medium.absorption,
                           .scattering = medium.scattering,

@@ -28,6 +28,7 @@ std::unique_ptr<Material> make_mirror(const MirrorValues& values);
 
 struct DielectricValues {
   double ior = 1.5;
+  bool thin = false;
   TexturePtr roughness = textures::make_constant(Vec3(0));
   Vec3 absorption{0.0};
   Vec3 scattering{0.0};
@@ -56,8 +57,13 @@ struct PrincipledValues {
   TexturePtr metallic = textures::make_constant(Vec3(0));
   TexturePtr roughness = textures::make_constant(Vec3(0.5));
   double ior = 1.5;
-  double specular = 1;
-  Vec3 specular_color{1};
+  TexturePtr specular = textures::make_constant(Vec3(1));
+  TexturePtr specular_color = textures::make_constant(Vec3(1));
+  TexturePtr transmission = textures::make_constant(Vec3(0));
+  bool thin = false;
+  Vec3 absorption{0.0};
+  TexturePtr sheen = textures::make_constant(Vec3(0));
+  TexturePtr sheen_roughness = textures::make_constant(Vec3(0.5));
   TexturePtr coat = textures::make_constant(Vec3(0));
   TexturePtr coat_roughness = textures::make_constant(Vec3(0));
   TexturePtr emission = textures::make_constant(Vec3(0));

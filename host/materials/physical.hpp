@@ -14,6 +14,9 @@ class Physical : public Material {
     return stand_in_->scattering(context);
   }
   Vec3 base_color(const TextureContext& place) const override { return stand_in_->base_color(place); }
+  std::optional<Medium> medium() const override { return stand_in_->medium(); }
+  bool thin() const override { return stand_in_->thin(); }
+  double shadow_transmittance() const override { return stand_in_->shadow_transmittance(); }
   bool emits() const override { return stand_in_->emits(); }
   std::optional<Vec3> constant_emission() const override { return stand_in_->constant_emission(); }
 

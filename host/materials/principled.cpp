@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "host/materials/physical.hpp"
 
@@ -11,7 +13,7 @@ namespace {
 
 constexpr std::string_view principled_manual =
     R"(glTF 2.0's metallic-roughness, which models come with: a coloured body under a clear, glossy surface, or a metal of that
-colour, or a blend of both, and perhaps a coat of lacquer.
+colour, or a blend of both; light may go through it, and cloth and lacquer may lie over it.
 
 ```toml
 [[material]]
@@ -25,10 +27,13 @@ coat = 1
 
 Where it is no metal it mirrors F0 = ((ior − 1) / (ior + 1))² · specular_color · specular at right angles and `specular` edge-on; a
 metal mirrors `color`, and white edge-on (Schlick). Microfacets are as in `conductor`. What the surface lets through meets a
-Lambert body of `color`, and leaves through the surface again. A coat has index 1.5. `whitted` and `raycast` show a stand-in.
+Lambert body of `color`, and leaves through the surface again; by the share `transmission` it goes on instead, tinted by `color`. It is
+bent there as in `dielectric` (then that share mirrors by `ior` alone), and fills the shape; or with `thin` goes straight on, blurred by `roughness`. A coat
+has index 1.5. Sheen is fibres of that colour above the body, as cloth has them. `whitted` and `raycast` show a stand-in: glass where `transmission` is 0.5 and more.
 
-**Source.** Khronos: glTF 2.0 Specification, appendix B; KHR_materials_ior, _specular, _clearcoat. Kelemen, Szirmay-Kalos: A Microfacet
-Based Coupled Specular-Matte BRDF Model, Eurographics 2001.
+**Source.** Khronos: glTF 2.0 Specification, appendix B; KHR_materials_ior, _specular, _clearcoat, _sheen, _transmission, _volume. Kelemen,
+Szirmay-Kalos: A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001. Estevez, Kulla: Production Friendly Microfacet
+Sheen BRDF, SIGGRAPH 2017.
 )";
 
 constexpr std::string_view plastic_manual =
@@ -66,15 +71,41 @@ constexpr Key principled_keys[] = {
     roughness_key,
     ior_key,
     {.name = "specular",
-     .type = KeyType::number,
-     .doc = "Weakens what is mirrored where it is no metal.",
+     .type = KeyType::texture,
+     .doc = "Weakens what is mirrored where it is no metal. The red channel counts.",
      .fallback = "1",
-     .min = 0,
      .max = 1},
     {.name = "specular_color",
-     .type = KeyType::color,
+     .type = KeyType::texture,
      .doc = "Tints what is mirrored at right angles where it is no metal.",
      .fallback = "1"},
+    {.name = "transmission",
+     .type = KeyType::texture,
+     .doc = "The share of light that goes through, of what the surface does not mirror and where it is no "
+            "metal. "
+            "The red channel counts.",
+     .fallback = "0",
+     .max = 1},
+    {.name = "thin",
+     .type = KeyType::boolean,
+     .doc = "Whether what light goes through is a pane, without inside: a window, a leaf, a bubble.",
+     .fallback = "false"},
+    {.name = "absorption",
+     .type = KeyType::color,
+     .doc = "Light is weakened by exp(-absorption * distance) inside; per unit of length.",
+     .fallback = "0"},
+    {.name = "sheen_color",
+     .type = KeyType::texture,
+     .doc = "Of fibres above the body; black without.",
+     .fallback = "0",
+     .max = 1},
+    {.name = "sheen_roughness",
+     .type = KeyType::texture,
+     .doc = "How much the fibres stand in all directions: from 0, edge-on alone, to 1. The green channel "
+            "counts. Below "
+            "0.07 it counts as that.",
+     .fallback = "0.5",
+     .max = 1},
     {.name = "coat",
      .type = KeyType::texture,
      .doc = "The share of the surface that a clear coat covers. The red channel counts.",
@@ -93,50 +124,125 @@ constexpr Key plastic_keys[] = {color_key, roughness_key, ior_key, emission_key}
 class Principled final : public Physical {
  public:
   Principled(const PrincipledValues& values, std::unique_ptr<Material> stand_in, uint32_t kind)
-      : Physical(std::move(stand_in)), values_(values), kind_(kind) {
-    const double r = (values.ior - 1) / (values.ior + 1);
-    f0_ = glm::min(Vec3(1), r * r * values.specular_color) * values.specular;
+      : Physical(std::move(stand_in)),
+        values_(values),
+        kind_(kind),
+        shown_as_glass_(Physical::medium() || Physical::thin()) {}
+
+  std::optional<Medium> medium() const override {
+    return transmits() && !values_.thin ? own_medium() : Physical::medium();
+  }
+  bool thin() const override { return transmits() && values_.thin; }
+  bool emits() const override { return constant_emission() != Vec3(0); }
+  std::optional<Vec3> constant_emission() const override { return values_.emission->constant(); }
+
+  Scattering scattering(const ScatteringContext& context) const override {
+    Scattering scattering = Physical::scattering(context);
+    if (shown_as_glass_) scattering.emitted = values_.emission->at(context.place) * context.color;
+    return scattering;
   }
 
   Vec3 base_color(const TextureContext& place) const override {
-    return values_.color->at(place) + values_.emission->at(place);
+    return shown_as_glass_ ? Physical::base_color(place)
+                           : values_.color->at(place) + values_.emission->at(place);
   }
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering&) const override {
     const Vec3 color = values_.color->at(context.place) * context.color;
     const double metallic = values_.metallic->at(context.place).z;
-    const Vec3 edge(values_.specular);
-    return {.diffuse = color * (1 - metallic),
-            .layer = optics::schlick(f0_, edge),
-            .glossy = optics::schlick(glm::mix(f0_, color, metallic), glm::mix(edge, Vec3(1), metallic)),
-            .roughness = values_.roughness->at(context.place).y,
-            .coat = values_.coat->at(context.place).x,
-            .coat_roughness = values_.coat_roughness->at(context.place).y};
+    const double level = values_.specular->at(context.place).x;
+    const Vec3 f0 = mirrored(values_.specular_color->at(context.place), level), edge(level);
+    const double through = values_.transmission->at(context.place).x * (1 - metallic);
+    Bsdf bsdf{.diffuse = color * (1 - metallic - through),
+              .layer = optics::schlick(f0, edge),
+              .glossy = optics::schlick(glm::mix(f0, color, metallic), glm::mix(edge, Vec3(1), metallic)),
+              .roughness = values_.roughness->at(context.place).y,
+              .coat = values_.coat->at(context.place).x,
+              .coat_roughness = values_.coat_roughness->at(context.place).y,
+              .sheen = values_.sheen->at(context.place),
+              .sheen_roughness = values_.sheen_roughness->at(context.place).y};
+    if (through == 0) return bsdf;
+    if (values_.thin) {
+      (bsdf.roughness == 0 ? bsdf.passed : bsdf.thin) = color * through;
+      return bsdf;
+    }
+    bsdf.covered = 1 - through;
+    bsdf.ior_from = context.ior_from;
+    bsdf.ior_to = context.ior_to;
+    if (bsdf.roughness == 0 || context.ior_from == context.ior_to) {
+      const double mirrored =
+          optics::dielectric_reflectance(context.cos_view, context.ior_from, context.ior_to);
+      bsdf.mirror = Vec3(through * mirrored);
+      bsdf.transmitted = color * (through * (1 - mirrored));
+    } else {
+      bsdf.glass = Vec3(through);
+      bsdf.glass_color = color;
+    }
+    return bsdf;
   }
 
   void pack(records::Packer& packer) const override {
     const uint32_t color = values_.color->pack(packer), metallic = values_.metallic->pack(packer),
                    roughness = values_.roughness->pack(packer), coat = values_.coat->pack(packer),
-                   coat_roughness = values_.coat_roughness->pack(packer);
+                   coat_roughness = values_.coat_roughness->pack(packer),
+                   transmission = values_.transmission->pack(packer), sheen = values_.sheen->pack(packer),
+                   sheen_roughness = values_.sheen_roughness->pack(packer),
+                   emission = values_.emission->pack(packer);
+    // What is the same everywhere is multiplied here already.
+    const std::optional<Vec3> level = values_.specular->constant(), tint = values_.specular_color->constant();
+    const TexturePtr white = textures::make_constant(Vec3(1));
+    const uint32_t specular_level = (level ? white : values_.specular)->pack(packer);
+    const uint32_t specular_color = (tint ? white : values_.specular_color)->pack(packer);
     shader::Material& record = pack_stand_in(kind_, packer);
-    record.color = color;
+    if (shown_as_glass_) {
+      record.flags |= MATERIAL_CLEAR;
+      record.base = color;
+      record.a.x = float(own_medium().ior);
+      record.emission = emission;
+    } else {
+      record.color = color;
+      if (const auto filling = medium()) record.medium = packer.add_medium(filling->ior, filling->absorption);
+    }
+    record.transmission = transmission;
+    record.sheen = sheen;
+    record.sheen_roughness = sheen_roughness;
+    record.specular_level = specular_level;
+    record.specular_color = specular_color;
     record.metallic = metallic;
     record.roughness = roughness;
     record.coat = coat;
     record.coat_roughness = coat_roughness;
-    record.b = records::to_vec4(f0_, values_.specular);
+    const double constant_level = level.value_or(Vec3(1)).x;
+    record.b = records::to_vec4(mirrored(tint.value_or(Vec3(1)), constant_level), constant_level);
     packer.scene.lobes.insert({shader::LOBE_diffuse, shader::LOBE_glossy, shader::LOBE_multiple});
-    if (values_.coat->constant() != Vec3(0)) packer.scene.lobes.insert(shader::LOBE_coat);
+    std::set<uint32_t>& lobes = packer.scene.lobes;
+    if (values_.coat->constant() != Vec3(0)) lobes.insert(shader::LOBE_coat);
+    if (values_.sheen->constant() != Vec3(0)) lobes.insert(shader::LOBE_sheen);
+    if (transmits() && values_.roughness->constant() != Vec3(0))
+      lobes.insert(values_.thin ? shader::LOBE_thin : shader::LOBE_rough_glass);
   }
 
  private:
+  bool transmits() const { return values_.transmission->constant() != Vec3(0); }
+  Medium own_medium() const { return {std::max(1.0, values_.ior), values_.absorption}; }
+  // At right angles, where it is no metal.
+  Vec3 mirrored(const Vec3& tint, double level) const {
+    const double r = (values_.ior - 1) / (values_.ior + 1);
+    return glm::min(Vec3(1), r * r * tint) * level;
+  }
+
   PrincipledValues values_;
   uint32_t kind_;
-  Vec3 f0_;
+  bool shown_as_glass_;  // by the stand-in
 };
 
 std::unique_ptr<Material> make(const PrincipledValues& values, std::unique_ptr<Material> stand_in_material,
                                uint32_t kind) {
+  if (!stand_in_material && values.transmission->constant() != Vec3(0) &&
+      values.transmission->constant().value_or(values.transmission->at(Vec2(0.5))).x >= 0.5) {
+    stand_in_material = make_dielectric(
+        {.ior = std::max(1.0, values.ior), .thin = values.thin, .absorption = values.absorption});
+  }
   if (!stand_in_material) {
     const double metallic = values.metallic->constant().value_or(values.metallic->at(Vec2(0.5))).z;
     const double roughness = typical(*values.roughness), r = (values.ior - 1) / (values.ior + 1);
@@ -162,8 +268,19 @@ std::unique_ptr<Material> parse_principled(TableReader& table) {
   if (table.failed()) return nullptr;
   PrincipledValues values = read_body(table);
   values.metallic = table.texture("metallic");
-  values.specular = table.number("specular");
-  values.specular_color = table.color("specular_color");
+  values.specular = table.texture("specular");
+  values.specular_color = table.texture("specular_color");
+  values.transmission = table.texture("transmission");
+  values.thin = table.boolean("thin");
+  values.absorption = table.color("absorption");
+  values.sheen = table.texture("sheen_color");
+  values.sheen_roughness = table.texture("sheen_roughness");
+  if (values.thin && table.has("absorption"))
+    table.error("absorption", "a thin pane has no inside that absorbs; its `color` tints");
+  for (const char* key : {"thin", "absorption"})
+    if (table.has(key) && !table.has("transmission"))
+      table.error(key, "says something of light that goes through, which needs `transmission`");
+  if (table.failed()) return nullptr;
   values.coat = table.texture("coat");
   values.coat_roughness = table.texture("coat_roughness");
   return make(values, nullptr, shader::MATERIAL_principled);

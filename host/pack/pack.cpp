@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "host/core/error.hpp"
-#include "host/optics/ggx_albedo.hpp"
+#include "host/pack/albedo_records.hpp"
 #include "host/pack/emitter_records.hpp"
 #include "host/pack/environment_records.hpp"
 #include "host/pack/geometry.hpp"
@@ -66,20 +66,20 @@ shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed)
   return frame;
 }
 
-// Of lobes that ask for it.
-void pack_ggx_albedos(records::PackedScene& packed) {
-  if (!packed.lobes.contains(shader::LOBE_glossy)) return;
-  for (const auto& [once, edge, mean_once, mean_edge] : optics::ggx_albedo_table())
-    packed.ggx_albedos.emplace_back(once, edge, mean_once, mean_edge);
-}
-
 records::Packer pack_records(const Scene& scene, const PackOptions& options) {
   records::Packer packer(scene.camera.eye);
   for (const auto& material : scene.materials) {
     material->pack(packer);
     shader::Material& record = packer.scene.materials.back();
-    if (walks_at_random(scene.render.integrator)) record.optical_depth = OPTICAL_DEPTH_OPAQUE;
     if (material->emits_in_front) record.flags |= MATERIAL_EMITS_IN_FRONT;
+    if (walks_at_random(scene.render.integrator)) {
+      record.optical_depth = OPTICAL_DEPTH_OPAQUE;
+      if (material->thin()) {
+        record.medium = 0;
+        record.flags |= MATERIAL_PANE;
+        packer.scene.panes = true;
+      }
+    }
     if (material->mask) {
       record.alpha = material->mask->alpha->pack(packer);
       record.alpha_cutoff = float(material->mask->cutoff);
@@ -93,7 +93,7 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
     const LightChoice choice = light_choice(scene);
     pack_light_choice(choice, packer);
     light_bvh_numbers = choice.bvh_numbers();
-    pack_ggx_albedos(packer.scene);
+    pack_albedos(packer.scene);
   } else {
     packer.scene.lobes.clear();
     for (shader::Medium& medium : packer.scene.media) medium.scattering = shader::vec3(0);

@@ -3,13 +3,16 @@
 // Li, Torrance: Microfacet Models for Refraction through Rough Surfaces, EGSR 2007. Heitz: Understanding the
 // Masking-Shadowing Function in Microfacet-Based BRDFs, JCGT 2014. Dupuy, Benyoub: Sampling Visible GGX
 // Normals with Spherical Caps, HPG 2023. Kulla, Conty: Revisiting Physically Based Shading at Imageworks,
-// SIGGRAPH 2017.
+// SIGGRAPH 2017. Estevez, Kulla: Production Friendly Microfacet Sheen BRDF, SIGGRAPH 2017. Turquin: Practical
+// Multiple Scattering Compensation for Microfacet Models, 2019.
 #include "host/reference/bsdf.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "host/optics/ggx_albedo.hpp"
+#include "host/optics/glass_albedo.hpp"
+#include "host/optics/sheen_albedo.hpp"
 #include "host/reference/emitter_sample.hpp"
 
 namespace eyeray::reference {
@@ -88,6 +91,11 @@ double through_coat(double coat, double roughness, double cosine) {
   return 1 - coat * once(coat_fresnel(), albedo.once, albedo.edge).x;
 }
 
+// The same of sheen.
+double through_sheen(const Vec3& sheen, double roughness, double cosine) {
+  return sheen == Vec3(0) ? 1 : 1 - largest(sheen) * optics::sheen_albedo(cosine, roughness).albedo;
+}
+
 // EON, without the light's cosine.
 Vec3 rough_diffuse(const Vec3& color, double r, const Vec3& o, const Vec3& i) {
   const double a = 1 / (1 + r * (0.5 - 2 / (3 * M_PI)));
@@ -109,16 +117,26 @@ Vec3 rough_diffuse(const Vec3& color, double r, const Vec3& o, const Vec3& i) {
 ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : bsdf_(bsdf), o_(o) {
   const bool any_glossy = bsdf.glossy.f90 != Vec3(0) || bsdf.layer.f90 != Vec3(0);
   const GgxAlbedo albedo = any_glossy ? optics::ggx_albedo(o.z, bsdf.roughness) : GgxAlbedo{};
-  const double under = through_coat(bsdf.coat, bsdf.coat_roughness, o.z);
+  const double coated = through_coat(bsdf.coat, bsdf.coat_roughness, o.z);
+  const double under = coated * through_sheen(bsdf.sheen, bsdf.sheen_roughness, o.z);
+  const Vec3 let_in = 1.0 - layer_albedo(bsdf.layer, albedo);
+  single_ = under;
+  passed_ = under * let_in;
   Vec3 albedos[lobes];
-  albedos[diffuse] = under * bsdf.diffuse * (1.0 - layer_albedo(bsdf.layer, albedo));
-  albedos[glossy] = under * (bsdf.glossy.conductor ? bsdf.glossy.mean * albedo.once
-                                                   : once(bsdf.glossy, albedo.once, albedo.edge));
-  albedos[multiple] = under * often(bsdf.glossy, albedo) * (1 - albedo.once);
-  albedos[coat] = Vec3(1 - under);
-  albedos[glass] = bsdf.glass;
-  albedos[mirror] = bsdf.mirror;
-  albedos[transmitted] = bsdf.transmitted;
+  albedos[diffuse] = under * bsdf.diffuse * let_in;
+  albedos[glossy] = under * bsdf.covered *
+                    (bsdf.glossy.conductor ? bsdf.glossy.mean * albedo.once
+                                           : once(bsdf.glossy, albedo.once, albedo.edge));
+  albedos[multiple] = under * bsdf.covered * often(bsdf.glossy, albedo) * (1 - albedo.once);
+  albedos[coat] = Vec3(1 - coated);
+  albedos[glass] = under * bsdf.glass;
+  albedos[sheen] = Vec3(0);
+  if (bsdf.sheen != Vec3(0))
+    albedos[sheen] = coated * bsdf.sheen * optics::sheen_albedo(o.z, bsdf.sheen_roughness).albedo;
+  albedos[thin] = under * bsdf.thin * let_in;
+  albedos[mirror] = bsdf.mirror * under * under;
+  albedos[transmitted] = bsdf.transmitted * under;
+  albedos[straight] = passed();
   for (int lobe = 0; lobe < lobes; ++lobe) {
     shares_[lobe] = largest(albedos[lobe]);
     albedo_ += albedos[lobe];
@@ -141,15 +159,18 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
         value *= (1.0 - layer_albedo(bsdf_.layer, albedo(o_))) *
                  (1.0 - layer_albedo(bsdf_.layer, albedo(i))) /
                  (1.0 - mean_layer_albedo(bsdf_.layer, albedo(o_)));
+      // The sheen above lets light in and out again, as the layer does.
+      if (bsdf_.sheen != Vec3(0))
+        value /= 1 - largest(bsdf_.sheen) * optics::sheen_albedo(1, bsdf_.sheen_roughness).mean;
       return {value, even};
     }
     case glossy: {
       BsdfValue result = reflection(o_, i, width_of(bsdf_.roughness));
-      result.value *= bsdf_.glossy.at(std::min(1.0, glm::dot(o_, glm::normalize(o_ + i))));
+      result.value *= bsdf_.covered * bsdf_.glossy.at(std::min(1.0, glm::dot(o_, glm::normalize(o_ + i))));
       return result;
     }
     case multiple:
-      return {often(bsdf_.glossy, albedo(o_)) * (1 - albedo(o_).once) * (1 - albedo(i).once) /
+      return {bsdf_.covered * often(bsdf_.glossy, albedo(o_)) * (1 - albedo(o_).once) * (1 - albedo(i).once) /
                   (1 - albedo(o_).mean_once) * even,
               even};
     case coat: {
@@ -171,36 +192,70 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
       const double sum = n_o * along_o + n_i * along_i;
       const double density = through ? seen * (1 - mirrored) * n_i * n_i * std::abs(along_i) / (sum * sum)
                                      : seen * mirrored / (4 * along_o);
-      return {bsdf_.glass * density * both / masking, density};
+      const double once = optics::glass_albedo(o_.z, bsdf_.roughness, n_o, n_i);
+      return {bsdf_.glass * (through ? bsdf_.glass_color : Vec3(1)) * density * both / masking / once,
+              density};
+    }
+    case sheen: {
+      if (cosine == 0) return {};
+      const double half_way = std::min(1.0, glm::normalize(o_ + i).z), r = bsdf_.sheen_roughness;
+      const double edge_on =
+          std::max({1.0, optics::sheen_albedo(o_.z, r).unweakened, optics::sheen_albedo(i.z, r).unweakened});
+      return {bsdf_.sheen * optics::sheen(half_way, o_.z, i.z, r) / edge_on * cosine, even};
+    }
+    case thin: {
+      if (i.z >= 0) return {};
+      const Vec3 up(i.x, i.y, -i.z);
+      const BsdfValue blurred = reflection(o_, up, width_of(bsdf_.roughness));
+      const GgxAlbedo there = albedo(o_), here = albedo(up);
+      const Vec3 let_in = 1.0 - bsdf_.layer.at(std::min(1.0, glm::dot(o_, glm::normalize(o_ + up))));
+      const Vec3 scattered = (1.0 - often(bsdf_.layer, there)) * (1 - there.once) * (1 - here.once) /
+                             (1 - there.mean_once) * up.z / M_PI;
+      return {bsdf_.thin * (let_in * blurred.value + scattered),
+              there.once * blurred.density + (1 - there.once) * up.z / M_PI};
     }
     default:
       return {};
   }
 }
 
+// Layers are on the viewer's side.
+double ViewedBsdf::through_layers(Lobe lobe, const Vec3& i) const {
+  double left = 1;
+  for (const double cosine : {o_.z, i.z}) {
+    if (lobe == coat || cosine <= 0) continue;
+    left *= through_coat(bsdf_.coat, bsdf_.coat_roughness, cosine);
+    if (lobe != sheen) left *= through_sheen(bsdf_.sheen, bsdf_.sheen_roughness, cosine);
+  }
+  return left;
+}
+
 BsdfValue ViewedBsdf::at(const Vec3& i) const {
-  const double coated = through_coat(bsdf_.coat, bsdf_.coat_roughness, o_.z) *
-                        through_coat(bsdf_.coat, bsdf_.coat_roughness, i.z);
   BsdfValue all;
-  for (const Lobe lobe : {diffuse, glossy, multiple, coat, glass}) {
+  for (const Lobe lobe : {diffuse, glossy, multiple, coat, glass, sheen, thin}) {
     if (shares_[lobe] == 0) continue;
     const BsdfValue one = value(lobe, i);
-    all.value += (lobe < coat ? coated : 1) * one.value;
+    all.value += through_layers(lobe, i) * one.value;
     all.density += shares_[lobe] * one.density;
   }
   return all;
 }
 
 Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
-  if (lobe == diffuse || lobe == multiple) {
+  const double spread = lobe == thin ? optics::ggx_albedo(o_.z, bsdf_.roughness).once : 0;
+  if (lobe == diffuse || lobe == multiple || lobe == sheen || (lobe == thin && part >= spread)) {
     // Evenly on the disk, then up to the half sphere: Malley's.
     const double radius = std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1));
-    return {on_disk(u), std::sqrt(1 - radius * radius)};
+    const double up = std::sqrt(1 - radius * radius);
+    return {on_disk(u), lobe == thin ? -up : up};
   }
   const Vec3 h = ggx_normal(o_, width_of(lobe == coat ? bsdf_.coat_roughness : bsdf_.roughness), u);
   const double along = std::min(1.0, glm::dot(o_, h));
-  if (lobe != glass) return 2 * along * h - o_;
   // What a microfacet sends to the wrong side is lost.
+  if (lobe != glass) {
+    const Vec3 i = 2 * along * h - o_;
+    return i.z > 0 ? Vec3(i.x, i.y, lobe == thin ? -i.z : i.z) : Vec3(0);
+  }
   const bool reflects = part < optics::dielectric_reflectance(along, bsdf_.ior_from, bsdf_.ior_to);
   const Vec3 i = reflects ? 2 * along * h - o_ : glm::refract(-o_, h, bsdf_.ior_from / bsdf_.ior_to);
   return (i.z > 0) == reflects ? i : Vec3(0);
@@ -208,21 +263,23 @@ Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
 
 BsdfSample ViewedBsdf::sample(double chance, const Vec2& u) const {
   // The last whose numbers begin at or before `chance`.
-  double begin = 0, passed = 0;
+  double begin = 0, below = 0;
   Lobe chosen = diffuse;
   for (int lobe = 0; lobe < lobes; ++lobe) {
-    if (shares_[lobe] > 0 && chance >= passed) {
+    if (shares_[lobe] > 0 && chance >= below) {
       chosen = Lobe(lobe);
-      begin = passed;
+      begin = below;
     }
-    passed += shares_[lobe];
+    below += shares_[lobe];
   }
   const double share = shares_[chosen];
   switch (chosen) {
     case mirror:
-      return {BsdfSample::Kind::mirrored, Vec3(0), bsdf_.mirror / share, 14};
+      return {BsdfSample::Kind::mirrored, Vec3(0), bsdf_.mirror * single_ * single_ / share, 14};
     case transmitted:
-      return {BsdfSample::Kind::refracted, Vec3(0), bsdf_.transmitted / share, 15};
+      return {BsdfSample::Kind::refracted, Vec3(0), bsdf_.transmitted * single_ / share, 15};
+    case straight:
+      return {BsdfSample::Kind::passed, Vec3(0), passed() / share, 16};
     default:
       return {BsdfSample::Kind::lobe, direction(chosen, (chance - begin) / share, u), Vec3(0),
               uint32_t(chosen)};

@@ -12,7 +12,7 @@ struct BsdfValue {
 };
 
 struct BsdfSample {
-  enum class Kind { lobe, mirrored, refracted };
+  enum class Kind { lobe, mirrored, refracted, passed };
   Kind kind;
   Vec3 i;         // of a lobe: where light may come from; 0 where the surface itself stands in the way
   Vec3 weight;    // of a single direction: its throughput by how likely it was chosen
@@ -29,21 +29,26 @@ class ViewedBsdf {
   BsdfValue at(const Vec3& i) const;
   // chance and u: random numbers in [0, 1). Not of a black one.
   BsdfSample sample(double chance, const Vec2& u) const;
+  // The share of light that goes straight on.
+  Vec3 passed() const { return bsdf_.passed * passed_; }
   // About the share of the light that it sends towards the viewer.
   Vec3 albedo() const { return glm::min(albedo_, Vec3(1)); }
-  // Whether light leaves in one or two directions alone.
-  bool specular() const { return shares_[mirror] + shares_[transmitted] > 0 && !rough(); }
+  // Whether light leaves in single directions alone.
+  bool specular() const { return shares_[mirror] + shares_[transmitted] + shares_[straight] > 0 && !rough(); }
   // Whether it sends no light on at all.
   bool black() const { return sum_ == 0; }
 
  private:
   // In the order in which they are chosen.
-  enum Lobe { diffuse, glossy, multiple, coat, glass, mirror, transmitted, lobes };
+  enum Lobe { diffuse, glossy, multiple, coat, glass, sheen, thin, mirror, transmitted, straight, lobes };
 
   bool rough() const {
-    return shares_[diffuse] + shares_[glossy] + shares_[multiple] + shares_[coat] + shares_[glass] > 0;
+    double sum = 0;
+    for (int lobe = diffuse; lobe < mirror; ++lobe) sum += shares_[lobe];
+    return sum > 0;
   }
   BsdfValue value(Lobe lobe, const Vec3& i) const;
+  double through_layers(Lobe lobe, const Vec3& i) const;
   Vec3 direction(Lobe lobe, double part, const Vec2& u) const;
 
   const Bsdf& bsdf_;
@@ -51,6 +56,8 @@ class ViewedBsdf {
   double shares_[lobes] = {};
   double sum_ = 0;
   Vec3 albedo_{0};
+  double single_;  // what layers leave of a single direction's light on their way to the viewer
+  Vec3 passed_;    // and of what goes straight on
 };
 
 }  // namespace eyeray::reference

@@ -35,7 +35,7 @@ struct Object {
 std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
   std::vector<Crossing> crossings;
   const auto has_medium = [&](int material) {
-    return tracer.scene().materials[size_t(material)]->medium().has_value();
+    return fills(*tracer.scene().materials[size_t(material)], tracer.scene().render.integrator);
   };
   const auto collect = [&](const auto& object, const auto& material_at) {
     for_each_crossing(object, ray, [&](double t, const auto& hit, const SurfacePoint& surface) {

@@ -109,7 +109,7 @@ class PathSample {
 
  private:
   Vec2 pair(uint32_t use) const {
-    const uint32_t number = use + pairs_a_vertex * uint32_t(depth_);
+    const uint32_t number = use + pairs_a_vertex * surfaces();
     Vec2 pair = sampler(scene_.image.pattern).pair(id_.pixel, id_.index, number, scene_.render.seed);
     // Moved, where it is asked what float32 makes of numbers that are near to a decision.
     if (numbers_ != 0)
@@ -118,20 +118,23 @@ class PathSample {
                                   0.0, 1 - 0x1p-24);
     return pair;
   }
+  // That the path has come through.
+  uint32_t surfaces() const { return uint32_t(depth_ + all_panes_); }
   Flight fly(const MediaStack& media, const std::optional<Hit>& hit) const;
   Interaction scattered_at(const Ray& ray, double t) const;
   std::optional<Ray> scatter_in(const Medium& medium, const Interaction& at);
-  Vec3 emitted(const Interaction& at, const Vec3& from) const;
+  Vec3 emitted(const Interaction& at) const;
   Vec3 missed(const Vec3& d) const;
   double environment_share() const;
   std::optional<Arriving> arriving(const Interaction& at);
   std::optional<Arriving> arriving_from_around(const Interaction& at);
-  Vec3 direct(const Arriving& light, const BsdfValue& scattered, const Medium& medium);
+  Vec3 direct(const Interaction& at, const Arriving& light, const BsdfValue& scattered,
+              const MediaStack& media);
   Vec3 direct_on(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                  const MediaStack& media);
-  Vec3 direct_in(const Medium& medium, const Interaction& at);
-  std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, double chance,
-                               uint32_t way);
+  Vec3 direct_in(const Interaction& at, const MediaStack& media);
+  std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, double chance, uint32_t way,
+                               bool straight = false);
   std::optional<Ray> scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                              MediaStack& media);
 
@@ -141,7 +144,10 @@ class PathSample {
   const uint32_t numbers_;
   SampleRays rays_;
   const Observer& observer_;
+  const bool any_pane_ = std::ranges::any_of(scene_.materials, &Material::thin);
   int depth_ = 0;
+  int panes_ = 0, all_panes_ = 0;  // that the path has passed straight, since its last vertex and in all
+  Vec3 vertex_{0};                 // its last, or the eye
   Vec3 throughput_{1};
   bool roulette_ = true;
   uint64_t asked_ = 0;    // by the last vertex: the value of its Event::light …
@@ -161,7 +167,7 @@ Flight PathSample::fly(const MediaStack& media, const std::optional<Hit>& hit) c
   }
   const Vec3 extinction = medium.absorption + medium.scattering;
   const Vec2 chance = sampler(scene_.image.pattern)
-                          .pair(id_.pixel, id_.index, first_flight_pair + uint32_t(depth_), scene_.render.seed);
+                          .pair(id_.pixel, id_.index, first_flight_pair + surfaces(), scene_.render.seed);
   const Vec3 shares = throughput_ / (throughput_.x + throughput_.y + throughput_.z);
   const int channel = chance.x < shares.x ? 0 : chance.x < shares.x + shares.y ? 1 : 2;
   const double t = extinction[channel] > 0 ? -std::log1p(-chance.y) / extinction[channel] : infinity;
@@ -174,7 +180,7 @@ Flight PathSample::fly(const MediaStack& media, const std::optional<Hit>& hit) c
 }
 
 // Its own light, less what shadow rays to it have brought already.
-Vec3 PathSample::emitted(const Interaction& at, const Vec3& from) const {
+Vec3 PathSample::emitted(const Interaction& at) const {
   const Vec3& light = at.scattering.emitted;
   const LightChoice& choice = tracer_.light_choice();
   if (density_ == 0) return light;
@@ -184,7 +190,7 @@ Vec3 PathSample::emitted(const Interaction& at, const Vec3& from) const {
       (1 - environment_share()) *
       light_share(choice, chosen_at_, scene_.lights.size() + size_t(found - choice.emitters.begin()));
   const EmitterSample place{at.surface.position, at.surface.normal_geometric};
-  return light * power_heuristic(density_, share * emitter_density(found->form, from, place));
+  return light * power_heuristic(density_, share * emitter_density(found->form, vertex_, place));
 }
 
 // How likely the environment is chosen, and not a light.
@@ -260,18 +266,22 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
                   light};
 }
 
-// What that brings to the viewer by a vertex that sends on `scattered`; surfaces keep the ray in `medium`.
-Vec3 PathSample::direct(const Arriving& light, const BsdfValue& scattered, const Medium& medium) {
+// What that brings to the viewer by a vertex that sends on `scattered`; all but panes keeps the ray in `media`.
+Vec3 PathSample::direct(const Interaction& at, const Arriving& light, const BsdfValue& scattered,
+                        const MediaStack& media) {
   const double weight = light.density > 0 ? power_heuristic(light.density, scattered.density) : 1;
   const Vec3 contribution =
-      light.radiance * transmittance(medium, light.distance) * scattered.value * weight;
+      light.radiance * transmittance(rays_.medium(media), light.distance) * scattered.value * weight;
   if (contribution == Vec3(0)) return Vec3(0);
-  const double seen = rays_.shadow(light.ray, light.distance);
+  const bool beyond = glm::dot(light.ray.d, at.surface.normal_geometric) < 0;
+  const MediaStack& passed = beyond && !at.in_medium() ? at.media_beyond : media;
+  const Vec3 seen = any_pane_ ? rays_.through_panes(light.ray, light.distance, passed)
+                              : Vec3(rays_.shadow(light.ray, light.distance));
   observer_.ray(RayKind::shadow, light.ray, depth_, 0);
   observer_.value("contribution", contribution);
-  observer_.value("visibility", seen);
+  observer_.value("visibility", seen.x);
   observer_.back(depth_);
-  asked_ = 2 * (light.light + 2) + (seen > 0 ? 1 : 0);
+  asked_ = 2 * (light.light + 2) + (largest(seen) > 0 ? 1 : 0);
   return seen * contribution;
 }
 
@@ -284,15 +294,15 @@ Vec3 PathSample::direct_on(const Interaction& at, const LocalFrame& frame, const
   const BsdfValue scattered = bsdf.at(i);
   if (scattered.value == Vec3(0)) return Vec3(0);
   if (!rays_.on_side(at.surface, light->l, light->distance, i.z > 0)) return Vec3(0);
-  return direct(*light, scattered, rays_.medium(i.z > 0 ? media : at.media_beyond));
+  return direct(at, *light, scattered, i.z > 0 ? media : at.media_beyond);
 }
 
-Vec3 PathSample::direct_in(const Medium& medium, const Interaction& at) {
+Vec3 PathSample::direct_in(const Interaction& at, const MediaStack& media) {
   if (depth_ > scene_.render.max_depth) return Vec3(0);
   const auto light = arriving(at);
   if (!light || light->radiance == Vec3(0)) return Vec3(0);
-  const double phase = phase_value(medium.anisotropy, glm::dot(at.d, light->l));
-  return direct(*light, {Vec3(phase), phase}, medium);
+  const double phase = phase_value(rays_.medium(media).anisotropy, glm::dot(at.d, light->l));
+  return direct(at, *light, {Vec3(phase), phase}, media);
 }
 
 std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
@@ -300,10 +310,16 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
   if (bsdf.black()) return std::nullopt;
   const Vec2 chance = pair(scatter_pair);  // of a lobe, and of going on
   const BsdfSample sample = bsdf.sample(chance.x, pair(direction_pair));
+  const bool passes = sample.kind == BsdfSample::Kind::passed;
+  const bool straight = passes && panes_ < most_panes;  // this is no vertex
   Vec3 d;
   RayKind kind = RayKind::reflected;
-  density_ = 0;
-  if (sample.kind == BsdfSample::Kind::lobe) {
+  if (!straight) density_ = 0;
+  if (passes) {
+    d = at.d;
+    kind = RayKind::refracted;
+    throughput_ *= sample.weight;
+  } else if (sample.kind == BsdfSample::Kind::lobe) {
     const BsdfValue value = bsdf.at(sample.i);
     d = frame.out_of(sample.i);
     const bool before = glm::dot(at.surface.normal_geometric, d) > 0;
@@ -317,9 +333,10 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
     if (sample.kind == BsdfSample::Kind::refracted) kind = RayKind::refracted;
     d = kind == RayKind::refracted ? at.refracted() : at.mirrored();
   }
-  if (kind == RayKind::refracted) media = at.media_beyond;
+  if (kind == RayKind::refracted && !passes) media = at.media_beyond;
 
-  return continued(kind, at, d, chance.y, sample.lobe + 1 + (kind == RayKind::refracted ? through : 0));
+  return continued(kind, at, d, chance.y, sample.lobe + 1 + (kind == RayKind::refracted ? through : 0),
+                   straight);
 }
 
 std::optional<Ray> PathSample::scatter_in(const Medium& medium, const Interaction& at) {
@@ -331,17 +348,24 @@ std::optional<Ray> PathSample::scatter_in(const Medium& medium, const Interactio
 
 // Roulette.
 std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, const Vec3& d, double chance,
-                                         uint32_t way) {
+                                         uint32_t way, bool straight) {
   const double survival = depth_ < first_roulette ? 1 : std::clamp(largest(throughput_), least_survival, 1.0);
   observer_.value("survival", survival);
   if (roulette_ && !(chance < survival)) return std::nullopt;
-  rays_.cut_off = depth_ > scene_.render.max_depth;
+  rays_.cut_off = !straight && depth_ > scene_.render.max_depth;
   if (rays_.cut_off) return std::nullopt;
   throughput_ /= survival;
   way_ = way;
-  ++depth_;
+  if (straight) {
+    ++panes_;
+    ++all_panes_;
+  } else {
+    panes_ = 0;
+    ++depth_;
+  }
   ++(kind == RayKind::reflected ? rays_.reflected : rays_.refracted);
   const Ray next = rays_.spawn_ray(at.surface, d);
+  if (!straight) vertex_ = next.o;
   observer_.ray(kind, next, depth_);
   return next;
 }
@@ -360,6 +384,7 @@ Interaction PathSample::scattered_at(const Ray& ray, double t) const {
 
 PixelSample PathSample::sample(Ray ray, MediaStack media) {
   Vec3 color(0);
+  vertex_ = ray.o;
   for (;;) {
     asked_ = way_ = 0;
     const auto hit = rays_.trace(ray);
@@ -371,7 +396,7 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
       rays_.decided(Event::hit, in_medium);
       const Medium medium = rays_.medium(media);
       const Interaction at = scattered_at(ray, flight.t);
-      const Vec3 light = direct_in(medium, at);
+      const Vec3 light = direct_in(at, media);
       observer_.value("light", light);
       rays_.decided(Event::light, asked_);
       color += throughput_ * light;
@@ -382,7 +407,7 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
       rays_.decided(Event::hit, at.primitive + 1);
       const LocalFrame frame(at);
       const ViewedBsdf bsdf(at.bsdf, frame.viewer);
-      const Vec3 light = emitted(at, ray.o) + direct_on(at, frame, bsdf, media);
+      const Vec3 light = emitted(at) + direct_on(at, frame, bsdf, media);
       observer_.value("light", light);
       rays_.decided(Event::light, asked_);
       color += throughput_ * light;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/core/termination.hpp"
+#include "host/reference/bsdf.hpp"
 #include "host/reference/crossings.hpp"
 #include "host/reference/environment.hpp"
 #include "host/reference/rng.hpp"
@@ -73,6 +74,32 @@ double SampleRays::shadow(const Ray& ray, double t_end) {
   return tracer_.transmittance(ray, t_end, flags_);
 }
 
+Vec3 SampleRays::through_panes(Ray ray, double t_end, const MediaStack& media) {
+  ++rays_;
+  const double ior = medium(media).ior;
+  Vec3 left(1);
+  for (int panes = 0;; ++panes) {
+    const auto hit = tracer_.trace(ray, flags_, ray_offset_.coincident);
+    if (!hit || hit->at.t >= t_end) return left;
+    SurfacePoint surface = tracer_.surface(ray, *hit);
+    if (glm::dot(ray.d, surface.normal_geometric) > 0) {
+      surface.normal_geometric = -surface.normal_geometric;
+      surface.normal = -surface.normal;
+    }
+    const Material& material = *scene_.materials[size_t(hit->material)];
+    if (panes == most_panes || !material.thin()) return Vec3(0);
+    const double cosine = std::clamp(-glm::dot(ray.d, surface.normal), 0.0, 1.0);
+    const ScatteringContext context{{surface.uv, surface.position}, cosine, ior, ior, surface.color};
+    const Bsdf bsdf = material.bsdf(context, material.scattering(context));
+    const double up = std::max(cosine, 1e-4);
+    left *= ViewedBsdf(bsdf, {std::sqrt(1 - up * up), 0, up}).passed();
+    if (left == Vec3(0)) return left;
+    const Ray next = spawn_ray(surface, ray.d);
+    t_end -= glm::dot(next.o - ray.o, ray.d);
+    ray = next;
+  }
+}
+
 // A ray may run along the border of two checks through many walls of glass, and be rounded to either side at
 // each: of so many ways the bounds are known without trying them, since no colour falls where a texture's
 // rises.
@@ -139,7 +166,7 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
   // Say which media hit here.
   const Material& material = *scene_.materials[size_t(hit.material)];
   const Medium before = medium(media);
-  at.has_medium = material.medium().has_value();
+  at.has_medium = fills(material, scene_.render.integrator);
   at.media_beyond = media;
   if (at.has_medium) {
     if (!front) {

@@ -28,6 +28,8 @@ struct Interaction {
   Vec3 refracted() const;
 };
 
+constexpr int most_panes = 8;  // that a shadow ray goes through
+
 class SampleRays {
  public:
   SampleRays(const Tracer& tracer, const RayOffset& ray_offset, const Observer& observer)
@@ -55,6 +57,8 @@ class SampleRays {
   bool on_side(const SurfacePoint& point, const Vec3& l, double distance, bool before) const;
   // The share of light that a shadow ray to `t_end` brings.
   double shadow(const Ray& ray, double t_end);
+  // The same where only panes let light through. `media`: that the ray goes through.
+  Vec3 through_panes(Ray ray, double t_end, const MediaStack& media);
 
   // What the path decides on its way, in order.
   void decided(Event kind, uint64_t value);

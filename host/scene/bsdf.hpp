@@ -11,14 +11,20 @@ struct Bsdf {
   double diffuse_roughness = 0;
   optics::Fresnel layer = {};   // that light goes through on its way to the diffuse lobe and back
   optics::Fresnel glossy = {};  // what its microfacets mirror; `layer` is part of it
-  double roughness = 1;         // of `layer`, `glossy` and `glass`
+  double roughness = 1;         // of `layer`, `glossy`, `glass` and `thin`
+  double covered = 1;           // the share of the surface that mirrors by `glossy`; the rest is glass
   double coat = 0;              // the share of the surface that is coated
   double coat_roughness = 1;
-  Vec3 glass{0};        // throughput of rough glass, before Fresnel
+  Vec3 sheen{0};  // colour of the fibres above all that, under the coat
+  double sheen_roughness = 1;
+  Vec3 thin{0};         // throughput of a rough pane, under `layer`
+  Vec3 glass{0};        // throughput of rough glass, before Fresnel, …
+  Vec3 glass_color{1};  // … and of what of that it refracts
   double ior_from = 1;  // of the media on either side of that
   double ior_to = 1;
   Vec3 mirror{0};       // throughput of the mirrored direction, …
-  Vec3 transmitted{0};  // … and of the refracted one
+  Vec3 transmitted{0};  // … of the refracted one, …
+  Vec3 passed{0};       // … and of what goes straight on, through a pane, under `layer`
 };
 
 }  // namespace eyeray

@@ -75,6 +75,8 @@ class Material {
   virtual std::optional<Vec3> constant_emission() const { return std::nullopt; }
   // Set for materials that fill their shape and let rays through.
   virtual std::optional<Medium> medium() const { return std::nullopt; }
+  // Whether paths take it for a pane, which has no inside, whatever `medium` says.
+  virtual bool thin() const { return false; }
   // The share of a shadow ray's light that passes a shape of this material, however often it crosses it.
   virtual double shadow_transmittance() const { return 0.0; }
   // Appends the material's one record (and its textures).

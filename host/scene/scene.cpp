@@ -1,6 +1,12 @@
 #include "host/scene/scene.hpp"
 
+#include "host/scene/integrator.hpp"
+
 namespace eyeray {
+
+bool fills(const Material& material, IntegratorType integrator) {
+  return material.medium() && !(material.thin() && walks_at_random(integrator));
+}
 
 uint64_t Scene::primitive_count() const {
   uint64_t count = shapes.size();

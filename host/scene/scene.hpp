@@ -62,6 +62,9 @@ struct VerifySettings {
   double max_explained = 0.005;  // the share of pixels that may differ for a reason
 };
 
+// Whether the material fills the shapes that are made of it: to paths, panes have no inside.
+bool fills(const Material& material, IntegratorType integrator);
+
 struct Scene {
   std::filesystem::path file;
   std::vector<std::filesystem::path> files;  // every file read, the scene first: what a watcher watches

@@ -63,9 +63,10 @@ SceneView view_of(const records::PackedScene& scene) {
           .lights = scene.lights.data(),
           .emitters = scene.emitters.data(),
           .light_nodes = scene.light_nodes.data(),
-          .ggx_albedos = scene.ggx_albedos.empty() ? nullptr : scene.ggx_albedos.data(),
+          .albedos = scene.albedos.empty() ? nullptr : scene.albedos.data(),
           .has_bvh = scene.has_bvh,
           .quantised_nodes = scene.quantised_nodes,
+          .panes = scene.panes,
           .formulas = formulas,
           .stop_if_interrupted = [] { stop_if_interrupted(); }};
 }

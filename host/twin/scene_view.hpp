@@ -37,8 +37,8 @@ struct SceneView {
   const shader::Light* lights;
   const shader::Emitter* emitters;
   const shader::LightNode* light_nodes;
-  const shader::vec4* ggx_albedos;  // null where there are none
-  bool has_bvh, quantised_nodes;
+  const shader::vec4* albedos;  // null where there are none
+  bool has_bvh, quantised_nodes, panes;
   FormulaView formulas;
   void (*stop_if_interrupted)();  // throws
 

@@ -80,8 +80,8 @@ class Binding {
 [[maybe_unused]] const LightNode& load_light_node(uint i) {
   return bound_scene->light_nodes[i];
 }
-[[maybe_unused]] vec4 load_ggx_albedo(uint i) {
-  return bound_scene->ggx_albedos ? bound_scene->ggx_albedos[i] : vec4(0);
+[[maybe_unused]] vec4 load_albedo(uint i) {
+  return bound_scene->albedos ? bound_scene->albedos[i] : vec4(0);
 }
 
 // PROBE, where somebody looks.
@@ -107,6 +107,7 @@ void show(const char* name, uint line, const T& shown) {
 #define KIND_END(name) bound_scene->linear_ends[KIND_##name]
 #define LIGHT_COUNT bound_scene->frame->light_count
 #define EMITTER_COUNT bound_scene->frame->emitter_count
+#define ANY_PANE bound_scene->panes
 #define HAS_ENVIRONMENT_LIGHT (bound_scene->frame->environment_numbers > 0u)
 #define TRIANGLE_METHOD bound_scene->frame->triangle_method
 #define HAS_BVH bound_scene->has_bvh

@@ -2,7 +2,7 @@
 // disagree.
 #ifndef BSDF_GLSL
 #define BSDF_GLSL
-#include "bsdf/bsdf_record.glsl"
+#include "bsdf/layers.glsl"
 #include "math/sampling.glsl"
 
 SHADER_BEGIN
@@ -14,42 +14,43 @@ Directions directions(Bsdf bsdf, vec3 o, vec3 i) {
   vec3 sum = o + i;
   at.half_way = sum / sqrt(maximum(dot3(sum, sum), 1.0e-30f));
 #if HAS_GLOSSY
-  at.albedo = ggx_albedo(i.z, bsdf.roughness);
+  at.albedo = ggx_albedo(abs(i.z), bsdf.roughness);
 #endif
   return at;
-}
-
-// What a coat leaves of light on its way to the viewer.
-float under_coat(Bsdf bsdf) {
-  float left = 1.0f;
-#if HAS_COAT
-  left = coat_transmittance(bsdf, bsdf.coat_albedo);
-#endif
-  return left;
 }
 
 // About the share of the light that all lobes send towards the viewer.
 vec3 bsdf_albedo(Bsdf bsdf) {
   vec3 all = bsdf.mirror + bsdf.transmitted;
-#define ADD_ALBEDO(name, number, coated) all = all + name##_albedo(bsdf) * (coated ? under_coat(bsdf) : 1.0f);
+#if HAS_PANES
+  all = all + bsdf.passed;
+#endif
+#define ADD_ALBEDO(name, number, layers) all = all + name##_albedo(bsdf) * under_layers(bsdf, layers);
   LOBES(ADD_ALBEDO)
   return vec3(minimum(all.x, 1.0f), minimum(all.y, 1.0f), minimum(all.z, 1.0f));
 }
 
-// Whether light leaves in one or two directions alone.
+// Whether light leaves in single directions alone.
 bool is_specular(Bsdf bsdf) {
   bool any = false;
-#define HAS_LOBE(name, number, coated) any = any || max_component(name##_albedo(bsdf)) > 0.0f;
+#define HAS_LOBE(name, number, layers) any = any || max_component(name##_albedo(bsdf)) > 0.0f;
   LOBES(HAS_LOBE)
-  return !any && max_component(bsdf.mirror + bsdf.transmitted) > 0.0f;
+  vec3 single = bsdf.mirror + bsdf.transmitted;
+#if HAS_PANES
+  single = single + bsdf.passed;
+#endif
+  return !any && max_component(single) > 0.0f;
 }
 
 // How likely each lobe is followed, by how much light it sends; 1 all together, or all 0.
 struct LobeShares {
-#define SHARE(name, number, coated) float name;
+#define SHARE(name, number, layers) float name;
   LOBES(SHARE)
   float mirror;
   float transmitted;
+#if HAS_PANES
+  float passed;
+#endif
 };
 
 LobeShares lobe_shares(Bsdf bsdf) {
@@ -57,15 +58,22 @@ LobeShares lobe_shares(Bsdf bsdf) {
   shares.mirror = max_component(bsdf.mirror);
   shares.transmitted = max_component(bsdf.transmitted);
   float all = shares.mirror + shares.transmitted;
-#define ALBEDO_OF_LOBE(name, number, coated)                                                \
-  shares.name = max_component(name##_albedo(bsdf)) * (coated ? under_coat(bsdf) : 1.0f); \
+#if HAS_PANES
+  shares.passed = max_component(bsdf.passed);
+  all = all + shares.passed;
+#endif
+#define ALBEDO_OF_LOBE(name, number, layers)                                      \
+  shares.name = max_component(name##_albedo(bsdf)) * under_layers(bsdf, layers); \
   all = all + shares.name;
   LOBES(ALBEDO_OF_LOBE)
   float scale = all > 0.0f ? 1.0f / all : 0.0f;
-#define SCALE_SHARE(name, number, coated) shares.name = shares.name * scale;
+#define SCALE_SHARE(name, number, layers) shares.name = shares.name * scale;
   LOBES(SCALE_SHARE)
   shares.mirror = shares.mirror * scale;
   shares.transmitted = shares.transmitted * scale;
+#if HAS_PANES
+  shares.passed = shares.passed * scale;
+#endif
   return shares;
 }
 
@@ -73,15 +81,21 @@ LobeShares lobe_shares(Bsdf bsdf) {
 LobeValue bsdf_value(Bsdf bsdf, LobeShares shares, vec3 o, vec3 i) {
   Directions at = directions(bsdf, o, i);
   LobeValue all = no_value();
-  float through_coat = 1.0f;
+  // Layers are on the viewer's side.
+  bool before = i.z > 0.0f;
+  float through_coat = under_coat(bsdf);
+  float through_sheen = under_sheen(bsdf);
 #if HAS_COAT
-  through_coat = under_coat(bsdf) * coat_transmittance(bsdf, ggx_albedo(i.z, bsdf.coat_roughness));
+  if (before) through_coat = through_coat * coat_transmittance(bsdf, ggx_albedo(i.z, bsdf.coat_roughness));
 #endif
-#define ADD_VALUE(name, number, coated)                                              \
-  if (shares.name > 0.0f) {                                                          \
-    LobeValue of_lobe = name##_value(bsdf, at);                                      \
-    all.value = all.value + of_lobe.value * (coated ? through_coat : 1.0f);          \
-    all.density = all.density + of_lobe.density * shares.name;                       \
+#if HAS_SHEEN
+  if (before) through_sheen = through_sheen * (1.0f - max_component(bsdf.sheen) * sheen_table(i.z, bsdf.sheen_roughness).y);
+#endif
+#define ADD_VALUE(name, number, layers)                                                                                  \
+  if (shares.name > 0.0f) {                                                                                              \
+    LobeValue of_lobe = name##_value(bsdf, at);                                                                          \
+    all.value = all.value + of_lobe.value * (layers > 0u ? through_coat : 1.0f) * (layers > 1u ? through_sheen : 1.0f); \
+    all.density = all.density + of_lobe.density * shares.name;                                                           \
   }
   LOBES(ADD_VALUE)
   return all;
@@ -89,6 +103,7 @@ LobeValue bsdf_value(Bsdf bsdf, LobeShares shares, vec3 o, vec3 i) {
 
 #define LOBE_MIRROR 14u
 #define LOBE_TRANSMITTED 15u
+#define LOBE_PASSED 16u
 
 // A direction that light may come from, by which the path goes on. The lobe is that within whose share `chance`, in [0, 1), lies;
 // No direction, 0, is one that the surface itself stands in the way of.
@@ -97,6 +112,9 @@ struct BsdfSample {
   bool mirrored;   // instead: the mirrored direction …
   bool refracted;  // … or the refracted one
   uint lobe;       // its number, or LOBE_
+#if HAS_PANES
+  bool passed;     // … or straight on
+#endif
 };
 
 BsdfSample sample_bsdf(Bsdf bsdf, LobeShares shares, vec3 o, float chance, vec2 u) {
@@ -104,7 +122,7 @@ BsdfSample sample_bsdf(Bsdf bsdf, LobeShares shares, vec3 o, float chance, vec2 
   s.i = vec3(0.0f, 0.0f, 1.0f);
   s.lobe = 0u;
   float passed = 0.0f;
-#define DIRECTION_OF_LOBE(name, number, coated)                          \
+#define DIRECTION_OF_LOBE(name, number, layers)                          \
   if (shares.name > 0.0f && chance >= passed) {                          \
     s.i = name##_direction(bsdf, o, u, (chance - passed) / shares.name); \
     s.lobe = number;                                                     \
@@ -114,8 +132,17 @@ BsdfSample sample_bsdf(Bsdf bsdf, LobeShares shares, vec3 o, float chance, vec2 
   s.mirrored = shares.mirror > 0.0f && chance >= passed;
   passed = passed + shares.mirror;
   s.refracted = shares.transmitted > 0.0f && chance >= passed;
+#if HAS_PANES
+  passed = passed + shares.transmitted;
+  s.passed = shares.passed > 0.0f && chance >= passed;
+  s.refracted = s.refracted && !s.passed;
+  s.mirrored = s.mirrored && !s.passed;
+#endif
   s.mirrored = s.mirrored && !s.refracted;
   s.lobe = s.mirrored ? LOBE_MIRROR : s.refracted ? LOBE_TRANSMITTED : s.lobe;
+#if HAS_PANES
+  s.lobe = s.passed ? LOBE_PASSED : s.lobe;
+#endif
   return s;
 }
 

@@ -5,12 +5,27 @@
 
 SHADER_BEGIN
 
+// Of sheen: .x as its formula has it, .y as it is weakened (bsdf/sheen.glsl); .z: the mean of that over the half sphere, by cosine.
+vec4 sheen_table(float cosine, float roughness) { return albedo_between(FIRST_SHEEN_ALBEDO, SHEEN_ALBEDOS, cosine, roughness); }
+
+// What microfacets between two media mirror and refract before another of them takes it.
+float glass_table(float cosine, float roughness, float ior_from, float ior_to) {
+  float z = (0.5f + (ior_to - ior_from) / ((ior_to + ior_from) * GLASS_SPAN)) * float(GLASS_SLICES);
+  float slice = minimum(maximum(floor(z), 0.0f), float(GLASS_SLICES - 1u));
+  vec4 albedo = albedo_between(FIRST_GLASS_ALBEDO + uint(slice) * (GLASS_ALBEDOS * GLASS_ALBEDOS), GLASS_ALBEDOS, cosine, roughness);
+  return albedo.x * (1.0f - (z - slice)) + albedo.y * (z - slice);
+}
+
 struct Bsdf {
   vec3 diffuse;            // albedo, under the layer
   float diffuse_roughness;
   vec3 mirror;             // throughput of the mirrored direction, and …
   vec3 transmitted;        // … of the refracted one
-  float roughness;         // of the glossy lobe, and of rough glass
+#if HAS_PANES
+  vec3 passed;             // throughput of what goes straight on, through a pane
+#endif
+  float roughness;         // of the glossy lobe, of rough glass and of a rough pane
+  float covered;           // the share of the surface that mirrors by the glossy lobe; the rest is glass
 #if HAS_GLOSSY
   Fresnel glossy;
   Fresnel layer;           // that light goes through to the diffuse lobe and back
@@ -23,8 +38,18 @@ struct Bsdf {
 #endif
 #if HAS_ROUGH_GLASS
   vec3 glass;              // throughput of rough glass, before Fresnel
+  vec3 glass_color;        // of what it refracts
+  float glass_albedo;      // glass_table towards the viewer
   float ior_from;
   float ior_to;
+#endif
+#if HAS_SHEEN
+  vec3 sheen;              // its colour
+  float sheen_roughness;
+  vec4 sheen_albedo;       // sheen_table towards the viewer
+#endif
+#if HAS_THIN
+  vec3 thin;               // throughput of a rough pane, under the layer
 #endif
 };
 
@@ -43,7 +68,7 @@ struct Directions {
   vec3 i;
   vec3 half_way;
 #if HAS_GLOSSY
-  vec4 albedo;    // ggx_albedo towards the light
+  vec4 albedo;  // ggx_albedo towards the light, on either side
 #endif
 };
 
@@ -68,6 +93,10 @@ Bsdf black_bsdf() {
   bsdf.mirror = black;
   bsdf.transmitted = black;
   bsdf.roughness = 1.0f;
+  bsdf.covered = 1.0f;
+#if HAS_PANES
+  bsdf.passed = black;
+#endif
 #if HAS_GLOSSY
   bsdf.glossy = schlick(black, black);
   bsdf.layer = bsdf.glossy;
@@ -80,8 +109,18 @@ Bsdf black_bsdf() {
 #endif
 #if HAS_ROUGH_GLASS
   bsdf.glass = black;
+  bsdf.glass_color = vec3(1.0f, 1.0f, 1.0f);
+  bsdf.glass_albedo = 1.0f;
   bsdf.ior_from = 1.0f;
   bsdf.ior_to = 1.0f;
+#endif
+#if HAS_SHEEN
+  bsdf.sheen = black;
+  bsdf.sheen_roughness = 1.0f;
+  bsdf.sheen_albedo = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+#endif
+#if HAS_THIN
+  bsdf.thin = black;
 #endif
   return bsdf;
 }

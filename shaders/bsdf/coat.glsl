@@ -3,17 +3,11 @@
 #define COAT_GLSL
 #include "bsdf/bsdf_record.glsl"
 #include "bsdf/ggx.glsl"
+#include "bsdf/layers.glsl"
 
 SHADER_BEGIN
 
-#define COAT_F0 0.04f
-
-Fresnel coat_fresnel() { return schlick(vec3(COAT_F0, COAT_F0, COAT_F0), vec3(1.0f, 1.0f, 1.0f)); }
-
 vec3 coat_albedo(Bsdf bsdf) { return mirrored_once(coat_fresnel(), bsdf.coat_albedo) * bsdf.coat; }
-
-// What it lets through, one way.
-float coat_transmittance(Bsdf bsdf, vec4 albedo) { return 1.0f - mirrored_once(coat_fresnel(), albedo).x * bsdf.coat; }
 
 LobeValue coat_value(Bsdf bsdf, Directions at) {
   LobeValue result = no_value();
@@ -25,7 +19,7 @@ LobeValue coat_value(Bsdf bsdf, Directions at) {
   return result;
 }
 
-vec3 coat_direction(Bsdf bsdf, vec3 o, vec2 u, float part) { return mirror3(o, ggx_normal(o, ggx_width(bsdf.coat_roughness), u)); }
+vec3 coat_direction(Bsdf bsdf, vec3 o, vec2 u, float part) { return ggx_direction(o, ggx_width(bsdf.coat_roughness), u); }
 
 SHADER_END
 #endif

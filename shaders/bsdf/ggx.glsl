@@ -37,6 +37,12 @@ vec3 ggx_normal(vec3 o, float width, vec2 u) {
   return normalize3(vec3(width * (cap.x + v.x), width * (cap.y + v.y), maximum(cap.z + v.z, 1.0e-7f)));
 }
 
+// Where a microfacet mirrors o to; 0 where that is below the surface.
+vec3 ggx_direction(vec3 o, float width, vec2 u) {
+  vec3 i = mirror3(o, ggx_normal(o, width, u));
+  return i.z > 0.0f ? i : vec3(0.0f, 0.0f, 0.0f);
+}
+
 // Of light from i that the microfacets send to o, were each a perfect mirror: value · cosine; and the density of i as sample.
 vec2 ggx_reflection(vec3 o, vec3 i, vec3 h, float width) {
   float towards_o = 1.0f + ggx_lambda(o, width);

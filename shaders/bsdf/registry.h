@@ -2,12 +2,14 @@
 //   vec3 NAME_albedo(Bsdf bsdf)                                            about how much light it sends towards the viewer
 //   LobeValue NAME_value(Bsdf bsdf, Directions at)
 //   vec3 NAME_direction(Bsdf bsdf, vec3 o, vec2 u, float part)             by that density; part: a third random number
-// and host/reference/bsdf.cpp the same in float64. `coated`: whether a coat lies above it.
+// and host/reference/bsdf.cpp the same in float64. `layers`: how many may lie above it (bsdf/layers.glsl).
 #ifndef LOBES
 #define LOBES(X)            \
-  X(diffuse, 0u, true)      \
-  X(glossy, 1u, true)       \
-  X(multiple, 2u, true)     \
-  X(coat, 3u, false)        \
-  X(rough_glass, 4u, false)
+  X(diffuse, 0u, 2u)      \
+  X(glossy, 1u, 2u)       \
+  X(multiple, 2u, 2u)     \
+  X(coat, 3u, 0u)         \
+  X(rough_glass, 4u, 2u)  \
+  X(sheen, 5u, 1u)        \
+  X(thin, 6u, 2u)
 #endif

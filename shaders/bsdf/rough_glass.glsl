@@ -1,5 +1,6 @@
 // A rough surface between two media, by microfacets that mirror and refract: Walter et al., "Microfacet Models for Refraction through Rough
-// Surfaces" (EGSR 2007). Of radiance / index², which refraction leaves as it is.
+// Surfaces" (EGSR 2007). Of radiance / index², which refraction leaves as it is. What its microfacets throw at each other is given back to
+// both lobes (Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 2019): f(o, i) is not f(i, o) by that.
 #ifndef ROUGH_GLASS_GLSL
 #define ROUGH_GLASS_GLSL
 #include "bsdf/bsdf_record.glsl"
@@ -31,7 +32,8 @@ LobeValue rough_glass_value(Bsdf bsdf, Directions at) {
   LobeValue result = no_value();
   if (possible) {
     result.density = seen * jacobian;
-    result.value = bsdf.glass * (result.density * towards_o / (towards_o + ggx_lambda(at.i, width)));
+    result.value = bsdf.glass * (result.density * towards_o / ((towards_o + ggx_lambda(at.i, width)) * bsdf.glass_albedo));
+    if (through) result.value = result.value * bsdf.glass_color;
   }
   return result;
 }

@@ -17,6 +17,11 @@ struct Path {
   vec3 normal;    // where it chose that, by which it asks for lights; 0 where light may come from either side
   uint pixel;     // of the picture, and which of its samples: what its random numbers go by
   uint index;
+#if HAS_PANES
+  vec3 from;        // where its last vertex is, or the eye: panes that it passes straight are none
+  uint panes;       // passed since then, …
+  uint past_panes;  // … and before
+#endif
 #endif
 #if RAY_KINDS
   bool refracted;  // its last ray, else reflected

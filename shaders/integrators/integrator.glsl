@@ -46,6 +46,11 @@ Path begin(Frame frame, Ray camera_ray, uint pixel, uint index) {
   path.normal = vec3(0.0f, 0.0f, 0.0f);
   path.pixel = pixel;
   path.index = index;
+#if HAS_PANES
+  path.from = path.o;
+  path.panes = 0u;
+  path.past_panes = 0u;
+#endif
 #endif
 #if RAY_KINDS
   path.refracted = false;

@@ -22,7 +22,20 @@ SHADER_BEGIN
 #define LEAST_SURVIVAL 0.05f    // its probability
 
 vec2 path_pair(Frame frame, Path path, uint pair) {
-  return sample_pair(frame, path.pixel, path.index, pair + PAIRS_A_VERTEX * path.depth);
+  uint surfaces = path.depth;
+#if HAS_PANES
+  surfaces = surfaces + path.panes + path.past_panes;
+#endif
+  return sample_pair(frame, path.pixel, path.index, pair + PAIRS_A_VERTEX * surfaces);
+}
+
+// Where the path's last vertex is, to which densities by solid angle belong.
+vec3 last_vertex(Path path) {
+#if HAS_PANES
+  return path.from;
+#else
+  return path.o;
+#endif
 }
 
 // A point's own frame: z is the normal towards where the ray came from.
@@ -66,7 +79,7 @@ vec3 path_missed(Frame frame, Path path) {
 #endif
 #if HAS_LIGHT_DISKS
   for (uint i = 0u; i < LIGHT_COUNT; i++) {
-    LightSample disk = sample_light(load_light(i), path.o);
+    LightSample disk = sample_light(load_light(i), last_vertex(path));
     float density = emitter_share(i) * (1.0f - environment_share(frame)) * disk_density(disk);
     float weight = path.density > 0.0f ? power_heuristic(path.density, density) : 1.0f;
     if (disk.versine > 0.0f && in_disk(disk, path.d)) light = light + disk_radiance(disk) * weight;
@@ -85,8 +98,8 @@ vec3 path_emitted(Frame frame, Path path, Interaction at) {
     EmitterSample place;
     place.p = at.surface.p;
     place.normal = at.surface.normal_geometric;
-    float share = light_share(frame, path.o, path.normal, emitter) * (1.0f - environment_share(frame));
-    float density = share * emitter_density(load_emitter(emitter), path.o, place);
+    float share = light_share(frame, last_vertex(path), path.normal, emitter) * (1.0f - environment_share(frame));
+    float density = share * emitter_density(load_emitter(emitter), last_vertex(path), place);
     light = light * power_heuristic(path.density, density);
   }
 #endif
@@ -261,20 +274,45 @@ Continuations path_scatter(Frame frame, Path path, Interaction at) {
     lost = false;
   }
 #endif
+  next.depth = path.depth + 1u;
+  bool goes_on = path.depth <= frame.max_depth;
+#if HAS_PANES
+  next.past_panes = path.past_panes + path.panes;
+  next.panes = 0u;
+  bool straight = s.passed && path.panes < MOST_PANES;
+  if (s.passed) {
+    next.d = path.d;
+    weight = at.bsdf.passed / shares.passed;
+    lost = false;
+    refracted = true;
+    next.media = path.media;
+  }
+  if (straight) {
+    next.density = path.density;
+    next.normal = path.normal;
+    next.depth = path.depth;
+    next.past_panes = path.past_panes;
+    next.panes = path.panes + 1u;
+    goes_on = true;
+  }
+  if (s.passed && !straight) next.density = 0.0f;
+#endif
 #if RAY_KINDS
   next.refracted = refracted;
 #endif
   next.o = spawn_ray(at.surface, next.d).o;
   next.throughput = path.throughput * weight;
-  next.depth = path.depth + 1u;
+#if HAS_PANES
+  if (!straight) next.from = next.o;
+#endif
 
   // Roulette.
   float survival = path.depth < FIRST_ROULETTE ? 1.0f : minimum(maximum(max_component(next.throughput), LEAST_SURVIVAL), 1.0f);
   next.throughput = next.throughput / survival;
   all.next = next;
-  all.count = !lost && choice.y < survival && path.depth <= frame.max_depth ? 1u : 0u;
+  all.count = !lost && choice.y < survival && goes_on ? 1u : 0u;
 #if RAY_KINDS
-  all.cut_off = !lost && choice.y < survival && path.depth > frame.max_depth;
+  all.cut_off = !lost && choice.y < survival && !goes_on;
 #endif
   all.way = s.lobe | (refracted ? THROUGH : 0u);
 #if HAS_SCATTERING

@@ -17,6 +17,30 @@ SHADER_BEGIN
 #define DECIDED(kind, value)
 #endif
 
+#if RANDOM_WALK && HAS_PANES
+// What the panes on its way leave of a shadow ray's light; nothing where anything else is in its way. `media`: that it goes through.
+vec3 through_panes(Ray ray, float distance, uint media, INOUT(uvec4) counts) {
+  vec3 left = vec3(1.0f, 1.0f, 1.0f);
+  uint ignored = 0u;
+  bool going = true;
+  for (uint i = 0u; i <= MOST_PANES && going; i++) {
+    counts.w += 1u + TRACE_ITERATIONS;
+    TraversalState state = search(ray, distance, false);
+    counts.z = counts.z | iteration_limit(state);
+    going = state.hit.slot != NONE;
+    if (going) {
+      Interaction at = interaction_at(ray, state.hit, media, ignored);
+      left = i < MOST_PANES ? left * at.bsdf.passed : vec3(0.0f, 0.0f, 0.0f);
+      vec3 start = spawn_ray(at.surface, ray.d).o;
+      distance = distance - dot3(start - ray.o, ray.d);
+      ray = make_ray(start, ray.d);
+      going = max_component(left) > 0.0f;
+    }
+  }
+  return left;
+}
+#endif
+
 // Adds what `path` gains at the hit of `ray`, and finds how it goes on. `counts`: rays, hits, flags, loop iterations; `trail`: what it decides
 // (integrators/trail.glsl).
 Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color, INOUT(uvec4) counts, INOUT(uint) trail) {
@@ -58,12 +82,17 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
 #if STORED_HITS
         uint occluded = load_occlusion(i);
 #else
-        uint occluded = occlusion(to_light, distance, counts.z);
+        uint occluded = ANY_PANE ? 0u : occlusion(to_light, distance, counts.z);
 #endif
-        PROBE(visibility, visibility(occluded));
+        vec3 visible = vec3(1.0f, 1.0f, 1.0f) * visibility(occluded);
+#if RANDOM_WALK && HAS_PANES
+        bool beyond = dot3(to_light.d, at.seen.normal_geometric) < 0.0f;
+        if (ANY_PANE) visible = through_panes(to_light, distance, beyond ? at.media_behind : path.media, counts);
+#endif
+        PROBE(visibility, visible.x);
         PROBE_BACK(path.depth);
-        light = light + contribution * visibility(occluded);
-        seen = 2u * (number + 2u) + (visibility(occluded) > 0.0f ? 1u : 0u);
+        light = light + contribution * visible;
+        seen = 2u * (number + 2u) + (max_component(visible) > 0.0f ? 1u : 0u);
       }
       i += 1u;
     } while (i < shadow_rays());

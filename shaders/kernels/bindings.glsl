@@ -45,7 +45,7 @@ layout(std430, binding = BINDING_EMITTERS) readonly restrict buffer Emitters { E
 layout(std430, binding = BINDING_LIGHT_NODES) readonly restrict buffer LightNodes { LightNode light_nodes[]; };
 #endif
 #if RANDOM_WALK
-layout(std430, binding = BINDING_GGX_ALBEDOS) readonly restrict buffer GgxAlbedos { vec4 ggx_albedos[]; };
+layout(std430, binding = BINDING_ALBEDOS) readonly restrict buffer Albedos { vec4 albedos[]; };
 #endif
 
 #endif

@@ -34,16 +34,31 @@
 #ifndef HAS_ROUGH_DIFFUSE  // a diffuse lobe is not Lambert's
 #define HAS_ROUGH_DIFFUSE 1
 #endif
+#ifndef HAS_SPECULAR_TEXTURES  // what a surface mirrors varies otherwise than by colour and roughness
+#define HAS_SPECULAR_TEXTURES 1
+#endif
 #ifndef HAS_COAT  // a surface is coated
 #define HAS_COAT 1
 #endif
 #ifndef HAS_ROUGH_GLASS
 #define HAS_ROUGH_GLASS 1
 #endif
+#ifndef HAS_SHEEN  // a surface has the lobe of bsdf/sheen.glsl
+#define HAS_SHEEN 1
+#endif
+#ifndef HAS_THIN  // … or of bsdf/thin.glsl
+#define HAS_THIN 1
+#endif
+#ifndef HAS_TRANSMISSION  // light goes through a principled material
+#define HAS_TRANSMISSION 1
+#endif
+#ifndef HAS_PANES  // paths may pass a surface straight
+#define HAS_PANES 1
+#endif
 #ifndef HAS_ALPHA_TEST  // a material has an alpha
 #define HAS_ALPHA_TEST 1
 #endif
-#ifndef HAS_MEDIA  // there is a medium beside the vacuum
+#ifndef HAS_MEDIA  // light goes through surfaces
 #define HAS_MEDIA 1
 #endif
 #ifndef HAS_ABSORPTION  // a medium takes light away
@@ -91,6 +106,7 @@
 // No default; the twin asks its PackedScene.
 //   LIGHT_COUNT        how many lights there are
 //   EMITTER_COUNT      how many lights and surfaces one is chosen from; 0 where none is
+//   ANY_PANE           true or false: whether paths may pass a surface straight
 //   HAS_ENVIRONMENT_LIGHT  true or false: whether one is chosen from the environment
 //   INSTANCE_COUNT     how many instances
 //   TRIANGLE_METHOD    TRIANGLE_WOOP or TRIANGLE_MOLLER_TRUMBORE

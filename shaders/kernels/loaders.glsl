@@ -50,7 +50,7 @@ uint load_occlusion(uint light) { return occlusions[light * dispatch.count + sto
 LightNode load_light_node(uint i) { return light_nodes[i]; }
 #endif
 #if RANDOM_WALK
-vec4 load_ggx_albedo(uint i) { return ggx_albedos[i]; }
+vec4 load_albedo(uint i) { return albedos[i]; }
 #endif
 Bvh load_bvh(uint i) { return bvhs[i]; }
 Instance load_instance(uint i) { return instances[i]; }

@@ -1,4 +1,5 @@
-// Glass and liquids: a smooth surface between two media, unpolarised Fresnel reflectance.
+// Glass and liquids: a surface between two media, unpolarised Fresnel reflectance; or a pane, which has no inside: light between its two
+// faces adds up to R' = 2R / (1 + R). material.a: the index of a pane, and R' at right angles.
 #ifndef DIELECTRIC_GLSL
 #define DIELECTRIC_GLSL
 #include "bsdf/fresnel.glsl"
@@ -10,6 +11,12 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
   Scattering s = no_scattering();
   bool one_medium = context.ior_from == context.ior_to;
   float reflected = one_medium ? 0.0f : fresnel_reflectance(context.cos_view, context.ior_from, context.ior_to);
+#if HAS_MEDIA
+  if ((material.flags & MATERIAL_PANE) != 0u) {
+    reflected = fresnel_reflectance(context.cos_view, context.ior_from, material.a.x);
+    reflected = 2.0f * reflected / (1.0f + reflected);
+  }
+#endif
   s.specular = texture_color(material.specular, context.place);
   s.reflected = vec3(reflected, reflected, reflected);
   s.transmitted = vec3(1.0f - reflected, 1.0f - reflected, 1.0f - reflected);
@@ -17,17 +24,50 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
 }
 
 #if RANDOM_WALK
-Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering scattering) {
-  Bsdf bsdf = bsdf_of_scattering(scattering);
+// Of a surface that lets through `weight` of the light that comes, in `color`: single directions if it is polished, else lobes.
+#if HAS_MEDIA
+void add_glass(INOUT(Bsdf) bsdf, Scattering surface, float roughness, float weight, vec3 color, ScatteringContext context) {
+  bsdf.mirror = bsdf.mirror + surface.reflected * weight;
+  bsdf.transmitted = bsdf.transmitted + surface.transmitted * (color * weight);
 #if HAS_ROUGH_GLASS
-  bsdf.roughness = texture_color(material.roughness, context.place).y;
-  if (bsdf.roughness > 0.0f && context.ior_from != context.ior_to) {
+  if (roughness > 0.0f && context.ior_from != context.ior_to) {
     bsdf.mirror = vec3(0.0f, 0.0f, 0.0f);
     bsdf.transmitted = bsdf.mirror;
-    bsdf.glass = vec3(1.0f, 1.0f, 1.0f);
+    bsdf.glass = vec3(weight, weight, weight);
+    bsdf.glass_color = color;
     bsdf.ior_from = context.ior_from;
     bsdf.ior_to = context.ior_to;
+    bsdf.glass_albedo = glass_table(context.cos_view, roughness, context.ior_from, context.ior_to);
   }
+#endif
+}
+#endif
+
+Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering scattering) {
+  Bsdf bsdf = black_bsdf();
+  vec3 white = vec3(1.0f, 1.0f, 1.0f);
+#if HAS_ROUGH_GLASS || HAS_THIN
+  bsdf.roughness = texture_color(material.roughness, context.place).y;
+#endif
+  bool pane = (material.flags & MATERIAL_PANE) != 0u;
+#if HAS_PANES
+  if (pane) {
+    bsdf.mirror = scattering.reflected;
+    bsdf.passed = scattering.transmitted;
+  }
+#if HAS_THIN
+  if (pane && bsdf.roughness > 0.0f) {
+    bsdf.mirror = vec3(0.0f, 0.0f, 0.0f);
+    bsdf.passed = bsdf.mirror;
+    bsdf.layer = schlick(white * material.a.y, white);
+    bsdf.glossy = bsdf.layer;
+    bsdf.albedo = ggx_albedo(context.cos_view, bsdf.roughness);
+    bsdf.thin = white;
+  }
+#endif
+#endif
+#if HAS_MEDIA
+  if (!pane) add_glass(bsdf, scattering, bsdf.roughness, 1.0f, white, context);
 #endif
   return bsdf;
 }

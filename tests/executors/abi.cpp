@@ -90,7 +90,15 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Material, coat),
                 MEMBER(Material, b),
                 MEMBER(Material, c),
-                MEMBER(Material, coat_roughness)});
+                MEMBER(Material, coat_roughness),
+                MEMBER(Material, specular_level),
+                MEMBER(Material, transmission),
+                MEMBER(Material, specular_color),
+                MEMBER(Material, sheen),
+                MEMBER(Material, sheen_roughness),
+                MEMBER(Material, unused_0),
+                MEMBER(Material, unused_1),
+                MEMBER(Material, unused_2)});
   check_struct(samples, "Medium", sizeof(shader::Medium), {MEMBER(Medium, absorption), MEMBER(Medium, ior), MEMBER(Medium, scattering),
                 MEMBER(Medium, anisotropy)});
   check_struct(samples, "Texture", sizeof(shader::Texture),

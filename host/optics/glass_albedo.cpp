@@ -1,0 +1,86 @@
+#include "host/optics/glass_albedo.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+
+#include "host/core/vec.hpp"
+#include "host/optics/albedo_table.hpp"
+#include "host/optics/fresnel.hpp"
+
+namespace eyeray::optics {
+namespace {
+
+constexpr int turns = 12, heights = 64;
+constexpr double most = 0.6;  // of (n₂ − n₁) / (n₂ + n₁): that of 1 and 4
+
+using Table = std::array<double, glass_albedos * glass_albedos>;
+
+double place_of(double ior_from, double ior_to) {
+  return ((ior_to - ior_from) / (ior_to + ior_from) + most) / (2 * most) * glass_slices;
+}
+
+double lambda(double cosine, double width) {
+  const double slope = (1 - cosine * cosine) / (cosine * cosine);
+  return (std::sqrt(1 + width * width * slope) - 1) / 2;
+}
+
+void compute(int slice, Table& table) {
+  const double step = 1.0 / (glass_albedos - 1);
+  const double contrast = most * (2.0 * slice / glass_slices - 1);
+  for (int j = 0; j < glass_albedos; ++j)
+    for (int i = 0; i < glass_albedos; ++i)
+      table[size_t(j * glass_albedos + i)] =
+          glass_albedo_integral((i * step) * (i * step), j * step, 1 - contrast, 1 + contrast);
+}
+
+}  // namespace
+
+// Over the normals that are seen, as ggx_albedo_integral().
+double glass_albedo_integral(double cosine, double roughness, double ior_from, double ior_to) {
+  const double width = std::max(roughness * roughness, 1e-6), mu = std::max(cosine, 1e-6);
+  const double ratio = ior_from / ior_to;
+  const Vec3 o(std::sqrt(1 - mu * mu), 0, mu);
+  const Vec3 v = glm::normalize(Vec3(width * o.x, 0, o.z));
+  const double here = 1 + lambda(mu, width);
+  double sum = 0;
+  for (int t = 0; t < turns; ++t) {
+    const double c = std::cos(M_PI * (t + 0.5) / turns), s = std::sin(M_PI * (t + 0.5) / turns);
+    for (int k = 0; k < heights; ++k) {
+      const double x = (k + 0.5) / heights * (1 + v.z);
+      const double radius = std::sqrt(x * (2 - x));
+      const Vec3 h = glm::normalize(Vec3(width * (radius * c + v.x), width * (radius * s), 1 - x + v.z));
+      const double along = std::min(glm::dot(o, h), 1.0);
+      const double mirrored = dielectric_reflectance(along, ior_from, ior_to);
+      const double up = 2 * along * h.z - o.z;
+      if (up > 0) sum += mirrored * here / (here + lambda(std::min(up, 1.0), width));
+      if (mirrored == 1) continue;
+      const double beyond = std::sqrt(std::max(0.0, 1 - ratio * ratio * (1 - along * along)));
+      const double down = ratio * o.z - (ratio * along - beyond) * h.z;
+      if (down > 0) sum += (1 - mirrored) * here / (here + lambda(std::min(down, 1.0), width));
+    }
+  }
+  return sum / (turns * heights);
+}
+
+int glass_slice(double ior_from, double ior_to) {
+  return std::clamp(int(std::floor(place_of(ior_from, ior_to))), 0, glass_slices - 1);
+}
+
+std::span<const double> glass_albedo_table(int slice) {
+  static std::array<Table, glass_slices + 1> tables;
+  static std::array<std::once_flag, glass_slices + 1> computed;
+  std::call_once(computed[size_t(slice)], [&] { compute(slice, tables[size_t(slice)]); });
+  return tables[size_t(slice)];
+}
+
+double glass_albedo(double cosine, double roughness, double ior_from, double ior_to) {
+  const int slice = glass_slice(ior_from, ior_to);
+  const auto at = [&](int edge) {
+    return between(glass_albedo_table(edge), glass_albedos, cosine, roughness, [](double x) { return x; });
+  };
+  return std::lerp(at(slice), at(slice + 1), place_of(ior_from, ior_to) - slice);
+}
+
+}  // namespace eyeray::optics

@@ -1,0 +1,11 @@
+// The tables of albedos that a scene's lobes ask for.
+#pragma once
+
+#include "host/records/packer.hpp"
+
+namespace eyeray::pack {
+
+// After the materials: of `packed.lobes`, and of all pairs of `packed.media`.
+void pack_albedos(records::PackedScene& packed);
+
+}  // namespace eyeray::pack

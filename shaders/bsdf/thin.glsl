@@ -1,0 +1,37 @@
+// A rough pane, infinitely thin: light goes through it without being bent, and is blurred as if mirrored to the other side
+// (KHR_materials_transmission). What its microfacets throw at each other goes through evenly, but for the share that they mirror.
+#ifndef THIN_GLSL
+#define THIN_GLSL
+#include "bsdf/bsdf_record.glsl"
+#include "bsdf/ggx.glsl"
+#include "math/sampling.glsl"
+
+SHADER_BEGIN
+
+vec3 thin_albedo(Bsdf bsdf) { return bsdf.thin * (vec3(1.0f, 1.0f, 1.0f) - layer_albedo(bsdf.layer, bsdf.albedo)); }
+
+LobeValue thin_value(Bsdf bsdf, Directions at) {
+  LobeValue result = no_value();
+  if (at.i.z < 0.0f) {
+    vec3 one = vec3(1.0f, 1.0f, 1.0f);
+    vec3 mirrored = vec3(at.i.x, at.i.y, -at.i.z);
+    vec3 h = at.o + mirrored;
+    h = h / sqrt(maximum(dot3(h, h), 1.0e-30f));
+    vec2 reflection = ggx_reflection(at.o, mirrored, h, ggx_width(bsdf.roughness));
+    float even = -at.i.z / PI;
+    float rest = (1.0f - bsdf.albedo.x) * (1.0f - at.albedo.x) / maximum(1.0f - bsdf.albedo.z, 1.0e-7f);
+    result.value = bsdf.thin * ((one - mirrored_share(bsdf.layer, dot3(at.o, h))) * reflection.x +
+                                (one - mirrored_often(bsdf.layer, bsdf.albedo)) * (rest * even));
+    result.density = bsdf.albedo.x * reflection.y + (1.0f - bsdf.albedo.x) * even;
+  }
+  return result;
+}
+
+vec3 thin_direction(Bsdf bsdf, vec3 o, vec2 u, float part) {
+  vec3 i = cosine_direction(u);
+  if (part < bsdf.albedo.x) i = mirror3(o, ggx_normal(o, ggx_width(bsdf.roughness), u));
+  return i.z > 0.0f ? vec3(i.x, i.y, -i.z) : vec3(0.0f, 0.0f, 0.0f);
+}
+
+SHADER_END
+#endif
