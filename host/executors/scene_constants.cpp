@@ -43,7 +43,9 @@ std::string literal(const shader::Primitive& p) {
 std::string literal(const shader::Material& m) {
   return record_literal("Material", m.kind, m.flags, m.medium, m.optical_depth, m.base, m.specular,
                         m.reflected, m.ambient, m.emission, m.alpha, m.alpha_cutoff, m.shininess, m.a,
-                        m.color, m.roughness, m.metallic, m.coat, m.b, m.c, m.coat_roughness);
+                        m.color, m.roughness, m.metallic, m.coat, m.b, m.c, m.coat_roughness,
+                        m.normal_map, m.normal_scale, m.bump, m.bump_height, m.bump_width, m.unused_0,
+                        m.unused_1, m.unused_2);
 }
 std::string literal(const shader::Texture& t) {
   return record_literal("Texture", t.color, t.kind, t.a, t.b, t.c);

@@ -67,6 +67,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_ROUGH_DIFFUSE", int(any_rough_diffuse(scene)));
   define("HAS_COAT", int(scene.lobes.contains(shader::LOBE_coat)));
   define("HAS_ROUGH_GLASS", int(scene.lobes.contains(shader::LOBE_rough_glass)));
+  define("HAS_BENT_NORMALS", int(scene.bent_normals));
   define("HAS_ALPHA_TEST", int(!used.alpha_tested.empty()));
   define("HAS_MEDIA", int(media));
   define("HAS_ABSORPTION", int(any_absorbs(scene)));

@@ -267,6 +267,7 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
       made->mask = mask(source);
     }
   }
+  made->normal_map = normal_map(source);
   made->name = printable(source.text("name"));
   return made;
 }
@@ -297,6 +298,18 @@ std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, co
   return materials::make_principled(values, std::move(stand_in));
 }
 
+std::optional<NormalMap> GltfMaterials::normal_map(const GltfObject& material) {
+  const auto reference = material.object("normalTexture");
+  if (!reference) return std::nullopt;
+  const auto image = texture(*reference, false);
+  if (!image) return std::nullopt;
+  if (!shares_uv(material, *reference)) {
+    left_out_.add("normal maps with uv of their own");
+    return std::nullopt;
+  }
+  return NormalMap{textures::make_image(image), reference->number("scale", 1)};
+}
+
 // Nothing where the cutoff cuts nothing out.
 std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material) {
   const double cutoff = material.number("alphaCutoff", 0.5);
@@ -322,7 +335,8 @@ std::optional<GltfObject> GltfMaterials::first_texture(const GltfObject& materia
   if (auto base = base_texture(material)) return base;
   if (auto emissive = material.object("emissiveTexture")) return emissive;
   const auto pbr = material.object("pbrMetallicRoughness");
-  return pbr ? pbr->object("metallicRoughnessTexture") : std::nullopt;
+  auto rough = pbr ? pbr->object("metallicRoughnessTexture") : std::nullopt;
+  return rough ? rough : material.object("normalTexture");
 }
 
 GltfUv GltfMaterials::uv(size_t index) const {
@@ -352,7 +366,6 @@ void GltfMaterials::note_rest(const GltfObject& material) {
   const std::string alpha = material.text("alphaMode");
   if (!alpha.empty() && alpha != "OPAQUE" && alpha != "MASK" && alpha != "BLEND")
     material.fail("has an alphaMode that glTF does not know");
-  if (material.has("normalTexture")) left_out_.add("normal maps");
   if (material.has("occlusionTexture")) left_out_.add("occlusion maps");
   if (alpha == "BLEND") left_out_.add("transparency by alpha");
 }

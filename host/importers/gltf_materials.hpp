@@ -53,6 +53,7 @@ class GltfMaterials {
   std::unique_ptr<Material> principled(const GltfObject& source, const Surface& surface,
                                        std::unique_ptr<Material> stand_in);
   std::optional<AlphaMask> mask(const GltfObject& material);
+  std::optional<NormalMap> normal_map(const GltfObject& material);
   std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, bool srgb);
   ImageTexture decode_image(size_t index, image::PixelBudget& budget);
   static std::optional<GltfObject> base_texture(const GltfObject& material);

@@ -18,6 +18,7 @@
 #include "host/scene/emitters.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/table.hpp"
+#include "host/scene/tangents.hpp"
 #include "host/textures/registry.hpp"
 
 namespace eyeray::loader {
@@ -75,6 +76,7 @@ class Builder {
       check_idle_patterns();
     }
     check_whole();
+    if (!log_.has_errors()) make_tangents(scene_);
     return std::move(scene_);
   }
 

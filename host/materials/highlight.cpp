@@ -43,7 +43,15 @@ shader::Material make_record(uint32_t kind, const Highlight& highlight, double s
           .coat = black,
           .b = shader::vec4(0),
           .c = shader::vec3(0),
-          .coat_roughness = black};
+          .coat_roughness = black,
+          .normal_map = NONE,
+          .normal_scale = 0,
+          .bump = NONE,
+          .bump_height = 0,
+          .bump_width = 0,
+          .unused_0 = 0,
+          .unused_1 = 0,
+          .unused_2 = 0};
 }
 
 }  // namespace eyeray::materials

@@ -31,6 +31,9 @@
 #ifndef HAS_ROUGH_GLASS
 #define HAS_ROUGH_GLASS 1
 #endif
+#ifndef HAS_BENT_NORMALS  // a material has a normal map or bumps
+#define HAS_BENT_NORMALS 1
+#endif
 #ifndef HAS_ALPHA_TEST  // a material has an alpha
 #define HAS_ALPHA_TEST 1
 #endif
