@@ -253,9 +253,9 @@ struct Frame {
   uint environment_numbers;  // of 2^24, that choose the environment and not a light
   float environment_turn;    // by how much of a whole turn it is turned about y
   float filter_width;        // pixels
+  uint camera_formula;       // the number of the camera's, where it has one
   uint unused_0;
   uint unused_1;
-  uint unused_2;
 };
 #define FILTER_BOX 0u
 #define FILTER_GAUSSIAN 1u

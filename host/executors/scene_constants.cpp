@@ -65,7 +65,7 @@ std::string literal(const shader::Frame& f) {
                         f.min_throughput, f.up, f.pixel_width, f.forward, f.pixel_height, f.background,
                         f.emitter_count, f.ambient, f.aperture, f.sharpness, f.blade_rotation, f.blades,
                         f.pixel_filter, f.environment_width, f.environment_height, f.environment_numbers,
-                        f.environment_turn, f.filter_width, f.unused_0, f.unused_1, f.unused_2);
+                        f.environment_turn, f.filter_width, f.camera_formula, f.unused_0, f.unused_1);
 }
 
 // A loader that chooses among constants. A driver that runs both sides of every branch selects between

@@ -109,6 +109,8 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
     packer.scene.lobes.clear();
   }
   packer.scene.frame = pack_frame(scene, packer.scene);
+  if (const auto formula = scene.camera.projection->formula())
+    packer.scene.frame.camera_formula = packer.add_formula(formula);
   return packer;
 }
 

@@ -33,7 +33,7 @@ Ray Renderer::eye_ray(const Aim& aim, const Vec2& shift, double pivot) const {
 PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset,
                              const Observer& observer) const {
   const Aim aim = this->aim(x, y, index);
-  if (!camera_.sees(aim.place + shift)) return {};
+  if (!camera_.sees(aim.place + shift, aim.lens)) return {};
   const Ray ray = eye_ray(aim, shift, ray_offset.pivot);
   const IntegratorType type = scene_.render.integrator;
   const uint32_t pixel = uint32_t(y) * uint32_t(scene_.image.width) + uint32_t(x);
@@ -54,7 +54,7 @@ FirstHit Renderer::first_hit_of_sample(int x, int y, uint32_t index, Vec2 shift,
 
 FirstHit Renderer::hit(const Aim& aim, const Vec2& shift, const RayOffset& ray_offset) const {
   FirstHit result;
-  if (!camera_.sees(aim.place + shift)) return result;
+  if (!camera_.sees(aim.place + shift, aim.lens)) return result;
   const Ray ray = eye_ray(aim, shift, ray_offset.pivot);
   const auto hit = tracer_.trace(ray, result.flags, ray_offset.coincident);
   if (!hit) return result;

@@ -123,6 +123,8 @@
 //   FORMULA_BOUND
 //   FORMULA_DUAL
 //   FORMULA_COLOR         (number, uv): what a colour's formula says
+//   FORMULA_DIRECTION     (number, at): what a camera's formula says …
+//   FORMULA_ORIGIN        … and where it says that the ray starts
 //   FORMULA_OVERRAN       defined where a formula loops: whether one made too many turns
 
 // ---- What is compiled in: defined or not; the twin has none of it ----------------------------------------------------

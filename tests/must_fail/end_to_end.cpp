@@ -53,6 +53,7 @@ std::vector<Fault> faults() {
       {"circle", {bits, first_hits, counts, colors}, seen_by("fisheye")},
       {"panorama", {bits, first_hits, colors}, seen_by("panorama")},
       {"cylindrical", {bits, first_hits, colors}, seen_by("cylindrical")},
+      {"own_camera", {bits, first_hits, colors}, seen_by("formula")},
       {"filter",
        {bits, colors},
        {"scenes/whitted.toml", "--spp", "4", "-D", "image.filter=blackman-harris", "--max-explained",
