@@ -73,14 +73,17 @@ INLINE Primitive primitive_of(uvec4 head, vec4 a, vec4 b, vec4 c) {
 #define TRIANGLE_WOOP 0u
 #define TRIANGLE_MOLLER_TRUMBORE 1u
 
-// ---- Corners of a triangle with normals, texture coordinates or colours: 16 or 32 bytes in vertices ------------------
+// ---- Corners of a triangle with normals, texture coordinates or colours: 16 to 64 bytes in vertices ------------------
 //   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u; with CORNERS_COLORS then color.rgb, alpha
 //                                           normals are unit, or of the lengths that a map that stretches has left them
 //  12 CORNERS_ bits
 //  16 v 0  20 v 1  24 v 2  28 -             only with CORNERS_UV
+// With CORNERS_GRADIENTS then the gradients of u and of v, a vec4 each; with CORNERS_TANGENTS behind all that a vertex has Surface::tangent.
 #define CORNERS_NORMALS 1u
 #define CORNERS_UV 2u
 #define CORNERS_COLORS 4u
+#define CORNERS_GRADIENTS 8u
+#define CORNERS_TANGENTS 16u
 
 // ---- BVH: 64 bytes; a node of it ------------------------------------------------------------------------------------
 // A node is two children. Quantised, a child is 16 bytes, its planes integers: lower | upper << 16 for x, y and z, then what it refers
@@ -122,7 +125,7 @@ INLINE uint mesh_optical_depth(Instance instance) { return of_group(instance) ? 
 INLINE uint first_triangle_of(Instance instance) { return instance.depth_or_triangle; }
 #define ID_OF_TRIANGLE 0x80000000u
 
-// ---- Material: 144 bytes --------------------------------------------------------------------------------------------
+// ---- Material: 160 bytes --------------------------------------------------------------------------------------------
 struct Material {
   uint kind;
   uint flags;
@@ -149,15 +152,20 @@ struct Material {
   uint specular_color;
   uint sheen;
   uint sheen_roughness;  // the green channel
+  uint normal_map;       // or NONE, …
+  float normal_scale;
+  uint bump;  // … as this (materials/bent_normal.glsl)
+  float bump_height;
+  float bump_width;
   uint unused_0;
   uint unused_1;
-  uint unused_2;
 };
 #define MATERIAL_BLINN 1u
 #define MATERIAL_PANE 2u   // it has no inside: paths may pass it straight
 #define MOST_PANES 8u      // that a shadow ray goes through
 #define MATERIAL_CLEAR 4u  // of principled: Whitted's pictures show glass, and `base` is its colour
 #define MATERIAL_EMITS_IN_FRONT 8u  // its own light goes only where normals point
+#define MATERIAL_BUMP_IN_SPACE 16u  // bump_width is a length in the world, else in uv
 // Optical depth: what each primitive that a shadow ray hits takes from it, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
 #define OPTICAL_DEPTH_OPAQUE 0x10000000u
 #define OPTICAL_DEPTH_SCALE 1048576.0f
@@ -287,8 +295,8 @@ struct Frame {
   float environment_turn;    // by how much of a whole turn it is turned about y
   float filter_width;        // pixels
   uint light_bvh_numbers;    // of 2^24, that choose a light by the light BVH; 0 without one
-  uint unused_1;
-  uint unused_2;
+  uint camera_formula;       // the number of the camera's, where it has one
+  uint unused_0;
 };
 #define FILTER_BOX 0u
 #define FILTER_GAUSSIAN 1u
@@ -437,7 +445,7 @@ SHADER_END
 static_assert(sizeof(eyeray::shader::Primitive) == 64);
 static_assert(sizeof(eyeray::shader::Bvh) == 64);
 static_assert(sizeof(eyeray::shader::Instance) == 112);
-static_assert(sizeof(eyeray::shader::Material) == 144);
+static_assert(sizeof(eyeray::shader::Material) == 160);
 static_assert(sizeof(eyeray::shader::Medium) == 32);
 static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);

@@ -60,7 +60,9 @@ class Fisheye final : public Projection {
     return {camera.eye, glm::normalize(std::sin(angle) * aside + std::cos(angle) * camera.w)};
   }
 
-  bool sees(const Vec2& place, const Vec2& size) const override { return angle(place, size) <= rim(); }
+  bool sees(const Vec2& place, const Vec2&, const Vec2& size) const override {
+    return angle(place, size) <= rim();
+  }
 
   std::shared_ptr<const Projection> widened(double factor, const Vec2&) const override {
     return std::make_shared<Fisheye>(values_, wider_ * factor);

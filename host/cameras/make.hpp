@@ -10,5 +10,7 @@ std::shared_ptr<const Projection> make_projection(const OrthographicCamera& valu
 std::shared_ptr<const Projection> make_projection(const FisheyeCamera& values);
 std::shared_ptr<const Projection> make_projection(const PanoramaCamera& values);
 std::shared_ptr<const Projection> make_projection(const CylindricalCamera& values);
+// `formula`: a camera's.
+std::shared_ptr<const Projection> make_projection(std::shared_ptr<const formula::Formula> formula);
 
 }  // namespace eyeray::cameras

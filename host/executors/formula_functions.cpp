@@ -33,7 +33,7 @@ std::string surface_functions(size_t i, const PackedFormula& packed) {
   return formula.kernel(name) +
          fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i, restart, name) +
          fmt::format("vec3 formula{}_gradient(vec3 p) {{ {}return {}; }}\n", i, restart,
-                     formula.has_gradient() ? name + "gradient(p)" : "vec3(0.0f, 0.0f, 0.0f)") +
+                     formula.has_other() ? name + "gradient(p)" : "vec3(0.0f, 0.0f, 0.0f)") +
          fmt::format(
              "#define FORMULA_NAME(part) formula{0}_##part\n#define FORMULA_VALUE(it, p) "
              "formula{0}_value(p)\n"
@@ -41,7 +41,7 @@ std::string surface_functions(size_t i, const PackedFormula& packed) {
              "#include \"shapes/implicit/lipschitz_march.glsl\"\n"
              "#undef FORMULA_NAME\n#undef FORMULA_VALUE\n#undef FORMULA_HAS_GRADIENT\n"
              "#undef FORMULA_GRADIENT\n",
-             i, formula.has_gradient());
+             i, formula.has_other());
 }
 
 // Each colour's formula, and the one that picks by number.
@@ -58,6 +58,23 @@ std::string color_functions(const std::vector<PackedFormula>& formulas) {
   if (choice.empty()) return "";
   return text + "vec3 formula_color_of(uint number, vec2 uv) {\n  vec3 color = vec3(0.0f, 0.0f, 0.0f);\n" +
          choice + "  return color;\n}\n#define FORMULA_COLOR(number, uv) formula_color_of(number, uv)\n";
+}
+
+// A camera's formula: there is one at most.
+std::string camera_functions(const std::vector<PackedFormula>& formulas) {
+  std::string text;
+  for (size_t i = 0; i < formulas.size(); ++i) {
+    const formula::Formula& formula = *formulas[i].formula;
+    if (formula.kind() != FormulaKind::camera) continue;
+    const std::string name = fmt::format("f{}_", i), restart = formula.loops() ? "formula_turns = 0u; " : "";
+    text = formula.kernel(name) +
+           fmt::format("vec3 formula_direction(vec4 at) {{ {}return {}direction(at); }}\n", restart, name) +
+           fmt::format("vec3 formula_origin(vec4 at) {{ {}return {}; }}\n", restart,
+                       formula.has_other() ? name + "origin(at)" : "vec3(0.0f, 0.0f, 0.0f)") +
+           "#define FORMULA_DIRECTION(number, at) formula_direction(at)\n"
+           "#define FORMULA_ORIGIN(number, at) formula_origin(at)\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -80,7 +97,7 @@ std::string formula_functions(const records::PackedScene& scene) {
     rows += fmt::format(" X({0}u, formula{0})", i);
     text += surface_functions(i, scene.formulas[i]);
   }
-  return text + color_functions(scene.formulas) + "#define FORMULAS(X)" + rows + "\n";
+  return text + color_functions(scene.formulas) + camera_functions(scene.formulas) + "#define FORMULAS(X)" + rows + "\n";
 }
 
 }  // namespace eyeray::executors

@@ -14,6 +14,10 @@ bool varies(const shader::Texture& texture) {
   return std::ranges::find(texture_rows, texture.kind, &TextureRow::number)->varies;
 }
 
+bool bends(const shader::Material& material) {
+  return material.normal_map != NONE || material.bump != NONE;
+}
+
 bool is_black(const shader::Texture& texture) {
   return !varies(texture) && texture.color == shader::vec3(0);
 }
@@ -28,7 +32,8 @@ bool any_reflects(const records::PackedScene& scene) {
 }  // namespace
 
 bool varies(const records::PackedScene& scene, const shader::Material& material) {
-  return std::ranges::any_of(
+  // What bends normals asks at least how uv grow.
+  return bends(material) || std::ranges::any_of(
       std::array{material.base, material.specular, material.reflected, material.color, material.roughness,
                  material.metallic, material.coat, material.coat_roughness, material.specular_level,
                  material.transmission, material.specular_color, material.sheen, material.sheen_roughness,

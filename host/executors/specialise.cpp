@@ -70,6 +70,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_SPECULAR_TEXTURES", int(any_specular_varies(scene)));
   define("HAS_COAT", int(scene.lobes.contains(shader::LOBE_coat)));
   define("HAS_ROUGH_GLASS", int(scene.lobes.contains(shader::LOBE_rough_glass)));
+  define("HAS_BENT_NORMALS", int(scene.bent_normals));
   define("HAS_ALPHA_TEST", int(!used.alpha_tested.empty()));
   define("HAS_SHEEN", int(scene.lobes.contains(shader::LOBE_sheen)));
   define("HAS_THIN", int(scene.lobes.contains(shader::LOBE_thin)));

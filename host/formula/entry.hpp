@@ -8,18 +8,31 @@ namespace eyeray::formula {
 enum class FormulaKind {
   surface,  // `float f(vec3 p)`, negative inside; it may have `vec3 gradient(vec3 p)` too
   color,    // `vec3 color(vec2 uv)`
+  camera,   // `vec3 direction(vec2 place, vec2 lens)`; it may have `vec3 origin(vec2 place, vec2 lens)` too
 };
 
-// The function TYPE NAME(PARAMETER …).
+// The function TYPE NAME(PARAMETER …) as executors ask it, and the parameters that it is written with.
 struct Entry {
-  std::string_view type, name, parameter;
+  std::string_view type, name, parameter, written;
 };
-
-inline constexpr Entry gradient_entry{"vec3", "gradient", "vec3"};
 
 // The function that a text of this kind must have.
 constexpr Entry entry_of(FormulaKind kind) {
-  return kind == FormulaKind::surface ? Entry{"float", "f", "vec3"} : Entry{"vec3", "color", "vec2"};
+  switch (kind) {
+    case FormulaKind::surface:
+      break;
+    case FormulaKind::color:
+      return {"vec3", "color", "vec2", "vec2 uv"};
+    case FormulaKind::camera:
+      return {"vec3", "direction", "vec4", "vec2 place, vec2 lens"};
+  }
+  return {"float", "f", "vec3", "vec3 p"};
+}
+
+// The function that it may have beside; of a color, none.
+constexpr Entry other_entry_of(FormulaKind kind) {
+  return kind == FormulaKind::camera ? Entry{"vec3", "origin", "vec4", "vec2 place, vec2 lens"}
+                                     : Entry{"vec3", "gradient", "vec3", "vec3 p"};
 }
 
 }  // namespace eyeray::formula

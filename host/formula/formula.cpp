@@ -22,12 +22,12 @@
 namespace eyeray::formula {
 
 struct Compiled {
-  Entry entry;
+  FormulaKind kind;
   Text text;
   Module module;
   ir::Program program;
   Machine value;
-  std::optional<Machine> gradient;
+  std::optional<Machine> other;
 };
 
 namespace {
@@ -43,7 +43,18 @@ std::string mangled(const Entry& entry) {
 // A statement that calls it, so that a compiler keeps it.
 std::string call(const Entry& entry, int number) {
   return fmt::format("values[{}].{} = {}{}(values[0].{});", number, entry.type == "float" ? "x" : "xyz",
-                     user_prefix, entry.name, entry.parameter == "vec2" ? "xy" : "xyz");
+                     user_prefix, entry.name,
+                     std::string_view("xyzw").substr(0, size_t(entry.parameter.back() - '0')));
+}
+
+// A camera's functions of two vectors as those of one that executors ask.
+std::string as_asked(FormulaKind kind, bool has_other) {
+  if (kind != FormulaKind::camera) return "";
+  const auto of_both = [](const Entry& entry) {
+    return fmt::format("{0} {1}{2}({3} at) {{ return {1}{2}(at.xy, at.zw); }}\n", entry.type, user_prefix,
+                       entry.name, entry.parameter);
+  };
+  return of_both(entry_of(kind)) + (has_other ? of_both(other_entry_of(kind)) : "");
 }
 
 // "const TYPE NAME = TYPE(…);" a line each.
@@ -64,16 +75,16 @@ constexpr const char* main_file = "formula.comp";
 constexpr const char* text_file = "text";
 
 // What glslang compiles.
-std::vector<uint32_t> spirv_of(const Entry& entry, const Text& text,
+std::vector<uint32_t> spirv_of(FormulaKind kind, const Text& text,
                                const std::vector<FormulaParameter>& parameters) {
   gpu::ShaderSource source{main_file, {}};
   source.files[text_file] = text.glsl();
   source.files[main_file] = fmt::format(
       "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, set = 0, binding = 0) buffer Values {{ "
       "vec4 values[]; }};\n{}"
-      "#line 1 \"{}\"\n{}\n#line 1 \"{}\"\nvoid main() {{ {} {} }}\n",
-      constants(parameters), text_file, source.files[text_file], main_file, call(entry, 1),
-      text.has_gradient ? call(gradient_entry, 2) : "");
+      "#line 1 \"{}\"\n{}\n#line 1 \"{}\"\n{}void main() {{ {} {} }}\n",
+      constants(parameters), text_file, source.files[text_file], main_file, as_asked(kind, text.has_other),
+      call(entry_of(kind), 1), text.has_other ? call(other_entry_of(kind), 2) : "");
   return gpu::compile_shader(source, "", gpu::Lines::kept).spirv;
 }
 
@@ -104,29 +115,29 @@ std::string without_prefix(std::string_view message) {
 }
 
 // The same text with the same parameters is compiled once for as long as somebody has it.
-std::shared_ptr<const Compiled> compiled(const Entry& entry, const Text& text,
+std::shared_ptr<const Compiled> compiled(FormulaKind kind, const Text& text,
                                          const std::vector<FormulaParameter>& parameters,
                                          std::vector<Fault>& faults) {
   static std::mutex mutex;
   static std::map<std::string, std::weak_ptr<const Compiled>> known;
-  const std::string key = mangled(entry) + constants(parameters) + text.glsl();
+  const std::string entry = mangled(entry_of(kind)), key = entry + constants(parameters) + text.glsl();
   const std::scoped_lock lock(mutex);
   std::erase_if(known, [](const auto& known_text) { return known_text.second.expired(); });
   // Who has it may let go of it meanwhile.
   if (const auto found = known.find(key); found != known.end())
     if (auto still_there = found->second.lock()) return still_there;
 
-  Module module(spirv_of(entry, text, parameters));
-  ir::Program program = lower(module, mangled(entry), text.has_gradient ? mangled(gradient_entry) : "");
+  Module module(spirv_of(kind, text, parameters));
+  ir::Program program = lower(module, entry, text.has_other ? mangled(other_entry_of(kind)) : "");
   if (std::string why = limit(program); !why.empty()) {
     faults.push_back({1, 1, std::move(why)});
     return nullptr;
   }
   Machine value(program, program.value);
-  std::optional<Machine> gradient;
-  if (!program.gradient.empty()) gradient.emplace(program, program.gradient[0]);
-  const std::shared_ptr<const Compiled> result(new Compiled{
-      entry, text, std::move(module), std::move(program), std::move(value), std::move(gradient)});
+  std::optional<Machine> other;
+  if (!program.other.empty()) other.emplace(program, program.other[0]);
+  const std::shared_ptr<const Compiled> result(
+      new Compiled{kind, text, std::move(module), std::move(program), std::move(value), std::move(other)});
   known[key] = result;
   return result;
 }
@@ -149,7 +160,7 @@ Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std
   }
   if (faults.empty()) {
     try {
-      compiled_ = compiled(entry_of(kind), judged, parameters_, faults);
+      compiled_ = compiled(kind, judged, parameters_, faults);
     } catch (const InputError& error) {
       throw InputError(in_text(error, judged));
     }
@@ -182,8 +193,8 @@ bool Formula::same(const Formula& other) const {
   return kind_ == other.kind_ && text_.text == other.text_.text && parameters_ == other.parameters_;
 }
 
-bool Formula::has_gradient() const {
-  return compiled_->gradient.has_value();
+bool Formula::has_other() const {
+  return compiled_->other.has_value();
 }
 
 double Formula::instructions() const {
@@ -191,7 +202,7 @@ double Formula::instructions() const {
 }
 
 std::string Formula::kernel(const std::string& name) const {
-  return kernel_text(compiled_->program, compiled_->entry, name);
+  return kernel_text(compiled_->program, compiled_->kind, name);
 }
 
 bool Formula::loops() const {
@@ -203,7 +214,7 @@ const expression::StraightLine& Formula::straight_line() const {
     try {
       expression::Expression expression;
       Execution execution(compiled_->module, expression);
-      straight_line_ = expression::straight_line(expression, execution.run(mangled(compiled_->entry)));
+      straight_line_ = expression::straight_line(expression, execution.run(mangled(entry_of(compiled_->kind))));
       if (straight_line_.size() > most_steps)
         throw InputError(
             {{Severity::error,
@@ -229,6 +240,13 @@ std::array<T, Results> Formula::run(const std::array<T, Inputs>& input, uint64_t
   return results;
 }
 
+template <typename T, size_t Inputs>
+std::array<T, 3> Formula::run_other(const std::array<T, Inputs>& input) const {
+  std::array<T, 3> results{};
+  if (!compiled_->other->run(input, results.data())) endless();
+  return results;
+}
+
 float Formula::value(const std::array<float, 3>& p) const {
   return run<1>(p)[0];
 }
@@ -246,9 +264,23 @@ std::array<double, 3> Formula::color(const std::array<double, 2>& uv) const {
 }
 
 std::array<float, 3> Formula::gradient(const std::array<float, 3>& p) const {
-  std::array<float, 3> gradient{};
-  if (!compiled_->gradient->run(p, gradient.data())) endless();
-  return gradient;
+  return run_other(p);
+}
+
+std::array<float, 3> Formula::direction(const std::array<float, 4>& at) const {
+  return run<3>(at);
+}
+
+std::array<double, 3> Formula::direction(const std::array<double, 4>& at) const {
+  return run<3>(at);
+}
+
+std::array<float, 3> Formula::origin(const std::array<float, 4>& at) const {
+  return has_other() ? run_other(at) : std::array<float, 3>{};
+}
+
+std::array<double, 3> Formula::origin(const std::array<double, 4>& at) const {
+  return has_other() ? run_other(at) : std::array<double, 3>{};
 }
 
 void Formula::endless() const {

@@ -1,5 +1,5 @@
-// A function that a user has written in GLSL: a surface's, of a point, or a colour's, of its place on a
-// surface. Its text is a stranger's: it is judged, compiled by glslang, and forgotten. What its SPIR-V says,
+// A function that a user has written in GLSL: a surface's, of a point, a colour's, of its place on a surface,
+// or a camera's, of a place in the picture. Its text is a stranger's: it is judged, compiled by glslang, and forgotten. What its SPIR-V says,
 // with nothing undefined left (formula/ir.hpp), is what every executor runs. docs/formulas.md says which
 // GLSL, docs/security.md what a stranger can do with it.
 #pragma once
@@ -48,8 +48,9 @@ class Formula {
   const FormulaText& text() const { return text_; }
   // Whether it is the same function as the other one.
   bool same(const Formula& other) const;
-  // Whether the text has a `vec3 gradient(vec3 p)` too.
-  bool has_gradient() const;
+  // Whether the text has the function that it may have beside (other_entry_of): a surface's gradient, a
+  // camera's origin.
+  bool has_other() const;
   // Instructions, with functions written where they are called: what a kernel's compiler has to do with it.
   double instructions() const;
 
@@ -74,10 +75,17 @@ class Formula {
   // A colour's, likewise.
   std::array<float, 3> color(const std::array<float, 2>& uv) const;
   std::array<double, 3> color(const std::array<double, 2>& uv) const;
+  // A camera's, of a place in the picture and one on the lens; without a function of its own the origin is 0.
+  std::array<float, 3> direction(const std::array<float, 4>& at) const;
+  std::array<double, 3> direction(const std::array<double, 4>& at) const;
+  std::array<float, 3> origin(const std::array<float, 4>& at) const;
+  std::array<double, 3> origin(const std::array<double, 4>& at) const;
 
  private:
   template <size_t Results, typename T, size_t Inputs>
   std::array<T, Results> run(const std::array<T, Inputs>& input, uint64_t* turns = nullptr) const;
+  template <typename T, size_t Inputs>
+  std::array<T, 3> run_other(const std::array<T, Inputs>& input) const;
   [[noreturn]] void endless() const;
   std::vector<Diagnostic> in_text(const InputError& error, const Text& text) const;
 

@@ -187,7 +187,7 @@ struct Program {
   std::map<Constant, uint32_t> constant_numbers;
   std::vector<Table> tables;
   uint32_t value = 0;                // the function that the text must define
-  std::vector<uint32_t> gradient{};  // the function gradient, if there is one
+  std::vector<uint32_t> other{};     // the function that it may have beside, if there is one
   bool counts_turns = false;
 };
 

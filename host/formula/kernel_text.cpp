@@ -179,14 +179,14 @@ std::string_view pattern(Op op) {
 
 class Writer {
  public:
-  Writer(const ir::Program& program, const Entry& entry, const std::string& name)
-      : program_(program), entry_(entry), name_(name) {}
+  Writer(const ir::Program& program, FormulaKind kind, const std::string& name)
+      : program_(program), kind_(kind), name_(name) {}
 
   std::string run() {
     for (size_t i = 0; i < program_.tables.size(); ++i) write_table(i);
     for (size_t i = 0; i < program_.functions.size(); ++i) write_function(i);
-    write_entry(entry_, program_.value);
-    for (const uint32_t gradient : program_.gradient) write_entry(gradient_entry, gradient);
+    write_entry(entry_of(kind_), program_.value);
+    for (const uint32_t other : program_.other) write_entry(other_entry_of(kind_), other);
     return std::move(text_);
   }
 
@@ -262,7 +262,7 @@ class Writer {
     const ir::Function& function = program_.functions[number];
     open(fmt::format("{} {}{}({} p)", entry.type, name_, entry.name, entry.parameter));
     std::vector<std::string> arguments;
-    for (uint32_t i = 0; i < function.input_count(); ++i) arguments.push_back(fmt::format("p.{}", "xyz"[i]));
+    for (uint32_t i = 0; i < function.input_count(); ++i) arguments.push_back(fmt::format("p.{}", "xyzw"[i]));
     const ir::Parameter& p = function.parameters[0];
     if (p.place.is_array || p.written) {
       line("float q[{0}] = float[{0}]({1});", arguments.size(), fmt::join(arguments, ", "));
@@ -366,7 +366,7 @@ class Writer {
   }
 
   const ir::Program& program_;
-  const Entry& entry_;
+  FormulaKind kind_;
   const std::string& name_;
   const ir::Function* function_ = nullptr;
   std::string text_;
@@ -376,8 +376,8 @@ class Writer {
 
 }  // namespace
 
-std::string kernel_text(const ir::Program& program, const Entry& entry, const std::string& name) {
-  return Writer(program, entry, name).run();
+std::string kernel_text(const ir::Program& program, FormulaKind kind, const std::string& name) {
+  return Writer(program, kind, name).run();
 }
 
 }  // namespace eyeray::formula

@@ -8,9 +8,9 @@
 
 namespace eyeray::formula {
 
-// The entry, its name behind `name`, `vec3 NAMEgradient(vec3 p)` if there is one, and what they call; needs
+// The entry of that kind, its name behind `name`, the other one if there is one, and what they call; needs
 // shaders/math/formula.glsl and, where loops are counted, `bool formula_turn(uint)`. One operation a
 // statement, on numbers alone: nothing of the user's text is left, and nothing for a compiler to fold.
-std::string kernel_text(const ir::Program& program, const Entry& entry, const std::string& name);
+std::string kernel_text(const ir::Program& program, FormulaKind kind, const std::string& name);
 
 }  // namespace eyeray::formula

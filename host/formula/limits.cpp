@@ -200,9 +200,9 @@ Size size_of(const ir::Program& program) {
   ir::Program copy = program;
   const std::vector<Size> sizes = Measure(copy).run();
   Size sum = sizes[program.value];
-  for (const uint32_t gradient : program.gradient) {
-    sum.instructions += sizes[gradient].instructions;
-    sum.branches += sizes[gradient].branches;
+  for (const uint32_t other : program.other) {
+    sum.instructions += sizes[other].instructions;
+    sum.branches += sizes[other].branches;
   }
   return sum;
 }

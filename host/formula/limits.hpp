@@ -19,7 +19,7 @@ struct Size {
 // Settles for each loop whether its turns are counted, and what one counts. What is too much, in words; ""
 // where nothing is.
 std::string limit(ir::Program& program);
-// Of f and gradient together, once limited.
+// Of both functions together, once limited.
 Size size_of(const ir::Program& program);
 
 }  // namespace eyeray::formula

@@ -19,7 +19,7 @@ bool is_access(spv::Op op) {
 
 }  // namespace
 
-ir::Program lower(const Module& module, std::string_view value, std::string_view gradient) {
+ir::Program lower(const Module& module, std::string_view value, std::string_view other) {
   ir::Program program;
   std::map<uint32_t, uint32_t> numbers;
 
@@ -37,9 +37,9 @@ ir::Program lower(const Module& module, std::string_view value, std::string_view
   CHECK(f);
   lower_with_callees(lower_with_callees, *f);
   program.value = numbers.at(f->id);
-  if (const Function* g = module.named(gradient)) {
+  if (const Function* g = module.named(other)) {
     lower_with_callees(lower_with_callees, *g);
-    program.gradient.push_back(numbers.at(g->id));
+    program.other.push_back(numbers.at(g->id));
   }
   return program;
 }

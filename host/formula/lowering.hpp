@@ -10,9 +10,9 @@
 
 namespace eyeray::formula {
 
-// The program whose f and gradient are the module's functions of these names, as Module::named takes them;
+// The program whose functions are the module's of these names, as Module::named takes them;
 // the latter may be missing. InputError, with the line, for what formulas cannot be made of.
-ir::Program lower(const Module& module, std::string_view value, std::string_view gradient);
+ir::Program lower(const Module& module, std::string_view value, std::string_view other);
 
 // One function's.
 class FunctionLowering {

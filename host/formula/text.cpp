@@ -225,23 +225,31 @@ void Judge::judge_globals() {
   }
 }
 
-// Whether there is TYPE NAME(PARAMETER p) { … }.
+// Whether there is TYPE NAME(TYPE a, …) { … }, its parameters of the types that it is written with.
 bool Judge::defines(const Entry& entry) const {
   return std::ranges::any_of(functions_, [&](const Function& function) {
     size_t i = function.type;
     if (!function.defined || !is(i, entry.type) || !is(i + 1, entry.name)) return false;
     const size_t close = partner_[i + 2];
-    for (i += 3; is(i, "const") || is(i, "in");) ++i;
-    return is(i, entry.parameter) && i + 2 == close;
+    i += 2;
+    for (std::string_view written = entry.written; !written.empty();) {
+      for (++i; is(i, "const") || is(i, "in");) ++i;
+      if (!is(i, written.substr(0, written.find(' ')))) return false;
+      i += 2;
+      const size_t comma = written.find(", ");
+      written = comma == std::string_view::npos ? "" : written.substr(comma + 2);
+      if (!written.empty() && !is(i, ",")) return false;
+    }
+    return i == close;
   });
 }
 
 void Judge::judge_entries() {
-  t_.has_gradient = kind_ == FormulaKind::surface && defines(gradient_entry);
+  t_.has_other = kind_ != FormulaKind::color && defines(other_entry_of(kind_));
   if (const Entry entry = entry_of(kind_); !defines(entry))
     faults_.push_back({1, 1,
-                       fmt::format("the text must have a function `{} {}({} {})`", entry.type, entry.name,
-                                   entry.parameter, kind_ == FormulaKind::surface ? "p" : "uv")});
+                       fmt::format("the text must have a function `{} {}({})`", entry.type, entry.name,
+                                   entry.written)});
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ inline constexpr std::string_view user_prefix = "user_";
 struct Text {
   std::vector<Token> tokens;
   std::vector<bool> is_name;  // of the text's own, for each token
-  bool has_gradient = false;  // whether it defines one, of a surface
+  bool has_other = false;     // whether it defines other_entry_of() its kind
 
   // Where a token of glsl() stands in the text; both from 1.
   struct Place {

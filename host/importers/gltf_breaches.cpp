@@ -37,6 +37,7 @@ struct AttributeRule {
 constexpr AttributeRule rules[] = {
     {"POSITION", any_float, bytes_and_shorts | bytes_and_shorts << 8},
     {"NORMAL", any_float, directions},
+    {"TANGENT", any_float, directions},
     {"TEXCOORD_", shares, bytes_and_shorts | bytes_and_shorts << 8},
     {"COLOR_", shares, 0, directions},
     {"JOINTS_", plain(unsigned_byte) | plain(unsigned_short), 0, plain(unsigned_int)},

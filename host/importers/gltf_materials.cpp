@@ -241,8 +241,21 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
       made->mask = mask(source);
     }
   }
+  made->normal_map = normal_map(source);
   made->name = printable(source.text("name"));
   return made;
+}
+
+std::optional<NormalMap> GltfMaterials::normal_map(const GltfObject& material) {
+  const auto reference = material.object("normalTexture");
+  if (!reference) return std::nullopt;
+  const auto image = texture(*reference, Content::data);
+  if (!image) return std::nullopt;
+  if (!shares_uv(material, *reference)) {
+    left_out_.add("normal maps with uv of their own");
+    return std::nullopt;
+  }
+  return NormalMap{textures::make_image(image), reference->number("scale", 1)};
 }
 
 // Nothing where the cutoff cuts nothing out.
@@ -271,6 +284,7 @@ std::optional<GltfObject> GltfMaterials::first_texture(const GltfObject& materia
   if (auto emissive = material.object("emissiveTexture")) return emissive;
   if (const auto pbr = material.object("pbrMetallicRoughness"))
     if (auto metal_rough = pbr->object("metallicRoughnessTexture")) return metal_rough;
+  if (auto normal = material.object("normalTexture")) return normal;
   return first_extension_texture(material);
 }
 
@@ -301,7 +315,6 @@ void GltfMaterials::note_rest(const GltfObject& material) {
   const std::string alpha = material.text("alphaMode");
   if (!alpha.empty() && alpha != "OPAQUE" && alpha != "MASK" && alpha != "BLEND")
     material.fail("has an alphaMode that glTF does not know");
-  if (material.has("normalTexture")) left_out_.add("normal maps");
   if (material.has("occlusionTexture")) left_out_.add("occlusion maps");
   if (alpha == "BLEND") left_out_.add("transparency by alpha");
 }

@@ -40,6 +40,12 @@ bool is_no_unit(const Vec3& normal) {
   return length > 0 && !(std::abs(length - 1) < 0.01);
 }
 
+// Whether a vertex has a direction along u, and a side of it for v.
+bool is_direction(const Vec4& tangent) {
+  const double length = glm::length(Vec3(tangent));
+  return std::isfinite(length) && length > 0 && std::abs(tangent.w) == 1;
+}
+
 }  // namespace
 
 GltfMeshes::GltfMeshes(const GltfObject& document, GltfBuffers& buffers, const GltfMaterials& materials,
@@ -102,11 +108,16 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   const std::string uv_name = fmt::format("TEXCOORD_{}", uv_use.set);
   const auto uv = attributes->index(uv_name.c_str(), accessors);
   const auto colors = attributes->index("COLOR_0", accessors);
+  // What bends a mesh does not say what it makes of them.
+  auto tangents = attributes->index("TANGENT", accessors);
+  const bool bent = !pose.joints.empty() || std::ranges::any_of(pose.weights, [](double w) { return w != 0; });
+  if (bent || !normals || !uv) tangents.reset();
   if (uv_use.taken && !uv)
     breaches_.add("meshes without the uv that their material's picture takes", primitive.place());
   for (const auto& [name, accessor] :
        {std::pair<std::string_view, const std::optional<size_t>&>{"POSITION", positions},
         {"NORMAL", normals},
+        {"TANGENT", tangents},
         {uv_name, uv},
         {"COLOR_0", colors}}) {
     if (accessor) breaches_.check_attribute(name, *accessor);
@@ -116,6 +127,12 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   if (normals) pool.normals = buffers_.vec3(*normals);
   if (std::ranges::any_of(pool.normals, is_no_unit))
     breaches_.add("normals that are not of unit length, normalised", attributes->place() + ".NORMAL");
+  if (tangents) pool.tangents = buffers_.vec4(*tangents);
+  if (!std::ranges::all_of(pool.tangents, is_direction)) {
+    breaches_.add("meshes with tangents that are no directions, made of their uv instead", attributes->place());
+    pool.tangents.clear();
+    tangents.reset();
+  }
   if (uv) pool.uv = buffers_.vec2(*uv);
   if (colors) {
     for (const Vec4& color : buffers_.colors(*colors)) {
@@ -132,6 +149,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
     if (has && size != pool.positions.size()) attributes->fail("do not all have as many elements");
   };
   check(normals.has_value(), pool.normals.size());
+  check(tangents.has_value(), pool.tangents.size());
   check(uv.has_value(), pool.uv.size());
   check(colors.has_value(), pool.colors.size());
   add_targets(primitive, pose.weights, document_, buffers_, breaches_, pool);

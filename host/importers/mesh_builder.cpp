@@ -126,6 +126,10 @@ void MeshBuilder::append(Mesh& mesh, const RawTriangles& raw, const Source& sour
   if (raw.has_uv) mesh.uv.push_back(source.uv == no_index ? Vec2(0) : pool_.uv[source.uv]);
   if (!pool_.colors.empty()) mesh.colors.push_back(pool_.colors[source.position]);
   if (!pool_.alphas.empty()) mesh.alphas.push_back(pool_.alphas[source.position]);
+  if (!pool_.tangents.empty()) {
+    const Vec4& tangent = pool_.tangents[source.position];
+    mesh.tangents.emplace_back(unit(Vec3(tangent)), tangent.w);
+  }
 }
 
 Mesh MeshBuilder::build(const RawTriangles& raw, double smooth) {

@@ -36,6 +36,7 @@ struct VertexPool {
   std::vector<Vec2> uv;
   std::vector<Vec3> colors;    // linear RGB, one a position, or none
   std::vector<double> alphas;  // likewise, and only with colours
+  std::vector<Vec4> tangents;  // one a position, or none: of any length, and the side of v
 };
 
 // Within 0 to 1; 0 for what is not a number.

@@ -10,6 +10,25 @@ namespace {
 
 constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
 
+TexturePtr as_data(const TexturePtr& texture) {
+  const TexturePtr data = texture ? texture->as_data() : nullptr;
+  return data ? data : texture;
+}
+
+void bend_normals(TableReader& reader, Material& material) {
+  if (reader.has("normal"))
+    material.normal_map = NormalMap{as_data(reader.texture("normal")), reader.number("normal_scale")};
+  else if (reader.has("normal_scale"))
+    reader.error("normal_scale", "without `normal` there is nothing to scale");
+
+  if (const TexturePtr bump = reader.has("bump") ? as_data(reader.texture("bump")) : nullptr) {
+    const double width = reader.has("bump_width") ? reader.number("bump_width") : bump->detail();
+    material.bump_map = BumpMap{bump, reader.number("bump_height"), width};
+  }
+  for (const std::string_view key : {"bump_height", "bump_width"})
+    if (reader.has(key) && !reader.has("bump")) reader.error(key, "without `bump` there are no heights");
+}
+
 }  // namespace
 
 void Materials::add(const Section& section, const toml::table& table) {
@@ -43,6 +62,7 @@ void Materials::add(const Section& section, const toml::table& table) {
   material->emits_in_front = reader.choice("emission_side") == 1;
   if (material->emits_in_front && !material->emits())
     reader.error("emission_side", "without `emission` there is no light of its own");
+  bend_normals(reader, *material);
   material->name = name;
   entry->second.index = static_cast<int>(scene_.materials.size());
   scene_.materials.push_back(std::move(material));

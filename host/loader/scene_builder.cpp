@@ -18,6 +18,7 @@
 #include "host/scene/emitters.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/table.hpp"
+#include "host/scene/tangents.hpp"
 #include "host/textures/registry.hpp"
 
 namespace eyeray::loader {
@@ -77,6 +78,7 @@ class Builder {
       check_idle_patterns();
     }
     check_whole();
+    if (!log_.has_errors()) make_tangents(scene_);
     return std::move(scene_);
   }
 

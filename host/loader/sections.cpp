@@ -85,6 +85,36 @@ std::span<const Key> material_keys() {
               "point.",
        .fallback = "\"both\"",
        .choices = emission_sides},
+      {.name = "normal",
+       .type = KeyType::texture,
+       .doc = "A normal map, as glTF has them: which way the surface seems to face, in tangent space, red along "
+              "u, green along v, [0.5, 0.5, 1] straight out. Codes of an image count as they are.",
+       .max = 1,
+       .optional = true},
+      {.name = "normal_scale",
+       .type = KeyType::number,
+       .doc = "How strongly the normal map bends; below 0 the other way.",
+       .fallback = "1",
+       .min = -1000,
+       .max = 1000},
+      {.name = "bump",
+       .type = KeyType::texture,
+       .doc = "Heights by which the surface seems to rise, 0 where it is black. Of a color the luminance counts, "
+              "codes of an image as they are.",
+       .max = 1,
+       .optional = true},
+      {.name = "bump_height",
+       .type = KeyType::number,
+       .doc = "That of white, in the world; below 0 the surface sinks.",
+       .fallback = "0.1"},
+      {.name = "bump_width",
+       .type = KeyType::number,
+       .doc = "How far to each side heights are compared, and so half the width of a step's slope: in uv, or for "
+              "patterns in space in the world. When absent a texel of an image, else 0.01, in units of the "
+              "pattern.",
+       .min = 0,
+       .above_min = true,
+       .optional = true},
   };
   return keys;
 }

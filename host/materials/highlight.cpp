@@ -49,9 +49,13 @@ shader::Material make_record(uint32_t kind, const Highlight& highlight, double s
           .specular_color = black,
           .sheen = black,
           .sheen_roughness = black,
+          .normal_map = NONE,
+          .normal_scale = 0,
+          .bump = NONE,
+          .bump_height = 0,
+          .bump_width = 0,
           .unused_0 = 0,
-          .unused_1 = 0,
-          .unused_2 = 0};
+          .unused_1 = 0};
 }
 
 }  // namespace eyeray::materials

@@ -110,6 +110,7 @@ class GeometryPacker {
             instance.material,
             use_material(shader::KIND_triangle, uint32_t(instance.material), true),
             first_id,
+            packed_.bent_normals,
             packed_.vertices};
   }
 

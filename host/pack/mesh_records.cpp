@@ -11,7 +11,8 @@ bvh::Box triangle_box(const shader::Primitive& triangle) {
 }
 
 MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin, int material,
-                         uint32_t optical_depth, uint32_t first_id, RawVector<shader::uvec4>& vertices)
+                         uint32_t optical_depth, uint32_t first_id, bool bends,
+                         RawVector<shader::uvec4>& vertices)
     : mesh_(&mesh), map_(map), origin_(origin), mirrored_(map.mirrors()) {
   const bool normals = !mesh.normals.empty();
   const bool uv = !mesh.uv.empty();
@@ -19,14 +20,15 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
   first_ = records::Packer::primitive(shader::KIND_triangle, material, {}, {}, {});
   first_.id = first_id;
   first_.optical_depth = optical_depth;
-  if (!normals && !uv && !colors) return;
+  const bool tangents = bends && !mesh.tangents.empty();
+  if (!normals && !uv && !colors && !bends) return;
 
   // What corners look up, and by triangle which its corners are.
   const auto first_vertex = uint32_t(vertices.size());
-  const uint32_t vertex_records = colors ? 2 : 1;
+  const uint32_t vertex_records = (colors ? 2 : 1) + (tangents ? 1 : 0);
   const auto first_corners = uint32_t(first_vertex + mesh.positions.size() * vertex_records);
   first_.extra = first_corners;
-  corner_records_ = uv ? 2 : 1;
+  corner_records_ = (uv ? 2 : 1) + (bends ? 2 : 0);
   const CornerNormals map_normal(map);
   vertices.resize(first_corners + mesh.triangles.size() * corner_records_);
   parallel_for(0, int(mesh.positions.size()), [&](int i) {
@@ -36,14 +38,25 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
     if (colors)
       vertex[1] = records::to_bits(
           records::to_vec4(mesh.colors[size_t(i)], mesh.alphas.empty() ? 1 : mesh.alphas[size_t(i)]));
+    if (tangents) {
+      const Vec4& tangent = mesh.tangents[size_t(i)];
+      vertex[vertex_records - 1] = records::to_bits(
+          records::to_vec4(unit(map.linear * Vec3(tangent)), mirrored_ ? -tangent.w : tangent.w));
+    }
   });
   parallel_for(0, int(mesh.triangles.size()), [&](int i) {
     const auto& [v0, v1, v2] = mesh.triangles[size_t(i)];
     shader::uvec4* corners = &vertices[first_corners + size_t(i) * corner_records_];
     corners[0] = {first_vertex + v0 * vertex_records, first_vertex + v1 * vertex_records,
                   first_vertex + v2 * vertex_records,
-                  (normals ? CORNERS_NORMALS : 0u) | (uv ? CORNERS_UV : 0u) | (colors ? CORNERS_COLORS : 0u)};
+                  (normals ? CORNERS_NORMALS : 0u) | (uv ? CORNERS_UV : 0u) | (colors ? CORNERS_COLORS : 0u) |
+                      (bends ? CORNERS_GRADIENTS : 0u) | (tangents ? CORNERS_TANGENTS : 0u)};
     if (uv) corners[1] = records::to_bits(records::to_vec4({mesh.uv[v0].y, mesh.uv[v1].y, mesh.uv[v2].y}));
+    if (!bends) return;
+    const auto gradients = uv_gradients(this->corners(uint32_t(i)),
+                                        uv ? std::array{mesh.uv[v0], mesh.uv[v1], mesh.uv[v2]} : corner_weights);
+    corners[corner_records_ - 2] = records::to_bits(records::to_vec4(gradients.u));
+    corners[corner_records_ - 1] = records::to_bits(records::to_vec4(gradients.v));
   });
 }
 

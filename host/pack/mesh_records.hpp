@@ -18,9 +18,9 @@ class MeshRecords {
  public:
   // The triangles of `mesh` under `map`, with `origin` as the origin: positions are rounded after it was
   // subtracted. Their ids count from `first_id`; `optical_depth` is what each takes from a shadow ray.
-  // Appends normals, texture coordinates and colours to `vertices`.
+  // Appends normals, texture coordinates and colours to `vertices`, and where `bends` what bent normals ask.
   MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin, int material, uint32_t optical_depth,
-              uint32_t first_id, RawVector<shader::uvec4>& vertices);
+              uint32_t first_id, bool bends, RawVector<shader::uvec4>& vertices);
 
   uint32_t size() const { return uint32_t(mesh_->triangles.size()); }
   shader::Primitive record(uint32_t triangle) const;

@@ -66,6 +66,21 @@ shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed)
   return frame;
 }
 
+void pack_bent_normals(const Material& material, records::Packer& packer) {
+  const uint32_t normal_map = material.normal_map ? material.normal_map->texture->pack(packer) : NONE;
+  const uint32_t bump = material.bump_map ? material.bump_map->texture->pack(packer) : NONE;
+  shader::Material& record = packer.scene.materials.back();
+  record.normal_map = normal_map;
+  record.bump = bump;
+  if (material.normal_map) record.normal_scale = float(material.normal_map->scale);
+  if (const auto& map = material.bump_map) {
+    record.bump_height = float(map->height);
+    record.bump_width = float(map->width);
+    if (map->texture->in_space()) record.flags |= MATERIAL_BUMP_IN_SPACE;
+  }
+  packer.scene.bent_normals |= material.normal_map || material.bump_map;
+}
+
 records::Packer pack_records(const Scene& scene, const PackOptions& options) {
   records::Packer packer(scene.camera.eye);
   for (const auto& material : scene.materials) {
@@ -84,6 +99,7 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
       record.alpha = material->mask->alpha->pack(packer);
       record.alpha_cutoff = float(material->mask->cutoff);
     }
+    pack_bent_normals(*material, packer);
   }
   pack_geometry(scene, options, packer);
   for (const auto& light : scene.lights) light->pack(packer);
@@ -100,6 +116,8 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
   }
   packer.scene.frame = pack_frame(scene, packer.scene);
   packer.scene.frame.light_bvh_numbers = light_bvh_numbers;
+  if (const auto formula = scene.camera.projection->formula())
+    packer.scene.frame.camera_formula = packer.add_formula(formula);
   return packer;
 }
 

@@ -47,6 +47,7 @@ struct PackedScene {
   bool quantised_nodes = false;  // how `nodes` are coded
   uint32_t stack_size = 1;       // what a traversal may have waiting
   RawVector<shader::uvec4> vertices;
+  bool bent_normals = false;   // whether any material bends those of its surface
   bool vertex_colors = false;  // whether any of `vertices` have colours
   // How much larger, seen from the world, rounding is in a shape's own space: |linear| · |inverse|, the
   // largest of all shapes.

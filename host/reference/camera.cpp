@@ -38,8 +38,8 @@ Ray CameraRays::ray(const Vec2& place, const Vec2& lens) const {
   return projection_->ray(axes_, from_middle(place), lens, size_);
 }
 
-bool CameraRays::sees(const Vec2& place) const {
-  return projection_->sees(from_middle(place), size_);
+bool CameraRays::sees(const Vec2& place, const Vec2& lens) const {
+  return projection_->sees(from_middle(place), lens, size_);
 }
 
 }  // namespace eyeray::reference

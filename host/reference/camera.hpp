@@ -13,7 +13,7 @@ class CameraRays {
   // up of the lens' middle; its direction is unit.
   Ray ray(const Vec2& place, const Vec2& lens = Vec2(0.0)) const;
   // Whether anything is seen there; else there is no ray.
-  bool sees(const Vec2& place) const;
+  bool sees(const Vec2& place, const Vec2& lens = Vec2(0.0)) const;
   // Where on the lens; u: two random numbers in [0, 1).
   Vec2 lens_point(const Vec2& u) const;
 

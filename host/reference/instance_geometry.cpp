@@ -1,6 +1,7 @@
 #include "host/reference/instance_geometry.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace eyeray::reference {
 
@@ -28,6 +29,13 @@ SurfacePoint InstanceGeometry::surface(const Ray&, const TriangleHit& hit) const
   point.normal = mesh.normals.empty() ? point.normal_geometric : interpolate(mesh.normals, triangle, hit);
   if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, triangle, hit);
   point.uv = mesh_->uv(hit);
+  const auto [a, b, c] = triangle;
+  std::tie(point.along_u, point.along_v) =
+      along_uv(v, mesh.uv.empty() ? corner_weights : std::array{mesh.uv[a], mesh.uv[b], mesh.uv[c]});
+  if (!mesh.tangents.empty()) {
+    point.tangent = interpolate(mesh.tangents, triangle, hit);
+    point.tangent.w = mesh.tangents[a].w;
+  }
   return map_.out(point);
 }
 

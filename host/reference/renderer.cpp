@@ -43,7 +43,7 @@ AuxiliarySample Renderer::auxiliary(int x, int y, uint32_t index) const {
 PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset,
                              const Observer& observer) const {
   const Aim aim = this->aim(x, y, index);
-  if (!camera_.sees(aim.place + shift)) return {};
+  if (!camera_.sees(aim.place + shift, aim.lens)) return {};
   const Ray ray = eye_ray(aim, shift, ray_offset.pivot);
   const IntegratorType type = scene_.render.integrator;
   observer.ray(RayKind::eye, ray, 0);
@@ -64,7 +64,7 @@ FirstHit Renderer::first_hit_of_sample(int x, int y, uint32_t index, Vec2 shift,
 
 FirstHit Renderer::hit(const Aim& aim, const Vec2& shift, const RayOffset& ray_offset) const {
   FirstHit result;
-  if (!camera_.sees(aim.place + shift)) return result;
+  if (!camera_.sees(aim.place + shift, aim.lens)) return result;
   const Ray ray = eye_ray(aim, shift, ray_offset.pivot);
   const auto hit = tracer_.trace(ray, result.flags, ray_offset.coincident);
   if (!hit) return result;

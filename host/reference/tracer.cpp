@@ -1,8 +1,10 @@
 #include "host/reference/tracer.hpp"
-#include "host/scene/integrator.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "host/reference/bent_normal.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::reference {
 
@@ -99,6 +101,7 @@ SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
       hit.group < 0 ? world_->surface(ray, object) : groups_[size_t(hit.group)].surface(ray, object);
   // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
   if (!(glm::dot(point.normal, point.normal_geometric) > 0)) point.normal = point.normal_geometric;
+  point.normal = bent_normal(*scene_.materials[size_t(hit.material)], point, ray.d);
   return point;
 }
 

@@ -15,6 +15,10 @@
 
 namespace eyeray {
 
+namespace formula {
+class Formula;  // formula/formula.hpp
+}
+
 // Where a camera stands, and its axes: unit, image right, image up, the way it looks.
 struct CameraAxes {
   Vec3 eye, u, v, w;
@@ -81,7 +85,9 @@ class Projection {
   // written from the mathematics, not from `scale` and the shader.
   virtual Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2& size) const = 0;
   // Whether anything is seen there; else the picture is black.
-  virtual bool sees(const Vec2& /*place*/, const Vec2& /*size*/) const { return true; }
+  virtual bool sees(const Vec2& /*place*/, const Vec2& /*lens*/, const Vec2& /*size*/) const { return true; }
+  // What it is computed by, of one that a scene brings.
+  virtual std::shared_ptr<const formula::Formula> formula() const { return nullptr; }
   virtual Aperture aperture() const { return {}; }
   // The same with `factor` times the width of a picture of this size in view, at the same scale in both
   // directions.

@@ -61,6 +61,21 @@ struct AlphaMask {
   }
 };
 
+// A colour is a direction in tangent space, glTF's way: 2 · code − 1, red along u, green along v, blue along
+// the normal; the first two times `scale`.
+struct NormalMap {
+  TexturePtr texture;
+  double scale = 1;
+};
+
+// A height field: of white, `height` in the world. Heights are compared `width` to both sides, in uv, or for
+// what is in_space() in the world.
+struct BumpMap {
+  TexturePtr texture;
+  double height;
+  double width;
+};
+
 class Material {
  public:
   virtual ~Material() = default;
@@ -85,6 +100,8 @@ class Material {
   std::string name;
   bool emits_in_front = false;    // light of its own only where normals point; else on both sides
   std::optional<AlphaMask> mask;  // never where there is a medium
+  std::optional<NormalMap> normal_map;
+  std::optional<BumpMap> bump_map;  // on top of that
 };
 
 struct MaterialType {

@@ -23,6 +23,9 @@ struct Mesh {
   std::vector<Vec3> normals;                       // unit shading normals, one a vertex; empty: flat
   std::vector<Vec2> uv;             // one a vertex; empty: the weights of the second and third corner
   std::vector<Vec3> colors = {};    // linear RGB from 0 to 1, one a vertex; empty: white
+  // Unit, along u, one a vertex, and in w whether v is to the left of it, 1, or to the right, −1, seen from
+  // outside; empty: as uv have it.
+  std::vector<Vec4> tangents = {};
   std::vector<double> alphas = {};  // from 0 to 1, one a vertex, only beside colours; empty: 1
 };
 

@@ -50,8 +50,18 @@ struct SurfacePoint {
   Vec3 normal_geometric;  // unit; outward for closed shapes, by counter-clockwise winding for open ones
   Vec3 normal;            // unit shading normal; on the other side than normal_geometric it does not count
   Vec2 uv;
-  Vec3 color{1.0};  // of a mesh's vertices
+  // How the position moves with u and with v; of a surface whose uv are none, 0.
+  Vec3 along_u{0.0}, along_v{0.0};
+  Vec4 tangent{0.0};  // of a mesh that has its own, as Mesh::tangents; not unit, w = 0 of any other
+  Vec3 color{1.0};    // of a mesh's vertices
 };
+
+// Of a surface square to `normal` where gradients of u and v along it are known.
+inline void set_along(SurfacePoint& point, const Vec3& u_gradient, const Vec3& v_gradient) {
+  const double area = glm::dot(point.normal_geometric, glm::cross(u_gradient, v_gradient));
+  point.along_u = glm::cross(v_gradient, point.normal_geometric) / area;
+  point.along_v = glm::cross(point.normal_geometric, u_gradient) / area;
+}
 
 // uv of a surface that is 1 wide: rounding does not take a point of its border to where the next check
 // begins.

@@ -36,6 +36,10 @@ class Texture {
   virtual std::optional<Vec3> constant() const { return std::nullopt; }
   // As an alpha.
   virtual double alpha_at(const TextureContext& place) const { return at(place).x; }
+  // The same with the codes of pictures as they are, for what is no colour; null: there are none.
+  virtual TexturePtr as_data() const { return nullptr; }
+  // How far apart to look for a slope: in uv, or for what is in_space() in the world.
+  virtual double detail() const { return 0.01; }
   // Whether it asks for the place in the world, which nothing knows where cutouts are looked at.
   virtual bool in_space() const { return false; }
   // The index of the texture's record, which is added unless there is an equal one.

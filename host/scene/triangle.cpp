@@ -24,6 +24,21 @@ Vec3 geometric_normal(const Corners& v) {
   return unit(glm::cross((v[1] - v[0]) / size, (v[2] - v[0]) / size));
 }
 
+UvGradients uv_gradients(const Corners& v, const std::array<Vec2, 3>& uv) {
+  const Vec3 to_b = v[1] - v[0], to_c = v[2] - v[0], n = cross(to_b, to_c);
+  const Vec3 b = cross(to_c, n) / dot(n, n), c = cross(n, to_b) / dot(n, n);
+  const Vec2 rise_b = uv[1] - uv[0], rise_c = uv[2] - uv[0];
+  return {rise_b.x * b + rise_c.x * c, rise_b.y * b + rise_c.y * c};
+}
+
+std::pair<Vec3, Vec3> along_uv(const Corners& v, const std::array<Vec2, 3>& uv) {
+  const Vec3 to_b = v[1] - v[0], to_c = v[2] - v[0];
+  const Vec2 b = uv[1] - uv[0], c = uv[2] - uv[0];
+  const double area = b.x * c.y - b.y * c.x;
+  if (area == 0) return {Vec3(0), Vec3(0)};
+  return {(c.y * to_b - b.y * to_c) / area, (b.x * to_c - c.x * to_b) / area};
+}
+
 CornerNormals::CornerNormals(const Affine& map)
     : keeps_angles_(similarity(map.matrix()).has_value()), linear_(map.cotangent) {
   if (!keeps_angles_)

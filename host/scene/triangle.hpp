@@ -25,6 +25,16 @@ double thickness(const Corners& corners);
 // Unit, by counter-clockwise winding; for any triangle of at least `thinnest_triangle`.
 Vec3 geometric_normal(const Corners& corners);
 
+// Of coordinates that are linear over the triangle, from their values at its corners.
+struct UvGradients {
+  Vec3 u, v;
+};
+UvGradients uv_gradients(const Corners& corners, const std::array<Vec2, 3>& uv);
+// How a point of it moves with each of the two: the same the other way round; 0 where that is not one to one.
+std::pair<Vec3, Vec3> along_uv(const Corners& corners, const std::array<Vec2, 3>& uv);
+// Those of a triangle without any: the weights of the second and third corner.
+inline constexpr std::array<Vec2, 3> corner_weights{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
+
 // Takes shading normals at corners along where a map takes the triangle. To interpolate in the object's space
 // and then map is to interpolate between what this makes of the corners' normals, for it is linear: they are
 // unit no more, about 1 at most, and their lengths count. Under a similarity they stay unit.

@@ -86,6 +86,8 @@ class Bezier final : public Shape {
     surface.normal_geometric = normal(at, {hit.u, hit.v}) * (mirrored_ ? -1.0 : 1.0);
     surface.normal = surface.normal_geometric;
     surface.uv = inner_uv({hit.u, hit.v});
+    surface.along_u = at.along_u;
+    surface.along_v = at.along_v;
     return surface;
   }
 

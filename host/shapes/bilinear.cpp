@@ -96,6 +96,8 @@ class Bilinear final : public Shape {
     surface.normal_geometric = unit(glm::cross(along_u, along_v)) * (mirrored_ ? -1.0 : 1.0);
     surface.normal = surface.normal_geometric;
     surface.uv = inner_uv({u, v});
+    surface.along_u = along_u;
+    surface.along_v = along_v;
     return surface;
   }
 

@@ -56,7 +56,8 @@ class Box final : public ObjectShape {
   Point point(const Vec3& near, const Intersection& hit) const override {
     const int face = int(hit.u);
     const Vec3 p = cube::onto(face, near);
-    return {p, cube::normal(face), cube::uv(face, p)};
+    const auto [along_u, along_v] = cube::along_uv(face, cube::normal(face));
+    return {p, cube::normal(face), cube::uv(face, p), along_u, along_v};
   }
 
   Bounds extent() const override { return {Vec3(-1), Vec3(1)}; }

@@ -92,7 +92,12 @@ class Capsule final : public ObjectShape {
     const Vec3 n = unit(near - Vec3(0, y, 0));
     const double u = 0.5 + std::atan2(-n.z, n.x) / (2 * std::numbers::pi);
     const double way = std::atan2(std::hypot(n.x, n.z), -n.y) + y + half_;
-    return {n + Vec3(0, y, 0), n, {u < 1 ? u : 0, way / (std::numbers::pi + 2 * half_)}};
+    const double whole = std::numbers::pi + 2 * half_;
+    return {n + Vec3(0, y, 0),
+            n,
+            {u < 1 ? u : 0, way / whole},
+            along_turn(n),
+            along_meridian(n) * (whole / std::numbers::pi)};
   }
 
   Bounds extent() const override { return {{-1, -half_ - 1, -1}, {1, half_ + 1, 1}}; }

@@ -46,6 +46,15 @@ Vec3 onto(int face, const Vec3& near) {
   return p;
 }
 
+std::pair<Vec3, Vec3> along_uv(int face, const Vec3& gradient) {
+  const Vec3 rights[] = {{0, 0, -side(face)}, {1, 0, 0}, {side(face), 0, 0}};
+  const Vec3 out = normal(face), right = rights[face / 2], up = glm::cross(out, right);
+  const auto along = [&](const Vec3& d) {
+    return 2.0 * (d - out * (glm::dot(gradient, d) / glm::dot(gradient, out)));
+  };
+  return {along(right), along(up)};
+}
+
 Vec2 uv(int face, const Vec3& p) {
   const Vec2 right_and_up[] = {{-p.z * side(face), p.y}, {p.x, -p.z * side(face)}, {p.x * side(face), p.y}};
   return inner_uv(right_and_up[face / 2] * 0.5 + 0.5);

@@ -29,5 +29,8 @@ Vec3 onto(int face, const Vec3& near);
 // Each face has the texture upright: seen from outside u runs to the right and v up; on top of the top face
 // is −z, and of the bottom face +z.
 Vec2 uv(int face, const Vec3& p);
+// How a point moves with u and with v on a surface that has the uv of a face, along which `gradient` stands
+// still.
+std::pair<Vec3, Vec3> along_uv(int face, const Vec3& gradient);
 
 }  // namespace eyeray::shapes::cube

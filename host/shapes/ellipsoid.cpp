@@ -70,7 +70,12 @@ class Ellipsoid final : public ObjectShape {
   Point point(const Vec3& near, const Intersection&) const override {
     const Vec3 n = unit(near);
     const double u = 0.5 + std::atan2(-n.z, n.x) / (2 * std::numbers::pi);
-    return {n, n, {u < 1 ? u : 0, std::atan2(std::hypot(n.x, n.z), -n.y) / std::numbers::pi}};
+    const double from_axis = std::hypot(n.x, n.z);
+    return {n,
+            n,
+            {u < 1 ? u : 0, std::atan2(from_axis, -n.y) / std::numbers::pi},
+            along_turn(n),
+            along_meridian(n)};
   }
 
   Bounds extent() const override { return {Vec3(-1), Vec3(1)}; }

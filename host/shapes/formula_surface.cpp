@@ -126,7 +126,7 @@ double FormulaSurface::value(const Vec3& q) const {
 }
 
 Vec3 FormulaSurface::gradient(const Vec3& q) const {
-  const double apart = use_.lipschitz > 0 && !use_.formula->has_gradient() ? wide_difference : difference;
+  const double apart = use_.lipschitz > 0 && !use_.formula->has_other() ? wide_difference : difference;
   Vec3 gradient(0);
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 step(0);

@@ -171,7 +171,8 @@ class Implicit final : public ObjectShape {
     if (hit.u != itself) {
       const int face = int(hit.u);
       const Vec3 p = cube::onto(face, near);
-      return {p, cube::normal(face), cube::uv(face, p)};
+      const auto [along_u, along_v] = cube::along_uv(face, cube::normal(face));
+    return {p, cube::normal(face), cube::uv(face, p), along_u, along_v};
     }
     const FormulaSurface surface(use_);
     Vec3 gradient = surface.gradient(near);
@@ -179,7 +180,9 @@ class Implicit final : public ObjectShape {
       gradient = {0, 1, 0};
     const Vec3 facing = glm::abs(gradient);
     const int axis = facing.x >= facing.y && facing.x >= facing.z ? 0 : facing.y >= facing.z ? 1 : 2;
-    return {near, gradient, cube::uv(2 * axis + (gradient[axis] < 0 ? 0 : 1), near)};
+    const int face = 2 * axis + (gradient[axis] < 0 ? 0 : 1);
+    const auto [along_u, along_v] = cube::along_uv(face, gradient);
+    return {near, gradient, cube::uv(face, near), along_u, along_v};
   }
 
   Bounds extent() const override { return {Vec3(-1), Vec3(1)}; }

@@ -98,6 +98,8 @@ SurfacePoint ObjectShape::surface(const Ray& ray, const Intersection& hit) const
   surface.normal_geometric = to_world_.normal(local.gradient);
   surface.normal = surface.normal_geometric;
   surface.uv = local.uv;
+  surface.along_u = linear * local.along_u;
+  surface.along_v = linear * local.along_v;
   return surface;
 }
 
@@ -157,6 +159,16 @@ bool out_of_range(TableReader& table, const Mat4& to_world) {
     fits = false;
   }
   return !fits;
+}
+
+Vec3 along_turn(const Vec3& p) {
+  return 2 * M_PI * Vec3(p.z, 0, -p.x);
+}
+
+Vec3 along_meridian(const Vec3& n) {
+  const double from_axis = std::hypot(n.x, n.z);
+  const Vec2 outward = from_axis > 0 ? Vec2(n.x, n.z) / from_axis : Vec2(1, 0);
+  return M_PI * Vec3(-n.y * outward.x, from_axis, -n.y * outward.y);
 }
 
 std::vector<double> quadratic_roots(double a, double b, double c) {

@@ -32,6 +32,7 @@ class ObjectShape : public Shape {
     Vec3 position;  // on the shape
     Vec3 gradient;  // points outward, of any length but 0
     Vec2 uv;
+    Vec3 along_u, along_v;  // how the position moves with u and with v
   };
 
   // `kind` is the shape's number in the registry; `parameters` are what the shaders find after the maps;
@@ -72,6 +73,12 @@ Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, dou
 // Says at `transform` if the shape is too large, small or far away to be computed with under this map to the
 // world. Returns whether it is.
 bool out_of_range(TableReader& table, const Mat4& to_world);
+
+// How what turns about the y axis, as u says, moves.
+Vec3 along_turn(const Vec3& position);
+
+// The same of the unit vector whose angle from −y is v half turns.
+Vec3 along_meridian(const Vec3& direction);
 
 // The real roots of a·t² + 2b·t + c = 0, without cancellation; none where all of a, b and c are 0.
 std::vector<double> quadratic_roots(double a, double b, double c);

@@ -68,7 +68,7 @@ class Parallelogram final : public Shape {
     const double error = 1e-13 * (magnitude(origin_) + magnitude(edge_u_) + magnitude(edge_v_));
     Vec3 from_origin = edge_u_ * hit.u + edge_v_ * hit.v;
     from_origin -= normal_ * glm::dot(normal_, from_origin);
-    return {origin_ + from_origin, error, normal_, normal_, inner_uv({hit.u, hit.v})};
+    return {origin_ + from_origin, error, normal_, normal_, inner_uv({hit.u, hit.v}), edge_u_, edge_v_};
   }
 
   Bounds bounds() const override {

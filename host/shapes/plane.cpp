@@ -63,7 +63,9 @@ class Plane final : public Shape {
     const Vec3 from_point = tangential((ray.o - point_) + ray.d * hit.t, normal_);
     const double error = 1e-13 * (magnitude(point_) + magnitude(from_point));
     const Vec2 uv(glm::dot(u_gradient_, from_point), glm::dot(v_gradient_, from_point));
-    return {point_ + from_point, error, normal_, normal_, uv};
+    SurfacePoint surface{point_ + from_point, error, normal_, normal_, uv};
+    set_along(surface, u_gradient_, v_gradient_);
+    return surface;
   }
 
   Bounds bounds() const override { return Bounds::unbounded(); }

@@ -64,7 +64,9 @@ class Polygon final : public Shape {
     const Vec3 from_origin = tangential((ray.o - origin()) + ray.d * hit.t, normal_);
     const double error = 1e-13 * (magnitude(origin()) + magnitude(from_origin));
     const Vec2 uv(glm::dot(u_gradient_, from_origin), glm::dot(v_gradient_, from_origin));
-    return {origin() + from_origin, error, normal_, normal_, uv};
+    SurfacePoint surface{origin() + from_origin, error, normal_, normal_, uv};
+    set_along(surface, u_gradient_, v_gradient_);
+    return surface;
   }
 
   Bounds bounds() const override {

@@ -165,9 +165,13 @@ class Prism final : public ObjectShape {
     if (hit.u < double(first_wall)) {
       const double up = hit.u == top_cap ? 1 : -1;
       const Vec3 place(near.x, near.z, 1);
+      const glm::dmat2 axes(up * form_.u_cap.x, form_.v_cap.x, up * form_.u_cap.y, form_.v_cap.y);
+      const auto on_cap = [](const Vec2& d) { return Vec3(d.x, 0, d.y); };
       return {{near.x, up, near.z},
               {0, up, 0},
-              {up * glm::dot(form_.u_cap, place), glm::dot(form_.v_cap, place)}};
+              {up * glm::dot(form_.u_cap, place), glm::dot(form_.v_cap, place)},
+              on_cap(glm::inverse(axes)[0]),
+              on_cap(glm::inverse(axes)[1])};
     }
     const auto& wall = form_.walls[size_t(hit.u) - first_wall];
     const Vec2 along = wall.to - wall.from;
@@ -177,7 +181,9 @@ class Prism final : public ObjectShape {
     const double y = std::clamp(near.y, -1.0, 1.0);
     return {{foot.x, y, foot.y},
             {wall.normal.x, 0, wall.normal.y},
-            {glm::mix(wall.u_from, wall.u_to, share), form_.height * (0.5 * y + 0.5)}};
+            {glm::mix(wall.u_from, wall.u_to, share), form_.height * (0.5 * y + 0.5)},
+            Vec3(along.x, 0, along.y) / (wall.u_to - wall.u_from),
+            {0, 2 / form_.height, 0}};
   }
 
   Bounds extent() const override { return {Vec3(-1), Vec3(1)}; }

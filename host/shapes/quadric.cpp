@@ -159,7 +159,8 @@ class Quadric final : public ObjectShape {
     if (hit.u != itself) {
       const int face = int(hit.u);
       const Vec3 p = cube::onto(face, near);
-      return {p, cube::normal(face), cube::uv(face, p)};
+      const auto [along_u, along_v] = cube::along_uv(face, cube::normal(face));
+    return {p, cube::normal(face), cube::uv(face, p), along_u, along_v};
     }
     // One step of Newton's along the gradient; where that is 0 there is nowhere to go.
     Vec3 gradient = form_.gradient(near);
@@ -170,7 +171,9 @@ class Quadric final : public ObjectShape {
 
     const Vec3 facing = glm::abs(gradient);
     const int axis = facing.x >= facing.y && facing.x >= facing.z ? 0 : facing.y >= facing.z ? 1 : 2;
-    return {p, gradient, cube::uv(2 * axis + (gradient[axis] < 0 ? 0 : 1), p)};
+    const int face = 2 * axis + (gradient[axis] < 0 ? 0 : 1);
+    const auto [along_u, along_v] = cube::along_uv(face, gradient);
+    return {p, gradient, cube::uv(face, p), along_u, along_v};
   }
 
   Bounds extent() const override { return {Vec3(-1), Vec3(1)}; }

@@ -80,12 +80,20 @@ ObjectShape::Point Revolution::point(const Vec3& near, const Intersection& hit) 
     const double slope = radius > 0 ? rise / radius : std::copysign(std::sqrt(std::fabs(square)), rise);
     const Vec3 gradient = radius > 0 || square != 0 ? Vec3(outward.x, -slope, outward.y) : Vec3(0, -rise, 0);
     const double u = 0.5 + std::atan2(-outward.y, outward.x) / (2 * std::numbers::pi);
-    return {p, gradient, {u < 1 ? u : 0, (y - bottom) / (top - bottom)}};
+    return {p,
+            gradient,
+            {u < 1 ? u : 0, (y - bottom) / (top - bottom)},
+            along_turn(p),
+            (top - bottom) * Vec3(outward.x * slope, 1, outward.y * slope)};
   }
   const double up = hit.u == bottom_cap ? -1 : 1;
   const double within = distance > rim ? rim / distance : 1;
   const Vec3 p(near.x * within, end, near.z * within);
-  return {p, {0, up, 0}, {0.5 + 0.5 * p.x / rim, 0.5 - 0.5 * p.z / rim * up}};
+  return {p,
+          {0, up, 0},
+          {0.5 + 0.5 * p.x / rim, 0.5 - 0.5 * p.z / rim * up},
+          {2 * rim, 0, 0},
+          {0, 0, -2 * rim * up}};
 }
 
 Bounds Revolution::extent() const {

@@ -70,7 +70,14 @@ class Sphere final : public Shape {
   SurfacePoint surface(const Ray& ray, const Intersection& hit) const override {
     const Vec3 normal = unit((ray.o - center_) + ray.d * hit.t);
     const double error = 1e-13 * (magnitude(center_) + radius_);
-    return {center_ + normal * radius_, error, normal, normal, uv(normal * axes_)};
+    const Vec3 own = normal * axes_;
+    return {center_ + normal * radius_,
+            error,
+            normal,
+            normal,
+            uv(own),
+            axes_ * along_turn(own) * radius_,
+            axes_ * along_meridian(own) * radius_};
   }
 
   Bounds bounds() const override { return {center_ - Vec3(radius_), center_ + Vec3(radius_)}; }

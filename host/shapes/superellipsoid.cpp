@@ -136,7 +136,10 @@ class Superellipsoid final : public ObjectShape {
     const Vec3 p = near / norm(near);
     const double u = 0.5 + std::atan2(-p.z, p.x) / (2 * std::numbers::pi);
     const double v = std::atan2(std::hypot(p.x, p.z), -p.y) / std::numbers::pi;
-    return {p, gradient(p), {u < 1 ? u : 0, v}};
+    // Along the sphere of directions, and then as far out or in as keeps to the surface.
+    const Vec3 g = gradient(p);
+    const auto along = [&](const Vec3& d) { return d - p * (glm::dot(g, d) / glm::dot(g, p)); };
+    return {p, g, {u < 1 ? u : 0, v}, along(along_turn(p)), along(along_meridian(unit(p)) * glm::length(p))};
   }
 
   Bounds extent() const override { return {Vec3(-1), Vec3(1)}; }

@@ -138,7 +138,12 @@ class Torus final : public ObjectShape {
       const double share = 0.5 + angle / (2 * std::numbers::pi);
       return share < 1 ? share : 0;
     };
-    return {outward + gradient * minor_, gradient, {turns(u_angle), turns(v_angle)}};
+    const Vec3 p = outward + gradient * minor_;
+    return {p,
+            gradient,
+            {turns(u_angle), turns(v_angle)},
+            along_turn(p),
+            2 * M_PI * minor_ * (Vec3(0, std::cos(v_angle), 0) - outward * std::sin(v_angle))};
   }
 
   Bounds extent() const override {

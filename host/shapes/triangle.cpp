@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "host/records/packer.hpp"
@@ -94,6 +95,7 @@ class Triangle final : public Shape {
     point.normal_geometric = normal_;
     point.normal = normals_ ? unit(interpolate(*normals_, hit)) : normal_;
     point.uv = uv_ ? interpolate(*uv_, hit) : Vec2(hit.u, hit.v);
+    std::tie(point.along_u, point.along_v) = along_uv(vertices_, uv_.value_or(corner_weights));
     return point;
   }
 
@@ -109,15 +111,23 @@ class Triangle final : public Shape {
 
   void pack(records::Packer& packer) const override {
     uint32_t attributes = NONE;
-    if (normals_ || uv_) {
+    const bool bends = packer.scene.bent_normals, has_uv = uv_ || bends;
+    if (normals_ || has_uv) {
       const auto n = normals_.value_or(std::array<Vec3, 3>{normal_, normal_, normal_});
-      const auto uv = uv_.value_or(std::array<Vec2, 3>{});
+      const auto uv = uv_.value_or(bends ? corner_weights : std::array<Vec2, 3>{});
       const uint32_t first = packer.add_vertices({records::to_bits(records::to_vec4(n[0], uv[0].x)),
                                                   records::to_bits(records::to_vec4(n[1], uv[1].x)),
                                                   records::to_bits(records::to_vec4(n[2], uv[2].x))});
       attributes = packer.add_vertices(
-          {{first, first + 1, first + 2, (normals_ ? CORNERS_NORMALS : 0u) | (uv_ ? CORNERS_UV : 0u)},
+          {{first, first + 1, first + 2,
+            (normals_ ? CORNERS_NORMALS : 0u) | (has_uv ? CORNERS_UV : 0u) |
+                (bends ? CORNERS_GRADIENTS : 0u)},
            records::to_bits(records::to_vec4({uv[0].y, uv[1].y, uv[2].y}))});
+      if (bends) {
+        const UvGradients gradients = uv_gradients(vertices_, uv);
+        packer.add_vertices({records::to_bits(records::to_vec4(gradients.u)),
+                             records::to_bits(records::to_vec4(gradients.v))});
+      }
     }
     // Without −0, so that compiled-in triangles of one plane share what is computed of it.
     const Vec3 normal = normal_ + 0.0;

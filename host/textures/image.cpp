@@ -73,26 +73,25 @@ double decoded(uint8_t code, bool srgb) {
 
 // Linear RGB and alpha of texel (i, j), counted from the lower left, of the plane that the image is continued
 // to.
-Vec4 texel(const ImageTexture& image, double i, double j) {
+Vec4 texel(const ImageTexture& image, bool srgb, double i, double j) {
   const size_t row = static_cast<size_t>(image.height) - 1 - wrapped(j, image.height, image.wrap_v);
   const size_t column = wrapped(i, image.width, image.wrap_u);
   const auto& codes = image.texels[row * static_cast<size_t>(image.width) + column];
-  return {decoded(codes[0], image.srgb), decoded(codes[1], image.srgb), decoded(codes[2], image.srgb),
-          codes[3] / 255.0};
+  return {decoded(codes[0], srgb), decoded(codes[1], srgb), decoded(codes[2], srgb), codes[3] / 255.0};
 }
 
 // `uv` in the image's own unit.
-Vec4 filtered(const ImageTexture& image, const Vec2& uv) {
+Vec4 filtered(const ImageTexture& image, bool srgb, const Vec2& uv) {
   const Vec2 place = uv * Vec2(image.width, image.height);
-  if (image.filter == Filter::nearest) return texel(image, std::floor(place.x), std::floor(place.y));
+  if (image.filter == Filter::nearest) return texel(image, srgb, std::floor(place.x), std::floor(place.y));
 
   // Weigh each texel by how much of a texel's area around the place it covers; its centre is at a
   // half-integer. Equal ones give that very value, which an alpha may be compared with.
   const Vec2 corner = glm::floor(place - 0.5);
   const Vec2 share = place - 0.5 - corner;
   const auto row = [&](double j) {
-    const Vec4 left = texel(image, corner.x, j);
-    return left + (texel(image, corner.x + 1, j) - left) * share.x;
+    const Vec4 left = texel(image, srgb, corner.x, j);
+    return left + (texel(image, srgb, corner.x + 1, j) - left) * share.x;
   };
   const Vec4 lower = row(corner.y);
   return lower + (row(corner.y + 1) - lower) * share.y;
@@ -100,22 +99,27 @@ Vec4 filtered(const ImageTexture& image, const Vec2& uv) {
 
 constexpr uint32_t wrap_codes[] = {WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP};  // by Wrap
 
-uint32_t flags_of(const ImageTexture& image) {
-  return (image.filter == Filter::nearest ? IMAGE_NEAREST : 0) | (image.srgb ? 0 : IMAGE_LINEAR) |
+uint32_t flags_of(const ImageTexture& image, bool srgb) {
+  return (image.filter == Filter::nearest ? IMAGE_NEAREST : 0) | (srgb ? 0 : IMAGE_LINEAR) |
          wrap_codes[size_t(image.wrap_u)] << IMAGE_WRAP_U_SHIFT |
          wrap_codes[size_t(image.wrap_v)] << IMAGE_WRAP_V_SHIFT;
 }
 
 class Image final : public Texture {
  public:
-  Image(std::shared_ptr<const ImageTexture> image, const Vec3& tint, const Vec2& size)
-      : image_(std::move(image)), tint_(tint), size_(size) {}
+  Image(std::shared_ptr<const ImageTexture> image, bool srgb, const Vec3& tint, const Vec2& size)
+      : image_(std::move(image)), srgb_(srgb), tint_(tint), size_(size) {}
 
   Vec3 at(const TextureContext& place) const override {
-    return tint_ * Vec3(filtered(*image_, place.uv / size_));
+    return tint_ * Vec3(filtered(*image_, srgb_, place.uv / size_));
   }
   double alpha_at(const TextureContext& place) const override {
-    return tint_.x * filtered(*image_, place.uv / size_).w;
+    return tint_.x * filtered(*image_, srgb_, place.uv / size_).w;
+  }
+  TexturePtr as_data() const override { return std::make_shared<Image>(image_, false, tint_, size_); }
+  // A texel.
+  double detail() const override {
+    return std::min(size_.x / image_->width, size_.y / image_->height);
   }
 
   uint32_t pack(records::Packer& packer) const override {
@@ -124,11 +128,12 @@ class Image final : public Texture {
                                       .a = shader::vec4(0),
                                       .b = shader::vec4(glm::vec2(1.0 / size_), 0, 0),
                                       .c = {uint32_t(image_->width), uint32_t(image_->height),
-                                            packer.add_image(image_), flags_of(*image_)}});
+                                            packer.add_image(image_), flags_of(*image_, srgb_)}});
   }
 
  private:
   std::shared_ptr<const ImageTexture> image_;
+  bool srgb_;
   Vec3 tint_;
   Vec2 size_;
 };
@@ -151,7 +156,8 @@ TexturePtr parse(TableReader& table) {
 extern const TextureType image_type{.name = "image", .manual = manual, .keys = keys, .parse = parse};
 
 TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tint, const Vec2& size) {
-  return std::make_shared<Image>(std::move(image), tint, size);
+  const bool srgb = image->srgb;
+  return std::make_shared<Image>(std::move(image), srgb, tint, size);
 }
 
 }  // namespace eyeray::textures

@@ -82,6 +82,11 @@ Vec3 Pattern::at(const TextureContext& place) const {
   return glm::mix(Vec3(from), Vec3(to), (t - from.w) / (to.w - from.w));
 }
 
+// In the pattern's own units.
+double Pattern::detail() const {
+  return 0.01 / std::cbrt(std::fabs(glm::determinant(to_pattern_.linear)));
+}
+
 uint32_t Pattern::pack(records::Packer& packer) const {
   // What the shaders know is where a place is from the eye.
   const Vec3 eye = -packer.relative(Vec3(0)), offset = to_pattern_.point(eye);

@@ -37,6 +37,7 @@ class Pattern : public Texture {
 
   Vec3 at(const TextureContext& place) const final;
   bool in_space() const final { return true; }
+  double detail() const final;
   uint32_t pack(records::Packer& packer) const final;
 
  protected:

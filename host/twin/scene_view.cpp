@@ -45,7 +45,17 @@ SceneView view_of(const records::PackedScene& scene) {
             const std::array<float, 3> color = formula_of(all, i).color(std::array{uv.x, uv.y});
             return vec3(color[0], color[1], color[2]);
           },
-      .has_gradient = [](const void* all, uint32_t i) { return formula_of(all, i).has_gradient(); },
+      .direction =
+          [](const void* all, uint32_t i, const vec4& at) {
+            const std::array<float, 3> d = formula_of(all, i).direction(std::array{at.x, at.y, at.z, at.w});
+            return vec3(d[0], d[1], d[2]);
+          },
+      .origin =
+          [](const void* all, uint32_t i, const vec4& at) {
+            const std::array<float, 3> o = formula_of(all, i).origin(std::array{at.x, at.y, at.z, at.w});
+            return vec3(o[0], o[1], o[2]);
+          },
+      .has_gradient = [](const void* all, uint32_t i) { return formula_of(all, i).has_other(); },
       .by_bounds = [](const void* all, uint32_t i) { return packed(all, i).by_bounds; }};
   return {.frame = &scene.frame,
           .primitives = scene.primitives.data(),

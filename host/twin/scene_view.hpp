@@ -15,6 +15,8 @@ struct FormulaView {
                         const shader::vec3& z);
   shader::vec4 (*dual)(const void* scene, uint32_t number, const shader::vec3& p);
   shader::vec3 (*color)(const void* scene, uint32_t number, const shader::vec2& uv);
+  shader::vec3 (*direction)(const void* scene, uint32_t number, const shader::vec4& at);
+  shader::vec3 (*origin)(const void* scene, uint32_t number, const shader::vec4& at);
   bool (*has_gradient)(const void* scene, uint32_t number);
   bool (*by_bounds)(const void* scene, uint32_t number);
 };

@@ -51,10 +51,12 @@ vec3 onto_cube(vec3 p, vec2 face) {
 }
 
 // Seen from outside u runs to the right and v up; what is up on top is −z, below +z.
-vec2 cube_uv(vec3 p, vec2 face) {
+UvField cube_uv(vec3 p, vec2 face) {
   float u = face.x == 0.0f ? -p.z * face.y : face.x == 1.0f ? p.x : p.x * face.y;
   float v = face.x == 1.0f ? -p.z * face.y : p.y;
-  return inner_uv(vec2(0.5f + 0.5f * u, 0.5f + 0.5f * v));
+  vec3 right = vec3(face.x == 0.0f ? 0.0f : face.x == 1.0f ? 0.5f : 0.5f * face.y, 0.0f, face.x == 0.0f ? -0.5f * face.y : 0.0f);
+  vec3 upward = vec3(0.0f, face.x == 1.0f ? 0.0f : 0.5f, face.x == 1.0f ? -0.5f * face.y : 0.0f);
+  return uv_field(inner_uv(vec2(0.5f + 0.5f * u, 0.5f + 0.5f * v)), right, upward);
 }
 
 SHADER_END

@@ -65,6 +65,10 @@ Surface out_of_instance(Surface surface, Instance instance) {
   float shrinks = sqrt(dot3(across, across));
   world.normal_geometric = across / shrinks;
   world.normal = normalize3(transposed(instance.to_local, surface.normal));
+  vec3 tangent = map_direction(instance.to_world, vec3(surface.tangent));
+  float turned = dot3(vec3(instance.to_world[0]), cross3(vec3(instance.to_world[1]), vec3(instance.to_world[2])));
+  set_gradients(world, transposed(instance.to_local, surface.u_gradient), transposed(instance.to_local, surface.v_gradient));
+  world.tangent = vec4(tangent.x, tangent.y, tangent.z, turned < 0.0f ? -surface.tangent.w : surface.tangent.w);
   vec3 local = abs3(surface.p) + map_size(instance.to_local, abs3(world.p - map_offset(instance.to_world)));
   vec3 reach = map_size(instance.to_world, local) + (abs3(world.p) + abs3(map_offset(instance.to_world)));
   world.offset = surface.offset / shrinks + 8.0f * EPSILON * dot3(abs3(world.normal_geometric), reach);

@@ -4,6 +4,7 @@
 #ifndef OBJECT_SPACE_GLSL
 #define OBJECT_SPACE_GLSL
 #include "geometry/ray.glsl"
+#include "geometry/uv_field.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -70,20 +71,25 @@ void object_box(Primitive s, vec3 extent, OUT(vec3) lower, OUT(vec3) upper) {
 
 vec4 object_parameters(Primitive s) { return bits_to_floats(load_vertex(s.extra + OBJECT_PARAMETERS)); }
 
+// Gradients map by the transpose.
+vec3 gradient_out_of_object(Primitive s, vec3 gradient) {
+  return vec3(s.a) * gradient.x + vec3(s.b) * gradient.y + vec3(s.c) * gradient.z;
+}
+
 // The world's surface. `p`: on the shape. `gradient`: points outward there, of about the length 1 where the map is extreme.
-Surface object_surface(Primitive s, vec3 p, vec3 gradient, vec2 uv) {
+Surface object_surface(Primitive s, vec3 p, vec3 gradient, UvField field) {
   vec4 x = bits_to_floats(load_vertex(s.extra));
   vec4 y = bits_to_floats(load_vertex(s.extra + 1u));
   vec4 z = bits_to_floats(load_vertex(s.extra + 2u));
   Surface surface;
   surface.p = vec3(dot3(vec3(x), p) + x.w, dot3(vec3(y), p) + y.w, dot3(vec3(z), p) + z.w);
 
-  // Gradients map by the transpose.
-  vec3 n = vec3(s.a) * gradient.x + vec3(s.b) * gradient.y + vec3(s.c) * gradient.z;
+  vec3 n = gradient_out_of_object(s, gradient);
   float slope = sqrt(dot3(n, n));
   surface.normal_geometric = n / slope;
   surface.normal = surface.normal_geometric;
-  surface.uv = uv;
+  surface.uv = field.uv;
+  set_gradients(surface, gradient_out_of_object(s, field.u_gradient), gradient_out_of_object(s, field.v_gradient));
 
   // Rounding on the way here, and when a ray that leaves is brought back into object space.
   vec3 size = abs3(p);

@@ -53,7 +53,25 @@ struct Surface {
   vec3 normal;            // unit shading normal
   vec2 uv;
   float offset;  // a ray that starts this far off p along the geometric normal does not hit the surface again
+  // What bent normals ask (materials/bent_normal.glsl).
+  vec3 u_gradient;  // how u and v grow around p; what is not along the surface does not count
+  vec3 v_gradient;
+  vec4 tangent;  // a mesh's own: along u, and whether v is to the left of that, 1, or to the right, −1; w = 0 where the gradients say it
 };
+
+void set_gradients(INOUT(Surface) surface, vec3 u_gradient, vec3 v_gradient) {
+  surface.u_gradient = u_gradient;
+  surface.v_gradient = v_gradient;
+  surface.tangent = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+}
+
+// The same, from how p moves with u and with v.
+void set_tangents(INOUT(Surface) surface, vec3 along_u, vec3 along_v) {
+  vec3 n = cross3(along_u, along_v);
+  float squared = dot3(n, n);
+  vec3 across = squared > 0.0f ? n / squared : n;
+  set_gradients(surface, cross3(along_v, across), cross3(across, along_u));
+}
 
 Surface no_surface() {
   Surface surface;
@@ -62,6 +80,7 @@ Surface no_surface() {
   surface.normal = surface.p;
   surface.uv = vec2(0.0f, 0.0f);
   surface.offset = 0.0f;
+  set_gradients(surface, surface.p, surface.p);
   return surface;
 }
 

@@ -29,19 +29,21 @@ Surface revolution_surface(Primitive s, vec3 p, float part, float bottom, float 
                            float end_radius) {
   float distance = sqrt(p.x * p.x + p.z * p.z);
   vec3 gradient = vec3(0.0f, part == PART_BOTTOM ? -1.0f : 1.0f, 0.0f);
-  vec2 uv = vec2(0.0f, 0.0f);
+  UvField field = uv_field(vec2(0.0f, 0.0f), gradient, gradient);
   if (part == PART_SIDE || end_radius == 0.0f) {
     vec2 out_there = distance > 0.0f ? vec2(p.x / distance, p.z / distance) : vec2(1.0f, 0.0f);
     p = vec3(out_there.x * radius, minimum(maximum(p.y, bottom), top), out_there.y * radius);
     gradient = vec3(out_there.x, -slope, out_there.y);
     float u = 0.5f + atan_yx(-p.z, p.x) / (2.0f * PI);
-    uv = vec2(u < 1.0f ? u : 0.0f, (p.y - bottom) / (top - bottom));
+    field = uv_field(vec2(u < 1.0f ? u : 0.0f, (p.y - bottom) / (top - bottom)), turn_gradient(p),
+                     vec3(0.0f, 1.0f / (top - bottom), 0.0f));
   } else {
     float inside = distance > end_radius ? end_radius / distance : 1.0f;
     p = vec3(p.x * inside, part == PART_BOTTOM ? bottom : top, p.z * inside);
-    uv = vec2(0.5f + 0.5f * p.x / end_radius, 0.5f - 0.5f * p.z / end_radius * gradient.y);
+    field = uv_field(vec2(0.5f + 0.5f * p.x / end_radius, 0.5f - 0.5f * p.z / end_radius * gradient.y),
+                     vec3(0.5f / end_radius, 0.0f, 0.0f), vec3(0.0f, 0.0f, -0.5f / end_radius * gradient.y));
   }
-  return object_surface(s, p, gradient, uv);
+  return object_surface(s, p, gradient, field);
 }
 
 SHADER_END

@@ -3,6 +3,9 @@
 #define SURFACE_GLSL
 #include "geometry/instance.glsl"
 #include "geometry/ray.glsl"
+#if HAS_BENT_NORMALS
+#include "materials/bent_normal.glsl"
+#endif
 #include "records.h"
 
 SHADER_BEGIN
@@ -37,6 +40,9 @@ Surface surface_at(Primitive primitive, Ray ray, Hit hit) {
 #endif
   // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
   if (!(dot3(surface.normal, surface.normal_geometric) > 0.0f)) surface.normal = surface.normal_geometric;
+#if HAS_BENT_NORMALS
+  surface = bent_surface(material_of(primitive), surface, ray.d);
+#endif
   return surface;
 }
 

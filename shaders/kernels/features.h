@@ -55,6 +55,9 @@
 #ifndef HAS_PANES  // paths may pass a surface straight
 #define HAS_PANES 1
 #endif
+#ifndef HAS_BENT_NORMALS  // a material has a normal map or bumps
+#define HAS_BENT_NORMALS 1
+#endif
 #ifndef HAS_ALPHA_TEST  // a material has an alpha
 #define HAS_ALPHA_TEST 1
 #endif
@@ -148,6 +151,8 @@
 //   FORMULA_BOUND
 //   FORMULA_DUAL
 //   FORMULA_COLOR         (number, uv): what a colour's formula says
+//   FORMULA_DIRECTION     (number, at): what a camera's formula says …
+//   FORMULA_ORIGIN        … and where it says that the ray starts
 //   FORMULA_OVERRAN       defined where a formula loops: whether one made too many turns
 
 // ---- What is compiled in: defined or not; the twin has none of it ----------------------------------------------------

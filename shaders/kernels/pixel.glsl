@@ -20,7 +20,7 @@ bool eye_ray(Frame frame, uint x, uint y, uint index, OUT(Ray) ray) {
   lens = point_on_lens(frame, sample_pair(frame, y * frame.width + x, index, PAIR_LENS));
 #endif
   ray = camera_ray(frame, place, lens);
-  return camera_sees(frame, place);
+  return camera_sees(frame, place, lens);
 }
 
 SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
@@ -51,9 +51,10 @@ AuxiliaryResult render_auxiliary(Frame frame, uint x, uint y, uint index) {
 // Through the middle of the pixel, from that of the lens.
 HitResult first_hit(Frame frame, uint x, uint y) {
   vec2 place = vec2(float(x) + 0.5f, float(y) + 0.5f);
-  Ray ray = camera_ray(frame, place, vec2(0.0f, 0.0f));
+  vec2 lens = vec2(0.0f, 0.0f);
+  Ray ray = camera_ray(frame, place, lens);
   uint flags = 0u;
-  TraversalState state = search(ray, camera_sees(frame, place) ? T_MISS : -1.0f, false);
+  TraversalState state = search(ray, camera_sees(frame, place, lens) ? T_MISS : -1.0f, false);
   Hit hit = state.hit;
   flags = flags | iteration_limit(state) | loops_cut_off(LOOP_PROBE);
   HitResult result;

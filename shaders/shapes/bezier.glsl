@@ -199,6 +199,7 @@ Surface bezier_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal_geometric = s.c.w < 0.0f ? -n : n;
   surface.normal = surface.normal_geometric;
   surface.uv = inner_uv(hit.uv);
+  set_tangents(surface, at.du, at.dv);
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), abs3(surface.p) + abs3(o)) + 48.0f * EPSILON * patch_ball.w;
   return surface;
 }

@@ -74,7 +74,8 @@ Surface bilinear_surface(Primitive s, Ray ray, Hit hit) {
   vec3 left = vec3(s.c) - p00;
   vec3 right = vec3(s.a.w, s.b.w, s.c.w) - vec3(s.b);
   vec3 along_v = left + (right - left) * hit.uv.x;
-  vec3 n = cross3(along_u + (right - left) * hit.uv.y, along_v);
+  vec3 across_v = along_u + (right - left) * hit.uv.y;
+  vec3 n = cross3(across_v, along_v);
 
   Surface surface;
   surface.p = (p00 + along_u * hit.uv.x) + along_v * hit.uv.y;
@@ -82,6 +83,7 @@ Surface bilinear_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal = surface.normal_geometric;
   surface.uv = inner_uv(hit.uv);
   vec3 reach = (abs3(p00) + abs3(vec3(s.b))) + (abs3(vec3(s.c)) + abs3(vec3(s.a.w, s.b.w, s.c.w)));
+  set_tangents(surface, across_v, along_v);
   surface.offset = 48.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);
   return surface;
 }

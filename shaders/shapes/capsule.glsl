@@ -52,7 +52,9 @@ Surface capsule_surface(Primitive s, Ray ray, Hit hit) {
   // v is the length of the way from the lower pole.
   float u = 0.5f + atan_yx(-n.z, n.x) / (2.0f * PI);
   float way = atan_yx(sqrt(n.x * n.x + n.z * n.z), -n.y) + (y + half_length);
-  return object_surface(s, n + vec3(0.0f, y, 0.0f), n, vec2(u < 1.0f ? u : 0.0f, way / (PI + 2.0f * half_length)));
+  float whole = PI + 2.0f * half_length;
+  return object_surface(s, n + vec3(0.0f, y, 0.0f), n,
+                        uv_field(vec2(u < 1.0f ? u : 0.0f, way / whole), turn_gradient(n), pole_gradient(n) / whole));
 }
 
 SHADER_END

@@ -23,7 +23,8 @@ void disk_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec
 Surface disk_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = at_hit(object_ray(s, ray, 1.0f), hit);
   p.y = 0.0f;
-  return object_surface(s, p, vec3(0.0f, 1.0f, 0.0f), vec2(0.5f + 0.5f * p.x, 0.5f - 0.5f * p.z));
+  return object_surface(s, p, vec3(0.0f, 1.0f, 0.0f),
+                        uv_field(vec2(0.5f + 0.5f * p.x, 0.5f - 0.5f * p.z), vec3(0.5f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -0.5f)));
 }
 
 SHADER_END

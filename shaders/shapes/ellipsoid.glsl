@@ -32,7 +32,7 @@ Surface ellipsoid_surface(Primitive s, Ray ray, Hit hit) {
   p = dot3(p, p) > 0.0f ? normalize3(p) : vec3(0.0f, 1.0f, 0.0f);
   float u = 0.5f + atan_yx(-p.z, p.x) / (2.0f * PI);
   float v = atan_yx(sqrt(p.x * p.x + p.z * p.z), -p.y) / PI;
-  return object_surface(s, p, p, vec2(u < 1.0f ? u : 0.0f, v));
+  return object_surface(s, p, p, uv_field(vec2(u < 1.0f ? u : 0.0f, v), turn_gradient(p), pole_gradient(p) / PI));
 }
 
 SHADER_END

@@ -53,6 +53,7 @@ Surface parallelogram_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal_geometric = n;
   surface.normal = n;
   surface.uv = inner_uv(vec2(u, v));
+  set_gradients(surface, across_v / dot3(across_v, along_u), across_u / dot3(across_u, along_v));
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), abs3(p) + abs3(vec3(s.a)));
   return surface;
 }

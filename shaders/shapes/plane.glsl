@@ -30,6 +30,7 @@ Surface plane_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal_geometric = n;
   surface.normal = n;
   surface.uv = vec2(dot3(vec3(s.b), p) + s.b.w, dot3(vec3(s.c), p) + s.c.w);
+  set_gradients(surface, vec3(s.b), vec3(s.c));
   surface.offset = 4.0f * EPSILON * (dot3(abs3(n), abs3(p)) + abs(s.a.w));
   return surface;
 }

@@ -55,6 +55,7 @@ Surface polygon_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal_geometric = n;
   surface.normal = n;
   surface.uv = vec2(dot3(vec3(u), p) + u.w, dot3(vec3(v), p) + v.w);
+  set_gradients(surface, vec3(u), vec3(v));
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), abs3(p) + abs3(vec3(s.b)));
   return surface;
 }

@@ -94,12 +94,13 @@ Surface prism_surface(Primitive s, Ray ray, Hit hit) {
   uint first = s.extra + OBJECT_PARAMETERS;
   vec4 sizes = object_parameters(s);
   vec3 gradient = vec3(0.0f, hit.uv.x == PRISM_BOTTOM ? -1.0f : 1.0f, 0.0f);
-  vec2 uv = vec2(0.0f, 0.0f);
+  UvField field = uv_field(vec2(0.0f, 0.0f), gradient, gradient);
   if (hit.uv.x < PRISM_WALLS) {
     vec4 u = bits_to_floats(load_vertex(first + 1u));
     vec4 v = bits_to_floats(load_vertex(first + 2u));
     p.y = gradient.y;
-    uv = vec2(((u.x * p.x + u.y * p.z) + u.z) * gradient.y, (v.x * p.x + v.y * p.z) + v.z);
+    field = uv_field(vec2(((u.x * p.x + u.y * p.z) + u.z) * gradient.y, (v.x * p.x + v.y * p.z) + v.z),
+                     vec3(u.x, 0.0f, u.y) * gradient.y, vec3(v.x, 0.0f, v.y));
   } else {
     uint wall = uint(hit.uv.x - PRISM_WALLS);
     vec4 edge = bits_to_floats(load_outline(first + 3u + wall));
@@ -109,12 +110,14 @@ Surface prism_surface(Primitive s, Ray ray, Hit hit) {
     share = minimum(maximum(share, 0.0f), 1.0f);
     p = vec3(edge.x + along.x * share, minimum(maximum(p.y, -1.0f), 1.0f), edge.y + along.y * share);
     gradient = vec3(more.z, 0.0f, more.w);
-    uv = vec2(more.x + (more.y - more.x) * share, sizes.y * (0.5f * p.y + 0.5f));
+    float slope = (more.y - more.x) / (along.x * along.x + along.y * along.y);
+    field = uv_field(vec2(more.x + (more.y - more.x) * share, sizes.y * (0.5f * p.y + 0.5f)),
+                     vec3(along.x * slope, 0.0f, along.y * slope), vec3(0.0f, 0.5f * sizes.y, 0.0f));
   }
-  Surface surface = object_surface(s, p, gradient, uv);
+  Surface surface = object_surface(s, p, gradient, field);
 
   // A wall is where its ends are, and those are rounded however close to the middle it passes.
-  vec3 slope = vec3(s.a) * gradient.x + vec3(s.b) * gradient.y + vec3(s.c) * gradient.z;
+  vec3 slope = gradient_out_of_object(s, gradient);
   surface.offset += 8.0f * EPSILON / sqrt(dot3(slope, slope));
   return surface;
 }

@@ -85,7 +85,7 @@ Surface quadric_surface(Primitive s, Ray ray, Hit hit) {
   float axis = facing.x >= facing.y && facing.x >= facing.z ? 0.0f : facing.y >= facing.z ? 1.0f : 2.0f;
   float towards = axis == 0.0f ? gradient.x : axis == 1.0f ? gradient.y : gradient.z;
   Surface surface = object_surface(s, p, gradient, cube_uv(p, vec2(axis, towards < 0.0f ? -1.0f : 1.0f)));
-  vec3 slope = vec3(s.a) * gradient.x + vec3(s.b) * gradient.y + vec3(s.c) * gradient.z;
+  vec3 slope = gradient_out_of_object(s, gradient);
   surface.offset = surface.offset + noise / sqrt(dot3(slope, slope));
   return surface;
 }

@@ -3,6 +3,7 @@
 #ifndef SPHERE_GLSL
 #define SPHERE_GLSL
 #include "geometry/ray.glsl"
+#include "geometry/uv_field.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -45,6 +46,16 @@ vec2 sphere_uv(Primitive s, vec3 n) {
   return vec2(u < 1.0f ? u : 0.0f, atan_yx(sqrt(x * x + z * z), -y) / PI);
 }
 
+void set_sphere_gradients(Primitive s, vec3 n, INOUT(Surface) surface) {
+  vec3 pole = vec3(s.b);
+  vec3 meridian = vec3(s.c);
+  vec3 third = cross3(meridian, pole) * s.c.w;
+  vec3 own = vec3(dot3(n, meridian), dot3(n, pole), dot3(n, third));
+  vec3 u = turn_gradient(own) / s.a.w;
+  vec3 v = pole_gradient(own) / (PI * s.a.w);
+  set_gradients(surface, meridian * u.x + pole * u.y + third * u.z, meridian * v.x + pole * v.y + third * v.z);
+}
+
 bool sphere_reject(Primitive s, Ray ray) { return !(sphere_discriminant(s, ray) >= 0.0f); }
 
 void sphere_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
@@ -65,6 +76,7 @@ Surface sphere_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal = n;
   surface.uv = vec2(0.0f, 0.0f);
   if (UV_OF(sphere)) surface.uv = sphere_uv(s, n);
+  set_sphere_gradients(s, n, surface);
   surface.offset = 4.0f * EPSILON * (dot3(abs3(n), abs3(centre)) + s.a.w);
   return surface;
 }

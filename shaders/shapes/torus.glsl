@@ -127,7 +127,9 @@ Surface torus_surface(Primitive s, Ray ray, Hit hit) {
 
   float u = 0.5f + atan_yx(-around.y, around.x) / (2.0f * PI);
   float v = 0.5f + atan_yx(tube.y, tube.x) / (2.0f * PI);
-  return object_surface(s, p, gradient, vec2(u < 1.0f ? u : 0.0f, v < 1.0f ? v : 0.0f));
+  return object_surface(s, p, gradient,
+                        uv_field(vec2(u < 1.0f ? u : 0.0f, v < 1.0f ? v : 0.0f), turn_gradient(p),
+                                 vec3(-tube.y * around.x, tube.x, -tube.y * around.y) / (2.0f * PI * minor)));
 }
 
 SHADER_END

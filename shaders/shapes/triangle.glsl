@@ -118,6 +118,7 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal_geometric = vec3(s.a.w, s.b.w, s.c.w);
   surface.normal = surface.normal_geometric;
   surface.uv = hit.uv;
+  set_gradients(surface, vec3(0.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 0.0f));
   if (s.extra != NONE) {
     uvec4 corners = load_vertex(s.extra);
     vec4 n0 = bits_to_floats(load_vertex(corners.x));
@@ -130,6 +131,19 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
       surface.uv = vec2((n0.w * wa + n1.w * hit.uv.x) + n2.w * hit.uv.y,
                         (v.x * wa + v.y * hit.uv.x) + v.z * hit.uv.y);
     }
+#if HAS_BENT_NORMALS
+    uint beside = (corners.w & CORNERS_COLORS) != 0u ? 2u : 1u;
+    uint gradients = s.extra + ((corners.w & CORNERS_UV) != 0u ? 2u : 1u);
+    if ((corners.w & CORNERS_GRADIENTS) != 0u)
+      set_gradients(surface, vec3(bits_to_floats(load_vertex(gradients))), vec3(bits_to_floats(load_vertex(gradients + 1u))));
+    if ((corners.w & CORNERS_TANGENTS) != 0u) {
+      vec4 t0 = bits_to_floats(load_vertex(corners.x + beside));
+      vec4 t1 = bits_to_floats(load_vertex(corners.y + beside));
+      vec4 t2 = bits_to_floats(load_vertex(corners.z + beside));
+      surface.tangent = (t0 * wa + t1 * hit.uv.x) + t2 * hit.uv.y;
+      surface.tangent.w = t0.w;
+    }
+#endif
   }
   vec3 reach = abs3(vec3(s.a)) + abs3(vec3(s.b)) + abs3(vec3(s.c));
   surface.offset = 8.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);

@@ -96,9 +96,13 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Material, specular_color),
                 MEMBER(Material, sheen),
                 MEMBER(Material, sheen_roughness),
+                MEMBER(Material, normal_map),
+                MEMBER(Material, normal_scale),
+                MEMBER(Material, bump),
+                MEMBER(Material, bump_height),
+                MEMBER(Material, bump_width),
                 MEMBER(Material, unused_0),
-                MEMBER(Material, unused_1),
-                MEMBER(Material, unused_2)});
+                MEMBER(Material, unused_1)});
   check_struct(samples, "Medium", sizeof(shader::Medium), {MEMBER(Medium, absorption), MEMBER(Medium, ior), MEMBER(Medium, scattering),
                 MEMBER(Medium, anisotropy)});
   check_struct(samples, "Texture", sizeof(shader::Texture),
@@ -139,8 +143,8 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Frame, environment_turn),
                 MEMBER(Frame, filter_width),
                 MEMBER(Frame, light_bvh_numbers),
-                MEMBER(Frame, unused_1),
-                MEMBER(Frame, unused_2)});
+                MEMBER(Frame, camera_formula),
+                MEMBER(Frame, unused_0)});
   check_struct(samples, "Dispatch", sizeof(shader::Dispatch),
                {MEMBER(Dispatch, tile_x), MEMBER(Dispatch, tile_y), MEMBER(Dispatch, tile_width),
                 MEMBER(Dispatch, tile_height), MEMBER(Dispatch, sample_index), MEMBER(Dispatch, depth),

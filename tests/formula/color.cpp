@@ -45,7 +45,7 @@ TEST_CASE("a colour's bits in float32, and float64 beside them") {
       "  return gradient(vec3(uv * a[int(uv.y)], 1.0 / 3.0));\n"
       "}\n",
       {{"scale", {0.1}}});
-  CHECK_FALSE(formula.has_gradient());
+  CHECK_FALSE(formula.has_other());
   const std::array<float, 3> single = formula.color(std::array{2.0f, 0.5f});
   const float x = 3.0f * 0.1f, y = 0.5f * 0.1f, z = 1.0f / 3.0f;
   CHECK(single == std::array{x * x, y * y, z * z});

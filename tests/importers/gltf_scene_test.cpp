@@ -198,6 +198,37 @@ TEST_CASE("pictures, from data and files, with their samplers") {
   CHECK(warns(import_sound(file.gltf(), "a.gltf"), "textures without a picture (1)"));
 }
 
+TEST_CASE("a normal map counts by its codes, with the mesh's tangents where they are sound") {
+  std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
+  const std::string picture{std::istreambuf_iterator<char>(png), {}};
+  GltfFile file = with_material({{"normalTexture", {{"index", 0}, {"scale", -0.5}}}});
+  file.json["textures"] = {{{"source", 0}}};
+  file.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
+  Json& attributes = file.primitive()["attributes"];
+  attributes["TEXCOORD_0"] = file.add({0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
+  attributes["NORMAL"] = file.add({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 5126, "VEC3", 3);
+  attributes["TANGENT"] = file.add({2, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, -1}, 5126, "VEC4", 4);
+  const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
+  CHECK(scene.warnings.empty());
+  REQUIRE(scene.materials[0]->normal_map);
+  CHECK(scene.materials[0]->normal_map->scale == -0.5);
+  CHECK(scene.meshes[0].tangents[0] == Vec4(1, 0, 0, -1));
+  CHECK(scene.meshes[0].uv[0] == Vec2(0, 1));
+
+  attributes["TANGENT"] = file.add({0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, 5126, "VEC4", 4);
+  const ImportedScene unsound = import_sound(file.gltf(), "a.gltf");
+  CHECK(warns(unsound, "meshes with tangents that are no directions, made of their uv instead"));
+  CHECK(unsound.meshes[0].tangents.empty());
+
+  // With uv of its own, which a vertex has not.
+  file.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
+  file.json["materials"][0]["emissiveTexture"] = {{"index", 0}, {"texCoord", 0}};
+  file.json["materials"][0]["normalTexture"]["texCoord"] = 1;
+  const ImportedScene apart = import_sound(file.gltf(), "a.gltf");
+  CHECK(warns(apart, "normal maps with uv of their own (1)"));
+  CHECK_FALSE(apart.materials[0]->normal_map);
+}
+
 TEST_CASE("the first camera and all lights") {
   GltfFile file = square_file();
   file.json["extensionsUsed"] = {"KHR_lights_punctual"};
@@ -274,7 +305,7 @@ TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices; else alpha i
 
 TEST_CASE("what is left out is named once, and counted") {
   GltfFile file = with_material(
-      {{"alphaMode", "BLEND"}, {"normalTexture", {{"index", 0}}}, {"occlusionTexture", {{"index", 0}}}});
+      {{"alphaMode", "BLEND"}, {"occlusionTexture", {{"index", 0}}}});
   file.json["materials"].push_back(file.json["materials"][0]);
   file.json["extensionsUsed"] = {"KHR_materials_sheen", "KHR_materials_ior"};
   file.json["animations"] = Json::array({Json::object()});
@@ -284,7 +315,7 @@ TEST_CASE("what is left out is named once, and counted") {
   const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
   CHECK(scene.warnings ==
         std::vector<std::string>{
-            "left out: the extension KHR_materials_sheen (1), normal maps (2), occlusion maps (2), "
+            "left out: the extension KHR_materials_sheen (1), occlusion maps (2), "
             "transparency by alpha (2), animations (1), points and lines (1)"});
 }
 

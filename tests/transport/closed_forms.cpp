@@ -2,6 +2,7 @@
 // Each picture is of one small patch, so that its pixels are 64 estimates of one value, independent of each
 // other. A test whose error is above half a percent could not fail, and is an error itself.
 #include "patch.hpp"
+#include "host/formula/formula.hpp"
 #include "tests/support/environments.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -387,4 +388,31 @@ TEST_CASE("a thin lens: a straight bright edge out of focus, (arccos x − x √
   };
   check(triangle(4), 0.75 * 0.75 / (1.5 * 1.5), 1e-4);
   check(triangle(4.0 / 3), 1 - 1.25 * 1.25 / (1.5 * 1.5), 1e-4);
+}
+
+TEST_CASE("a normal map of one color is a tilted surface; on a slope bumps are one") {
+  const Vec3 to_light = glm::normalize(Vec3(0.3, 1, -0.5)), tilted = glm::normalize(Vec3(0.3, 0.9, 0.2));
+  for (const IntegratorType integrator : {IntegratorType::path, IntegratorType::whitted}) {
+    Scene scene = floor(4);
+    scene.render.integrator = integrator;
+    add_sun(scene, to_light, Vec3(0.7));
+    // On a floor u runs along x and v along −z.
+    scene.materials[0]->normal_map =
+        NormalMap{textures::make_constant(0.5 + 0.5 * Vec3(tilted.x, -tilted.z, tilted.y))};
+    check(scene, albedo * 0.7 * glm::dot(to_light, tilted), 1e-5);
+    scene.materials[0]->normal_map->scale = -2;
+    check(scene,
+          albedo * 0.7 *
+              glm::dot(to_light, glm::normalize(Vec3(-2 * tilted.x, tilted.y, -2 * tilted.z))),
+          1e-5);
+
+    // Heights that rise evenly.
+    scene.materials[0]->normal_map.reset();
+    scene.materials[0]->bump_map = BumpMap{
+        textures::make_formula(std::make_shared<const formula::Formula>(
+            formula::FormulaText{"vec3 color(vec2 uv) { return vec3(0.5 + 0.3 * uv.x - 0.2 * uv.y); }", {}},
+            std::vector<formula::FormulaParameter>{}, "slope", formula::FormulaKind::color)),
+        2, 0.05};
+    check(scene, albedo * 0.7 * glm::dot(to_light, glm::normalize(Vec3(-0.6, 1, -0.4))), 1e-5);
+  }
 }

@@ -1,0 +1,118 @@
+#include "host/formula/formula.hpp"
+
+#include <array>
+
+#include "host/cameras/make.hpp"
+#include "host/records/records.hpp"
+#include "host/scene/formula_reader.hpp"
+
+namespace eyeray::cameras {
+
+extern const CameraType formula_type;
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(A camera of your own: a function says in which direction the ray goes that passes a place in the picture.
+[formulas.md](formulas.md) says which GLSL it may be.
+
+```toml
+[camera]
+type = "formula"
+eye = [0, 1, 6]
+target = [0, 0, 0]
+parameters = { distance = 2.4 }
+code = """
+vec3 direction(vec2 place, vec2 lens) { return vec3(place, distance); }
+"""
+```
+
+`place` is measured from the middle of the picture to the right and up: its left and right borders are at x = −1 and 1,
+its upper one at y = height / width. Directions are in the camera's own axes, x to the right, y up, z the way it
+looks, of any length but 0: where one has none or is no number nothing is seen, and the picture is black. `vec3 origin(vec2
+place, vec2 lens)`, if there is one, says in those axes where the ray starts, seen from the eye. `lens` is a point of the disk
+of radius 1, another for each sample, and its middle for first hits and the AOVs made of them.
+)";
+
+constexpr Key keys[] = {
+    {.name = "code",
+     .type = KeyType::formula,
+     .doc = "The function, `vec3 direction(vec2 place, vec2 lens)`, and what it calls.",
+     .optional = true},
+    formula_file_key,
+    parameters_key,
+};
+
+// Beyond these float32 cannot compute.
+constexpr double least_squared = 1e-30, most_squared = 1e30, farthest = 1e12;
+
+class FormulaProjection final : public Projection {
+ public:
+  FormulaProjection(std::shared_ptr<const formula::Formula> formula, double wider)
+      : formula_(std::move(formula)), wider_(wider) {}
+
+  uint32_t kind() const override { return shader::CAMERA_formula; }
+
+  Vec3 scale(const Vec2& size) const override { return {wider_, wider_ * (size.y / size.x), 1}; }
+
+  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2&) const override {
+    const auto in_world = [&](const Vec3& v) { return v.x * camera.u + v.y * camera.v + v.z * camera.w; };
+    const Own own = ask(place, lens);
+    if (!own.usable()) return {camera.eye, camera.w};
+    return {camera.eye + in_world(own.origin), glm::normalize(in_world(own.direction))};
+  }
+
+  bool sees(const Vec2& place, const Vec2& lens, const Vec2&) const override {
+    return ask(place, lens).usable();
+  }
+
+  Aperture aperture() const override { return {.radius = 1}; }
+  std::shared_ptr<const formula::Formula> formula() const override { return formula_; }
+
+  std::shared_ptr<const Projection> widened(double factor, const Vec2&) const override {
+    return std::make_shared<FormulaProjection>(formula_, wider_ * factor);
+  }
+
+  std::vector<CameraFact> facts(const Vec2&) const override {
+    return {{"function", formula_->title(), {}}};
+  }
+
+ private:
+  // In the camera's axes.
+  struct Own {
+    Vec3 direction, origin;
+
+    bool usable() const {
+      const double squared = glm::dot(direction, direction);
+      const Vec3 far = glm::abs(origin);
+      return squared > least_squared && squared < most_squared && far.x <= farthest && far.y <= farthest &&
+             far.z <= farthest;
+    }
+  };
+  Own ask(const Vec2& place, const Vec2& lens) const {
+    const std::array<double, 4> at{wider_ * place.x, wider_ * place.y, lens.x, lens.y};
+    const auto direction = formula_->direction(at), origin = formula_->origin(at);
+    return {{direction[0], direction[1], direction[2]}, {origin[0], origin[1], origin[2]}};
+  }
+
+  std::shared_ptr<const formula::Formula> formula_;
+  double wider_;
+};
+
+std::shared_ptr<const Projection> parse(TableReader& table) {
+  constexpr std::string_view owner = "[camera]";
+  if (!has_one_source(table, {"code", "file"}, owner)) return nullptr;
+  if (table.failed()) return nullptr;
+  auto formula = read_formula(table, owner, formula::FormulaKind::camera);
+  return formula ? make_projection(std::move(formula)) : nullptr;
+}
+
+}  // namespace
+
+extern const CameraType formula_type{.name = "formula", .manual = manual, .keys = keys, .parse = parse};
+
+std::shared_ptr<const Projection> make_projection(std::shared_ptr<const formula::Formula> formula) {
+  return std::make_shared<FormulaProjection>(std::move(formula), 1);
+}
+
+}  // namespace eyeray::cameras

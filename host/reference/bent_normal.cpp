@@ -1,0 +1,85 @@
+#include "host/reference/bent_normal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/reference/emitter_sample.hpp"
+#include "host/scene/luminance.hpp"
+
+namespace eyeray::reference {
+namespace {
+
+constexpr double least_upright = 0.01;
+constexpr double least_mirrored = 0.001;
+
+bool usable(const Vec3& v) {
+  const double squared = glm::dot(v, v);
+  return squared > 1e-30 && squared < 1e30;
+}
+
+Vec3 mapped(const NormalMap& map, const SurfacePoint& point, const Vec3& n) {
+  // Where u and v run, square to n and to each other.
+  const bool own = point.tangent.w != 0;
+  const Vec3 along_u = own ? Vec3(point.tangent) : point.along_u;
+  Vec3 t = along_u - n * glm::dot(n, along_u);
+  t = usable(t) ? glm::normalize(t) : Vec3(0);
+  const double turn =
+      own ? point.tangent.w : glm::dot(glm::cross(point.normal_geometric, point.along_u), point.along_v);
+  const Vec3 b = glm::cross(n, t) * (turn < 0 ? -1.0 : 1.0);
+
+  const Vec3 code = 2.0 * map.texture->at({point.uv, point.position}) - 1.0;
+  const Vec3 bent = map.scale * (code.x * t + code.y * b) + code.z * n;
+  return usable(bent) ? glm::normalize(bent) : n;
+}
+
+// Of the height of `map`, from one side of the place to the other.
+double rise(const BumpMap& map, const TextureContext& from, const TextureContext& to) {
+  return map.height * (luminance(map.texture->at(to)) - luminance(map.texture->at(from))) / (2 * map.width);
+}
+
+Vec3 bumped(const BumpMap& map, const SurfacePoint& point, const Vec3& n) {
+  if (map.texture->in_space()) {
+    const auto [s, t] = tangents(n);
+    const auto along = [&](const Vec3& d) {
+      return rise(map, {point.uv, point.position - map.width * d}, {point.uv, point.position + map.width * d});
+    };
+    return glm::normalize(n - along(s) * s - along(t) * t);
+  }
+  const auto along = [&](const Vec2& d) {
+    return rise(map, {point.uv - map.width * d, point.position}, {point.uv + map.width * d, point.position});
+  };
+  // Blinn's n + (h_u n × p_v − h_v n × p_u) / |p_u × p_v|, n being that of the surface that u and v span.
+  const Vec3 across = glm::cross(point.along_u, point.along_v);
+  const double area = glm::length(across);
+  if (!(area > 0 && std::isfinite(area))) return n;
+  const Vec3 flat = across / area;
+  const Vec3 slope = -(along({1, 0}) * glm::cross(flat, point.along_v) -
+                       along({0, 1}) * glm::cross(flat, point.along_u)) / area;
+  const Vec3 bent = n - (slope - n * glm::dot(n, slope));
+  return usable(bent) ? glm::normalize(bent) : n;
+}
+
+}  // namespace
+
+Vec3 bent_normal(const Material& material, const SurfacePoint& point, const Vec3& d) {
+  if (!material.normal_map && !material.bump_map) return point.normal;
+  Vec3 n = point.normal;
+  if (material.normal_map) n = mapped(*material.normal_map, point, n);
+  if (material.bump_map) n = bumped(*material.bump_map, point, n);
+
+  // From the viewer's side: up from below the horizon, then half way between the viewer and a mirrored view
+  // that is just above it.
+  const Vec3 to_viewer = -glm::normalize(d);
+  const double side = glm::dot(to_viewer, point.normal_geometric) > 0 ? 1 : -1;
+  const Vec3 up = side * point.normal_geometric;
+  n *= side;
+  if (const double upright = glm::dot(n, up); upright < least_upright)
+    n = glm::normalize(n + (least_upright - upright) * up);
+  const double height = std::min(least_mirrored, 0.5 * glm::dot(to_viewer, up));
+  const Vec3 mirrored = 2 * glm::dot(to_viewer, n) * n - to_viewer;
+  if (const double above = glm::dot(mirrored, up); above < height)
+    n = glm::normalize(to_viewer + glm::normalize(mirrored + (height - above) / glm::dot(n, up) * n));
+  return side * n;
+}
+
+}  // namespace eyeray::reference

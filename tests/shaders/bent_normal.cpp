@@ -1,0 +1,129 @@
+// materials/bent_normal.glsl: what it bends is bent as the reference says, and what is mirrored to the viewer
+// stays above the surface.
+#include <algorithm>
+#include <cmath>
+
+#include "host/materials/make.hpp"
+#include "host/reference/bent_normal.hpp"
+#include "host/textures/make.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
+#include "tests/support/random.hpp"
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::records;
+using test::Random;
+
+namespace {
+
+// A place on some surface, in both forms.
+struct Place {
+  SurfacePoint point;
+  shader::Surface surface;
+  Vec3 d;  // of the ray that sees it
+};
+
+Place some_place(Random& random, bool own_tangent) {
+  const Vec3 n = random.direction(), bent = glm::normalize(n + random.uniform(0, 0.8) * random.direction());
+  const auto tangential = [&](const Vec3& v) { return v - n * glm::dot(n, v); };
+  SurfacePoint point{.position = random.point(1), .position_error = 0, .normal_geometric = n, .normal = bent,
+                     .uv = {random.uniform(), random.uniform()}};
+  const Vec3 u = tangential(random.direction()), v = tangential(random.direction());
+  point.along_u = random.uniform(0.2, 2) * glm::normalize(u);
+  point.along_v = random.uniform(0.2, 2) * glm::normalize(v);
+  if (own_tangent) point.tangent = Vec4(random.direction(), random.below(2) == 0 ? 1 : -1);
+
+  shader::Surface surface = shader::no_surface();
+  surface.p = glm::vec3(point.position);
+  surface.normal_geometric = glm::vec3(n);
+  surface.normal = glm::vec3(bent);
+  surface.uv = glm::vec2(point.uv);
+  shader::set_tangents(surface, glm::vec3(point.along_u), glm::vec3(point.along_v));
+  surface.tangent = glm::vec4(point.tangent);
+  Vec3 d;
+  do d = random.direction();
+  while (std::abs(glm::dot(d, n)) < 0.01);
+  return {point, surface, d};
+}
+
+// What the shader makes of it, by a material like that.
+Vec3 shaded(const Material& material, const Place& place) {
+  Packer packer(Vec3(0));
+  shader::Material record{};
+  record.normal_map = material.normal_map ? material.normal_map->texture->pack(packer) : NONE;
+  record.normal_scale = material.normal_map ? float(material.normal_map->scale) : 0;
+  record.bump = material.bump_map ? material.bump_map->texture->pack(packer) : NONE;
+  if (material.bump_map) {
+    record.bump_height = float(material.bump_map->height);
+    record.bump_width = float(material.bump_map->width);
+  }
+  packer.write_texels();
+  const shader::Binding binding(twin::view_of(packer.scene));
+  return Vec3(shader::bent_by(record, place.surface, glm::vec3(place.d)).normal);
+}
+
+double cross(const Place& place) {
+  return glm::length(glm::cross(glm::normalize(place.point.along_u), glm::normalize(place.point.along_v)));
+}
+
+}  // namespace
+
+TEST_CASE("a normal map bends as the reference says, by uv and by a mesh's tangents") {
+  Random random{3};
+  for (int i = 0; i < 20'000; ++i) {
+    const Place place = some_place(random, i % 2 == 0);
+    if (cross(place) < 0.1) continue;
+    const auto material = materials::make_phong({});
+    material->normal_map = NormalMap{
+        textures::make_constant({random.uniform(), random.uniform(), random.uniform(0.4, 1)}), random.uniform(-1.5, 1.5)};
+    const Vec3 expected = reference::bent_normal(*material, place.point, place.d);
+    CHECK(glm::length(shaded(*material, place) - expected) < 2e-4);
+  }
+}
+
+TEST_CASE("bumps bend as the reference says, and by Blinn's formula") {
+  Random random{4};
+  const auto image = std::make_shared<ImageTexture>();
+  image->width = image->height = 8;
+  image->srgb = false;
+  for (int i = 0; i < 64; ++i) {
+    const auto code = uint8_t(random.below(256));
+    image->texels.push_back({code, code, code, 255});
+  }
+  const TexturePtr texture = textures::make_image(image);
+  for (int i = 0; i < 20'000; ++i) {
+    const Place place = some_place(random, false);
+    if (cross(place) < 0.1) continue;
+    const auto material = materials::make_phong({});
+    material->bump_map = BumpMap{texture, random.uniform(-0.2, 0.2), 0.125};
+    const Vec3 expected = reference::bent_normal(*material, place.point, place.d);
+    CHECK(glm::length(shaded(*material, place) - expected) < 2e-4);
+  }
+}
+
+TEST_CASE("what bent normals mirror to the viewer stays above the surface, and what is not too low is let be") {
+  Random random{5};
+  int low = 0, high = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Place place = some_place(random, false);
+    if (cross(place) < 0.1) continue;
+    const auto material = materials::make_phong({});
+    const Vec3 code(random.uniform(), random.uniform(), random.uniform());
+    material->normal_map = NormalMap{textures::make_constant(code), 1};
+    const Vec3 up = place.point.normal_geometric * (glm::dot(place.d, place.point.normal_geometric) < 0 ? 1.0 : -1.0);
+    const double side = glm::dot(up, place.point.normal_geometric);
+    for (const Vec3 n : {side * reference::bent_normal(*material, place.point, place.d), side * shaded(*material, place)}) {
+      CHECK(std::abs(glm::length(n) - 1) < 1e-5);
+      CHECK(glm::dot(n, up) > 0);
+      CHECK(glm::dot(n, place.d) < 1e-5);
+      const double mirrored = glm::dot(glm::reflect(place.d, n), up);
+      CHECK(mirrored > 0);
+      ++(mirrored < 2e-3 ? low : high);
+    }
+  }
+  // Both are common.
+  CHECK(low > 1000);
+  CHECK(high > 1000);
+}
