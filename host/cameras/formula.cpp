@@ -67,7 +67,7 @@ class FormulaProjection final : public Projection {
   }
 
   Aperture aperture() const override { return {.radius = 1}; }
-  std::shared_ptr<const formula::Formula> formula() const override { return formula_; }
+  std::shared_ptr<const formula::Formula> function() const override { return formula_; }
 
   std::shared_ptr<const Projection> widened(double factor, const Vec2&) const override {
     return std::make_shared<FormulaProjection>(formula_, wider_ * factor);

@@ -217,6 +217,14 @@ constexpr FaultType types[] = {
              first->child =
                  std::ranges::find_if(scene.light_nodes.rbegin(), scene.light_nodes.rend(), is_leaf)->child;
          }},
+    {.name = "flight",
+     .file = "integrators/flight.glsl",
+     .from = "-log_positive(1.0f - chance.y) / rate",
+     .to = "-0.98f * log_positive(1.0f - chance.y) / rate"},
+    {.name = "phase",
+     .file = "materials/phase.glsl",
+     .from = "/ (4.0f * PI * square * sqrt(square))",
+     .to = "/ (4.1f * PI * square * sqrt(square))"},
     // Random numbers.
     {.name = "random", .file = "math/rng.glsl", .from = "2891336453u", .to = "2891336455u"},
     // Packing.

@@ -1,6 +1,7 @@
 #include "host/loader/scene_builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "host/loader/batch.hpp"
@@ -349,8 +350,19 @@ void Builder::check_paths() {
                              (*glass)->name));
   if (scene_.lights.empty() && lamps.sampled.empty() && unsampled.empty() &&
       scene_.render.background == Vec3(0) && !scene_.environment)
-    log_.warning(
-        {}, "nothing shines: there is no [[light]], no `emission`, no `background` and no [environment]");
+    log_.warning({},
+                 "nothing shines: there is no [[light]], no `emission`, no `background` and no [environment]; "
+                 "the picture will be black");
+  const auto from_afar = [&](const auto& light) {
+    return std::isinf(light->illuminate(scene_.camera.eye).distance);
+  };
+  const Vec3 extinction = scene_.medium.absorption + scene_.medium.scattering;
+  if (glm::all(glm::greaterThan(extinction, Vec3(0))) &&
+      (scene_.environment || scene_.render.background != Vec3(0) ||
+       std::ranges::any_of(scene_.lights, from_afar)))
+    log_.warning({},
+                 "[medium] has no end: light from infinitely far away, of an environment, a `background` or a "
+                 "directional light, is lost in it");
   if (!unsampled.empty())
     log_.warning(
         unsampled.front(),

@@ -12,13 +12,16 @@
 namespace eyeray::optics {
 namespace {
 
-constexpr int turns = 12, heights = 64;
+constexpr int turns = 24, heights = 72;
 constexpr double most = 0.6;  // of (n₂ − n₁) / (n₂ + n₁): that of 1 and 4
+
+constexpr int inside = 12;  // of the slices, where that is below 0, and some light is mirrored totally
 
 using Table = std::array<double, glass_albedos * glass_albedos>;
 
 double place_of(double ior_from, double ior_to) {
-  return ((ior_to - ior_from) / (ior_to + ior_from) + most) / (2 * most) * glass_slices;
+  const double contrast = (ior_to - ior_from) / (ior_to + ior_from) / most;
+  return contrast < 0 ? inside + contrast * inside : inside + contrast * (glass_slices - inside);
 }
 
 double lambda(double cosine, double width) {
@@ -28,7 +31,8 @@ double lambda(double cosine, double width) {
 
 void compute(int slice, Table& table) {
   const double step = 1.0 / (glass_albedos - 1);
-  const double contrast = most * (2.0 * slice / glass_slices - 1);
+  const double from_middle = slice - inside;
+  const double contrast = most * from_middle / (from_middle < 0 ? inside : glass_slices - inside);
   for (int j = 0; j < glass_albedos; ++j)
     for (int i = 0; i < glass_albedos; ++i)
       table[size_t(j * glass_albedos + i)] =

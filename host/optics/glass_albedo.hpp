@@ -7,7 +7,7 @@
 namespace eyeray::optics {
 
 inline constexpr int glass_albedos = 32;  // a side of each table
-inline constexpr int glass_slices = 16;   // of (n₂ − n₁) / (n₂ + n₁), from −0.6 to 0.6
+inline constexpr int glass_slices = 16;   // of (n₂ − n₁) / (n₂ + n₁): twelve from −0.6 to 0, four to 0.6
 
 // Which slice two indices lie in.
 int glass_slice(double ior_from, double ior_to);

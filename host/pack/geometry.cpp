@@ -129,7 +129,8 @@ class GeometryPacker {
       if (space < 0) {
         // Material and optical depth are each instance's own.
         Blas added{middle(bounds(mesh)), {}};
-        added.items.add_mesh({mesh, Affine(Mat4(1.0)), added.origin, 0, 0, 0, packed_.vertices});
+        added.items.add_mesh(
+            {mesh, Affine(Mat4(1.0)), added.origin, 0, 0, 0, packed_.bent_normals, packed_.vertices});
         packed_.vertex_colors = packed_.vertex_colors || !mesh.colors.empty();
         space = add_blas(std::move(added));
       }

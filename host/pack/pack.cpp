@@ -116,7 +116,7 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
   }
   packer.scene.frame = pack_frame(scene, packer.scene);
   packer.scene.frame.light_bvh_numbers = light_bvh_numbers;
-  if (const auto formula = scene.camera.projection->formula())
+  if (const auto formula = scene.camera.projection->function())
     packer.scene.frame.camera_formula = packer.add_formula(formula);
   return packer;
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "host/reference/bsdf.hpp"
+#include "host/reference/emitter_sample.hpp"
 
 namespace eyeray::reference {
 

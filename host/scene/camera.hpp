@@ -87,7 +87,7 @@ class Projection {
   // Whether anything is seen there; else the picture is black.
   virtual bool sees(const Vec2& /*place*/, const Vec2& /*lens*/, const Vec2& /*size*/) const { return true; }
   // What it is computed by, of one that a scene brings.
-  virtual std::shared_ptr<const formula::Formula> formula() const { return nullptr; }
+  virtual std::shared_ptr<const formula::Formula> function() const { return nullptr; }
   virtual Aperture aperture() const { return {}; }
   // The same with `factor` times the width of a picture of this size in view, at the same scale in both
   // directions.

@@ -62,7 +62,7 @@ TEST_CASE("interrupted at any time and resumed, all files are those of an uninte
   Random random(11);
   REQUIRE(run_eyeray(long_render(folder, "whole")).code == 0);
   const auto whole = files_of(folder, "whole");
-  REQUIRE(whole.size() == 2 + 2 * 18 + 3);  // pictures, AOVs as data and painted, legends of three
+  REQUIRE(whole.size() == 2 + 2 * 19 + 3);  // pictures, AOVs as data and painted, legends of three
 
   for (const std::string bands : {"256", "1"}) {
     const Arguments command = long_render(folder, "parts", bands);
@@ -164,6 +164,7 @@ TEST_CASE("another scene, size, sampling or backend does not resume, and is told
   CHECK(changed("100", "64") == "the samples a pixel (100, now 64), the options laid over the scene\n");
   CHECK(changed("image.pattern=jittered", "image.pattern=regular") == "the options laid over the scene\n");
   CHECK(changed("twin", "reference") == "the backend (twin, now reference)\n");
+  CHECK(refusal(with(command, {"--clamp", "2"})) == "the --clamp (0, now 2)\n");
   CHECK(refusal(with(command, {"--crop", "0,0,9,9"})) == "the crop (none, now 0,0,9,9)\n");
   replace_in_file(folder.scene(), "radius = 1", "radius = 1.5");
   CHECK(refusal(command) == "the scene\n");

@@ -2,6 +2,9 @@
 #include <numbers>
 
 #include "gltf_files.hpp"
+#include "host/image/coded_image.hpp"
+#include "host/scene/image_texture_file.hpp"
+#include "host/textures/make.hpp"
 
 using namespace eyeray;
 using namespace eyeray::importers;
@@ -136,7 +139,8 @@ TEST_CASE("extensions of materials, with their pictures: which channel of each c
   CHECK(clear.warnings.empty());
   CHECK(cloth.warnings.empty());
   CHECK(clear.materials[0]->thin());
-  ImageTexture read = decode_image_texture(std::as_bytes(std::span(picture)), "a.png");
+  image::PixelBudget budget;
+  const ImageTexture read = decode_image_texture(std::as_bytes(std::span(picture)), "a.png", budget);
   const auto channel = [&](int i) {
     ImageTexture alone = read;
     alone.srgb = false;

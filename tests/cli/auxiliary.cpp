@@ -1,0 +1,143 @@
+// eyeray render --aov albedo,shading_normal: what denoisers ask for. And what is said of samples that stand out.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/image/image_file.hpp"
+#include "scene.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::image;
+using namespace eyeray::test;
+
+namespace {
+
+// A floor and a small, far, bright lamp, of a shape that paths find by chance alone.
+constexpr const char* sparkling = R"(
+[image]
+width = 48
+height = 48
+samples = 16
+
+[camera]
+eye = [0, 3, 6]
+target = [0, 0.5, 0]
+fov = 40
+
+[render]
+integrator = "path"
+
+[[material]]
+name = "wall"
+type = "diffuse"
+
+[[material]]
+name = "lamp"
+type = "diffuse"
+color = 0
+emission = 5e5
+
+[[plane]]
+point = [0, 0, 0]
+normal = [0, 1, 0]
+material = "wall"
+
+[[torus]]
+center = [0, 40, 0]
+axis = [0, 1, 0]
+major_radius = 0.5
+minor_radius = 0.15
+material = "lamp"
+)";
+
+}  // namespace
+
+TEST_CASE("albedo and normal for denoisers: the same of gpu and twin, and of the reference but at edges") {
+  const SceneFolder folder;
+  for (const std::string scene : {"materials", "wax"}) {
+    CAPTURE(scene);
+    for (const std::string backend : {"gpu", "twin", "reference"}) {
+      const ProcessResult result =
+          run_eyeray({"render", "scenes/path/" + scene + ".toml", "-s", "40x25", "--spp", "4", "--backend",
+                      backend, "--aov", "albedo,shading_normal", "-o", folder / (backend + ".pfm")});
+      CAPTURE(result.err);
+      REQUIRE(result.code == 0);
+    }
+    for (const std::string aov : {".albedo.pfm", ".shading_normal.pfm"}) {
+      CAPTURE(aov);
+      CHECK(read_text(folder / ("gpu" + aov)) == read_text(folder / ("twin" + aov)));
+      const Image gpu = read_image(folder / ("gpu" + aov));
+      const Image reference = read_image(folder / ("reference" + aov));
+      size_t apart = 0;
+      for (size_t i = 0; i < gpu.sample_count(); ++i) {
+        CHECK(std::abs(gpu.samples()[i]) <= 1.00001f);
+        apart += std::abs(gpu.samples()[i] - reference.samples()[i]) > 1e-4f;
+      }
+      CHECK(apart < gpu.sample_count() / 50);
+    }
+  }
+}
+
+TEST_CASE("they are layers of an .exr as denoisers name them, and of paths alone") {
+  const SceneFolder folder;
+  const std::string file = folder / "box.exr";
+  REQUIRE(run_eyeray({"render", "scenes/path/cornell_box.toml", "-s", "8x8", "--spp", "1", "--backend", "twin",
+                      "--aov", "albedo,shading_normal", "-o", file})
+              .code == 0);
+  const std::string text = read_text(file);
+  for (const char* channel : {"albedo.R", "albedo.G", "albedo.B", "shading_normal.X", "shading_normal.Z"})
+    CHECK(text.find(channel) != std::string::npos);
+
+  const ProcessResult refused =
+      run_eyeray({"render", "scenes/whitted.toml", "--aov", "albedo", "-o", folder / "no.pfm"});
+  CHECK(refused.code == 2);
+  CHECK(refused.err ==
+        "eyeray: error: the AOVs albedo and shading_normal are of paths: -D render.integrator=path, or see "
+        "normal\n");
+}
+
+TEST_CASE("samples that stand out are counted; --clamp cuts them, and says that the picture is biased") {
+  const SceneFolder folder;
+  write_text(folder.scene(), sparkling);
+  const auto render = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", folder.scene(), "--backend", "twin", "--json", "-o", folder / "a.pfm"});
+    const ProcessResult result = run_eyeray(more);
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    return std::pair(nlohmann::json::parse(result.out), result.err);
+  };
+  const auto [honest, warned] = render({"--aov", "brightest"});
+  CAPTURE(warned);
+  CHECK(honest.at("fireflies") > 0);
+  CHECK(warned.find(" more than 1000 times as bright as the picture is on the mean") != std::string::npos);
+  CHECK(!honest.contains("clamp"));
+  const Image brightest = read_image(folder / "a.brightest.pfm");
+  CHECK(std::ranges::max(brightest.samples()) > 10);
+
+  const auto [cut, said] = render({"--clamp", "0.5"});
+  CAPTURE(said);
+  CHECK(cut.at("clamp").at("at") == 0.5);
+  CHECK(cut.at("clamp").at("samples") > 0);
+  CHECK(said.find("--clamp makes a biased picture: ") != std::string::npos);
+  CHECK(std::ranges::max(read_image(folder / "a.pfm").samples()) <= 0.5f);
+
+  CHECK(run_eyeray({"verify", folder.scene(), "--clamp", "1"}).code == 2);
+}
+
+TEST_CASE("--stats counts the paths that max_depth cut off, the same by each executor") {
+  const SceneFolder folder;
+  std::vector<uint64_t> counts;
+  for (const std::string backend : {"gpu", "twin"}) {
+    const ProcessResult result =
+        run_eyeray({"render", "scenes/path/cornell_box.toml", "-s", "16x16", "--spp", "4", "--max-depth", "1",
+                    "--stats", "--json", "--backend", backend, "-o", folder / "a.pfm"});
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    CHECK(result.err.find("cut-off paths") != std::string::npos);
+    counts.push_back(nlohmann::json::parse(result.out).at("ray_kinds").at("cut_off"));
+  }
+  CHECK(counts[0] > 0);
+  CHECK(counts[0] == counts[1]);
+}
