@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "host/reference/trail.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::verify {
 namespace {
@@ -51,6 +52,9 @@ compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& rend
       result.rounded.push_back(of(rendered({reference::float32_ray_offset, along_normal, seed, textures})));
     };
     for (const bool along_normal : {false, true}) add_rounded(along_normal, TextureChoice::at_hit);
+    // Weights of random paths ask how far off a ray starts, where a lamp is as near as that: so twice as far.
+    if (walks_at_random(scene.render.integrator))
+      result.rounded.push_back(of(rendered({2 * reference::float32_ray_offset, false, seed})));
     if (shift == Vec2(0.0))
       for (const auto textures : {TextureChoice::darkest, TextureChoice::brightest})
         add_rounded(false, textures);
@@ -85,7 +89,7 @@ compare::PathReference path_neighbours(const Scene& scene, const reference::Rend
     if (reference::trail_of(events) != trail) events.clear();
     return events;
   };
-  paths.variants = 7;
+  paths.variants = 8;
   paths.reference = [&](compare::Pixel pixel, int sample, const Vec2& shift, int variant) {
     const uint32_t seed = seed_of(shift) | 1;
     constexpr double share = reference::float32_ray_offset;
@@ -96,7 +100,8 @@ compare::PathReference path_neighbours(const Scene& scene, const reference::Rend
         {.seed = seed, .numbers = seed},
         {.share = share, .seed = seed, .numbers = seed},
         {.share = share, .along_normal = true, .seed = seed, .coincident = true},
-        {.pivot = variant == 6 ? renderer.pivot(pixel.x, pixel.y, seed) : 0},
+        {.share = 2 * share, .seed = seed},
+        {.pivot = variant == 7 ? renderer.pivot(pixel.x, pixel.y, seed) : 0},
     };
     std::vector<uint32_t> events;
     renderer.sample(pixel.x, pixel.y, uint32_t(sample), shift, ways[variant], reference::Observer(events));
