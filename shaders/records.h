@@ -176,8 +176,7 @@ struct Material {
 #define GGX_ALBEDOS 64u
 #define SHEEN_ALBEDOS 32u
 #define GLASS_ALBEDOS 32u
-#define GLASS_SLICES 16u  // one says what is at its begin and at its end, of (n₂ − n₁) / (n₂ + n₁) from −0.6 to 0.6
-#define GLASS_SPAN 1.2f
+#define GLASS_SLICES 16u  // each says what is at its begin and at its end
 #define FIRST_SHEEN_ALBEDO 4096u
 #define FIRST_GLASS_ALBEDO 5120u
 #define END_OF_ALBEDOS 21504u

@@ -57,11 +57,14 @@ struct Bsdf {
 
 // Whether a lobe sends on light from behind the surface.
 bool transmits(Bsdf bsdf) {
+  float all = 0.0f;
 #if HAS_ROUGH_GLASS
-  return max_component(bsdf.glass) > 0.0f;
-#else
-  return false;
+  all = max_component(bsdf.glass);
 #endif
+#if HAS_THIN
+  all = all + max_component(bsdf.thin);
+#endif
+  return all > 0.0f;
 }
 
 // What all lobes ask of a pair of directions: towards the viewer, towards the light, unit, in the surface's frame.
