@@ -254,10 +254,10 @@ std::string summary(const Picture& picture) {
 std::string firefly_warning(const Picture& picture) {
   if (picture.fireflies == 0 || picture.clamp > 0) return "";
   return fmt::format(
-      "{} sample{} more than {:g} times as bright as the picture is on the mean, and all of {} counts; the "
-      "AOV brightest shows where",
+      "{} sample{} more than {:g} times as bright as the picture is on the mean, and {} in full; the AOV "
+      "brightest shows where",
       picture.fireflies, picture.fireflies == 1 ? " is" : "s are", render::Fireflies::times,
-      picture.fireflies == 1 ? "it" : "them");
+      picture.fireflies == 1 ? "counts" : "count");
 }
 
 std::string clamp_warning(const Picture& picture) {

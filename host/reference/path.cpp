@@ -108,8 +108,8 @@ class PathSample {
   AuxiliarySample auxiliary(Ray ray, MediaStack media);
 
  private:
-  Vec2 pair(uint32_t use) const {
-    const uint32_t number = use + pairs_a_vertex * surfaces();
+  Vec2 pair(uint32_t use) const { return pair_of(use + pairs_a_vertex * surfaces()); }
+  Vec2 pair_of(uint32_t number) const {
     Vec2 pair = sampler(scene_.image.pattern).pair(id_.pixel, id_.index, number, scene_.render.seed);
     // Moved, where it is asked what float32 makes of numbers that are near to a decision.
     if (numbers_ != 0)
@@ -166,8 +166,7 @@ Flight PathSample::fly(const MediaStack& media, const std::optional<Hit>& hit) c
     return {end, false, open ? Vec3(1) : transmittance(medium, end)};
   }
   const Vec3 extinction = medium.absorption + medium.scattering;
-  const Vec2 chance = sampler(scene_.image.pattern)
-                          .pair(id_.pixel, id_.index, first_flight_pair + surfaces(), scene_.render.seed);
+  const Vec2 chance = pair_of(first_flight_pair + surfaces());
   const Vec3 shares = throughput_ / (throughput_.x + throughput_.y + throughput_.z);
   const int channel = chance.x < shares.x ? 0 : chance.x < shares.x + shares.y ? 1 : 2;
   const double t = extinction[channel] > 0 ? -std::log1p(-chance.y) / extinction[channel] : infinity;

@@ -23,7 +23,8 @@ AuxiliaryResult auxiliary_of(Frame frame, Ray camera_ray, uint pixel, uint index
   vec3 white = vec3(1.0f, 1.0f, 1.0f);
   Path path = begin(frame, camera_ray, pixel, index);
   bool going = true;
-  for (uint turn = 0u; turn < frame.max_depth + 2u; turn++) {
+  uint most_turns = (frame.max_depth + 2u) * (MOST_PANES + 1u);
+  for (uint turn = 0u; turn < most_turns; turn++) {
     if (!going) break;
     Ray ray = make_ray(path.o, path.d);
     Hit hit = trace(ray, result.flags);
@@ -40,8 +41,8 @@ AuxiliaryResult auxiliary_of(Frame frame, Ray camera_ray, uint pixel, uint index
 #if HAS_SCATTERING
       if (flight.scattered) result.albedo = medium_albedo(path.media);
 #endif
-      going = !flight.scattered && is_specular(at.bsdf);
       path = scatter(frame, path, at).next;
+      going = !flight.scattered && is_specular(at.bsdf) && path.depth <= frame.max_depth + 1u;
     }
   }
   return result;
