@@ -108,7 +108,7 @@ vec3 path_emitted(Frame frame, Path path, Interaction at) {
 
 // The normal that a light BVH is asked by; 0 where the surface also sends on what comes from behind it.
 vec3 normal_for_lights(Interaction at) {
-  bool all_around = transmits(at.bsdf) || at.in_medium;
+  bool all_around = transmits(at.bsdf) || at.primitive == NONE;  // of a point in a medium
   return all_around ? vec3(0.0f, 0.0f, 0.0f) : at.seen.normal;
 }
 
