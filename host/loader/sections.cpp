@@ -110,8 +110,8 @@ std::span<const Key> material_keys() {
       {.name = "bump_width",
        .type = KeyType::number,
        .doc = "How far to each side heights are compared, and so half the width of a step's slope: in uv, or for "
-              "patterns in space in the world. When absent a texel of an image, else 0.01, in units of the "
-              "pattern.",
+              "patterns in space in the world. When absent a texel of an image, 0.03 units of a pattern, or 0.01 "
+              "of uv.",
        .min = 0,
        .above_min = true,
        .optional = true},
