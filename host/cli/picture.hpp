@@ -61,7 +61,8 @@ struct Picture {
   int samples_done = 0;
   uint64_t rays = 0;
   double sampling_seconds = 0;
-  double seconds = 0;  // all in all
+  double sampling_processor_seconds = 0;  // of all threads together
+  double seconds = 0;                     // all in all
   uint64_t flagged_pixels = 0;
   uint64_t flagged_hits = 0;  // of the AOVs; 0 if none is made of first hits
   uint32_t flags = 0;         // of either
@@ -83,11 +84,11 @@ struct Picture {
 
 // Loads, renders and writes. `files` is empty when it was interrupted before every pixel had a sample, and,
 // for a picture of several bands, before all had all.
-Picture make_picture(PictureRequest request,
-                     const std::function<void(const render::Progress&)>& progress);
+Picture make_picture(PictureRequest request, const std::function<void(const render::Progress&)>& progress);
 // "whitted.png: 640×480, 4 samples a pixel, 1.2 M rays in 0.35 s (3.4 Mrays/s) on gpu: llvmpipe …".
 std::string summary(const Picture& picture);
-// What there is to say of samples that are brighter than others by far; "" where none is, or they are seen to.
+// What there is to say of samples that are brighter than others by far; "" where none is, or they are seen
+// to.
 std::string firefly_warning(const Picture& picture);
 // What --clamp did; "" without it.
 std::string clamp_warning(const Picture& picture);

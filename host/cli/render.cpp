@@ -120,9 +120,10 @@ void add_render(CLI::App& app, Run& run) {
           ->option_text("SHARE")
           ->check(within(1e-4, 1));
   command
-      ->add_option("--clamp", options->request.clamp,
-                   "Cut every sample to this in any channel: no more bright dots, but a biased picture, which "
-                   "is darker than the truth.")
+      ->add_option(
+          "--clamp", options->request.clamp,
+          "Cut every sample to this in any channel: no more bright dots, but a biased picture, which "
+          "is darker than the truth.")
       ->option_text("X")
       ->check(within(1e-6, 1e15));
   command->add_flag(

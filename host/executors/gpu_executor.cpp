@@ -266,8 +266,8 @@ class GpuExecutor final : public Executor {
   Workgroups workgroups_;
   std::optional<SceneKernels> kernels_;
   std::optional<GpuQueries> queries_;
-  std::optional<Wavefront> wavefront_;          // makes samples,
-  std::shared_ptr<gpu::Kernel> sample_kernel_;  // or else this
+  std::optional<Wavefront> wavefront_;                          // makes samples,
+  std::shared_ptr<gpu::Kernel> sample_kernel_;                  // or else this
   std::shared_ptr<gpu::Kernel> auxiliary_kernel_, hit_kernel_;  // null until they are asked for
   DispatchSize dispatch_size_;
 };

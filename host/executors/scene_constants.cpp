@@ -41,12 +41,11 @@ std::string literal(const shader::Primitive& p) {
   return record_literal("Primitive", p.id, p.material_and_kind, p.optical_depth, p.extra, p.a, p.b, p.c);
 }
 std::string literal(const shader::Material& m) {
-  return record_literal("Material", m.kind, m.flags, m.medium, m.optical_depth, m.base, m.specular,
-                        m.reflected, m.ambient, m.emission, m.alpha, m.alpha_cutoff, m.shininess, m.a,
-                        m.color, m.roughness, m.metallic, m.coat, m.b, m.c, m.coat_roughness,
-                        m.specular_level, m.transmission, m.specular_color, m.sheen, m.sheen_roughness,
-                        m.normal_map, m.normal_scale, m.bump, m.bump_height, m.bump_width, m.unused_0,
-                        m.unused_1);
+  return record_literal(
+      "Material", m.kind, m.flags, m.medium, m.optical_depth, m.base, m.specular, m.reflected, m.ambient,
+      m.emission, m.alpha, m.alpha_cutoff, m.shininess, m.a, m.color, m.roughness, m.metallic, m.coat, m.b,
+      m.c, m.coat_roughness, m.specular_level, m.transmission, m.specular_color, m.sheen, m.sheen_roughness,
+      m.normal_map, m.normal_scale, m.bump, m.bump_height, m.bump_width, m.unused_0, m.unused_1);
 }
 std::string literal(const shader::Texture& t) {
   return record_literal("Texture", t.color, t.kind, t.a, t.b, t.c);
@@ -67,7 +66,8 @@ std::string literal(const shader::Frame& f) {
                         f.min_throughput, f.up, f.pixel_width, f.forward, f.pixel_height, f.background,
                         f.emitter_count, f.ambient, f.aperture, f.sharpness, f.blade_rotation, f.blades,
                         f.pixel_filter, f.environment_width, f.environment_height, f.environment_numbers,
-                        f.environment_turn, f.filter_width, f.light_bvh_numbers, f.camera_formula, f.unused_0);
+                        f.environment_turn, f.filter_width, f.light_bvh_numbers, f.camera_formula,
+                        f.unused_0);
 }
 
 // A loader that chooses among constants. A driver that runs both sides of every branch selects between

@@ -33,12 +33,14 @@ bool any_reflects(const records::PackedScene& scene) {
 
 bool varies(const records::PackedScene& scene, const shader::Material& material) {
   // What bends normals asks at least how uv grow.
-  return bends(material) || std::ranges::any_of(
-      std::array{material.base, material.specular, material.reflected, material.color, material.roughness,
-                 material.metallic, material.coat, material.coat_roughness, material.specular_level,
-                 material.transmission, material.specular_color, material.sheen, material.sheen_roughness,
-                 material.ambient, material.emission, material.alpha},
-      [&](uint32_t texture) { return varies(scene.textures[texture]); });
+  return bends(material) ||
+         std::ranges::any_of(
+             std::array{material.base, material.specular, material.reflected, material.color,
+                        material.roughness, material.metallic, material.coat, material.coat_roughness,
+                        material.specular_level, material.transmission, material.specular_color,
+                        material.sheen, material.sheen_roughness, material.ambient, material.emission,
+                        material.alpha},
+             [&](uint32_t texture) { return varies(scene.textures[texture]); });
 }
 
 bool any_emits(const records::PackedScene& scene) {

@@ -350,9 +350,10 @@ void Builder::check_paths() {
                              (*glass)->name));
   if (scene_.lights.empty() && lamps.sampled.empty() && unsampled.empty() &&
       scene_.render.background == Vec3(0) && !scene_.environment)
-    log_.warning({},
-                 "nothing shines: there is no [[light]], no `emission`, no `background` and no [environment]; "
-                 "the picture will be black");
+    log_.warning(
+        {},
+        "nothing shines: there is no [[light]], no `emission`, no `background` and no [environment]; "
+        "the picture will be black");
   const auto from_afar = [&](const auto& light) {
     return std::isinf(light->illuminate(scene_.camera.eye).distance);
   };
@@ -360,9 +361,10 @@ void Builder::check_paths() {
   if (glm::all(glm::greaterThan(extinction, Vec3(0))) &&
       (scene_.environment || scene_.render.background != Vec3(0) ||
        std::ranges::any_of(scene_.lights, from_afar)))
-    log_.warning({},
-                 "[medium] has no end: light from infinitely far away, of an environment, a `background` or a "
-                 "directional light, is lost in it");
+    log_.warning(
+        {},
+        "[medium] has no end: light from infinitely far away, of an environment, a `background` or a "
+        "directional light, is lost in it");
   if (!unsampled.empty())
     log_.warning(
         unsampled.front(),

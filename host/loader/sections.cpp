@@ -87,8 +87,9 @@ std::span<const Key> material_keys() {
        .choices = emission_sides},
       {.name = "normal",
        .type = KeyType::texture,
-       .doc = "A normal map, as glTF has them: which way the surface seems to face, in tangent space, red along "
-              "u, green along v, [0.5, 0.5, 1] straight out. Codes of an image count as they are.",
+       .doc =
+           "A normal map, as glTF has them: which way the surface seems to face, in tangent space, red along "
+           "u, green along v, [0.5, 0.5, 1] straight out. Codes of an image count as they are.",
        .max = 1,
        .optional = true},
       {.name = "normal_scale",
@@ -99,7 +100,8 @@ std::span<const Key> material_keys() {
        .max = 1000},
       {.name = "bump",
        .type = KeyType::texture,
-       .doc = "Heights by which the surface seems to rise, 0 where it is black. Of a color the luminance counts, "
+       .doc = "Heights by which the surface seems to rise, 0 where it is black. Of a color the luminance "
+              "counts, "
               "codes of an image as they are.",
        .max = 1,
        .optional = true},
@@ -109,8 +111,10 @@ std::span<const Key> material_keys() {
        .fallback = "0.1"},
       {.name = "bump_width",
        .type = KeyType::number,
-       .doc = "How far to each side heights are compared, and so half the width of a step's slope: in uv, or for "
-              "patterns in space in the world. When absent a texel of an image, 0.03 units of a pattern, or 0.01 "
+       .doc = "How far to each side heights are compared, and so half the width of a step's slope: in uv, or "
+              "for "
+              "patterns in space in the world. When absent a texel of an image, 0.03 units of a pattern, or "
+              "0.01 "
               "of uv.",
        .min = 0,
        .above_min = true,

@@ -211,8 +211,8 @@ RenderSettings read_render(TableReader& table) {
   if (walks_at_random(render.integrator)) render.max_depth = 16;
   if (table.has("max_depth")) render.max_depth = static_cast<int>(table.integer("max_depth"));
   if (constexpr int most_waiting = 64; render.max_depth > most_waiting && !walks_at_random(render.integrator))
-    table.error("max_depth", fmt::format("`max_depth` must be at most {}, but for the integrator \"path\"",
-                                         most_waiting));
+    table.error("max_depth",
+                fmt::format("`max_depth` must be at most {}, but for the integrator \"path\"", most_waiting));
   render.min_throughput = table.number("min_throughput");
   render.seed = static_cast<uint32_t>(table.integer("seed"));
   render.light_sampler = static_cast<LightSampler>(table.choice("light_sampler"));

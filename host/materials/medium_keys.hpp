@@ -18,8 +18,9 @@ inline constexpr Key scattering_key = {
 inline constexpr Key anisotropy_key = {
     .name = "anisotropy",
     .type = KeyType::number,
-    .doc = "Where to: the mean cosine of the angle by which scattered light is turned. Above 0 it goes on "
-           "more or less as it came.",
+    .doc =
+        "Where to: the mean cosine of the angle by which scattered light is turned. Above 0 it goes on "
+        "more or less as it came.",
     .fallback = "0",
     .min = -most_anisotropy,
     .max = most_anisotropy};

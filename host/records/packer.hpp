@@ -57,8 +57,8 @@ struct PackedScene {
   bool may_reach_iteration_limit = false;  // whether any shape may return T_ITERATION_LIMIT
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
-  size_t texel_count = 0;                             // of `texels`, written or not; 0 without images
-  std::vector<uint32_t> texels;                       // records.h says how
+  size_t texel_count = 0;        // of `texels`, written or not; 0 without images
+  std::vector<uint32_t> texels;  // records.h says how
   std::vector<shader::Medium> media{{{0, 0, 0}, 1, {0, 0, 0}, 0}};  // by number; 0 is around all
   std::vector<shader::Light> lights;
   RawVector<shader::uvec4> environment;        // records.h says how; empty without one, or not written

@@ -124,9 +124,9 @@ ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : bsdf_(bsdf), o_(o) {
   passed_ = under * let_in;
   Vec3 albedos[lobes];
   albedos[diffuse] = under * bsdf.diffuse * let_in;
-  albedos[glossy] = under * bsdf.covered *
-                    (bsdf.glossy.conductor ? bsdf.glossy.mean * albedo.once
-                                           : once(bsdf.glossy, albedo.once, albedo.edge));
+  albedos[glossy] =
+      under * bsdf.covered *
+      (bsdf.glossy.conductor ? bsdf.glossy.mean * albedo.once : once(bsdf.glossy, albedo.once, albedo.edge));
   albedos[multiple] = under * bsdf.covered * often(bsdf.glossy, albedo) * (1 - albedo.once);
   albedos[coat] = Vec3(1 - coated);
   albedos[glass] = under * bsdf.glass;

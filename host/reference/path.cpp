@@ -133,8 +133,8 @@ class PathSample {
   Vec3 direct_on(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                  const MediaStack& media);
   Vec3 direct_in(const Interaction& at, const MediaStack& media);
-  std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, double chance, uint32_t way,
-                               bool straight = false);
+  std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, double chance,
+                               uint32_t way, bool straight = false);
   std::optional<Ray> scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                              MediaStack& media);
 
@@ -265,7 +265,8 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
                   light};
 }
 
-// What that brings to the viewer by a vertex that sends on `scattered`; all but panes keeps the ray in `media`.
+// What that brings to the viewer by a vertex that sends on `scattered`; all but panes keeps the ray in
+// `media`.
 Vec3 PathSample::direct(const Interaction& at, const Arriving& light, const BsdfValue& scattered,
                         const MediaStack& media) {
   const double weight = light.density > 0 ? power_heuristic(light.density, scattered.density) : 1;

@@ -47,8 +47,7 @@ PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const Ray
   const Ray ray = eye_ray(aim, shift, ray_offset.pivot);
   const IntegratorType type = scene_.render.integrator;
   observer.ray(RayKind::eye, ray, 0);
-  PixelSample sample =
-      integrator(type).sample(tracer_, id(x, y, index), ray, media_, ray_offset, observer);
+  PixelSample sample = integrator(type).sample(tracer_, id(x, y, index), ray, media_, ray_offset, observer);
   if (traits_of(type).ways > 0) sample.flags |= flags_;
   return sample;
 }

@@ -11,10 +11,10 @@ namespace eyeray::reference {
 
 // Where a ray hits a surface, seen from the viewer's side.
 struct Interaction {
-  SurfacePoint surface;  // both normals towards where the ray came from
-  Vec3 d;                // unit, of the ray
-  double cos_view = 0;   // between the shading normal and the way back, in [0, 1]
-  uint64_t primitive;    // ~0: none, but a point of a medium
+  SurfacePoint surface;     // both normals towards where the ray came from
+  Vec3 d;                   // unit, of the ray
+  double cos_view = 0;      // between the shading normal and the way back, in [0, 1]
+  uint64_t primitive;       // ~0: none, but a point of a medium
   bool has_medium = false;  // its material fills it
   Vec3 dimming{1};          // what the medium leaves of the light on its way here
   double ior_before = 1, ior_beyond = 1;

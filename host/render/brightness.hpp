@@ -16,7 +16,8 @@ class Brightness {
   uint64_t above(double luminance) const;
 
  private:
-  std::array<uint64_t, 2048> counts_{};  // by the upper bits of a float32: exponent, and three of its fraction
+  std::array<uint64_t, 2048>
+      counts_{};  // by the upper bits of a float32: exponent, and three of its fraction
 };
 
 }  // namespace eyeray::render

@@ -7,6 +7,7 @@
 
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
+#include "host/core/processor_time.hpp"
 #include "host/core/termination.hpp"
 #include "host/render/adaptive.hpp"
 #include "host/render/brightness.hpp"
@@ -49,7 +50,8 @@ class Driver {
         sink_(sink),
         crop_(options.crop.pixels() ? options.crop : Rect{0, 0, scene.image.width, scene.image.height}),
         samples_(scene.image.samples),
-        counted_{.kinds = options.pixel_kinds, .noise = options.pixel_noise || options.noise > 0,
+        counted_{.kinds = options.pixel_kinds,
+                 .noise = options.pixel_noise || options.noise > 0,
                  .brightest = options.pixel_brightest,
                  .auxiliary = options.pixel_auxiliary},
         shown_as_one_(std::exp2(-scene.image.tone.exposure)),
@@ -156,6 +158,7 @@ class Driver {
     for (const Rect& part : parts) pixels += size_t(part.pixels());
     tile_samples_.resize(pixels);
     const Stopwatch watch;
+    const double processor_before = processor_seconds();
     std::span<PixelSample> left = tile_samples_;
     if (counted_.auxiliary) tile_auxiliaries_.resize(pixels);
     std::span<AuxiliarySample> auxiliaries = tile_auxiliaries_;
@@ -178,6 +181,7 @@ class Driver {
     }
     at_a_time_.took(watch.seconds());
     totals_.seconds += watch.seconds();
+    totals_.processor_seconds += processor_seconds() - processor_before;
     auxiliaries = tile_auxiliaries_;
     brightness_.add(tile_samples_);
     if (options_.clamp > 0) clamp_samples();
@@ -272,7 +276,8 @@ class Driver {
     totals.flags = uint32_t(position_.flags);
     totals.bands = bands();
     totals.samples_taken = progress_.samples_done;
-    totals.fireflies.samples = brightness_.above(Fireflies::times * luminances_given_ / double(crop_.pixels()));
+    totals.fireflies.samples =
+        brightness_.above(Fireflies::times * luminances_given_ / double(crop_.pixels()));
     totals.samples_total = progress_.samples_total;
     return totals;
   }

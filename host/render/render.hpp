@@ -41,7 +41,8 @@ struct RenderOptions {
   // Above 0, pixels whose noise (PixelSums::noise) is no more take no more samples (render/adaptive.hpp), and
   // scene.image.samples is the most that one takes.
   double noise = 0;
-  double clamp = 0;  // above 0, samples count for no more than this in any channel, which makes means too dark
+  double clamp =
+      0;  // above 0, samples count for no more than this in any channel, which makes means too dark
   // Is shown each sample of a tile of the whole picture, as it is taken; may be empty.
   std::function<void(const Rect& tile, uint32_t index, std::span<const PixelSample>)> witness;
   Checkpoint* checkpoint = nullptr;  // kept and resumed from; see render_rows
@@ -61,9 +62,10 @@ struct RenderTotals {
   int samples_done = 0;  // that every pixel of the picture has, and with RenderOptions::noise some have more
   int bands = 1;         // in which the picture was rendered
   bool interrupted = false;
-  double seconds = 0;          // of this run, of sampling alone
-  uint64_t samples_taken = 0;  // of pixels, resumed ones included
-  uint64_t samples_total = 0;  // as in Progress
+  double seconds = 0;            // of this run, of sampling alone
+  double processor_seconds = 0;  // the same, of all threads together
+  uint64_t samples_taken = 0;    // of pixels, resumed ones included
+  uint64_t samples_total = 0;    // as in Progress
   uint64_t samples_resumed = 0;
   uint64_t rays_resumed = 0;
   RayCounts ray_kinds;   // of this run, where they were asked for

@@ -11,7 +11,8 @@ namespace eyeray::render {
 
 // Rows from the top down; of each its pixels from left to right: the mean colour, the mean of `hits` and
 // `rays_traced`, the samples and the flags, seven float32, and, if they have them, three of the kinds, one of
-// the noise, one of the brightest sample and six of albedo and normal; little-endian. Every failure is an Error (file_io).
+// the noise, one of the brightest sample and six of albedo and normal; little-endian. Every failure is an
+// Error (file_io).
 class RowStore {
  public:
   // Touches nothing yet.

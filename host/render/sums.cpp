@@ -82,10 +82,11 @@ double PixelSums::noise(const Rect& block) const {
 }
 
 FinishedRows PixelSums::mean(int first, int count) const {
-  FinishedRows rows(first, width_, count, {.kinds = !kinds_.empty(),
-                                       .noise = !squares_.empty(),
-                                       .brightest = !brightest_.empty(),
-                                       .auxiliary = !auxiliaries_.empty()});
+  FinishedRows rows(first, width_, count,
+                    {.kinds = !kinds_.empty(),
+                     .noise = !squares_.empty(),
+                     .brightest = !brightest_.empty(),
+                     .auxiliary = !auxiliaries_.empty()});
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < width_; ++x) {
       const Pixel& sums = pixel(x, first + y);

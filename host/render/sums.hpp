@@ -49,7 +49,7 @@ struct FinishedRows {
   image::Image noise;           // 1 channel: PixelSums::noise of a pixel's block
   image::Image brightest;       // 1 channel: the greatest luminance of a sample
   image::Image albedo, normal;  // 3 channels each: of AuxiliarySample, the mean of the samples
-  image::Image flagged;  // 1 channel: the SampleFlags of all samples of a pixel, as a number
+  image::Image flagged;         // 1 channel: the SampleFlags of all samples of a pixel, as a number
   uint64_t flagged_pixels = 0;
   uint32_t flags = 0;
 };
@@ -119,8 +119,8 @@ class PixelSums {
   int width_ = 0;
   int height_ = 0;
   std::vector<Pixel> pixels_;
-  std::vector<Kinds> kinds_;     // as many, or none
-  std::vector<double> squares_;  // of the samples' luminances; as many, or none
+  std::vector<Kinds> kinds_;            // as many, or none
+  std::vector<double> squares_;         // of the samples' luminances; as many, or none
   std::vector<float> brightest_;        // likewise
   std::vector<Auxiliary> auxiliaries_;  // likewise
   double shown_as_one_ = 1;

@@ -19,9 +19,9 @@ namespace records {
 class Packer;  // records/packer.hpp
 }
 
-// What fills a closed shape, or all that is outside of them. Light is weakened by exp(−absorption · distance),
-// and for paths also by scattering, which sends it elsewhere. By Henyey and Greenstein: g, the mean cosine of
-// the angle by which it is turned.
+// What fills a closed shape, or all that is outside of them. Light is weakened by exp(−absorption ·
+// distance), and for paths also by scattering, which sends it elsewhere. By Henyey and Greenstein: g, the
+// mean cosine of the angle by which it is turned.
 struct Medium {
   double ior = 1.0;
   Vec3 absorption{0.0};  // per unit of length, as scattering

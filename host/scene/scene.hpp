@@ -73,7 +73,7 @@ struct Scene {
   Camera camera;
   RenderSettings render;
   VerifySettings verify;
-  Medium medium;  // around all, for paths; of ior 1
+  Medium medium;                                      // around all, for paths; of ior 1
   std::shared_ptr<const EnvironmentMap> environment;  // in place of the background; null where there is none
   std::vector<std::unique_ptr<Light>> lights;
   std::vector<std::unique_ptr<Material>> materials;

@@ -1,4 +1,5 @@
-// eyeray render --aov albedo,shading_normal: what denoisers ask for. And what is said of samples that stand out.
+// eyeray render --aov albedo,shading_normal: what denoisers ask for. And what is said of samples that stand
+// out.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -83,8 +84,8 @@ TEST_CASE("albedo and normal for denoisers: the same of gpu and twin, and of the
 TEST_CASE("they are layers of an .exr as denoisers name them, and of paths alone") {
   const SceneFolder folder;
   const std::string file = folder / "box.exr";
-  REQUIRE(run_eyeray({"render", "scenes/path/cornell_box.toml", "-s", "8x8", "--spp", "1", "--backend", "twin",
-                      "--aov", "albedo,shading_normal", "-o", file})
+  REQUIRE(run_eyeray({"render", "scenes/path/cornell_box.toml", "-s", "8x8", "--spp", "1", "--backend",
+                      "twin", "--aov", "albedo,shading_normal", "-o", file})
               .code == 0);
   const std::string text = read_text(file);
   for (const char* channel : {"albedo.R", "albedo.G", "albedo.B", "shading_normal.X", "shading_normal.Z"})
@@ -102,7 +103,8 @@ TEST_CASE("samples that stand out are counted; --clamp cuts them, and says that 
   const SceneFolder folder;
   write_text(folder.scene(), sparkling);
   const auto render = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"render", folder.scene(), "--backend", "twin", "--json", "-o", folder / "a.pfm"});
+    more.insert(more.begin(),
+                {"render", folder.scene(), "--backend", "twin", "--json", "-o", folder / "a.pfm"});
     const ProcessResult result = run_eyeray(more);
     CAPTURE(result.err);
     REQUIRE(result.code == 0);

@@ -103,7 +103,8 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Material, bump_width),
                 MEMBER(Material, unused_0),
                 MEMBER(Material, unused_1)});
-  check_struct(samples, "Medium", sizeof(shader::Medium), {MEMBER(Medium, absorption), MEMBER(Medium, ior), MEMBER(Medium, scattering),
+  check_struct(samples, "Medium", sizeof(shader::Medium),
+               {MEMBER(Medium, absorption), MEMBER(Medium, ior), MEMBER(Medium, scattering),
                 MEMBER(Medium, anisotropy)});
   check_struct(samples, "Texture", sizeof(shader::Texture),
                {MEMBER(Texture, color), MEMBER(Texture, kind), MEMBER(Texture, a), MEMBER(Texture, b),

@@ -1,7 +1,7 @@
 // Media that scatter light, where the answer is known.
-#include "tests/support/estimate.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
+#include "tests/support/estimate.hpp"
 
 #include "tests/support/doctest.hpp"
 
@@ -89,8 +89,7 @@ TEST_CASE("a white medium within a lamp: shadow rays and paths share one light")
     scene.render.max_depth = 500;
     scene.medium.scattering = Vec3(0.4, 0.1, 0.8);
     scene.medium.anisotropy = g;
-    add(scene, make_sphere({0, 0, 0}, 2),
-        add(scene, make_phong({.diffuse = gray(0), .emission = gray(1)})));
+    add(scene, make_sphere({0, 0, 0}, 2), add(scene, make_phong({.diffuse = gray(0), .emission = gray(1)})));
     check(scene, 1, 1e-4);
   }
 }
@@ -102,7 +101,8 @@ TEST_CASE("light of a point that fog scatters once") {
     const double scattering = 0.2, absorption = 0.1, ahead = 3;
     Scene scene = patch({0, 0, ahead}, {0, 0, 0}, 4096);
     scene.render.max_depth = 0;
-    scene.medium = {.absorption = Vec3(absorption), .scattering = Vec3(scattering, 0.1, 0.4), .anisotropy = g};
+    scene.medium = {
+        .absorption = Vec3(absorption), .scattering = Vec3(scattering, 0.1, 0.4), .anisotropy = g};
     add_point_light(scene, {0, 1, 0}, Vec3(2), Falloff::inverse_square);
     const double expected = integral(0, 60, [&](double t) {
       const double along = ahead - t, d = std::sqrt(1 + along * along);
@@ -114,8 +114,8 @@ TEST_CASE("light of a point that fog scatters once") {
   }
 }
 
-// Chandrasekhar, Radiative Transfer, 1950: 1/H(μ) = √(1 − ϖ) + ½ϖ ∫ μ' H(μ') / (μ + μ') dμ'. Light that comes evenly from everywhere is
-// sent back as 1 − H(μ) √(1 − ϖ).
+// Chandrasekhar, Radiative Transfer, 1950: 1/H(μ) = √(1 − ϖ) + ½ϖ ∫ μ' H(μ') / (μ + μ') dμ'. Light that comes
+// evenly from everywhere is sent back as 1 − H(μ) √(1 − ϖ).
 TEST_CASE("half of space, filled with what scatters evenly, in light from everywhere") {
   const double albedo = 0.8, mu = 0.6, root = std::sqrt(1 - albedo);
   constexpr int steps = 400;
@@ -135,8 +135,8 @@ TEST_CASE("half of space, filled with what scatters evenly, in light from everyw
   scene.render.background = Vec3(1);
   const Vec3 extinction(1, 2, 0.5);
   add(scene, make_plane({0, 0, 0}, {0, 1, 0}),
-      add(scene, make_dielectric({.ior = 1,
-                                  .absorption = (1 - albedo) * extinction,
-                                  .scattering = albedo * extinction})));
+      add(scene,
+          make_dielectric(
+              {.ior = 1, .absorption = (1 - albedo) * extinction, .scattering = albedo * extinction})));
   check(scene, 1 - root / one_over(mu), 1e-4);
 }
