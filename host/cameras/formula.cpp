@@ -73,9 +73,7 @@ class FormulaProjection final : public Projection {
     return std::make_shared<FormulaProjection>(formula_, wider_ * factor);
   }
 
-  std::vector<CameraFact> facts(const Vec2&) const override {
-    return {{"function", formula_->title(), {}}};
-  }
+  std::vector<CameraFact> facts(const Vec2&) const override { return {{"function", formula_->title(), {}}}; }
 
  private:
   // In the camera's axes.

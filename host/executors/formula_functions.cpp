@@ -97,7 +97,8 @@ std::string formula_functions(const records::PackedScene& scene) {
     rows += fmt::format(" X({0}u, formula{0})", i);
     text += surface_functions(i, scene.formulas[i]);
   }
-  return text + color_functions(scene.formulas) + camera_functions(scene.formulas) + "#define FORMULAS(X)" + rows + "\n";
+  return text + color_functions(scene.formulas) + camera_functions(scene.formulas) + "#define FORMULAS(X)" +
+         rows + "\n";
 }
 
 }  // namespace eyeray::executors

@@ -214,7 +214,8 @@ const expression::StraightLine& Formula::straight_line() const {
     try {
       expression::Expression expression;
       Execution execution(compiled_->module, expression);
-      straight_line_ = expression::straight_line(expression, execution.run(mangled(entry_of(compiled_->kind))));
+      straight_line_ =
+          expression::straight_line(expression, execution.run(mangled(entry_of(compiled_->kind))));
       if (straight_line_.size() > most_steps)
         throw InputError(
             {{Severity::error,

@@ -247,9 +247,9 @@ bool Judge::defines(const Entry& entry) const {
 void Judge::judge_entries() {
   t_.has_other = kind_ != FormulaKind::color && defines(other_entry_of(kind_));
   if (const Entry entry = entry_of(kind_); !defines(entry))
-    faults_.push_back({1, 1,
-                       fmt::format("the text must have a function `{} {}({})`", entry.type, entry.name,
-                                   entry.written)});
+    faults_.push_back(
+        {1, 1,
+         fmt::format("the text must have a function `{} {}({})`", entry.type, entry.name, entry.written)});
 }
 
 }  // namespace

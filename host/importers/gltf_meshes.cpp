@@ -110,7 +110,8 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   const auto colors = attributes->index("COLOR_0", accessors);
   // What bends a mesh does not say what it makes of them.
   auto tangents = attributes->index("TANGENT", accessors);
-  const bool bent = !pose.joints.empty() || std::ranges::any_of(pose.weights, [](double w) { return w != 0; });
+  const bool bent =
+      !pose.joints.empty() || std::ranges::any_of(pose.weights, [](double w) { return w != 0; });
   if (bent || !normals || !uv) tangents.reset();
   if (uv_use.taken && !uv)
     breaches_.add("meshes without the uv that their material's picture takes", primitive.place());
@@ -129,7 +130,8 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
     breaches_.add("normals that are not of unit length, normalised", attributes->place() + ".NORMAL");
   if (tangents) pool.tangents = buffers_.vec4(*tangents);
   if (!std::ranges::all_of(pool.tangents, is_direction)) {
-    breaches_.add("meshes with tangents that are no directions, made of their uv instead", attributes->place());
+    breaches_.add("meshes with tangents that are no directions, made of their uv instead",
+                  attributes->place());
     pool.tangents.clear();
     tangents.reset();
   }

@@ -53,8 +53,8 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
                       (bends ? CORNERS_GRADIENTS : 0u) | (tangents ? CORNERS_TANGENTS : 0u)};
     if (uv) corners[1] = records::to_bits(records::to_vec4({mesh.uv[v0].y, mesh.uv[v1].y, mesh.uv[v2].y}));
     if (!bends) return;
-    const auto gradients = uv_gradients(this->corners(uint32_t(i)),
-                                        uv ? std::array{mesh.uv[v0], mesh.uv[v1], mesh.uv[v2]} : corner_weights);
+    const auto gradients = uv_gradients(
+        this->corners(uint32_t(i)), uv ? std::array{mesh.uv[v0], mesh.uv[v1], mesh.uv[v2]} : corner_weights);
     corners[corner_records_ - 2] = records::to_bits(records::to_vec4(gradients.u));
     corners[corner_records_ - 1] = records::to_bits(records::to_vec4(gradients.v));
   });

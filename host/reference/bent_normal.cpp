@@ -41,7 +41,8 @@ Vec3 bumped(const BumpMap& map, const SurfacePoint& point, const Vec3& n) {
   if (map.texture->in_space()) {
     const auto [s, t] = tangents(n);
     const auto along = [&](const Vec3& d) {
-      return rise(map, {point.uv, point.position - map.width * d}, {point.uv, point.position + map.width * d});
+      return rise(map, {point.uv, point.position - map.width * d},
+                  {point.uv, point.position + map.width * d});
     };
     return glm::normalize(n - along(s) * s - along(t) * t);
   }
@@ -53,8 +54,9 @@ Vec3 bumped(const BumpMap& map, const SurfacePoint& point, const Vec3& n) {
   const double area = glm::length(across);
   if (!(area > 0 && std::isfinite(area))) return n;
   const Vec3 flat = across / area;
-  const Vec3 slope = -(along({1, 0}) * glm::cross(flat, point.along_v) -
-                       along({0, 1}) * glm::cross(flat, point.along_u)) / area;
+  const Vec3 slope =
+      -(along({1, 0}) * glm::cross(flat, point.along_v) - along({0, 1}) * glm::cross(flat, point.along_u)) /
+      area;
   const Vec3 bent = n - (slope - n * glm::dot(n, slope));
   return usable(bent) ? glm::normalize(bent) : n;
 }

@@ -25,7 +25,8 @@ SurfacePoint InstanceMap::out(const SurfacePoint& local) const {
   point.normal = unit(shading);
   point.along_u = to_world_.linear * local.along_u;
   point.along_v = to_world_.linear * local.along_v;
-  point.tangent = Vec4(to_world_.linear * Vec3(local.tangent), local.tangent.w * (to_world_.mirrors() ? -1 : 1));
+  point.tangent =
+      Vec4(to_world_.linear * Vec3(local.tangent), local.tangent.w * (to_world_.mirrors() ? -1 : 1));
 
   // The next ray starts here and goes back into the space: there it may be off by the rounding of both maps,
   // which counts across the surface. A distance e across it is e / |across| in the world.

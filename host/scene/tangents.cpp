@@ -14,7 +14,8 @@ namespace {
 // Appends another vertex like that one.
 uint32_t split(Mesh& mesh, uint32_t vertex) {
   const auto again = [&](auto& values) {
-    if (!values.empty()) values.push_back(typename std::decay_t<decltype(values)>::value_type(values[vertex]));
+    if (!values.empty())
+      values.push_back(typename std::decay_t<decltype(values)>::value_type(values[vertex]));
   };
   again(mesh.positions);
   again(mesh.normals);
@@ -32,7 +33,7 @@ Vec3 across(const Vec3& d, const Vec3& n) {
 
 void add_tangents(Mesh& mesh) {
   constexpr uint32_t none = ~uint32_t{0};
-  std::vector<Vec4> sums(mesh.positions.size(), Vec4(0));  // in w the side of v; 0: not known yet
+  std::vector<Vec4> sums(mesh.positions.size(), Vec4(0));    // in w the side of v; 0: not known yet
   std::vector<uint32_t> other(mesh.positions.size(), none);  // the vertex for the other side
   for (auto& triangle : mesh.triangles) {
     const auto [a, b, c] = triangle;

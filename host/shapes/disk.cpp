@@ -68,8 +68,7 @@ class Disk final : public ObjectShape {
   }
 
   Point point(const Vec3& near, const Intersection&) const override {
-    return {
-        {near.x, 0, near.z}, {0, 1, 0}, {0.5 + 0.5 * near.x, 0.5 - 0.5 * near.z}, {2, 0, 0}, {0, 0, -2}};
+    return {{near.x, 0, near.z}, {0, 1, 0}, {0.5 + 0.5 * near.x, 0.5 - 0.5 * near.z}, {2, 0, 0}, {0, 0, -2}};
   }
 
   Bounds extent() const override { return {{-1, 0, -1}, {1, 0, 1}}; }

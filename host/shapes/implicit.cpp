@@ -172,7 +172,7 @@ class Implicit final : public ObjectShape {
       const int face = int(hit.u);
       const Vec3 p = cube::onto(face, near);
       const auto [along_u, along_v] = cube::along_uv(face, cube::normal(face));
-    return {p, cube::normal(face), cube::uv(face, p), along_u, along_v};
+      return {p, cube::normal(face), cube::uv(face, p), along_u, along_v};
     }
     const FormulaSurface surface(use_);
     Vec3 gradient = surface.gradient(near);

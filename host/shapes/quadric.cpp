@@ -160,7 +160,7 @@ class Quadric final : public ObjectShape {
       const int face = int(hit.u);
       const Vec3 p = cube::onto(face, near);
       const auto [along_u, along_v] = cube::along_uv(face, cube::normal(face));
-    return {p, cube::normal(face), cube::uv(face, p), along_u, along_v};
+      return {p, cube::normal(face), cube::uv(face, p), along_u, along_v};
     }
     // One step of Newton's along the gradient; where that is 0 there is nowhere to go.
     Vec3 gradient = form_.gradient(near);

@@ -118,11 +118,10 @@ class Triangle final : public Shape {
       const uint32_t first = packer.add_vertices({records::to_bits(records::to_vec4(n[0], uv[0].x)),
                                                   records::to_bits(records::to_vec4(n[1], uv[1].x)),
                                                   records::to_bits(records::to_vec4(n[2], uv[2].x))});
-      attributes = packer.add_vertices(
-          {{first, first + 1, first + 2,
-            (normals_ ? CORNERS_NORMALS : 0u) | (has_uv ? CORNERS_UV : 0u) |
-                (bends ? CORNERS_GRADIENTS : 0u)},
-           records::to_bits(records::to_vec4({uv[0].y, uv[1].y, uv[2].y}))});
+      attributes = packer.add_vertices({{first, first + 1, first + 2,
+                                         (normals_ ? CORNERS_NORMALS : 0u) | (has_uv ? CORNERS_UV : 0u) |
+                                             (bends ? CORNERS_GRADIENTS : 0u)},
+                                        records::to_bits(records::to_vec4({uv[0].y, uv[1].y, uv[2].y}))});
       if (bends) {
         const UvGradients gradients = uv_gradients(vertices_, uv);
         packer.add_vertices({records::to_bits(records::to_vec4(gradients.u)),

@@ -118,9 +118,7 @@ class Image final : public Texture {
   }
   TexturePtr as_data() const override { return std::make_shared<Image>(image_, false, tint_, size_); }
   // A texel.
-  double detail() const override {
-    return std::min(size_.x / image_->width, size_.y / image_->height);
-  }
+  double detail() const override { return std::min(size_.x / image_->width, size_.y / image_->height); }
 
   uint32_t pack(records::Packer& packer) const override {
     return packer.add(shader::Texture{.color = glm::vec3(tint_),

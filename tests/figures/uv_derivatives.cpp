@@ -68,13 +68,15 @@ shader::Surface surface_of(const PackedScene& scene, const shader::Ray& ray, uin
 }
 
 void look(const Shape& shape, const PackedScene& scene, const Ray& ray, double size, Counts& counts) {
-  const auto hit = shape.intersect(ray), aside = shape.intersect({ray.o + Vec3(1e-6, 2e-6, -1e-6) * size, ray.d});
+  const auto hit = shape.intersect(ray),
+             aside = shape.intersect({ray.o + Vec3(1e-6, 2e-6, -1e-6) * size, ray.d});
   if (!hit || hit->iteration_limit || !aside || aside->iteration_limit) return;
   const SurfacePoint point = shape.surface(ray, *hit);
   if (std::abs(glm::dot(point.normal_geometric, ray.d)) < 0.1) return;
   const SurfacePoint beside = shape.surface({ray.o + Vec3(1e-6, 2e-6, -1e-6) * size, ray.d}, *aside);
   // Where one of them is over an edge, or over the seam, nothing is to be learnt.
-  if (glm::length(beside.position - point.position) > 1e-4 * size || glm::length(beside.uv - point.uv) > 0.1 ||
+  if (glm::length(beside.position - point.position) > 1e-4 * size ||
+      glm::length(beside.uv - point.uv) > 0.1 ||
       glm::dot(beside.normal_geometric, point.normal_geometric) < 0.999)
     return;
   ++counts.looked_at;
@@ -103,7 +105,9 @@ TEST_CASE("u and v grow over every shape as both halves say") {
       const Vec3 center = (bounds.min + bounds.max) * 0.5, half = (bounds.max - bounds.min) * 0.5;
       for (int k = 0; k < 30; ++k) {
         const bool bounded = std::isfinite(half.x);
-        const Vec3 target = bounded ? center + half * (2.0 * Vec3(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)) - 1.0)
+        const Vec3 target = bounded ? center + half * (2.0 * Vec3(random.uniform(0, 1), random.uniform(0, 1),
+                                                                  random.uniform(0, 1)) -
+                                                       1.0)
                                     : random.point(size);
         const Vec3 from = (bounded ? center : Vec3(0)) + 4 * size * random.direction();
         look(*shape, packer.scene, {from, glm::normalize(target - from)}, size, counts);

@@ -35,14 +35,16 @@ TEST_CASE("a camera is a function of a place in the picture and one on the lens"
 }
 
 TEST_CASE("where rays go and start, in float32's bits and in float64; without an origin, the eye") {
-  const std::string text = "vec3 direction(vec2 place, vec2 lens) {\n  place.x *= scale;\n  return vec3(place, 1.0 / 3.0);\n}\n";
+  const std::string text =
+      "vec3 direction(vec2 place, vec2 lens) {\n  place.x *= scale;\n  return vec3(place, 1.0 / 3.0);\n}\n";
   const formula::Formula from_eye = camera(text, {{"scale", {0.1}}});
   CHECK_FALSE(from_eye.has_other());
   CHECK(from_eye.direction(std::array{2.0f, 0.5f, 0.0f, 0.0f}) == std::array{2.0f * 0.1f, 0.5f, 1.0f / 3.0f});
   CHECK(from_eye.origin(std::array{2.0f, 0.5f, 1.0f, 1.0f}) == std::array{0.0f, 0.0f, 0.0f});
 
-  const formula::Formula lens = camera(text + "vec3 origin(vec2 place, vec2 lens) { return vec3(lens.y, place.x, lens.x); }",
-                                       {{"scale", {2}}});
+  const formula::Formula lens =
+      camera(text + "vec3 origin(vec2 place, vec2 lens) { return vec3(lens.y, place.x, lens.x); }",
+             {{"scale", {2}}});
   REQUIRE(lens.has_other());
   CHECK(lens.direction(std::array{2.0, 0.5, 0.25, 0.75})[0] == 4);
   CHECK(lens.origin(std::array{2.0, 0.5, 0.25, 0.75}) == std::array{0.75, 2.0, 0.25});

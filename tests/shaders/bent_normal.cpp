@@ -28,7 +28,10 @@ struct Place {
 Place some_place(Random& random, bool own_tangent) {
   const Vec3 n = random.direction(), bent = glm::normalize(n + random.uniform(0, 0.8) * random.direction());
   const auto tangential = [&](const Vec3& v) { return v - n * glm::dot(n, v); };
-  SurfacePoint point{.position = random.point(1), .position_error = 0, .normal_geometric = n, .normal = bent,
+  SurfacePoint point{.position = random.point(1),
+                     .position_error = 0,
+                     .normal_geometric = n,
+                     .normal = bent,
                      .uv = {random.uniform(), random.uniform()}};
   const Vec3 u = tangential(random.direction()), v = tangential(random.direction());
   point.along_u = random.uniform(0.2, 2) * glm::normalize(u);
@@ -76,8 +79,9 @@ TEST_CASE("a normal map bends as the reference says, by uv and by a mesh's tange
     const Place place = some_place(random, i % 2 == 0);
     if (cross(place) < 0.1) continue;
     const auto material = materials::make_phong({});
-    material->normal_map = NormalMap{
-        textures::make_constant({random.uniform(), random.uniform(), random.uniform(0.4, 1)}), random.uniform(-1.5, 1.5)};
+    material->normal_map =
+        NormalMap{textures::make_constant({random.uniform(), random.uniform(), random.uniform(0.4, 1)}),
+                  random.uniform(-1.5, 1.5)};
     const Vec3 expected = reference::bent_normal(*material, place.point, place.d);
     CHECK(glm::length(shaded(*material, place) - expected) < 2e-4);
   }
@@ -103,7 +107,8 @@ TEST_CASE("bumps bend as the reference says, and by Blinn's formula") {
   }
 }
 
-TEST_CASE("what bent normals mirror to the viewer stays above the surface, and what is not too low is let be") {
+TEST_CASE(
+    "what bent normals mirror to the viewer stays above the surface, and what is not too low is let be") {
   Random random{5};
   int low = 0, high = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -112,9 +117,11 @@ TEST_CASE("what bent normals mirror to the viewer stays above the surface, and w
     const auto material = materials::make_phong({});
     const Vec3 code(random.uniform(), random.uniform(), random.uniform());
     material->normal_map = NormalMap{textures::make_constant(code), 1};
-    const Vec3 up = place.point.normal_geometric * (glm::dot(place.d, place.point.normal_geometric) < 0 ? 1.0 : -1.0);
+    const Vec3 up =
+        place.point.normal_geometric * (glm::dot(place.d, place.point.normal_geometric) < 0 ? 1.0 : -1.0);
     const double side = glm::dot(up, place.point.normal_geometric);
-    for (const Vec3 n : {side * reference::bent_normal(*material, place.point, place.d), side * shaded(*material, place)}) {
+    for (const Vec3 n :
+         {side * reference::bent_normal(*material, place.point, place.d), side * shaded(*material, place)}) {
       CHECK(std::abs(glm::length(n) - 1) < 1e-5);
       CHECK(glm::dot(n, up) > 0);
       CHECK(glm::dot(n, place.d) < 1e-5);

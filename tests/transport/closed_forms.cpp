@@ -1,8 +1,8 @@
 // Path tracing where the answer is known: what all executors share, the formula itself, is proved by others.
 // Each picture is of one small patch, so that its pixels are 64 estimates of one value, independent of each
 // other. A test whose error is above half a percent could not fail, and is an error itself.
-#include "patch.hpp"
 #include "host/formula/formula.hpp"
+#include "patch.hpp"
 #include "tests/support/environments.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -402,8 +402,7 @@ TEST_CASE("a normal map of one color is a tilted surface; on a slope bumps are o
     check(scene, albedo * 0.7 * glm::dot(to_light, tilted), 1e-5);
     scene.materials[0]->normal_map->scale = 0.5;
     check(scene,
-          albedo * 0.7 *
-              glm::dot(to_light, glm::normalize(Vec3(0.5 * tilted.x, tilted.y, 0.5 * tilted.z))),
+          albedo * 0.7 * glm::dot(to_light, glm::normalize(Vec3(0.5 * tilted.x, tilted.y, 0.5 * tilted.z))),
           1e-5);
 
     // Heights that rise evenly, away from the viewer: what is mirrored stays above the floor.
