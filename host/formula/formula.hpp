@@ -1,7 +1,7 @@
 // A function that a user has written in GLSL: a surface's, of a point, a colour's, of its place on a surface,
-// or a camera's, of a place in the picture. Its text is a stranger's: it is judged, compiled by glslang, and forgotten. What its SPIR-V says,
-// with nothing undefined left (formula/ir.hpp), is what every executor runs. docs/formulas.md says which
-// GLSL, docs/security.md what a stranger can do with it.
+// or a camera's, of a place in the picture. Its text is a stranger's: it is judged, compiled by glslang, and
+// forgotten. What its SPIR-V says, with nothing undefined left (formula/ir.hpp), is what every executor runs.
+// docs/formulas.md says which GLSL, docs/security.md what a stranger can do with it.
 #pragma once
 
 #include <array>

@@ -31,7 +31,8 @@ class Tracer {
   // direction hits so close behind it that float32 may take it for the nearer one.
   std::optional<Hit> trace(const Ray& ray, uint32_t& flags, bool coincident = false) const;
   std::optional<Hit> trace(const Ray& ray) const;
-  // The surface where `ray` has that hit, its normal on the side of the geometric one, as its material bends it.
+  // The surface where `ray` has that hit, its normal on the side of the geometric one, as its material bends
+  // it.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
 
   // The largest coordinate, relative to `eye`, of the terms that what was hit is made of; 0 for unbounded

@@ -21,8 +21,8 @@ struct Mesh {
   std::vector<Vec3> positions;
   std::vector<std::array<uint32_t, 3>> triangles;  // corners as indices of vertices
   std::vector<Vec3> normals;                       // unit shading normals, one a vertex; empty: flat
-  std::vector<Vec2> uv;             // one a vertex; empty: the weights of the second and third corner
-  std::vector<Vec3> colors = {};    // linear RGB from 0 to 1, one a vertex; empty: white
+  std::vector<Vec2> uv;           // one a vertex; empty: the weights of the second and third corner
+  std::vector<Vec3> colors = {};  // linear RGB from 0 to 1, one a vertex; empty: white
   // Unit, along u, one a vertex, and in w whether v is to the left of it, 1, or to the right, −1, seen from
   // outside; empty: as uv have it.
   std::vector<Vec4> tangents = {};
