@@ -186,8 +186,8 @@ struct Program {
   std::vector<Constant> constants;
   std::map<Constant, uint32_t> constant_numbers;
   std::vector<Table> tables;
-  uint32_t value = 0;                // the function that the text must define
-  std::vector<uint32_t> other{};     // the function that it may have beside, if there is one
+  uint32_t value = 0;             // the function that the text must define
+  std::vector<uint32_t> other{};  // the function that it may have beside, if there is one
   bool counts_turns = false;
 };
 

@@ -127,8 +127,7 @@ void show(const char* name, uint line, const T& shown) {
 #define FORMULA_BOUND(it, x, y, z) \
   bound_scene->formulas.bound(bound_scene->formulas.scene, it.formula, x, y, z)
 #define FORMULA_DUAL(it, p) bound_scene->formulas.dual(bound_scene->formulas.scene, it.formula, p)
-#define FORMULA_DIRECTION(number, at) \
-  bound_scene->formulas.direction(bound_scene->formulas.scene, number, at)
+#define FORMULA_DIRECTION(number, at) bound_scene->formulas.direction(bound_scene->formulas.scene, number, at)
 #define FORMULA_ORIGIN(number, at) bound_scene->formulas.origin(bound_scene->formulas.scene, number, at)
 #define FORMULA_COLOR(number, uv) bound_scene->formulas.color(bound_scene->formulas.scene, number, uv)
 
