@@ -201,7 +201,7 @@ class Principled final : public Physical {
       record.emission = emission;
     } else {
       record.color = color;
-      if (const auto filling = medium()) record.medium = packer.add_medium(filling->ior, filling->absorption);
+      if (const auto filling = medium()) record.medium = packer.add_medium(*filling);
     }
     record.transmission = transmission;
     record.sheen = sheen;
@@ -224,7 +224,7 @@ class Principled final : public Physical {
 
  private:
   bool transmits() const { return values_.transmission->constant() != Vec3(0); }
-  Medium own_medium() const { return {std::max(1.0, values_.ior), values_.absorption}; }
+  Medium own_medium() const { return {.ior = std::max(1.0, values_.ior), .absorption = values_.absorption}; }
   // At right angles, where it is no metal.
   Vec3 mirrored(const Vec3& tint, double level) const {
     const double r = (values_.ior - 1) / (values_.ior + 1);
