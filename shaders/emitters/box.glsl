@@ -55,7 +55,7 @@ EmitterSample box_emitter_sample(Emitter e, vec3 from, vec2 u) {
   EmitterSample place;
   place.p = map_out_of_object(map, p);
   place.normal = normalize3(map_normal(map, cube_normal(face)));
-  place.uv = cube_uv(p, face);
+  place.uv = cube_uv(p, face).uv;
   return place;
 }
 
