@@ -127,9 +127,12 @@ eyeray_verify(mode.caustic-rim mode scenes/shapes/gallery.toml -s 96x72 --crop 7
 eyeray_verify(mode.caustic-rim-wide mode scenes/shapes/gallery.toml -s 96x54 --crop 75,29,9,9 --backends twin)
 eyeray_verify(mode.plane-of-symmetry mode scenes/whitted.toml -s 333x250 --crop 162,69,9,9)
 eyeray_verify(mode.plane-of-symmetry-walls mode scenes/whitted.toml -s 309x231 --crop 154,163,1,1 --backends twin)
-# Rays that skim a formula's surface, leave it beside a ridge, and leave the wall of a gyroid (docs/numerics.md, affine bounds).
+# Rays that skim a formula's surface, leave it beside a ridge, strike a flake, skim where rounding grows, and leave the wall of a gyroid
+# (docs/numerics.md, affine bounds).
 eyeray_verify(mode.skimmed-formula mode QUICK scenes/shapes/mandelbulb.toml -s 160x79 --crop 40,33,12,32 --backends twin)
 eyeray_verify(mode.clamped-formula mode QUICK scenes/shapes/mandelbulb.toml -s 333x250 --crop 134,159,11,11 --backends twin)
+eyeray_verify(mode.flaky-formula mode QUICK scenes/shapes/mandelbulb.toml -s 270x180 --crop 121,71,9,9 --backends twin)
+eyeray_verify(mode.rounding-formula mode QUICK scenes/shapes/mandelbulb.toml -s 270x180 --crop 192,52,1,1 --backends twin)
 eyeray_verify(mode.skimmed-gyroid mode QUICK scenes/shapes/sculpture.toml -s 333x250 --crop 63,243,1,1 --backends twin)
 eyeray_verify(mode.empty-csg mode tests/loader/warned/empty_csg.toml)
 eyeray_verify(mode.unlit mode QUICK tests/loader/warned/unlit.toml)

@@ -1,9 +1,9 @@
 // The first root along a ray, from affine bounds of the function (math/affine_bound.glsl): piece after piece, each as long as its affine bound can do
 // with. Whoever marches asks for the function's affine bound on march_middle(march) ± march_half(march) until march.over.
-// A root is where the sign changes. No change is overlooked but within a piece that is passed over, because it is as short as can be or its
-// affine bound hardly sharper than that of a point in it: there the function is zero up to what float32 may round at worst. The sign is then taken
-// from the line, where that is as far off zero as float32 rounds in fact; if it is another than before, the root among those pieces is narrowed down by
-// the signs that f has in float32: its bound there says what rounding may come to at worst, which is hundreds of times more.
+// A root is where the sign changes. No change is overlooked but within a piece that is passed over, because it is as short as can be or its affine
+// bound hardly sharper than that of a point in it: there the function is zero up to what float32 rounds. At worst that may be hundreds of times more
+// than it is. So points beside each other are asked first how far the function strays from a line, and where that is little, it counts instead. If the
+// sign is another than before, the root among the pieces that were passed over is narrowed down by the signs that f has in float32.
 #ifndef ENCLOSURE_MARCH_GLSL
 #define ENCLOSURE_MARCH_GLSL
 #include "math/affine_bound.glsl"
@@ -16,6 +16,10 @@ SHADER_BEGIN
 #define MARCH_LONGEST_PASS 16384.0f
 #define MARCH_BLUNT 1.5f   // e over that of a point: where more is, shorter pieces tell more
 #define MARCH_LIKELY 0.25f // |a| over e: where more is, its sign is the function's
+// What rounding comes to in fact: how far the function strays from a line at so many points, times three, or a share of their e if that is more.
+#define MARCH_POINTS 6u
+#define MARCH_STRAYS 3.0f
+#define MARCH_LEAST_SHARE 0.015625f
 
 struct March {
   float t;        // up to here the sign is known, but for what was passed over
@@ -27,7 +31,12 @@ struct March {
   float coarse;   // e of the piece before, where that was undecided; beyond all else
   float noise;    // e of a point nearby; 0 where it is not known
   float pass;     // the h of a piece that may be passed over
-  float waiting;  // while a point is asked for its e: h of the piece after that; else 0
+  float waiting;  // while points are asked: h of the piece after that; else 0
+  uint points;    // how many are still to be asked
+  float value;    // a of the last of them, …
+  float rise;     // … less that of the one before it
+  float stray;    // their greatest second difference
+  float share;    // of e of a point, what is taken for rounding: 1 where all of it is; below 0 while points are asked, 0 before that
   float root;     // once found
   float low;      // while that is narrowed down among pieces that were passed over: before it, …
   float high;     // … and past it
@@ -50,6 +59,11 @@ March march_begin(float start, float end, float sign, float finest) {
   march.noise = 0.0f;
   march.pass = MARCH_FIRST_PASS * finest;
   march.waiting = 0.0f;
+  march.points = 0u;
+  march.value = 0.0f;
+  march.rise = 0.0f;
+  march.stray = 0.0f;
+  march.share = 0.0f;
   march.root = start;
   march.low = start;
   march.high = start;
@@ -60,7 +74,10 @@ March march_begin(float start, float end, float sign, float finest) {
   return march;
 }
 
-float march_middle(March march) { return march.found ? 0.5f * (march.low + march.high) : march.t + march.h; }
+float march_middle(March march) {
+  float ahead = march.points > 0u ? float(2u * march.points - 1u) : 1.0f;
+  return march.found ? 0.5f * (march.low + march.high) : march.t + march.h * ahead;
+}
 // A little more than h, so that no root falls between two pieces.
 float march_half(March march) { return march.h + 4.0f * EPSILON * (abs(march.t) + 2.0f * march.h); }
 
@@ -76,30 +93,58 @@ March march_on(March march, vec3 f) {
     return next;
   }
   if (march.waiting > 0.0f) {
-    next.noise = maximum(f.z, 1.0e-30f);
-    next.h = march.waiting;
-    next.waiting = 0.0f;
+    bool samples = march.share < 0.0f;
+    bool last = march.points == 1u;
+    next.noise = maximum(march.noise, maximum(f.z, 1.0e-30f));
+    next.value = f.x;
+    next.rise = f.x - march.value;
+    next.stray = samples && march.points + 2u <= MARCH_POINTS ? maximum(march.stray, abs(next.rise - march.rise)) : 0.0f;
+    float share = MARCH_STRAYS * next.stray / next.noise;
+    share = share < MARCH_LIKELY ? maximum(share, MARCH_LEAST_SHARE) : 1.0f;
+    next.share = samples && last ? share : march.share;
+    next.points = march.points - 1u;
+    next.h = last ? march.waiting : march.h;
+    next.waiting = last ? 0.0f : march.waiting;
     return next;
   }
+
+  // Where f rounds less than it might, its e is what the piece bends, and that. Where e has shrunk, it is not known any more.
+  bool sharp = march.share > 0.0f && march.share < 1.0f;
+  bool stale = sharp && !(f.z > 0.5f * march.noise);
+  float noise = stale ? 0.0f : march.noise;
+  sharp = sharp && !stale;
+  float level = sharp ? march.share * noise : noise;
+  float e = sharp ? maximum(f.z - noise, 0.0f) + level : f.z;
 
   // Only where |a + b·s| ≤ e can a root be; and one is, by the signs at both ends, where the line leads from -e to e within the piece.
   float middle = march_middle(march);
   float h = march_half(march);
-  bool none = abs(f.x) > abs(f.y) + f.z;
-  bool crosses = abs(f.y) > abs(f.x) + f.z;
+  bool none = abs(f.x) > abs(f.y) + e;
+  bool crosses = abs(f.y) > abs(f.x) + e;
   float centre = -f.x / f.y;
-  float width = f.z / abs(f.y) * BOUND_GROW + 8.0f * EPSILON * (1.0f + abs(centre));
+  float width = e / abs(f.y) * BOUND_GROW + 8.0f * EPSILON * (1.0f + abs(centre));
   float left = middle + h * maximum(-1.0f, centre - width);
   float right = middle + h * minimum(1.0f, centre + width);
 
   // Shorter pieces tell no more. (A NaN is passed over too.)
-  bool blunt = march.h <= march.finest || (march.noise > 0.0f && !(f.z > MARCH_BLUNT * march.noise));
+  bool blunt = march.h <= march.finest || (noise > 0.0f && !(e > MARCH_BLUNT * level));
   bool narrow = crosses && (blunt || right - left <= 16.0f * march.finest);
   bool passes = !none && !narrow && blunt && march.h <= march.pass;
 
+  // Before any is passed over, ask what rounding comes to.
+  if (passes && march.share == 0.0f) {
+    next.waiting = march.h;
+    next.points = MARCH_POINTS;
+    next.h = march.finest;
+    next.noise = 0.0f;
+    next.share = -1.0f;
+    return next;
+  }
+  bool proven = abs(f.x) > abs(f.y) + f.z;
+
   // The sign where the piece begins: if it is another than before, the root is behind.
   bool known = none || centre - width > -1.0f;
-  bool likely = passes && abs(f.x) > MARCH_LIKELY * f.z;
+  bool likely = passes && abs(f.x) > minimum(MARCH_LIKELY * f.z, e);
   float sign = f.x < (known ? f.y : 0.0f) ? -1.0f : 1.0f;
   bool changed = (known || likely) && march.sign != 0.0f && sign != march.sign;
 
@@ -113,18 +158,20 @@ March march_on(March march, vec3 f) {
   next.t = none || passes ? middle + march.h : maximum(march.t, left);
   bool sure = march.unknown == march.t;
   next.unknown = none ? next.t : known ? maximum(march.t, left) : sure && !passes ? next.t : march.unknown;
-  next.noise = none ? 0.0f : passes && march.noise == 0.0f ? maximum(f.z, 1.0e-30f) : march.noise;
+  next.noise = proven ? 0.0f : march.h <= march.finest ? maximum(noise, maximum(f.z, 1.0e-30f)) : noise;
+  next.share = proven || stale ? 0.0f : march.share;
   next.pass = none ? MARCH_FIRST_PASS * march.finest : passes ? 2.0f * march.h : march.pass;
   next.coarse = none || passes ? 3.0e38f : f.z;
 
   // Next, a piece around what is left, or a longer one. If e hardly shrinks with h, it may be rounding: ask a point.
   float closer = minimum(maximum(0.625f * (right - left), crosses ? 0.0f : 0.125f * march.h), 0.5f * march.h);
-  bool doubt = !none && !blunt && march.noise == 0.0f && f.z > 0.7f * march.coarse;
+  bool doubt = !none && !blunt && noise == 0.0f && f.z > 0.7f * march.coarse;
   next.h = none ? 2.0f * march.h
            : passes ? minimum(2.0f * march.h, MARCH_LONGEST_PASS * march.finest)
            : crosses && doubt ? march.h : blunt ? march.pass : closer;
   next.h = minimum(maximum(next.h, march.finest), maximum(0.5f * (march.end - next.t), march.finest));
   next.waiting = doubt ? next.h : 0.0f;
+  next.points = doubt ? 1u : 0u;
   next.h = doubt || changed ? march.finest : next.h;
   next.over = next.found ? !changed || !(next.high - next.low > 2.0f * march.finest) : next.t >= march.end;
   bool outside = next.found && !(next.root < march.end);
