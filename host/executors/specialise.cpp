@@ -77,7 +77,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_TRANSMISSION", int(any_principled_transmits(scene)));
   define("HAS_PANES", int(scene.panes));
   define("ANY_PANE", scene.panes ? "true" : "false");
-  define("HAS_MEDIA", int(media));
+  define("HAS_MEDIA", int(transmits(scene)));
   define("HAS_ABSORPTION", int(any_dims(scene)));
   define("HAS_SCATTERING", int(any_scatters(scene)));
   // Only where a ray splits in two does a child wait, and one a level at most.
