@@ -91,6 +91,15 @@ std::vector<std::string> all_scenes() {
 }  // namespace
 
 Report measure(const Options& options, const Listener& listener) {
+  Report report;
+  if (options.paths) {
+    for (const std::string& name :
+         options.scenes.empty() ? std::vector{std::string(path_scene)} : options.scenes) {
+      report.paths.push_back(measure_paths(name, *options.paths));
+      listener.paths(report.paths.back());
+    }
+    return report;
+  }
   // Look at everything that may be wrong before measuring for minutes.
   const bool named = !options.scenes.empty();
   const std::vector<std::string> scenes = named ? options.scenes : all_scenes();
@@ -98,7 +107,6 @@ Report measure(const Options& options, const Listener& listener) {
   for (const std::string& name : scenes)
     if (!as_standard(name)) load(name, options);
 
-  Report report;
   for (const std::string& name : scenes) {
     if (options.with_rays) {
       report.field.push_back(race_on(name, options));
@@ -115,15 +123,18 @@ Report measure(const Options& options, const Listener& listener) {
 nlohmann::ordered_json to_json(const Report& report) {
   nlohmann::ordered_json pictures = nlohmann::ordered_json::array();
   for (const PictureReport& picture : report.pictures) pictures.push_back(to_json(picture));
-  return {{"bench", pictures}, {"field", to_json(report.field)}};
+  nlohmann::ordered_json paths = nlohmann::ordered_json::array();
+  for (const PathReport& each : report.paths) paths.push_back(to_json(each));
+  return {{"bench", pictures}, {"field", to_json(report.field)}, {"paths", paths}};
 }
 
 Report read_report(const fs::path& file) {
-  return {read_field_report(file), read_picture_reports(file)};
+  return {read_field_report(file), read_picture_reports(file), read_path_reports(file)};
 }
 
 std::string changes(const Report& old, const Report& now) {
-  return changes(old.field, now.field) + picture_changes(old.pictures, now.pictures);
+  return changes(old.field, now.field) + picture_changes(old.pictures, now.pictures) +
+         path_changes(old.paths, now.paths);
 }
 
 }  // namespace eyeray::bench

@@ -5,22 +5,28 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "host/bench/field.hpp"
+#include "host/bench/paths.hpp"
 #include "host/bench/pictures.hpp"
 
 namespace eyeray::bench {
 
 // Measured beside the standard scenes when none is named, where it is there.
 inline constexpr std::string_view default_scene = "scenes/whitted.toml";
+// Of paths when none is named.
+inline constexpr std::string_view path_scene = "scenes/path/cornell_box.toml";
 
 struct Options {
   std::vector<std::string> scenes;  // files, and names of standard scenes; none: all of these and the default
   PictureOptions pictures;          // `backends`, `defines`, `device`, the size and `runs` hold for rays too
   std::vector<std::string> incoherent{""};  // ProfileOptions::incoherent, each for a gpu executor of its own
+  // In place of rays and pictures, of path-traced scenes; without a name of path_scene.
+  std::optional<PathOptions> paths;
   bool with_rays = true;
   bool with_pictures = true;
 };
@@ -28,12 +34,14 @@ struct Options {
 struct Report {
   FieldReport field;
   std::vector<PictureReport> pictures;
+  std::vector<PathReport> paths;
 };
 
-// Who is told of each finding as soon as it is there. All three are to be set.
+// Who is told of each finding as soon as it is there. All are to be set.
 struct Listener {
   std::function<void(const SceneReport&)> rays;
   std::function<void(const PictureReport&)> picture;
+  std::function<void(const PathReport&)> paths;
   std::function<void(const std::string&)> remark;  // what could not be measured, and why
 };
 
@@ -41,7 +49,7 @@ struct Listener {
 // Error (interrupted) after Ctrl-C, and as load_scene, make_executor, Embree and measure_pictures.
 Report measure(const Options& options, const Listener& listener);
 
-// {"bench": […], "field": […]}.
+// {"bench": […], "field": […], "paths": […]}.
 nlohmann::ordered_json to_json(const Report& report);
 // A report out of such an answer, as far as `changes` compares it. Error (file_io) where it cannot be read,
 // Error (bad_input) where it is something else.

@@ -13,10 +13,6 @@ namespace {
 
 constexpr double panel_width = 320, panel_height = 260, margin = 60, bar_height = 12;
 
-// Told apart by colour-blind people too (Okabe and Ito).
-constexpr std::string_view colors[] = {"#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"};
-constexpr std::string_view grid_color = "#dddddd", axis_color = "#444444";
-
 // The name under which a timing is drawn: packets and streams count as one contender, the fastest of them.
 std::string drawn_name(const Timing& timing) {
   return timing.kind == ContenderKind::packet ? "Embree packets" : timing.contender;
@@ -44,7 +40,7 @@ struct Cast {
   }
   std::string_view color(const std::string& contender) const {
     const auto at = std::find(contenders.begin(), contenders.end(), contender) - contenders.begin();
-    return colors[size_t(at) % std::size(colors)];
+    return plot_colors[size_t(at) % std::size(plot_colors)];
   }
 
   std::vector<std::string> batches;

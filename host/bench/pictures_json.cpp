@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/bench/pictures.hpp"
+#include "host/bench/spread_json.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 
@@ -8,14 +9,6 @@ namespace eyeray::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(const Spread& spread) {
-  return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
-}
-
-Spread spread_from(const Json& json) {
-  return {json.at("median"), json.at("min"), json.at("max")};
-}
 
 Json to_json(const SeriesReport& series) {
   Json stages = Json::object();

@@ -25,6 +25,32 @@ ProcessResult run_or_throw(const std::vector<std::string>& argv, const Environme
   return result;
 }
 
+bool can_run(const std::vector<std::string>& argv) {
+  try {
+    return run_process(argv).code == 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+TimedRun run_povray(const fs::path& scene, int width, int height, const fs::path& output,
+                    const char* format) {
+  const ProcessResult result =
+      run_or_throw({"povray", "+I" + scene.string(), fmt::format("+W{}", width), fmt::format("+H{}", height),
+                    "+WT2", "-D", "-V", format, "-A", "+O" + output.string()});
+  TimedRun run;
+  run.seconds.emplace_back("whole process", result.seconds);
+  run.whole_processor = run.tracing_processor = result.processor_seconds;
+  std::smatch match;
+  const std::regex trace_time(R"(Trace Time:[^(]*\(([0-9.]+) seconds\))");
+  if (!std::regex_search(result.err, match, trace_time))
+    throw Error(ExitCode::file_io, "povray did not say its trace time:\n{}", result.err);
+  run.tracing = std::stod(match[1]);
+  run.seconds.emplace_back("trace", run.tracing);
+  run.device = "POV-Ray, two threads";
+  return run;
+}
+
 }  // namespace
 
 Spread stage_spread(const Series& series, const std::string& stage) {
@@ -64,31 +90,52 @@ TimedRun run_eyeray(const std::vector<std::string>& arguments, const fs::path& o
   run.rays = report.at("rays");
   run.peak_memory = report.at("peak_memory");
   run.tracing = report.at("sampling_seconds");
+  run.tracing_processor = report.at("sampling_processor_seconds");
+  run.whole_processor = result.processor_seconds;
   run.device = report.at("device");
   return run;
 }
 
 bool have_povray() {
-  try {
-    return run_process({"povray", "--version"}).code == 0;
-  } catch (const Error&) {
-    return false;
-  }
+  return can_run({"povray", "--version"});
+}
+
+void check_povray() {
+  if (!have_povray())
+    throw Error(ExitCode::file_io, "there is no povray to run beside: install POV-Ray (Debian: povray)");
+}
+
+void check_blender() {
+  if (!can_run({"blender", "--version"}))
+    throw Error(ExitCode::file_io, "there is no blender to run beside: install Blender (Debian: blender)");
 }
 
 TimedRun run_povray(const fs::path& scene, int width, int height, const fs::path& output) {
+  return run_povray(scene, width, height, output, "+FN");
+}
+
+TimedRun run_povray_radiosity(const fs::path& scene, int width, int height, const fs::path& output) {
+  TimedRun run = run_povray(scene, width, height, output, "+FH");
+  run.device = "radiosity, two threads";
+  return run;
+}
+
+TimedRun run_cycles(const fs::path& script, int samples, int seed, const fs::path& output) {
   const ProcessResult result =
-      run_or_throw({"povray", "+I" + scene.string(), fmt::format("+W{}", width), fmt::format("+H{}", height),
-                    "+WT2", "-D", "-V", "+FN", "-A", "+O" + output.string()});
+      run_or_throw({"blender", "-b", "--factory-startup", "--python-exit-code", "1", "-P", script.string(),
+                    "--", output.string(), std::to_string(samples), std::to_string(seed)});
   TimedRun run;
   run.seconds.emplace_back("whole process", result.seconds);
+  run.whole_processor = result.processor_seconds;
   std::smatch match;
-  const std::regex trace_time(R"(Trace Time:[^(]*\(([0-9.]+) seconds\))");
-  if (!std::regex_search(result.err, match, trace_time))
-    throw Error(ExitCode::file_io, "povray did not say its trace time:\n{}", result.err);
-  run.tracing = std::stod(match[1]);
-  run.seconds.emplace_back("trace", run.tracing);
-  run.device = "POV-Ray, two threads";
+  if (std::regex_search(result.out, match, std::regex("eyeray: cpu ([0-9.e+-]+) wall ([0-9.e+-]+)"))) {
+    run.tracing_processor = std::stod(match[1]);
+    run.tracing = std::stod(match[2]);
+  }
+  if (run.tracing == 0 || !fs::exists(output))
+    throw Error(ExitCode::file_io, "blender rendered nothing:\n{}{}", result.out, result.err);
+  std::regex_search(result.out, match, std::regex("^Blender [0-9.]+"));
+  run.device = match.empty() ? "Blender" : match.str();
   return run;
 }
 

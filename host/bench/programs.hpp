@@ -16,8 +16,10 @@ namespace eyeray::bench {
 struct TimedRun {
   std::vector<std::pair<std::string, double>> seconds;  // by stage, "whole process" first
   uint64_t rays = 0;
-  uint64_t peak_memory = 0;  // bytes; 0 where unknown
-  double tracing = 0;        // seconds spent on tracing alone, as the program itself says
+  uint64_t peak_memory = 0;      // bytes; 0 where unknown
+  double tracing = 0;            // seconds spent on tracing alone, as the program itself says
+  double tracing_processor = 0;  // … of all its threads together; 0 where unknown
+  double whole_processor = 0;    // of the whole process
   std::string device;
 };
 
@@ -38,8 +40,18 @@ TimedRun run_eyeray(const std::vector<std::string>& arguments, const std::filesy
 
 // Whether POV-Ray is installed.
 bool have_povray();
+// Error (file_io), which says so, where it is not; or Blender.
+void check_povray();
+void check_blender();
 // POV-Ray with two threads; its own trace time. Error when it fails.
 TimedRun run_povray(const std::filesystem::path& scene, int width, int height,
+                    const std::filesystem::path& output);
+
+// The same by radiosity, to an .hdr.
+TimedRun run_povray_radiosity(const std::filesystem::path& scene, int width, int height,
+                              const std::filesystem::path& output);
+// Blender on a script of contenders/cycles_scene.hpp. Error when it fails.
+TimedRun run_cycles(const std::filesystem::path& script, int samples, int seed,
                     const std::filesystem::path& output);
 
 }  // namespace eyeray::bench

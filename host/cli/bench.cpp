@@ -17,13 +17,30 @@ namespace {
 
 struct BenchCommand {
   bool dev = false;
+  bool with_paths = false;
+  bench::PathOptions paths;
   bench::Options options;
   std::string plot;
   std::string older;
   bool json = false;
+  bool sized = false;  // by the user, …
+  bool sampled = false;
 
   ExitCode run() const;
+  bench::PathOptions path_options() const;
 };
+
+// What is said of pictures holds for paths; what is not said, they have their own values for.
+bench::PathOptions BenchCommand::path_options() const {
+  const bench::PictureOptions& pictures = options.pictures;
+  bench::PathOptions result = paths;
+  result.defines = pictures.defines;
+  result.device = pictures.device;
+  result.runs = std::max(2, pictures.runs);
+  if (sized) result.width = pictures.width, result.height = pictures.height;
+  if (sampled) result.most_samples = pictures.samples;
+  return result;
+}
 
 ExitCode BenchCommand::run() const {
   if (dev) {
@@ -42,12 +59,16 @@ ExitCode BenchCommand::run() const {
   const auto print = [&](const std::string& text) {
     if (!json) fmt::print("{}", text);
   };
+  bench::Options what = options;
+  if (with_paths || paths.cycles || paths.povray) what.paths = path_options();
   const bench::Report report = bench::measure(
-      options, {.rays = [&](const bench::SceneReport& scene) { print(bench::to_text({scene})); },
-                .picture = [&](const bench::PictureReport& picture) { print(bench::to_text(picture)); },
-                .remark = [](const std::string& text) { fmt::print(stderr, "eyeray: {}\n", text); }});
+      what, {.rays = [&](const bench::SceneReport& scene) { print(bench::to_text({scene})); },
+             .picture = [&](const bench::PictureReport& picture) { print(bench::to_text(picture)); },
+             .paths = [&](const bench::PathReport& each) { print(bench::to_text(each)); },
+             .remark = [](const std::string& text) { fmt::print(stderr, "eyeray: {}\n", text); }});
 
-  if (!plot.empty()) write_file_atomically(plot, bench::to_svg(report.field));
+  if (!plot.empty())
+    write_file_atomically(plot, what.paths ? bench::to_svg(report.paths) : bench::to_svg(report.field));
   if (!older.empty() && !json) {
     const std::string changed = bench::changes(old, report);
     fmt::print("since {}:\n{}", older, changed.empty() ? "nothing in common\n" : changed);
@@ -67,9 +88,10 @@ void add_bench(CLI::App& app, Run& run) {
   for (const bench::StandardScene& standard : bench::standard_scenes())
     names += (names.empty() ? "" : ", ") + std::string(standard.name);
   command
-      ->add_option("SCENE", what.scenes,
-                   fmt::format("Scene files, or out of {}; all of these and {} when none is given.", names,
-                               bench::default_scene))
+      ->add_option(
+          "SCENE", what.scenes,
+          fmt::format("Scene files, or out of {}; all of these and {} when none is given, of --paths {}.",
+                      names, bench::default_scene, bench::path_scene))
       ->option_text(" ");
   command->add_option("-n,--runs", pictures.runs, "Measured runs of each.")
       ->option_text("N=5")
@@ -80,13 +102,21 @@ void add_bench(CLI::App& app, Run& run) {
       ->allow_extra_args(false);
   const auto parse = [options](const std::string& text) {
     std::tie(options->options.pictures.width, options->options.pictures.height) = parse_size(text);
+    options->sized = true;
     if (!image::image_size_allowed(options->options.pictures.width, options->options.pictures.height))
       throw Error(ExitCode::bad_input, "--size {}: a picture has 1 to 65536 pixels a side, 2^28 in all",
                   text);
   };
   command->add_option_function<std::string>("-s,--size", parse, "Picture size in pixels.")
       ->option_text("WxH=1024x1024");
-  command->add_option("--spp", pictures.samples, "Samples a pixel of whole pictures.")
+  command
+      ->add_option_function<int>(
+          "--spp",
+          [options](int samples) {
+            options->options.pictures.samples = samples;
+            options->sampled = true;
+          },
+          "Samples a pixel of whole pictures; of --paths the most, 64.")
       ->option_text("N=1")
       ->check(CLI::Range(1, 65536));
   command->add_option("-D,--define", pictures.defines, "Lay a value over the scene files, as for render.")
@@ -119,6 +149,13 @@ void add_bench(CLI::App& app, Run& run) {
       ->option_text("FILE.svg");
   command->add_option("--compare", options->older, "Say what changed since an older answer of --json.")
       ->option_text("OLD.json");
+  command->add_flag(
+      "--paths", options->with_paths,
+      "Only: how fast path-traced pictures of 256x256 lose their noise, by 4, 16, ... samples, each "
+      "run of another seed.");
+  command->add_flag("--cycles", options->paths.cycles,
+                    "The same beside Blender's Cycles, and whether both show the same light.");
+  command->add_flag("--radiosity", options->paths.povray, "The same beside POV-Ray's radiosity.");
   command->add_flag("--dev", options->dev,
                     "Only: how long eyeray dev takes from a save to new pixels, over -n edits of each kind.");
   command->add_flag("--json", options->json, "Answer as JSON on standard output.");

@@ -208,6 +208,7 @@ Picture make_picture(PictureRequest request, const std::function<void(const rend
   picture.samples_done = totals.samples_done;
   picture.rays = totals.rays;
   picture.sampling_seconds = totals.seconds;
+  picture.sampling_processor_seconds = totals.processor_seconds;
   picture.flagged_pixels = totals.flagged_pixels;
   picture.flags |= totals.flags;
   picture.bands = totals.bands;
@@ -292,6 +293,7 @@ Json to_json(const Picture& picture) {
             {"rays", picture.rays},
             {"seconds", picture.seconds},
             {"sampling_seconds", picture.sampling_seconds},
+            {"sampling_processor_seconds", picture.sampling_processor_seconds},
             {"rays_per_second", rays_per_second(picture)},
             {"stages", to_json(picture.times)},
             {"peak_memory", peak_memory()},

@@ -106,7 +106,8 @@ std::string light_text(std::monostate) {
   throw Error(ExitCode::bad_input, "the scene has a light that is not written for POV-Ray");
 }
 
-std::string texture(const Material& material, const Vec3& ambient_light) {
+// Radiosity takes the place of ambient light.
+std::string texture(const Material& material, const Vec3& ambient_light, bool radiosity) {
   if (material.mask)
     throw Error(ExitCode::bad_input, "material \"{}\" has cutouts, which are not written for POV-Ray",
                 material.name);
@@ -120,6 +121,11 @@ std::string texture(const Material& material, const Vec3& ambient_light) {
         highlight);
   // The pigment weighs the ambient share too.
   const Vec3 pigment = glm::max(s.diffuse, Vec3(1e-6));
+  if (radiosity)
+    return fmt::format(
+        "texture {{ pigment {{ rgb {} }} finish {{ diffuse 1 ambient 0 emission rgb {} reflection rgb {} }} "
+        "}}",
+        vector(pigment), vector(s.emitted / pigment), vector(s.reflected));
   return fmt::format(
       "texture {{ pigment {{ rgb {} }} finish {{ diffuse 1 ambient rgb {} {} reflection rgb {} }} }}",
       vector(pigment), vector((s.ambient * ambient_light + s.emitted) / pigment), highlight,
@@ -258,19 +264,21 @@ void add_mesh(std::string& text, const Mesh& mesh, size_t index) {
   text += "}\n}\n";
 }
 
-}  // namespace
-
-std::string povray_scene(const Scene& scene, int width, int height) {
+std::string written(const Scene& scene, int width, int height, bool radiosity) {
   std::string text = fmt::format(
       "#version 3.7;\n"
       "global_settings {{ assumed_gamma 1 max_trace_level {} adc_bailout {} ambient_light rgb 1 }}\n"
       "background {{ rgb {} }}\n",
       scene.render.max_depth + 1, scene.render.min_throughput, vector(scene.render.background));
+  if (radiosity)
+    text +=
+        "global_settings { radiosity { count 400 recursion_limit 4 error_bound 0.3 nearest_count 10 "
+        "pretrace_start 0.08 pretrace_end 0.01 brightness 1 normal off } }\n";
   text += camera(scene, width, height);
   for (const auto& light : scene.lights)
     text += std::visit([](const auto& form) { return light_text(form); }, light->form());
   for (size_t i = 0; i < scene.materials.size(); ++i)
-    append(text, "#declare M{} = {}\n", i, texture(*scene.materials[i], scene.render.ambient));
+    append(text, "#declare M{} = {}\n", i, texture(*scene.materials[i], scene.render.ambient, radiosity));
   for (const auto& shape : scene.shapes) add_shape(text, scene, *shape);
   for (size_t i = 0; i < scene.meshes.size(); ++i) add_mesh(text, scene.meshes[i], i);
   for (const Instance& instance : scene.instances) add_instance(text, scene, instance);
@@ -278,6 +286,18 @@ std::string povray_scene(const Scene& scene, int width, int height) {
   for (const GroupInstance& instance : scene.group_instances)
     append(text, "object {{ Group{} {} }}\n", instance.group, matrix(instance.transform));
   return text;
+}
+
+}  // namespace
+
+std::string povray_scene(const Scene& scene, int width, int height) {
+  return written(scene, width, height, false);
+}
+
+std::string povray_radiosity(const Scene& scene, int width, int height) {
+  if (scene.environment)
+    throw Error(ExitCode::bad_input, "the scene has an environment, which is not written for POV-Ray");
+  return written(scene, width, height, true);
 }
 
 }  // namespace eyeray::contenders

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -127,7 +128,10 @@ void Process::listen(double seconds) {
   const bool open = out_fd_ >= 0 || err_fd_ >= 0;
   if (receive(std::clamp(seconds, 0.001, open ? 0.05 : 0.001))) return;
   int status = 0;
-  if (waitpid(pid_, &status, WNOHANG) != pid_) return;
+  rusage used{};
+  if (wait4(pid_, &status, WNOHANG, &used) != pid_) return;
+  for (const timeval& time : {used.ru_utime, used.ru_stime})
+    processor_seconds_ += double(time.tv_sec) + double(time.tv_usec) * 1e-6;
   code_ = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   while (receive(0)) {
   }
@@ -171,7 +175,8 @@ ProcessResult run_process(const std::vector<std::string>& argv, const Environmen
   Process process(argv, environment);
   if (signal_after_ms >= 0 && !process.wait(signal_after_ms / 1000.0)) process.send_signal(SIGINT);
   process.wait(timeout_seconds);
-  return {process.code().value_or(-1), process.out(), process.err(), watch.seconds()};
+  return {process.code().value_or(-1), process.out(), process.err(), watch.seconds(),
+          process.processor_seconds()};
 }
 
 }  // namespace eyeray

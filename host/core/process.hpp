@@ -35,6 +35,8 @@ class Process {
   const std::string& err() const { return err_; }
   // The exit code, or 128 + the signal that ended it; nothing while it runs.
   std::optional<int> code() const { return code_; }
+  // What all its threads took of the processors; 0 while it runs.
+  double processor_seconds() const { return processor_seconds_; }
   pid_t pid() const { return pid_; }
 
  private:
@@ -47,6 +49,7 @@ class Process {
   std::string out_;
   std::string err_;
   std::optional<int> code_;
+  double processor_seconds_ = 0;
 };
 
 // The words that this process was called by, after the path of its program.
@@ -58,7 +61,8 @@ struct ProcessResult {
   int code = 0;  // the exit code; 128 + the signal that ended it; −1 when it was killed after the time-out
   std::string out;
   std::string err;
-  double seconds = 0;  // from start to end, on the wall clock
+  double seconds = 0;            // from start to end, on the wall clock
+  double processor_seconds = 0;  // of all its threads
 };
 
 // Runs a program to its end. `signal_after_ms` ≥ 0 sends it SIGINT that long after its start.

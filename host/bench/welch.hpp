@@ -1,0 +1,27 @@
+// Whether two renderers agree on the mean, judged by several runs of each under other seeds.
+#pragma once
+
+#include <span>
+
+namespace eyeray::bench {
+
+struct Moments {
+  double mean = 0;
+  double variance = 0;  // of a run, unbiased
+  int count = 0;
+};
+Moments moments(std::span<const double> runs);
+
+// Of two means that are the same in truth: Welch, "The Generalization of 'Student's' Problem when Several
+// Different Population Variances are Involved" (Biometrika 1947).
+struct WelchTest {
+  double t = 0;
+  double freedom = 0;  // degrees of it
+  double p = 1;  // how likely |t| is this great, or greater; 1 where neither varies and both are the same
+};
+WelchTest welch(const Moments& a, const Moments& b);
+
+// How likely |t| or more is with so many degrees of freedom: Student's distribution, both sides.
+double student_tails(double t, double freedom);
+
+}  // namespace eyeray::bench
