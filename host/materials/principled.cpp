@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -279,7 +281,7 @@ std::unique_ptr<Material> parse_principled(TableReader& table) {
     table.error("absorption", "a thin pane has no inside that absorbs; its `color` tints");
   for (const char* key : {"thin", "absorption"})
     if (table.has(key) && !table.has("transmission"))
-      table.error(key, "says something of light that goes through, which needs `transmission`");
+      table.error(key, fmt::format("`{}` is about light that goes through, which takes `transmission`", key));
   if (table.failed()) return nullptr;
   values.coat = table.texture("coat");
   values.coat_roughness = table.texture("coat_roughness");
