@@ -2,7 +2,9 @@
 // no metal, and F90, where their textures are white.
 #ifndef PRINCIPLED_GLSL
 #define PRINCIPLED_GLSL
+#if RANDOM_WALK
 #include "bsdf/layers.glsl"
+#endif
 #include "materials/dielectric.glsl"
 #include "materials/phong.glsl"
 
