@@ -45,8 +45,6 @@ struct LocalFrame {
   vec3 n;
 };
 
-#define LEAST_COSINE 1.0e-4f  // towards the viewer: what bent normals turn away is seen edge-on
-
 LocalFrame local_frame(Interaction at) {
   LocalFrame local;
   local.n = at.seen.normal;

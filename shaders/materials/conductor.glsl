@@ -19,7 +19,7 @@ Bsdf conductor_bsdf(Material material, ScatteringContext context, Scattering sca
     bsdf.glossy.conductor = true;
   }
   bsdf.roughness = texture_color(material.roughness, context.place).y;
-  bsdf.albedo = ggx_albedo(context.cos_view, bsdf.roughness);
+  bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);
 #endif
   return bsdf;
 }

@@ -37,7 +37,7 @@ void add_glass(INOUT(Bsdf) bsdf, Scattering surface, float roughness, float weig
     bsdf.glass_color = color;
     bsdf.ior_from = context.ior_from;
     bsdf.ior_to = context.ior_to;
-    bsdf.glass_albedo = glass_table(context.cos_view, roughness, context.ior_from, context.ior_to);
+    bsdf.glass_albedo = glass_table(viewed_cosine(context), roughness, context.ior_from, context.ior_to);
   }
 #endif
 }
@@ -61,7 +61,7 @@ Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering sc
     bsdf.passed = bsdf.mirror;
     bsdf.layer = schlick(white * material.a.y, white);
     bsdf.glossy = bsdf.layer;
-    bsdf.albedo = ggx_albedo(context.cos_view, bsdf.roughness);
+    bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);
     bsdf.thin = white;
   }
 #endif

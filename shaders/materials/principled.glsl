@@ -45,7 +45,7 @@ Bsdf principled_bsdf(Material material, ScatteringContext context, Scattering sc
   bsdf.layer = schlick(f0, edge);
   bsdf.glossy = schlick(f0 * (1.0f - metallic) + color * metallic, edge * (1.0f - metallic) + white * metallic);
   bsdf.roughness = texture_color(material.roughness, context.place).y;
-  bsdf.albedo = ggx_albedo(context.cos_view, bsdf.roughness);
+  bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);
 #endif
 #if HAS_TRANSMISSION
   float through = texture_color(material.transmission, context.place).x * (1.0f - metallic);
@@ -76,12 +76,12 @@ Bsdf principled_bsdf(Material material, ScatteringContext context, Scattering sc
 #if HAS_COAT
   bsdf.coat = texture_color(material.coat, context.place).x;
   bsdf.coat_roughness = texture_color(material.coat_roughness, context.place).y;
-  bsdf.coat_albedo = ggx_albedo(context.cos_view, bsdf.coat_roughness);
+  bsdf.coat_albedo = ggx_albedo(viewed_cosine(context), bsdf.coat_roughness);
 #endif
 #if HAS_SHEEN
   bsdf.sheen = texture_color(material.sheen, context.place);
   bsdf.sheen_roughness = texture_color(material.sheen_roughness, context.place).y;
-  bsdf.sheen_albedo = sheen_table(context.cos_view, bsdf.sheen_roughness);
+  bsdf.sheen_albedo = sheen_table(viewed_cosine(context), bsdf.sheen_roughness);
 #endif
 #if HAS_TRANSMISSION
   // Single directions cross the layers too.

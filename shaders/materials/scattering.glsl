@@ -19,6 +19,10 @@ struct ScatteringContext {
   float ior_to;
 };
 
+#define LEAST_COSINE 1.0e-4f  // towards the viewer: what bent normals turn away is seen edge-on
+// The viewer's, by which lobes look up how much light they send on.
+float viewed_cosine(ScatteringContext context) { return maximum(context.cos_view, LEAST_COSINE); }
+
 struct Scattering {
   vec3 ambient;      // × the scene's ambient light
   vec3 diffuse;      // × light · cos θ
