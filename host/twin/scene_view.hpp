@@ -39,7 +39,8 @@ struct SceneView {
   const shader::Light* lights;
   const shader::Emitter* emitters;
   const shader::LightNode* light_nodes;
-  const shader::vec4* albedos;  // null where there are none
+  const shader::vec4* albedos;
+  uint32_t albedo_count;  // those of lobes that the scene lacks are not there
   bool has_bvh, quantised_nodes, panes;
   FormulaView formulas;
   void (*stop_if_interrupted)();  // throws

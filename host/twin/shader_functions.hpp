@@ -81,7 +81,7 @@ class Binding {
   return bound_scene->light_nodes[i];
 }
 [[maybe_unused]] vec4 load_albedo(uint i) {
-  return bound_scene->albedos ? bound_scene->albedos[i] : vec4(0);
+  return i < bound_scene->albedo_count ? bound_scene->albedos[i] : vec4(0);
 }
 
 // PROBE, where somebody looks.
