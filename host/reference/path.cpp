@@ -150,8 +150,7 @@ class PathSample {
   Vec3 vertex_{0};                 // its last, or the eye
   Vec3 throughput_{1};
   bool roulette_ = true;
-  uint64_t asked_ = 0;    // by the last vertex: the value of its Event::light …
-  uint64_t way_ = 0;      // … and of its Event::way
+  uint64_t asked_ = 0;    // by the last vertex: the value of its Event::light
   double density_ = 0;    // by solid angle, of the ray's direction; 0 where there was no choice
   LitPoint chosen_at_{};  // and where it was chosen
 };
@@ -355,7 +354,8 @@ std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, co
   rays_.cut_off = !straight && depth_ > scene_.render.max_depth;
   if (rays_.cut_off) return std::nullopt;
   throughput_ /= survival;
-  way_ = way;
+  // Before the next ray, since it belongs to this one.
+  rays_.decided(Event::way, way);
   if (straight) {
     ++panes_;
     ++all_panes_;
@@ -386,7 +386,7 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
   Vec3 color(0);
   vertex_ = ray.o;
   for (;;) {
-    asked_ = way_ = 0;
+    asked_ = 0;
     const auto hit = rays_.trace(ray);
     const Flight flight = fly(media, hit);
     const Vec3 before = throughput_;
@@ -401,7 +401,7 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
       rays_.decided(Event::light, asked_);
       color += throughput_ * light;
       next = scatter_in(medium, at);
-      rays_.decided(Event::way, way_);
+      if (!next) rays_.decided(Event::way, 0);
     } else if (hit) {
       const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
       rays_.decided(Event::hit, at.primitive + 1);
@@ -414,7 +414,7 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
       if (at.has_medium && at.scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)
         ++rays_.total_reflections;
       next = scatter(at, frame, bsdf, media);
-      rays_.decided(Event::way, way_);
+      if (!next) rays_.decided(Event::way, 0);
     } else {
       rays_.decided(Event::hit, 0);
       const Vec3 light = missed(ray.d);

@@ -52,9 +52,13 @@ compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& rend
       result.rounded.push_back(of(rendered({reference::float32_ray_offset, along_normal, seed, textures})));
     };
     for (const bool along_normal : {false, true}) add_rounded(along_normal, TextureChoice::at_hit);
-    // Weights of random paths ask how far off a ray starts, where a lamp is as near as that: so twice as far.
-    if (walks_at_random(scene.render.integrator))
+    if (walks_at_random(scene.render.integrator)) {
+      // Weights ask how far off a ray starts, where a lamp is as near as that: so twice as far. And
+      // directions are rounded as numbers are that they are drawn by.
       result.rounded.push_back(of(rendered({2 * reference::float32_ray_offset, false, seed})));
+      result.rounded.push_back(
+          of(rendered({.share = reference::float32_ray_offset, .seed = seed, .numbers = seed | 1})));
+    }
     if (shift == Vec2(0.0))
       for (const auto textures : {TextureChoice::darkest, TextureChoice::brightest})
         add_rounded(false, textures);
