@@ -150,3 +150,42 @@ TEST_CASE(
   CHECK(worst < 8e-6);
   CHECK(from_behind == 0);
 }
+
+TEST_CASE(
+    "flakes of the Mandelbulb are hit where float32 tells them, however much its bound allows for rounding") {
+  const test::TestSurface& bulb =
+      *std::ranges::find(test::test_surfaces(), "mandelbulb", &test::TestSurface::name);
+  const expression::StraightLine function = test::straight_line(bulb.glsl);
+  constexpr double before = 0.005;
+  Random random(7);
+  int rays = 0, missed = 0;
+  while (rays < 500) {
+    const Vec3 start(random.point(bulb.reach)), toward(random.direction());
+    const double at = bulb.f(start) > 0 ? first_change(bulb.f, start, toward, bulb.reach) : -1;
+    if (at < 0) continue;
+
+    // A ray that is within the surface for a short way.
+    const Vec3 p = start + toward * at, n = glm::normalize(gradient(bulb.f, p));
+    const shader::vec3 d(glm::normalize(glm::cross(n, Vec3(random.direction()))));
+    const shader::vec3 o(p - n * random.log_uniform(1e-6, 1e-4) - Vec3(d) * before);
+    const auto f = [&](double t) { return bulb.f(Vec3(o) + Vec3(d) * t); };
+    const double in = f(0) > 0 ? first_change(bulb.f, Vec3(o), Vec3(d), 2 * before) : -1;
+    const double way = in > 0 ? first_change(bulb.f, Vec3(o) + Vec3(d) * in, Vec3(d), 2 * before - in) : -1;
+    if (way < 0) continue;
+
+    // How deep it is there, and how far float32 is off.
+    double deepest = 0, rounding = 0;
+    for (int k = 1; k < 32; ++k) {
+      const float t = float(in + way * k / 32);
+      deepest = std::max(deepest, -f(double(t)));
+      rounding =
+          std::max(rounding, std::abs(double(test::bound_piece(function, o, d, t, 0).x) - f(double(t))));
+    }
+    if (deepest < 16 * rounding) continue;
+    ++rays;
+    const double t = double(test::march(function, o, d, float(2 * before), 3e-7f, most_steps).t);
+    missed += !(t > in - 1e-5 && t < in + way);
+  }
+  MESSAGE(fmt::format("{} of {} flakes missed", missed, rays));
+  CHECK(missed <= 10);
+}
