@@ -12,7 +12,7 @@
 namespace eyeray::optics {
 namespace {
 
-constexpr int turns = 24, heights = 72;
+constexpr int least_turns = 24, least_heights = 72;
 constexpr double most = 0.6;  // of (n₂ − n₁) / (n₂ + n₁): that of 1 and 4
 
 constexpr int inside = 12;  // of the slices, where that is below 0, and some light is mirrored totally
@@ -42,7 +42,8 @@ void compute(int slice, Table& table) {
 }  // namespace
 
 // Over the normals that are seen, as ggx_albedo_integral().
-double glass_albedo_integral(double cosine, double roughness, double ior_from, double ior_to) {
+double glass_albedo_integral(double cosine, double roughness, double ior_from, double ior_to, int finer) {
+  const int turns = least_turns * finer, heights = least_heights * finer;
   const double width = std::max(roughness * roughness, 1e-6), mu = std::max(cosine, 1e-6);
   const double ratio = ior_from / ior_to;
   const Vec3 o(std::sqrt(1 - mu * mu), 0, mu);

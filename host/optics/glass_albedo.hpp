@@ -7,7 +7,7 @@
 namespace eyeray::optics {
 
 inline constexpr int glass_albedos = 32;  // a side of each table
-inline constexpr int glass_slices = 16;   // of (n₂ − n₁) / (n₂ + n₁): twelve from −0.6 to 0, four to 0.6
+inline constexpr int glass_slices = 16;  // of (n₂ − n₁) / (n₂ + n₁): twelve from −0.6 to 0, four to 0.6
 
 // Which slice two indices lie in.
 int glass_slice(double ior_from, double ior_to);
@@ -19,7 +19,7 @@ std::span<const double> glass_albedo_table(int slice);
 // At a cosine and a roughness in [0, 1], trilinear.
 double glass_albedo(double cosine, double roughness, double ior_from, double ior_to);
 
-// By quadrature.
-double glass_albedo_integral(double cosine, double roughness, double ior_from, double ior_to);
+// By quadrature, in steps so many times `finer` than the tables'.
+double glass_albedo_integral(double cosine, double roughness, double ior_from, double ior_to, int finer = 1);
 
 }  // namespace eyeray::optics
