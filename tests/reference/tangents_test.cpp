@@ -21,7 +21,7 @@ Scene squares(bool mirrored) {
     }
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {2, 4, 3}, {3, 4, 5}};
   scene.meshes.push_back(mesh);
-  scene.instances.push_back({.mesh = 0, .material = add(scene, materials::make_phong({}))});
+  scene.instances.push_back({.mesh = 0, .material = add(scene, materials::make_phong({})), .position = {}});
   return scene;
 }
 
