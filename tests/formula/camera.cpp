@@ -11,7 +11,7 @@ formula::Formula camera(const std::string& text, std::vector<formula::FormulaPar
   return {{text, {"a.toml", 10, 1}}, std::move(parameters), "it", formula::FormulaKind::camera};
 }
 
-std::string fault_of(const std::string& text) {
+std::string fault_of_camera(const std::string& text) {
   try {
     (void)camera(text);
   } catch (const InputError& error) {
@@ -24,14 +24,14 @@ std::string fault_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a camera is a function of a place in the picture and one on the lens") {
-  CHECK(fault_of("vec3 direction(vec2 place, vec2 lens) { return vec3(place, 1.0); }") == "");
-  CHECK(fault_of("vec3 direction(const in vec2 a, in vec2 b) { return vec3(a, 1.0); }") == "");
+  CHECK(fault_of_camera("vec3 direction(vec2 place, vec2 lens) { return vec3(place, 1.0); }") == "");
+  CHECK(fault_of_camera("vec3 direction(const in vec2 a, in vec2 b) { return vec3(a, 1.0); }") == "");
   const std::string missing = "10:1: the text must have a function `vec3 direction(vec2 place, vec2 lens)`";
-  CHECK(fault_of("vec3 direction(vec2 place) { return vec3(place, 1.0); }") == missing);
-  CHECK(fault_of("vec3 direction(vec4 at) { return at.xyz; }") == missing);
-  CHECK(fault_of("vec3 direction(vec2 place, vec3 lens) { return lens; }") == missing);
-  CHECK(fault_of("vec3 direction(vec2 place, vec2 lens, float t) { return vec3(t); }") == missing);
-  CHECK(fault_of("vec3 origin(vec2 place, vec2 lens) { return vec3(place, 1.0); }") == missing);
+  CHECK(fault_of_camera("vec3 direction(vec2 place) { return vec3(place, 1.0); }") == missing);
+  CHECK(fault_of_camera("vec3 direction(vec4 at) { return at.xyz; }") == missing);
+  CHECK(fault_of_camera("vec3 direction(vec2 place, vec3 lens) { return lens; }") == missing);
+  CHECK(fault_of_camera("vec3 direction(vec2 place, vec2 lens, float t) { return vec3(t); }") == missing);
+  CHECK(fault_of_camera("vec3 origin(vec2 place, vec2 lens) { return vec3(place, 1.0); }") == missing);
 }
 
 TEST_CASE("where rays go and start, in float32's bits and in float64; without an origin, the eye") {

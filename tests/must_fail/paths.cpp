@@ -26,7 +26,7 @@ Events events_at(double x, int y) {
   return {7, on_right(x, y) ? 2u : 1u, 9};
 }
 Vec3 light_at(double x, int y, int sample) {
-  return Vec3(0.5, 0.4, 0.3) * (1 + 0.01 * x) * (sample + 1.0) * (on_right(x, y) ? 3 : 1);
+  return Vec3(0.5, 0.4, 0.3) * (1 + 0.01 * x) * (sample + 1.0) * (on_right(x, y) ? 3.0 : 1.0);
 }
 uint32_t trail_of(const Events& events) {
   uint32_t trail = 1;
