@@ -20,6 +20,7 @@ SHADER_BEGIN
 #define MARCH_POINTS 6u
 #define MARCH_STRAYS 3.0f
 #define MARCH_LEAST_SHARE 0.015625f
+#define MARCH_ROUNDS 2.0e-4f  // where that share is less, e is no rounding, but what undecided conditions choose from
 
 struct March {
   float t;        // up to here the sign is known, but for what was passed over
@@ -98,9 +99,11 @@ March march_on(March march, vec3 f) {
     next.noise = maximum(march.noise, maximum(f.z, 1.0e-30f));
     next.value = f.x;
     next.rise = f.x - march.value;
-    next.stray = samples && march.points + 2u <= MARCH_POINTS ? maximum(march.stray, abs(next.rise - march.rise)) : 0.0f;
+    float apart = abs(next.rise - march.rise);
+    apart = apart >= 0.0f ? apart : 3.0e38f;
+    next.stray = samples && march.points + 2u <= MARCH_POINTS ? maximum(march.stray, apart) : 0.0f;
     float share = MARCH_STRAYS * next.stray / next.noise;
-    share = share < MARCH_LIKELY ? maximum(share, MARCH_LEAST_SHARE) : 1.0f;
+    share = share > MARCH_ROUNDS && share < MARCH_LIKELY ? maximum(share, MARCH_LEAST_SHARE) : 1.0f;
     next.share = samples && last ? share : march.share;
     next.points = march.points - 1u;
     next.h = last ? march.waiting : march.h;
