@@ -310,14 +310,14 @@ TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices; else alpha i
 TEST_CASE("what is left out is named once, and counted") {
   GltfFile file = with_material({{"alphaMode", "BLEND"}, {"occlusionTexture", {{"index", 0}}}});
   file.json["materials"].push_back(file.json["materials"][0]);
-  file.json["extensionsUsed"] = {"KHR_materials_sheen", "KHR_materials_ior"};
+  file.json["extensionsUsed"] = {"KHR_materials_iridescence", "KHR_materials_ior"};
   file.json["animations"] = Json::array({Json::object()});
   Json points = file.primitive();
   points["mode"] = 0;
   file.json["meshes"][0]["primitives"].push_back(points);
   const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
   CHECK(scene.warnings ==
-        std::vector<std::string>{"left out: the extension KHR_materials_sheen (1), occlusion maps (2), "
+        std::vector<std::string>{"left out: the extension KHR_materials_iridescence (1), occlusion maps (2), "
                                  "transparency by alpha (2), animations (1), points and lines (1)"});
 }
 
