@@ -99,7 +99,7 @@ int lamp(Scene& scene, double radiance) {
 
 TEST_CASE("lamps of every form: shadow rays alone, paths alone, both") {
   Scene scene = corner();
-  add(scene, make_sphere({0.6, 1.2, 0.2}, 0.5), lamp(scene, 2));
+  add(scene, make_sphere({1, 1.4, 0.2}, 0.4), lamp(scene, 2));
   add(scene, make_disk({-0.1, 1.4, 0.4}, {0.1, -1, 0}, 0.4), lamp(scene, 3));
   add(scene, make_parallelogram({-0.4, 0.9, -0.2}, {0.6, 0, 0}, {0, 0.3, 0.5}), lamp(scene, 2));
   check_all(scene, {{"shadow rays alone", {no_found_lamps, asked_alone}},
@@ -120,6 +120,6 @@ TEST_CASE("an environment with a bright place: shadow rays alone, paths alone, b
 
 TEST_CASE("roulette whose survivors are not paid is found") {
   Scene scene = corner();
-  add(scene, make_sphere({0.6, 1.2, 0.2}, 0.5), lamp(scene, 2));
+  add(scene, make_sphere({1, 1.4, 0.2}, 0.4), lamp(scene, 2));
   CHECK(apart(estimated(scene, {}), estimated(scene, {early_roulette, unpaid_roulette})) > 5);
 }
