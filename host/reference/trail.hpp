@@ -11,9 +11,10 @@
 namespace eyeray::reference {
 
 enum class Event : uint32_t {
-  hit = 1,    // of a primitive, its number + 1; 0: nothing is hit; `in_medium`: a medium scatters it before
-  light = 2,  // twice its number + 2, of the environment twice 1, and one more where it is seen; 0: none asked
-  way = 3,    // by which the path goes on: a lobe + 1, and `through`; 0: it ends
+  hit = 1,  // of a primitive, its number + 1; 0: nothing is hit; `in_medium`: a medium scatters it before
+  light =
+      2,    // twice its number + 2, of the environment twice 1, and one more where it is seen; 0: none asked
+  way = 3,  // by which the path goes on: a lobe + 1, and `through`; 0: it ends
 };
 inline constexpr uint32_t in_medium = 0x0fffffff;
 inline constexpr uint32_t through = 0x100;

@@ -41,10 +41,10 @@ struct RenderOptions {
   // Above 0, pixels whose noise (PixelSums::noise) is no more take no more samples (render/adaptive.hpp), and
   // scene.image.samples is the most that one takes.
   double noise = 0;
-  double clamp =
-      0;  // above 0, samples count for no more than this in any channel, which makes means too dark
+  // Above 0, samples count for no more than this in any channel, which makes means too dark.
+  double clamp = 0;
   // Is shown each sample of a tile of the whole picture, as it is taken; may be empty.
-  std::function<void(const Rect& tile, uint32_t index, std::span<const PixelSample>)> witness;
+  std::function<void(const Rect& tile, uint32_t index, std::span<const PixelSample>)> witness = {};
   Checkpoint* checkpoint = nullptr;  // kept and resumed from; see render_rows
 };
 

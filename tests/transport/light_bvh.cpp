@@ -3,10 +3,10 @@
 
 #include <set>
 
-#include "tests/support/estimate.hpp"
 #include "host/reference/light_pick.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
+#include "tests/support/estimate.hpp"
 #include "tests/support/random.hpp"
 
 #include "tests/support/doctest.hpp"
