@@ -76,11 +76,26 @@ std::optional<LightBounds> bounds_of(const Light& light) {
   return std::nullopt;
 }
 
-// Their weights as powers.
-std::vector<LightBounds> all_bounds(const Scene& scene, const std::vector<Emitter>& emitters,
-                                    const std::vector<double>& shares) {
+// What reaches a point at distance 1 that the light is turned to most: of two with the same power the one
+// that shines into a narrower cone sends more to where it shines.
+double strength(const Light& light) {
+  const LightForm form = light.form();
+  if (const auto* spot = std::get_if<SpotLight>(&form)) return M_PI * luminance(spot->intensity);
+  if (const auto* point = std::get_if<PointLight>(&form)) return M_PI * luminance(point->intensity);
+  return 0;
+}
+// A convex body shows a quarter of its area on the mean.
+double strength(const Emitter& emitter) {
+  return (is_flat(emitter.form) ? 1 : 0.25) * emitter.area * luminance(emitter.radiance);
+}
+
+LightBvh bvh_of(const Scene& scene, const std::vector<Emitter>& emitters) {
   std::vector<LightBounds> all;
-  for (const auto& light : scene.lights) all.push_back(bounds_of(*light).value_or(LightBounds()));
+  std::vector<double> strengths;
+  for (const auto& light : scene.lights) {
+    all.push_back(bounds_of(*light).value_or(LightBounds()));
+    strengths.push_back(strength(*light));
+  }
   for (const Emitter& emitter : emitters) {
     LightBounds bounds = bounds_of(emitter.form);
     if (emitter.side != 0) {
@@ -88,11 +103,13 @@ std::vector<LightBounds> all_bounds(const Scene& scene, const std::vector<Emitte
       bounds.axis *= emitter.side;
     }
     all.push_back(bounds);
+    strengths.push_back(strength(emitter));
   }
+  const std::vector<double> shares = shares_of(strengths);
   for (size_t i = 0; i < all.size(); ++i) all[i].power = shares[i];
   for (size_t i = 0; i < scene.lights.size(); ++i)
     if (!bounds_of(*scene.lights[i])) all[i].power = 0;
-  return all;
+  return light_bvh(all);
 }
 
 bool wants_bvh(const Scene& scene, size_t lights) {
@@ -115,7 +132,7 @@ LightChoice light_choice(const Scene& scene) {
     weights.push_back((emitter.side == 0 ? 2 : 1) * M_PI * emitter.area * luminance(emitter.radiance));
   if (scene.render.light_sampler == LightSampler::uniform) std::ranges::fill(weights, 0);
   std::vector<double> shares = shares_of(weights);
-  if (wants_bvh(scene, weights.size())) choice.bvh = light_bvh(all_bounds(scene, choice.emitters, shares));
+  if (wants_bvh(scene, weights.size())) choice.bvh = bvh_of(scene, choice.emitters);
 
   // All in the BVH are as one more, the last.
   double together = 0;

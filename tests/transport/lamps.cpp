@@ -124,14 +124,13 @@ TEST_CASE("a lamp with a front lights what is before it, and is dark from behind
     check(scene, shown(expected));
   };
   Mat4 mirror(1.0);
-  mirror[0].x = -1;
-  const auto mirrored = [](const Vec3& p) { return Vec3(-p.x, p.y, p.z); };
-  const double down = glm::dot(glm::cross(u, v), a);
-  CHECK(down > 0);  // a × b points away from the origin
-  lit(make_parallelogram(a, u, v), 0);
-  lit(make_parallelogram(a, v, u), of_both);
-  lit(make_triangle({.vertices = {a, a + u, a + v}}), 0);
-  lit(make_triangle({.vertices = {a, a + v, a + u}}), of_triangle);
+  mirror[2].z = -1;
+  const auto mirrored = [](const Vec3& p) { return Vec3(p.x, p.y, -p.z); };
+  CHECK(glm::dot(glm::cross(u, v), a) < 0);  // u × v points to the origin
+  lit(make_parallelogram(a, u, v), of_both);
+  lit(make_parallelogram(a, v, u), 0);
+  lit(make_triangle({.vertices = {a, a + u, a + v}}), of_triangle);
+  lit(make_triangle({.vertices = {a, a + v, a + u}}), 0);
   lit(make_triangle({.vertices = {mirrored(a), mirrored(a + v), mirrored(a + u)}}, mirror), of_triangle);
   const double of_disk = M_PI * 0.64 / (0.64 + 1.69);
   lit(make_disk({0, 1.3, 0}, {0, -1, 0}, 0.8), of_disk);
@@ -144,8 +143,8 @@ TEST_CASE("a lamp with a front lights what is before it, and is dark from behind
     for (const bool away : {false, true}) {
       Scene scene = floor();
       scene.meshes.push_back(
-          {.name = "", .positions = {a, a + u, a + v}, .triangles = {{0, 2, 1}}, .normals = {}, .uv = {}});
-      if (away) scene.meshes[0].triangles[0] = {0, 1, 2};
+          {.name = "", .positions = {a, a + u, a + v}, .triangles = {{0, 1, 2}}, .normals = {}, .uv = {}});
+      if (away) scene.meshes[0].triangles[0] = {0, 2, 1};
       const int front = lamp(scene);
       scene.materials[size_t(front)]->emits_in_front = true;
       scene.instances.push_back({.mesh = 0, .transform = map, .material = front, .position = {}});
