@@ -74,10 +74,11 @@ Bsdf only_bsdf(const Material& material) {
   std::optional<Bsdf> first;
   for (int i = 0; i < 64; ++i) {
     const double x = 0.754877666 * i, y = 0.569840291 * i;  // spread over all
-    const ScatteringContext context{.place = {Vec2(x - std::floor(x), y - std::floor(y)), Vec3(x, -y, y - x)},
-                                    .cos_view = 1 - i / 128.0,
-                                    .ior_from = 1,
-                                    .ior_to = 1};
+    const ScatteringContext context{
+        .place = {8.0 * Vec2(x - std::floor(x), y - std::floor(y)), Vec3(x, -y, y - x)},
+        .cos_view = 1 - i / 128.0,
+        .ior_from = 1,
+        .ior_to = 1};
     const Bsdf bsdf = material.bsdf(context, material.scattering(context));
     if (bsdf.diffuse_roughness > 0 || bsdf.coat > 0 || bsdf.glass != Vec3(0)) fail("is rough or coated");
     if (bsdf.sheen != Vec3(0) || bsdf.thin != Vec3(0) || bsdf.passed != Vec3(0))

@@ -76,7 +76,7 @@ TEST_CASE("a wrong override is refused, and says which it is") {
   const std::pair<const char*, const char*> cases[] = {
       {"rendr.max_depth=3", "unknown table `rendr`; did you mean [render]?"},
       {"render.max_dept=3", "unknown key `max_dept` in [render]; did you mean `max_depth`?"},
-      {"render.max_depth=99", "`max_depth` must be an integer from 0 to 64, not 99"},
+      {"render.max_depth=1099", "`max_depth` must be an integer from 0 to 1024, not 1099"},
       {"render.integrator=whited",
        "`integrator` must be \"raycast\", \"whitted\" or \"path\", not \"whited\"; did you mean "
        "\"whitted\"?"},

@@ -299,7 +299,7 @@ TEST_CASE("panes: R' = 2R / (1 + R), and what is left goes straight on, seen and
 TEST_CASE("frosted glass and frosted panes take nothing in a furnace") {
   for (const bool thin : {false, true}) {
     CAPTURE(thin);
-    Scene ball = patch({0, 0, 4}, {0.3, 0.4, 0}, 64);
+    Scene ball = patch({0, 0, 4}, {0.3, 0.4, 0}, 144);
     ball.render.background = Vec3(1);
     ball.render.max_depth = 128;
     add(ball, make_sphere({0, 0, 0}, 1),
