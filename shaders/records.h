@@ -5,6 +5,7 @@
 #define RECORDS_H
 
 #include "language.h"
+#include "result_records.h"
 
 SHADER_BEGIN
 
@@ -313,131 +314,6 @@ struct Dispatch {
   uint stride;  // of a picture by the loop: of so many pixels along each axis one, the first of the tile's
 };
 
-// ---- Results --------------------------------------------------------------------------------------------------------
-#define REFRACTED_SHIFT 8u
-#define TOTAL_SHIFT 20u
-
-// One sample of one pixel, 32 bytes.
-struct SampleResult {
-  vec3 color;
-  uint trail;  // of a random walk (integrators/trail.glsl); else 1
-  uint rays;
-  uint hits;
-  uint flags;       // with RAY_KINDS below refracted_of
-  uint iterations;  // of loops; with RAY_KINDS reflected_of and total_reflections_of instead
-};
-INLINE SampleResult sample_result(vec3 color, uvec4 counts, uint trail) {
-  SampleResult result;
-  result.color = color;
-  result.trail = trail;
-  result.rays = counts.x;
-  result.hits = counts.y;
-  result.flags = counts.z;
-  result.iterations = counts.w;
-  return result;
-}
-INLINE uvec4 counts_of(SampleResult result) { return uvec4(result.rays, result.hits, result.flags, result.iterations); }
-// With RAY_KINDS: how many of its rays were refracted and reflected, and how often a reflection was total.
-INLINE uint flags_of(SampleResult result) { return result.flags & ((1u << REFRACTED_SHIFT) - 1u); }
-INLINE uint refracted_of(SampleResult result) { return result.flags >> REFRACTED_SHIFT; }
-INLINE uint reflected_of(SampleResult result) { return result.iterations & ((1u << TOTAL_SHIFT) - 1u); }
-INLINE uint total_reflections_of(SampleResult result) { return result.iterations >> TOTAL_SHIFT; }
-
-// What a denoiser asks of one sample of one pixel, 32 bytes.
-struct AuxiliaryResult {
-  vec3 albedo;
-  uint flags;
-  vec3 normal;
-  uint unused;
-};
-
-// The first hit of one pixel, 80 bytes. A miss has primitive = material = NONE and t = T_MISS.
-struct HitResult {
-  vec3 position;  // relative to the eye
-  float t;
-  vec3 normal;
-  float u;
-  vec3 normal_geometric;
-  float v;
-  float cosine;  // of the angle between normal_geometric and the way back along the ray
-  uint primitive;
-  uint material;
-  uint flags;
-  uint nodes;  // with SEARCH_COST, also of a miss: of BVHs, visited …
-  uint tests;  // … and primitives tested
-  uint unused_0;
-  uint unused_1;
-};
-// kernels/query.comp.glsl: a ray, 32 bytes.
-struct QueryRay {
-  vec3 origin;
-  float unused;
-  vec3 direction;
-  float t_max;  // up to which occlusion counts
-};
-// And its answer, 16 bytes. Asked whether anything is hit: 0 or T_MISS, NONE, flags, occlusion.
-struct QueryHit {
-  float t;
-  uint primitive;  // or NONE
-  uint flags;
-  uint occlusion;
-};
-
-// Rays that kernels/cooperative/packet.comp.glsl traces together. More share more of the work, and take longer to compile.
-#define PACKET 32
-
-// What the ray of one sample of a pixel hits, 32 bytes.
-struct PacketHit {
-  float t;
-  uint slot;
-  uint id;
-  uint flags;
-  float u;
-  float v;
-  uint unused_0;
-  uint unused_1;
-};
-
-// Where a pixel's path goes on, 64 bytes.
-struct PathState {
-  vec3 origin;
-  uint media;
-  vec3 direction;
-  float density;
-  vec3 throughput;
-  uint pixel;
-  vec3 normal;
-  uint unused;
-};
-
-// What a pixel's rays show to a probe, 32 bytes a value. The first of the buffer says in `name` how many there would be if all had room.
-struct ProbeRecord {
-  uint name;  // PROBED_name (features.h), or PROBE_OPENS_RAY, PROBE_RETURNS
-  uint line;  // of the shader's file
-  uint type;
-  uint size;    // components
-  uvec4 value;  // the bits of each; of a ray kind, number and depth
-};
-#define PROBE_OPENS_RAY 0xffffffffu
-#define PROBE_RETURNS 0xfffffffeu
-#define PROBE_FLOAT 0u
-#define PROBE_INT 1u
-#define PROBE_UINT 2u
-#define PROBE_BOOL 3u
-// Kinds of rays; core/ray_tree.hpp names them for the host.
-#define RAY_EYE 1u
-#define RAY_REFLECTED 2u
-#define RAY_REFRACTED 3u
-#define RAY_SHADOW 4u
-
-// Bits of the flags of results; core/pixel.hpp names them for the host.
-#define FLAG_MEDIA_OVERFLOW 1u
-#define FLAG_STACK_OVERFLOW 2u
-#define FLAG_LOOP_BUDGET 4u
-#define FLAG_ITERATION_LIMIT 8u
-#define FLAG_ENDLESS 16u  // a formula made more than FORMULA_TURNS turns of its loops in one call
-#define FLAG_CUT_OFF 32u  // with RAY_KINDS, and no fault: max_depth ended the path
-
 SHADER_END
 
 #ifdef __cplusplus
@@ -452,13 +328,5 @@ static_assert(sizeof(eyeray::shader::Emitter) == 96);
 static_assert(sizeof(eyeray::shader::LightNode) == 48);
 static_assert(sizeof(eyeray::shader::Frame) == 176);
 static_assert(sizeof(eyeray::shader::Dispatch) == 32);
-static_assert(sizeof(eyeray::shader::SampleResult) == 32);
-static_assert(sizeof(eyeray::shader::AuxiliaryResult) == 32);
-static_assert(sizeof(eyeray::shader::HitResult) == 80);
-static_assert(sizeof(eyeray::shader::QueryRay) == 32);
-static_assert(sizeof(eyeray::shader::QueryHit) == 16);
-static_assert(sizeof(eyeray::shader::PacketHit) == 32);
-static_assert(sizeof(eyeray::shader::PathState) == 64);
-static_assert(sizeof(eyeray::shader::ProbeRecord) == 32);
 #endif
 #endif

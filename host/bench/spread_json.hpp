@@ -1,17 +1,12 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "host/bench/spread.hpp"
 
 namespace eyeray::bench {
 
-inline nlohmann::ordered_json to_json(const Spread& spread) {
-  return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
-}
-
-inline Spread spread_from(const nlohmann::ordered_json& json) {
-  return {json.at("median"), json.at("min"), json.at("max")};
-}
+nlohmann::ordered_json to_json(const Spread& spread);
+Spread spread_from(const nlohmann::ordered_json& json);
 
 }  // namespace eyeray::bench

@@ -13,7 +13,7 @@
 namespace eyeray::executors {
 namespace {
 
-constexpr std::string_view shared = "records.h";  // by shaders and host
+constexpr std::string_view shared_files[] = {"records.h", "result_records.h"};  // by shaders and host
 
 std::string_view embedded(std::string_view name) {
   for (const EmbeddedFile& shader : embedded_shaders())
@@ -41,7 +41,8 @@ std::vector<Line> code_lines(std::string_view text) {
 }
 
 // The buffers' layout is compiled into the program: other records would be read as what they are not.
-void check_records(const std::filesystem::path& file) {
+void check_records(const std::filesystem::path& folder, std::string_view shared) {
+  const std::filesystem::path file = folder / shared;
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return;
   const std::vector<Line> theirs = code_lines(read_file(file)), ours = code_lines(embedded(shared));
@@ -65,7 +66,8 @@ ShaderFiles::ShaderFiles(std::filesystem::path folder, std::string scene_glsl)
   if (!folder_.empty() && !std::filesystem::is_directory(folder_))
     throw Error(ExitCode::file_io, "--shaders {}: not a folder; `eyeray shaders --export {}` makes one",
                 folder_.string(), folder_.string());
-  if (!folder_.empty()) check_records(folder_ / shared);
+  if (!folder_.empty())
+    for (const std::string_view shared : shared_files) check_records(folder_, shared);
 }
 
 std::optional<std::string> ShaderFiles::read(std::string_view name) {

@@ -2,17 +2,11 @@
 // Monte Carlo Rendering, SIGGRAPH 1995. Arvo, Kirk: Particle Transport and Image Synthesis, SIGGRAPH 1990.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "host/reference/bsdf.hpp"
 #include "host/reference/emitter_sample.hpp"
-#include "host/reference/environment.hpp"
-#include "host/reference/integrator.hpp"
-#include "host/reference/light_disk.hpp"
-#include "host/reference/light_pick.hpp"
+#include "host/reference/path_sample.hpp"
 #include "host/reference/phase.hpp"
-#include "host/reference/rng.hpp"
-#include "host/reference/sample_rays.hpp"
-#include "host/reference/sampler.hpp"
 
 namespace eyeray::reference {
 
@@ -26,9 +20,6 @@ constexpr std::string_view manual =
     "such light in Whitted's pictures counts for nothing here: `ambient`, highlights (`specular`), `shadow` "
     "and `min_throughput`. `diffuse` beyond 1 counts as 1. `max_depth` surfaces are lit after the first.";
 
-// What pairs of random numbers are for; of the vertices after the first, `pairs_a_vertex` further on each.
-constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, place_pair = 7, pairs_a_vertex = 4;
-constexpr uint32_t first_flight_pair = 0x10000;  // of the vertices after the first one further on each
 constexpr int first_roulette = 3;
 constexpr double least_survival = 0.05;
 
@@ -36,124 +27,7 @@ double largest(const Vec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
-// The weight of a technique of density p beside one of density q. On edge a place is infinitely dense.
-double power_heuristic(double p, double q) {
-  return 1 / (1 + (q / p) * (q / p));
-}
-
-constexpr double least_cosine = 1e-4;  // towards the viewer: what bent normals turn away is seen edge-on
-
-// A point's own frame: z is the normal towards where the ray came from.
-class LocalFrame {
- public:
-  explicit LocalFrame(const Interaction& at) : n_(at.surface.normal) {
-    const auto [s, t] = tangents(n_);
-    s_ = s;
-    t_ = t;
-    const Vec3 o = into(-at.d);
-    viewer = glm::normalize(Vec3(o.x, o.y, std::max(o.z, least_cosine)));
-  }
-
-  Vec3 into(const Vec3& v) const { return {glm::dot(v, s_), glm::dot(v, t_), glm::dot(v, n_)}; }
-  Vec3 out_of(const Vec3& v) const { return v.x * s_ + v.y * t_ + v.z * n_; }
-
-  Vec3 viewer;
-
- private:
-  Vec3 s_, t_, n_;
-};
-
-LitPoint lit_point(const Interaction& at) {
-  const bool all_around = at.bsdf.glass + at.bsdf.thin != Vec3(0) || at.in_medium();
-  return {at.surface.position, all_around ? std::nullopt : std::optional(at.surface.normal)};
-}
-
-// From a light: by direction l, along the ray where nothing stands before `distance`.
-struct Arriving {
-  Vec3 l;
-  Ray ray;
-  double distance;
-  Vec3 radiance;   // divided by the density of the choice
-  double density;  // by solid angle, with the light's choice; 0 of a light without extent
-  uint64_t light;  // its number; of the environment −1
-};
-
-// How far a path gets through a medium: up to a point of it, or to what the ray hits.
-struct Flight {
-  double t;
-  bool scattered;
-  Vec3 weight;  // of the light that comes from there
-};
-
-// What comes through a medium.
-Vec3 transmittance(const Medium& medium, double t) {
-  const Vec3 extinction = medium.absorption + medium.scattering;
-  Vec3 left(1);
-  for (int c = 0; c < 3; ++c)
-    if (extinction[c] > 0) left[c] = std::exp(-extinction[c] * t);
-  return left;
-}
-
-class PathSample {
- public:
-  PathSample(const Tracer& tracer, const SampleId& id, const RayOffset& ray_offset, const Observer& observer)
-      : tracer_(tracer),
-        scene_(tracer.scene()),
-        id_(id),
-        numbers_(ray_offset.numbers),
-        rays_(tracer, ray_offset, observer),
-        observer_(observer) {}
-
-  PixelSample sample(Ray ray, MediaStack media);
-  AuxiliarySample auxiliary(Ray ray, MediaStack media);
-
- private:
-  Vec2 pair(uint32_t use) const { return pair_of(use + pairs_a_vertex * surfaces()); }
-  Vec2 pair_of(uint32_t number) const {
-    Vec2 pair = sampler(scene_.image.pattern).pair(id_.pixel, id_.index, number, scene_.render.seed);
-    // Moved, where it is asked what float32 makes of numbers that are near to a decision.
-    if (numbers_ != 0)
-      for (uint32_t i = 0; i < 2; ++i)
-        pair[int(i)] = std::clamp(pair[int(i)] + std::floor(9 * random(numbers_, number, i, 0) - 4) * 0x1p-24,
-                                  0.0, 1 - 0x1p-24);
-    return pair;
-  }
-  // That the path has come through.
-  uint32_t surfaces() const { return uint32_t(depth_ + all_panes_); }
-  Flight fly(const MediaStack& media, const std::optional<Hit>& hit) const;
-  Interaction scattered_at(const Ray& ray, double t) const;
-  std::optional<Ray> scatter_in(const Medium& medium, const Interaction& at);
-  Vec3 emitted(const Interaction& at) const;
-  Vec3 missed(const Vec3& d) const;
-  double environment_share() const;
-  std::optional<Arriving> arriving(const Interaction& at);
-  std::optional<Arriving> arriving_from_around(const Interaction& at);
-  Vec3 direct(const Interaction& at, const Arriving& light, const BsdfValue& scattered,
-              const MediaStack& media);
-  Vec3 direct_on(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
-                 const MediaStack& media);
-  Vec3 direct_in(const Interaction& at, const MediaStack& media);
-  std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, double chance,
-                               uint32_t way, bool straight = false);
-  std::optional<Ray> scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
-                             MediaStack& media);
-
-  const Tracer& tracer_;
-  const Scene& scene_;
-  const SampleId id_;
-  const uint32_t numbers_;
-  SampleRays rays_;
-  const Observer& observer_;
-  const bool any_pane_ = std::ranges::any_of(scene_.materials, &Material::thin);
-  int depth_ = 0;
-  int panes_ = 0, all_panes_ = 0;  // that the path has passed straight, since its last vertex and in all
-  Vec3 vertex_{0};                 // its last, or the eye
-  Vec3 throughput_{1};
-  bool roulette_ = true;
-  uint64_t asked_ = 0;    // by the last vertex: the value of its Event::light
-  double density_ = 0;    // by solid angle, of the ray's direction; 0 where there was no choice
-  LitPoint chosen_at_{};  // and where it was chosen
-};
+}  // namespace
 
 // A channel says how far, each as likely as it has light left; the density is that of all three.
 Flight PathSample::fly(const MediaStack& media, const std::optional<Hit>& hit) const {
@@ -175,133 +49,6 @@ Flight PathSample::fly(const MediaStack& media, const std::optional<Hit>& hit) c
   }
   const Vec3 left = transmittance(medium, end);
   return {end, false, left / glm::dot(shares, left)};
-}
-
-// Its own light, less what shadow rays to it have brought already.
-Vec3 PathSample::emitted(const Interaction& at) const {
-  const Vec3& light = at.scattering.emitted;
-  const LightChoice& choice = tracer_.light_choice();
-  if (density_ == 0) return light;
-  const auto found = std::ranges::lower_bound(choice.emitters, at.primitive, {}, &Emitter::primitive);
-  if (found == choice.emitters.end() || found->primitive != at.primitive) return light;
-  const double share =
-      (1 - environment_share()) *
-      light_share(choice, chosen_at_, scene_.lights.size() + size_t(found - choice.emitters.begin()));
-  const EmitterSample place{at.surface.position, at.surface.normal_geometric};
-  return light * power_heuristic(density_, share * emitter_density(found->form, vertex_, place));
-}
-
-// How likely the environment is chosen, and not a light.
-double PathSample::environment_share() const {
-  return environment_numbers(scene_.environment.get(), !tracer_.light_choice().ends.empty()) * 0x1p-24;
-}
-
-// What the path sees that hits nothing, likewise.
-Vec3 PathSample::missed(const Vec3& d) const {
-  Vec3 light = rays_.surroundings(d);
-  const double share = environment_share();
-  const auto weight = [&](double density) { return density_ > 0 ? power_heuristic(density_, density) : 1; };
-  if (share > 0) light *= weight(share * environment_density(*scene_.environment, rays_.rounded(d)));
-  for (size_t i = 0; i < scene_.lights.size(); ++i) {
-    const Illumination disk = scene_.lights[i]->illuminate(Vec3(0));
-    if (disk.angle == 0 || !in_disk(disk, rays_.rounded(d))) continue;
-    light += disk_radiance(disk) * weight((1 - share) * tracer_.light_choice().share(i) * disk_density(disk));
-  }
-  return light;
-}
-
-std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) {
-  const auto [l, by_angle] = sample_environment(*scene_.environment, pair(place_pair));
-  const double density = environment_share() * by_angle;
-  return Arriving{l,
-                  rays_.spawn_ray(at.surface, l),
-                  std::numeric_limits<double>::infinity(),
-                  rays_.surroundings(l) / density,
-                  density,
-                  uint64_t(-1)};
-}
-
-// What one light, chosen at random, sends to the point. Classic units: one of intensity 1 is π times that.
-std::optional<Arriving> PathSample::arriving(const Interaction& at) {
-  const LightChoice& choice = tracer_.light_choice();
-  const Vec2 chance = pair(light_pair);
-  if (chance.y < environment_share()) return arriving_from_around(at);
-  if (choice.ends.empty()) return std::nullopt;
-  const auto pick = pick_light(choice, lit_point(at), chance.x);
-  if (!pick) return std::nullopt;
-  const size_t light = pick->light;
-  const double share = (1 - environment_share()) * pick->share;
-  const Vec3& p = at.surface.position;
-  if (light < scene_.lights.size()) {
-    const Illumination arriving = scene_.lights[light]->illuminate(p);
-    if (arriving.angle > 0) {
-      const Vec3 l = disk_direction(arriving, pair(place_pair));
-      const double density = share * disk_density(arriving);
-      return Arriving{
-          l,    rays_.spawn_ray(at.surface, l), arriving.distance, disk_radiance(arriving) / density, density,
-          light};
-    }
-    return Arriving{arriving.l,
-                    rays_.spawn_ray(at.surface, arriving.l),
-                    arriving.distance,
-                    M_PI / share * arriving.color,
-                    0,
-                    light};
-  }
-  const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
-  // What is flat does not light itself.
-  if (emitter.primitive == at.primitive && is_flat(emitter.form)) return std::nullopt;
-  const EmitterSample place = sample_emitter(emitter.form, p, pair(place_pair));
-  const Vec3 l = glm::normalize(place.position - p);
-  Ray ray = rays_.spawn_ray(at.surface, l);
-  ray.d = glm::normalize(place.position - ray.o);
-  const double density = share * emitter_density(emitter.form, p, place);
-  return Arriving{l,
-                  ray,
-                  glm::length(place.position - ray.o) * (1 - 1e-9),
-                  emitter_radiance(scene_, emitter, place, p) / density,
-                  density,
-                  light};
-}
-
-// What that brings to the viewer by a vertex that sends on `scattered`; all but panes keeps the ray in
-// `media`.
-Vec3 PathSample::direct(const Interaction& at, const Arriving& light, const BsdfValue& scattered,
-                        const MediaStack& media) {
-  const double weight = light.density > 0 ? power_heuristic(light.density, scattered.density) : 1;
-  const Vec3 contribution =
-      light.radiance * transmittance(rays_.medium(media), light.distance) * scattered.value * weight;
-  if (contribution == Vec3(0)) return Vec3(0);
-  const bool beyond = glm::dot(light.ray.d, at.surface.normal_geometric) < 0;
-  const MediaStack& passed = beyond && !at.in_medium() ? at.media_beyond : media;
-  const Vec3 seen = any_pane_ ? rays_.through_panes(light.ray, light.distance, passed)
-                              : Vec3(rays_.shadow(light.ray, light.distance));
-  observer_.ray(RayKind::shadow, light.ray, depth_, 0);
-  observer_.value("contribution", contribution);
-  observer_.value("visibility", seen.x);
-  observer_.back(depth_);
-  asked_ = 2 * (light.light + 2) + (largest(seen) > 0 ? 1 : 0);
-  return seen * contribution;
-}
-
-Vec3 PathSample::direct_on(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
-                           const MediaStack& media) {
-  if (bsdf.black() || depth_ > scene_.render.max_depth) return Vec3(0);
-  const auto light = arriving(at);
-  if (!light || light->radiance == Vec3(0)) return Vec3(0);
-  const Vec3 i = frame.into(light->l);
-  const BsdfValue scattered = bsdf.at(i);
-  if (scattered.value == Vec3(0)) return Vec3(0);
-  if (!rays_.on_side(at.surface, light->l, light->distance, i.z > 0)) return Vec3(0);
-  return direct(at, *light, scattered, i.z > 0 ? media : at.media_beyond);
-}
-
-Vec3 PathSample::direct_in(const Interaction& at, const MediaStack& media) {
-  if (depth_ > scene_.render.max_depth) return Vec3(0);
-  const auto light = arriving(at);
-  if (!light || light->radiance == Vec3(0)) return Vec3(0);
-  const double phase = phase_value(rays_.medium(media).anisotropy, glm::dot(at.d, light->l));
-  return direct(at, *light, {Vec3(phase), phase}, media);
 }
 
 std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
@@ -453,6 +200,8 @@ AuxiliarySample PathSample::auxiliary(Ray ray, MediaStack media) {
     ray = *next;
   }
 }
+
+namespace {
 
 PixelSample path(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
                  const RayOffset& ray_offset, const Observer& observer) {

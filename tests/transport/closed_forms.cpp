@@ -254,61 +254,6 @@ TEST_CASE("glass takes nothing: a ball of it in a furnace, and a pane before a l
   check(pane, 0.923077, 1e-5);
 }
 
-TEST_CASE("panes: R' = 2R / (1 + R), and what is left goes straight on, seen and as light") {
-  const double r = 0.04, mirrored = 2 * r / (1 + r), through = 1 - mirrored;
-  Scene furnace = patch({0, 0, 4}, {0.3, 0.4, 0}, 64);
-  furnace.render.background = Vec3(1);
-  furnace.render.max_depth = 64;
-  add(furnace, make_sphere({0, 0, 0}, 1), add(furnace, make_dielectric({.thin = true})));
-  check(furnace, 1, 1e-5);
-
-  Scene seen = patch({0, 0, 4}, {0, 0, 0}, 1024);
-  const int window = add(seen, make_dielectric({.thin = true}));
-  for (const double z : {0.0, 1.0}) add(seen, make_disk({0, 0, z}, {0, 0, 1}, 1), window);
-  add(seen, make_disk({0, 0, -1}, {0, 0, 1}, 1), lamp(seen));
-  // Between both light goes to and fro.
-  seen.render.max_depth = 64;
-  check(seen, through * through / (1 - mirrored * mirrored), 1e-5);
-
-  // A point's light, through the one pane alone and at right angles: T'; a tinted one's, by its layer.
-  Scene lit = floor(16);
-  add_point_light(lit, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
-  Scene tinted = floor(16);
-  add_point_light(tinted, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
-  add(lit, make_disk({0, 1.5, 0}, {0, 1, 0}, 0.1), add(lit, make_dielectric({.thin = true})));
-  check(lit, albedo * 3 / 4 * through, 1e-4);
-  add(tinted, make_disk({0, 1.5, 0}, {0, 1, 0}, 0.1),
-      add(tinted, make_principled(
-                      {.color = gray(0.5), .roughness = gray(0), .transmission = gray(1), .thin = true})));
-  check(tinted, albedo * 3 / 4 * 0.5 * 0.96, 1e-3);
-
-  // All light of a lamp comes by nine panes as by eight, whoever finds it.
-  for (const int panes : {1, 8, 9}) {
-    CAPTURE(panes);
-    Scene behind = floor(panes == 9 ? 2560 : 256);
-    behind.render.max_depth = 0;
-    const int clear = add(behind, make_dielectric({.ior = 1, .thin = true}));
-    for (int i = 0; i < panes; ++i) add(behind, make_disk({0, 0.3 + 0.05 * i, 0}, {0, 1, 0}, 3), clear);
-    behind.camera.eye = {0.1, 0.25, 0.1};
-    add(behind, make_sphere({0, 2, 0}, 1), lamp(behind));
-    if (panes == 9) behind.render.max_depth = 1;
-    check(behind, shown(M_PI / 4), 1e-4);
-  }
-}
-
-TEST_CASE("frosted glass and frosted panes take nothing in a furnace") {
-  for (const bool thin : {false, true}) {
-    CAPTURE(thin);
-    Scene ball = patch({0, 0, 4}, {0.3, 0.4, 0}, 144);
-    ball.render.background = Vec3(1);
-    ball.render.max_depth = 128;
-    add(ball, make_sphere({0, 0, 0}, 1),
-        add(ball, make_principled(
-                      {.color = gray(1), .roughness = gray(0.6), .transmission = gray(1), .thin = thin})));
-    check(ball, 1, 0.01);
-  }
-}
-
 TEST_CASE("a lamp between two mirrors shows Σ rⁿ") {
   Scene scene = patch({0, 0, 0.5}, {0, 0, 0}, 1024);
   scene.render.max_depth = 64;

@@ -1,0 +1,162 @@
+// What of lights' light a vertex of a path sends on.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/reference/emitter_sample.hpp"
+#include "host/reference/environment.hpp"
+#include "host/reference/light_disk.hpp"
+#include "host/reference/path_sample.hpp"
+#include "host/reference/phase.hpp"
+
+namespace eyeray::reference {
+namespace {
+
+// The weight of a technique of density p beside one of density q. On edge a place is infinitely dense.
+double power_heuristic(double p, double q) {
+  return 1 / (1 + (q / p) * (q / p));
+}
+
+}  // namespace
+
+LitPoint lit_point(const Interaction& at) {
+  const bool all_around = at.bsdf.glass + at.bsdf.thin != Vec3(0) || at.in_medium();
+  return {at.surface.position, all_around ? std::nullopt : std::optional(at.surface.normal)};
+}
+
+Vec3 transmittance(const Medium& medium, double t) {
+  const Vec3 extinction = medium.absorption + medium.scattering;
+  Vec3 left(1);
+  for (int c = 0; c < 3; ++c)
+    if (extinction[c] > 0) left[c] = std::exp(-extinction[c] * t);
+  return left;
+}
+
+// Its own light, less what shadow rays to it have brought already.
+Vec3 PathSample::emitted(const Interaction& at) const {
+  const Vec3& light = at.scattering.emitted;
+  const LightChoice& choice = tracer_.light_choice();
+  if (density_ == 0) return light;
+  const auto found = std::ranges::lower_bound(choice.emitters, at.primitive, {}, &Emitter::primitive);
+  if (found == choice.emitters.end() || found->primitive != at.primitive) return light;
+  const double share =
+      (1 - environment_share()) *
+      light_share(choice, chosen_at_, scene_.lights.size() + size_t(found - choice.emitters.begin()));
+  const EmitterSample place{at.surface.position, at.surface.normal_geometric};
+  return light * power_heuristic(density_, share * emitter_density(found->form, vertex_, place));
+}
+
+// How likely the environment is chosen, and not a light.
+double PathSample::environment_share() const {
+  return environment_numbers(scene_.environment.get(), !tracer_.light_choice().ends.empty()) * 0x1p-24;
+}
+
+// What the path sees that hits nothing, likewise.
+Vec3 PathSample::missed(const Vec3& d) const {
+  Vec3 light = rays_.surroundings(d);
+  const double share = environment_share();
+  const auto weight = [&](double density) { return density_ > 0 ? power_heuristic(density_, density) : 1; };
+  if (share > 0) light *= weight(share * environment_density(*scene_.environment, rays_.rounded(d)));
+  for (size_t i = 0; i < scene_.lights.size(); ++i) {
+    const Illumination disk = scene_.lights[i]->illuminate(Vec3(0));
+    if (disk.angle == 0 || !in_disk(disk, rays_.rounded(d))) continue;
+    light += disk_radiance(disk) * weight((1 - share) * tracer_.light_choice().share(i) * disk_density(disk));
+  }
+  return light;
+}
+
+std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) {
+  const auto [l, by_angle] = sample_environment(*scene_.environment, pair(place_pair));
+  const double density = environment_share() * by_angle;
+  return Arriving{l,
+                  rays_.spawn_ray(at.surface, l),
+                  std::numeric_limits<double>::infinity(),
+                  rays_.surroundings(l) / density,
+                  density,
+                  uint64_t(-1)};
+}
+
+// What one light, chosen at random, sends to the point. Classic units: one of intensity 1 is π times that.
+std::optional<Arriving> PathSample::arriving(const Interaction& at) {
+  const LightChoice& choice = tracer_.light_choice();
+  const Vec2 chance = pair(light_pair);
+  if (chance.y < environment_share()) return arriving_from_around(at);
+  if (choice.ends.empty()) return std::nullopt;
+  const auto pick = pick_light(choice, lit_point(at), chance.x);
+  if (!pick) return std::nullopt;
+  const size_t light = pick->light;
+  const double share = (1 - environment_share()) * pick->share;
+  const Vec3& p = at.surface.position;
+  if (light < scene_.lights.size()) {
+    const Illumination arriving = scene_.lights[light]->illuminate(p);
+    if (arriving.angle > 0) {
+      const Vec3 l = disk_direction(arriving, pair(place_pair));
+      const double density = share * disk_density(arriving);
+      return Arriving{
+          l,    rays_.spawn_ray(at.surface, l), arriving.distance, disk_radiance(arriving) / density, density,
+          light};
+    }
+    return Arriving{arriving.l,
+                    rays_.spawn_ray(at.surface, arriving.l),
+                    arriving.distance,
+                    M_PI / share * arriving.color,
+                    0,
+                    light};
+  }
+  const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
+  // What is flat does not light itself.
+  if (emitter.primitive == at.primitive && is_flat(emitter.form)) return std::nullopt;
+  const EmitterSample place = sample_emitter(emitter.form, p, pair(place_pair));
+  const Vec3 l = glm::normalize(place.position - p);
+  Ray ray = rays_.spawn_ray(at.surface, l);
+  ray.d = glm::normalize(place.position - ray.o);
+  const double density = share * emitter_density(emitter.form, p, place);
+  return Arriving{l,
+                  ray,
+                  glm::length(place.position - ray.o) * (1 - 1e-9),
+                  emitter_radiance(scene_, emitter, place, p) / density,
+                  density,
+                  light};
+}
+
+// What that brings to the viewer by a vertex that sends on `scattered`; all but panes keeps the ray in
+// `media`.
+Vec3 PathSample::direct(const Interaction& at, const Arriving& light, const BsdfValue& scattered,
+                        const MediaStack& media) {
+  const double weight = light.density > 0 ? power_heuristic(light.density, scattered.density) : 1;
+  const Vec3 contribution =
+      light.radiance * transmittance(rays_.medium(media), light.distance) * scattered.value * weight;
+  if (contribution == Vec3(0)) return Vec3(0);
+  const bool beyond = glm::dot(light.ray.d, at.surface.normal_geometric) < 0;
+  const MediaStack& passed = beyond && !at.in_medium() ? at.media_beyond : media;
+  const Vec3 seen = any_pane_ ? rays_.through_panes(light.ray, light.distance, passed)
+                              : Vec3(rays_.shadow(light.ray, light.distance));
+  observer_.ray(RayKind::shadow, light.ray, depth_, 0);
+  observer_.value("contribution", contribution);
+  observer_.value("visibility", seen.x);
+  observer_.back(depth_);
+  asked_ = 2 * (light.light + 2) + (seen != Vec3(0) ? 1 : 0);
+  return seen * contribution;
+}
+
+Vec3 PathSample::direct_on(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                           const MediaStack& media) {
+  if (bsdf.black() || depth_ > scene_.render.max_depth) return Vec3(0);
+  const auto light = arriving(at);
+  if (!light || light->radiance == Vec3(0)) return Vec3(0);
+  const Vec3 i = frame.into(light->l);
+  const BsdfValue scattered = bsdf.at(i);
+  if (scattered.value == Vec3(0)) return Vec3(0);
+  if (!rays_.on_side(at.surface, light->l, light->distance, i.z > 0)) return Vec3(0);
+  return direct(at, *light, scattered, i.z > 0 ? media : at.media_beyond);
+}
+
+Vec3 PathSample::direct_in(const Interaction& at, const MediaStack& media) {
+  if (depth_ > scene_.render.max_depth) return Vec3(0);
+  const auto light = arriving(at);
+  if (!light || light->radiance == Vec3(0)) return Vec3(0);
+  const double phase = phase_value(rays_.medium(media).anisotropy, glm::dot(at.d, light->l));
+  return direct(at, *light, {Vec3(phase), phase}, media);
+}
+
+}  // namespace eyeray::reference

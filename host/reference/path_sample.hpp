@@ -1,0 +1,127 @@
+// One random path, as a sample of a pixel follows it.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "host/reference/bsdf.hpp"
+#include "host/reference/integrator.hpp"
+#include "host/reference/light_pick.hpp"
+#include "host/reference/rng.hpp"
+#include "host/reference/sample_rays.hpp"
+#include "host/reference/sampler.hpp"
+
+namespace eyeray::reference {
+
+// What pairs of random numbers are for; of the vertices after the first, `pairs_a_vertex` further on each.
+inline constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, place_pair = 7,
+                          pairs_a_vertex = 4;
+inline constexpr uint32_t first_flight_pair = 0x10000;  // of the vertices after the first one further on each
+
+inline constexpr double least_cosine =
+    1e-4;  // towards the viewer: what bent normals turn away is seen edge-on
+
+// Where lights are asked from.
+LitPoint lit_point(const Interaction& at);
+// What comes through a medium.
+Vec3 transmittance(const Medium& medium, double t);
+
+// A point's own frame: z is the normal towards where the ray came from.
+class LocalFrame {
+ public:
+  explicit LocalFrame(const Interaction& at) : n_(at.surface.normal) {
+    const auto [s, t] = tangents(n_);
+    s_ = s;
+    t_ = t;
+    const Vec3 o = into(-at.d);
+    viewer = glm::normalize(Vec3(o.x, o.y, std::max(o.z, least_cosine)));
+  }
+
+  Vec3 into(const Vec3& v) const { return {glm::dot(v, s_), glm::dot(v, t_), glm::dot(v, n_)}; }
+  Vec3 out_of(const Vec3& v) const { return v.x * s_ + v.y * t_ + v.z * n_; }
+
+  Vec3 viewer;
+
+ private:
+  Vec3 s_, t_, n_;
+};
+
+// From a light: by direction l, along the ray where nothing stands before `distance`.
+struct Arriving {
+  Vec3 l;
+  Ray ray;
+  double distance;
+  Vec3 radiance;   // divided by the density of the choice
+  double density;  // by solid angle, with the light's choice; 0 of a light without extent
+  uint64_t light;  // its number; of the environment −1
+};
+
+// How far a path gets through a medium: up to a point of it, or to what the ray hits.
+struct Flight {
+  double t;
+  bool scattered;
+  Vec3 weight;  // of the light that comes from there
+};
+
+class PathSample {
+ public:
+  PathSample(const Tracer& tracer, const SampleId& id, const RayOffset& ray_offset, const Observer& observer)
+      : tracer_(tracer),
+        scene_(tracer.scene()),
+        id_(id),
+        numbers_(ray_offset.numbers),
+        rays_(tracer, ray_offset, observer),
+        observer_(observer) {}
+
+  PixelSample sample(Ray ray, MediaStack media);
+  AuxiliarySample auxiliary(Ray ray, MediaStack media);
+
+ private:
+  Vec2 pair(uint32_t use) const { return pair_of(use + pairs_a_vertex * surfaces()); }
+  Vec2 pair_of(uint32_t number) const {
+    Vec2 pair = sampler(scene_.image.pattern).pair(id_.pixel, id_.index, number, scene_.render.seed);
+    // Moved, where it is asked what float32 makes of numbers that are near to a decision.
+    if (numbers_ != 0)
+      for (uint32_t i = 0; i < 2; ++i)
+        pair[int(i)] = std::clamp(pair[int(i)] + std::floor(9 * random(numbers_, number, i, 0) - 4) * 0x1p-24,
+                                  0.0, 1 - 0x1p-24);
+    return pair;
+  }
+  // That the path has come through.
+  uint32_t surfaces() const { return uint32_t(depth_ + all_panes_); }
+  Flight fly(const MediaStack& media, const std::optional<Hit>& hit) const;
+  Interaction scattered_at(const Ray& ray, double t) const;
+  std::optional<Ray> scatter_in(const Medium& medium, const Interaction& at);
+  Vec3 emitted(const Interaction& at) const;
+  Vec3 missed(const Vec3& d) const;
+  double environment_share() const;
+  std::optional<Arriving> arriving(const Interaction& at);
+  std::optional<Arriving> arriving_from_around(const Interaction& at);
+  Vec3 direct(const Interaction& at, const Arriving& light, const BsdfValue& scattered,
+              const MediaStack& media);
+  Vec3 direct_on(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                 const MediaStack& media);
+  Vec3 direct_in(const Interaction& at, const MediaStack& media);
+  std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, double chance,
+                               uint32_t way, bool straight = false);
+  std::optional<Ray> scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                             MediaStack& media);
+
+  const Tracer& tracer_;
+  const Scene& scene_;
+  const SampleId id_;
+  const uint32_t numbers_;
+  SampleRays rays_;
+  const Observer& observer_;
+  const bool any_pane_ = std::ranges::any_of(scene_.materials, &Material::thin);
+  int depth_ = 0;
+  int panes_ = 0, all_panes_ = 0;  // that the path has passed straight, since its last vertex and in all
+  Vec3 vertex_{0};                 // its last, or the eye
+  Vec3 throughput_{1};
+  bool roulette_ = true;
+  uint64_t asked_ = 0;    // by the last vertex: the value of its Event::light
+  double density_ = 0;    // by solid angle, of the ray's direction; 0 where there was no choice
+  LitPoint chosen_at_{};  // and where it was chosen
+};
+
+}  // namespace eyeray::reference
