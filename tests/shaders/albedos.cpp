@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host/optics/fresnel.hpp"
 #include "host/optics/ggx_albedo.hpp"
 #include "host/optics/glass_albedo.hpp"
 #include "host/optics/metals.hpp"
