@@ -45,7 +45,7 @@ struct Pictures {
             y * regions_a_side / picture.height() * regions_a_side + x * regions_a_side / picture.width();
         for (int c = 0; c < 3; ++c) {
           const size_t i = (size_t(y) * size_t(picture.width()) + size_t(x)) * 3 + size_t(c);
-          const double value = samples[i];
+          const double value = double(samples[i]);
           sum[i] += value;
           sum_of_squares[i] += value * value;
           for (const size_t at : {size_t(region) * 3 + size_t(c), all}) total[at] += value, count[at] += 1;
