@@ -110,7 +110,9 @@ TEST_CASE("samples that stand out are counted; --clamp cuts them, and says that 
     REQUIRE(result.code == 0);
     return std::pair(nlohmann::json::parse(result.out), result.err);
   };
-  const auto [honest, warned] = render({"--aov", "brightest"});
+  const auto counted = render({"--aov", "brightest"});
+  const nlohmann::json& honest = counted.first;
+  const std::string& warned = counted.second;
   CAPTURE(warned);
   CHECK(honest.at("fireflies") > 0);
   CHECK(warned.find(" more than 1000 times as bright as the picture is on the mean") != std::string::npos);
@@ -118,7 +120,9 @@ TEST_CASE("samples that stand out are counted; --clamp cuts them, and says that 
   const Image brightest = read_image(folder / "a.brightest.pfm");
   CHECK(std::ranges::max(brightest.samples()) > 10);
 
-  const auto [cut, said] = render({"--clamp", "0.5"});
+  const auto clamped = render({"--clamp", "0.5"});
+  const nlohmann::json& cut = clamped.first;
+  const std::string& said = clamped.second;
   CAPTURE(said);
   CHECK(cut.at("clamp").at("at") == 0.5);
   CHECK(cut.at("clamp").at("samples") > 0);

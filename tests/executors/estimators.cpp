@@ -62,7 +62,9 @@ double apart(const Estimate& a, const Estimate& b) {
 
 void check_all(const Scene& scene, const std::vector<std::pair<const char*, Changes>>& estimators) {
   const Estimate usual = estimated(scene, {});
-  for (const auto& [name, changes] : estimators) {
+  for (const auto& estimator : estimators) {
+    const char* const name = estimator.first;
+    const Changes& changes = estimator.second;
     const Estimate other = estimated(scene, changes);
     CAPTURE(name);
     CAPTURE(usual.mean);

@@ -90,7 +90,9 @@ void look(const Shape& shape, const PackedScene& scene, const Ray& ray, double s
 }  // namespace
 
 TEST_CASE("u and v grow over every shape as both halves say") {
-  for (const auto& [name, make] : test::shape_makers()) {
+  for (const auto& maker : test::shape_makers()) {
+    const auto& name = maker.first;
+    const auto& make = maker.second;
     CAPTURE(name);
     Random random{7};
     Counts counts;
