@@ -145,8 +145,8 @@ class Principled final : public Physical {
   }
 
   Vec3 base_color(const TextureContext& place) const override {
-    return shown_as_glass_ ? Physical::base_color(place)
-                           : values_.color->at(place) + values_.emission->at(place);
+    return (shown_as_glass_ ? Physical::base_color(place) : values_.color->at(place)) +
+           values_.emission->at(place);
   }
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering&) const override {

@@ -58,7 +58,9 @@ class Driver {
         least_samples_(samples_),
         at_a_time_(crop_.width) {
     const size_t most_rows = options.band_bytes / (size_t(crop_.width) * sizeof(PixelSums::Pixel));
-    band_rows_ = int(std::clamp<size_t>(most_rows, 1, size_t(crop_.height)));
+    // A block's noise is known from the whole block.
+    const size_t unit = counted_.noise ? noise_block : 1;
+    band_rows_ = int(std::min(std::max<size_t>(most_rows / unit, 1) * unit, size_t(crop_.height)));
     progress_.samples_total = uint64_t(crop_.pixels()) * uint64_t(samples_);
     progress_.bands = bands();
     progress_.samples = samples_;

@@ -1,6 +1,8 @@
 // The twin of a user's shaders: the bits of the device, and what debuggers and sanitizers say of it.
+#include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <csignal>
 
 #include "scene.hpp"
@@ -28,10 +30,12 @@ struct Users : SceneFolder {
     options.insert(options.begin(), {"render", scene(), "--backend", backend, "-o", *this / picture});
     return run(options, environment);
   }
-  // Puts `code` where a sphere's hit is returned, in line 34.
-  void change_sphere(const std::string& code) const {
+  // Puts `code` where a sphere's hit is returned; returns the number of its first line.
+  int change_sphere(const std::string& code) const {
     const std::string place = "  return discriminant >= 0.0f ? t : T_NONE;\n";
     replace_in_file(sphere, place, code + place);
+    const std::string text = read_text(sphere);
+    return 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(text.find(code)), '\n'));
   }
 
   const std::string shaders = *this / "shaders", sphere = shaders + "/shapes/sphere.glsl";
@@ -75,13 +79,13 @@ TEST_CASE("the twin of a user's shaders has the bits of the device, and verify a
 
 TEST_CASE("what of a user's shaders is no C++ is told as compilers tell it, and what is wanted for them") {
   const Users users;
-  users.change_sphere("  vec3 turned = f.zyx;\n");
+  const int line = users.change_sphere("  vec3 turned = f.zyx;\n");
   for (const char* const command : {"render", "dev"}) {
     std::vector<std::string> arguments{command, users.scene(), "--backend", "twin"};
     if (arguments[0] == "dev") arguments.push_back("--once");
     const ProcessResult result = users.run(arguments);
     CHECK(result.code == 2);
-    CHECK(contains(result.err, users.sphere + ":34:"));
+    CHECK(contains(result.err, fmt::format("{}:{}:", users.sphere, line)));
     CHECK(contains(result.err, ": error: "));
     CHECK(contains(result.err, "vec3 turned = f.zyx;\n"));
   }
@@ -118,11 +122,11 @@ TEST_CASE("what others may write to is not loaded, and what is damaged is writte
 
 TEST_CASE("sanitizers find a user's shader's fault, at its line") {
   const Users users;
-  users.change_sphere(
+  const int line = users.change_sphere(
       "  float bands[4];\n"
       "  for (int i = 0; i < 4; ++i) bands[i] = 0.0f;\n"
       "  t = t + bands[int(floor(abs(t) * 2.0f))];\n");
-  const std::string place = users.sphere + ":36";
+  const std::string place = fmt::format("{}:{}", users.sphere, line + 2);
   const ProcessResult undefined = users.render("twin", "a.pfm", {"--sanitize", "undefined"});
   CHECK(undefined.code == 2);
   CHECK(contains(undefined.err, place + ":"));
@@ -143,7 +147,7 @@ TEST_CASE("sanitizers find a user's shader's fault, at its line") {
 
 TEST_CASE("a debugger stops in a user's shader, which may print") {
   const Users users;
-  users.change_sphere(
+  const int line = users.change_sphere(
       "#ifdef __cplusplus\n"
       "  printf(\"t = %.9g\\n\", t);\n"
       "#endif\n"
@@ -151,8 +155,9 @@ TEST_CASE("a debugger stops in a user's shader, which may print") {
   const std::vector<std::string> probe{"probe", users.scene(), "32,24",       "--backends",
                                        "twin",  "--shaders",   users.shaders, "--compile-twin"};
   std::vector<std::string> gdb{"gdb", "-nx", "-batch"};
-  for (const char* const command : {"set breakpoint pending on", "break shaders/shapes/sphere.glsl:37", "run",
-                                    "print t", "print f", "backtrace 1", "up", "info source"})
+  const std::string stop = fmt::format("break shaders/shapes/sphere.glsl:{}", line + 3);
+  for (const char* const command : {"set breakpoint pending on", stop.c_str(), "run", "print t", "print f",
+                                    "backtrace 1", "up", "info source"})
     gdb.insert(gdb.end(), {"-ex", command});
   gdb.insert(gdb.end(), {"--args", eyeray_binary()});
   gdb.insert(gdb.end(), probe.begin(), probe.end());

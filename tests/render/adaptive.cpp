@@ -101,6 +101,24 @@ TEST_CASE("the noise that is told is the noise there is") {
   CHECK(double(within) / all == doctest::Approx(0.95).epsilon(0.005));
 }
 
+TEST_CASE("the noise of bands is that of the whole picture, however few rows they are asked to have") {
+  const Scene scene = scene_of(70, 33, 16);
+  std::vector<float> whole;
+  for (const int rows : {33, 20, 1}) {
+    RenderOptions options = until(0, rows, 70);
+    options.pixel_noise = true;
+    NoisyExecutor executor;
+    std::vector<float> noise;
+    const RenderTotals totals = render_rows(scene, executor, options, [&](const FinishedRows& finished) {
+      const std::vector<float>& values = finished.noise.samples();
+      noise.insert(noise.end(), values.begin(), values.end());
+    });
+    CHECK(totals.bands == (rows == 33 ? 1 : rows == 20 ? 3 : 5));
+    if (whole.empty()) whole = noise;
+    CHECK(noise == whole);
+  }
+}
+
 TEST_CASE("what is dark is measured against what the picture shows as 1") {
   PixelSums sums;
   for (const double exposure : {0.0, 3.0}) {
