@@ -60,12 +60,32 @@ Json either(Json a, Json b) {
 
 Json table_schema(std::span<const Key> keys);
 
-Json texture_schema(const TextureType& type) {
-  if (type.is_flat()) return table_schema(type.keys);
-  return {{"type", "object"},
-          {"properties", {{std::string(type.name), table_schema(type.keys)}}},
-          {"required", {type.name}},
-          {"additionalProperties", false}};
+Json reference_to(std::string_view definition) {
+  return {{"$ref", fmt::format("#/$defs/{}", definition)}};
+}
+
+// Definitions of what many keys take.
+constexpr std::string_view texture_definition = "texture", transform_definition = "transform";
+
+Json texture_schema() {
+  Json alternatives = Json::array();
+  for (const TextureType* type : textures::types()) {
+    if (!type->parse) continue;
+    Json table = table_schema(type->keys);
+    if (!type->is_flat())
+      table = {{"type", "object"},
+               {"properties", {{std::string(type->name), std::move(table)}}},
+               {"required", {type->name}},
+               {"additionalProperties", false}};
+    alternatives.push_back(std::move(table));
+  }
+  return {{"anyOf", std::move(alternatives)}};
+}
+
+Json transform_schema() {
+  Json step = table_schema(transform_step_keys());
+  step["minProperties"] = step["maxProperties"] = 1;
+  return list_schema(std::move(step));
 }
 
 // What a value of the key may be, without its description.
@@ -121,11 +141,8 @@ Json value_schema(const Key& key) {
       return either(number_schema(key, "number"), vector_schema(key, 3));
     case KeyType::rotation:
       return table_schema(rotation_keys());
-    case KeyType::transform: {
-      Json step = table_schema(transform_step_keys());
-      step["minProperties"] = step["maxProperties"] = 1;
-      return list_schema(std::move(step));
-    }
+    case KeyType::transform:
+      return reference_to(transform_definition);
     case KeyType::matrix: {
       Json rows = list_schema(vector_schema(key, 4));
       rows["minItems"] = rows["maxItems"] = 3;
@@ -133,8 +150,7 @@ Json value_schema(const Key& key) {
     }
     case KeyType::texture: {
       Json schema = either(number_schema(positive, "number"), vector_schema(positive, 3));
-      for (const TextureType* type : textures::types())
-        if (type->parse) schema["anyOf"].push_back(texture_schema(*type));
+      schema["anyOf"].push_back(reference_to(texture_definition));
       return schema;
     }
   }
@@ -175,14 +191,10 @@ Json kinds_schema(const Section& section, std::span<const Type* const> types) {
   return {{"oneOf", std::move(alternatives)}};
 }
 
-std::string reference_to(const Section& section) {
-  return fmt::format("#/$defs/{}", section.name);
-}
-
 // Of a shape or mesh in the world, or in a group: unlike a CSG object's part it needs what its table requires
 // beside the definition.
 Json world_ray(const Section& section) {
-  Json schema = {{"$ref", reference_to(section)}};
+  Json schema = reference_to(section.name);
   if (section.shape && !section.is_combined())
     schema["anyOf"] = {{{"required", {"material"}}}, {{"required", {batch_key}}}};
   return schema;
@@ -192,7 +204,7 @@ Json shapes_of_csg() {
   Json shapes = Json::object();
   for (const std::string_view name : placed_names()) {
     const Section& section = *find_section(name);
-    if (section.shape) shapes[std::string(name)] = list_schema({{"$ref", reference_to(section)}});
+    if (section.shape) shapes[std::string(name)] = list_schema(reference_to(section.name));
   }
   return shapes;
 }
@@ -246,7 +258,8 @@ Json section_schema(const Section& section) {
 
 std::string scene_schema() {
   const Json file_name = {{"type", "string"}};
-  Json properties, definitions;
+  Json properties;
+  Json definitions = {{texture_definition, texture_schema()}, {transform_definition, transform_schema()}};
   properties[std::string(include_key)] = {{"description", "Scene files to take in, relative to this one."},
                                           {"anyOf", {file_name, list_schema(file_name)}}};
   for (const Section& section : sections()) {

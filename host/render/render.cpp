@@ -57,10 +57,11 @@ class Driver {
         shown_as_one_(std::exp2(-scene.image.tone.exposure)),
         least_samples_(samples_),
         at_a_time_(crop_.width) {
-    const size_t most_rows = options.band_bytes / (size_t(crop_.width) * sizeof(PixelSums::Pixel));
+    const size_t rows = options.band_bytes / (size_t(crop_.width) * sizeof(PixelSums::Pixel));
     // A block's noise is known from the whole block.
     const size_t unit = counted_.noise ? noise_block : 1;
-    band_rows_ = int(std::min(std::max<size_t>(most_rows / unit, 1) * unit, size_t(crop_.height)));
+    const auto height = size_t(crop_.height);
+    band_rows_ = int(rows < height ? std::min(height, std::max<size_t>(rows / unit, 1) * unit) : height);
     progress_.samples_total = uint64_t(crop_.pixels()) * uint64_t(samples_);
     progress_.bands = bands();
     progress_.samples = samples_;

@@ -53,9 +53,11 @@ compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& rend
     };
     for (const bool along_normal : {false, true}) add_rounded(along_normal, TextureChoice::at_hit);
     if (walks_at_random(scene.render.integrator)) {
-      // Weights ask how far off a ray starts, where a lamp is as near as that: so twice as far. And
-      // directions are rounded as numbers are that they are drawn by.
-      result.rounded.push_back(of(rendered({2 * reference::float32_ray_offset, false, seed})));
+      // Weights ask how far off a ray starts, where a lamp is as near as that: so twice as far. Long paths
+      // bring other light for less than that: so an eighth as well. And directions are rounded as numbers are
+      // that they are drawn by.
+      for (const double times : {2.0, 0.125})
+        result.rounded.push_back(of(rendered({times * reference::float32_ray_offset, false, seed})));
       result.rounded.push_back(
           of(rendered({.share = reference::float32_ray_offset, .seed = seed, .numbers = seed | 1})));
     }
