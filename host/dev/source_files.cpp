@@ -2,6 +2,9 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <ctime>
+
 #include "host/core/atomic_file.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/error.hpp"
@@ -10,6 +13,7 @@ namespace eyeray::dev {
 namespace {
 
 constexpr uint64_t hashed_always = 1 << 20;  // bytes
+constexpr const char* unknown_hash = "?";
 
 }  // namespace
 
@@ -29,17 +33,32 @@ std::string SourceFiles::hash_of(const std::filesystem::path& file) {
   }
 }
 
+SourceFiles::Clock::time_point SourceFiles::now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_REALTIME_COARSE, &time);
+  return Clock::time_point(std::chrono::duration_cast<Clock::duration>(
+      std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec)));
+}
+
 void SourceFiles::set(const std::set<std::filesystem::path>& files, Clock::time_point began) {
   files_ = files;
   std::erase_if(states_, [&](const auto& entry) { return !files_.contains(entry.first); });
   for (const std::filesystem::path& file : files_) {
-    if (states_.contains(file)) continue;
     const Stamp stamp = stamp_of(file);
     const bool written_since =
         std::chrono::seconds(stamp.seconds) + std::chrono::nanoseconds(stamp.nanoseconds) >=
         began.time_since_epoch();
-    states_[file] = written_since ? State{{}, stamp, "?"} : State{stamp, stamp, hash_of(file)};
+    const auto [found, is_new] = states_.try_emplace(file);
+    State& state = found->second;
+    if (written_since && stamp != state.unknown)
+      state = {{}, stamp, stamp, unknown_hash};
+    else if (is_new)
+      state = {stamp, stamp, {}, hash_of(file)};
   }
+}
+
+bool SourceFiles::any_unknown() const {
+  return std::ranges::any_of(states_, [](const auto& entry) { return entry.second.hash == unknown_hash; });
 }
 
 std::set<std::filesystem::path> SourceFiles::changed() {

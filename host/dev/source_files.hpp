@@ -11,11 +11,16 @@ namespace eyeray::dev {
 
 class SourceFiles {
  public:
-  // Which files, read since `began` (of the system's clock). Of those that are new to it, their bytes now are
-  // what later ones are compared with, unless they were written since.
   using Clock = std::chrono::system_clock;
+  // By the clock of files' times.
+  static Clock::time_point now();
+
+  // Which files, read since `began`. Of those that are new to it, their bytes now are what later ones are
+  // compared with. What was read of a file that was written since is not known: it counts as changed, once.
   void set(const std::set<std::filesystem::path>& files, Clock::time_point began);
   const std::set<std::filesystem::path>& files() const { return files_; }
+  // Whether there is such a file.
+  bool any_unknown() const;
 
   // Those whose bytes are others than at the last call: saving what was there counts for nothing.
   std::set<std::filesystem::path> changed();
@@ -32,6 +37,7 @@ class SourceFiles {
   };
   struct State {
     Stamp stamp, last_look;
+    Stamp unknown;  // of what counted as changed without a look
     std::string hash;
   };
   static Stamp stamp_of(const std::filesystem::path& file);

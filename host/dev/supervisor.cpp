@@ -118,7 +118,7 @@ std::vector<std::string> Supervisor::views() const {
 // Files or defines are others than before.
 void Supervisor::begin_revision() {
   ++revision_;
-  began_ = SourceFiles::Clock::now();
+  began_ = SourceFiles::now();
   request();
 }
 
@@ -266,7 +266,7 @@ void Supervisor::watch() {
 
 void Supervisor::take_changes() {
   std::set<fs::path> changed;
-  if (!watcher_.take_changes().empty()) changed = files_.changed();
+  if (!watcher_.take_changes().empty() || files_.any_unknown()) changed = files_.changed();
   if (changed.empty() && since_look_.seconds() > seconds_between_looks) {
     since_look_ = {};
     changed = files_.changed_unnoticed();
