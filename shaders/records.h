@@ -172,15 +172,16 @@ struct Material {
 #define OPTICAL_DEPTH_SCALE 1048576.0f
 
 // ---- Albedos: 16 bytes each; empty where no lobe asks -----------------------------------------------------------------
-// Tables of host/optics, of as many rows by roughness as places in each by √cosine: bsdf/ggx_albedo.glsl, then sheen.glsl, then
+// Those of host/tables, of as many rows by roughness as places in each by √cosine: bsdf/ggx_albedo.glsl, then sheen.glsl, then
 // rough_glass.glsl, this one with GLASS_SLICES of them by the two indices.
 #define GGX_ALBEDOS 64u
 #define SHEEN_ALBEDOS 32u
 #define GLASS_ALBEDOS 32u
-#define GLASS_SLICES 16u  // each says what is at its begin and at its end
+#define GLASS_SLICES 24u  // each says what is at its begin and at its end; …
+#define GLASS_SLICES_BELOW 14u  // … so many where light comes from the greater index
 #define FIRST_SHEEN_ALBEDO 4096u
 #define FIRST_GLASS_ALBEDO 5120u
-#define END_OF_ALBEDOS 21504u
+#define END_OF_ALBEDOS 29696u
 
 // ---- Medium: 32 bytes -----------------------------------------------------------------------------------------------
 // Number 0 is around all: the scene's own, or the vacuum.

@@ -28,6 +28,7 @@ inline constexpr Row deferred_shapes[] = {DEFERRED_SHAPES(ROW)};
 inline constexpr Row textures[] = {TEXTURES(ROW)};
 inline constexpr Row lobes[] = {LOBES(ROW)};
 inline constexpr Row materials[] = {MATERIALS(ROW)};
+inline constexpr Row panes[] = {PANES(ROW)};
 inline constexpr Row cameras[] = {CAMERAS(ROW)};
 inline constexpr Row lights[] = {LIGHTS(ROW)};
 inline constexpr Row emitters[] = {EMITTERS(ROW)};
@@ -35,10 +36,20 @@ inline constexpr Row integrators[] = {INTEGRATORS(ROW)};
 inline constexpr Row samplers[] = {SAMPLERS(ROW)};
 #undef ROW
 
+struct MaterialTexture {
+  std::string_view name;
+  uint32_t shader::Material::*texture;
+};
+#define ROW(name) {#name, &shader::Material::name},
+inline constexpr MaterialTexture material_textures[] = {MATERIAL_TEXTURES(ROW)};
+#undef ROW
+
 }  // namespace rows
 
 // The registry macro `list` with the rows that are used, and the files of `folder` that they need.
 std::string registry_text(std::string_view list, std::string_view folder, std::span<const Row> rows,
                           const std::set<uint32_t>& used);
+// The macro alone.
+std::string list_text(std::string_view list, std::span<const Row> rows, const std::set<uint32_t>& used);
 
 }  // namespace eyeray::executors

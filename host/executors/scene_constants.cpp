@@ -15,7 +15,7 @@ namespace {
 
 // Above this many records of a kind the code outgrows what it saves, and its compilation what a frame saves.
 constexpr size_t most_records = 24;
-constexpr size_t most_vertices = 96;
+constexpr size_t most_vertices_of_primitive = 4;
 
 std::string literal(float x) {
   return fmt::format("{:.9e}", x);
@@ -90,7 +90,8 @@ bool few_shading_records(const records::PackedScene& scene) {
 
 bool few_primitives(const records::PackedScene& scene) {
   return !scene.has_bvh && scene.instances.empty() && scene.leaf_uses.empty() &&
-         scene.primitives.size() <= most_records && scene.vertices.size() <= most_vertices;
+         scene.primitives.size() <= scene.most_linear &&
+         scene.vertices.size() <= most_vertices_of_primitive * scene.most_linear;
 }
 
 std::string shading_as_constants(const records::PackedScene& scene,

@@ -1,8 +1,8 @@
 #include "host/executors/scene_facts.hpp"
 
 #include <algorithm>
-#include <array>
 
+#include "host/executors/registry_text.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/texture.hpp"
 #include "host/scene/texture_rows.hpp"
@@ -34,13 +34,10 @@ bool any_reflects(const records::PackedScene& scene) {
 bool varies(const records::PackedScene& scene, const shader::Material& material) {
   // What bends normals asks at least how uv grow.
   return bends(material) ||
-         std::ranges::any_of(
-             std::array{material.base, material.specular, material.reflected, material.color,
-                        material.roughness, material.metallic, material.coat, material.coat_roughness,
-                        material.specular_level, material.transmission, material.specular_color,
-                        material.sheen, material.sheen_roughness, material.ambient, material.emission,
-                        material.alpha},
-             [&](uint32_t texture) { return varies(scene.textures[texture]); });
+         std::ranges::any_of(rows::material_textures, [&](const rows::MaterialTexture& one) {
+           const uint32_t index = material.*one.texture;
+           return index != NONE && varies(scene.textures[index]);
+         });
 }
 
 bool any_emits(const records::PackedScene& scene) {

@@ -132,6 +132,20 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   return text;
 }
 
+// Most textures of a material are constants, whatever others are: what asks for them is then hardly any code.
+std::string textures_of_materials(const records::PackedScene& scene, const std::set<uint32_t>& materials) {
+  std::string text = "#define TEXTURES_OF(name, X) TEXTURES_OF_##name(X)\n";
+  for (const auto& [name, texture] : rows::material_textures) {
+    std::set<uint32_t> kinds;
+    for (const uint32_t i : materials) {
+      const uint32_t index = scene.materials[i].*texture;
+      if (index != NONE) kinds.insert(scene.textures[index].kind);
+    }
+    text += list_text(fmt::format("TEXTURES_OF_{}", name), rows::textures, kinds);
+  }
+  return text;
+}
+
 // The shaders' registries, with what is used alone.
 std::string registries(const records::PackedScene& scene, const Used& used) {
   std::set<uint32_t> texture_kinds, light_kinds, emitter_kinds;
@@ -140,6 +154,7 @@ std::string registries(const records::PackedScene& scene, const Used& used) {
   for (size_t i = scene.lights.size(); i < scene.emitters.size(); ++i)
     emitter_kinds.insert(scene.emitters[i].kind);
   std::string text = registry_text("TEXTURES", "textures", rows::textures, texture_kinds);
+  text += textures_of_materials(scene, used.materials);
   text += registry_text("CLOSED_SHAPES", "shapes", rows::shapes, used.leaves);
   text += registry_text("IMMEDIATE_LEAVES", "shapes", rows::immediate_leaves, used.leaves);
   text += registry_text("DEFERRED_LEAVES", "shapes", rows::deferred_leaves, used.leaves);
@@ -150,6 +165,7 @@ std::string registries(const records::PackedScene& scene, const Used& used) {
   text += registry_text("DEFERRED_SHAPES", "shapes", rows::shapes, used.deferred);
   text += registry_text("ALPHA_TESTED_SHAPES", "shapes", rows::shapes, used.alpha_tested);
   text += registry_text("LOBES", "bsdf", rows::lobes, scene.lobes);
+  text += list_text("PANES", rows::panes, used.material_kinds);
   text += registry_text("MATERIALS", "materials", rows::materials, used.material_kinds);
   text += registry_text("LIGHTS", "lights", rows::lights, light_kinds);
   text += registry_text("EMITTERS", "emitters", rows::emitters, emitter_kinds);

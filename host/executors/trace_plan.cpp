@@ -21,10 +21,6 @@ constexpr uint32_t most_lanes_in_wavefront = 8;
 constexpr int64_t least_samples_in_wide_vectors = 1 << 20;
 constexpr size_t most_in_wide_vectors = 1 << 14;
 
-int64_t samples_of(const ImageSettings& image) {
-  return int64_t{image.width} * image.height * image.samples;
-}
-
 bool only_triangles(const records::PackedScene& scene) {
   return scene.bvh_kinds == std::set<uint32_t>{shader::KIND_triangle};
 }
@@ -55,7 +51,7 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
   TracePlan plan;
   plan.coherent = packets ? Rays::packets : Rays::lanes;
   plan.incoherent = incoherent_rays(profile, scene, packets, subgroup_size);
-  const bool pays = samples_of(image) >= least_samples_in_wavefront &&
+  const bool pays = image.all_samples() >= least_samples_in_wavefront &&
                     scene.primitives.size() <= most_in_wavefront && subgroup_size <= most_lanes_in_wavefront;
   // A path that passes a pane straight stays at its depth, which no kernel of a bounce knows.
   plan.wavefront = packets && (asked_for_packets || pays) && !scene.panes;
@@ -72,7 +68,7 @@ bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
   const TracePlan narrow =
       plan_tracing(choose_profile(asked, llvmpipe), asked, image, scene, llvmpipe.limits.subgroup_size);
   const bool suits_packets = asked.rays == "packets" || scene.primitives.size() > most_in_wide_vectors;
-  return samples_of(image) >= least_samples_in_wide_vectors && !(narrow.wavefront && suits_packets);
+  return image.all_samples() >= least_samples_in_wide_vectors && !(narrow.wavefront && suits_packets);
 }
 
 }  // namespace eyeray::executors

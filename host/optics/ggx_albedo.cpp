@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/core/parallel_for.hpp"
 #include "host/core/vec.hpp"
+#include "host/optics/mean_by_cosine.hpp"
 
 namespace eyeray::optics {
 namespace {
@@ -14,29 +14,6 @@ constexpr int turns = 16, heights = 96;
 double lambda(double cosine, double width) {
   const double slope = (1 - cosine * cosine) / (cosine * cosine);
   return (std::sqrt(1 + width * width * slope) - 1) / 2;
-}
-
-std::array<GgxAlbedo, ggx_albedos * ggx_albedos> compute() {
-  std::array<GgxAlbedo, ggx_albedos * ggx_albedos> table;
-  constexpr double step = 1.0 / (ggx_albedos - 1);
-  parallel_for(0, ggx_albedos, [&](int j) {
-    GgxAlbedo* row = &table[j * ggx_albedos];
-    for (int i = 0; i < ggx_albedos; ++i) row[i] = ggx_albedo_integral((i * step) * (i * step), j * step);
-    // 2 ∫ E(μ) μ dμ with μ = x²: 4 ∫ E x³ dx, E linear between the table's places.
-    GgxAlbedo mean{};
-    for (int i = 0; i + 1 < ggx_albedos; ++i) {
-      const double a = i * step, b = a + step;
-      const double whole = (b * b * b * b - a * a * a * a);
-      const double right = (4.0 / 5 * (std::pow(b, 5) - std::pow(a, 5)) - a * whole) / step;
-      mean.mean_once += row[i].once * (whole - right) + row[i + 1].once * right;
-      mean.mean_edge += row[i].edge * (whole - right) + row[i + 1].edge * right;
-    }
-    for (int i = 0; i < ggx_albedos; ++i) {
-      row[i].mean_once = mean.mean_once;
-      row[i].mean_edge = mean.mean_edge;
-    }
-  });
-  return table;
 }
 
 }  // namespace
@@ -66,24 +43,17 @@ GgxAlbedo ggx_albedo_integral(double cosine, double roughness) {
   return {once / (turns * heights), edge / (turns * heights), 0, 0};
 }
 
-std::span<const GgxAlbedo> ggx_albedo_table() {
-  static const auto table = compute();
-  return table;
-}
-
-GgxAlbedo ggx_albedo(double cosine, double roughness) {
-  const auto table = ggx_albedo_table();
-  const double x = std::sqrt(std::clamp(cosine, 0.0, 1.0)) * (ggx_albedos - 1);
-  const double y = std::clamp(roughness, 0.0, 1.0) * (ggx_albedos - 1);
-  const auto i = size_t(std::min(x, ggx_albedos - 2.0)), j = size_t(std::min(y, ggx_albedos - 2.0));
-  const GgxAlbedo* near = &table[j * ggx_albedos + i];
-  const auto between = [&](double GgxAlbedo::*member) {
-    const double low = std::lerp(near[0].*member, near[1].*member, x - double(i));
-    const double high = std::lerp(near[ggx_albedos].*member, near[ggx_albedos + 1].*member, x - double(i));
-    return std::lerp(low, high, y - double(j));
-  };
-  return {between(&GgxAlbedo::once), between(&GgxAlbedo::edge), between(&GgxAlbedo::mean_once),
-          between(&GgxAlbedo::mean_edge)};
+std::vector<GgxAlbedo> ggx_albedo_row(int places, double roughness) {
+  std::vector<GgxAlbedo> row;
+  const double step = 1.0 / (places - 1);
+  for (int i = 0; i < places; ++i) row.push_back(ggx_albedo_integral((i * step) * (i * step), roughness));
+  const double once = mean_by_cosine(places, [&](int i) { return row[size_t(i)].once; });
+  const double edge = mean_by_cosine(places, [&](int i) { return row[size_t(i)].edge; });
+  for (GgxAlbedo& albedo : row) {
+    albedo.mean_once = once;
+    albedo.mean_edge = edge;
+  }
+  return row;
 }
 
 }  // namespace eyeray::optics

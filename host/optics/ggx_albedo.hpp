@@ -1,9 +1,8 @@
-// The directional albedo of GGX, the same for all executors: data, in float64.
+// The directional albedo of GGX, by quadrature.
 // Kulla, Conty: Revisiting Physically Based Shading at Imageworks, SIGGRAPH 2017.
 #pragma once
 
-#include <array>
-#include <span>
+#include <vector>
 
 namespace eyeray::optics {
 
@@ -16,17 +15,9 @@ struct GgxAlbedo {
   double mean_edge;
 };
 
-inline constexpr int ggx_albedos = 64;  // a side of the table
-
-// By roughness j and √cosine i, both in steps of 1 / 63, at j · 64 + i. Computed when first asked for, by
-// quadrature over the microfacets that are seen.
-std::span<const GgxAlbedo> ggx_albedo_table();
-
-// At a cosine and a roughness in [0, 1], bilinear in √cosine and roughness: within 4e-3, where both are above
-// 0.01 and 0.05.
-GgxAlbedo ggx_albedo(double cosine, double roughness);
-
-// By quadrature: of one direction, without means.
+// Over the microfacets that are seen: of one direction, without means. In [0, 1] both.
 GgxAlbedo ggx_albedo_integral(double cosine, double roughness);
+// Of `places` directions, by √cosine in even steps from 0 to 1, with means.
+std::vector<GgxAlbedo> ggx_albedo_row(int places, double roughness);
 
 }  // namespace eyeray::optics

@@ -1,42 +1,18 @@
 #include "host/optics/glass_albedo.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <mutex>
 
 #include "host/core/vec.hpp"
-#include "host/optics/albedo_table.hpp"
 #include "host/optics/fresnel.hpp"
 
 namespace eyeray::optics {
 namespace {
 
 constexpr int least_turns = 24, least_heights = 72;
-constexpr double most = 0.6;  // of (n₂ − n₁) / (n₂ + n₁): that of 1 and 4
-
-constexpr int inside = 12;  // of the slices, where that is below 0, and some light is mirrored totally
-
-using Table = std::array<double, glass_albedos * glass_albedos>;
-
-double place_of(double ior_from, double ior_to) {
-  const double contrast = (ior_to - ior_from) / (ior_to + ior_from) / most;
-  return contrast < 0 ? inside + contrast * inside : inside + contrast * (glass_slices - inside);
-}
-
 double lambda(double cosine, double width) {
   const double slope = (1 - cosine * cosine) / (cosine * cosine);
   return (std::sqrt(1 + width * width * slope) - 1) / 2;
-}
-
-void compute(int slice, Table& table) {
-  const double step = 1.0 / (glass_albedos - 1);
-  const double from_middle = slice - inside;
-  const double contrast = most * from_middle / (from_middle < 0 ? inside : glass_slices - inside);
-  for (int j = 0; j < glass_albedos; ++j)
-    for (int i = 0; i < glass_albedos; ++i)
-      table[size_t(j * glass_albedos + i)] =
-          glass_albedo_integral((i * step) * (i * step), j * step, 1 - contrast, 1 + contrast);
 }
 
 }  // namespace
@@ -67,25 +43,6 @@ double glass_albedo_integral(double cosine, double roughness, double ior_from, d
     }
   }
   return sum / (turns * heights);
-}
-
-int glass_slice(double ior_from, double ior_to) {
-  return std::clamp(int(std::floor(place_of(ior_from, ior_to))), 0, glass_slices - 1);
-}
-
-std::span<const double> glass_albedo_table(int slice) {
-  static std::array<Table, glass_slices + 1> tables;
-  static std::array<std::once_flag, glass_slices + 1> computed;
-  std::call_once(computed[size_t(slice)], [&] { compute(slice, tables[size_t(slice)]); });
-  return tables[size_t(slice)];
-}
-
-double glass_albedo(double cosine, double roughness, double ior_from, double ior_to) {
-  const int slice = glass_slice(ior_from, ior_to);
-  const auto at = [&](int edge) {
-    return between(glass_albedo_table(edge), glass_albedos, cosine, roughness, [](double x) { return x; });
-  };
-  return std::lerp(at(slice), at(slice + 1), place_of(ior_from, ior_to) - slice);
 }
 
 }  // namespace eyeray::optics

@@ -1,16 +1,14 @@
 #include "host/optics/sheen_albedo.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "host/optics/albedo_table.hpp"
+#include "host/optics/mean_by_cosine.hpp"
 
 namespace eyeray::optics {
 namespace {
 
 constexpr int turns = 16, heights = 64;
-constexpr double step = 1.0 / (sheen_albedos - 1);
 
 // Over the half sphere, half of all turns; heights as squares, most of them low, where sheen is.
 template <typename Weakening>
@@ -31,26 +29,6 @@ double integral(double mu, double roughness, const Weakening& weakening) {
   return sum * 2 * M_PI / (turns * heights);
 }
 
-std::array<SheenAlbedo, sheen_albedos * sheen_albedos> compute() {
-  std::array<SheenAlbedo, sheen_albedos * sheen_albedos> table;
-  for (int j = 0; j < sheen_albedos; ++j) {
-    SheenAlbedo* row = &table[j * sheen_albedos];
-    const auto mu = [](int i) { return std::max((i * step) * (i * step), 1e-6); };
-    for (int i = 0; i < sheen_albedos; ++i)
-      row[i].unweakened = integral(mu(i), j * step, [](double) { return 1; });
-    for (int i = 0; i < sheen_albedos; ++i)
-      row[i].albedo = integral(mu(i), j * step, [&](double z) {
-        const double x = std::sqrt(z) / step;
-        const int left = std::min(int(x), sheen_albedos - 2);
-        const double there = std::lerp(row[left].unweakened, row[left + 1].unweakened, x - left);
-        return 1 / std::max({1.0, row[i].unweakened, there});
-      });
-    const double mean = mean_by_cosine(sheen_albedos, [&](int i) { return row[i].albedo; });
-    for (int i = 0; i < sheen_albedos; ++i) row[i].mean = mean;
-  }
-  return table;
-}
-
 }  // namespace
 
 double sheen(double cosine_half_way, double cosine_o, double cosine_i, double roughness) {
@@ -60,17 +38,27 @@ double sheen(double cosine_half_way, double cosine_o, double cosine_i, double ro
   return fibres / (4 * (cosine_i + cosine_o - cosine_i * cosine_o));
 }
 
-std::span<const SheenAlbedo> sheen_albedo_table() {
-  static const auto table = compute();
-  return table;
-}
-
-SheenAlbedo sheen_albedo(double cosine, double roughness) {
-  const auto at = [&](double SheenAlbedo::*member) {
-    return between(sheen_albedo_table(), sheen_albedos, cosine, roughness,
-                   [&](const SheenAlbedo& of) { return of.*member; });
+std::vector<SheenAlbedo> sheen_albedo_row(int places, double roughness) {
+  std::vector<SheenAlbedo> row(static_cast<size_t>(places));
+  const double step = 1.0 / (places - 1);
+  const auto of_each = [&](double SheenAlbedo::*member, const auto& weakening) {
+    for (int i = 0; i < places; ++i) {
+      SheenAlbedo& at = row[size_t(i)];
+      at.*member = integral(std::max((i * step) * (i * step), 1e-6), roughness,
+                            [&](double z) { return weakening(at, z); });
+    }
   };
-  return {at(&SheenAlbedo::unweakened), at(&SheenAlbedo::albedo), at(&SheenAlbedo::mean)};
+  of_each(&SheenAlbedo::unweakened, [](const SheenAlbedo&, double) { return 1.0; });
+  of_each(&SheenAlbedo::albedo, [&](const SheenAlbedo& here, double z) {
+    const double x = std::sqrt(z) / step;
+    const int left = std::min(int(x), places - 2);
+    const SheenAlbedo* near = &row[size_t(left)];
+    const double there = std::lerp(near[0].unweakened, near[1].unweakened, x - left);
+    return 1 / std::max({1.0, here.unweakened, there});
+  });
+  const double mean = mean_by_cosine(places, [&](int i) { return row[size_t(i)].albedo; });
+  for (SheenAlbedo& albedo : row) albedo.mean = mean;
+  return row;
 }
 
 }  // namespace eyeray::optics

@@ -1,8 +1,8 @@
-// The directional albedo of sheen, the same for all executors: data, in float64.
+// Sheen, and its directional albedo by quadrature.
 // Estevez, Kulla: Production Friendly Microfacet Sheen BRDF, SIGGRAPH 2017.
 #pragma once
 
-#include <span>
+#include <vector>
 
 namespace eyeray::optics {
 
@@ -15,16 +15,11 @@ struct SheenAlbedo {
   double mean;
 };
 
-inline constexpr int sheen_albedos = 32;  // a side of the table
 inline constexpr double least_sheen_roughness = 0.07;
 
 // The BSDF at half-way vectors of that cosine, without the weakening.
 double sheen(double cosine_half_way, double cosine_o, double cosine_i, double roughness);
-
-// By roughness j and √cosine i, both in steps of 1 / 31, at j · 32 + i. Computed when first asked for.
-std::span<const SheenAlbedo> sheen_albedo_table();
-
-// At a cosine and a roughness in [0, 1], bilinear in √cosine and roughness.
-SheenAlbedo sheen_albedo(double cosine, double roughness);
+// Of `places` directions, by √cosine in even steps from 0 to 1; a roughness in [0, 1].
+std::vector<SheenAlbedo> sheen_albedo_row(int places, double roughness);
 
 }  // namespace eyeray::optics

@@ -5,7 +5,7 @@
 
 namespace eyeray::pack {
 
-// After the materials: of `packed.lobes`, and of all pairs of `packed.media`.
+// After the materials: of `packed.lobes`.
 void pack_albedos(records::PackedScene& packed);
 
 }  // namespace eyeray::pack

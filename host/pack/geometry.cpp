@@ -12,17 +12,28 @@
 #include "host/pack/csg_records.hpp"
 #include "host/pack/node_coding.hpp"
 #include "host/pack/record_boxes.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/scene/primitive_ids.hpp"
 
 namespace eyeray::pack {
 namespace {
 
-// Up to here testing everything is as fast as a BVH: primitives, and turns of loops of their own.
+// Up to here testing everything is as fast as a BVH: primitives, and turns of loops of their own. Rays of
+// paths take different ways through a BVH, so more tests pay, in pictures whose samples repay their
+// compilation.
 constexpr size_t few_tests = 24;
+constexpr size_t few_tests_of_paths = 40;
+constexpr int64_t least_samples_of_paths = 1 << 22;
 // A box that takes this part of the scene's own is hit by nearly every ray that hits the scene. To test what
 // is in it straight away is cheaper than steps that lead there, while such primitives are few.
 constexpr double most_of_scene = 0.5;
 constexpr size_t most_in_linear_list = 4;
+
+size_t few_tests_of(const Scene& scene) {
+  const bool paths =
+      walks_at_random(scene.render.integrator) && scene.image.all_samples() >= least_samples_of_paths;
+  return paths ? few_tests_of_paths : few_tests;
+}
 
 Vec3 middle(const Bounds& bounds) {
   return (bounds.min + bounds.max) * 0.5;
@@ -39,11 +50,12 @@ class GeometryPacker {
     world_ = shape_records(scene_.shapes, scene_.camera.eye, [this](size_t i) { return ids_.of_shape(i); });
     add_meshes();
     add_groups();
+    packed_.most_linear = few_tests_of(scene_);
     use_bvh_ = options_.acceleration == Acceleration::bvh ||
                (options_.acceleration == Acceleration::automatic &&
-                (world_.size() + packed_.shape_iterations > few_tests || !scene_.instances.empty() ||
-                 !packed_.instances.empty()));
-    if (world_.size() > few_tests && packed_.instances.empty()) unbind_largest();
+                (world_.size() + packed_.shape_iterations > packed_.most_linear ||
+                 !scene_.instances.empty() || !packed_.instances.empty()));
+    if (world_.size() > packed_.most_linear && packed_.instances.empty()) unbind_largest();
     packed_.has_bvh = use_bvh_ && has_bounded(2);
     if (packed_.has_bvh) build_bvhs();
     lay_out_world();

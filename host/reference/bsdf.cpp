@@ -10,10 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/optics/ggx_albedo.hpp"
-#include "host/optics/glass_albedo.hpp"
-#include "host/optics/sheen_albedo.hpp"
 #include "host/reference/emitter_sample.hpp"
+#include "host/tables/albedos.hpp"
 
 namespace eyeray::reference {
 
@@ -87,13 +85,13 @@ Vec3 mean_layer_albedo(const Fresnel& fresnel, const GgxAlbedo& albedo) {
 // What a coat leaves of light that crosses it once.
 double through_coat(double coat, double roughness, double cosine) {
   if (coat == 0) return 1;
-  const GgxAlbedo albedo = optics::ggx_albedo(cosine, roughness);
+  const GgxAlbedo albedo = tables::ggx_albedo(cosine, roughness);
   return 1 - coat * once(coat_fresnel(), albedo.once, albedo.edge).x;
 }
 
 // The same of sheen.
 double through_sheen(const Vec3& sheen, double roughness, double cosine) {
-  return sheen == Vec3(0) ? 1 : 1 - largest(sheen) * optics::sheen_albedo(cosine, roughness).albedo;
+  return sheen == Vec3(0) ? 1 : 1 - largest(sheen) * tables::sheen_albedo(cosine, roughness).albedo;
 }
 
 // EON, without the light's cosine.
@@ -116,7 +114,7 @@ Vec3 rough_diffuse(const Vec3& color, double r, const Vec3& o, const Vec3& i) {
 
 ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : bsdf_(bsdf), o_(o) {
   const bool any_glossy = bsdf.glossy.f90 != Vec3(0) || bsdf.layer.f90 != Vec3(0);
-  const GgxAlbedo albedo = any_glossy ? optics::ggx_albedo(o.z, bsdf.roughness) : GgxAlbedo{};
+  const GgxAlbedo albedo = any_glossy ? tables::ggx_albedo(o.z, bsdf.roughness) : GgxAlbedo{};
   const double coated = through_coat(bsdf.coat, bsdf.coat_roughness, o.z);
   const double under = coated * through_sheen(bsdf.sheen, bsdf.sheen_roughness, o.z);
   const Vec3 let_in = 1.0 - layer_albedo(bsdf.layer, albedo);
@@ -132,7 +130,7 @@ ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : bsdf_(bsdf), o_(o) {
   albedos[glass] = under * bsdf.glass;
   albedos[sheen] = Vec3(0);
   if (bsdf.sheen != Vec3(0))
-    albedos[sheen] = coated * bsdf.sheen * optics::sheen_albedo(o.z, bsdf.sheen_roughness).albedo;
+    albedos[sheen] = coated * bsdf.sheen * tables::sheen_albedo(o.z, bsdf.sheen_roughness).albedo;
   albedos[thin] = under * bsdf.thin * let_in;
   albedos[mirror] = bsdf.mirror * under * under;
   albedos[transmitted] = bsdf.transmitted * under;
@@ -148,7 +146,7 @@ ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : bsdf_(bsdf), o_(o) {
 
 BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
   const double cosine = std::max(0.0, i.z), even = cosine / M_PI;
-  const auto albedo = [&](const Vec3& w) { return optics::ggx_albedo(w.z, bsdf_.roughness); };
+  const auto albedo = [&](const Vec3& w) { return tables::ggx_albedo(w.z, bsdf_.roughness); };
   switch (lobe) {
     case diffuse: {
       if (cosine == 0) return {};
@@ -161,7 +159,7 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
                  (1.0 - mean_layer_albedo(bsdf_.layer, albedo(o_)));
       // The sheen above lets light in and out again, as the layer does.
       if (bsdf_.sheen != Vec3(0))
-        value /= 1 - largest(bsdf_.sheen) * optics::sheen_albedo(1, bsdf_.sheen_roughness).mean;
+        value /= 1 - largest(bsdf_.sheen) * tables::sheen_albedo(1, bsdf_.sheen_roughness).mean;
       return {value, even};
     }
     case glossy: {
@@ -192,7 +190,7 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
       const double sum = n_o * along_o + n_i * along_i;
       const double density = through ? seen * (1 - mirrored) * n_i * n_i * std::abs(along_i) / (sum * sum)
                                      : seen * mirrored / (4 * along_o);
-      const double once = optics::glass_albedo(o_.z, bsdf_.roughness, n_o, n_i);
+      const double once = tables::glass_albedo(o_.z, bsdf_.roughness, n_o, n_i);
       return {bsdf_.glass * (through ? bsdf_.glass_color : Vec3(1)) * density * both / masking / once,
               density};
     }
@@ -200,7 +198,7 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
       if (cosine == 0) return {};
       const double half_way = std::min(1.0, glm::normalize(o_ + i).z), r = bsdf_.sheen_roughness;
       const double edge_on =
-          std::max({1.0, optics::sheen_albedo(o_.z, r).unweakened, optics::sheen_albedo(i.z, r).unweakened});
+          std::max({1.0, tables::sheen_albedo(o_.z, r).unweakened, tables::sheen_albedo(i.z, r).unweakened});
       return {bsdf_.sheen * optics::sheen(half_way, o_.z, i.z, r) / edge_on * cosine, even};
     }
     case thin: {
@@ -242,7 +240,7 @@ BsdfValue ViewedBsdf::at(const Vec3& i) const {
 }
 
 Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
-  const double spread = lobe == thin ? optics::ggx_albedo(o_.z, bsdf_.roughness).once : 0;
+  const double spread = lobe == thin ? tables::ggx_albedo(o_.z, bsdf_.roughness).once : 0;
   if (lobe == diffuse || lobe == multiple || lobe == sheen || (lobe == thin && part >= spread)) {
     // Evenly on the disk, then up to the half sphere: Malley's.
     const double radius = std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1));

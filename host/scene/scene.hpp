@@ -38,6 +38,7 @@ struct ImageSettings {
   image::Tone tone = {};    // of pictures as .png
 
   Vec2 size() const { return {width, height}; }  // in pixels
+  int64_t all_samples() const { return int64_t{width} * height * samples; }
 };
 
 // How integrators that ask one light at each vertex of a path choose it; by itself, by how many there are.

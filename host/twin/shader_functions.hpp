@@ -113,6 +113,7 @@ void show(const char* name, uint line, const T& shown) {
 #define HAS_BVH bound_scene->has_bvh
 #define QUANTISED_NODES bound_scene->quantised_nodes
 #define IMMEDIATE_SHAPES SHAPES
+#define TEXTURES_OF(name, X) TEXTURES(X)
 #define ALPHA_TESTED_SHAPES SHAPES
 #define INSTANCE_COUNT bound_scene->instance_count
 #define LOOP_PROBE bound_scene->frame->loop_probe

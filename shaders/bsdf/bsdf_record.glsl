@@ -10,9 +10,11 @@ vec4 sheen_table(float cosine, float roughness) { return albedo_between(FIRST_SH
 
 // What microfacets between two media mirror and refract before another of them takes it.
 float glass_table(float cosine, float roughness, float ior_from, float ior_to) {
-  // Slices by (n₂ − n₁) / (n₂ + n₁) from −0.6 to 0.6: three quarters of them are below 0, where some light is mirrored totally.
+  // host/tables/albedos.hpp says how slices lie.
   float contrast = (ior_to - ior_from) / ((ior_to + ior_from) * 0.6f);
-  float z = float(GLASS_SLICES) * (contrast < 0.0f ? 0.75f * (1.0f + contrast) : 0.75f + 0.25f * contrast);
+  float root = sqrt(abs(contrast));
+  float below = float(GLASS_SLICES_BELOW);
+  float z = below + root * (contrast < 0.0f ? -below : float(GLASS_SLICES) - below);
   float slice = minimum(maximum(floor(z), 0.0f), float(GLASS_SLICES - 1u));
   vec4 albedo = albedo_between(FIRST_GLASS_ALBEDO + uint(slice) * (GLASS_ALBEDOS * GLASS_ALBEDOS), GLASS_ALBEDOS, cosine, roughness);
   return albedo.x * (1.0f - (z - slice)) + albedo.y * (z - slice);

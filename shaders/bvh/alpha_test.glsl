@@ -30,7 +30,7 @@ float alpha_test(Primitive primitive, uint instance, Ray ray, float t, vec2 uv) 
 #define PLACE_ON(name, number) \
     if (kind_of(primitive) == number) at = name##_surface(primitive, ray, hit).uv;
     ALPHA_TESTED_SHAPES(PLACE_ON)
-    float alpha = texture_alpha(material.alpha, place_of_uv(at));
+    float alpha = alpha_at(material, place_of_uv(at));
 #if HAS_COLORS
     alpha = alpha * vertex_alpha(primitive, uv);
 #endif

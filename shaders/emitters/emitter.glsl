@@ -45,7 +45,7 @@ vec3 emitter_radiance(Emitter e, EmitterSample place, vec3 direction) {
       at.uv = vec2((c0.w * wa + c1.w * place.uv.x) + c2.w * place.uv.y, (v.x * wa + v.y * place.uv.x) + v.z * place.uv.y);
       color = (vec3(c0) * wa + vec3(c1) * place.uv.x) + vec3(c2) * place.uv.y;
     }
-    light = texture_color(e.texture, at) * color;
+    light = emission_texture(e.texture, at) * color;
   }
 #endif
 #if HAS_ONE_SIDED_EMISSION

@@ -25,8 +25,8 @@ struct Interaction {
 #endif
 };
 
-// `hit`: that of `ray`, which came through `media`. Adds to `flags` where those are too many.
-Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
+// What does not depend on what the material says. `hit`: that of `ray`, which came through `media`. Adds to `flags` where those are too many.
+Interaction struck_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   Primitive primitive = primitive_at(hit);
   uint material = material_of(primitive);
   Interaction at;
@@ -65,8 +65,15 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   at.context.ior_to = load_medium(innermost_medium(at.media_behind)).ior;
 #endif
   PROBE(ior, vec2(at.context.ior_from, at.context.ior_to));
+  return at;
+}
+
+Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
+  uint material = material_of(primitive_at(hit));
+  Interaction at = struck_at(ray, hit, media, flags);
   at.scattering = scattering_of(material, at.material, at.context);
 #if HAS_ONE_SIDED_EMISSION
+  bool front = dot3(ray.d, at.surface.normal_geometric) < 0.0f;
   if (!front && (at.material.flags & MATERIAL_EMITS_IN_FRONT) != 0u) at.scattering.emitted = vec3(0.0f, 0.0f, 0.0f);
 #endif
 #if RANDOM_WALK

@@ -29,8 +29,8 @@ vec3 through_panes(Ray ray, float distance, uint media, INOUT(uvec4) counts) {
     counts.z = counts.z | iteration_limit(state);
     going = state.hit.slot != NONE;
     if (going) {
-      Interaction at = interaction_at(ray, state.hit, media, ignored);
-      left = i < MOST_PANES ? left * at.bsdf.passed : vec3(0.0f, 0.0f, 0.0f);
+      Interaction at = struck_at(ray, state.hit, media, ignored);
+      left = i < MOST_PANES ? left * passed_by(at.material, at.context) : vec3(0.0f, 0.0f, 0.0f);
       vec3 start = spawn_ray(at.surface, ray.d).o;
       distance = distance - dot3(start - ray.o, ray.d);
       ray = make_ray(start, ray.d);

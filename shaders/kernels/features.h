@@ -131,7 +131,9 @@
 //   IMMEDIATE_SHAPES   those in BVHs that are not deferred
 //   ALPHA_TESTED_SHAPES  those of a material with an alpha
 //   TEXTURES
+//   TEXTURES_OF        (name, X): those that materials have as that texture of theirs (MATERIAL_TEXTURES)
 //   MATERIALS
+//   PANES              those that may be panes
 //   LOBES
 //   CAMERAS
 //   CAMERA_IS          (number): whether that is the frame's

@@ -25,14 +25,14 @@ vec3 mapped_normal(Material material, Surface surface, vec3 n, TextureContext pl
   along_u = own ? vec3(surface.tangent) : along_u;
   vec3 t = unit_or(along_u - n * dot3(n, along_u), vec3(0.0f, 0.0f, 0.0f));
   vec3 b = cross3(n, t) * left;
-  vec3 code = texture_color(material.normal_map, place);
+  vec3 code = normal_map_of(material, place);
   float x = (2.0f * code.x - 1.0f) * material.normal_scale;
   float y = (2.0f * code.y - 1.0f) * material.normal_scale;
   return unit_or(t * x + b * y + n * (2.0f * code.z - 1.0f), n);
 }
 
 // What a bump map's colour stands for.
-float bump_of(vec3 color) { return 0.2126f * color.x + 0.7152f * color.y + 0.0722f * color.z; }
+float height_of(vec3 color) { return 0.2126f * color.x + 0.7152f * color.y + 0.0722f * color.z; }
 
 // Heights are compared on both sides, `bump_width` away: in space along two directions square to n, or in uv.
 vec3 bumped_normal(Material material, Surface surface, vec3 n, TextureContext place) {
@@ -49,7 +49,7 @@ vec3 bumped_normal(Material material, Surface surface, vec3 n, TextureContext pl
     beside.uv = vec2(place.uv.x + (in_space || !first ? 0.0f : way), place.uv.y + (in_space || first ? 0.0f : way));
     beside.p = place.p + (first ? s : t) * (in_space ? way : 0.0f);
     vec3 direction = in_space ? (first ? s : t) : first ? surface.u_gradient : surface.v_gradient;
-    slope = slope + direction * (side * bump_of(texture_color(material.bump, beside)));
+    slope = slope + direction * (side * height_of(bump_of(material, beside)));
   }
   slope = slope * (material.bump_height / (2.0f * material.bump_width));
   return unit_or(n - (slope - n * dot3(n, slope)), n);

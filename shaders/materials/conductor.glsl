@@ -11,14 +11,14 @@ Scattering conductor_scattering(Material material, ScatteringContext context) { 
 Bsdf conductor_bsdf(Material material, ScatteringContext context, Scattering scattering) {
   Bsdf bsdf = black_bsdf();
 #if HAS_GLOSSY
-  bsdf.glossy = schlick(texture_color(material.color, context.place) * context.color, vec3(1.0f, 1.0f, 1.0f));
+  bsdf.glossy = schlick(color_of(material, context.place) * context.color, vec3(1.0f, 1.0f, 1.0f));
   if (material.b.w != 0.0f) {
     bsdf.glossy.f0 = vec3(material.b);
     bsdf.glossy.f90 = material.c;
     bsdf.glossy.mean = vec3(material.a);
     bsdf.glossy.conductor = true;
   }
-  bsdf.roughness = texture_color(material.roughness, context.place).y;
+  bsdf.roughness = roughness_of(material, context.place).y;
   bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);
 #endif
   return bsdf;

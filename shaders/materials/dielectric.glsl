@@ -17,7 +17,7 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
     reflected = 2.0f * reflected / (1.0f + reflected);
   }
 #endif
-  s.specular = texture_color(material.specular, context.place);
+  s.specular = specular_of(material, context.place);
   s.reflected = vec3(reflected, reflected, reflected);
   s.transmitted = vec3(1.0f - reflected, 1.0f - reflected, 1.0f - reflected);
   return s;
@@ -43,11 +43,21 @@ void add_glass(INOUT(Bsdf) bsdf, Scattering surface, float roughness, float weig
 }
 #endif
 
+#if HAS_PANES
+vec3 dielectric_passed(Material material, ScatteringContext context) {
+  vec3 passed = dielectric_scattering(material, context).transmitted;
+#if HAS_THIN
+  if (roughness_of(material, context.place).y > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);
+#endif
+  return passed;
+}
+#endif
+
 Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering scattering) {
   Bsdf bsdf = black_bsdf();
   vec3 white = vec3(1.0f, 1.0f, 1.0f);
 #if HAS_ROUGH_GLASS || HAS_THIN
-  bsdf.roughness = texture_color(material.roughness, context.place).y;
+  bsdf.roughness = roughness_of(material, context.place).y;
 #endif
   bool pane = (material.flags & MATERIAL_PANE) != 0u;
 #if HAS_PANES

@@ -35,6 +35,19 @@ Bsdf bsdf_of(uint index, Material material, ScatteringContext context, Scatterin
 #endif
   return bsdf;
 }
+
+#if HAS_PANES
+// What of light a surface lets straight through: nothing where it is no pane.
+vec3 passed_by(Material material, ScatteringContext context) {
+  vec3 passed = vec3(0.0f, 0.0f, 0.0f);
+#define PASSED_BY(name, number) \
+  if (material.kind == number) passed = name##_passed(material, context);
+  if ((material.flags & MATERIAL_PANE) != 0u) {
+    PANES(PASSED_BY)
+  }
+  return passed;
+}
+#endif
 #endif
 
 SHADER_END

@@ -7,8 +7,8 @@ SHADER_BEGIN
 
 Scattering mirror_scattering(Material material, ScatteringContext context) {
   Scattering s = no_scattering();
-  s.specular = texture_color(material.specular, context.place);
-  s.reflected = texture_color(material.reflected, context.place);
+  s.specular = specular_of(material, context.place);
+  s.reflected = reflected_of(material, context.place);
   return s;
 }
 

@@ -7,12 +7,12 @@ SHADER_BEGIN
 
 Scattering phong_scattering(Material material, ScatteringContext context) {
   Scattering s = no_scattering();
-  s.ambient = texture_color(material.ambient, context.place) * context.color;
-  s.diffuse = texture_color(material.base, context.place) * context.color;
-  s.specular = texture_color(material.specular, context.place);
-  s.reflected = texture_color(material.reflected, context.place);
+  s.ambient = ambient_of(material, context.place) * context.color;
+  s.diffuse = base_of(material, context.place) * context.color;
+  s.specular = specular_of(material, context.place);
+  s.reflected = reflected_of(material, context.place);
 #if HAS_EMISSION
-  s.emitted = texture_color(material.emission, context.place) * context.color;
+  s.emitted = emission_of(material, context.place) * context.color;
 #endif
   return s;
 }

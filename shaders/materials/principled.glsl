@@ -23,42 +23,83 @@ Scattering principled_scattering(Material material, ScatteringContext context) {
 }
 
 #if RANDOM_WALK
-Bsdf principled_bsdf(Material material, ScatteringContext context, Scattering scattering) {
-  Bsdf bsdf = black_bsdf();
-  uint colored = material.color;
+vec3 principled_color(Material material, ScatteringContext context) {
+  vec3 color = color_of(material, context.place);
 #if HAS_TRANSMISSION
-  colored = (material.flags & MATERIAL_CLEAR) != 0u ? material.base : material.color;
+  if ((material.flags & MATERIAL_CLEAR) != 0u) color = base_of(material, context.place);
 #endif
-  vec3 color = texture_color(colored, context.place) * context.color;
-  float metallic = texture_color(material.metallic, context.place).z;
+  return color * context.color;
+}
+
+// The body, what mirrors above it, coat and sheen; no light goes through yet.
+Bsdf principled_surface(Material material, ScatteringContext context, vec3 color, float metallic) {
+  Bsdf bsdf = black_bsdf();
   bsdf.diffuse = color * (1.0f - metallic);
 #if HAS_GLOSSY
   vec3 white = vec3(1.0f, 1.0f, 1.0f);
   vec3 f0 = vec3(material.b);
   vec3 edge = white * material.b.w;
 #if HAS_SPECULAR_TEXTURES
-  vec3 tint = texture_color(material.specular_color, context.place);
-  float level = texture_color(material.specular_level, context.place).x;
+  vec3 tint = specular_color_of(material, context.place);
+  float level = specular_level_of(material, context.place).x;
   f0 = vec3(minimum(f0.x * tint.x, material.b.w), minimum(f0.y * tint.y, material.b.w), minimum(f0.z * tint.z, material.b.w)) * level;
   edge = edge * level;
 #endif
   bsdf.layer = schlick(f0, edge);
   bsdf.glossy = schlick(f0 * (1.0f - metallic) + color * metallic, edge * (1.0f - metallic) + white * metallic);
-  bsdf.roughness = texture_color(material.roughness, context.place).y;
+  bsdf.roughness = roughness_of(material, context.place).y;
   bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);
 #endif
+#if HAS_COAT
+  bsdf.coat = coat_of(material, context.place).x;
+  bsdf.coat_roughness = coat_roughness_of(material, context.place).y;
+  bsdf.coat_albedo = ggx_albedo(viewed_cosine(context), bsdf.coat_roughness);
+#endif
+#if HAS_SHEEN
+  bsdf.sheen = sheen_of(material, context.place);
+  bsdf.sheen_roughness = sheen_roughness_of(material, context.place).y;
+  bsdf.sheen_albedo = sheen_table(viewed_cosine(context), bsdf.sheen_roughness);
+#endif
+  return bsdf;
+}
+
 #if HAS_TRANSMISSION
-  float through = texture_color(material.transmission, context.place).x * (1.0f - metallic);
+float principled_through(Material material, ScatteringContext context, float metallic) {
+  return transmission_of(material, context.place).x * (1.0f - metallic);
+}
+#endif
+
+#if HAS_PANES
+// Of a pane with that surface.
+vec3 passed_straight(Bsdf bsdf, vec3 color, float through) {
+  vec3 passed = color * through * (vec3(1.0f, 1.0f, 1.0f) - layer_albedo(bsdf.layer, bsdf.albedo)) * under_layers(bsdf, 2u);
+#if HAS_THIN
+  if (bsdf.roughness > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);
+#endif
+  return passed;
+}
+
+vec3 principled_passed(Material material, ScatteringContext context) {
+  float metallic = metallic_of(material, context.place).z;
+  vec3 color = principled_color(material, context);
+  return passed_straight(principled_surface(material, context, color, metallic), color, principled_through(material, context, metallic));
+}
+#endif
+
+Bsdf principled_bsdf(Material material, ScatteringContext context, Scattering scattering) {
+  float metallic = metallic_of(material, context.place).z;
+  vec3 color = principled_color(material, context);
+  Bsdf bsdf = principled_surface(material, context, color, metallic);
+#if HAS_TRANSMISSION
+  vec3 white = vec3(1.0f, 1.0f, 1.0f);
+  float through = principled_through(material, context, metallic);
   bool pane = (material.flags & MATERIAL_PANE) != 0u;
   if (through > 0.0f) {
     bsdf.diffuse = color * (1.0f - metallic - through);
 #if HAS_PANES
-    if (pane) bsdf.passed = color * through * (white - layer_albedo(bsdf.layer, bsdf.albedo));
+    if (pane) bsdf.passed = passed_straight(bsdf, color, through);
 #if HAS_THIN
-    if (pane && bsdf.roughness > 0.0f) {
-      bsdf.passed = vec3(0.0f, 0.0f, 0.0f);
-      bsdf.thin = color * through;
-    }
+    if (pane && bsdf.roughness > 0.0f) bsdf.thin = color * through;
 #endif
 #endif
 #if HAS_MEDIA
@@ -72,25 +113,10 @@ Bsdf principled_bsdf(Material material, ScatteringContext context, Scattering sc
     }
 #endif
   }
-#endif
-#if HAS_COAT
-  bsdf.coat = texture_color(material.coat, context.place).x;
-  bsdf.coat_roughness = texture_color(material.coat_roughness, context.place).y;
-  bsdf.coat_albedo = ggx_albedo(viewed_cosine(context), bsdf.coat_roughness);
-#endif
-#if HAS_SHEEN
-  bsdf.sheen = texture_color(material.sheen, context.place);
-  bsdf.sheen_roughness = texture_color(material.sheen_roughness, context.place).y;
-  bsdf.sheen_albedo = sheen_table(viewed_cosine(context), bsdf.sheen_roughness);
-#endif
-#if HAS_TRANSMISSION
   // Single directions cross the layers too.
   float under = under_layers(bsdf, 2u);
   bsdf.mirror = bsdf.mirror * (under * under);
   bsdf.transmitted = bsdf.transmitted * under;
-#if HAS_PANES
-  bsdf.passed = bsdf.passed * under;
-#endif
 #endif
   return bsdf;
 }

@@ -9,3 +9,33 @@
   X(plastic, 5u)     \
   X(principled, 6u)
 #endif
+
+// Of these the kinds that may be panes.
+#ifndef PANES
+#define PANES(X)    \
+  X(dielectric, 2u) \
+  X(principled, 6u)
+#endif
+
+// The textures of a material, as its record names them.
+#ifndef MATERIAL_TEXTURES
+#define MATERIAL_TEXTURES(X) \
+  X(base)                    \
+  X(specular)                \
+  X(reflected)               \
+  X(ambient)                 \
+  X(emission)                \
+  X(color)                   \
+  X(roughness)               \
+  X(metallic)                \
+  X(coat)                    \
+  X(coat_roughness)          \
+  X(specular_level)          \
+  X(transmission)            \
+  X(specular_color)          \
+  X(sheen)                   \
+  X(sheen_roughness)         \
+  X(normal_map)              \
+  X(bump)                    \
+  X(alpha)
+#endif

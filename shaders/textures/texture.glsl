@@ -1,27 +1,31 @@
-// From a texture and a place on a surface to its colour, or its alpha: asks the kind of texture.
+// From a texture and a place on a surface to its colour, or its alpha: asks the kind of texture, of those that the scene's materials have there.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
+#include "materials/registry.h"
 #include "records.h"
 #include "textures/place.glsl"
 
 SHADER_BEGIN
 
-vec3 texture_color(uint index, TextureContext place) {
-  Texture texture = load_texture(index);
-  vec3 color = vec3(0.0f, 0.0f, 0.0f);
 #define COLOR_OF(name, number, varies) \
   if (texture.kind == number) color = name##_color(texture, place);
-  TEXTURES(COLOR_OF)
-  return color;
-}
+#define TEXTURE_OF(slot)                              \
+  vec3 slot##_texture(uint index, TextureContext place) { \
+    Texture texture = load_texture(index);            \
+    vec3 color = vec3(0.0f, 0.0f, 0.0f);              \
+    TEXTURES_OF(slot, COLOR_OF)                       \
+    return color;                                     \
+  }                                                   \
+  vec3 slot##_of(Material material, TextureContext place) { return slot##_texture(material.slot, place); }
+MATERIAL_TEXTURES(TEXTURE_OF)
 
 #if HAS_ALPHA_TEST
-float texture_alpha(uint index, TextureContext place) {
-  Texture texture = load_texture(index);
+float alpha_at(Material material, TextureContext place) {
+  Texture texture = load_texture(material.alpha);
   float alpha = 0.0f;
 #define ALPHA_OF(name, number, varies) \
   if (texture.kind == number) alpha = name##_alpha(texture, place);
-  TEXTURES(ALPHA_OF)
+  TEXTURES_OF(alpha, ALPHA_OF)
   return alpha;
 }
 #endif

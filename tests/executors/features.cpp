@@ -48,7 +48,7 @@ Names defined() {
     const std::string text = directives(test::read_text(file.path()), false);
     names.merge(matches(text, "#define ([A-Z]\\w*)"));
     names.merge(matches(text, "define\\(\"([A-Z]\\w*)"));
-    names.merge(matches(text, "registry_text\\(\"([A-Z]\\w*)"));
+    names.merge(matches(text, "(?:registry|list)_text\\(\"([A-Z]\\w*)"));
     for (const std::string& family : matches(text, "\"([A-Z]+_)\\{\\}\"")) names.insert(family + "name");
   }
   return names;

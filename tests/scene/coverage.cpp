@@ -4,6 +4,7 @@
 #include "host/cameras/registry.hpp"
 #include "host/lights/registry.hpp"
 #include "host/loader/scene_file.hpp"
+#include "host/loader/suite.hpp"
 #include "host/materials/registry.hpp"
 #include "host/pack/pack.hpp"
 #include "host/scene/texture_rows.hpp"
@@ -16,13 +17,6 @@ using namespace eyeray::loader;
 using namespace eyeray::records;
 
 namespace {
-
-std::vector<std::filesystem::path> scene_files(const char* folder) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  return files;
-}
 
 // The kinds of shapes that a scene has, and of materials on them and their textures.
 struct Kinds {
@@ -61,7 +55,7 @@ TEST_CASE(
   Kinds used;
   std::set<const LightType*> lights;
   std::set<uint32_t> cameras;
-  for (const std::filesystem::path& file : scene_files("scenes")) {
+  for (const std::filesystem::path& file : scenes_below("scenes")) {
     CAPTURE(file);
     const Scene scene = load_scene(file);
     CHECK(scene.warnings.empty());

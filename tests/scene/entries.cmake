@@ -8,19 +8,21 @@ list(FILTER PATHS INCLUDE REGEX "^scenes/path/")
 list(REMOVE_ITEM SCENES ${PATHS})
 # Their kernels take seconds to compile.
 set(SHOWCASE ${SCENES})
-list(FILTER SHOWCASE INCLUDE REGEX "^scenes/showcase/")
+list(FILTER SHOWCASE INCLUDE REGEX "^scenes/(showcase/|gallery)")
 list(REMOVE_ITEM SCENES ${SHOWCASE})
 set(SHAPE_SCENES ${SCENES})
 list(FILTER SHAPE_SCENES INCLUDE REGEX "^scenes/shapes/")
 # The gallery has what the others have, in one kernel that takes seconds to make, and the Mandelbulb takes seconds to trace: once is enough.
 list(FILTER SHAPE_SCENES EXCLUDE REGEX "/(gallery|mandelbulb)")
 
-# eyeray_verify(NAME LABEL [QUICK|STAND_IN] ARGUMENT …): one process for all its scenes. QUICK: it is in what `scripts/test` alone runs.
-# STAND_IN: there alone, since a longer test has the same kernels and gates at more pixels.
+# eyeray_verify(NAME LABEL [QUICK|STAND_IN|NIGHTLY] ARGUMENT …): one process for all its scenes. QUICK: it is in what `scripts/test` alone
+# runs. STAND_IN: there alone, since a longer test has the same kernels and gates at more pixels. NIGHTLY: in `scripts/test --nightly` alone.
 function(eyeray_verify name label)
-  cmake_parse_arguments(arg "QUICK;STAND_IN" "" "" ${ARGN})
+  cmake_parse_arguments(arg "QUICK;STAND_IN;NIGHTLY" "" "" ${ARGN})
   if(arg_STAND_IN)
     list(APPEND label stand-in)
+  elseif(arg_NIGHTLY)
+    list(APPEND label nightly)
   elseif(NOT arg_QUICK)
     list(APPEND label full)
   endif()
@@ -28,6 +30,24 @@ function(eyeray_verify name label)
     --keep ${CMAKE_CURRENT_BINARY_DIR}/kept/${name}
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
   set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 3600)
+endfunction()
+
+# eyeray_mode(NAME SCENES OPTION …): of the list of that name every third scene, another third in each mode; the others each night.
+set(first_of_third 0)
+function(eyeray_mode name scenes)
+  set(third "")
+  set(others ${${scenes}})
+  list(LENGTH others count)
+  math(EXPR last "${count} - 1")
+  foreach(i RANGE ${first_of_third} ${last} 3)
+    list(GET ${scenes} ${i} scene)
+    list(APPEND third ${scene})
+  endforeach()
+  list(REMOVE_ITEM others ${third})
+  eyeray_verify(mode.${name} mode ${third} ${ARGN})
+  eyeray_verify(mode.${name}.others mode NIGHTLY ${others} ${ARGN})
+  math(EXPR next "(${first_of_third} + 1) % 3")
+  set(first_of_third ${next} PARENT_SCOPE)
 endfunction()
 
 # Every scene, small; but for the edge scenes, which have one size, and the slowest: each of those is a test below. Formulas take seconds to
@@ -48,14 +68,14 @@ foreach(scene IN LISTS SCENES)
 endforeach()
 
 # Paths, traced in every way and by every sampler.
-set(paths ${PATHS} -s 96x72 --spp 4)
-eyeray_verify(scenes.paths scene QUICK ${paths})
-eyeray_verify(scenes.paths.large scene ${PATHS} -s 320x240 --spp 4)
+set(few_samples -s 96x72 --spp 4)
+eyeray_verify(scenes.paths scene QUICK ${PATHS} ${few_samples})
+eyeray_verify(scenes.paths.large scene NIGHTLY ${PATHS} -s 320x240 --spp 4)
 eyeray_verify(scenes.showcase scene ${SHOWCASE} -s 96x64 --spp 4)
-eyeray_verify(mode.paths.packets mode ${paths} --acceleration bvh --no-constants --rays packets)
-eyeray_verify(mode.paths.cooperative mode ${paths} --acceleration bvh --rays packets --incoherent cooperative)
-eyeray_verify(mode.paths.random mode ${paths} --seed 7 -D image.pattern=random)
-eyeray_verify(mode.paths.jittered mode ${paths} --seed 7 -D image.pattern=jittered)
+eyeray_mode(paths.packets PATHS ${few_samples} --acceleration bvh --no-constants --rays packets)
+eyeray_mode(paths.cooperative PATHS ${few_samples} --acceleration bvh --rays packets --incoherent cooperative)
+eyeray_mode(paths.random PATHS ${few_samples} --seed 7 -D image.pattern=random)
+eyeray_mode(paths.jittered PATHS ${few_samples} --seed 7 -D image.pattern=jittered)
 
 # Samples that lie outside of their pixels, too.
 foreach(filter IN ITEMS gaussian blackman-harris)
@@ -63,7 +83,7 @@ foreach(filter IN ITEMS gaussian blackman-harris)
 endforeach()
 
 # Every mode, on small pictures. The edge scenes put whole rows of pixels where the picture jumps, for one size and one sample.
-set(small ${SCENES} -s 96x72)
+set(small ${SCENES})
 list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes|/forest|/shapes/(algebraic|bezier|implicit|mandelbulb|sculpture|csg)")
 # Modes that no shape's code knows of need no scene for each shape.
 set(views ${small})
@@ -78,7 +98,7 @@ eyeray_verify(mode.slow-kernels.jittered mode scenes/shapes/implicit.toml scenes
 set(deep --max-depth 64 -D render.min_throughput=0.01)
 eyeray_verify(mode.slow-kernels.deep-jittered mode ${slow} ${deep} ${jittered})
 # Without constants the kernels are the same for many modes, and made once.
-eyeray_verify(mode.no-constants mode ${small} --no-constants)
+eyeray_mode(no-constants small -s 96x72 --no-constants)
 eyeray_verify(mode.no-constants.edges mode QUICK ${EDGES} --no-constants)
 # However hits are found, they are the same. The GPU's profile runs on any device.
 set(searched scenes/meshes.toml scenes/sphereflake.toml scenes/cornell.toml scenes/inside_glass.toml -s 96x72)
@@ -86,7 +106,7 @@ eyeray_verify(mode.no-optimiser mode ${searched} --no-optimiser)
 set(groups scenes/group_instances.toml scenes/group_shapes.toml)
 eyeray_verify(mode.groups-once mode QUICK scenes/groups.toml scenes/group_instances.toml -s 96x72 -D render.groups=instanced)
 eyeray_verify(mode.groups-copied mode ${groups} scenes/forest.toml -s 96x72 -D render.groups=flat)
-eyeray_verify(mode.bvh mode ${small} --acceleration bvh --no-constants)
+eyeray_mode(bvh small -s 96x72 --acceleration bvh --no-constants)
 set(few scenes/cornell.toml scenes/inside_glass.toml scenes/meshes.toml scenes/group_instances.toml -s 48x36)
 eyeray_verify(mode.packets.few mode STAND_IN ${few} --acceleration bvh --no-constants --rays packets)
 eyeray_verify(mode.profile-gpu.few mode STAND_IN ${few} --profile gpu)
@@ -95,23 +115,24 @@ eyeray_verify(mode.brute-force mode ${searched} --acceleration brute-force)
 # Without a BVH a ray hits each triangle as often as it is shown: more rays in a row, or patches, are more loops than Mesa 22.3.6 grants.
 eyeray_verify(mode.brute-force.groups mode scenes/group_instances.toml -s 48x36 --acceleration brute-force --max-depth 0)
 eyeray_verify(mode.splits mode ${searched} ${groups} --acceleration bvh --splits)
-eyeray_verify(mode.profile-gpu mode ${views} scenes/shapes/polygon.toml scenes/shapes/torus.toml scenes/edges/twisted.toml --profile gpu)
-eyeray_verify(mode.packets mode ${small} --acceleration bvh --no-constants --rays packets)
+set(profiled ${views} scenes/shapes/polygon.toml scenes/shapes/torus.toml scenes/edges/twisted.toml)
+eyeray_mode(profile-gpu profiled -s 96x72 --profile gpu)
+eyeray_mode(packets small -s 96x72 --acceleration bvh --no-constants --rays packets)
 set(bounces scenes/sphereflake.toml scenes/cornell.toml scenes/textures.toml)
 eyeray_verify(mode.cooperative mode QUICK ${bounces} -s 48x36 --acceleration bvh --no-constants --rays packets --incoherent cooperative)
 eyeray_verify(mode.packets.edges mode ${EDGES} --acceleration bvh --no-constants --rays packets)
 # Vectors as big pictures have them, wherever there is such a processor.
 eyeray_verify(mode.wide-vectors mode ${few} scenes/shapes/torus.toml scenes/shapes/csg.toml)
 set_tests_properties(mode.wide-vectors PROPERTIES ENVIRONMENT LP_NATIVE_VECTOR_WIDTH=512)
-eyeray_verify(mode.raycast mode ${small} --integrator raycast)
+eyeray_mode(raycast small -s 96x72 --integrator raycast)
 eyeray_verify(mode.raycast.edges mode ${EDGES} --integrator raycast)
-eyeray_verify(mode.eye-rays mode ${views} --max-depth 0)
-eyeray_verify(mode.deep mode ${small} --no-constants ${deep})
+eyeray_mode(eye-rays views -s 96x72 --max-depth 0)
+eyeray_mode(deep small -s 96x72 --no-constants ${deep})
 eyeray_verify(mode.moller-trumbore mode scenes/cornell.toml scenes/whitted.toml scenes/shapes/triangle.toml -s 96x72
   --triangle moller-trumbore)
 # A pixel of n samples is n times as likely to have one at a jump.
-eyeray_verify(mode.supersampled mode ${views} --spp 4 --max-explained 0.02)
-eyeray_verify(mode.jittered mode ${small} --no-constants --spp 9 -D image.pattern=jittered --seed 7 --max-explained 0.02)
+eyeray_mode(supersampled views -s 96x72 --spp 4 --max-explained 0.02)
+eyeray_mode(jittered small -s 96x72 --no-constants --spp 9 -D image.pattern=jittered --seed 7 --max-explained 0.02)
 
 # Pictures that no workgroup fits, and parts of pictures.
 set(some scenes/cornell.toml scenes/inside_glass.toml scenes/orthographic.toml)
@@ -171,7 +192,8 @@ eyeray_verify(mode.profile-small mode QUICK ${few} --profile small)
 # `sync` what is around them. A part of a scene at its own size has the kernels that were made for all of it.
 set(set scenes/whitted.toml ${some} -s 96x72)
 eyeray_verify(validation.core validation scenes/whitted.toml ${some} ${SHAPE_SCENES} --crop 100,60,96,72 --validate core)
-eyeray_verify(validation.core.no-constants validation ${set} ${SHAPE_SCENES} --validate core --no-constants)
+eyeray_verify(validation.core.no-constants validation ${set} --validate core --no-constants)
+eyeray_verify(validation.core.no-constants.shapes validation NIGHTLY ${SHAPE_SCENES} -s 96x72 --validate core --no-constants)
 eyeray_verify(validation.sync validation QUICK ${set} --validate sync)
 eyeray_verify(validation.sync.no-constants validation ${set} --validate sync --no-constants)
 
@@ -179,4 +201,4 @@ eyeray_verify(validation.sync.no-constants validation ${set} --validate sync --n
 add_test(NAME mutate COMMAND python3 scripts/mutate --files math/rng.glsl --count 3 --jobs 1 --least 1 --eyeray $<TARGET_FILE:eyeray>
   WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 set_tests_properties(mode.packets mode.slow-kernels.packets mode.jittered scene.shapes.mandelbulb scene.shapes.sculpture PROPERTIES COST 40)
-set_tests_properties(mutate PROPERTIES LABELS "scene;full" TIMEOUT 3600)
+set_tests_properties(mutate PROPERTIES LABELS "scene;nightly" TIMEOUT 3600)

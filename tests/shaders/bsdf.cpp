@@ -4,12 +4,10 @@
 #include <cmath>
 #include <string>
 
-#include "host/optics/ggx_albedo.hpp"
-#include "host/optics/glass_albedo.hpp"
 #include "host/optics/metals.hpp"
-#include "host/optics/sheen_albedo.hpp"
 #include "host/pack/albedo_records.hpp"
 #include "host/reference/bsdf.hpp"
+#include "host/tables/albedos.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "host/twin/twin.hpp"
 #include "tests/support/random.hpp"
@@ -276,8 +274,6 @@ void check_samples(const std::vector<double>& roughnesses, const std::vector<dou
                 << worst_sum);
 }
 
-static_assert(optics::ggx_albedos == GGX_ALBEDOS);
-
 constexpr double cosines[] = {1, 0.8, 0.4, 0.1, 0.02};
 
 }  // namespace
@@ -362,7 +358,7 @@ TEST_CASE("a white furnace stays white: rough and smooth, matte, metal and plast
 TEST_CASE("light goes both ways alike: f(o, i) is f(i, o), of glass by the square of the index") {
   // But for what is given back to rough glass, by the direction of the viewer alone.
   const auto given = [](const Bsdf& bsdf, const Vec3& o) {
-    return bsdf.glass == Vec3(0) ? 1 : optics::glass_albedo(o.z, bsdf.roughness, bsdf.ior_from, bsdf.ior_to);
+    return bsdf.glass == Vec3(0) ? 1 : tables::glass_albedo(o.z, bsdf.roughness, bsdf.ior_from, bsdf.ior_to);
   };
   Random random(3);
   for (const double roughness : {0.1, 0.5, 1.0}) {

@@ -43,7 +43,7 @@ Vec3 shaded(const TexturePtr& texture, const Vec2& uv) {
   const uint32_t index = texture->pack(packer);
   packer.write_texels();
   const shader::Binding binding(twin::view_of(packer.scene));
-  return Vec3(shader::texture_color(index, shader::place_of_uv(glm::vec2(uv))));
+  return Vec3(shader::base_texture(index, shader::place_of_uv(glm::vec2(uv))));
 }
 
 Texel random_texel(Random& random) {
@@ -190,7 +190,7 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
       const Vec2 to_border = glm::abs(place - glm::round(place));
       if (filter == Filter::nearest && (to_border.x <= error.x || to_border.y <= error.y)) continue;
       const Vec3 difference =
-          glm::abs(Vec3(shader::texture_color(index, shader::place_of_uv(uv))) - texture->at(Vec2(uv)));
+          glm::abs(Vec3(shader::base_texture(index, shader::place_of_uv(uv))) - texture->at(Vec2(uv)));
       const double allowed = (filter == Filter::nearest ? 0 : error.x + error.y) + 1e-6;
       worst = std::max(worst, std::max({difference.x, difference.y, difference.z}) / allowed);
       ++compared;
@@ -229,7 +229,7 @@ TEST_CASE("no uv whatever leaves the image") {
         const shader::Binding binding(twin::view_of(packer.scene));
         for (const float u : places)
           for (const float v : places) {
-            const glm::vec3 color = shader::texture_color(index, shader::place_of_uv({u, v}));
+            const glm::vec3 color = shader::base_texture(index, shader::place_of_uv({u, v}));
             CAPTURE(u);
             CAPTURE(v);
             REQUIRE(color == glm::vec3(0, 1, 0.2f));
@@ -280,7 +280,7 @@ TEST_CASE(
     constexpr int count = 50'000;
     for (int i = 0; i < count; ++i) {
       const glm::vec3 p(random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(-6, 6));
-      const Vec3 difference = glm::abs(Vec3(shader::texture_color(index, {{0, 0}, p})) -
+      const Vec3 difference = glm::abs(Vec3(shader::base_texture(index, {{0, 0}, p})) -
                                        material->base_color({Vec2(0), Vec3(p) + eye}));
       const double most = std::max({difference.x, difference.y, difference.z});
       apart += most > 2e-4;
