@@ -11,6 +11,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/pack/pack.hpp"
 #include "host/render/render.hpp"
+#include "host/scene/integrator.hpp"
 #include "tests/support/empty_scene.hpp"
 #include "tests/support/query_kernel.hpp"
 #include "tests/support/random_scene.hpp"
@@ -110,6 +111,20 @@ TEST_CASE("a few shapes are in a BVH where their tests have loops of their own")
   CHECK(has_bvh("scenes/shapes/polygon.toml"));
   CHECK(has_bvh("scenes/shapes/torus.toml"));
   CHECK(has_bvh("scenes/shapes/csg.toml"));
+}
+
+TEST_CASE(
+    "33 primitives are searched without a BVH by paths alone, where many samples repay their compilation") {
+  Scene scene = loader::load_scene("scenes/path/cornell_box.toml");
+  const auto in_bvh = [&](int side, int samples) {
+    scene.image.width = scene.image.height = side;
+    scene.image.samples = samples;
+    return pack::pack(scene, {.acceleration = Acceleration::automatic}).has_bvh;
+  };
+  CHECK(!in_bvh(256, 64));
+  CHECK(in_bvh(256, 63));
+  scene.render.integrator = IntegratorType::whitted;
+  CHECK(in_bvh(256, 64));
 }
 
 TEST_CASE("10 000 hard scenes on the twin: the BVH finds what brute force finds, to the last bit" *

@@ -214,8 +214,8 @@ TEST_CASE("however lights are chosen, the picture is the same") {
       CAPTURE(int(sampler));
       CAPTURE(by_power.mean);
       CAPTURE(other.mean);
-      CHECK(other.error < 0.005 * other.mean);
-      CHECK(by_power.error < 0.005 * by_power.mean);
+      CHECK(other.error < greatest_error() * other.mean);
+      CHECK(by_power.error < greatest_error() * by_power.mean);
       CHECK(std::abs(other.mean - by_power.mean) < 5 * std::hypot(other.error, by_power.error));
     }
   }

@@ -28,7 +28,7 @@ void check(const Scene& scene, double expected, double least_error) {
     CAPTURE(int(backend));
     CAPTURE(found.mean);
     CAPTURE(found.error);
-    CHECK(found.error < 0.005 * expected);
+    CHECK(found.error < greatest_error() * expected);
     CHECK(std::abs(found.mean - expected) < 5 * found.error + least_error * expected);
   }
 }
