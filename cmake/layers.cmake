@@ -36,6 +36,11 @@ function(eyeray_precompiled target)
       <optional> <set> <span> <string> <string_view> <variant> <vector> <fmt/format.h> <fmt/ranges.h> <glm/glm.hpp> ${arg_HEADERS})
   endif()
   target_precompile_headers(${target} REUSE_FROM ${owner})
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL EXECUTABLE AND CMAKE_POSITION_INDEPENDENT_CODE)  # as what it reuses: CMake gives executables -fPIE
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${target} PRIVATE -fPIC)
+  endif()
 endfunction()
 
 # Where headers take most of a compiler's time, some files are compiled at a time, in the same builds: names in anonymous namespaces may

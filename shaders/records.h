@@ -5,6 +5,7 @@
 #define RECORDS_H
 
 #include "language.h"
+#include "photon_records.h"
 #include "result_records.h"
 
 SHADER_BEGIN
@@ -35,6 +36,10 @@ SHADER_BEGIN
 #define BINDING_ENVIRONMENT 22
 #define BINDING_ALBEDOS 23
 #define BINDING_LIGHT_NODES 24
+#define BINDING_PHOTONS 25
+#define BINDING_PHOTON_CELLS 26  // where each key's photons begin, and where the last one's end
+#define BINDING_PHOTON_PASS 27
+#define BINDING_EMITTER_MEDIA 28
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
@@ -158,8 +163,8 @@ struct Material {
   uint bump;  // … as this (materials/bent_normal.glsl)
   float bump_height;
   float bump_width;
-  uint unused_0;
-  uint unused_1;
+  uint coat_normal;  // or NONE: as normal_map, of the coat alone
+  float coat_normal_scale;
 };
 #define MATERIAL_BLINN 1u
 #define MATERIAL_PANE 2u   // it has no inside: paths may pass it straight

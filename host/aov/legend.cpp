@@ -75,6 +75,39 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+// A legend as it is written, entry by entry.
+class LegendFile {
+ public:
+  LegendFile(const std::filesystem::path& picture, uint64_t nothing)
+      : name_(std::filesystem::path(picture).replace_extension(".json")), file_(name_) {
+    text_ = fmt::format("{{\"nothing\": {},\n \"ids\": [",
+                        text_of({{"id", -1}, {"color", color_of(-1)}, {"pixels", nothing}}));
+  }
+
+  // `entry`: a JSON object, to which its pixels are added.
+  void add(std::string_view entry, uint64_t pixels) {
+    entry.remove_suffix(1);
+    text_ += fmt::format("{}{},\"pixels\":{}}}", first_ ? "\n  " : ",\n  ", entry, pixels);
+    first_ = false;
+    if (text_.size() < piece) return;
+    file_.write(text_);
+    text_.clear();
+  }
+
+  // Its name.
+  std::filesystem::path finish() {
+    file_.write(text_ + "]}\n");
+    file_.commit();
+    return name_;
+  }
+
+ private:
+  std::filesystem::path name_;
+  AtomicFile file_;
+  std::string text_;
+  bool first_ = true;
+};
+
 }  // namespace
 
 std::unique_ptr<LegendEntries> legend_of_shapes(const Scene& scene) {
@@ -103,25 +136,32 @@ void Legend::see(std::span<const FirstHit> hits) {
 }
 
 std::filesystem::path Legend::write(const std::filesystem::path& picture) const {
-  std::filesystem::path name = picture;
-  AtomicFile file(name.replace_extension(".json"));
-  std::string text = fmt::format("{{\"nothing\": {},\n \"ids\": [",
-                                 text_of({{"id", -1}, {"color", color_of(-1)}, {"pixels", nothing_}}));
-  bool first = true;
-  for (size_t i = 0; i < pixels_.size(); ++i) {
-    if (pixels_[i] == 0) continue;
-    text += first ? "\n  " : ",\n  ";
-    Json entry = entries_->entry(i);
-    entry["pixels"] = pixels_[i];
-    text += text_of(entry);
-    first = false;
-    if (text.size() < piece) continue;
-    file.write(text);
-    text.clear();
+  LegendFile file(picture, nothing_);
+  for (size_t i = 0; i < pixels_.size(); ++i)
+    if (pixels_[i] > 0) file.add(text_of(entries_->entry(i)), pixels_[i]);
+  return file.finish();
+}
+
+LegendTally Legend::tally() const {
+  LegendTally tally{nothing_, {}};
+  for (size_t i = 0; i < pixels_.size(); ++i)
+    if (pixels_[i] > 0) tally.entries[i] = {text_of(entries_->entry(i)), pixels_[i]};
+  return tally;
+}
+
+void LegendTally::add(const LegendTally& other) {
+  nothing += other.nothing;
+  for (const auto& [index, entry] : other.entries) {
+    Entry& own = entries[index];
+    own.text = entry.text;
+    own.pixels += entry.pixels;
   }
-  file.write(text + "]}\n");
-  file.commit();
-  return name;
+}
+
+std::filesystem::path write_legend(const LegendTally& tally, const std::filesystem::path& picture) {
+  LegendFile file(picture, tally.nothing);
+  for (const auto& [index, entry] : tally.entries) file.add(entry.text, entry.pixels);
+  return file.finish();
 }
 
 }  // namespace eyeray::aov

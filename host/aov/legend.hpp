@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/core/pixel.hpp"
@@ -32,6 +34,22 @@ std::unique_ptr<LegendEntries> legend_of_shapes(const Scene& scene);
 std::unique_ptr<LegendEntries> legend_of_primitives(const Scene& scene);
 std::unique_ptr<LegendEntries> legend_of_materials(const Scene& scene);
 
+// What hits were of, by the index of the entry, and how many pixels: legends of parts of a picture, put
+// together.
+struct LegendTally {
+  struct Entry {
+    std::string text;  // LegendEntries::entry as JSON
+    uint64_t pixels = 0;
+  };
+  uint64_t nothing = 0;  // pixels where nothing is hit
+  std::map<uint64_t, Entry> entries;
+
+  void add(const LegendTally& other);
+};
+
+// Writes NAME.json for a picture NAME.png; Error (file_io) when it cannot be written. Its name.
+std::filesystem::path write_legend(const LegendTally& tally, const std::filesystem::path& picture);
+
 // Takes first hits, and lists what they hit, each with its pixels.
 class Legend {
  public:
@@ -39,8 +57,9 @@ class Legend {
 
   const LegendEntries& entries() const { return *entries_; }
   void see(std::span<const FirstHit> hits);
-  // Writes NAME.json for a picture NAME.png; Error (file_io) when it cannot be written. Its name.
+  // As write_legend, without holding the text of all entries.
   std::filesystem::path write(const std::filesystem::path& picture) const;
+  LegendTally tally() const;
 
  private:
   std::unique_ptr<LegendEntries> entries_;

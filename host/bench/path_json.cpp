@@ -67,6 +67,11 @@ Json to_json(const PathReport& report) {
   for (const PathSeries& series : report.series)
     json["series"].push_back(to_json(series, double(report.width) * report.height));
   for (const Likeness& likeness : report.likeness) json["likeness"].push_back(to_json(likeness));
+  if (!report.reference.empty()) {
+    const EqualTime equal = at_equal_time(report.series.at(1), report.series.at(0));
+    json["reference"] = report.reference;
+    json["equal_time"] = {{"cpu_seconds", equal.processor}, {"rmse_of_path_over_sppm", equal.ratio}};
+  }
   return json;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "host/bench/paths.hpp"
 #include "host/bench/programs.hpp"
@@ -15,6 +16,7 @@
 #include "host/image/image_file.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/scene/integrator.hpp"
+#include "host/scene/photons.hpp"
 
 namespace fs = std::filesystem;
 
@@ -26,14 +28,31 @@ constexpr int regions_a_side = 4;
 constexpr double false_alarms = 1e-3;
 constexpr double darkest = 0.01;  // added to what relative errors are relative to
 
+// Photons blur by the square of their radius. What they are measured against has a sixteenth of that blur.
+constexpr double reference_radius = 0.25;
+constexpr int reference_samples = 4;  // times as many as of the longest run
+constexpr int reference_seeds[] = {1000001, 1000002};
+
+// Two pictures of the same light, whose noise has nothing to do with each other.
+struct References {
+  std::vector<float> a, b;
+};
+
 // What the pictures of a renderer's runs come to, with so many samples.
 struct Pictures {
   std::vector<double> sum, sum_of_squares;  // a sample of a channel each
   std::vector<std::vector<double>> means;   // of each region and channel, then of the picture, over the runs
+  double squares = 0;                       // of differences from the references, over all runs
   int runs = 0;
 
-  void add(const image::Image& picture) {
+  // `references`: null where the error is the variance over the runs.
+  void add(const image::Image& picture, const References* references) {
     const std::span<const float> samples = picture.samples();
+    // The mean of a product of what is independent: the references' own noise is not in it.
+    if (references)
+      for (size_t i = 0; i < samples.size(); ++i)
+        squares += (double(samples[i]) - double(references->a[i])) *
+                   (double(samples[i]) - double(references->b[i])) / double(samples.size());
     sum.resize(samples.size());
     sum_of_squares.resize(samples.size());
     constexpr size_t all = regions_a_side * regions_a_side * 3;
@@ -56,12 +75,13 @@ struct Pictures {
     ++runs;
   }
 
-  void errors(PathLevel& level) const {
+  void errors(PathLevel& level, bool against_references) const {
     const double n = runs;
+    if (against_references) level.error = std::max(0.0, squares / n);
     for (size_t i = 0; i < sum.size(); ++i) {
       const double mean = sum[i] / n;
       const double variance = n > 1 ? std::max(0.0, (sum_of_squares[i] - mean * sum[i]) / (n - 1)) : 0;
-      level.error += variance / double(sum.size());
+      if (!against_references) level.error += variance / double(sum.size());
       level.relative_error += variance / (mean * mean + darkest) / double(sum.size());
     }
   }
@@ -76,7 +96,8 @@ struct Renderer {
   std::vector<Pictures> pictures;           // by level
 };
 
-PathSeries series_of(const Renderer& renderer, const std::vector<int>& levels) {
+PathSeries series_of(const Renderer& renderer, const std::vector<int>& levels,
+                     bool against_references = false) {
   PathSeries series{renderer.name, renderer.runs.back().back().device, {}};
   for (size_t i = 0; i < levels.size(); ++i) {
     PathLevel level;
@@ -90,7 +111,7 @@ PathSeries series_of(const Renderer& renderer, const std::vector<int>& levels) {
     level.seconds = spread_of([](const TimedRun& run) { return run.tracing; });
     level.processor = spread_of([](const TimedRun& run) { return run.tracing_processor; });
     level.whole_processor = spread_of([](const TimedRun& run) { return run.whole_processor; });
-    renderer.pictures[i].errors(level);
+    renderer.pictures[i].errors(level, against_references);
     series.levels.push_back(level);
   }
   return series;
@@ -129,10 +150,14 @@ PathReport measure_paths(const std::string& scene_file, const PathOptions& optio
   if (!walks_at_random(scene.render.integrator))
     throw Error(ExitCode::bad_input, "{} is not for path tracing: it says no [render] integrator = \"path\"",
                 scene_file);
+  const bool photons = sends_photons(scene.render.integrator);
+  if (photons && (options.cycles || options.povray))
+    throw Error(ExitCode::bad_input, "{} is of `sppm`, which is measured beside `path`, not beside others",
+                scene_file);
   const ScratchFolder scratch;
 
-  const auto eyeray_with = [&](const char* pattern) {
-    return [&, pattern](int samples, int seed, const fs::path& output) {
+  const auto eyeray_with = [&](const std::vector<std::string>& more) {
+    return [&, more](int samples, int seed, const fs::path& output) {
       std::vector<std::string> words{scene_file,
                                      "--device",
                                      options.device,
@@ -143,13 +168,18 @@ PathReport measure_paths(const std::string& scene_file, const PathOptions& optio
                                      "-s",
                                      fmt::format("{}x{}", options.width, options.height)};
       for (const std::string& define : options.defines) words.insert(words.end(), {"-D", define});
-      words.insert(words.end(), {"-D", std::string("image.pattern=") + pattern});
+      words.insert(words.end(), more.begin(), more.end());
       return run_eyeray(words, output);
     };
   };
   std::vector<Renderer> renderers;
-  renderers.push_back({"gpu", eyeray_with("sobol"), ".pfm", {}, {}});
-  renderers.push_back({"gpu, random", eyeray_with("random"), ".pfm", {}, {}});
+  if (photons) {
+    renderers.push_back({"gpu, sppm", eyeray_with({}), ".pfm", {}, {}});
+    renderers.push_back({"gpu, path", eyeray_with({"--integrator", "path"}), ".pfm", {}, {}});
+  } else {
+    renderers.push_back({"gpu", eyeray_with({"-D", "image.pattern=sobol"}), ".pfm", {}, {}});
+    renderers.push_back({"gpu, random", eyeray_with({"-D", "image.pattern=random"}), ".pfm", {}, {}});
+  }
   if (options.cycles) {
     check_blender();
     const fs::path script = scratch.path() / "scene.py";
@@ -168,11 +198,27 @@ PathReport measure_paths(const std::string& scene_file, const PathOptions& optio
   std::vector<int> levels;
   for (int samples = least_samples; samples < options.most_samples; samples *= 4) levels.push_back(samples);
   levels.push_back(options.most_samples);
+  std::optional<References> references;
+  PathReport report{scene_file, options.width, options.height, options.runs, {}, {}};
+  if (photons) {
+    const double radius = reference_radius * photon_settings(scene).radius;
+    const int samples = reference_samples * options.most_samples;
+    const auto render = eyeray_with({"-D", fmt::format("render.photon_radius={}", radius)});
+    references.emplace();
+    for (std::vector<float>* const picture : {&references->a, &references->b}) {
+      const fs::path output = scratch.path() / "reference.pfm";
+      render(samples, reference_seeds[picture == &references->b], output);
+      const image::Image read = image::read_image(output);
+      picture->assign(read.samples().begin(), read.samples().end());
+    }
+    report.reference = fmt::format("two pictures by sppm of {} samples, within {:.3g}", samples, radius);
+  }
+  const References* const against = references ? &*references : nullptr;
   const auto run_once = [&](const Renderer& renderer, int samples, int seed, Pictures& pictures) {
     const fs::path output = scratch.path() / ("picture" + std::string(renderer.ending));
     fs::remove(output);
     TimedRun run = renderer.run(samples, seed, output);
-    pictures.add(image::read_image(output));
+    pictures.add(image::read_image(output), against);
     return run;
   };
   for (Renderer& renderer : renderers) {
@@ -187,8 +233,8 @@ PathReport measure_paths(const std::string& scene_file, const PathOptions& optio
       for (Renderer& renderer : renderers)
         renderer.runs[i].push_back(run_once(renderer, levels[i], seed, renderer.pictures[i]));
 
-  PathReport report{scene_file, options.width, options.height, options.runs, {}, {}};
-  for (const Renderer& renderer : renderers) report.series.push_back(series_of(renderer, levels));
+  for (const Renderer& renderer : renderers)
+    report.series.push_back(series_of(renderer, levels, references.has_value()));
   for (const Renderer& renderer : renderers)
     if (renderer.name == "Cycles") report.likeness.push_back(likeness_of(renderers.front(), renderer, true));
   if (options.povray) {
@@ -198,7 +244,7 @@ PathReport measure_paths(const std::string& scene_file, const PathOptions& optio
     Renderer povray{"POV-Ray", {}, ".hdr", {{}}, {{}}};
     const fs::path output = scratch.path() / "povray.hdr";
     povray.runs[0].push_back(run_povray_radiosity(file, options.width, options.height, output));
-    povray.pictures[0].add(image::read_image(output));
+    povray.pictures[0].add(image::read_image(output), nullptr);
     report.series.push_back(series_of(povray, {1}));
     report.likeness.push_back(likeness_of(renderers.front(), povray, false));
   }

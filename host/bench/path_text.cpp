@@ -70,6 +70,12 @@ std::string to_text(const PathReport& report) {
   for (const PathSeries& series : report.series)
     text += to_text(series, double(report.width) * report.height);
   for (const Likeness& likeness : report.likeness) text += to_text(likeness);
+  const PathSeries *const photons = find(report, "gpu, sppm"), *const paths = find(report, "gpu, path");
+  if (photons && paths) {
+    const EqualTime equal = at_equal_time(*paths, *photons);
+    text += fmt::format("errors are against {}\nafter {:.3g} CPU seconds, RMSE, path : sppm = {:.2f}\n",
+                        report.reference, equal.processor, equal.ratio);
+  }
   if (const PathSeries* const cycles = find(report, "Cycles")) {
     const PathSeries& ours = report.series.front();
     const PathLevel &last = cycles->levels.back(), &own = ours.levels.back();

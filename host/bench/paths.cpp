@@ -1,5 +1,6 @@
 #include "host/bench/paths.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace eyeray::bench {
@@ -29,6 +30,24 @@ double PathSeries::processor_until(double error) const {
   const PathLevel &before = levels[i - 1], &after = levels[i];
   if (!(before.error > after.error)) return after.processor.median * after.error / error;
   return on_line(error, before.error, before.processor.median, after.error, after.processor.median);
+}
+
+double PathSeries::error_after(double processor) const {
+  const auto left = [&](const PathLevel& level) {
+    return level.error * std::pow(processor / level.processor.median, slope());
+  };
+  if (levels.size() < 2 || processor <= levels.front().processor.median) return left(levels.front());
+  size_t i = 1;
+  while (i < levels.size() && levels[i].processor.median < processor) ++i;
+  if (i == levels.size()) return left(levels.back());
+  const PathLevel &before = levels[i - 1], &after = levels[i];
+  return on_line(processor, before.processor.median, before.error, after.processor.median, after.error);
+}
+
+EqualTime at_equal_time(const PathSeries& first, const PathSeries& second) {
+  const double processor =
+      std::min(first.levels.back().processor.median, second.levels.back().processor.median);
+  return {processor, std::sqrt(first.error_after(processor) / second.error_after(processor))};
 }
 
 }  // namespace eyeray::bench

@@ -31,7 +31,8 @@ struct PathLevel {
   Spread whole_processor;  // … and of the whole process
   uint64_t rays = 0;       // of a run; 0 where unknown
   // Mean squared over pixels and channels: the variance over the runs, which is the error of whoever is right
-  // on the mean; and that over the squared mean of each channel, plus 0.01.
+  // on the mean, or what differs from PathReport::reference; and that over the squared mean of each channel,
+  // plus 0.01.
   double error = 0;
   double relative_error = 0;
 
@@ -48,6 +49,8 @@ struct PathSeries {
   double slope() const;
   // Processor seconds of rendering until the error is so small, by its levels; beyond them by its slope.
   double processor_until(double error) const;
+  // The error that is left after so many; beyond the levels by their slope.
+  double error_after(double processor) const;
 };
 
 // How much the means over the regions of a picture differ from ours, in the longest runs.
@@ -70,10 +73,20 @@ struct PathReport {
   int runs = 0;
   std::vector<PathSeries> series;
   std::vector<Likeness> likeness;  // of each other renderer
+  // Of photons, which are biased: the pictures that errors are measured against, for people; else empty.
+  std::string reference = {};
 };
 
-// Error as load_scene and render; (file_io) where Blender or POV-Ray is asked for and missing, (bad_input)
-// where the scene has no likeness there, or is not for `path`.
+// Processor seconds of the shorter of two series, and the root of the first one's error over the second's by
+// then.
+struct EqualTime {
+  double processor = 0;
+  double ratio = 0;
+};
+EqualTime at_equal_time(const PathSeries& first, const PathSeries& second);
+
+// Of a scene of `sppm`, that beside `path`. Error as load_scene and render; (file_io) where Blender or
+// POV-Ray is asked for and missing, (bad_input) where the scene has no likeness there, or is not for `path`.
 PathReport measure_paths(const std::string& scene, const PathOptions& options);
 
 // As a table, for people.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/bench/dev_loop.hpp"
+#include "host/bench/frames.hpp"
 #include "host/bench/standard_scenes.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 struct BenchCommand {
   bool dev = false;
+  int frames = 0;  // only them; 0: none
   bool with_paths = false;
   bench::PathOptions paths;
   bench::Options options;
@@ -43,13 +45,18 @@ bench::PathOptions BenchCommand::path_options() const {
 }
 
 ExitCode BenchCommand::run() const {
-  if (dev) {
-    const bench::DevLoopReport report = bench::measure_dev_loop(options.pictures.runs);
+  const auto say = [&](const auto& report) {
     if (json)
       print_json(bench::to_json(report));
     else
       fmt::print("{}", bench::to_text(report));
     return ExitCode::ok;
+  };
+  if (dev) return say(bench::measure_dev_loop(options.pictures.runs));
+  if (frames > 0) {
+    if (options.scenes.size() > 1) throw Error(ExitCode::bad_input, "--frames is of one scene");
+    const std::string scene = options.scenes.empty() ? "scenes/animation.toml" : options.scenes[0];
+    return say(bench::measure_frames(scene, frames, options.pictures.defines));
   }
   // Look at everything that may be wrong before measuring for minutes.
   for (const std::string& backend : options.pictures.backends) executors::parse_backend(backend);
@@ -158,6 +165,12 @@ void add_bench(CLI::App& app, Run& run) {
   command->add_flag("--radiosity", options->paths.povray, "The same beside POV-Ray's radiosity.");
   command->add_flag("--dev", options->dev,
                     "Only: how long eyeray dev takes from a save to new pixels, over -n edits of each kind.");
+  command
+      ->add_option("--frames", options->frames,
+                   "Only: what the first N frames of SCENE, or of scenes/animation.toml, cost in one process "
+                   "and in one each.")
+      ->option_text("N")
+      ->check(CLI::Range(1, 100000));
   command->add_flag("--json", options->json, "Answer as JSON on standard output.");
   command->footer(
       "Rays: from the eye, to the light, and bounced once, on the same rays as Embree's, in turns.\n"

@@ -34,7 +34,13 @@ void add_bench(CLI::App& app, Run& run);
 void add_dev(CLI::App& app, Run& run);
 void add_generate(CLI::App& app, Run& run);
 void add_shaders(CLI::App& app, Run& run);
+void add_merge(CLI::App& app, Run& run);
+// `sbatch_words`: those that stood behind --.
+void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_words);
 void add_new(CLI::App& app, Run& run);
+// These tell of `app` itself, all of whose commands are added when they run.
+void add_completion(CLI::App& app, Run& run);
+void add_manual(CLI::App& app, Run& run);
 
 // SCENE and what the command line may change of it: -D, --allow-path, -s, --spp, --integrator, --seed,
 // --triangle, --max-depth.

@@ -1,41 +1,68 @@
 #include "host/cli/identity.hpp"
 
-#include <array>
+#include <fmt/ranges.h>
 
+#include "host/core/build_id.hpp"
 #include "host/core/content_hash.hpp"
-
-namespace fs = std::filesystem;
+#include "host/core/host_arithmetic.hpp"
+#include "host/shards/part.hpp"
 
 namespace eyeray::cli {
 
-std::vector<render::IdentityPart> identity_of(const PictureRequest& request, const Scene& scene,
-                                              const executors::Executor& executor) {
+namespace {
+
+// What decides the bits of every picture, whoever renders it.
+std::vector<render::IdentityPart> identity_of_picture(const PictureRequest& request, const Scene& scene,
+                                                      const executors::Executor& executor) {
   const Rect& crop = request.crop;
-  const bool gpu = request.backend == executors::Backend::gpu;
   return {
       {"size", fmt::format("{}x{}", scene.image.width, scene.image.height)},
       {"crop", crop == Rect{} ? "none" : fmt::format("{},{},{},{}", crop.x, crop.y, crop.width, crop.height)},
-      {"--classic", request.classic ? "on" : "off"},
-      {"--aov of kinds of rays", aov::any_needs(request.aovs, aov::AovNeeds::ray_kinds) ? "on" : "off"},
-      {"--aov noise", aov::any_needs(request.aovs, aov::AovNeeds::noise) ? "on" : "off"},
-      {"--aov brightest", aov::any_needs(request.aovs, aov::AovNeeds::brightest) ? "on" : "off"},
-      {"--aov albedo or shading_normal",
-       aov::any_needs(request.aovs, aov::AovNeeds::auxiliary) ? "on" : "off"},
-      {"--noise", std::to_string(request.noise)},
       {"--clamp", fmt::format("{}", request.clamp)},
       {"samples a pixel", std::to_string(scene.image.samples)},
       {"backend", std::string(executors::backend_name(request.backend))},
-      // The processors' executors compute the same wherever the same program runs.
-      {"device", gpu ? executor.description() : "none"},
       {"scene", hash_of_files(scene.files), false},
       {"options laid over the scene", ContentHash().add(request.scene.as_written()).hex(), false},
       {"shaders of --shaders", hash_of_files(executor.source_files()), false},
       {"--fast-math", request.executor.fast_math ? "on" : "off"},
       {"--inject-fault", request.executor.fault},
-      {"--band-memory", std::to_string(request.long_render.band_mebibytes)},
       {"version of eyeray", EYERAY_VERSION},
-      {"build of eyeray", hash_of_files(std::array{fs::path("/proc/self/exe")}), false},
+      {"build of eyeray", build_id(), false},
   };
+}
+
+}  // namespace
+
+std::vector<render::IdentityPart> identity_of(const PictureRequest& request, const Scene& scene,
+                                              const executors::Executor& executor) {
+  std::vector<render::IdentityPart> identity = identity_of_picture(request, scene, executor);
+  const bool gpu = request.backend == executors::Backend::gpu;
+  const auto asked = [&](aov::AovNeeds needs) { return any_needs(request.aovs, needs) ? "on" : "off"; };
+  const std::vector<render::IdentityPart> more{
+      {"--shard", request.shard ? shards::shard_text(*request.shard) : "none"},
+      {"--classic", request.classic ? "on" : "off"},
+      {"--aov of kinds of rays", asked(aov::AovNeeds::ray_kinds)},
+      {"--aov noise", asked(aov::AovNeeds::noise)},
+      {"--aov brightest", asked(aov::AovNeeds::brightest)},
+      {"--aov albedo or shading_normal", asked(aov::AovNeeds::auxiliary)},
+      {"--noise", std::to_string(request.noise)},
+      // The processors' executors compute the same wherever the same program runs.
+      {"device", gpu ? executor.description() : "none"},
+      {"--band-memory", std::to_string(request.long_render.band_mebibytes)},
+  };
+  identity.insert(identity.end(), more.begin(), more.end());
+  return identity;
+}
+
+std::vector<render::IdentityPart> identity_of_parts(const PictureRequest& request, const Scene& scene,
+                                                    const executors::Executor& executor) {
+  std::vector<render::IdentityPart> identity = identity_of_picture(request, scene, executor);
+  std::vector<std::string_view> aovs;
+  for (const aov::Aov aov : request.aovs) aovs.push_back(aov->name);
+  identity.push_back({"AOVs", fmt::format("{}", fmt::join(aovs, ","))});
+  identity.push_back({"arithmetic of the device", executor.arithmetic()});
+  identity.push_back({"arithmetic of the C library", host_arithmetic(), false});
+  return identity;
 }
 
 }  // namespace eyeray::cli

@@ -14,14 +14,13 @@ constexpr int assembled_samples = 1 << 22;
 
 }  // namespace
 
-LayeredFile::LayeredFile(fs::path path, const std::vector<aov::Aov>& aovs, int width, int height, bool half,
-                         const Scene& scene)
+LayeredFile::LayeredFile(fs::path path, const std::vector<aov::Aov>& aovs, int width, int height, bool half)
     : path_(std::move(path)), width_(width), height_(height), waiting_(path_) {
-  add(nullptr, image::exr_channels(3, half), scene);
+  add(image::exr_channels(3, half));
   for (const aov::Aov aov : aovs) {
     std::vector<image::ExrChannel> channels;
     for (std::string& name : aov::layer_channels(aov)) channels.push_back({std::move(name)});
-    add(aov, std::move(channels), scene);
+    add(std::move(channels));
   }
 }
 
@@ -29,11 +28,10 @@ uint64_t LayeredFile::row_bytes(const Layer& layer) const {
   return uint64_t(width_) * layer.channels.size() * sizeof(float);
 }
 
-void LayeredFile::add(aov::Aov aov, std::vector<image::ExrChannel> channels, const Scene& scene) {
+void LayeredFile::add(std::vector<image::ExrChannel> channels) {
   const uint64_t begin =
       layers_.empty() ? 0 : layers_.back().begin + row_bytes(layers_.back()) * uint64_t(height_);
-  Layer& layer = layers_.emplace_back(Layer{aov, std::move(channels), begin, 0, {}});
-  if (aov && aov->legend) layer.legend.emplace(aov->legend(scene));
+  layers_.push_back({std::move(channels), begin});
 }
 
 void LayeredFile::write(Layer& layer, const image::Image& rows) {
@@ -43,23 +41,6 @@ void LayeredFile::write(Layer& layer, const image::Image& rows) {
   for (size_t i = 0; i < samples.size(); ++i) samples[i] = rows.samples()[i / kept * channels + i % kept];
   waiting_.write_at(layer.begin + uint64_t(layer.rows) * row_bytes(layer), std::as_bytes(std::span(samples)));
   layer.rows += rows.height();
-}
-
-void LayeredFile::write(const render::FinishedRows& rows) {
-  for (Layer& layer : layers_) {
-    if (!layer.aov)
-      write(layer, rows.color);
-    else if (const aov::ValuesOfRows* values = std::get_if<aov::ValuesOfRows>(&layer.aov->values))
-      write(layer, (*values)(rows));
-  }
-}
-
-void LayeredFile::write(std::span<const FirstHit> hits) {
-  for (Layer& layer : layers_) {
-    if (!layer.aov || !layer.aov->is_of_first_hits()) continue;
-    write(layer, aov::aov_image(layer.aov, hits, width_, layer.legend ? &layer.legend->entries() : nullptr));
-    if (layer.legend) layer.legend->see(hits);
-  }
 }
 
 // Its rows from `first` on, as the channels of `rows` from `channel` on.
@@ -94,8 +75,6 @@ void LayeredFile::finish(std::vector<fs::path>& files, bool with_aovs) {
   }
   writer.finish();
   files.push_back(path_);
-  for (const Layer& layer : layers)
-    if (layer.legend) files.push_back(layer.legend->write(aov::aov_file(path_, layer.aov, "json")));
 }
 
 }  // namespace eyeray::cli

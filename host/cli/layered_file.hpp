@@ -2,15 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "host/aov/aov.hpp"
-#include "host/aov/legend.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/image/exr_file.hpp"
-#include "host/render/sums.hpp"
+#include "host/image/image.hpp"
 
 namespace eyeray::cli {
 
@@ -18,28 +15,25 @@ namespace eyeray::cli {
 // in a file beside it that nobody sees.
 class LayeredFile {
  public:
-  // `half`: whether the picture is written so; AOVs never are. `scene` must outlive it.
-  LayeredFile(std::filesystem::path path, const std::vector<aov::Aov>& aovs, int width, int height, bool half,
-              const Scene& scene);
+  // `half`: whether the picture is written so; AOVs never are.
+  LayeredFile(std::filesystem::path path, const std::vector<aov::Aov>& aovs, int width, int height,
+              bool half);
 
-  // The next rows, from the top down, of the picture and of the AOVs that are made of them.
-  void write(const render::FinishedRows& rows);
-  // The same of those that are made of first hits.
-  void write(std::span<const FirstHit> hits);
-  // Makes the file: of all layers, and with it the legends of ids, or of the picture alone, which AOVs are
-  // left out of where it was interrupted. Adds the files' names to `files`.
+  // The next rows, from the top down, of the picture or of an AOV, by its index.
+  void write(const image::Image& color) { write(layers_[0], color); }
+  void write(size_t aov, const image::Image& rows) { write(layers_[1 + aov], rows); }
+  // Makes the file: of all layers, or of the picture alone, which AOVs are left out of where it was
+  // interrupted. Adds its name to `files`.
   void finish(std::vector<std::filesystem::path>& files, bool with_aovs);
 
  private:
   struct Layer {
-    aov::Aov aov;  // null of the picture itself
     std::vector<image::ExrChannel> channels;
     uint64_t begin;  // of its rows in the waiting file
     int rows = 0;    // that have come
-    std::optional<aov::Legend> legend;
   };
   uint64_t row_bytes(const Layer& layer) const;
-  void add(aov::Aov aov, std::vector<image::ExrChannel> channels, const Scene& scene);
+  void add(std::vector<image::ExrChannel> channels);
   void write(Layer& layer, const image::Image& rows);
   void read(const Layer& layer, int first, image::Image& rows, size_t channel) const;
 

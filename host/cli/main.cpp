@@ -14,6 +14,7 @@
 
 #include "host/cli/command.hpp"
 #include "host/cli/help.hpp"
+#include "host/cli/huge_pages.hpp"
 #include "host/cli/json.hpp"
 #include "host/core/diagnostic.hpp"
 #include "host/core/memory_shortage.hpp"
@@ -100,11 +101,25 @@ void report(const Error& error, bool json) {
   }
 }
 
+// The words behind -- of `eyeray slurm`, which are sbatch's; they are taken off argc.
+std::vector<std::string> take_sbatch_words(int& argc, char** argv) {
+  std::vector<std::string> words;
+  if (argc < 2 || std::string_view(argv[1]) != "slurm") return words;
+  for (int i = 2; i < argc; ++i) {
+    if (std::string_view(argv[i]) != "--") continue;
+    words.assign(argv + i + 1, argv + argc);
+    argc = i;
+  }
+  return words;
+}
+
 int run_command_line(int argc, char** argv) {
+  const std::vector<std::string> sbatch_words = take_sbatch_words(argc, argv);
   CLI::App app;
   describe(app);
   Run run;
   add_render(app, run);
+  add_merge(app, run);
   add_verify(app, run);
   add_compare(app, run);
   add_probe(app, run);
@@ -114,7 +129,10 @@ int run_command_line(int argc, char** argv) {
   add_bench(app, run);
   add_generate(app, run);
   add_shaders(app, run);
+  add_slurm(app, run, sbatch_words);
   add_new(app, run);
+  add_completion(app, run);
+  add_manual(app, run);
 
   try {
     app.parse(argc, argv);
@@ -170,5 +188,6 @@ int guarded_main(int argc, char** argv) {
 }  // namespace eyeray::cli
 
 int main(int argc, char** argv) {
+  eyeray::cli::use_huge_pages(argv);
   return eyeray::cli::guarded_main(argc, argv);
 }

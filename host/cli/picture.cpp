@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "host/cli/identity.hpp"
+#include "host/aov/values.hpp"
 #include "host/cli/picture_files.hpp"
+#include "host/cli/prepared_picture.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/peak_memory.hpp"
 #include "host/core/readable.hpp"
@@ -16,8 +17,6 @@
 #include "host/render/corners.hpp"
 #include "host/render/flags.hpp"
 #include "host/render/render.hpp"
-#include "host/scene/integrator.hpp"
-#include "host/scene/sampler.hpp"
 
 namespace fs = std::filesystem;
 
@@ -25,57 +24,8 @@ namespace eyeray::cli {
 namespace {
 
 double rays_per_second(const Picture& picture) {
+  if (picture.sampling_seconds == 0) return 0;
   return double(picture.rays - picture.rays_resumed) / picture.sampling_seconds;
-}
-
-// Corners, a depth of five with the eye rays, and nothing left out because it counts for little.
-void make_classic(Scene& scene) {
-  render::sample_corners(scene);
-  scene.render.max_depth = 4;
-  scene.render.min_throughput = 0;
-}
-
-// What `noise` needs of a scene: that samples may end anywhere. Without --spp the scene's samples, which are
-// chosen for pictures that all have the same, are no limit.
-void prepare_for_noise(const PictureRequest& request, Scene& scene) {
-  if (sample_count_of(scene.image.pattern) != SampleCount::any)
-    throw Error(ExitCode::bad_input,
-                "--noise stops after any number of samples, and of the pattern '{}' all are needed: "
-                "-D image.pattern=sobol or random",
-                sample_patterns[uint32_t(scene.image.pattern)]);
-  if (!request.scene.gives_samples()) scene.image.samples = most_samples_by_default;
-}
-
-// What a denoiser asks for is of paths alone: an error, or where all AOVs are wanted left out.
-void check_auxiliary(std::vector<aov::Aov>& aovs, const Scene& scene) {
-  if (walks_at_random(scene.render.integrator) || !aov::any_needs(aovs, aov::AovNeeds::auxiliary)) return;
-  if (aovs.size() != aov::aov_types().size())
-    throw Error(ExitCode::bad_input,
-                "the AOVs albedo and shading_normal are of paths: -D render.integrator=path, or see normal");
-  std::erase_if(aovs, [](aov::Aov each) { return each->needs == aov::AovNeeds::auxiliary; });
-}
-
-// Throws where what is to be written would take the place of what was read, links followed.
-void spare_sources(const PictureRequest& request, const Scene& scene) {
-  for (const fs::path& output : files_written(request.outputs, request.aovs)) {
-    for (const fs::path& source : scene.files) {
-      std::error_code absent;
-      if (fs::equivalent(output, source, absent))
-        throw Error(ExitCode::bad_input,
-                    "{} would be overwritten, and the scene reads it{}: -o names another file",
-                    output.string(), output == source ? "" : " as " + source.string());
-    }
-  }
-}
-
-std::optional<render::Checkpoint> checkpoint_of(const PictureRequest& request, const Scene& scene,
-                                                const executors::Executor& executor) {
-  const LongRender& wanted = request.long_render;
-  if (wanted.checkpoint.empty() && wanted.resume.empty()) return std::nullopt;
-  std::vector<render::IdentityPart> identity = identity_of(request, scene, executor);
-  if (wanted.resume.empty())
-    return render::Checkpoint::begin(wanted.checkpoint, std::move(identity), wanted.checkpoint_seconds);
-  return render::Checkpoint::resume(wanted.resume, std::move(identity), wanted.checkpoint_seconds);
 }
 
 }  // namespace
@@ -114,10 +64,11 @@ void PictureRequest::check_outputs() {
   for (const aov::AovNeeds needs : {aov::AovNeeds::brightest, aov::AovNeeds::auxiliary})
     if (classic && aov::any_needs(aovs, needs))
       throw Error(ExitCode::bad_input, "--classic has not the AOVs brightest, albedo and shading_normal");
+  if (shard) check_shard();
   if (outputs.empty())
     outputs.push_back(fs::path(scene.file()).filename().replace_extension(".png").string());
   for (const std::string& output : outputs) {
-    image::image_format(output);
+    if (!shard) image::image_format(output);
     check_writable(output);
     // A checkpoint is removed when the picture is there.
     for (const std::string& file : {long_render.checkpoint, long_render.resume}) {
@@ -127,54 +78,52 @@ void PictureRequest::check_outputs() {
   }
 }
 
+// A part is whole pixels of the picture, in a file of its own.
+void PictureRequest::check_shard() {
+  if (noise > 0)
+    throw Error(ExitCode::bad_input,
+                "--noise looks at a pixel's neighbours, which other shards have: give all pixels the same "
+                "samples with --spp");
+  if (classic)
+    throw Error(ExitCode::bad_input,
+                "--classic makes pixels of corners that shards share: leave out --shard");
+  if (half) throw Error(ExitCode::bad_input, "--half is for the picture: give it to eyeray merge");
+  if (outputs.size() > 1 || (!outputs.empty() && fs::path(outputs[0]).extension() != ".eyeray"))
+    throw Error(ExitCode::bad_input,
+                "--shard writes one part, -o NAME.eyeray; pictures are made of all parts, by eyeray merge");
+  if (outputs.empty())
+    outputs.push_back(fmt::format("{}.{}-of-{}.eyeray", fs::path(scene.file()).stem().string(),
+                                  shard->index + 1, shard->count));
+}
+
+std::vector<fs::path> PictureRequest::files_to_write() const {
+  return shard ? std::vector<fs::path>{outputs[0]} : files_written(outputs, aovs);
+}
+
 Picture make_picture(PictureRequest request, const std::function<void(const render::Progress&)>& progress) {
   const Stopwatch watch;
   Picture picture;
-  Scene scene = picture.times.measure("load", [&] { return request.scene.load(); });
-  check_auxiliary(request.aovs, scene);
-  spare_sources(request, scene);
-  check_crop(request.crop, scene.image);
-  const Rect crop = request.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : request.crop;
-  if (request.classic) make_classic(scene);
-  if (request.noise > 0) prepare_for_noise(request, scene);
-  executors::ExecutorOptions executor_options = request.executor;
-  const bool pixel_kinds = aov::any_needs(request.aovs, aov::AovNeeds::ray_kinds);
-  executor_options.ray_kinds = request.ray_kinds || pixel_kinds;
-  if (!executor_options.shader_folder.empty()) executor_options.compile_twin = true;
-  executor_options.search_cost = aov::any_needs(request.aovs, aov::AovNeeds::search_cost);
-  const std::unique_ptr<executors::Executor> executor =
-      executors::make_executor(request.backend, scene, executor_options);
-  std::optional<render::Checkpoint> checkpoint = checkpoint_of(request, scene, *executor);
+  const auto prepared = prepare(request, picture.times, progress);
+  const Scene& scene = prepared->scene;
+  const Rect crop = prepared->crop;
 
   // Render the picture. Files are begun with the first rows: of a picture of one band, when it is done.
-  render::RenderOptions options;
-  options.crop = request.classic ? render::corners_of(crop) : crop;
-  options.ray_kinds = request.ray_kinds;
-  options.pixel_kinds = pixel_kinds;
-  options.pixel_noise = aov::any_needs(request.aovs, aov::AovNeeds::noise);
-  options.pixel_brightest = aov::any_needs(request.aovs, aov::AovNeeds::brightest);
-  options.pixel_auxiliary = aov::any_needs(request.aovs, aov::AovNeeds::auxiliary);
-  options.noise = request.noise;
-  options.clamp = request.clamp;
-  options.band_bytes = size_t(request.long_render.band_mebibytes) << 20;
-  options.checkpoint = checkpoint ? &*checkpoint : nullptr;
-  options.progress = [&, warned = false](const render::Progress& now) mutable {
-    if (progress) progress(now);
-    if (!warned && checkpoint && !checkpoint->failure().empty()) {
-      fmt::print(stderr, "eyeray: warning: no more checkpoints are written: {}\n", checkpoint->failure());
-      warned = true;
-    }
-  };
   std::optional<PictureFiles> files;
+  aov::AovValues values(request.aovs, scene);
+  const aov::AovValues::Sink write_aov = [&](size_t aov, const image::Image& rows) {
+    files->write(aov, rows);
+  };
   render::CornerMean corners;
   StageTimes encoding;
-  const render::RenderTotals totals =
-      render::render_rows(scene, *executor, options, [&](const render::FinishedRows& rows) {
-        encoding.measure("encode", [&] {
-          if (!files)
-            files.emplace(request.outputs, request.aovs, crop.width, crop.height, request.half, scene);
-          files->write(request.classic ? corners.add(rows) : rows);
-        });
+  const auto write = [&](const render::FinishedRows& rows) {
+    if (!files)
+      files.emplace(request.outputs, request.aovs, crop.width, crop.height, request.half, scene.image.tone);
+    files->write(rows.color);
+    values.give(rows, write_aov);
+  };
+  const render::RenderTotals totals = render::render_rows(
+      scene, *prepared->executor, prepared->options, [&](const render::FinishedRows& rows) {
+        encoding.measure("encode", [&] { write(request.classic ? corners.add(rows) : rows); });
       });
   picture.interrupted = totals.interrupted;
 
@@ -185,46 +134,25 @@ Picture make_picture(PictureRequest request, const std::function<void(const rend
   }
   if (!picture.interrupted && aov::need_first_hits(request.aovs)) {
     picture.interrupted =
-        !render::trace_first_hits(*executor, crop, [&](int, std::span<const FirstHit> hits) {
+        !render::trace_first_hits(*prepared->executor, crop, [&](int, std::span<const FirstHit> hits) {
           for (const FirstHit& hit : hits) {
             picture.flags |= hit.flags;
             picture.flagged_hits += hit.flags != 0;
           }
-          encoding.measure("encode", [&] { files->write(hits); });
+          encoding.measure("encode", [&] { values.give(hits, crop.width, write_aov); });
         });
   }
   encoding.measure("encode", [&] {
-    if (!picture.interrupted) files->finish_aovs(picture.files);
+    const auto write_legend = [&](size_t aov, const fs::path& file) {
+      return values.legend(aov)->write(file);
+    };
+    if (!picture.interrupted) files->finish_aovs(picture.files, write_legend);
     if (picture.interrupted && totals.samples_done > 0) files->finish_without_aovs(picture.files);
   });
-  if (checkpoint && !picture.interrupted) checkpoint->remove();
-  if (checkpoint && picture.interrupted && checkpoint->on_disk()) picture.checkpoint = checkpoint->file();
+  if (prepared->checkpoint && !picture.interrupted) prepared->checkpoint->remove();
 
-  picture.sources = scene.files;
-  for (const fs::path& file : executor->source_files()) picture.sources.push_back(file);
-  picture.device = executor->description();
-  picture.crop = crop;
-  picture.samples = scene.image.samples;
-  picture.samples_done = totals.samples_done;
-  picture.rays = totals.rays;
-  picture.sampling_seconds = totals.seconds;
-  picture.sampling_processor_seconds = totals.processor_seconds;
-  picture.flagged_pixels = totals.flagged_pixels;
-  picture.flags |= totals.flags;
-  picture.bands = totals.bands;
-  picture.share = double(totals.samples_taken) / double(totals.samples_total);
-  const double pixels = double(options.crop.pixels());
-  picture.most_samples = totals.most_samples;
-  picture.mean_samples = double(totals.samples_taken) / pixels;
-  if (request.noise > 0)
-    picture.noise = Noise{request.noise, totals.greatest_noise, double(totals.quiet_pixels) / pixels};
-  picture.clamp = request.clamp;
-  picture.clamped = totals.clamped;
-  if (walks_at_random(scene.render.integrator)) picture.fireflies = totals.fireflies.samples;
-  picture.samples_resumed = totals.samples_resumed;
-  picture.rays_resumed = totals.rays_resumed;
-  if (request.ray_kinds) picture.ray_kinds = totals.ray_kinds;
-  for (const StageTimes& times : {executor->times(), encoding}) {
+  describe(request, *prepared, totals, picture);
+  for (const StageTimes& times : {prepared->executor->times(), encoding}) {
     for (const auto& [stage, seconds] : times.stages()) picture.times.add(stage, seconds);
   }
   picture.seconds = watch.seconds();
@@ -233,7 +161,16 @@ Picture make_picture(PictureRequest request, const std::function<void(const rend
 
 namespace {
 
+// "640×480", or "3/64 of 640×480, 4800 pixels".
+std::string size_of(const Picture& picture) {
+  const std::string whole = fmt::format("{}×{}", picture.crop.width, picture.crop.height);
+  if (!picture.shard) return whole;
+  return fmt::format("{}/{} of {}, {} pixels", picture.shard->index + 1, picture.shard->count, whole,
+                     picture.pixels);
+}
+
 std::string samples_of(const Picture& picture) {
+  if (picture.shard && picture.pixels == 0) return "nothing to do";
   const int least = picture.samples_done, most = picture.most_samples;
   if (least == most) return fmt::format("{} sample{} a pixel", least, least == 1 ? "" : "s");
   return fmt::format("{} to {} samples a pixel (mean {:.0f})", least, most, picture.mean_samples);
@@ -244,9 +181,12 @@ std::string samples_of(const Picture& picture) {
 std::string summary(const Picture& picture) {
   std::vector<std::string> names;
   for (const fs::path& file : picture.files) names.push_back(file.string());
+  if (picture.parts > 0)
+    return fmt::format("{}: {}, {}, {} rays, of {} part{} in {}", fmt::join(names, ", "), size_of(picture),
+                       samples_of(picture), picture.rays, picture.parts, picture.parts == 1 ? "" : "s",
+                       format_seconds(picture.seconds));
   return fmt::format(
-      "{}: {}×{}, {}, {}{} rays in {} ({}) on {}", fmt::join(names, ", "), picture.crop.width,
-      picture.crop.height, samples_of(picture),
+      "{}: {}, {}, {}{} rays in {} ({}) on {}", fmt::join(names, ", "), size_of(picture), samples_of(picture),
       picture.samples_resumed ? fmt::format("resumed with {} rays, then ", picture.rays_resumed) : "",
       picture.rays - picture.rays_resumed, format_seconds(picture.seconds),
       format_rate(rays_per_second(picture)), picture.device);
@@ -302,6 +242,9 @@ Json to_json(const Picture& picture) {
             {"flags", Json::array()},
             {"interrupted", picture.interrupted},
             {"bands", picture.bands}};
+  if (picture.parts > 0) json["parts"] = picture.parts;
+  if (const auto& shard = picture.shard)
+    json["shard"] = {{"index", shard->index + 1}, {"count", shard->count}, {"pixels", picture.pixels}};
   if (const auto& noise = picture.noise)
     json["noise"] = {{"wanted", noise->wanted},
                      {"greatest", noise->greatest},

@@ -34,15 +34,21 @@ struct PictureRequest {
   std::vector<aov::Aov> aovs;        // as files NAME.AOV.* or layers, NAME from the first output
   bool half = false;                 // the picture in each .exr
   LongRender long_render;
-  bool ray_kinds = false;  // count rays by kind
-  bool classic = false;    // sample as the published statistics of Haines' databases do
-  double noise = 0;        // RenderOptions::noise
-  double clamp = 0;        // RenderOptions::clamp
+  bool ray_kinds = false;                   // count rays by kind
+  bool classic = false;                     // sample as the published statistics of Haines' databases do
+  double noise = 0;                         // RenderOptions::noise
+  double clamp = 0;                         // RenderOptions::clamp
+  std::optional<render::Shard> shard = {};  // of the picture only this share, as a part
 
   // The options that say all this.
   void add_to(CLI::App& command);
   // Names the default output, and throws Error now for an output that could not be written later.
   void check_outputs();
+  // All that is written.
+  std::vector<std::filesystem::path> files_to_write() const;
+
+ private:
+  void check_shard();
 };
 
 // How noisy a picture is that was rendered until it is not.
@@ -56,8 +62,12 @@ struct Picture {
   std::vector<std::filesystem::path> files;    // written
   std::vector<std::filesystem::path> sources;  // read: the scene's files and the shaders from --shaders
   std::string device;                          // Executor::description()
-  Rect crop;                                   // what was rendered
-  int samples = 0;                             // a pixel, asked for
+  std::shared_ptr<executors::OpenDevice> open_device;  // for pictures to come; null of a CPU's
+  Rect crop;                                           // what was rendered
+  std::optional<render::Shard> shard;                  // of it only this share …
+  int64_t pixels = 0;                                  // … of so many
+  size_t parts = 0;                                    // of which it was merged; 0 where it was rendered
+  int samples = 0;                                     // a pixel, asked for
   int samples_done = 0;
   uint64_t rays = 0;
   double sampling_seconds = 0;
@@ -85,6 +95,8 @@ struct Picture {
 // Loads, renders and writes. `files` is empty when it was interrupted before every pixel had a sample, and,
 // for a picture of several bands, before all had all.
 Picture make_picture(PictureRequest request, const std::function<void(const render::Progress&)>& progress);
+// The same of a share: `request.shard` and its one output.
+Picture make_part(PictureRequest request, const std::function<void(const render::Progress&)>& progress);
 // "whitted.png: 640×480, 4 samples a pixel, 1.2 M rays in 0.35 s (3.4 Mrays/s) on gpu: llvmpipe …".
 std::string summary(const Picture& picture);
 // What there is to say of samples that are brighter than others by far; "" where none is, or they are seen

@@ -33,37 +33,25 @@ std::vector<fs::path> files_written(const std::vector<std::string>& outputs,
   return files;
 }
 
-AovFiles::AovFiles(aov::Aov aov, fs::path output, int width, int height, const Scene& scene)
-    : aov_(aov),
-      width_(width),
+AovFiles::AovFiles(aov::Aov aov, fs::path output, int width, int height)
+    : width_(width),
       height_(height),
+      channels_(aov->channels),
       data_name_(aov::aov_file(output, aov, "pfm")),
       picture_name_(aov::aov_file(output, aov, "png")),
       data_(data_name_, width, height, aov->channels),
-      painter_(aov->shown_as, aov->channels) {
-  if (aov->legend) legend_.emplace(aov->legend(scene));
-}
+      painter_(aov->shown_as, aov->channels) {}
 
 void AovFiles::write(const image::Image& rows) {
   painter_.see(rows);
   data_.write(rows);
 }
 
-void AovFiles::write(const render::FinishedRows& rows) {
-  if (const aov::ValuesOfRows* values = std::get_if<aov::ValuesOfRows>(&aov_->values)) write((*values)(rows));
-}
-
-void AovFiles::write(std::span<const FirstHit> hits) {
-  if (!aov_->is_of_first_hits()) return;
-  write(aov::aov_image(aov_, hits, width_, legend_ ? &legend_->entries() : nullptr));
-  if (legend_) legend_->see(hits);
-}
-
-void AovFiles::finish(std::vector<fs::path>& files) {
+const fs::path& AovFiles::finish(std::vector<fs::path>& files) {
   data_.finish();
   files.push_back(data_name_);
 
-  image::PfmRows data(data_name_, width_, height_, aov_->channels);
+  image::PfmRows data(data_name_, width_, height_, channels_);
   image::ImageWriter picture(picture_name_, width_, height_, 3);
   for (int row = 0; row < height_;) {
     const int count = std::min(std::max(1, painted_pixels / width_), height_ - row);
@@ -72,36 +60,36 @@ void AovFiles::finish(std::vector<fs::path>& files) {
   }
   picture.finish();
   files.push_back(picture_name_);
-  if (legend_) files.push_back(legend_->write(picture_name_));
+  return picture_name_;
 }
 
 PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::vector<aov::Aov>& aovs,
-                           int width, int height, bool half, const Scene& scene)
-    : tone_(scene.image.tone) {
+                           int width, int height, bool half, const image::Tone& tone)
+    : output_(outputs[0]), wanted_(aovs), tone_(tone) {
   for (const std::string& output : outputs) {
     const bool exr = is_exr(output);
     if (exr && &output == &outputs[0] && !aovs.empty())
-      layered_.emplace(output, aovs, width, height, half, scene);
+      layered_.emplace(output, aovs, width, height, half);
     else if (exr)
       writers_.emplace_back(output, image::ImageWriter(output, width, height, image::exr_channels(3, half)));
     else
       writers_.emplace_back(output, image::ImageWriter(output, width, height, 3));
   }
   if (layered_) return;
-  for (const aov::Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height, scene);
+  for (const aov::Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height);
 }
 
-void PictureFiles::write(const render::FinishedRows& rows) {
+void PictureFiles::write(const image::Image& color) {
   for (auto& [name, writer] : writers_)
-    writer.write(image::image_format(name) == image::ImageFormat::png ? image::toned(rows.color, tone_)
-                                                                      : rows.color);
-  for (AovFiles& files : aovs_) files.write(rows);
-  if (layered_) layered_->write(rows);
+    writer.write(image::image_format(name) == image::ImageFormat::png ? image::toned(color, tone_) : color);
+  if (layered_) layered_->write(color);
 }
 
-void PictureFiles::write(std::span<const FirstHit> hits) {
-  for (AovFiles& files : aovs_) files.write(hits);
-  if (layered_) layered_->write(hits);
+void PictureFiles::write(size_t aov, const image::Image& rows) {
+  if (layered_)
+    layered_->write(aov, rows);
+  else
+    aovs_[aov].write(rows);
 }
 
 void PictureFiles::finish_picture(std::vector<fs::path>& files) {
@@ -111,9 +99,15 @@ void PictureFiles::finish_picture(std::vector<fs::path>& files) {
   }
 }
 
-void PictureFiles::finish_aovs(std::vector<fs::path>& files) {
-  for (AovFiles& each : aovs_) each.finish(files);
-  if (layered_) layered_->finish(files, true);
+void PictureFiles::finish_aovs(std::vector<fs::path>& files, const LegendOf& write_legend) {
+  for (size_t i = 0; i < aovs_.size(); ++i) {
+    const fs::path& picture = aovs_[i].finish(files);
+    if (wanted_[i]->legend) files.push_back(write_legend(i, picture));
+  }
+  if (!layered_) return;
+  layered_->finish(files, true);
+  for (size_t i = 0; i < wanted_.size(); ++i)
+    if (wanted_[i]->legend) files.push_back(write_legend(i, aov::aov_file(output_, wanted_[i], "json")));
 }
 
 void PictureFiles::finish_without_aovs(std::vector<fs::path>& files) {

@@ -1,10 +1,16 @@
 // eyeray render: a scene becomes picture files.
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "host/cli/frames.hpp"
 #include "host/cli/picture.hpp"
+#include "host/cli/picture_files.hpp"
 #include "host/cli/within.hpp"
 #include "host/core/readable.hpp"
 #include "host/render/flags.hpp"
+#include "host/shards/part.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -14,8 +20,15 @@ struct RenderCommand {
   bool stats = false;
   bool quiet = false;
   bool json = false;
+  std::string frames;      // FIRST:LAST[:STEP]; empty: the one that the scene shows
+  std::string video;       // of them; empty: none
+  bool overwrite = false;  // frames that are there
 
   ExitCode run();
+
+ private:
+  ExitCode run_picture(PictureRequest picture, Json& said);
+  ExitCode run_frames();
 };
 
 void print_stages(const Picture& picture) {
@@ -48,6 +61,8 @@ std::string what_was_kept(const Picture& picture, bool aovs) {
                        picture.samples, aovs ? ", and no AOVs" : "");
   } else if (!file.empty()) {
     text = "interrupted before the picture was whole";
+  } else if (picture.shard) {
+    text = "interrupted, and a part is whole or nothing; nothing was kept (--checkpoint FILE would)";
   } else if (picture.bands == 1) {
     text = "interrupted before every pixel had a sample; nothing was kept";
   } else {
@@ -59,6 +74,22 @@ std::string what_was_kept(const Picture& picture, bool aovs) {
   if (file.empty()) return text;
   return fmt::format("{}; {} has {:.1f} % of the work: to go on, give the same options and --resume {}", text,
                      file, 100 * picture.share, file);
+}
+
+void add_frame_options(CLI::App& command, RenderCommand& options) {
+  const std::string group = "Animation";
+  command
+      .add_option("--frames", options.frames,
+                  "These frames of a scene that moves, to files with the number in their names: -o "
+                  "out.%04d.png. What is there is kept.")
+      ->option_text("FIRST:LAST[:STEP]")
+      ->group(group)
+      ->excludes("--checkpoint")
+      ->excludes("--resume");
+  command.add_option("--video", options.video, "A video of them, too, by ffmpeg: .mp4, .mkv, .mov or .webm.")
+      ->option_text("FILE")
+      ->group(group);
+  command.add_flag("--overwrite", options.overwrite, "Render frames that are there anew.")->group(group);
 }
 
 void add_long_render_options(CLI::App& command, LongRender& options) {
@@ -79,10 +110,15 @@ void add_long_render_options(CLI::App& command, LongRender& options) {
       ->check(CLI::Range(1, 1 << 20));
 }
 
-ExitCode RenderCommand::run() {
-  request.check_outputs();
-  request.ray_kinds = stats;
-  const Picture picture = make_picture(request, progress_reporter(quiet));
+// One picture. `said`: what is said of it as JSON.
+ExitCode RenderCommand::run_picture(PictureRequest wanted, Json& said) {
+  wanted.check_outputs();
+  wanted.ray_kinds = stats;
+  const bool aovs = !wanted.aovs.empty();
+  const bool share = wanted.shard.has_value();
+  const Picture picture = share ? make_part(std::move(wanted), progress_reporter(quiet))
+                                : make_picture(std::move(wanted), progress_reporter(quiet));
+  request.executor.open_device = picture.open_device;
 
   const uint64_t flagged = std::max(picture.flagged_pixels, picture.flagged_hits);
   if (const std::string warning = render::flag_warning(picture.flags, flagged); !warning.empty())
@@ -91,15 +127,91 @@ ExitCode RenderCommand::run() {
     throw Error(ExitCode::interrupted, "{}", what_was_kept(picture, false));
   if (const std::string warning = noise_warning(picture); !warning.empty())
     fmt::print(stderr, "eyeray: warning: {}\n", warning);
+  // A part's are its picture's to say.
   for (const std::string& warning : {clamp_warning(picture), firefly_warning(picture)})
-    if (!warning.empty()) fmt::print(stderr, "eyeray: warning: {}\n", warning);
+    if (!warning.empty() && !share) fmt::print(stderr, "eyeray: warning: {}\n", warning);
   if (!quiet) fmt::print(stderr, "{}\n", summary(picture));
   if (stats) print_stages(picture);
   if (picture.ray_kinds) print_rays(*picture.ray_kinds, picture.sampling_seconds);
-  if (json) print_json(to_json(picture));
+  said = to_json(picture);
   if (!picture.interrupted) return ExitCode::ok;
-  fmt::print(stderr, "eyeray: {}\n", what_was_kept(picture, !request.aovs.empty()));
+  fmt::print(stderr, "eyeray: {}\n", what_was_kept(picture, aovs));
   return ExitCode::interrupted;
+}
+
+// The frames one after the other; as a share of N every N-th of them, whole. Those whose files are there are
+// kept as they are.
+ExitCode RenderCommand::run_frames() {
+  std::vector<int> wanted = parse_frames(frames);
+  if (const auto shard = std::exchange(request.shard, std::nullopt)) {
+    if (!video.empty())
+      throw Error(ExitCode::bad_input,
+                  "--video takes all frames, and --shard renders a share of them: the video "
+                  "comes last, without --shard");
+    std::vector<int> share;
+    for (size_t i = size_t(shard->index); i < wanted.size(); i += size_t(shard->count))
+      share.push_back(wanted[i]);
+    wanted = std::move(share);
+  }
+  if (request.outputs.empty())
+    request.outputs.push_back(std::filesystem::path(request.scene.file()).stem().string() + ".%04d.png");
+  for (const std::string& output : request.outputs) frame_name(output, 0);
+  const bool shown = request.outputs[0].ends_with(".png");
+  if (!video.empty()) {
+    if (!shown)
+      throw Error(ExitCode::bad_input, "--video is made of the first output, which is to be a .png then");
+    check_video(video);
+  }
+  const Scene scene = request.scene.load();
+  const Animation& animation = scene.animation;
+  if (animation.tracks == 0)
+    throw Error(ExitCode::bad_input,
+                "{} has no [[track]] and shows no animation of a glTF file: nothing moves, and all its "
+                "frames would be the same",
+                request.scene.file());
+
+  request.executor = executors::for_frames(request.executor, scene.image.all_samples());
+
+  Json said{{"frames", Json::array()}};
+  std::vector<std::filesystem::path> pictures;
+  int kept = 0;
+  for (const int frame : wanted) {
+    PictureRequest one = request;
+    one.scene = request.scene.with_defines({fmt::format("animation.frame={}", frame)});
+    for (std::string& output : one.outputs) output = frame_name(output, frame);
+    pictures.emplace_back(one.outputs[0]);
+    const auto files = files_written(one.outputs, one.aovs);
+    const bool there =
+        std::ranges::all_of(files, [](const auto& file) { return std::filesystem::exists(file); });
+    if (there && !overwrite) {
+      ++kept;
+      continue;
+    }
+    Json of_frame;
+    const ExitCode code = run_picture(std::move(one), of_frame);
+    of_frame["frame"] = frame;
+    said["frames"].push_back(std::move(of_frame));
+    if (code == ExitCode::ok) continue;
+    if (json) print_json(said);
+    return code;
+  }
+  if (kept > 0 && !quiet)
+    fmt::print(stderr, "{} of {} frames were there and are kept; --overwrite renders them anew\n", kept,
+               wanted.size());
+  if (!video.empty()) make_video(pictures, animation.frames_per_second, video);
+  said["kept"] = kept;
+  if (json) print_json(said);
+  return ExitCode::ok;
+}
+
+ExitCode RenderCommand::run() {
+  if (!frames.empty()) return run_frames();
+  if (!video.empty() || overwrite)
+    throw Error(ExitCode::bad_input, "--{} is about --frames", video.empty() ? "overwrite" : "video");
+  Json said;
+  const ExitCode code = run_picture(request, said);
+  if (json) print_json(said);
+  return code;
 }
 
 }  // namespace
@@ -109,6 +221,7 @@ void add_render(CLI::App& app, Run& run) {
   const auto options = std::make_shared<RenderCommand>();
   options->request.add_to(*command);
   add_long_render_options(*command, options->request.long_render);
+  add_frame_options(*command, *options);
   CLI::Option* const noise =
       command
           ->add_option(
@@ -126,6 +239,14 @@ void add_render(CLI::App& app, Run& run) {
           "is darker than the truth.")
       ->option_text("X")
       ->check(within(1e-6, 1e15));
+  command
+      ->add_option_function<std::string>(
+          "--shard",
+          [options](const std::string& text) { options->request.shard = shards::parse_shard(text); },
+          "Render the I-th of N shares of the picture, as 3/64, to a part; eyeray merge makes the picture of "
+          "all.")
+      ->option_text("I/N")
+      ->group("Many machines");
   command->add_flag(
       "--stats", options->stats,
       "Print how long each stage took, and how many eye, reflected, refracted and shadow rays there were.");
@@ -146,8 +267,10 @@ void add_render(CLI::App& app, Run& run) {
       "  eyeray render scenes/whitted.toml -D render.max_depth=2 --aov depth,normal\n"
       "  eyeray render scenes/path/cornell_box.toml --noise 0.02             each pixel as many samples as "
       "it needs\n"
+      "  eyeray render scenes/animation.toml --frames 0:47 -o frame.%04d.png --video animation.mp4\n"
       "  eyeray render scenes/whitted.toml --spp 10000 --checkpoint long.part    and, after Ctrl-C, --resume "
       "long.part\n"
+      "  eyeray render scenes/whitted.toml --shard 3/64                      whitted.3-of-64.eyeray\n"
       "Ctrl-C keeps what was rendered so far, if every pixel has a sample.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }

@@ -4,12 +4,18 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "host/cli/command.hpp"
+#include "host/cli/merged_report.hpp"
 #include "host/cli/within.hpp"
 #include "host/core/atomic_file.hpp"
+#include "host/core/build_id.hpp"
+#include "host/core/content_hash.hpp"
 #include "host/loader/scene_edit.hpp"
 #include "host/loader/suite.hpp"
+#include "host/shards/part.hpp"
 #include "host/verify/page.hpp"
 
 namespace fs = std::filesystem;
@@ -35,10 +41,15 @@ struct VerifyCommand {
   std::vector<std::string> may_stay_unverified;
   std::string against;
   verify::Update update = verify::Update::never;
-  std::vector<std::string> files = {};  // the scenes
+  std::optional<render::Shard> shard = {};  // of the scenes
+  std::vector<std::string> files = {};      // those that are verified
+  size_t suite_size = 0;                    // all, and …
+  std::string suite = {};                   // … what names them and the options
 
   ExitCode run();
   void find_files();
+  void keep_share();
+  std::string report_in_json(std::span<const compare::Report> reports) const;
   compare::Report report_on_one_of_many(const std::string& file);
   void record_allowance(const compare::Report& report) const;
   void write_reports(std::span<const compare::Report> reports) const;
@@ -58,7 +69,7 @@ std::string VerifyCommand::name_in_folder(const std::string& scene) const {
 }
 
 fs::path VerifyCommand::folder_for(const std::string& scene) const {
-  if (files.size() == 1) return keep.empty() ? fs::path(scene).stem().string() + ".verify" : keep;
+  if (suite_size == 1) return keep.empty() ? fs::path(scene).stem().string() + ".verify" : keep;
   const std::string name = name_in_folder(scene);
   return keep.empty() ? fs::path(name + ".verify") : fs::path(keep) / name;
 }
@@ -86,6 +97,29 @@ void VerifyCommand::find_files() {
   for (const std::string& name : may_stay_unverified)
     if (std::ranges::find(files, name) == files.end())
       throw Error(ExitCode::bad_input, "--allow-unverified {}: that is none of the scenes", name);
+}
+
+// Every shard.count-th scene: neighbours in a folder are alike.
+void VerifyCommand::keep_share() {
+  ContentHash hash;
+  for (const std::string& file : files) hash.add(file);
+  suite = hash.add(scene_options.as_written()).add(build_id()).hex();
+  suite_size = files.size();
+  if (!shard) return;
+  std::vector<std::string> share;
+  for (size_t i = size_t(shard->index); i < files.size(); i += size_t(shard->count))
+    share.push_back(files[i]);
+  files = std::move(share);
+}
+
+std::string VerifyCommand::report_in_json(std::span<const compare::Report> reports) const {
+  std::string text = compare::to_json(reports);
+  if (!shard) return text;
+  Json report = Json::parse(text);
+  // A share of no scenes has none that fails.
+  if (reports.empty()) report["passed"] = true;
+  report["shard"] = shard_of_report(*shard, suite_size, suite);
+  return report.dump() + "\n";
 }
 
 compare::Report VerifyCommand::report_on(const SceneOptions& scene_file) const {
@@ -145,7 +179,7 @@ void VerifyCommand::check_options() const {
     throw Error(ExitCode::bad_input, "--update needs --against: which picture is to be updated?");
   if (update != verify::Update::never && options.crop.pixels() > 0)
     throw Error(ExitCode::bad_input, "--update stores whole pictures: leave out --crop");
-  if (fs::path(against).extension() == ".pfm" && files.size() > 1)
+  if (fs::path(against).extension() == ".pfm" && suite_size > 1)
     throw Error(ExitCode::bad_input, "--against {}: {} scenes need a folder of pictures", against,
                 files.size());
 }
@@ -160,6 +194,7 @@ ExitCode VerifyCommand::run() {
   }
   options.progress = [this] { return progress_reporter(quiet); };
   find_files();
+  keep_share();
   check_options();
   if (!page_folder.empty()) {
     fs::create_directories(page_folder);
@@ -177,8 +212,9 @@ ExitCode VerifyCommand::run() {
   for (const std::string& file : files) width = std::max(width, file.size());
   std::vector<compare::Report> reports;
   for (const std::string& file : files) {
-    reports.push_back(files.size() == 1 ? report_on(scene_options.for_file(file))
-                                        : report_on_one_of_many(file));
+    // A share of a suite goes on as the suite does.
+    reports.push_back(suite_size == 1 ? report_on(scene_options.for_file(file))
+                                      : report_on_one_of_many(file));
     const compare::Report& report = reports.back();
     if (record) record_allowance(report);
     if (json) continue;
@@ -187,7 +223,7 @@ ExitCode VerifyCommand::run() {
     std::fflush(stdout);
   }
   if (json)
-    fmt::print("{}", to_json(reports));
+    fmt::print("{}", report_in_json(reports));
   else if (reports.size() > 1)
     fmt::print("{}", summary(reports));
   write_reports(reports);
@@ -244,11 +280,19 @@ void add_verify(CLI::App& app, Run& run) {
           "division is not exact.")
       ->option_text("N=0")
       ->check(CLI::Range(0, 64));
+  command->add_flag("--raster", how.raster,
+                    "Compare what eye rays hit with what the device's rasteriser draws, too.");
   command
       ->add_option("--keep", options->keep,
                    "Where pictures are left when a gate fails. Default: SCENE.verify here.")
       ->option_text("DIR");
   command->add_flag("--keep-passed", options->keep_passed, "Leave them when no gate fails, too.");
+  command
+      ->add_option_function<std::string>(
+          "--shard", [options](const std::string& text) { options->shard = shards::parse_shard(text); },
+          "Of the scenes every N-th, from the I-th on, as 3/64; eyeray merge makes one of the reports of "
+          "--json.")
+      ->option_text("I/N");
   command->add_flag("-q,--quiet", options->quiet, "No progress.");
   command->add_flag("--json", options->json, "Report as JSON.");
   command

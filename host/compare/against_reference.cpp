@@ -241,7 +241,7 @@ ReferenceComparison compare_with_reference(const Frame& value, const Frame& refe
   std::vector<PixelOutcome> worst = judge.worst_outcomes();
   if (paths) {
     result.paths = compare_paths(value, reference, *paths, tolerances, worst);
-    result.paired_sum = worst_paired_sum(value, reference);
+    result.paired_sum = worst_paired_sum(value, reference, paths->shared);
   } else {
     result.colors = judge.count_colors();
     result.counts = judge.count_counts();

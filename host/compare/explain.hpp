@@ -48,6 +48,8 @@ struct PathReference {
   int variants = 1;
   std::function<double(Pixel pixel)> rounding;  // Neighbour's
   std::function<std::string(uint32_t event)> describe;
+  // Samples of the same number gather the same photons within this of what they show; 0: none do.
+  double shared = 0;
 };
 
 // Places around a pixel's own, in pixels: `angles` on each of four rings, and before them on one as wide as a

@@ -31,9 +31,30 @@ Sums sums_of(const Frame& value, const Frame& reference, const Rect& tile) {
   return sums;
 }
 
+// How many pixels of the tile show a place within that distance of what one of them shows, at most. All are
+// asked, or of many some, evenly: neighbours have nearly as many.
+double most_near(const Frame& frame, const Rect& tile, double distance) {
+  constexpr int asked_along = 16;
+  std::vector<Vec3> places;
+  const auto each_place = [&](int step_x, int step_y, const auto& visit) {
+    for (int y = tile.y; y < tile.y + tile.height; y += step_y)
+      for (int x = tile.x; x < tile.x + tile.width; x += step_x)
+        if (const FirstHit& hit = frame.first_hit(x, y); hit.primitive >= 0) visit(hit.position);
+  };
+  each_place(1, 1, [&](const Vec3& place) { places.push_back(place); });
+  int64_t most = 1;
+  const auto step = [&](int size) { return (size + asked_along - 1) / asked_along; };
+  each_place(step(tile.width), step(tile.height), [&](const Vec3& from) {
+    most = std::max<int64_t>(most, std::ranges::count_if(places, [&](const Vec3& place) {
+                               return glm::length(place - from) < distance;
+                             }));
+  });
+  return double(most);
+}
+
 }  // namespace
 
-PairedSum worst_paired_sum(const Frame& value, const Frame& reference) {
+PairedSum worst_paired_sum(const Frame& value, const Frame& reference, double shared) {
   const Rect& area = reference.area;
   const auto along = [](int size) { return (size + paired_tile - 1) / paired_tile; };
   const double count = 3.0 * (along(area.width) * along(area.height) + 1);
@@ -41,9 +62,11 @@ PairedSum worst_paired_sum(const Frame& value, const Frame& reference) {
 
   PairedSum worst{{}, 0, 0, 1};
   const auto look_at = [&](const Rect& tile, const Sums& sums) {
+    const double of_one_cause = shared > 0 ? most_near(reference, tile, shared) : 1;
     for (int c = 0; c < 3; ++c) {
       if (sums.difference[c] == 0) continue;
-      const double allowed = paired_rounding * sums.reference[c] + errors * std::sqrt(sums.squares[c]);
+      const double allowed =
+          paired_rounding * sums.reference[c] + errors * std::sqrt(of_one_cause * sums.squares[c]);
       const double scale = std::max(sums.reference[c], 1e-300);
       const PairedSum sum{{area.x + tile.x, area.y + tile.y, tile.width, tile.height},
                           c,

@@ -20,8 +20,11 @@ inline constexpr double paired_rounding = 1e-5;      // what rounding may add up
 inline constexpr double paired_false_alarms = 1e-3;  // of all sums of a picture together, at most
 
 // Of all sums that which is farthest beyond, or nearest to, what is allowed: rounding, and √(2 ln(2 n / a))
-// √Σ(value − reference)², n sums, a the false alarms. For differences that are as likely up as down that
-// holds whatever else they are (Hoeffding 1963, of the signs alone).
-PairedSum worst_paired_sum(const Frame& value, const Frame& reference);
+// √(m Σ(value − reference)²), n sums, a the false alarms. For differences that are as likely up as down that
+// holds whatever else they are (Hoeffding 1963, of the signs alone), if at most m of them have one cause and
+// so one sign (Cauchy and Schwarz). m is 1, but where samples of the same number share what lies within
+// `shared` of what their pixels show, as photons: then it is how many of a tile, or of all, lie so near to
+// one of them.
+PairedSum worst_paired_sum(const Frame& value, const Frame& reference, double shared = 0);
 
 }  // namespace eyeray::compare

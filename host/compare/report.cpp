@@ -46,7 +46,21 @@ std::string describe(const ExactResult& result) {
       c.worst.pixel.x, c.worst.pixel.y, name(c.worst.seam));
 }
 
+std::string describe(const RasterResult& result) {
+  return fmt::format(
+      "gate R: {} against the rasteriser: {} of {} pixels are not explained by the geometry; the first is "
+      "{},{}: "
+      "{}",
+      result.value, result.unexplained, result.pixels, result.pixel.x, result.pixel.y, result.difference);
+}
+
 }  // namespace
+
+int64_t PhotonTally::may_part() const {
+  constexpr double share = 2e-2;
+  constexpr int usual_depth = 8;
+  return std::max<int64_t>(4, int64_t(share * double(sent) * std::max(depth, usual_depth) / usual_depth));
+}
 
 std::vector<std::string> Report::failures() const {
   if (!not_verified.empty())
@@ -59,6 +73,13 @@ std::vector<std::string> Report::failures() const {
   for (const Participant& p : participants) {
     if (!p.soundness.ok()) failures.push_back(fmt::format("{}: {}", p.name, compare::describe(p.soundness)));
   }
+  if (photons && !photons->passes())
+    failures.push_back(fmt::format(
+        "gate D: twin against the reference, photons: of {} {} go another way ({} may), {} lie aside ({} "
+        "may), "
+        "and of these {} are unexplained{}",
+        photons->sent, photons->parted, photons->may_part(), photons->aside, photons->may_lie_aside(),
+        photons->unexplained, photons->worst.empty() ? "" : "; the first is " + photons->worst));
   for (const ExactResult& result : exact) {
     const ExactComparison& c = result.comparison;
     if (!c.incomparable.empty()) {
@@ -79,6 +100,8 @@ std::vector<std::string> Report::failures() const {
       failures.push_back(
           fmt::format("gate D: {} against the reference: {}", result.value, describe(c.paired_sum)));
   }
+  for (const RasterResult& result : raster)
+    if (!result.passes()) failures.push_back(describe(result));
   if (golden && !golden->passes()) {
     if (!golden->incomparable.empty())
       failures.push_back(fmt::format("gate G: {}: {}", golden->file, golden->incomparable));
@@ -125,6 +148,8 @@ std::optional<Pixel> Report::pixel_to_look_at() const {
       if (!tally.passes()) return tally.worst.pixel;
     }
   }
+  for (const RasterResult& result : raster)
+    if (!result.passes()) return result.pixel;
   if (golden && golden->incomparable.empty() && !golden->passes()) return golden->colors.worst.pixel;
   return std::nullopt;
 }
@@ -144,6 +169,12 @@ std::vector<FirstHit> Report::shown_hits() const {
       if (tally.worst.excess > 0) add(tally.worst);
     }
   }
+  for (const RasterResult& result : raster) {
+    hits.push_back(result.traced);
+    FirstHit drawn;
+    drawn.primitive = result.drawn;
+    hits.push_back(drawn);
+  }
   return hits;
 }
 
@@ -152,7 +183,8 @@ std::string Report::command_to_look() const {
   if (!pixel) return "";
   const int w = std::min(9, width), h = std::min(9, height);
   const int x = std::clamp(pixel->x - w / 2, 0, width - w), y = std::clamp(pixel->y - h / 2, 0, height - h);
-  return fmt::format("eyeray verify {}{} --crop {},{},{},{}", scene, options, x, y, w, h);
+  return fmt::format("eyeray verify {}{}{} --crop {},{},{},{}", scene, options,
+                     raster.empty() ? "" : " --raster", x, y, w, h);
 }
 
 std::string Report::command_to_probe() const {

@@ -1,6 +1,7 @@
 // What `eyeray verify` found out about a scene, for people and for programs.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "host/compare/against_reference.hpp"
 #include "host/compare/exact.hpp"
 #include "host/compare/metrics.hpp"
+#include "host/compare/raster_result.hpp"
 #include "host/compare/soundness.hpp"
 #include "host/image/image.hpp"
 
@@ -57,6 +59,25 @@ struct GoldenResult {
   bool passes() const { return updated || (incomparable.empty() && colors.passes()); }
 };
 
+// Gate D for photons: those that go another way than the reference's, or the same way to other places, which
+// all executors then leave out. Of each the reference has to know by its own rounding.
+struct PhotonTally {
+  int64_t sent = 0;
+  int64_t parted = 0;
+  int64_t aside = 0;
+  int64_t unexplained = 0;  // of both
+  std::string worst;        // the first of these, and what it does
+  int depth = 0;            // the scene's max_depth
+
+  // All of them are explained, and no picture shows them: so that pictures show most of what there is, 2 %,
+  // and more where photons may go far.
+  int64_t may_part() const;
+  // What is round, or struck at a grazing angle, throws photons as far aside as rounding does times many: a
+  // tenth.
+  int64_t may_lie_aside() const { return std::max<int64_t>(4, sent / 10); }
+  bool passes() const { return unexplained == 0 && parted <= may_part() && aside <= may_lie_aside(); }
+};
+
 struct Report {
   // Why there was nothing to compare, where a scene of several could not be rendered; else empty.
   std::string not_verified;
@@ -70,6 +91,8 @@ struct Report {
   std::vector<Participant> participants;
   std::vector<ExactResult> exact;
   std::vector<ReferenceResult> against_reference;
+  std::vector<RasterResult> raster;    // gate R, of every participant; empty where it was not asked for
+  std::optional<PhotonTally> photons;  // where the scene's integrator sends any out
   std::optional<GoldenResult> golden;
   // What indices in first hits stand for, by `sphere "left eye", scene.toml:12`; those that a report names.
   std::map<int32_t, std::string> primitives, materials;

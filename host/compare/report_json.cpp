@@ -109,6 +109,23 @@ Json json(const ReferenceResult& result) {
   return object;
 }
 
+Json json(const RasterResult& result) {
+  Json explained = Json::object(), not_drawn = Json::object();
+  for (int i = 0; i < raster_cause_count; ++i) explained[name(RasterCause(i))] = result.explained[size_t(i)];
+  for (const auto& [what, count] : result.not_drawn) not_drawn[what] = count;
+  Json object = {{"value", result.value},   {"passed", result.passes()},
+                 {"device", result.device}, {"triangles", result.triangles},
+                 {"not_drawn", not_drawn},  {"pixels", result.pixels},
+                 {"equal", result.equal},   {"hidden", result.hidden},
+                 {"explained", explained},  {"unexplained", result.unexplained}};
+  if (!result.difference.empty())
+    object["first"] = {{"pixel", json(result.pixel)},
+                       {"difference", result.difference},
+                       {"traced", json(result.traced)},
+                       {"drawn", {{"primitive", result.drawn}, {"t", result.drawn_t}}}};
+  return object;
+}
+
 Json json(const GoldenResult& result) {
   Json object = {{"file", result.file},       {"value", result.value},     {"passed", result.passes()},
                  {"changed", result.changed}, {"updated", result.updated}, {"refused", result.refused}};
@@ -153,6 +170,15 @@ Json json(const Report& report) {
           {"executors", list(report.participants)},
           {"gate_a", list(report.exact)},
           {"gates_b_c", list(report.against_reference)},
+          {"gate_r", list(report.raster)},
+          {"photons", report.photons ? Json{{"sent", report.photons->sent},
+                                            {"parted", report.photons->parted},
+                                            {"may_part", report.photons->may_part()},
+                                            {"aside", report.photons->aside},
+                                            {"may_lie_aside", report.photons->may_lie_aside()},
+                                            {"unexplained", report.photons->unexplained},
+                                            {"passed", report.photons->passes()}}
+                                     : Json()},
           {"gate_g", report.golden ? json(*report.golden) : Json()},
           {"primitives", json(report.primitives)},
           {"materials", json(report.materials)},

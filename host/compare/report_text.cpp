@@ -95,6 +95,40 @@ void add(std::string& text, const Report& report, const ReferenceResult& result)
   if (result.metrics) line(text, "    {}", to_text(*result.metrics));
 }
 
+std::string numbered(const std::map<std::string, uint64_t>& counts) {
+  std::string text;
+  for (const auto& [what, count] : counts)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+  return text;
+}
+
+void add(std::string& text, const Report& report, const RasterResult& result) {
+  const int64_t compared = result.pixels - result.hidden;
+  const std::string share =
+      compared > 0 ? fmt::format(" ({:.3f} %)", 100 * double(result.equal) / double(compared)) : "";
+  std::string causes;
+  for (int i = 0; i < raster_cause_count; ++i)
+    if (const int64_t count = result.explained[size_t(i)]; count > 0)
+      causes += fmt::format("{}{} {}", causes.empty() ? " (" : ", ", name(RasterCause(i)), count);
+  line(text, "  gate R {} {} = the rasteriser: {} equal{}, {} explained{}, {} unexplained{}",
+       result.passes() ? "passed" : "FAILED", result.value, result.equal, share, result.explained_pixels(),
+       causes.empty() ? "" : causes + ")", result.unexplained,
+       result.hidden > 0 ? fmt::format(", {} behind what is not drawn", result.hidden) : "");
+  if (result.passes()) return;
+  line(text, "    pixel {},{}: {}", result.pixel.x, result.pixel.y, result.difference);
+  line(text, "      {:9} {}", result.value, describe(result.traced, report));
+  line(text, "      drawn     {}",
+       result.drawn < 0 ? "nothing"
+                        : fmt::format("primitive {}{}, t {:.9g}", result.drawn,
+                                      in_words(report.primitives, result.drawn), result.drawn_t));
+}
+
+// What was drawn is the same for all.
+void add_drawing(std::string& text, const RasterResult& result) {
+  line(text, "  rasteriser: {}, {} triangles{}", result.device, result.triangles,
+       result.not_drawn.empty() ? "" : "; not drawn: " + numbered(result.not_drawn));
+}
+
 void add(std::string& text, const Report& report, const GoldenResult& result) {
   if (result.incomparable.empty()) {
     add_tally(text, report, "golden", result.value, golden_type, result.colors);
@@ -161,6 +195,13 @@ std::string to_text(const Report& report) {
   for (const ExactResult& result : report.exact) {
     if (result.comparison.incomparable.empty()) add(text, report, result);
   }
+  if (const auto& photons = report.photons)
+    line(text,
+         "  gate D {} twin = reference, photons: of {} {} go another way ({} may) and {} lie aside ({} may), "
+         "{} "
+         "unexplained; they are left out",
+         photons->passes() ? "passed" : "FAILED", photons->sent, photons->parted, photons->may_part(),
+         photons->aside, photons->may_lie_aside(), photons->unexplained);
   for (const ReferenceResult& result : report.against_reference) {
     if (!result.comparison.incomparable.empty()) continue;
     if (same_as_first(report, result)) {
@@ -171,6 +212,8 @@ std::string to_text(const Report& report) {
       add(text, report, result);
     }
   }
+  if (!report.raster.empty()) add_drawing(text, report.raster[0]);
+  for (const RasterResult& result : report.raster) add(text, report, result);
   if (report.golden) add(text, report, *report.golden);
 
   // What to do next.

@@ -84,6 +84,8 @@ def add(data, look, matrix=((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 
     item.material_slots[0].link = "OBJECT"
     item.material_slots[0].material = look
     item.matrix_world = TURN @ Matrix(matrix)
+    # Blender would start shadow rays off smooth triangles by some of their size.
+    item.cycles.shadow_terminator_geometry_offset = 0
     scene.collection.objects.link(item)
 
 

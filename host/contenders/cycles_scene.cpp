@@ -70,7 +70,7 @@ Bsdf only_bsdf(const Material& material) {
                 what);
   };
   if (material.mask) fail("has cutouts");
-  if (material.normal_map || material.bump_map) fail("is bumpy");
+  if (material.normal_map || material.bump_map || material.coat_normal_map) fail("is bumpy");
   std::optional<Bsdf> first;
   for (int i = 0; i < 64; ++i) {
     const double x = 0.754877666 * i, y = 0.569840291 * i;  // spread over all

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
+#include <tbb/task_arena.h>
 
 #include <functional>
 
@@ -16,6 +17,12 @@ void parallel_for(int begin, int end, const Body& body) {
   tbb::parallel_for(tbb::blocked_range<int>(begin, end), [&](const tbb::blocked_range<int>& range) {
     for (int i = range.begin(); i != range.end(); ++i) body(i);
   });
+}
+
+// The same; but until all are done this thread helps with nothing else, which might wait for what it holds.
+template <typename Body>
+void parallel_for_alone(int begin, int end, const Body& body) {
+  tbb::this_task_arena::isolate([&] { parallel_for(begin, end, body); });
 }
 
 // The sum of term(i) for every i in [begin, end), on all cores, in the same order of additions every time.

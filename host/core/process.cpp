@@ -132,6 +132,7 @@ void Process::listen(double seconds) {
   if (wait4(pid_, &status, WNOHANG, &used) != pid_) return;
   for (const timeval& time : {used.ru_utime, used.ru_stime})
     processor_seconds_ += double(time.tv_sec) + double(time.tv_usec) * 1e-6;
+  page_faults_ = used.ru_minflt;
   code_ = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   while (receive(0)) {
   }
@@ -175,8 +176,8 @@ ProcessResult run_process(const std::vector<std::string>& argv, const Environmen
   Process process(argv, environment);
   if (signal_after_ms >= 0 && !process.wait(signal_after_ms / 1000.0)) process.send_signal(SIGINT);
   process.wait(timeout_seconds);
-  return {process.code().value_or(-1), process.out(), process.err(), watch.seconds(),
-          process.processor_seconds()};
+  return {process.code().value_or(-1), process.out(),        process.err(), watch.seconds(),
+          process.processor_seconds(), process.page_faults()};
 }
 
 }  // namespace eyeray

@@ -37,6 +37,8 @@ class Process {
   std::optional<int> code() const { return code_; }
   // What all its threads took of the processors; 0 while it runs.
   double processor_seconds() const { return processor_seconds_; }
+  // How often memory was new to it; 0 while it runs.
+  long page_faults() const { return page_faults_; }
   pid_t pid() const { return pid_; }
 
  private:
@@ -50,6 +52,7 @@ class Process {
   std::string err_;
   std::optional<int> code_;
   double processor_seconds_ = 0;
+  long page_faults_ = 0;
 };
 
 // The words that this process was called by, after the path of its program.
@@ -63,6 +66,7 @@ struct ProcessResult {
   std::string err;
   double seconds = 0;            // from start to end, on the wall clock
   double processor_seconds = 0;  // of all its threads
+  long page_faults = 0;
 };
 
 // Runs a program to its end. `signal_after_ms` ≥ 0 sends it SIGINT that long after its start.

@@ -30,6 +30,17 @@ struct RayCounts {
     shadow += uint64_t{sample.rays} - 1 - sample.reflected - sample.refracted;
   }
 
+  // Those of other samples.
+  void add(const RayCounts& other) {
+    eye += other.eye;
+    eye_hits += other.eye_hits;
+    reflected += other.reflected;
+    refracted += other.refracted;
+    total_reflections += other.total_reflections;
+    cut_off += other.cut_off;
+    shadow += other.shadow;
+  }
+
   friend bool operator==(const RayCounts&, const RayCounts&) = default;
 };
 

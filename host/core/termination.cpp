@@ -42,6 +42,7 @@ struct Semaphore {
 } something_happened;
 
 std::atomic<int> saving = 0;
+std::atomic<const std::atomic<bool>*> stop_asked = nullptr;
 
 // The foreign call; one that has passed its limit stays when it returns after all.
 struct Call {
@@ -90,7 +91,7 @@ bool can_write(int file) {
 // Whether the process is to end, and why.
 std::optional<Error> reason_to_end() {
   if (without_memory) return out_of_memory();
-  if (interrupted()) return Error(ExitCode::interrupted, "interrupted");
+  if (signalled()) return Error(ExitCode::interrupted, "interrupted");
   const std::lock_guard lock(call_mutex);
   if (call && call->clock.seconds() >= call->limit) return call->error;
   return std::nullopt;
@@ -161,8 +162,22 @@ void end_silently() {
   silent = true;
 }
 
-bool interrupted() {
+bool signalled() {
   return first_signal.load(std::memory_order_relaxed) != 0;
+}
+
+bool interrupted() {
+  const std::atomic<bool>* const asked = stop_asked.load(std::memory_order_acquire);
+  return signalled() || (asked && asked->load(std::memory_order_relaxed));
+}
+
+Interruptible::Interruptible(const std::atomic<bool>& stop) {
+  const std::atomic<bool>* none = nullptr;
+  CHECK(stop_asked.compare_exchange_strong(none, &stop, std::memory_order_release));
+}
+
+Interruptible::~Interruptible() {
+  stop_asked = nullptr;
 }
 
 int exit_status(ExitCode code) {

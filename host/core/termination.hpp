@@ -4,6 +4,7 @@
 // left where it is: a thread watches, and ends the process a third of a second after it was asked to.
 #pragma once
 
+#include <atomic>
 #include <functional>
 
 #include "host/core/error.hpp"
@@ -20,8 +21,20 @@ void watch_for_termination(std::function<void(const Error&)> report);
 // From now on a signal ends the process without a word: who sent it knows.
 void end_silently();
 
-// Whether a signal has asked to stop. Safe from any thread.
+// Whether a signal has asked the process to end. Safe from any thread.
+bool signalled();
+
+// Whether a signal has asked to stop, or whoever calls eyeray as a library. Safe from any thread.
 bool interrupted();
+
+// While one is alive, interrupted() asks `stop` too. One at a time; `stop` must outlive it.
+class Interruptible {
+ public:
+  explicit Interruptible(const std::atomic<bool>& stop);
+  ~Interruptible();
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+};
 
 // Error (interrupted) if one has. For what may compute for ever, of which nothing is worth saving: a pixel.
 inline void stop_if_interrupted() {

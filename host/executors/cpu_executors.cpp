@@ -9,12 +9,15 @@
 #include "host/core/parallel_for.hpp"
 #include "host/core/termination.hpp"
 #include "host/executors/executors.hpp"
+#include "host/executors/photon_list.hpp"
 #include "host/executors/samples.hpp"
 #include "host/executors/shader_files.hpp"
 #include "host/executors/shader_probe.hpp"
 #include "host/executors/twin_module.hpp"
 #include "host/pack/pack.hpp"
+#include "host/reference/photon_map.hpp"
 #include "host/reference/renderer.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/twin/twin.hpp"
 
 namespace eyeray::executors {
@@ -59,14 +62,33 @@ class TwinExecutor final : public Executor {
       times_.measure("compile", [&] { module_.emplace(options.shader_folder, options.sanitizers); });
     times_.measure("pack", [&] { packed_ = pack::pack(scene, options.pack); });
     view_ = twin::view_of(packed_);
+    if (sends_photons(scene.render.integrator)) {
+      photon_settings_ = photon_settings(scene);
+      // Until there are any, samples see none.
+      hand_over({}, 0);
+    }
   }
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+    if (!send_out_photons(index)) return false;
     return times_.measure("trace", [&] {
       return for_each_pixel(tile, out, [&](int x, int y) {
-        return to_sample(functions().sample(view_, uint32_t(x), uint32_t(y), index, nullptr), true);
+        PixelSample sample =
+            to_sample(functions().sample(view_, uint32_t(x), uint32_t(y), index, nullptr), true);
+        sample.flags |= photon_flags_;
+        return sample;
       });
     });
+  }
+
+  std::vector<PhotonWay> photon_ways(uint32_t index) override {
+    if (!send_out_photons(index)) stop_if_interrupted();
+    return photon_ways_;
+  }
+
+  void leave_out(std::vector<std::vector<uint32_t>> photons) override {
+    left_out_ = std::move(photons);
+    photons_of_.reset();
   }
 
   bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
@@ -82,6 +104,7 @@ class TwinExecutor final : public Executor {
   }
 
   Probed probe(int x, int y, uint32_t index) override {
+    if (!send_out_photons(index)) stop_if_interrupted();
     RayRecorder recorder;
     const twin::Spectator spectator = twin::spectator_for(recorder);
     const PixelSample sample =
@@ -119,11 +142,75 @@ class TwinExecutor final : public Executor {
  private:
   const twin::Functions& functions() const { return module_ ? module_->functions() : twin::eyeray_twin; }
 
+  // Makes the photons of sample `index` those that samples gather, unless they are. Returns false when
+  // interrupted.
+  bool send_out_photons(uint32_t index) {
+    if (!photon_settings_ || photons_of_ == index) return true;
+    photons_of_.reset();
+    const uint32_t count = photon_settings_->count;
+    photon_pass_ = photon_pass(*photon_settings_, index, eye_, 0);
+    std::vector<shader::PhotonResult> results(count);
+    constexpr uint32_t at_once = 256;
+    std::vector<std::vector<shader::Photon>> stored((count + at_once - 1) / at_once);
+    try {
+      times_.measure("photons", [&] {
+        parallel_for(0, int(stored.size()), [&](int piece) {
+          stop_if_interrupted();
+          auto& its = stored[size_t(piece)];
+          const twin::PhotonSink sink{&its, [](void* to, const shader::Photon& photon) {
+                                        static_cast<std::vector<shader::Photon>*>(to)->push_back(photon);
+                                      }};
+          const uint32_t begin = uint32_t(piece) * at_once, end = std::min(count, begin + at_once);
+          for (uint32_t number = begin; number < end; ++number)
+            results[number] = functions().photon(view_, index, number, sink);
+        });
+      });
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::interrupted) throw;
+      return false;
+    }
+    std::vector<shader::Photon> all;
+    for (const auto& its : stored) all.insert(all.end(), its.begin(), its.end());
+    hand_over(all, index);
+    photon_ways_.assign(count, {});
+    photon_flags_ = 0;
+    for (const shader::Photon& photon : all)
+      photon_ways_[photon.number].places +=
+          eye_ + Vec3(photon.position.x, photon.position.y, photon.position.z);
+    for (uint32_t number = 0; number < count; ++number) {
+      photon_ways_[number].trail = results[number].trail;
+      photon_flags_ |= results[number].flags;
+    }
+    check_ended(photon_flags_);
+    photons_of_ = index;
+    return true;
+  }
+
+  void hand_over(std::span<const shader::Photon> stored, uint32_t index) {
+    photon_pass_ = photon_pass(*photon_settings_, index, eye_, 0);
+    const bool listed = index < left_out_.size();
+    photons_ =
+        photon_list(stored, photon_pass_.key_mask,
+                    listed ? std::span<const uint32_t>(left_out_[index]) : std::span<const uint32_t>());
+    view_.photon_pass = &photon_pass_;
+    view_.photons = photons_.photons.data();
+    view_.photon_cells = photons_.cells.data();
+  }
+
   std::filesystem::path folder_;
   std::optional<TwinModule> module_;
   records::PackedScene packed_;
   twin::SceneView view_{};
   Vec3 eye_;
+
+  // Where the scene's integrator gathers photons: those of one sample.
+  std::optional<PhotonSettings> photon_settings_;
+  std::optional<uint32_t> photons_of_;
+  shader::PhotonPass photon_pass_{};
+  PhotonList photons_;
+  std::vector<PhotonWay> photon_ways_;
+  uint32_t photon_flags_ = 0;
+  std::vector<std::vector<uint32_t>> left_out_;  // by sample
 };
 
 class ReferenceExecutor final : public Executor {
@@ -139,6 +226,13 @@ class ReferenceExecutor final : public Executor {
 
   bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
     return for_each_pixel(tile, out, [&](int x, int y) { return renderer_->auxiliary(x, y, index); });
+  }
+
+  std::vector<PhotonWay> photon_ways(uint32_t index) override {
+    return renderer_->tracer().photons(index)->ways();
+  }
+  void leave_out(std::vector<std::vector<uint32_t>> photons) override {
+    renderer_->tracer().leave_out(std::move(photons));
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {

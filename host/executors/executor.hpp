@@ -14,10 +14,14 @@
 #include "host/core/stopwatch.hpp"
 #include "host/executors/profile_options.hpp"
 #include "host/pack/options.hpp"
+#include "host/scene/photons.hpp"
 #include "host/scene/query.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::executors {
+
+class OpenDevice;
+class Tunables;
 
 enum class Backend { gpu, twin, reference };
 // "gpu", "twin", "reference", both ways; Error (bad_input) for another name.
@@ -56,6 +60,11 @@ class Executor {
   // unknown. From many threads at once.
   virtual std::vector<uint32_t> events(int /*x*/, int /*y*/, uint32_t /*index*/) const { return {}; }
 
+  // Where a scene's integrator sends out photons: the ways of those of sample `index`; else nothing.
+  virtual std::vector<PhotonWay> photon_ways(uint32_t /*index*/) { return {}; }
+  // From now on these photons of each sample bring no light: lists by sample, in order.
+  virtual void leave_out(std::vector<std::vector<uint32_t>> /*photons*/) {}
+
   // Samples are from now on by the values that ExecutorOptions::tunables have now.
   virtual void reload_tunables() {}
 
@@ -68,6 +77,11 @@ class Executor {
 
   // For people: "gpu: llvmpipe (LLVM 15.0.6, 256 bits), driver …", "twin: 2 threads".
   virtual std::string description() const = 0;
+  // What of the device decides bits, as its self-test found it: where that is the same, so are the samples of
+  // the same program. A device whose arithmetic is not exact is named with its driver.
+  virtual std::string arithmetic() const { return "of the program itself"; }
+  // The device that it is on, for executors to come (ExecutorOptions::open_device); null of a CPU's.
+  virtual std::shared_ptr<OpenDevice> device() const { return nullptr; }
   // Shader files read from ExecutorOptions::shader_folder, for a watcher.
   virtual std::vector<std::filesystem::path> source_files() const { return {}; }
   // Stages spent so far, construction included.
@@ -76,9 +90,6 @@ class Executor {
  protected:
   StageTimes times_;
 };
-
-class OpenDevice;
-class Tunables;
 
 struct ExecutorOptions {
   std::string device = "auto";          // auto | cpu | gpu | INDEX | part of a NAME
@@ -95,12 +106,20 @@ struct ExecutorOptions {
   bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
   bool optimise = true;                 // gpu: give the driver an optimised kernel
   bool wide_vectors = true;             // gpu: where the picture wants them (trace_plan.hpp)
+  bool sets_environment = true;         // gpu: DeviceOptions::sets_environment
   std::shared_ptr<OpenDevice> open_device;  // gpu: taken as it is, and left open; null: one of its own
   std::shared_ptr<Tunables> tunables;       // gpu: constants of shaders that move; null: none do
   bool compile_twin = false;                // twin: compile shader_folder's files as C++ (twin_module.hpp)
   std::string sanitizers;                   // twin, with compile_twin: as -fsanitize takes them
   std::string fault;                        // gpu, tests only: a fault to inject (docs/verification.md)
 };
+
+// Whether so many samples repay kernels that have the scene inside, where kernels without it would do for
+// the next scene too.
+bool repay_kernels(int64_t samples);
+// For scenes that come one after the other and differ in what moved, each a picture of so many samples:
+// their BVHs are refitted where that will do, and they share kernels where samples do not repay others.
+ExecutorOptions for_frames(ExecutorOptions options, int64_t samples);
 
 // For ExecutorOptions::open_device. Error (no_device) when no device will do.
 std::shared_ptr<OpenDevice> open_device(const ExecutorOptions& options);

@@ -13,6 +13,7 @@
 #include "host/executors/gpu_queries.hpp"
 #include "host/executors/loop_budget.hpp"
 #include "host/executors/open_device.hpp"
+#include "host/executors/photon_kernel.hpp"
 #include "host/executors/profile.hpp"
 #include "host/executors/samples.hpp"
 #include "host/executors/scene_facts.hpp"
@@ -25,6 +26,7 @@
 #include "host/gpu/command_list.hpp"
 #include "host/pack/collapse.hpp"
 #include "host/pack/pack.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::executors {
 namespace {
@@ -54,6 +56,8 @@ class GpuExecutor final : public Executor {
       for (const SceneBuffer& buffer : scene_buffers(packed)) uploaded_.add(buffer);
     });
     queries_.emplace(device_, *kernels_, plan, workgroups_, eye_);
+    if (sends_photons(scene.render.integrator))
+      photons_.emplace(device_, *kernels_, times_, workgroups_, photon_settings(scene), eye_);
     if (plan.wavefront)
       make_wavefront(packed, plan);
     else
@@ -62,6 +66,7 @@ class GpuExecutor final : public Executor {
   }
 
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+    if (!send_out_photons(index)) return false;
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return wavefront_ ? wavefront_->run(push, output) : dispatch(*sample_kernel_, push, output);
     };
@@ -70,7 +75,7 @@ class GpuExecutor final : public Executor {
   }
 
   bool coarse_sample(int stride, uint32_t index, std::span<PixelSample> out) override {
-    if (wavefront_) return false;
+    if (wavefront_ || !send_out_photons(index)) return false;
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return dispatch(*sample_kernel_, push, output);
     };
@@ -113,6 +118,7 @@ class GpuExecutor final : public Executor {
     const std::string entry = "kernels/render.comp.glsl";
     const ShaderProbe probe(kernels_->source(entry).files);
     const std::shared_ptr<gpu::Kernel> kernel = kernels_->make(entry, probe.defines());
+    if (!send_out_photons(index)) stop_if_interrupted();
     gpu::Buffer records(device_, ShaderProbe::capacity * sizeof(shader::ProbeRecord), "probe");
     kernel->set_buffer(BINDING_PROBE, records);
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
@@ -134,7 +140,15 @@ class GpuExecutor final : public Executor {
     return seconds;
   }
 
-  void reload_tunables() override { kernels_->upload_tunables(); }
+  void leave_out(std::vector<std::vector<uint32_t>> photons) override {
+    left_out_ = std::move(photons);
+    if (photons_) photons_->forget();
+  }
+
+  void reload_tunables() override {
+    kernels_->upload_tunables();
+    if (photons_) photons_->forget();
+  }
 
   uint64_t geometry_bytes() const override { return uploaded_.geometry_bytes(); }
 
@@ -143,17 +157,40 @@ class GpuExecutor final : public Executor {
     return fmt::format("gpu: {}, {}; {}", info.name, info.driver_version, describe(profile_));
   }
 
+  std::string arithmetic() const override {
+    const gpu::DeviceFacts& facts = open_device_->facts();
+    const auto kept = [](bool is) { return is ? "kept" : "lost"; };
+    std::string text =
+        fmt::format("denormals {}, infinities {}", kept(facts.denormals_kept), kept(facts.infinities_kept));
+    if (facts.loop_cap) text += fmt::format(", loops end after {} iterations", facts.loop_iterations);
+    if (facts.exact_arithmetic && !options_.fast_math && !fault_.contracts()) return "exact, " + text;
+    return fmt::format("not exact, {}, on {}, {}", text, device_.info().name, device_.info().driver_version);
+  }
+
+  std::shared_ptr<OpenDevice> device() const override { return open_device_; }
+
   std::vector<std::filesystem::path> source_files() const override {
     return {kernels_->looked_for().begin(), kernels_->looked_for().end()};
   }
 
  private:
+  // Those of sample `index`, if there are to be any. Returns false when interrupted.
+  bool send_out_photons(uint32_t index) {
+    if (!photons_) return true;
+    const bool listed = index < left_out_.size();
+    return photons_->send_out(
+        index, listed ? std::span<const uint32_t>(left_out_[index]) : std::span<const uint32_t>());
+  }
+
   // Results, of which the first is out[first].
   void take(std::span<const shader::SampleResult> results, size_t first, std::span<PixelSample> out) {
     constexpr size_t piece = 4096;
     parallel_for(0, int((results.size() + piece - 1) / piece), [&](int p) {
       const size_t begin = size_t(p) * piece, end = std::min(results.size(), begin + piece);
-      for (size_t i = begin; i < end; ++i) out[first + i] = to_sample(results[i], options_.ray_kinds);
+      for (size_t i = begin; i < end; ++i) {
+        out[first + i] = to_sample(results[i], options_.ray_kinds);
+        if (photons_) out[first + i].flags |= photons_->flags();
+      }
     });
     fault_.damage(out.subspan(first, results.size()));
   }
@@ -234,6 +271,7 @@ class GpuExecutor final : public Executor {
   // kernels/render.comp.glsl for a whole tile.
   std::optional<double> dispatch(gpu::Kernel& kernel, const shader::Dispatch& push, gpu::Buffer& output) {
     kernel.set_buffer(BINDING_OUTPUT, output);
+    if (photons_) photons_->bind(kernel);
     const gpu::RunTime time =
         gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)),
                       {workgroups_.of_items(Workgroups::pixels(push.tile_width, push.tile_height)), 1, 1});
@@ -266,6 +304,8 @@ class GpuExecutor final : public Executor {
   Workgroups workgroups_;
   std::optional<SceneKernels> kernels_;
   std::optional<GpuQueries> queries_;
+  std::optional<PhotonKernel> photons_;                         // where the integrator gathers any
+  std::vector<std::vector<uint32_t>> left_out_ = {};            // of these, by sample
   std::optional<Wavefront> wavefront_;                          // makes samples,
   std::shared_ptr<gpu::Kernel> sample_kernel_;                  // or else this
   std::shared_ptr<gpu::Kernel> auxiliary_kernel_, hit_kernel_;  // null until they are asked for

@@ -17,6 +17,7 @@ gpu::DeviceOptions device_options(const ExecutorOptions& options, bool wide_vect
   device.timeout_seconds = options.timeout_seconds;
   device.compile_seconds = std::max(options.timeout_seconds, options.least_compile_seconds);
   device.wide_vectors = wide_vectors;
+  device.sets_environment = options.sets_environment;
   return device;
 }
 

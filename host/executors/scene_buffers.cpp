@@ -15,7 +15,7 @@ SceneBuffer buffer(uint32_t binding, const char* name, std::span<const Record> r
 
 }  // namespace
 
-std::array<SceneBuffer, 15> scene_buffers(const records::PackedScene& scene) {
+std::array<SceneBuffer, 16> scene_buffers(const records::PackedScene& scene) {
   using enum Kind;
   using enum Part;
   const auto some = [](const auto& records) { return std::span(records); };
@@ -30,6 +30,7 @@ std::array<SceneBuffer, 15> scene_buffers(const records::PackedScene& scene) {
           buffer(BINDING_MEDIA, "media", some(scene.media), storage, shading),
           buffer(BINDING_LIGHTS, "lights", some(scene.lights), storage, shading),
           buffer(BINDING_EMITTERS, "emitters", some(scene.emitters), storage, shading),
+          buffer(BINDING_EMITTER_MEDIA, "emitters' media", some(scene.emitter_media), storage, shading),
           buffer(BINDING_LIGHT_NODES, "light BVH", some(scene.light_nodes), storage, shading),
           buffer(BINDING_ENVIRONMENT, "environment", some(scene.environment), texels, shading),
           buffer(BINDING_ALBEDOS, "albedos", some(scene.albedos), storage, shading),

@@ -23,7 +23,7 @@ struct SceneBuffer {
 };
 
 // `scene` must stay.
-std::array<SceneBuffer, 15> scene_buffers(const records::PackedScene& scene);
+std::array<SceneBuffer, 16> scene_buffers(const records::PackedScene& scene);
 // What kernels/cooperative/bvh4.comp.glsl needs besides; `nodes` must stay.
 SceneBuffer bvh4_buffer(std::span<const shader::uvec4> nodes);
 

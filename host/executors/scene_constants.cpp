@@ -23,6 +23,10 @@ std::string literal(float x) {
 std::string literal(uint32_t x) {
   return fmt::format("{}u", x);
 }
+// What is GLSL already.
+std::string literal(std::string_view text) {
+  return std::string(text);
+}
 std::string literal(const shader::vec4& v) {
   return fmt::format("vec4({}, {}, {}, {})", literal(v.x), literal(v.y), literal(v.z), literal(v.w));
 }
@@ -45,7 +49,7 @@ std::string literal(const shader::Material& m) {
       "Material", m.kind, m.flags, m.medium, m.optical_depth, m.base, m.specular, m.reflected, m.ambient,
       m.emission, m.alpha, m.alpha_cutoff, m.shininess, m.a, m.color, m.roughness, m.metallic, m.coat, m.b,
       m.c, m.coat_roughness, m.specular_level, m.transmission, m.specular_color, m.sheen, m.sheen_roughness,
-      m.normal_map, m.normal_scale, m.bump, m.bump_height, m.bump_width, m.unused_0, m.unused_1);
+      m.normal_map, m.normal_scale, m.bump, m.bump_height, m.bump_width, m.coat_normal, m.coat_normal_scale);
 }
 std::string literal(const shader::Texture& t) {
   return record_literal("Texture", t.color, t.kind, t.a, t.b, t.c);
@@ -60,14 +64,15 @@ std::string literal(const shader::Emitter& e) {
   return record_literal("Emitter", e.radiance, e.kind, e.a, e.b, e.c, e.primitive, e.end, e.area, e.offset,
                         e.trail, e.texture, e.corners, e.side);
 }
+// The seed comes from the buffer: another one needs no other kernel.
 std::string literal(const shader::Frame& f) {
-  return record_literal("Frame", f.width, f.height, f.seed, f.samples_per_side, f.camera, f.pattern, f.media,
-                        f.max_depth, f.light_count, f.loop_probe, f.integrator, f.triangle_method, f.right,
-                        f.min_throughput, f.up, f.pixel_width, f.forward, f.pixel_height, f.background,
-                        f.emitter_count, f.ambient, f.aperture, f.sharpness, f.blade_rotation, f.blades,
-                        f.pixel_filter, f.environment_width, f.environment_height, f.environment_numbers,
-                        f.environment_turn, f.filter_width, f.light_bvh_numbers, f.camera_formula,
-                        f.unused_0);
+  return record_literal("Frame", f.width, f.height, std::string_view("FRAME_SEED"), f.samples_per_side,
+                        f.camera, f.pattern, f.media, f.max_depth, f.light_count, f.loop_probe, f.integrator,
+                        f.triangle_method, f.right, f.min_throughput, f.up, f.pixel_width, f.forward,
+                        f.pixel_height, f.background, f.emitter_count, f.ambient, f.aperture, f.sharpness,
+                        f.blade_rotation, f.blades, f.pixel_filter, f.environment_width, f.environment_height,
+                        f.environment_numbers, f.environment_turn, f.filter_width, f.light_bvh_numbers,
+                        f.camera_formula, f.unused_0);
 }
 
 // A loader that chooses among constants. A driver that runs both sides of every branch selects between

@@ -15,7 +15,7 @@ bool varies(const shader::Texture& texture) {
 }
 
 bool bends(const shader::Material& material) {
-  return material.normal_map != NONE || material.bump != NONE;
+  return material.normal_map != NONE || material.bump != NONE || material.coat_normal != NONE;
 }
 
 bool is_black(const shader::Texture& texture) {
@@ -54,6 +54,12 @@ bool any_emission_texture(const records::PackedScene& scene) {
 bool any_emits_in_front(const records::PackedScene& scene) {
   return std::ranges::any_of(scene.materials, [](const shader::Material& material) {
     return (material.flags & MATERIAL_EMITS_IN_FRONT) != 0;
+  });
+}
+
+bool any_bent_coat(const records::PackedScene& scene) {
+  return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
+    return !is_black(scene.textures[material.coat]) && bends(material);
   });
 }
 

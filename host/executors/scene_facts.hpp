@@ -10,10 +10,12 @@ namespace eyeray::executors {
 // Whether any texture of the material varies over a surface.
 bool varies(const records::PackedScene& scene, const shader::Material& material);
 bool any_emits(const records::PackedScene& scene);
-// Whether any diffuse material is not Lambert's.
 // Whether a surface that a path may choose has a texture for its light.
 bool any_emission_texture(const records::PackedScene& scene);
 bool any_emits_in_front(const records::PackedScene& scene);
+// Whether a coat's normal may be another than its surface's.
+bool any_bent_coat(const records::PackedScene& scene);
+// Whether any diffuse material is not Lambert's.
 bool any_rough_diffuse(const records::PackedScene& scene);
 // Whether light goes through any principled material, and through any at all.
 bool any_principled_transmits(const records::PackedScene& scene);

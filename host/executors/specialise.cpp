@@ -12,6 +12,7 @@
 #include "host/executors/registry_text.hpp"
 #include "host/executors/scene_constants.hpp"
 #include "host/executors/scene_facts.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::executors {
 namespace {
@@ -64,11 +65,13 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_EMISSION", int(any_emits(scene)));
   define("HAS_EMISSION_TEXTURES", int(any_emission_texture(scene)));
   define("HAS_ONE_SIDED_EMISSION", int(any_emits_in_front(scene)));
+  define("HAS_PHOTONS", int(sends_photons(IntegratorType(scene.frame.integrator))));
   define("HAS_GLOSSY", int(scene.lobes.contains(shader::LOBE_glossy)));
   define("HAS_CONDUCTORS", int(scene.has_conductors));
   define("HAS_ROUGH_DIFFUSE", int(any_rough_diffuse(scene)));
   define("HAS_SPECULAR_TEXTURES", int(any_specular_varies(scene)));
   define("HAS_COAT", int(scene.lobes.contains(shader::LOBE_coat)));
+  define("HAS_BENT_COAT", int(any_bent_coat(scene)));
   define("HAS_ROUGH_GLASS", int(scene.lobes.contains(shader::LOBE_rough_glass)));
   define("HAS_BENT_NORMALS", int(scene.bent_normals));
   define("HAS_ALPHA_TEST", int(!used.alpha_tested.empty()));

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "host/pack/collapse.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::executors {
 namespace {
@@ -53,8 +54,10 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
   plan.incoherent = incoherent_rays(profile, scene, packets, subgroup_size);
   const bool pays = image.all_samples() >= least_samples_in_wavefront &&
                     scene.primitives.size() <= most_in_wavefront && subgroup_size <= most_lanes_in_wavefront;
-  // A path that passes a pane straight stays at its depth, which no kernel of a bounce knows.
-  plan.wavefront = packets && (asked_for_packets || pays) && !scene.panes;
+  // A path that passes a pane straight stays at its depth, which no kernel of a bounce knows; and paths that
+  // gather photons mostly end at once.
+  plan.wavefront = packets && (asked_for_packets || pays) && !scene.panes &&
+                   !sends_photons(IntegratorType(scene.frame.integrator));
   // Most rays that leave a mesh hit no more of it: not worth kernels of their own (docs/performance.md).
   plan.bounced = only_triangles(scene) && !profile.incoherent ? Rays::lanes : plan.incoherent;
   return plan;

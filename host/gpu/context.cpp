@@ -35,7 +35,14 @@ void Context::choose() {
 
 void Context::create_device() {
   const ForeignCall driver(options.timeout_seconds, late_start(options.timeout_seconds));
-  const QueueFamily family = *compute_queue_family(physical);
+  const std::optional<QueueFamily> drawing = options.draws ? graphics_queue_family(physical) : std::nullopt;
+  if (options.draws && !drawing)
+    throw Error(
+        ExitCode::no_device,
+        "{} has no graphics queue, so it cannot draw triangles: leave out --raster, or choose another "
+        "--device",
+        info.name);
+  const QueueFamily family = drawing ? *drawing : *compute_queue_family(physical);
   const float priority = 1.0f;
   auto queue_info = make<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
   queue_info.queueFamilyIndex = family.index;
@@ -111,7 +118,8 @@ void Context::submit_and_wait(std::string_view what, double timeout_seconds) {
   const VkResult submitted = vkQueueSubmit(queue, 1, &submit, fence);
   if (submitted != VK_SUCCESS) abandon(failure(submitted, what));
 
-  // Wait in slices, to see Ctrl-C; then the device has a moment to finish what it is at.
+  // Wait in slices, to see Ctrl-C; then the device has a moment to finish what it is at. A process that goes
+  // on wants its device back, and waits.
   constexpr uint64_t slice = 20'000'000;
   constexpr double grace = 0.15;
   std::optional<Stopwatch> stopping;
@@ -120,7 +128,7 @@ void Context::submit_and_wait(std::string_view what, double timeout_seconds) {
     if (result == VK_SUCCESS) return;
     if (result != VK_TIMEOUT) abandon(failure(result, what));
     if (call.passed()) abandon(time_out(what, timeout_seconds));
-    if (interrupted() && !stopping) stopping.emplace();
+    if (signalled() && !stopping) stopping.emplace();
     if (stopping && stopping->seconds() >= grace)
       abandon(Error(ExitCode::interrupted, "interrupted; the device was still busy and is left behind"));
   }

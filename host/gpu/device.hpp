@@ -24,6 +24,8 @@ struct DeviceLimits {
   uint32_t shared_memory = 0;            // bytes of one work group
   uint32_t push_constants = 0;           // bytes
   uint32_t subgroup_size = 0;
+  uint32_t drawn_size = 0;     // pixels of the longer side of a picture that it can draw
+  uint32_t subpixel_bits = 0;  // to 2^−bits of a pixel it rounds the vertices that it draws
 };
 
 // Execution modes for float32 that a shader may ask for.
@@ -53,12 +55,14 @@ struct DeviceInfo {
 std::vector<DeviceInfo> list_devices();
 
 struct DeviceOptions {
-  std::string select = "auto";  // auto | cpu | gpu | INDEX | part of a NAME; see choose_device
-  std::string validation = "";  // "", "core" or "sync": run under the Khronos validation layer
-  double timeout_seconds = 60;  // the longest wait for one submission
-  double compile_seconds = 60;  // the longest that its driver may compile one kernel
-  bool wide_vectors = false;    // see set_vector_width; a process's first device decides
-  bool force_staging = false;   // tests: copy through staging buffers even where memory is shared
+  std::string select = "auto";   // auto | cpu | gpu | INDEX | part of a NAME; see choose_device
+  std::string validation = "";   // "", "core" or "sync": run under the Khronos validation layer
+  double timeout_seconds = 60;   // the longest wait for one submission
+  double compile_seconds = 60;   // the longest that its driver may compile one kernel
+  bool wide_vectors = false;     // see set_vector_width; a process's first device decides
+  bool sets_environment = true;  // whether a process's first device may tell its driver so
+  bool draws = false;            // a queue for Rasterizer, too: Error (no_device) where there is none
+  bool force_staging = false;    // tests: copy through staging buffers even where memory is shared
 };
 
 struct Context;

@@ -24,7 +24,7 @@ constexpr size_t needed_addresses = size_t{1} << 30;
 
 // Opens the loader once a process, whose drivers then have the vectors they are to have. EYERAY_VULKAN_LOADER
 // names another one than the system's, for tests.
-void open_loader(bool wide_vectors) {
+void open_loader(const DeviceOptions& options) {
   static bool opened = false;
   if (opened) return;
   const char* chosen = std::getenv("EYERAY_VULKAN_LOADER");
@@ -38,7 +38,7 @@ void open_loader(bool wide_vectors) {
         "mesa-vulkan-drivers); {}",
         reason ? reason : "vkGetInstanceProcAddr is missing");
   }
-  set_vector_width(wide_vectors);
+  if (options.sets_environment) set_vector_width(options.wide_vectors);
   volkInitializeCustom(reinterpret_cast<PFN_vkGetInstanceProcAddr>(entry));
   opened = true;
 }
@@ -89,7 +89,7 @@ Instance::Instance(const DeviceOptions& options) : Instance(options.timeout_seco
         "Vulkan drivers need a GiB of address space, and less is left: allow more (ulimit -v), or use "
         "--backend twin");
   const ForeignCall drivers(timeout_seconds_, late_start(timeout_seconds_));
-  open_loader(options.wide_vectors);
+  open_loader(options);
   if (volkGetInstanceVersion() < VK_API_VERSION_1_1)
     throw Error(ExitCode::no_device, "the Vulkan loader is of version 1.0, eyeray needs 1.1 or later");
 

@@ -61,6 +61,14 @@ void describe_version_1_1(VkPhysicalDevice device, uint32_t version, DeviceInfo&
       .signed_zero_inf_nan_preserve = floats.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE};
 }
 
+std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice device) {
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  return families;
+}
+
 }  // namespace
 
 DeviceInfo describe(VkPhysicalDevice device, int index) {
@@ -84,6 +92,10 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
   info.limits.group_invocations = limits.maxComputeWorkGroupInvocations;
   info.limits.shared_memory = limits.maxComputeSharedMemorySize;
   info.limits.push_constants = limits.maxPushConstantsSize;
+  info.limits.drawn_size =
+      std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight, limits.maxImageDimension2D,
+                limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]});
+  info.limits.subpixel_bits = limits.subPixelPrecisionBits;
 
   VkPhysicalDeviceMemoryProperties memory;
   vkGetPhysicalDeviceMemoryProperties(device, &memory);
@@ -104,18 +116,23 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
 }
 
 std::optional<QueueFamily> compute_queue_family(VkPhysicalDevice device) {
-  uint32_t count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  const std::vector<VkQueueFamilyProperties> families = queue_families(device);
   std::optional<QueueFamily> found;
-  for (uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < families.size(); ++i) {
     if (!(families[i].queueFlags & VK_QUEUE_COMPUTE_BIT)) continue;
     const bool dedicated = !(families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT);
     if (!found || dedicated) found = QueueFamily{i, families[i].timestampValidBits};
     if (dedicated) break;
   }
   return found;
+}
+
+std::optional<QueueFamily> graphics_queue_family(VkPhysicalDevice device) {
+  constexpr VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  const std::vector<VkQueueFamilyProperties> families = queue_families(device);
+  for (uint32_t i = 0; i < families.size(); ++i)
+    if ((families[i].queueFlags & both) == both) return QueueFamily{i, families[i].timestampValidBits};
+  return std::nullopt;
 }
 
 }  // namespace eyeray::gpu

@@ -16,5 +16,7 @@ struct QueueFamily {
   uint32_t timestamp_bits = 0;
 };
 std::optional<QueueFamily> compute_queue_family(VkPhysicalDevice device);
+// One that draws and computes; where a device draws at all, Vulkan promises one.
+std::optional<QueueFamily> graphics_queue_family(VkPhysicalDevice device);
 
 }  // namespace eyeray::gpu

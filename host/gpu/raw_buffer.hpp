@@ -6,14 +6,9 @@
 #include <string_view>
 
 #include "host/gpu/context.hpp"
+#include "host/gpu/memory.hpp"
 
 namespace eyeray::gpu {
-
-enum class MemoryKind {
-  device,  // the device's own; may not be mapped
-  shared,  // the device's own and mapped: processor and device have the same memory
-  host,    // mapped, for copying to and from; cached where there is such memory
-};
 
 class RawBuffer {
  public:

@@ -67,6 +67,12 @@ class Includer : public glslang::TShader::Includer {
   throw InputError(std::move(diagnostics));
 }
 
+EShLanguage stage_of(std::string_view entry) {
+  return entry.ends_with(".vert.glsl")   ? EShLangVertex
+         : entry.ends_with(".frag.glsl") ? EShLangFragment
+                                         : EShLangCompute;
+}
+
 }  // namespace
 
 CompiledShader compile_shader(const ShaderSource& source, std::string_view preamble, Lines lines) {
@@ -79,10 +85,11 @@ CompiledShader compile_shader(const ShaderSource& source, std::string_view pream
 
   // Parse. Errors cascade, so that all are seen at once.
   constexpr auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules | EShMsgCascadingErrors);
-  glslang::TShader shader(EShLangCompute);
+  const EShLanguage stage = stage_of(source.entry);
+  glslang::TShader shader(stage);
   shader.setStringsWithLengthsAndNames(strings, lengths, names, 1);
   shader.setPreamble(before.c_str());
-  shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
+  shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
   Includer includer(source);
@@ -97,7 +104,7 @@ CompiledShader compile_shader(const ShaderSource& source, std::string_view pream
   glslang::SpvOptions options;
   options.disableOptimizer = true;
   options.generateDebugInfo = lines == Lines::kept;
-  glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), result.spirv, &options);
+  glslang::GlslangToSpv(*program.getIntermediate(stage), result.spirv, &options);
   return result;
 }
 

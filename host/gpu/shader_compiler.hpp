@@ -18,9 +18,9 @@ struct CompiledShader {
 // Whether the SPIR-V says from which file and line each instruction comes.
 enum class Lines { dropped, kept };
 
-// Compiles a compute shader with `preamble` (#define lines) before its first line. InputError with everything
-// that is wrong, at its file, line and column (0 when the message names nothing that can be found in the
-// line).
+// Compiles a shader, of the stage that its entry's name tells (NAME.vert.glsl, NAME.frag.glsl, else a compute
+// shader), with `preamble` (#define lines) before its first line. InputError with everything that is wrong,
+// at its file, line and column (0 when the message names nothing that can be found in the line).
 CompiledShader compile_shader(const ShaderSource& source, std::string_view preamble,
                               Lines lines = Lines::dropped);
 

@@ -20,12 +20,10 @@ namespace {
 constexpr const char* within_functions[] = {
     "--eliminate-local-single-block",
     "--eliminate-local-single-store",
-    "--eliminate-dead-code-aggressive",
     "--scalar-replacement=0",
     "--convert-local-access-chains",
     "--eliminate-local-single-block",
     "--eliminate-local-single-store",
-    "--eliminate-dead-code-aggressive",
     "--ccp",
     "--eliminate-dead-branches",
     "--simplify-instructions",

@@ -3,10 +3,12 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
+#include <ImfThreading.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <thread>
 
 #include "host/core/error.hpp"
 #include "host/image/row_encoder.hpp"
@@ -56,12 +58,24 @@ half to_half(float value) {
   return half(std::isfinite(value) ? std::clamp(value, -most, most) : value);
 }
 
+// The library compresses blocks of 16 rows side by side, where it is given more than one at a time.
+int compressing_threads() {
+  static const int threads = [] {
+    const unsigned cores = std::thread::hardware_concurrency();
+    const int count = cores > 1 ? int(std::min(cores, 16u)) : 0;
+    Imf::setGlobalThreadCount(count);
+    return count;
+  }();
+  return threads;
+}
+
 class ExrEncoder final : public RowEncoder {
  public:
   ExrEncoder(AtomicFile& file, int width, int height, std::vector<ExrChannel> channels)
       : channels_(std::move(channels)),
         stream_(file),
-        file_(std::make_unique<Imf::OutputFile>(stream_, header_of(width, height, channels_))) {}
+        file_(std::make_unique<Imf::OutputFile>(stream_, header_of(width, height, channels_),
+                                                compressing_threads())) {}
 
   void write(const Image& rows) override {
     const auto in_row = size_t(rows.width()), pixels = in_row * size_t(rows.height());

@@ -1,5 +1,6 @@
 // PNG by libpng, 8 bits a channel.
 #include <png.h>
+#include <zlib.h>
 
 #include <csetjmp>
 #include <functional>
@@ -16,9 +17,10 @@ namespace eyeray::image {
 
 namespace {
 
-// Measured on 2048 × 2048 pictures: all filters and level 6 take twice the time for files a tenth smaller.
+// Measured on the pictures of docs/: zlib's search for more than runs takes twice the time for files 4 %
+// smaller; on 3840 × 2160 pixels with noise, four times the time for files that are no smaller.
 constexpr int filters = PNG_FILTER_SUB | PNG_FILTER_UP;
-constexpr int compression_level = 4;
+constexpr int strategy = Z_RLE;
 constexpr size_t flushed_bytes = 1 << 20;
 
 // libpng is C and may not be unwound through: its callbacks keep what is written in memory, and whatever goes
@@ -37,7 +39,7 @@ class PngStream {
   bool begin(int width, int height, int channels) {
     if (setjmp(png_jmpbuf(png_))) return false;
     png_set_filter(png_, PNG_FILTER_TYPE_BASE, filters);
-    png_set_compression_level(png_, compression_level);
+    png_set_compression_strategy(png_, strategy);
     png_set_IHDR(png_, info_, png_uint_32(width), png_uint_32(height), 8,
                  channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);

@@ -16,6 +16,7 @@ struct MeshFile {
   std::optional<double> smooth;  // degrees, see ImportOptions
   AssetFiles assets;
   image::PixelBudget* pixels;
+  Playing playing;
 };
 
 // Each fills all but `files`. InputError for what is wrong in the file, Error for what it refers to.

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "host/importers/formats.hpp"
+#include "host/importers/gltf_animation.hpp"
 #include "host/importers/gltf_materials.hpp"
 #include "host/importers/gltf_meshes.hpp"
 #include "host/importers/malformed.hpp"
@@ -53,13 +54,18 @@ class GltfReader {
         textures_(file.assets, *file.pixels, scene_.warnings),
         buffers_(document_, container_, file.assets, breaches_),
         materials_(document_, buffers_, textures_, left_out_, breaches_),
-        meshes_(document_, buffers_, materials_, left_out_, breaches_, file.name, file.smooth.value_or(0)) {}
+        meshes_(document_, buffers_, materials_, left_out_, breaches_, file.name, file.smooth.value_or(0)),
+        playing_(file.playing) {}
 
   ImportedScene read() {
     check_extensions();
     for (size_t i = 0; i < document_.size("materials"); ++i)
       scene_.materials.push_back(materials_.material(i));
-    if (const size_t count = document_.size("animations"); count > 0) left_out_.add("animations", count);
+    scene_.animations = animation_names(document_);
+    if (const auto animation = find_animation(scene_.animations, playing_)) {
+      motion_ = motion_at(document_, *animation, playing_, buffers_, left_out_, breaches_);
+      scene_.played = motion_.played;
+    }
     read_nodes();
     left_out_.report(scene_.warnings);
     if (flattened_ > 0) {
@@ -81,12 +87,14 @@ class GltfReader {
   void check_extensions();
   std::vector<size_t> roots() const;
   void read_nodes();
-  void read_node(const GltfObject& node, const Mat4& world);
-  void read_mesh(const GltfObject& node, size_t mesh, const Mat4& world);
+  void read_node(size_t index);
+  void read_mesh(size_t index, size_t mesh, const Mat4& world);
   void read_camera(const GltfObject& source, const Mat4& world);
   void read_light(const GltfObject& source, const Mat4& world);
   void read_spot(const GltfObject& light, const Mat4& world, const Vec3& arriving);
-  Mat4 transform(const GltfObject& node);
+  Mat4 transform(size_t index);
+  bool is_flat(const Mat4& world);
+  const std::vector<double>* moved(size_t node, const char* key) const;
   void check_roots(const std::vector<size_t>& order) const;
 
   GltfContainer container_;
@@ -99,6 +107,8 @@ class GltfReader {
   GltfBuffers buffers_;
   GltfMaterials materials_;
   GltfMeshes meshes_;
+  Playing playing_;
+  GltfMotion motion_;
   std::vector<std::optional<Mat4>> worlds_;               // of the nodes that stand in the scene
   std::vector<std::optional<std::vector<Mat4>>> joints_;  // of the skins, once asked for
   size_t flattened_ = 0;
@@ -154,7 +164,7 @@ void GltfReader::read_nodes() {
     const GltfObject node = document_.element("nodes", visit.node);
     if (seen[visit.node]) node.fail("is reached twice: a node has one parent, and is not below itself");
     seen[visit.node] = true;
-    const Mat4 world = visit.parent * transform(node);
+    const Mat4 world = visit.parent * transform(visit.node);
     worlds_[visit.node] = world;
     order.push_back(visit.node);
     push(node.indices("children", nodes), world);
@@ -163,7 +173,7 @@ void GltfReader::read_nodes() {
   check_roots(order);
 
   // Only now is known where the joints of skins are.
-  for (const size_t index : order) read_node(document_.element("nodes", index), *worlds_[index]);
+  for (const size_t index : order) read_node(index);
 }
 
 // A scene that shows a node without the nodes above it puts it elsewhere than they would.
@@ -181,7 +191,21 @@ void GltfReader::check_roots(const std::vector<size_t>& order) const {
   }
 }
 
-Mat4 GltfReader::transform(const GltfObject& node) {
+// Animations scale to 0 what is not to be seen at a moment; else it is told.
+bool GltfReader::is_flat(const Mat4& world) {
+  if (why_singular(world).empty()) return false;
+  if (!scene_.played || Mat3(world) != Mat3(0.0)) ++flattened_;
+  return true;
+}
+
+// What the animation makes of a key of a node; null where it leaves it.
+const std::vector<double>* GltfReader::moved(size_t node, const char* key) const {
+  const auto found = motion_.values.find({node, key});
+  return found == motion_.values.end() ? nullptr : &found->second;
+}
+
+Mat4 GltfReader::transform(size_t index) {
+  const GltfObject node = document_.element("nodes", index);
   if (node.has("matrix")) {
     if (node.has("translation") || node.has("rotation") || node.has("scale"))
       node.fail("has a matrix, and a translation, rotation or scale beside it");
@@ -191,9 +215,13 @@ Mat4 GltfReader::transform(const GltfObject& node) {
       node.fail("has a matrix that is not affine");
     return matrix;
   }
-  const std::vector<double> t = node.numbers("translation", {0, 0, 0});
-  const std::vector<double> q = node.numbers("rotation", {0, 0, 0, 1});
-  const std::vector<double> s = node.numbers("scale", {1, 1, 1});
+  const auto numbers = [&](const char* key, std::vector<double> fallback) {
+    const std::vector<double>* const now = moved(index, key);
+    return now ? *now : node.numbers(key, std::move(fallback));
+  };
+  const std::vector<double> t = numbers("translation", {0, 0, 0});
+  const std::vector<double> q = numbers("rotation", {0, 0, 0, 1});
+  const std::vector<double> s = numbers("scale", {1, 1, 1});
   const glm::dquat turn(q[3], q[0], q[1], q[2]);
   if (!(glm::length(turn) > 1e-6)) node.fail("has a rotation without length");
   if (std::abs(glm::length(turn) - 1) > 0.01)
@@ -202,28 +230,29 @@ Mat4 GltfReader::transform(const GltfObject& node) {
          glm::scale(Mat4(1.0), {s[0], s[1], s[2]});
 }
 
-void GltfReader::read_node(const GltfObject& node, const Mat4& world) {
+void GltfReader::read_node(size_t index) {
+  const GltfObject node = document_.element("nodes", index);
+  const Mat4& world = *worlds_[index];
   const auto mesh = node.index("mesh", document_.size("meshes"));
   const auto camera = node.index("camera", document_.size("cameras"));
   const auto lights = document_.extension("KHR_lights_punctual");
   const auto light = node.extension("KHR_lights_punctual");
   if (!mesh && !camera && !light) return;
-  if (mesh) read_mesh(node, *mesh, world);
-  if ((camera || light) && !why_singular(world).empty()) {
-    ++flattened_;
-    return;
-  }
+  if (mesh) read_mesh(index, *mesh, world);
+  if ((camera || light) && is_flat(world)) return;
   if (camera) read_camera(document_.element("cameras", *camera), world);
   if (light) {
-    const auto index = light->index("light", lights ? lights->size("lights") : 0);
-    if (!index) light->fail("has no light");
-    read_light(lights->element("lights", *index), world);
+    const auto shown = light->index("light", lights ? lights->size("lights") : 0);
+    if (!shown) light->fail("has no light");
+    read_light(lights->element("lights", *shown), world);
   }
 }
 
-void GltfReader::read_mesh(const GltfObject& node, size_t mesh, const Mat4& world) {
+void GltfReader::read_mesh(size_t index, size_t mesh, const Mat4& world) {
+  const GltfObject node = document_.element("nodes", index);
   if (node.extension("EXT_mesh_gpu_instancing")) left_out_.add("instances (EXT_mesh_gpu_instancing)");
-  GltfPose pose{{}, node.numbers("weights")};
+  const std::vector<double>* const weights = moved(index, "weights");
+  GltfPose pose{{}, weights ? *weights : node.numbers("weights")};
   if (const auto skin = node.index("skin", document_.size("skins"))) {
     auto& joints = joints_[*skin];
     if (!joints) joints = joint_matrices(document_, buffers_, *skin, worlds_);
@@ -232,10 +261,7 @@ void GltfReader::read_mesh(const GltfObject& node, size_t mesh, const Mat4& worl
   }
   // What joints hold is in the world already, wherever its node is.
   const bool skinned = !pose.joints.empty();
-  if (!skinned && !why_singular(world).empty()) {
-    ++flattened_;
-    return;
-  }
+  if (!skinned && is_flat(world)) return;
   for (const GltfMeshes::Part& part :
        skinned || !pose.weights.empty() ? meshes_.posed_parts(mesh, pose) : meshes_.parts(mesh)) {
     if (scene_.instances.size() == most_instances)

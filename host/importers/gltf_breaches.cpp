@@ -26,8 +26,8 @@ constexpr Types bytes_and_shorts =
 constexpr Types shares = any_float | normalized(unsigned_byte) | normalized(unsigned_short);
 constexpr Types directions = normalized(signed_byte) | normalized(signed_short);
 
-// Of the specification, 3.7.2.1; `quantized`: what KHR_mesh_quantization adds; `clear`: what nothing allows,
-// and can be read in one way only.
+// Of the specification, 3.7.2.1 and 3.11; `quantized`: what KHR_mesh_quantization adds; `clear`: what nothing
+// allows, and can be read in one way only.
 struct AttributeRule {
   std::string_view name;
   Types core;
@@ -42,6 +42,11 @@ constexpr AttributeRule rules[] = {
     {"COLOR_", shares, 0, directions},
     {"JOINTS_", plain(unsigned_byte) | plain(unsigned_short), 0, plain(unsigned_int)},
     {"WEIGHTS_", shares, 0, directions},
+    {"times", any_float},
+    {"translation", any_float},
+    {"rotation", shares | directions},
+    {"scale", any_float},
+    {"weights", shares | directions},
 };
 
 }  // namespace

@@ -22,9 +22,9 @@ class GltfBreaches {
   // "rotations that are not of unit length, normalised: 3, the first nodes[1].rotation".
   void report(std::vector<std::string>& warnings) const;
 
-  // What an attribute of a vertex, or of a morph target, may be made of. InputError, of the attribute's
-  // accessor, for types by which it is not clear what its numbers mean; a breach where KHR_mesh_quantization
-  // has to be declared and is not.
+  // What an attribute of a vertex, or of a morph target, and what an animation has may be made of.
+  // InputError, of the attribute's accessor, for types by which it is not clear what its numbers mean; a
+  // breach where KHR_mesh_quantization has to be declared and is not.
   void check_attribute(std::string_view name, size_t accessor);
 
  private:

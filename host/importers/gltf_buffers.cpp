@@ -267,6 +267,22 @@ std::vector<Mat4> GltfBuffers::mat4(size_t accessor) {
   refuse_stride(document_.element("accessors", accessor), document_.size("bufferViews"));
   return read<Mat4>(accessor, "MAT4", 16);
 }
+std::vector<double> GltfBuffers::numbers(size_t accessor, std::string_view type) {
+  refuse_stride(document_.element("accessors", accessor), document_.size("bufferViews"));
+  std::vector<double> all;
+  const auto add = [&](const auto& elements, size_t components) {
+    for (const auto& element : elements)
+      for (size_t k = 0; k < components; ++k) all.push_back(component_of(element, k));
+  };
+  if (type == "VEC4") {
+    add(vec4(accessor), 4);
+  } else if (type == "VEC3") {
+    add(vec3(accessor), 3);
+  } else {
+    add(read<double>(accessor, type, 1), 1);
+  }
+  return all;
+}
 std::vector<Vec4> GltfBuffers::colors(size_t accessor) {
   if (document_.element("accessors", accessor).text("type") == "VEC4") return vec4(accessor);
   std::vector<Vec4> all;

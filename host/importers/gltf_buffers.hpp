@@ -48,6 +48,8 @@ class GltfBuffers {
   std::vector<Vec3> vec3(size_t accessor);
   std::vector<Vec4> vec4(size_t accessor);
   std::vector<Mat4> mat4(size_t accessor);
+  // Of an animation, one after the other: of type SCALAR, VEC3 or VEC4.
+  std::vector<double> numbers(size_t accessor, std::string_view type);
   std::vector<Vec4> colors(size_t accessor);  // RGBA; of RGB the alpha is 1
   std::vector<uint32_t> indices(size_t accessor);
 

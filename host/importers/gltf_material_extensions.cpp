@@ -11,9 +11,13 @@ namespace {
 
 // The pictures of extensions, in the order in which one may be a material's first.
 constexpr std::pair<const char*, const char*> extension_maps[] = {
-    {"KHR_materials_transmission", "transmissionTexture"},    {"KHR_materials_specular", "specularTexture"},
-    {"KHR_materials_specular", "specularColorTexture"},       {"KHR_materials_clearcoat", "clearcoatTexture"},
-    {"KHR_materials_clearcoat", "clearcoatRoughnessTexture"}, {"KHR_materials_sheen", "sheenColorTexture"},
+    {"KHR_materials_transmission", "transmissionTexture"},
+    {"KHR_materials_specular", "specularTexture"},
+    {"KHR_materials_specular", "specularColorTexture"},
+    {"KHR_materials_clearcoat", "clearcoatTexture"},
+    {"KHR_materials_clearcoat", "clearcoatRoughnessTexture"},
+    {"KHR_materials_clearcoat", "clearcoatNormalTexture"},
+    {"KHR_materials_sheen", "sheenColorTexture"},
     {"KHR_materials_sheen", "sheenRoughnessTexture"},
 };
 
@@ -102,7 +106,6 @@ std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, co
     values.coat = scaled(source, *coat, "clearcoatTexture", Vec3(factor(*coat, "clearcoatFactor", 0)));
     values.coat_roughness = scaled(source, *coat, "clearcoatRoughnessTexture",
                                    Vec3(factor(*coat, "clearcoatRoughnessFactor", 0)));
-    if (coat->has("clearcoatNormalTexture")) left_out_.add("normal maps of clearcoat");
   }
   return materials::make_principled(values, std::move(stand_in));
 }

@@ -241,13 +241,15 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
       made->mask = mask(source);
     }
   }
-  made->normal_map = normal_map(source);
+  made->normal_map = normal_map(source, source.object("normalTexture"));
+  if (const auto coat = source.extension("KHR_materials_clearcoat"))
+    made->coat_normal_map = normal_map(source, coat->object("clearcoatNormalTexture"));
   made->name = printable(source.text("name"));
   return made;
 }
 
-std::optional<NormalMap> GltfMaterials::normal_map(const GltfObject& material) {
-  const auto reference = material.object("normalTexture");
+std::optional<NormalMap> GltfMaterials::normal_map(const GltfObject& material,
+                                                   const std::optional<GltfObject>& reference) {
   if (!reference) return std::nullopt;
   const auto image = texture(*reference, Content::data);
   if (!image) return std::nullopt;

@@ -73,7 +73,7 @@ class GltfMaterials {
   double ior(const GltfObject& material);
   Vec3 absorption(const GltfObject& material);
   std::optional<AlphaMask> mask(const GltfObject& material);
-  std::optional<NormalMap> normal_map(const GltfObject& material);
+  std::optional<NormalMap> normal_map(const GltfObject& material, const std::optional<GltfObject>& reference);
   // What of a picture counts: its sRGB colours, its numbers, or its alpha in place of each channel.
   enum class Content { color, data, alpha };
   std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, Content content);

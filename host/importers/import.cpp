@@ -49,7 +49,7 @@ ImportedScene read_mesh_file(MeshFile& file) {
     throw malformed(file.name, error.what());
   }
   drop_empty(scene);
-  if (scene.instances.empty()) {
+  if (scene.instances.empty() && !scene.played) {
     std::string why = "it has no triangles that could be seen";
     for (const std::string& warning : scene.warnings) why += "; " + warning;
     throw malformed(file.name, why);
@@ -65,8 +65,12 @@ bool is_mesh_file(const std::filesystem::path& file) {
 
 ImportedScene import_file(const std::filesystem::path& file, const ImportOptions& options) {
   image::PixelBudget own;
-  MeshFile source{file.string(), read_input_file(file, "the mesh", most_mesh_bytes), options.smooth,
-                  AssetFiles(file, options.allowed_folders), options.pixels ? options.pixels : &own};
+  MeshFile source{file.string(),
+                  read_input_file(file, "the mesh", most_mesh_bytes),
+                  options.smooth,
+                  AssetFiles(file, options.allowed_folders),
+                  options.pixels ? options.pixels : &own,
+                  options.playing};
   ImportedScene scene = read_mesh_file(source);
   scene.files = source.assets.files();
   scene.files.insert(scene.files.begin(), file);
@@ -75,7 +79,8 @@ ImportedScene import_file(const std::filesystem::path& file, const ImportOptions
 
 ImportedScene import_bytes(std::string bytes, const std::string& name, const ImportOptions& options) {
   image::PixelBudget own;
-  MeshFile source{name, std::move(bytes), options.smooth, {}, options.pixels ? options.pixels : &own};
+  MeshFile source{
+      name, std::move(bytes), options.smooth, {}, options.pixels ? options.pixels : &own, options.playing};
   return read_mesh_file(source);
 }
 

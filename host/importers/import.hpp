@@ -17,6 +17,16 @@ struct PixelBudget;  // image/coded_image.hpp
 
 namespace eyeray::importers {
 
+// Which of a file's animations is shown, and when.
+struct Playing {
+  double seconds = 0;
+  // Its name, or else its number, from 0; absent: the first. The file's rest where it has none such.
+  std::optional<std::string> animation = {};
+  bool loop = false;  // whether it begins again at 0 after its last key, or stays there
+
+  auto operator<=>(const Playing&) const = default;
+};
+
 struct ImportOptions {
   // Where a file has no normals: the greatest angle, in degrees, between faces that are shaded as one smooth
   // surface; 0: flat. Absent: 40 for OBJ and PLY; 0 for glTF, whose specification says so.
@@ -25,6 +35,13 @@ struct ImportOptions {
   std::vector<std::filesystem::path> allowed_folders = {};
   // Of the pictures of the scene that the file is for; null: it is for none.
   image::PixelBudget* pixels = nullptr;
+  Playing playing = {};
+};
+
+// What moves in a file, from when to when, in seconds.
+struct PlayedAnimation {
+  int values = 0;
+  double first = 0, last = 0;
 };
 
 struct ImportedCamera {
@@ -40,6 +57,8 @@ struct ImportedScene {
   std::vector<std::unique_ptr<Material>> materials;
   std::vector<std::variant<PointLight, DirectionalLight, SpotLight>> lights;
   std::optional<ImportedCamera> camera;
+  std::vector<std::string> animations;  // their names, of glTF; "" where one has none
+  std::optional<PlayedAnimation> played;
   std::vector<std::string> warnings;         // what was left out, once each, with counts
   std::vector<std::filesystem::path> files;  // every file read, this one first
 };
@@ -48,8 +67,9 @@ struct ImportedScene {
 bool is_mesh_file(const std::filesystem::path& file);
 
 // Reads a mesh file by its ending, and what it refers to. Error (file_io) when a file cannot be read,
-// InputError, with the place where there is one, when what it holds is wrong. The memory it takes is bounded
-// by the size of the files.
+// InputError, with the place where there is one, when what it holds is wrong, or nothing of it could be seen;
+// of an animation there may be nothing to see at its moment. The memory it takes is bounded by the size of
+// the files.
 ImportedScene import_file(const std::filesystem::path& file, const ImportOptions& options = {});
 
 // The same from memory, for tests: `name` stands in messages and its ending says what `bytes` are. What it

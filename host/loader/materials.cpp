@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/loader/kinds.hpp"
+#include "host/materials/normal_map.hpp"
 #include "host/materials/registry.hpp"
 
 namespace eyeray::loader {
@@ -10,18 +11,9 @@ namespace {
 
 constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
 
-TexturePtr as_data(const TexturePtr& texture) {
-  const TexturePtr data = texture ? texture->as_data() : nullptr;
-  return data ? data : texture;
-}
-
 void bend_normals(TableReader& reader, Material& material) {
-  if (reader.has("normal"))
-    material.normal_map = NormalMap{as_data(reader.texture("normal")), reader.number("normal_scale")};
-  else if (reader.has("normal_scale"))
-    reader.error("normal_scale", "without `normal` there is nothing to scale");
-
-  if (const TexturePtr bump = reader.has("bump") ? as_data(reader.texture("bump")) : nullptr) {
+  material.normal_map = materials::read_normal_map(reader, "normal", "normal_scale");
+  if (const TexturePtr bump = reader.has("bump") ? materials::as_data(reader.texture("bump")) : nullptr) {
     const double width = reader.has("bump_width") ? reader.number("bump_width") : bump->detail();
     material.bump_map = BumpMap{bump, reader.number("bump_height"), width};
   }

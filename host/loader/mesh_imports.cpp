@@ -18,24 +18,50 @@ std::string one_sentence(const InputError& error) {
   return fmt::format("{}:{}:{}: {}", at.file, at.line, at.column, first.message);
 }
 
+// What a scene that shows the file is told of it.
+std::vector<std::string> warnings_of(const importers::ImportedScene& scene, const fs::path& file) {
+  std::vector<std::string> all = scene.warnings;
+  const size_t lights = scene.lights.size();
+  if (lights > 0 || scene.camera) {
+    all.push_back(
+        fmt::format("its {} not taken over: a scene says its own",
+                    lights == 0 ? "camera is" : (scene.camera ? "camera and lights are" : "lights are")));
+  }
+  for (std::string& warning : all) warning = fmt::format("{}: {}", file.string(), warning);
+  return all;
+}
+
 }  // namespace
 
 void MeshImports::add_file(const fs::path& file) {
   if (std::ranges::find(files_, file) == files_.end()) files_.push_back(file);
 }
 
-void MeshImports::import(Entry& entry, const fs::path& file, std::optional<double> smooth) {
+AllowedFolders::File MeshImports::find(const std::string& name, const std::string& from) const {
+  if (memory_) {
+    if (!memory_->contains(name))
+      throw Error(ExitCode::bad_input, "\"{}\" is none of the meshes that came with this scene", name);
+    return {name, name};
+  }
+  const auto source = std::ranges::find(sources_, fs::path(from));
+  return folders_->find("file", name, source != sources_.end() ? *source : sources_.front());
+}
+
+importers::ImportedScene MeshImports::read(const fs::path& file, const Wanted& wanted) {
+  const importers::ImportOptions options{wanted.smooth, trees_, &budget_, wanted.playing};
+  if (memory_) return importers::import_bytes(memory_->find(file.string())->second, file.string(), options);
   add_file(file);
+  return importers::import_file(file, options);
+}
+
+void MeshImports::import(Entry& entry, const fs::path& file, const Wanted& wanted) {
   try {
-    entry.scene = importers::import_file(file, {smooth, trees_, &budget_});
-    for (const fs::path& read : entry.scene.files) add_file(read);
-    const size_t lights = entry.scene.lights.size();
-    if (lights > 0 || entry.scene.camera) {
-      entry.scene.warnings.push_back(fmt::format(
-          "its {} not taken over: a scene says its own",
-          lights == 0 ? "camera is" : (entry.scene.camera ? "camera and lights are" : "lights are")));
-    }
-    for (std::string& warning : entry.scene.warnings) warning = fmt::format("{}: {}", file.string(), warning);
+    entry.scene = read(file, wanted);
+    if (!memory_)
+      for (const fs::path& each : entry.scene.files) add_file(each);
+    entry.scene.warnings = warnings_of(entry.scene, file);
+    // The file may have been read before, for another animation or other normals.
+    std::erase_if(entry.scene.warnings, [&](const std::string& each) { return !told_.insert(each).second; });
   } catch (const InputError& wrong) {
     entry.refused = one_sentence(wrong);
     entry.code = wrong.code();
@@ -46,22 +72,37 @@ void MeshImports::import(Entry& entry, const fs::path& file, std::optional<doubl
 }
 
 MeshImports::Loaded MeshImports::load(const std::string& name, std::optional<double> smooth,
-                                      const std::string& from) {
-  const auto source = std::ranges::find(sources_, fs::path(from));
-  const auto [path, whole] =
-      folders_.find("file", name, source != sources_.end() ? *source : sources_.front());
-  const auto [entry, fresh] = entries_.try_emplace({whole, smooth});
-  if (fresh) import(entry->second, path, smooth);
-  if (!entry->second.refused.empty()) throw Error(entry->second.code, entry->second.refused);
-  return {&entry->second.scene, fresh};
+                                      importers::Playing playing, const std::string& from) {
+  const auto [path, whole] = find(name, from);
+  playing.seconds = seconds_;
+  const Wanted wanted{whole, smooth, std::move(playing)};
+  const auto [place, fresh] = entries_.try_emplace(wanted);
+  Entry& entry = place->second;
+  if (fresh) import(entry, path, wanted);
+  if (!entry.refused.empty()) throw Error(entry.code, entry.refused);
+  entry.shown = true;
+  return {&entry.scene, fresh};
 }
 
 MeshImports::Loaded MeshImports::load_alone(const fs::path& file) {
-  importers::ImportedScene scene = importers::import_file(file, {{}, trees_, &budget_});
-  for (const fs::path& read : scene.files) add_file(read);
-  Entry& entry = entries_[{folders_.find("file", file.filename().string(), file).whole, std::nullopt}];
+  const Wanted wanted{folders_->find("file", file.filename().string(), file).whole, std::nullopt, {seconds_}};
+  importers::ImportedScene scene = read(file, wanted);
+  for (const fs::path& each : scene.files) add_file(each);
+  for (std::string& warning : warnings_of(scene, file)) told_.insert(std::move(warning));
+  Entry& entry = entries_[wanted];
   entry.scene = std::move(scene);
   return {&entry.scene, true};
+}
+
+importers::ImportedScene MeshImports::rest(const fs::path& file) const {
+  return importers::import_file(file, {.allowed_folders = trees_, .playing = {.animation = no_animation}});
+}
+
+std::vector<importers::PlayedAnimation> MeshImports::played() const {
+  std::vector<importers::PlayedAnimation> all;
+  for (const auto& [wanted, entry] : entries_)
+    if (entry.shown && entry.scene.played) all.push_back(*entry.scene.played);
+  return all;
 }
 
 }  // namespace eyeray::loader

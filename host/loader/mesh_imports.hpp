@@ -4,13 +4,18 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "host/importers/import.hpp"
 #include "host/loader/allowed_folders.hpp"
+#include "host/loader/scene_file.hpp"
 
 namespace eyeray::loader {
+
+// What `animation` of [[mesh]] says for a file at rest.
+inline constexpr const char* no_animation = "none";
 
 class MeshImports {
  public:
@@ -19,19 +24,30 @@ class MeshImports {
   // what the mesh files name may lie.
   MeshImports(const AllowedFolders& folders, std::vector<std::filesystem::path> trees,
               std::vector<std::filesystem::path> sources, image::PixelBudget& budget)
-      : folders_(folders), trees_(std::move(trees)), sources_(std::move(sources)), budget_(budget) {}
+      : folders_(&folders), trees_(std::move(trees)), sources_(std::move(sources)), budget_(budget) {}
+  // Of a scene that is in no file; `memory` must outlive it.
+  MeshImports(const MemoryFiles& memory, image::PixelBudget& budget) : memory_(&memory), budget_(budget) {}
 
   struct Loaded {
     importers::ImportedScene* scene;
     bool fresh;  // this is the first time that it is asked for
   };
-  // What the file holds that is named in the file `from`; the pointer stays good. Error, one sentence, where
-  // it cannot be had; the same one each time.
-  Loaded load(const std::string& name, std::optional<double> smooth, const std::string& from);
+  // The moment that animated files are shown at, in seconds; 0 until it is said.
+  void show(double seconds) { seconds_ = seconds; }
+
+  // What the file holds that is named in the file `from`; the pointer stays good. Of `playing` the moment is
+  // not looked at. Error, one sentence, where it cannot be had; the same one each time.
+  Loaded load(const std::string& name, std::optional<double> smooth, importers::Playing playing,
+              const std::string& from);
 
   // What a mesh file holds that is itself the scene; it will not be fresh again. InputError and Error as
   // import_file's.
   Loaded load_alone(const std::filesystem::path& file);
+  // The same file at rest, which is not shown. InputError, as from import_file, where nothing could be seen.
+  importers::ImportedScene rest(const std::filesystem::path& file) const;
+
+  // What moves in the files that were loaded, each once for each way in which it is shown.
+  std::vector<importers::PlayedAnimation> played() const;
 
   // Every file that was to be read, in the order in which they were first named.
   const std::vector<std::filesystem::path>& files() const { return files_; }
@@ -41,16 +57,30 @@ class MeshImports {
     importers::ImportedScene scene;
     std::string refused;  // why there is none
     ExitCode code = ExitCode::ok;
+    bool shown = false;
   };
-  void import(Entry& entry, const std::filesystem::path& file, std::optional<double> smooth);
+  // How a file is read: by its canonical path.
+  struct Wanted {
+    std::filesystem::path file;
+    std::optional<double> smooth;
+    importers::Playing playing;
+
+    auto operator<=>(const Wanted&) const = default;
+  };
+  AllowedFolders::File find(const std::string& name, const std::string& from) const;
+  importers::ImportedScene read(const std::filesystem::path& file, const Wanted& wanted);
+  void import(Entry& entry, const std::filesystem::path& file, const Wanted& wanted);
   void add_file(const std::filesystem::path& file);
 
-  const AllowedFolders& folders_;
+  const AllowedFolders* folders_ = nullptr;  // or else
+  const MemoryFiles* memory_ = nullptr;
   std::vector<std::filesystem::path> trees_;
   std::vector<std::filesystem::path> sources_;
   image::PixelBudget& budget_;
   std::vector<std::filesystem::path> files_;
-  std::map<std::pair<std::filesystem::path, std::optional<double>>, Entry> entries_;  // by canonical path
+  std::map<Wanted, Entry> entries_;
+  std::set<std::string> told_;  // warnings
+  double seconds_ = 0;
 };
 
 }  // namespace eyeray::loader

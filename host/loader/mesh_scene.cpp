@@ -125,8 +125,8 @@ decltype(importers::ImportedScene::lights) studio_lights(const importers::Import
 }  // namespace
 
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,
-                       bool around) {
-  const importers::ImportedCamera camera = import.camera ? *import.camera : framing(import);
+                       const importers::ImportedScene& framed, bool around) {
+  const importers::ImportedCamera camera = import.camera ? *import.camera : framing(framed);
   toml::array lights;
   for (const auto& light : import.lights.empty() && !around ? studio_lights(camera) : import.lights)
     lights.push_back(std::visit([](const auto& form) { return table(form); }, light));

@@ -31,8 +31,10 @@ std::optional<size_t> as_index(std::string_view text) {
 
 class Assignment {
  public:
-  Assignment(std::string_view text, toml::table& root, DiagnosticLog& log)
-      : text_(text), name_(fmt::format("-D {}", printable(text))), root_(root), log_(log) {}
+  // `at`: where errors of the key stand; `value_at`: where the text's value does, if in a file.
+  Assignment(std::string text, SourcePosition at, SourcePosition value_at, toml::table& root,
+             DiagnosticLog& log)
+      : text_(std::move(text)), at_(std::move(at)), value_at_(std::move(value_at)), root_(root), log_(log) {}
 
   void apply() {
     if (!parse()) return;
@@ -40,23 +42,33 @@ class Assignment {
   }
 
  private:
-  void fail(std::string message) { log_.error({name_, 0, 0}, std::move(message)); }
+  void fail(std::string message) { log_.error(at_, std::move(message)); }
+
+  // As if the text's value stood at its place in a file, all of it in one line.
+  toml::table parse_in_place(const std::string& text) const {
+    const size_t value = text.find('=') + 1;
+    const auto lines = size_t(std::max(0, value_at_.line - 1));
+    const auto columns = size_t(std::max(0, value_at_.column - 1));
+    const std::string before =
+        std::string(lines, '\n') + std::string(columns > value ? columns - value : 0, ' ');
+    return toml::parse(before + text, value_at_.file);
+  }
 
   // Reads KEY=VALUE as the TOML it is; a bare word gets its quotes.
   bool parse() {
     const size_t equals = text_.find('=');
     TreeBudget budget;
-    const bool one_line = text_.find('\n') == std::string_view::npos && !find_excess(text_, budget);
-    if (equals == std::string_view::npos || !one_line)
+    const bool one_line = text_.find('\n') == std::string::npos && !find_excess(text_, budget);
+    if (equals == std::string::npos || !one_line)
       return fail("write KEY=VALUE, such as render.max_depth=3"), false;
     try {
-      tree_ = toml::parse(text_, name_);
+      tree_ = parse_in_place(text_);
     } catch (const toml::parse_error& error) {
-      const std::string_view value = text_.substr(equals + 1);
+      const std::string_view value = std::string_view(text_).substr(equals + 1);
       const std::string reason = "syntax: " + explain_syntax(error.description());
       if (!is_word(value)) return fail(reason), false;
       try {
-        tree_ = toml::parse(fmt::format("{}=\"{}\"", text_.substr(0, equals), value), name_);
+        tree_ = parse_in_place(fmt::format("{}=\"{}\"", text_.substr(0, equals), value));
       } catch (const toml::parse_error&) {
         return fail(reason), false;
       }
@@ -152,8 +164,8 @@ class Assignment {
     }
   }
 
-  std::string_view text_;
-  std::string name_;
+  const std::string text_;
+  SourcePosition at_, value_at_;
   toml::table& root_;
   DiagnosticLog& log_;
   toml::table tree_;
@@ -165,7 +177,15 @@ class Assignment {
 }  // namespace
 
 void apply_overrides(toml::table& root, std::span<const Override> overrides, DiagnosticLog& log) {
-  for (const Override& change : overrides) Assignment(change.text, root, log).apply();
+  for (const Override& change : overrides) {
+    const SourcePosition at{fmt::format("-D {}", printable(change.text)), 0, 0};
+    Assignment(change.text, at, at, root, log).apply();
+  }
+}
+
+void apply_track(toml::table& root, std::string_view target, std::string_view value, const SourcePosition& at,
+                 const SourcePosition& value_at, DiagnosticLog& log) {
+  Assignment(fmt::format("{}={}", target, value), at, value_at, root, log).apply();
 }
 
 }  // namespace eyeray::loader

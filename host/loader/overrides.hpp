@@ -13,4 +13,9 @@ namespace eyeray::loader {
 // Puts each value at its place in the tree, as if it stood in the file; it is checked with all others later.
 void apply_overrides(toml::table& root, std::span<const Override> overrides, DiagnosticLog& log);
 
+// The same of a value that keyframes have made, as TOML. `at`: where `target`, the key, is written;
+// `value_at`: where its keyframes are, at which what is wrong with the value is reported.
+void apply_track(toml::table& root, std::string_view target, std::string_view value, const SourcePosition& at,
+                 const SourcePosition& value_at, DiagnosticLog& log);
+
 }  // namespace eyeray::loader

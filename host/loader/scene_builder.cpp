@@ -1,5 +1,7 @@
 #include "host/loader/scene_builder.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,10 +15,11 @@
 #include "host/loader/lights.hpp"
 #include "host/loader/materials.hpp"
 #include "host/loader/mesh_placement.hpp"
+#include "host/loader/path_check.hpp"
+#include "host/loader/photon_check.hpp"
 #include "host/loader/sections.hpp"
 #include "host/loader/settings.hpp"
 #include "host/scene/affine.hpp"
-#include "host/scene/emitters.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/table.hpp"
 #include "host/scene/tangents.hpp"
@@ -29,6 +32,17 @@ namespace {
 // Each light is a turn of a loop and a shadow ray at every hit. A driver that ends loops after 65 535 turns
 // has room for so many where a scene has 24 shapes and no BVH, too (docs/lavapipe.md).
 constexpr size_t most_lights = 2048;
+
+constexpr size_t most_animations_named = 16;
+
+std::string no_such_animation(const std::string& wanted, std::span<const std::string> names) {
+  if (names.empty()) return "the file has no animations";
+  std::vector<std::string> all;
+  for (size_t i = 0; i < std::min(names.size(), most_animations_named); ++i)
+    all.push_back(names[i].empty() ? fmt::format("\"{}\"", i) : fmt::format("\"{}\"", printable(names[i])));
+  return fmt::format("the file has no animation \"{}\"; it has {}{}", wanted, fmt::join(all, ", "),
+                     names.size() > all.size() ? ", …" : "");
+}
 
 // Where an object stands, and what it is called.
 struct Placing {
@@ -67,10 +81,15 @@ class Builder {
                    fmt::format("a scene can have at most {} lights", most_lights));
       }
       if (lights_ > most_lights) return;
-      if (std::unique_ptr<Light> light = read_light(section, table, values_, log_))
+      if (std::unique_ptr<Light> light = read_light(section, table, values_, log_)) {
         scene_.lights.push_back(std::move(light));
+        light_positions_.push_back(position_of(table.source()));
+      }
     });
-    if (surroundings.sun) scene_.lights.push_back(std::move(surroundings.sun));
+    if (surroundings.sun) {
+      scene_.lights.push_back(std::move(surroundings.sun));
+      light_positions_.push_back(position_of(around->source()));
+    }
     for_each(root_, "material",
              [&](const Section& section, const toml::table& table) { materials_.add(section, table); });
     plan_.emplace(root_, scene_.render.groups, log_);
@@ -78,7 +97,7 @@ class Builder {
       add_placed(root_, Placing{});
       check_idle_patterns();
     }
-    check_whole();
+    check_whole(render);
     if (!log_.has_errors()) make_tangents(scene_);
     return std::move(scene_);
   }
@@ -136,8 +155,7 @@ class Builder {
   void add_instance(TableReader& reader, const Placing& placing);
   Group build_group(const toml::table& table, const Mat4& to_world);
   void check_idle_patterns();
-  void check_paths();
-  void check_whole();
+  void check_whole(TableReader& render);
 
   const toml::table& root_;
   const ValueSources values_;
@@ -152,6 +170,7 @@ class Builder {
   double worst_condition_ = 0;                          // of the maps read since the last group was begun
   Group* building_ = nullptr;                           // where shapes and meshes go; null: into the scene
   size_t lights_ = 0;
+  std::vector<SourcePosition> light_positions_ = {};  // of scene_.lights
   bool tried_shapes_ = false;
 };
 
@@ -306,7 +325,12 @@ void Builder::add_mesh(TableReader& reader, const Placing& placing) {
   const std::optional<double> smooth =
       reader.has("smooth") ? std::optional(reader.number("smooth")) : std::nullopt;
   try {
-    const auto [import, fresh] = meshes_->load(reader.string("file"), smooth, reader.position("file").file);
+    importers::Playing playing{.loop = reader.boolean("loop")};
+    if (reader.has("animation")) playing.animation = reader.string("animation");
+    const auto [import, fresh] =
+        meshes_->load(reader.string("file"), smooth, playing, reader.position("file").file);
+    if (playing.animation && *playing.animation != no_animation && !import->played)
+      return reader.error("animation", no_such_animation(*playing.animation, import->animations));
     if (fresh) {
       for (const std::string& warning : import->warnings) log_.warning(reader.position(), warning);
     }
@@ -319,70 +343,17 @@ void Builder::add_mesh(TableReader& reader, const Placing& placing) {
   }
 }
 
-// Of what Whitted's pictures show and paths cannot, or not by the numbers that are given.
-void Builder::check_paths() {
-  for (const auto& material : scene_.materials) {
-    const ScatteringContext context{.place = Vec2(0.5), .cos_view = 1, .ior_from = 1, .ior_to = 1};
-    const Scattering scattering = material->scattering(context);
-    const Bsdf bsdf = material->bsdf(context, scattering);
-    const auto exceeds = [](const Vec3& share) { return glm::any(glm::greaterThan(share, Vec3(1 + 1e-9))); };
-    if (exceeds(scattering.diffuse))
-      log_.warning(
-          {}, fmt::format("material \"{}\" would scatter more light than it gets: its `diffuse` counts as 1 "
-                          "where it is more",
-                          material->name));
-    else if (exceeds(bsdf.diffuse + bsdf.mirror + bsdf.transmitted))
-      log_.warning({}, fmt::format("material \"{}\" scatters more light than it gets: `diffuse` and "
-                                   "`reflectance` add up to more than 1",
-                                   material->name));
-  }
-  const Emitters lamps = emitters(scene_);
-  const std::vector<SourcePosition>& unsampled = lamps.unsampled;
-  const auto has_size = [&](const auto& light) { return light->illuminate(scene_.camera.eye).angle > 0; };
-  const auto glass = std::ranges::find_if(
-      scene_.materials, [&](const auto& material) { return fills(*material, scene_.render.integrator); });
-  if (glass != scene_.materials.end() && !scene_.lights.empty() && !scene_.environment &&
-      lamps.sampled.empty() && unsampled.empty() && std::ranges::none_of(scene_.lights, has_size))
-    log_.warning({},
-                 fmt::format("no path finds the light of points through glass (material \"{}\"): its shadow "
-                             "is black; lamps with a size (`emission`, or the `angle` of a directional "
-                             "light) light through it",
-                             (*glass)->name));
-  if (scene_.lights.empty() && lamps.sampled.empty() && unsampled.empty() &&
-      scene_.render.background == Vec3(0) && !scene_.environment)
-    log_.warning(
-        {},
-        "nothing shines: there is no [[light]], no `emission`, no `background` and no [environment]; "
-        "the picture will be black");
-  const auto from_afar = [&](const auto& light) {
-    return std::isinf(light->illuminate(scene_.camera.eye).distance);
-  };
-  const Vec3 extinction = scene_.medium.absorption + scene_.medium.scattering;
-  if (glm::all(glm::greaterThan(extinction, Vec3(0))) &&
-      (scene_.environment || scene_.render.background != Vec3(0) ||
-       std::ranges::any_of(scene_.lights, from_afar)))
-    log_.warning(
-        {},
-        "[medium] has no end: light from infinitely far away, of an environment, a `background` or a "
-        "directional light, is lost in it");
-  if (!unsampled.empty())
-    log_.warning(
-        unsampled.front(),
-        fmt::format("paths find the light of this{} by chance alone, which is noisy: they choose places on "
-                    "spheres, ellipsoids, boxes, cylinders, disks, triangles, parallelograms and meshes "
-                    "without cutouts",
-                    unsampled.size() == 1 ? "" : fmt::format(" and {} more", unsampled.size() - 1)));
-}
-
 // Warns of what is legal but hardly meant.
-void Builder::check_whole() {
+void Builder::check_whole(TableReader& render) {
   const bool empty = scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
   if (empty && !tried_shapes_) log_.warning({}, "the scene has no shapes: only background will be seen");
   if (scene_.lights.empty() && traits_of(scene_.render.integrator).shadow_rays == ShadowRays::each_light &&
       !empty) {
     log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");
   }
-  if (walks_at_random(scene_.render.integrator) && !empty && !log_.has_errors()) check_paths();
+  if (walks_at_random(scene_.render.integrator) && !empty && !log_.has_errors()) warn_of_paths(scene_, log_);
+  if (sends_photons(scene_.render.integrator) && !log_.has_errors())
+    prepare_for_photons(scene_, render, light_positions_, log_);
   materials_.check();
 }
 

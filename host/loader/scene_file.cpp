@@ -1,7 +1,13 @@
 #include "host/loader/scene_file.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+#include "host/loader/animation.hpp"
 #include "host/loader/document.hpp"
 #include "host/loader/formula_files.hpp"
 #include "host/loader/formula_refusal.hpp"
@@ -21,8 +27,16 @@ namespace fs = std::filesystem;
 Scene finish(Document document, const fs::path& file, std::span<const Override> overrides, ImageFiles* images,
              MeshImports* meshes, FormulaFiles* formulas, DiagnosticLog& log) {
   apply_overrides(document.root, overrides, log);
+  Animation animation = apply_animation(document.root, log);
+  if (meshes) meshes->show(seconds(animation));
   Scene scene = build_scene(document.root, {images, meshes, formulas}, log);
   if (log.has_errors()) throw InputError(log.sorted());
+  if (meshes) {
+    const double rate = animation.frames_per_second;
+    for (const auto& [values, first, last] : meshes->played())
+      add_moving(values, first * rate, last * rate, animation);
+  }
+  scene.animation = animation;
   scene.file = file;
   scene.files = std::move(document.files);
   if (images) scene.files.insert(scene.files.end(), images->files().begin(), images->files().end());
@@ -32,20 +46,53 @@ Scene finish(Document document, const fs::path& file, std::span<const Override> 
   return scene;
 }
 
+// The moment that the overrides say; what is wrong with them is said later.
+double asked_seconds(std::span<const Override> overrides) {
+  std::vector<Override> about;
+  std::ranges::copy_if(overrides, std::back_inserter(about),
+                       [](const Override& each) { return each.text.starts_with("animation"); });
+  toml::table root;
+  DiagnosticLog unheard;
+  apply_overrides(root, about, unheard);
+  return seconds(apply_animation(root, unheard));
+}
+
 // The mesh file as if a scene showed it.
 Document read_mesh(const fs::path& file, std::span<const Override> overrides, MeshImports& meshes,
                    DiagnosticLog& log) {
   log.add_source(file.string(), "");
+  meshes.show(asked_seconds(overrides));
   const MeshImports::Loaded loaded = meshes.load_alone(file);
+  // The camera of a film stands still: what it frames is the file at rest.
+  std::optional<importers::ImportedScene> rest;
+  if (loaded.scene->played && !loaded.scene->camera) {
+    try {
+      rest = meshes.rest(file);
+    } catch (const InputError&) {
+      // Then there is nothing to see at rest.
+      if (loaded.scene->instances.empty()) throw;
+    }
+  }
   for (const std::string& warning : loaded.scene->warnings) log.warning({}, warning);
   const bool around = std::ranges::any_of(
       overrides, [](const Override& each) { return each.text.starts_with("environment"); });
-  return {mesh_scene(file, *loaded.scene, around), {}};
+  return {mesh_scene(file, *loaded.scene, rest ? *rest : *loaded.scene, around), {}};
 }
 
-}  // namespace
+// Where the scene moves while its shutter is open: how it is to be had at another moment, by `load` with one
+// more override.
+template <typename Load>
+Scene with_moments(Scene scene, std::span<const Override> overrides, const Load& load) {
+  if (scene.animation.tracks == 0 || scene.animation.shutter == 0) return scene;
+  scene.animation.at = [load, all = std::vector(overrides.begin(), overrides.end())](double frame) {
+    std::vector<Override> with_frame = all;
+    with_frame.push_back({fmt::format("animation.frame={}", frame)});
+    return load(with_frame);
+  };
+  return scene;
+}
 
-Scene load_scene(const fs::path& file, std::span<const Override> overrides, const Trust& trust) {
+Scene load_moment(const fs::path& file, std::span<const Override> overrides, const Trust& trust) {
   DiagnosticLog log;
   const AllowedFolders folders(file, trust.folders);
   image::PixelBudget pixels;
@@ -65,9 +112,30 @@ Scene load_scene(const fs::path& file, std::span<const Override> overrides, cons
   return finish(std::move(document), file, overrides, &images, &meshes, &formulas, log);
 }
 
-Scene parse_scene(std::string_view text, const std::string& name, std::span<const Override> overrides) {
+Scene parse_moment(std::string_view text, const std::string& name, std::span<const Override> overrides,
+                   const MemoryFiles& files, bool formulas) {
   DiagnosticLog log;
-  return finish(parse_document(text, name, log), name, overrides, nullptr, nullptr, nullptr, log);
+  image::PixelBudget pixels;
+  MeshImports meshes(files, pixels);
+  Document document = parse_document(text, name, log);
+  if (!formulas) refuse_formulas(document.root, log);
+  return finish(std::move(document), name, overrides, nullptr, files.empty() ? nullptr : &meshes, nullptr,
+                log);
+}
+
+}  // namespace
+
+Scene load_scene(const fs::path& file, std::span<const Override> overrides, const Trust& trust) {
+  return with_moments(load_moment(file, overrides, trust), overrides,
+                      [file, trust](std::span<const Override> all) { return load_moment(file, all, trust); });
+}
+
+Scene parse_scene(std::string_view text, const std::string& name, std::span<const Override> overrides,
+                  const MemoryFiles& files, bool formulas) {
+  return with_moments(parse_moment(text, name, overrides, files, formulas), overrides,
+                      [text = std::string(text), name, files, formulas](std::span<const Override> all) {
+                        return parse_moment(text, name, all, files, formulas);
+                      });
 }
 
 }  // namespace eyeray::loader

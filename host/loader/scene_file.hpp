@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,9 +31,14 @@ struct Trust {
 // cannot be read.
 Scene load_scene(const std::filesystem::path& file, std::span<const Override> overrides = {},
                  const Trust& trust = {});
-// The same from memory, for tests; `name` stands in messages. It can neither include files nor name images or
-// meshes.
-Scene parse_scene(std::string_view text, const std::string& name, std::span<const Override> overrides = {});
+// What stands for mesh files of a scene that is in no file: the bytes of each, by the name that the scene
+// gives.
+using MemoryFiles = std::map<std::string, std::string, std::less<>>;
+
+// The same from memory; `name` stands in messages. It can neither include files nor name images, and of
+// meshes those of `files` alone. `formulas`: as Trust's.
+Scene parse_scene(std::string_view text, const std::string& name, std::span<const Override> overrides = {},
+                  const MemoryFiles& files = {}, bool formulas = true);
 
 // The JSON Schema of scene files, made from the same Keys that the loader checks by; docs/scene.schema.json.
 std::string scene_schema();

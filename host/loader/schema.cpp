@@ -133,6 +133,13 @@ Json value_schema(const Key& key) {
       pair["minItems"] = pair["maxItems"] = 2;
       return list_schema(std::move(pair));
     }
+    case KeyType::keyframes: {
+      Json pair = list_schema(Json::object());
+      pair["minItems"] = pair["maxItems"] = 2;
+      Json list = list_schema(std::move(pair));
+      list["minItems"] = 1;
+      return list;
+    }
     case KeyType::color:
       return either(number_schema(positive, "number"), vector_schema(positive, 3));
     case KeyType::scale2:

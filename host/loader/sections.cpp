@@ -6,6 +6,7 @@
 #include "host/cameras/registry.hpp"
 #include "host/core/diagnostic.hpp"
 #include "host/lights/registry.hpp"
+#include "host/loader/animation.hpp"
 #include "host/loader/environments.hpp"
 #include "host/loader/settings.hpp"
 #include "host/materials/registry.hpp"
@@ -191,6 +192,16 @@ constexpr Key mesh_keys[] = {
      .min = 0,
      .max = 180,
      .optional = true},
+    {.name = "animation",
+     .type = KeyType::string,
+     .doc =
+         "Which of a glTF file's animations is shown at the moment of [animation]: its name, or its number "
+         "from 0, as `\"1\"`. The first when absent; `\"none\"`: the file at rest.",
+     .optional = true},
+    {.name = "loop",
+     .type = KeyType::boolean,
+     .doc = "Whether that animation begins again after its last key, and not stays there.",
+     .fallback = "false"},
 };
 
 constexpr std::string_view group_manual =
@@ -274,6 +285,9 @@ std::vector<Section> make_sections() {
        "What is around all, for the integrator `path`: fog, haze, water. The others see none of it.",
        medium_keys(), nullptr, medium_manual},
       {verify, "verify", "[verify]", "What `eyeray verify` is told of the scene.", verify_keys()},
+      {animation, "animation", "[animation]", "Which moment of an animation is shown.", animation_keys()},
+      {track, "track", "[[track]]", "A value that moves, by its keyframes.", track_keys(), nullptr,
+       track_manual},
       {light, "light", "[[light]]", "A light.", light_keys()},
       {material, "material", "[[material]]", "What surfaces are made of.", material_keys()},
       {mesh, "mesh", "[[mesh]]", "The triangles of a file.", mesh_keys, nullptr, mesh_manual},

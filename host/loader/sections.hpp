@@ -21,6 +21,8 @@ struct Section {
     environment,
     medium,
     verify,
+    animation,
+    track,
     light,
     material,
     group,

@@ -34,16 +34,17 @@ constexpr Key image_table[] = {
      .max = 65536},
     {.name = "samples",
      .type = KeyType::integer,
-     .doc = "Samples a pixel: 64 for the integrator `path`, else 1, where nothing is said. `regular` and "
+     .doc = "Samples a pixel: 64 for the integrators `path` and `sppm`, else 1, where nothing is said. "
+            "`regular` and "
             "`jittered` lay them on an n × n grid: then a square number.",
      .min = 1,
      .max = 65536,
      .optional = true},
     {.name = "pattern",
      .type = KeyType::choice,
-     .doc =
-         "Where in a pixel samples lie; see below. `sobol` for the integrator `path`, else `regular`, where "
-         "nothing is said.",
+     .doc = "Where in a pixel samples lie; see below. `sobol` for the integrators `path` and `sppm`, else "
+            "`regular`, where "
+            "nothing is said.",
      .choices = sample_patterns,
      .optional = true},
     {.name = "filter",
@@ -85,9 +86,9 @@ constexpr Key render_table[] = {
      .choices = integrator_names},
     {.name = "max_depth",
      .type = KeyType::integer,
-     .doc =
-         "Reflections and refractions in a row; 0: eye and shadow rays only. 16 for the integrator `path`, "
-         "else 8, where nothing is said; above 64 for `path` alone.",
+     .doc = "Reflections and refractions in a row; 0: eye and shadow rays only. 16 for the integrators "
+            "`path` and `sppm`, "
+            "else 8, where nothing is said; above 64 for these alone.",
      .min = 0,
      .max = 1024,
      .optional = true},
@@ -110,6 +111,20 @@ constexpr Key render_table[] = {
             "knows what is near and shines this way; by itself, that from 64 lights on.",
      .fallback = "\"automatic\"",
      .choices = light_samplers},
+    {.name = "photons",
+     .type = KeyType::integer,
+     .doc = "How many photons `sppm` sends out for each sample.",
+     .fallback = "131072",
+     .min = 1,
+     .max = 16777216},
+    {.name = "photon_radius",
+     .type = KeyType::number,
+     .doc = "Within which the first sample of `sppm` gathers photons, as a length; where nothing is said, as "
+            "wide as two pixels seen at the middle of all shapes that have an end.",
+     .min = 0,
+     .max = 1e9,
+     .above_min = true,
+     .optional = true},
     {.name = "triangle",
      .type = KeyType::choice,
      .doc = "How triangles are intersected; see [[triangle]].",
@@ -212,10 +227,15 @@ RenderSettings read_render(TableReader& table) {
   if (table.has("max_depth")) render.max_depth = static_cast<int>(table.integer("max_depth"));
   if (constexpr int most_waiting = 64; render.max_depth > most_waiting && !walks_at_random(render.integrator))
     table.error("max_depth",
-                fmt::format("`max_depth` must be at most {}, but for the integrator \"path\"", most_waiting));
+                fmt::format("`max_depth` must be at most {}, but for the integrators \"path\" and \"sppm\"",
+                            most_waiting));
   render.min_throughput = table.number("min_throughput");
   render.seed = static_cast<uint32_t>(table.integer("seed"));
   render.light_sampler = static_cast<LightSampler>(table.choice("light_sampler"));
+  if (sends_photons(render.integrator) && render.light_sampler == LightSampler::bvh)
+    table.error("light_sampler", "`sppm` chooses lights by power, as photons do: not by a BVH");
+  render.photons = static_cast<int>(table.integer("photons"));
+  if (table.has("photon_radius")) render.photon_radius = table.number("photon_radius");
   render.triangle_method = static_cast<TriangleMethod>(table.choice("triangle"));
   render.groups = static_cast<GroupStorage>(table.choice("groups"));
   render.background = table.color("background");

@@ -54,8 +54,8 @@ shader::Material make_record(uint32_t kind, const Highlight& highlight, double s
           .bump = NONE,
           .bump_height = 0,
           .bump_width = 0,
-          .unused_0 = 0,
-          .unused_1 = 0};
+          .coat_normal = NONE,
+          .coat_normal_scale = 0};
 }
 
 }  // namespace eyeray::materials

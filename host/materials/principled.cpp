@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "host/materials/normal_map.hpp"
 #include "host/materials/physical.hpp"
 
 namespace eyeray::materials {
@@ -118,6 +119,17 @@ constexpr Key principled_keys[] = {
      .doc = "Of the coat. The green channel counts.",
      .fallback = "0",
      .max = 1},
+    {.name = "coat_normal",
+     .type = KeyType::texture,
+     .doc = "The coat's own normal map, in the way of `normal`. Neither that nor `bump` bends the coat.",
+     .max = 1,
+     .optional = true},
+    {.name = "coat_normal_scale",
+     .type = KeyType::number,
+     .doc = "How strongly that bends; below 0 the other way.",
+     .fallback = "1",
+     .min = -1000,
+     .max = 1000},
     emission_key,
 };
 
@@ -161,6 +173,7 @@ class Principled final : public Physical {
               .roughness = values_.roughness->at(context.place).y,
               .coat = values_.coat->at(context.place).x,
               .coat_roughness = values_.coat_roughness->at(context.place).y,
+              .coat_normal = context.coat_normal,
               .sheen = values_.sheen->at(context.place),
               .sheen_roughness = values_.sheen_roughness->at(context.place).y};
     if (through == 0) return bsdf;
@@ -285,7 +298,11 @@ std::unique_ptr<Material> parse_principled(TableReader& table) {
   if (table.failed()) return nullptr;
   values.coat = table.texture("coat");
   values.coat_roughness = table.texture("coat_roughness");
-  return make(values, nullptr, shader::MATERIAL_principled);
+  std::unique_ptr<Material> material = make(values, nullptr, shader::MATERIAL_principled);
+  material->coat_normal_map = read_normal_map(table, "coat_normal", "coat_normal_scale");
+  if (material->coat_normal_map && !table.has("coat"))
+    table.error("coat_normal", "without `coat` there is no coat to bend");
+  return material;
 }
 
 std::unique_ptr<Material> parse_plastic(TableReader& table) {

@@ -31,7 +31,12 @@ class Fields {
     set_with_edges(shader::EMITTER_triangle, a, 0, b - a, c - a);
   }
   void operator()(const ParallelogramForm& it) {
-    set_with_edges(shader::EMITTER_parallelogram, it.corner, 0, it.edge_u, it.edge_v);
+    const bool right = is_rectangle(it);
+    set_with_edges(right ? shader::EMITTER_rectangle : shader::EMITTER_parallelogram, it.corner, 0, it.edge_u,
+                   it.edge_v);
+    if (!right) return;
+    record_.b.w = float(glm::length(it.edge_u));
+    record_.c.w = float(glm::length(it.edge_v));
   }
   void operator()(const BoxForm& it) { set_map(shader::EMITTER_box, it.to_world); }
   void operator()(const EllipsoidForm& it) { set_map(shader::EMITTER_ellipsoid, it.to_world); }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "host/bvh/history.hpp"
 #include "host/core/error.hpp"
 #include "host/core/free_memory.hpp"
 #include "host/core/parallel_for.hpp"
@@ -253,17 +254,23 @@ class GeometryPacker {
     return options;
   }
 
+  bvh::Bvh build(const BlasRecords& items) const {
+    return options_.history ? options_.history->build(items.boxes, bvh_options(items))
+                            : build_bvh(items.boxes, bvh_options(items));
+  }
+
   void build_bvhs() {
+    if (options_.history) options_.history->begin_scene();
     packed_.quantised_nodes = true;
     for (Blas& space : blases_) {
       if (space.items.size() == 1) continue;
-      space.bvh = build_bvh(space.items.boxes, bvh_options(space.items));
+      space.bvh = build(space.items);
       free_memory(space.items.boxes);
       packed_.quantised_nodes = packed_.quantised_nodes && quantising_is_harmless(space.bvh);
     }
     for (const shader::Instance& instance : packed_.instances)
       world_.boxes.push_back(instance_box(instance, blases_[instance.bvh - 1].box));
-    world_bvh_ = build_bvh(world_.boxes, bvh_options(world_));
+    world_bvh_ = build(world_);
     packed_.quantised_nodes = packed_.quantised_nodes && quantising_is_harmless(world_bvh_);
   }
 

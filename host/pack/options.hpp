@@ -1,7 +1,13 @@
 // What may be chosen about the BVH; which hits are found does not depend on it.
 #pragma once
 
+#include <memory>
+
 #include "host/core/acceleration.hpp"
+
+namespace eyeray::bvh {
+class BvhHistory;  // bvh/history.hpp
+}
 
 namespace eyeray::pack {
 
@@ -9,6 +15,8 @@ struct PackOptions {
   Acceleration acceleration = Acceleration::automatic;
   // Spatial splits (bvh/bvh.hpp), where no primitive lets part of a shadow ray through.
   bool split = false;
+  // Where scenes come one after the other: what BVHs are refitted from. Null: each is built.
+  std::shared_ptr<bvh::BvhHistory> history = nullptr;
 };
 
 }  // namespace eyeray::pack

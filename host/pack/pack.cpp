@@ -8,20 +8,25 @@
 #include "host/pack/environment_records.hpp"
 #include "host/pack/geometry.hpp"
 #include "host/reference/media.hpp"
+#include "host/reference/photon_source.hpp"
 #include "host/scene/integrator.hpp"
 
 namespace eyeray::pack {
 namespace {
 
-// The media around the eye as materials/media.glsl stacks them: a byte each, the innermost lowest.
-uint32_t pack_media(const Scene& scene, const records::PackedScene& packed) {
-  const std::vector<int> media = reference::media_at(scene, scene.camera.eye);
+// As materials/media.glsl stacks them: a byte each, the innermost lowest.
+uint32_t media_stack(const std::vector<int>& media, const records::PackedScene& packed,
+                     std::string_view who) {
   if (media.size() > 4)
-    throw Error(ExitCode::bad_input, "the camera's eye is inside {} media at once; at most 4 may nest",
-                media.size());
+    throw Error(ExitCode::bad_input, "{} is inside {} media at once; at most 4 may nest", who, media.size());
   uint32_t stack = 0;
   for (const int material : media) stack = stack << 8 | packed.materials[size_t(material)].medium;
   return stack;
+}
+
+// The media around the eye.
+uint32_t pack_media(const Scene& scene, const records::PackedScene& packed) {
+  return media_stack(reference::media_at(scene, scene.camera.eye), packed, "the camera's eye");
 }
 
 shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed) {
@@ -69,16 +74,20 @@ shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed)
 void pack_bent_normals(const Material& material, records::Packer& packer) {
   const uint32_t normal_map = material.normal_map ? material.normal_map->texture->pack(packer) : NONE;
   const uint32_t bump = material.bump_map ? material.bump_map->texture->pack(packer) : NONE;
+  const auto& of_coat = material.coat_normal_map;
+  const uint32_t coat_normal = of_coat ? of_coat->texture->pack(packer) : NONE;
   shader::Material& record = packer.scene.materials.back();
   record.normal_map = normal_map;
   record.bump = bump;
+  record.coat_normal = coat_normal;
+  if (of_coat) record.coat_normal_scale = float(of_coat->scale);
   if (material.normal_map) record.normal_scale = float(material.normal_map->scale);
   if (const auto& map = material.bump_map) {
     record.bump_height = float(map->height);
     record.bump_width = float(map->width);
     if (map->texture->in_space()) record.flags |= MATERIAL_BUMP_IN_SPACE;
   }
-  packer.scene.bent_normals |= material.normal_map || material.bump_map;
+  packer.scene.bent_normals |= material.normal_map || material.bump_map || of_coat;
 }
 
 records::Packer pack_records(const Scene& scene, const PackOptions& options) {
@@ -109,6 +118,9 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
     const LightChoice choice = light_choice(scene);
     pack_light_choice(choice, packer);
     light_bvh_numbers = choice.bvh_numbers();
+    if (sends_photons(scene.render.integrator))
+      for (const std::vector<int>& media : reference::media_of_lights(reference::Tracer(scene)))
+        packer.scene.emitter_media.push_back(media_stack(media, packer.scene, "a light"));
     pack_albedos(packer.scene);
   } else {
     packer.scene.lobes.clear();

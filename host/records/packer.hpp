@@ -64,6 +64,7 @@ struct PackedScene {
   std::vector<shader::Light> lights;
   RawVector<shader::uvec4> environment;        // records.h says how; empty without one, or not written
   std::vector<shader::Emitter> emitters;       // lights, then surfaces in the order of their primitives
+  std::vector<uint32_t> emitter_media;         // that photons of `emitters` start in; empty without photons
   std::vector<shader::LightNode> light_nodes;  // empty where no light BVH is asked
   std::set<uint32_t> lobes;                    // that the materials' BSDFs have
   bool panes = false;                          // whether paths may pass any of them straight

@@ -61,16 +61,9 @@ Vec3 bumped(const BumpMap& map, const SurfacePoint& point, const Vec3& n) {
   return usable(bent) ? glm::normalize(bent) : n;
 }
 
-}  // namespace
-
-Vec3 bent_normal(const Material& material, const SurfacePoint& point, const Vec3& d) {
-  if (!material.normal_map && !material.bump_map) return point.normal;
-  Vec3 n = point.normal;
-  if (material.normal_map) n = mapped(*material.normal_map, point, n);
-  if (material.bump_map) n = bumped(*material.bump_map, point, n);
-
-  // From the viewer's side: up from below the horizon, then half way between the viewer and a mirrored view
-  // that is just above it.
+// From the viewer's side: up from below the horizon, then half way between the viewer and a mirrored view
+// that is just above it.
+Vec3 lifted(Vec3 n, const SurfacePoint& point, const Vec3& d) {
   const Vec3 to_viewer = -glm::normalize(d);
   const double side = glm::dot(to_viewer, point.normal_geometric) > 0 ? 1 : -1;
   const Vec3 up = side * point.normal_geometric;
@@ -82,6 +75,19 @@ Vec3 bent_normal(const Material& material, const SurfacePoint& point, const Vec3
   if (const double above = glm::dot(mirrored, up); above < height)
     n = glm::normalize(to_viewer + glm::normalize(mirrored + (height - above) / glm::dot(n, up) * n));
   return side * n;
+}
+
+}  // namespace
+
+void bend_normals(const Material& material, SurfacePoint& point, const Vec3& d) {
+  const Vec3 own = point.normal;
+  point.coat_normal =
+      material.coat_normal_map ? lifted(mapped(*material.coat_normal_map, point, own), point, d) : own;
+  if (!material.normal_map && !material.bump_map) return;
+  Vec3 n = own;
+  if (material.normal_map) n = mapped(*material.normal_map, point, n);
+  if (material.bump_map) n = bumped(*material.bump_map, point, n);
+  point.normal = lifted(n, point, d);
 }
 
 }  // namespace eyeray::reference

@@ -6,10 +6,11 @@
 
 namespace eyeray::reference {
 
-// The shading normal of `point`, on the side of its geometric one, as the material bends it where a ray in
-// direction d hits: by its normal map, then by its bumps (Blinn: Simulation of Wrinkled Surfaces, SIGGRAPH
-// 1978), and so far back that the mirrored view is above the surface (Keller et al.: The Iray Light Transport
-// Simulation and Rendering System, 2017, appendix).
-Vec3 bent_normal(const Material& material, const SurfacePoint& point, const Vec3& d);
+// Bends the shading normal of `point`, which is on the side of its geometric one, as the material does where
+// a ray in direction d hits: by its normal map, then by its bumps (Blinn: Simulation of Wrinkled Surfaces,
+// SIGGRAPH 1978), and so far back that the mirrored view is above the surface (Keller et al.: The Iray Light
+// Transport Simulation and Rendering System, 2017, appendix). A coat has the normal that was there before,
+// bent by a map of its own.
+void bend_normals(const Material& material, SurfacePoint& point, const Vec3& d);
 
 }  // namespace eyeray::reference

@@ -112,10 +112,11 @@ Vec3 rough_diffuse(const Vec3& color, double r, const Vec3& o, const Vec3& i) {
 
 }  // namespace
 
-ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : bsdf_(bsdf), o_(o) {
+ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o)
+    : bsdf_(bsdf), o_(o), coat_(LocalFrame::turned_to(bsdf.coat_normal)), coat_o_(coat_.seen(o)) {
   const bool any_glossy = bsdf.glossy.f90 != Vec3(0) || bsdf.layer.f90 != Vec3(0);
   const GgxAlbedo albedo = any_glossy ? tables::ggx_albedo(o.z, bsdf.roughness) : GgxAlbedo{};
-  const double coated = through_coat(bsdf.coat, bsdf.coat_roughness, o.z);
+  const double coated = through_coat(bsdf.coat, bsdf.coat_roughness, coat_o_.z);
   const double under = coated * through_sheen(bsdf.sheen, bsdf.sheen_roughness, o.z);
   const Vec3 let_in = 1.0 - layer_albedo(bsdf.layer, albedo);
   single_ = under;
@@ -142,6 +143,46 @@ ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : bsdf_(bsdf), o_(o) {
   for (const double share : shares_) sum_ += share;
   if (sum_ > 0)
     for (double& share : shares_) share /= sum_;
+}
+
+ViewedBsdf ViewedBsdf::part(bool wide) const {
+  constexpr double least_wide = 0.32;
+  ViewedBsdf part = *this;
+  for (int lobe = 0; lobe < lobes; ++lobe) {
+    bool is_wide = false;
+    switch (lobe) {
+      case diffuse:
+      case sheen:
+        is_wide = true;
+        break;
+      case glossy:
+      case multiple:
+      case glass:
+      case thin:
+        is_wide = bsdf_.roughness >= least_wide;
+        break;
+      case coat:
+        is_wide = bsdf_.coat_roughness >= least_wide;
+        break;
+      default:
+        break;
+    }
+    if (is_wide != wide) part.shares_[lobe] = 0;
+  }
+  part.sum_ = part.followed();
+  return part;
+}
+
+ViewedBsdf ViewedBsdf::adjoint() const {
+  ViewedBsdf other = *this;
+  other.adjoint_ = true;
+  return other;
+}
+
+double ViewedBsdf::followed() const {
+  double sum = 0;
+  for (const double share : shares_) sum += share;
+  return sum;
 }
 
 BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
@@ -172,8 +213,12 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
                   (1 - albedo(o_).mean_once) * even,
               even};
     case coat: {
-      BsdfValue result = reflection(o_, i, width_of(bsdf_.coat_roughness));
-      result.value *= bsdf_.coat * coat_fresnel().at(std::min(1.0, glm::dot(o_, glm::normalize(o_ + i))));
+      const Vec3& own_o = coat_o_;
+      const Vec3 own_i = coat_.into(i);
+      BsdfValue result = reflection(own_o, own_i, width_of(bsdf_.coat_roughness));
+      result.value *=
+          bsdf_.coat * coat_fresnel().at(std::min(1.0, glm::dot(own_o, glm::normalize(own_o + own_i))));
+      if (adjoint_ && own_i.z > 0) result.value *= own_o.z / o_.z * std::abs(i.z) / own_i.z;
       return result;
     }
     case glass: {
@@ -219,24 +264,30 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
 
 // Layers are on the viewer's side.
 double ViewedBsdf::through_layers(Lobe lobe, const Vec3& i) const {
+  if (lobe == coat) return 1;
   double left = 1;
-  for (const double cosine : {o_.z, i.z}) {
-    if (lobe == coat || cosine <= 0) continue;
-    left *= through_coat(bsdf_.coat, bsdf_.coat_roughness, cosine);
+  for (const auto& [cosine, in_coat] : {std::pair(o_.z, coat_o_.z), std::pair(i.z, coat_.into(i).z)}) {
+    if (cosine <= 0) continue;
+    left *= through_coat(bsdf_.coat, bsdf_.coat_roughness, std::max(0.0, in_coat));
     if (lobe != sheen) left *= through_sheen(bsdf_.sheen, bsdf_.sheen_roughness, cosine);
   }
   return left;
 }
 
-BsdfValue ViewedBsdf::at(const Vec3& i) const {
+BsdfValue ViewedBsdf::at(const Vec3& i, bool before) const {
   BsdfValue all;
   for (const Lobe lobe : {diffuse, glossy, multiple, coat, glass, sheen, thin}) {
     if (shares_[lobe] == 0) continue;
     const BsdfValue one = value(lobe, i);
-    all.value += through_layers(lobe, i) * one.value;
+    const bool counts = lobe == coat ? before : before == (i.z > 0);
+    if (counts) all.value += through_layers(lobe, i) * one.value;
     all.density += shares_[lobe] * one.density;
   }
   return all;
+}
+
+bool ViewedBsdf::faces(const Vec3& i, bool before) const {
+  return before == (i.z > 0) || (before && bsdf_.coat > 0 && coat_.into(i).z > 0);
 }
 
 Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
@@ -247,7 +298,12 @@ Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
     const double up = std::sqrt(1 - radius * radius);
     return {on_disk(u), lobe == thin ? -up : up};
   }
-  const Vec3 h = ggx_normal(o_, width_of(lobe == coat ? bsdf_.coat_roughness : bsdf_.roughness), u);
+  if (lobe == coat) {
+    const Vec3 h = ggx_normal(coat_o_, width_of(bsdf_.coat_roughness), u);
+    const Vec3 i = 2 * std::min(1.0, glm::dot(coat_o_, h)) * h - coat_o_;
+    return i.z > 0 ? coat_.out_of(i) : Vec3(0);
+  }
+  const Vec3 h = ggx_normal(o_, width_of(bsdf_.roughness), u);
   const double along = std::min(1.0, glm::dot(o_, h));
   // What a microfacet sends to the wrong side is lost.
   if (lobe != glass) {

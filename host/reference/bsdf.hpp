@@ -2,6 +2,7 @@
 // are unit, in the surface's own frame, whose z is the normal on the viewer's side.
 #pragma once
 
+#include "host/reference/local_frame.hpp"
 #include "host/scene/bsdf.hpp"
 
 namespace eyeray::reference {
@@ -25,16 +26,25 @@ class ViewedBsdf {
   // o: towards the viewer, o.z > 0.
   ViewedBsdf(const Bsdf& bsdf, const Vec3& o);
 
-  // Of light from i; of all lobes, but not of the mirrored and the refracted direction.
-  BsdfValue at(const Vec3& i) const;
+  // Of light from i; of all lobes, but not of the mirrored and the refracted direction. `before`: whether the
+  // light is before the surface. Lobes whose normals, which may be bent, have it elsewhere do not count.
+  BsdfValue at(const Vec3& i, bool before) const;
+  // Whether any does.
+  bool faces(const Vec3& i, bool before) const;
   // chance and u: random numbers in [0, 1). Not of a black one.
   BsdfSample sample(double chance, const Vec2& u) const;
+  // Its wide lobes alone, or the sharp ones, each followed as often as before (shaders/bsdf/parts.glsl).
+  ViewedBsdf part(bool wide) const;
+  // How often one of its lobes is followed: 1, of a part less.
+  double followed() const;
   // The share of light that goes straight on.
   Vec3 passed() const { return bsdf_.passed * passed_; }
   // About the share of the light that it sends towards the viewer.
   Vec3 albedo() const { return glm::min(albedo_, Vec3(1)); }
   // Whether light leaves in single directions alone.
   bool specular() const { return shares_[mirror] + shares_[transmitted] + shares_[straight] > 0 && !rough(); }
+  // The same for light that goes the other way, as photons' does, and is weighed by the surface's normal.
+  ViewedBsdf adjoint() const;
   // Whether it sends no light on at all.
   bool black() const { return sum_ == 0; }
 
@@ -53,6 +63,9 @@ class ViewedBsdf {
 
   const Bsdf& bsdf_;
   Vec3 o_;
+  LocalFrame coat_;
+  Vec3 coat_o_;  // o_ in that frame
+  bool adjoint_ = false;
   double shares_[lobes] = {};
   double sum_ = 0;
   Vec3 albedo_{0};

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "host/reference/spherical_area.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::reference {
@@ -51,7 +53,9 @@ EmitterSample on_sphere(const SphereForm& sphere, const Vec3& from, const Vec2& 
     const double b = glm::dot(way, d);
     const double c = glm::dot(way, way) - sphere.radius * sphere.radius;
     const double near = b - std::sqrt(std::max(0.0, b * b - c));
-    normal = glm::normalize(near * d - way);
+    // From so far away that the radius is lost, the place is the nearest.
+    const Vec3 out = near * d - way;
+    normal = glm::length(out) > 0 ? glm::normalize(out) : -d;
   }
   return {sphere.center + sphere.radius * normal, normal, globe(glm::transpose(sphere.axes) * normal)};
 }
@@ -181,6 +185,82 @@ double cylinder_density(const CylinderForm& it, const Vec3& from, const EmitterS
   return side * density_of_area(4 * M_PI * glm::length(glm::cross(along, m[1])), from, place);
 }
 
+// Whether places are chosen by solid angle, and not by area.
+bool by_solid_angle(double solid_angle, double least = 3e-4) {
+  return solid_angle >= least && solid_angle <= 6.22;
+}
+constexpr double least_rectangle = 0.01;
+
+SphericalTriangle seen_from(const Vec3& from, const TriangleForm& it) {
+  return SphericalTriangle({it.vertices[0] - from, it.vertices[1] - from, it.vertices[2] - from});
+}
+
+// Where the direction meets the triangle's plane: the weights of the second and the third corner.
+Vec2 weights_along(const Vec3& d, const Vec3& from, const TriangleForm& it) {
+  const auto& [a, b, c] = it.vertices;
+  const Vec3 n = glm::cross(b - a, c - a);
+  const Vec3 p = d * (glm::dot(n, a - from) / glm::dot(n, d)) - (a - from);
+  const double squared = glm::dot(n, n);
+  return {glm::dot(n, glm::cross(p, c - a)) / squared, glm::dot(n, glm::cross(b - a, p)) / squared};
+}
+
+EmitterSample on_triangle(const TriangleForm& it, const Vec3& from, const Vec2& u) {
+  const auto& [a, b, c] = it.vertices;
+  const SphericalTriangle seen = seen_from(from, it);
+  const double root = std::sqrt(u.x);
+  Vec2 weights(root * (1 - u.y), root * u.y);
+  if (by_solid_angle(seen.solid_angle())) weights = weights_along(seen.direction(u), from, it);
+  return {a + weights.x * (b - a) + weights.y * (c - a), glm::normalize(glm::cross(b - a, c - a)), weights};
+}
+
+// On both sides of a diagonal.
+std::array<TriangleForm, 2> halves(const ParallelogramForm& it) {
+  const Vec3 &a = it.corner, b = a + it.edge_u, c = b + it.edge_v, d = a + it.edge_v;
+  return {TriangleForm{{a, b, c}}, TriangleForm{{a, c, d}}};
+}
+
+// Of a parallelogram without right angles, round its first corner.
+Vec2 place_round_corner(const ParallelogramForm& it, const Vec3& from, const Vec2& u) {
+  const auto [low, high] = halves(it);
+  const double first = seen_from(from, low).solid_angle(), second = seen_from(from, high).solid_angle();
+  if (!by_solid_angle(first + second)) return u;
+  const double turn = u.y * (first + second);
+  if (turn < first) {
+    const Vec2 weights = weights_along(seen_from(from, low).direction({u.x, turn / first}), from, low);
+    return {weights.x + weights.y, weights.y};
+  }
+  const Vec2 weights =
+      weights_along(seen_from(from, high).direction({u.x, (turn - first) / second}), from, high);
+  return {weights.x, weights.x + weights.y};
+}
+
+EmitterSample on_parallelogram(const ParallelogramForm& it, const Vec3& from, const Vec2& u) {
+  Vec2 at = u;
+  if (is_rectangle(it)) {
+    const SphericalRectangle seen(it.corner - from, it.edge_u, it.edge_v);
+    if (by_solid_angle(seen.solid_angle(), least_rectangle)) at = seen.place(u);
+  } else {
+    at = place_round_corner(it, from, u);
+  }
+  return {it.corner + at.x * it.edge_u + at.y * it.edge_v, glm::normalize(glm::cross(it.edge_u, it.edge_v)),
+          at};
+}
+
+// Under which it is seen, if places on it are chosen by that.
+std::optional<double> sampled_solid_angle(const EmitterForm& form, const Vec3& from) {
+  double solid_angle = 0;
+  if (const auto* triangle = std::get_if<TriangleForm>(&form))
+    solid_angle = seen_from(from, *triangle).solid_angle();
+  if (const auto* it = std::get_if<ParallelogramForm>(&form)) {
+    if (is_rectangle(*it)) {
+      solid_angle = SphericalRectangle(it->corner - from, it->edge_u, it->edge_v).solid_angle();
+      return by_solid_angle(solid_angle, least_rectangle) ? std::optional(solid_angle) : std::nullopt;
+    }
+    for (const TriangleForm& half : halves(*it)) solid_angle += seen_from(from, half).solid_angle();
+  }
+  return by_solid_angle(solid_angle) ? std::optional(solid_angle) : std::nullopt;
+}
+
 struct Chooser {
   const Vec3& from;
   const Vec2& u;
@@ -198,19 +278,8 @@ struct Chooser {
             {0.5 + 0.5 * grow * at.x, 0.5 - 0.5 * grow * at.y}};
   }
 
-  EmitterSample operator()(const TriangleForm& triangle) const {
-    const auto& [a, b, c] = triangle.vertices;
-    const double root = std::sqrt(u.x);
-    const Vec2 weights(root * (1 - u.y), root * u.y);
-    return {(1 - root) * a + weights.x * b + weights.y * c, glm::normalize(glm::cross(b - a, c - a)),
-            weights};
-  }
-
-  EmitterSample operator()(const ParallelogramForm& it) const {
-    return {it.corner + u.x * it.edge_u + u.y * it.edge_v, glm::normalize(glm::cross(it.edge_u, it.edge_v)),
-            u};
-  }
-
+  EmitterSample operator()(const TriangleForm& it) const { return on_triangle(it, from, u); }
+  EmitterSample operator()(const ParallelogramForm& it) const { return on_parallelogram(it, from, u); }
   EmitterSample operator()(const BoxForm& box) const { return on_box(box, from, u); }
   EmitterSample operator()(const EllipsoidForm& ellipsoid) const { return on_ellipsoid(ellipsoid, from, u); }
   EmitterSample operator()(const CylinderForm& cylinder) const { return on_cylinder(cylinder, u); }
@@ -228,6 +297,7 @@ double emitter_density(const EmitterForm& form, const Vec3& from, const EmitterS
   if (const auto* box = std::get_if<BoxForm>(&form)) return box_density(*box, from, place);
   if (const auto* it = std::get_if<EllipsoidForm>(&form)) return ellipsoid_density(*it, from, place);
   if (const auto* it = std::get_if<CylinderForm>(&form)) return cylinder_density(*it, from, place);
+  if (const auto solid_angle = sampled_solid_angle(form, from)) return 1 / *solid_angle;
   return density_of_area(area_of(form), from, place);
 }
 

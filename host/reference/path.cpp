@@ -66,10 +66,10 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
     kind = RayKind::refracted;
     throughput_ *= sample.weight;
   } else if (sample.kind == BsdfSample::Kind::lobe) {
-    const BsdfValue value = bsdf.at(sample.i);
     d = frame.out_of(sample.i);
     const bool before = glm::dot(at.surface.normal_geometric, d) > 0;
-    if (!(value.density > 0) || before != (sample.i.z > 0)) return std::nullopt;
+    const BsdfValue value = bsdf.at(sample.i, before);
+    if (!(value.density > 0) || !bsdf.faces(sample.i, before)) return std::nullopt;
     density_ = value.density;
     chosen_at_ = lit_point(at);
     throughput_ *= value.value / value.density;
@@ -129,6 +129,17 @@ Interaction PathSample::scattered_at(const Ray& ray, double t) const {
   return at;
 }
 
+std::optional<Ray> PathSample::meet_medium(const Ray& ray, const Flight& flight, const MediaStack& media,
+                                           Vec3& color) {
+  rays_.decided(Event::hit, in_medium);
+  const Interaction at = scattered_at(ray, flight.t);
+  const Vec3 light = direct_in(at, media);
+  observer_.value("light", light);
+  rays_.decided(Event::light, asked_);
+  color += throughput_ * light;
+  return scatter_in(rays_.medium(media), at);
+}
+
 PixelSample PathSample::sample(Ray ray, MediaStack media) {
   Vec3 color(0);
   vertex_ = ray.o;
@@ -140,20 +151,13 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
     throughput_ *= flight.weight;
     std::optional<Ray> next;
     if (flight.scattered) {
-      rays_.decided(Event::hit, in_medium);
-      const Medium medium = rays_.medium(media);
-      const Interaction at = scattered_at(ray, flight.t);
-      const Vec3 light = direct_in(at, media);
-      observer_.value("light", light);
-      rays_.decided(Event::light, asked_);
-      color += throughput_ * light;
-      next = scatter_in(medium, at);
+      next = meet_medium(ray, flight, media, color);
       if (!next) rays_.decided(Event::way, 0);
     } else if (hit) {
       const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
       rays_.decided(Event::hit, at.primitive + 1);
-      const LocalFrame frame(at);
-      const ViewedBsdf bsdf(at.bsdf, frame.viewer);
+      const LocalFrame frame(at.surface.normal);
+      const ViewedBsdf bsdf(at.bsdf, frame.seen(-at.d));
       const Vec3 light = emitted(at) + direct_on(at, frame, bsdf, media);
       observer_.value("light", light);
       rays_.decided(Event::light, asked_);
@@ -191,8 +195,8 @@ AuxiliarySample PathSample::auxiliary(Ray ray, MediaStack media) {
     }
     if (!hit) return {Vec3(1), Vec3(0)};
     const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
-    const LocalFrame frame(at);
-    const ViewedBsdf bsdf(at.bsdf, frame.viewer);
+    const LocalFrame frame(at.surface.normal);
+    const ViewedBsdf bsdf(at.bsdf, frame.seen(-at.d));
     const bool shines = at.scattering.emitted != Vec3(0);
     const AuxiliarySample found{shines ? Vec3(1) : bsdf.albedo(), at.surface.normal};
     const auto next = bsdf.specular() ? scatter(at, frame, bsdf, media) : std::nullopt;

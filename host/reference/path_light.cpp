@@ -10,14 +10,11 @@
 #include "host/reference/phase.hpp"
 
 namespace eyeray::reference {
-namespace {
 
-// The weight of a technique of density p beside one of density q. On edge a place is infinitely dense.
+// On edge a place is infinitely dense.
 double power_heuristic(double p, double q) {
   return 1 / (1 + (q / p) * (q / p));
 }
-
-}  // namespace
 
 LitPoint lit_point(const Interaction& at) {
   const bool all_around = at.bsdf.glass + at.bsdf.thin != Vec3(0) || at.in_medium();
@@ -145,10 +142,10 @@ Vec3 PathSample::direct_on(const Interaction& at, const LocalFrame& frame, const
   const auto light = arriving(at);
   if (!light || light->radiance == Vec3(0)) return Vec3(0);
   const Vec3 i = frame.into(light->l);
-  const BsdfValue scattered = bsdf.at(i);
+  const bool before = rays_.is_before(at.surface, light->l, light->distance);
+  const BsdfValue scattered = bsdf.at(i, before);
   if (scattered.value == Vec3(0)) return Vec3(0);
-  if (!rays_.on_side(at.surface, light->l, light->distance, i.z > 0)) return Vec3(0);
-  return direct(at, *light, scattered, i.z > 0 ? media : at.media_beyond);
+  return direct(at, *light, scattered, before ? media : at.media_beyond);
 }
 
 Vec3 PathSample::direct_in(const Interaction& at, const MediaStack& media) {

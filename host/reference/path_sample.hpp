@@ -6,8 +6,12 @@
 #include <optional>
 
 #include "host/reference/bsdf.hpp"
+#include "host/reference/emitter_sample.hpp"
 #include "host/reference/integrator.hpp"
 #include "host/reference/light_pick.hpp"
+#include "host/reference/local_frame.hpp"
+#include "host/reference/photon_map.hpp"
+#include "host/reference/photon_source.hpp"
 #include "host/reference/rng.hpp"
 #include "host/reference/sample_rays.hpp"
 #include "host/reference/sampler.hpp"
@@ -19,33 +23,12 @@ inline constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, 
                           pairs_a_vertex = 4;
 inline constexpr uint32_t first_flight_pair = 0x10000;  // of the vertices after the first one further on each
 
-inline constexpr double least_cosine =
-    1e-4;  // towards the viewer: what bent normals turn away is seen edge-on
-
 // Where lights are asked from.
 LitPoint lit_point(const Interaction& at);
+// The weight of a technique of density p beside one of density q.
+double power_heuristic(double p, double q);
 // What comes through a medium.
 Vec3 transmittance(const Medium& medium, double t);
-
-// A point's own frame: z is the normal towards where the ray came from.
-class LocalFrame {
- public:
-  explicit LocalFrame(const Interaction& at) : n_(at.surface.normal) {
-    const auto [s, t] = tangents(n_);
-    s_ = s;
-    t_ = t;
-    const Vec3 o = into(-at.d);
-    viewer = glm::normalize(Vec3(o.x, o.y, std::max(o.z, least_cosine)));
-  }
-
-  Vec3 into(const Vec3& v) const { return {glm::dot(v, s_), glm::dot(v, t_), glm::dot(v, n_)}; }
-  Vec3 out_of(const Vec3& v) const { return v.x * s_ + v.y * t_ + v.z * n_; }
-
-  Vec3 viewer;
-
- private:
-  Vec3 s_, t_, n_;
-};
 
 // From a light: by direction l, along the ray where nothing stands before `distance`.
 struct Arriving {
@@ -75,6 +58,11 @@ class PathSample {
         observer_(observer) {}
 
   PixelSample sample(Ray ray, MediaStack media);
+  // The same up to where photons are gathered, and what those bring.
+  PixelSample gathering_sample(Ray ray, MediaStack media);
+  // Of the sample's photon that the id's index names, its pixel being photons_of | the sample's number: where
+  // it is stopped. Its trail.
+  uint32_t photon(const PhotonSources& sources, std::vector<Photon>& stopped);
   AuxiliarySample auxiliary(Ray ray, MediaStack media);
 
  private:
@@ -92,6 +80,8 @@ class PathSample {
   uint32_t surfaces() const { return uint32_t(depth_ + all_panes_); }
   Flight fly(const MediaStack& media, const std::optional<Hit>& hit) const;
   Interaction scattered_at(const Ray& ray, double t) const;
+  // Lights the point of a medium where the flight ends, and goes on from there.
+  std::optional<Ray> meet_medium(const Ray& ray, const Flight& flight, const MediaStack& media, Vec3& color);
   std::optional<Ray> scatter_in(const Medium& medium, const Interaction& at);
   Vec3 emitted(const Interaction& at) const;
   Vec3 missed(const Vec3& d) const;
@@ -107,6 +97,10 @@ class PathSample {
                                uint32_t way, bool straight = false);
   std::optional<Ray> scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                              MediaStack& media);
+  Vec3 direct_on_parts(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& wide,
+                       const ViewedBsdf& sharp, const MediaStack& media);
+  Vec3 gathered(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& wide,
+                const PhotonMap& photons) const;
 
   const Tracer& tracer_;
   const Scene& scene_;

@@ -22,6 +22,16 @@ Medium SampleRays::medium(const MediaStack& media) const {
   return media.top() < 0 ? scene_.medium : *scene_.materials[size_t(media.top())]->medium();
 }
 
+Ray SampleRays::start_ray(const Ray& ray) {
+  if (ray_offset_.share == 0) return ray;
+  Vec3 aside;
+  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(ray_offset_.seed, spawned_, i, 0) - 1;
+  const Ray started{ray.o + ray_offset_.share * glm::length(ray.o - scene_.camera.eye) * aside,
+                    rounded(ray.d)};
+  ++spawned_;
+  return started;
+}
+
 Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d) {
   if (ray_offset_.textures != TextureChoice::at_hit) return {spawn_origin(point, d), d};
   const Vec3 from_eye = glm::abs(point.position - scene_.camera.eye);
@@ -65,8 +75,8 @@ bool SampleRays::faces(const SurfacePoint& point, const Vec3& l, double distance
   return glm::dot(point.normal, l) + by > 0 && glm::dot(point.normal_geometric, l) + by > 0;
 }
 
-bool SampleRays::on_side(const SurfacePoint& point, const Vec3& l, double distance, bool before) const {
-  return (glm::dot(point.normal_geometric, l) + tilt(point, distance) > 0) == before;
+bool SampleRays::is_before(const SurfacePoint& point, const Vec3& l, double distance) const {
+  return glm::dot(point.normal_geometric, l) + tilt(point, distance) > 0;
 }
 
 double SampleRays::shadow(const Ray& ray, double t_end) {
@@ -87,14 +97,16 @@ Vec3 SampleRays::through_panes(Ray ray, double t_end, const MediaStack& media) {
     if (glm::dot(ray.d, surface.normal_geometric) > 0) {
       surface.normal_geometric = -surface.normal_geometric;
       surface.normal = -surface.normal;
+      surface.coat_normal = -surface.coat_normal;
     }
     const Material& material = *scene_.materials[size_t(hit->material)];
     if (panes == most_panes || !material.thin()) return Vec3(0);
     const double cosine = std::clamp(-glm::dot(ray.d, surface.normal), 0.0, 1.0);
-    const ScatteringContext context{{surface.uv, surface.position}, cosine, ior, ior, surface.color};
+    const LocalFrame frame(surface.normal);
+    const ScatteringContext context{{surface.uv, surface.position}, cosine, ior, ior, surface.color,
+                                    frame.into(surface.coat_normal)};
     const Bsdf bsdf = material.bsdf(context, material.scattering(context));
-    const double up = std::max(cosine, 1e-4);
-    left *= ViewedBsdf(bsdf, {std::sqrt(1 - up * up), 0, up}).passed();
+    left *= ViewedBsdf(bsdf, frame.seen(-ray.d)).passed();
     if (left == Vec3(0)) return left;
     const Ray next = spawn_ray(surface, ray.d);
     t_end -= glm::dot(next.o - ray.o, ray.d);
@@ -146,7 +158,13 @@ std::optional<Interaction> SampleRays::hit(const Ray& ray, const MediaStack& med
 std::optional<Hit> SampleRays::trace(const Ray& ray) {
   stop_if_interrupted();
   ++rays_;
-  return tracer_.trace(ray, flags_, ray_offset_.coincident);
+  return tracer_.trace(ray, flags_, takes_farther());
+}
+
+// With random numbers that are off, float32 takes now the one, now the other.
+bool SampleRays::takes_farther() const {
+  const bool tossed = ray_offset_.numbers == 0 || random(ray_offset_.numbers, rays_, 0, 1) < 0.5;
+  return ray_offset_.coincident && tossed;
 }
 
 Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaStack& media,
@@ -162,6 +180,7 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
   if (!front) {
     at.surface.normal_geometric = -at.surface.normal_geometric;
     at.surface.normal = -at.surface.normal;
+    at.surface.coat_normal = -at.surface.coat_normal;
   }
   at.cos_view = std::clamp(-glm::dot(at.d, at.surface.normal), 0.0, 1.0);
 
@@ -180,8 +199,12 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
   at.dimming = dimming;
   at.ior_before = before.ior;
   at.ior_beyond = medium(at.media_beyond).ior;
-  const ScatteringContext context{
-      {at.surface.uv, at.surface.position}, at.cos_view, at.ior_before, at.ior_beyond, at.surface.color};
+  const ScatteringContext context{{at.surface.uv, at.surface.position},
+                                  at.cos_view,
+                                  at.ior_before,
+                                  at.ior_beyond,
+                                  at.surface.color,
+                                  LocalFrame(at.surface.normal).into(at.surface.coat_normal)};
   at.scattering = scattering(ray, hit, at.surface, context);
   if (!front && material.emits_in_front) at.scattering.emitted = Vec3(0);
   if (walks_at_random(scene_.render.integrator)) at.bsdf = material.bsdf(context, at.scattering);

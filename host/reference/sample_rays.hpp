@@ -48,13 +48,15 @@ class SampleRays {
   Vec3 surroundings(const Vec3& d) const;
   // The unit direction as float32 may round it.
   Vec3 rounded(const Vec3& d) const;
+  // A ray that leaves a light, as float32 may round it.
+  Ray start_ray(const Ray& ray);
   // A ray that leaves the surface, as float32 may round it.
   Ray spawn_ray(const SurfacePoint& point, const Vec3& d);
   // Whether a light in direction l at that distance stands before the surface. In its plane float32 may say
   // either.
   bool faces(const SurfacePoint& point, const Vec3& l, double distance) const;
-  // Whether it stands on the side of the surface where the viewer is, if `before`, or else beyond it.
-  bool on_side(const SurfacePoint& point, const Vec3& l, double distance, bool before) const;
+  // Whether it stands on the side of the surface where the viewer is.
+  bool is_before(const SurfacePoint& point, const Vec3& l, double distance) const;
   // The share of light that a shadow ray to `t_end` brings.
   double shadow(const Ray& ray, double t_end);
   // The same where only panes let light through. `media`: that the ray goes through.
@@ -73,6 +75,7 @@ class SampleRays {
  private:
   Scattering scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
                         ScatteringContext context) const;
+  bool takes_farther() const;
   double cosine_rounding(const SurfacePoint& point, double distance) const;
   double tilt(const SurfacePoint& point, double distance) const;
 

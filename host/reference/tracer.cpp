@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/reference/bent_normal.hpp"
+#include "host/reference/photon_map.hpp"
 #include "host/scene/integrator.hpp"
 
 namespace eyeray::reference {
@@ -14,7 +15,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene), ids_(scene) {
+Tracer::Tracer(const Scene& scene, Acceleration acceleration)
+    : scene_(scene), ids_(scene), photon_maps_(std::make_unique<PhotonMaps>()) {
   for (const Mesh& mesh : scene.meshes) meshes_.emplace_back(mesh, acceleration);
   world_.emplace(scene.shapes, scene.instances, meshes_, scene.materials, acceleration);
   for (const Group& group : scene.groups)
@@ -27,6 +29,16 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration) : scene_(scene), i
   group_bvh_ = Bvh(
       uint32_t(groups_.size()), [this](uint32_t i) { return groups_[i].bounds(); }, acceleration);
   if (walks_at_random(scene.render.integrator)) light_choice_ = eyeray::light_choice(scene);
+}
+
+Tracer::~Tracer() = default;
+
+std::shared_ptr<const PhotonMap> Tracer::photons(uint32_t index) const {
+  return photon_maps_->of_sample(*this, index);
+}
+
+void Tracer::leave_out(std::vector<std::vector<uint32_t>> photons) const {
+  photon_maps_->leave_out(std::move(photons));
 }
 
 BoxRay Tracer::group_box_ray(const Ray& ray) const {
@@ -65,6 +77,13 @@ std::optional<Hit> Tracer::coincident_with(const Ray& ray, const Hit& hit) const
   const SurfacePoint point = surface(ray, hit);
   const double cosine = std::max(0.01, std::abs(glm::dot(ray.d, point.normal_geometric)));
   const double apart = 8 * 0x1p-24 * glm::length(point.position - scene_.camera.eye) / cosine;
+  // Where both lie at the very same place, no ray this way tells them apart. Seen from beyond, the farther
+  // one comes first.
+  if (auto found = trace({ray.o + (hit.at.t + apart) * ray.d, -ray.d});
+      found && found->primitive != hit.primitive && found->at.t <= 2 * apart) {
+    found->at.t = hit.at.t + apart - found->at.t;
+    return found;
+  }
   // The primitive itself is hit again, once or twice.
   const double step = 1e-6 * apart;
   double start = hit.at.t - step;
@@ -101,7 +120,7 @@ SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
       hit.group < 0 ? world_->surface(ray, object) : groups_[size_t(hit.group)].surface(ray, object);
   // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
   if (!(glm::dot(point.normal, point.normal_geometric) > 0)) point.normal = point.normal_geometric;
-  point.normal = bent_normal(*scene_.materials[size_t(hit.material)], point, ray.d);
+  bend_normals(*scene_.materials[size_t(hit.material)], point, ray.d);
   return point;
 }
 

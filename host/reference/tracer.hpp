@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 
 #include "host/core/pixel.hpp"
 #include "host/reference/group_geometry.hpp"
@@ -10,6 +11,9 @@
 #include "host/scene/scene.hpp"
 
 namespace eyeray::reference {
+
+class PhotonMap;  // photon_map.hpp
+class PhotonMaps;
 
 struct Hit {
   TriangleHit at;      // of a shape: its intersection
@@ -25,6 +29,7 @@ class Tracer {
  public:
   // `scene` must outlive it. Under Acceleration::bvh, a second for a million triangles or less.
   explicit Tracer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
+  ~Tracer();
 
   // The nearest hit with t > 0; of exactly equal ones that of the lowest primitive. Adds to `flags`, of
   // SampleFlags, what may be wrong with it. `coincident`: rather another primitive that a ray with a unit
@@ -47,6 +52,10 @@ class Tracer {
   const Scene& scene() const { return scene_; }
   // The scene's, where its integrator chooses one light; else empty.
   const LightChoice& light_choice() const { return light_choice_; }
+  // Of sample `index`, where the scene's integrator sends out photons. From many threads at once.
+  std::shared_ptr<const PhotonMap> photons(uint32_t index) const;
+  // From now on these photons of each sample bring nothing.
+  void leave_out(std::vector<std::vector<uint32_t>> photons) const;
   // The scene's own objects, and as Scene::group_instances those of groups.
   const Objects& world() const { return *world_; }
   const std::vector<GroupGeometry>& groups() const { return groups_; }
@@ -69,6 +78,7 @@ class Tracer {
   double groups_growth_ = 1;  // the largest of all groups
   Bvh group_bvh_;             // of their boxes
   LightChoice light_choice_;
+  std::unique_ptr<PhotonMaps> photon_maps_;
 };
 
 }  // namespace eyeray::reference

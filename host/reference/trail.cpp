@@ -26,6 +26,8 @@ std::string describe_event(uint32_t event) {
       if (value == way_in_medium + 1) return "goes on through the medium";
       return fmt::format("goes on by lobe {}{}", (value & ~through) - 1, value & through ? ", through" : "");
     }
+    case Event::aim:
+      return fmt::format("heads for {} of {} targets", value % 32, value / 32);
   }
   return "does what is no event";
 }

@@ -15,6 +15,7 @@ enum class Event : uint32_t {
   light =
       2,    // twice its number + 2, of the environment twice 1, and one more where it is seen; 0: none asked
   way = 3,  // by which the path goes on: a lobe + 1, and `through`; 0: it ends
+  aim = 4,  // of a photon: 32 times how many targets its start sees, and how many of them it heads for
 };
 inline constexpr uint32_t in_medium = 0x0fffffff;
 inline constexpr uint32_t through = 0x100;

@@ -19,6 +19,10 @@ void Brightness::add(std::span<const PixelSample> samples) {
   for (const PixelSample& sample : samples) ++counts_[place_of(luminance(sample.color))];
 }
 
+void Brightness::add(const Brightness& other) {
+  for (size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+}
+
 uint64_t Brightness::above(double luminance) const {
   if (!(luminance > 0)) return 0;
   const auto first = counts_.begin() + std::ptrdiff_t(place_of(luminance)) + 1;

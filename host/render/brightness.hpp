@@ -14,6 +14,10 @@ class Brightness {
   void add(std::span<const PixelSample> samples);
   // How many have more luminance than that, which is above 0; of those hardly brighter only some. 0 else.
   uint64_t above(double luminance) const;
+  // What another machine counted.
+  void add(const Brightness& other);
+  std::array<uint64_t, 2048>& counts() { return counts_; }
+  const std::array<uint64_t, 2048>& counts() const { return counts_; }
 
  private:
   std::array<uint64_t, 2048>

@@ -10,7 +10,6 @@
 #include "host/core/processor_time.hpp"
 #include "host/core/termination.hpp"
 #include "host/render/adaptive.hpp"
-#include "host/render/brightness.hpp"
 #include "host/render/checkpoint.hpp"
 #include "host/scene/luminance.hpp"
 
@@ -48,7 +47,11 @@ class Driver {
       : executor_(executor),
         options_(options),
         sink_(sink),
-        crop_(options.crop.pixels() ? options.crop : Rect{0, 0, scene.image.width, scene.image.height}),
+        tiles_(options.tiles),
+        crop_(tiles_                  ? Rect{0, 0, tiles_->width(), tiles_->height()}
+              : options.crop.pixels() ? options.crop
+                                      : Rect{0, 0, scene.image.width, scene.image.height}),
+        pixels_(tiles_ ? tiles_->pixels() : crop_.pixels()),
         samples_(scene.image.samples),
         counted_{.kinds = options.pixel_kinds,
                  .noise = options.pixel_noise || options.noise > 0,
@@ -57,12 +60,13 @@ class Driver {
         shown_as_one_(std::exp2(-scene.image.tone.exposure)),
         least_samples_(samples_),
         at_a_time_(crop_.width) {
+    CHECK(pixels_ > 0 && !(tiles_ && options.noise > 0));
     const size_t rows = options.band_bytes / (size_t(crop_.width) * sizeof(PixelSums::Pixel));
-    // A block's noise is known from the whole block.
-    const size_t unit = counted_.noise ? noise_block : 1;
+    // A block's noise is known from the whole block. So is a tile from all of it.
+    const size_t unit = counted_.noise || tiles_ ? noise_block : 1;
     const auto height = size_t(crop_.height);
     band_rows_ = int(rows < height ? std::min(height, std::max<size_t>(rows / unit, 1) * unit) : height);
-    progress_.samples_total = uint64_t(crop_.pixels()) * uint64_t(samples_);
+    progress_.samples_total = uint64_t(pixels_) * uint64_t(samples_);
     progress_.bands = bands();
     progress_.samples = samples_;
     begin_band(0);
@@ -135,9 +139,7 @@ class Driver {
       if (adaptive_ && position_.extra_rows == 0 && !some_are_left()) break;
       const int row = int(position_.extra_rows);
       const int height = std::min(at_a_time_.rows(), sums_.height() - row);
-      const std::vector<Rect> parts =
-          adaptive_ ? adaptive_->left(row, height) : std::vector{Rect{0, row, crop_.width, height}};
-      if (interrupted() || !sample(parts)) return false;
+      if (interrupted() || !sample(parts_to_sample(row, height))) return false;
       if (!saving_) saving_.emplace();
       position_.rays += parallel_sum(0, int(tile_samples_.size()),
                                      [&](int i) { return uint64_t{tile_samples_[size_t(i)].rays}; });
@@ -155,6 +157,22 @@ class Driver {
     return true;
   }
 
+  // Of rows [row, row + height) of the band.
+  std::vector<Rect> parts_to_sample(int row, int height) const {
+    if (adaptive_) return adaptive_->left(row, height);
+    if (!tiles_) return {Rect{0, row, crop_.width, height}};
+    std::vector<Rect> parts = tiles_->parts(int(position_.finished_rows) + row, height);
+    for (Rect& part : parts) part.y -= int(position_.finished_rows);
+    return parts;
+  }
+
+  // Where in the picture a part of the band lies.
+  Rect in_picture(Rect part) const {
+    part.y += int(position_.finished_rows);
+    return tiles_ ? tiles_->in_picture(part)
+                  : Rect{crop_.x + part.x, crop_.y + part.y, part.width, part.height};
+  }
+
   // One of every pixel of `parts` of the band, or none.
   bool sample(const std::vector<Rect>& parts) {
     size_t pixels = 0;
@@ -167,8 +185,7 @@ class Driver {
     std::span<AuxiliarySample> auxiliaries = tile_auxiliaries_;
     try {
       for (const Rect& part : parts) {
-        const Rect tile{crop_.x + part.x, crop_.y + int(position_.finished_rows) + part.y, part.width,
-                        part.height};
+        const Rect tile = in_picture(part);
         const std::span<PixelSample> out = left.first(size_t(part.pixels()));
         if (!executor_.sample(tile, uint32_t(position_.samples), out)) return false;
         const std::span<AuxiliarySample> beside = auxiliaries.first(counted_.auxiliary ? out.size() : 0);
@@ -258,6 +275,7 @@ class Driver {
     const float* const noise = options_.noise > 0 ? rows.noise.samples().data() : nullptr;
     for (size_t i = 0; i < rows.samples.sample_count(); ++i) {
       const int samples = int(rows.samples.samples()[i]);
+      if (samples == 0) continue;  // beside or below a tile
       samples_given_ += uint64_t(samples);
       least_samples_ = std::min(least_samples_, samples);
       totals_.most_samples = std::max(totals_.most_samples, samples);
@@ -279,8 +297,8 @@ class Driver {
     totals.flags = uint32_t(position_.flags);
     totals.bands = bands();
     totals.samples_taken = progress_.samples_done;
-    totals.fireflies.samples =
-        brightness_.above(Fireflies::times * luminances_given_ / double(crop_.pixels()));
+    totals.fireflies.samples = brightness_.above(Fireflies::times * luminances_given_ / double(pixels_));
+    totals.brightness = brightness_;
     totals.samples_total = progress_.samples_total;
     return totals;
   }
@@ -293,7 +311,9 @@ class Driver {
   executors::Executor& executor_;
   const RenderOptions& options_;
   const RowSink& sink_;
-  const Rect crop_;
+  const ShardTiles* const tiles_;
+  const Rect crop_;       // what is rendered, or the stack of the tiles
+  const int64_t pixels_;  // of it
   const int samples_;
   const Counted counted_;
   const double shown_as_one_;

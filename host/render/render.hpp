@@ -5,7 +5,9 @@
 
 #include "host/core/ray_counts.hpp"
 #include "host/executors/executor.hpp"
+#include "host/render/brightness.hpp"
 #include "host/render/sums.hpp"
+#include "host/render/tiling.hpp"
 
 namespace eyeray::render {
 
@@ -45,6 +47,9 @@ struct RenderOptions {
   double clamp = 0;
   // Is shown each sample of a tile of the whole picture, as it is taken; may be empty.
   std::function<void(const Rect& tile, uint32_t index, std::span<const PixelSample>)> witness = {};
+  // Only these tiles, of `crop`: rows are then those of their stack. Not with `noise`, which looks at
+  // neighbours. Null: all pixels.
+  const ShardTiles* tiles = nullptr;
   Checkpoint* checkpoint = nullptr;  // kept and resumed from; see render_rows
 };
 
@@ -68,10 +73,11 @@ struct RenderTotals {
   uint64_t samples_total = 0;    // as in Progress
   uint64_t samples_resumed = 0;
   uint64_t rays_resumed = 0;
-  RayCounts ray_kinds;   // of this run, where they were asked for
-  int most_samples = 0;  // that a pixel has
-  Fireflies fireflies;   // of this run
-  uint64_t clamped = 0;  // samples of this run that RenderOptions::clamp changed
+  RayCounts ray_kinds;    // of this run, where they were asked for
+  int most_samples = 0;   // that a pixel has
+  Fireflies fireflies;    // of this run
+  Brightness brightness;  // of its samples
+  uint64_t clamped = 0;   // samples of this run that RenderOptions::clamp changed
   // With RenderOptions::noise: how many pixels have no more, and the greatest that one has.
   uint64_t quiet_pixels = 0;
   double greatest_noise = 0;

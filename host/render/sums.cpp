@@ -67,17 +67,18 @@ uint64_t PixelSums::samples() const {
 }
 
 double PixelSums::noise(const Rect& block) const {
-  double variances = 0, brightness = 0;
+  double variances = 0, brightness = 0, pixels = 0;
   for (int y = block.y; y < block.y + block.height; ++y) {
     for (int x = block.x; x < block.x + block.width; ++x) {
       const Pixel& one = pixel(x, y);
       const double n = one.samples, sum = luminance(one.color);
+      if (n == 0) continue;  // as in mean
       if (n < 2) return std::numeric_limits<double>::quiet_NaN();
+      ++pixels;
       variances += std::max(0.0, squares_[index(x, y)] - sum * sum / n) / (n * (n - 1));
       brightness += sum / n;
     }
   }
-  const double pixels = double(block.pixels());
   return 1.96 * std::sqrt(variances / pixels) / (brightness / pixels + 0.01 * shown_as_one_);
 }
 
@@ -90,7 +91,8 @@ FinishedRows PixelSums::mean(int first, int count) const {
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < width_; ++x) {
       const Pixel& sums = pixel(x, first + y);
-      const auto divisor = double(sums.samples);
+      // What is no pixel, beside or below a shard's tile, has none.
+      const double divisor = std::max(1u, unsigned{sums.samples});
       for (int c = 0; c < 3; ++c) rows.color.pixel(x, y)[c] = float(sums.color[c] / divisor);
       *rows.hits.pixel(x, y) = float(double(sums.hits) / divisor);
       *rows.rays_traced.pixel(x, y) = float(double(sums.rays) / divisor);

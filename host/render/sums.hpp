@@ -96,8 +96,8 @@ class PixelSums {
   uint64_t samples() const;  // of all pixels
   // How far pixels may be off, relative to how bright they are: half the width of a pixel's 95 % interval,
   // 1.96 √(s²/n) of luminance, the root of the mean square over the block, by the mean luminance plus 1 % of
-  // what is shown as 1. NaN where a pixel has fewer than two samples. Samples of one pixel that are spread
-  // evenly, as Sobol's, are better than that as a rule.
+  // what is shown as 1. NaN where a pixel has one sample, or none has any; others without are none. Samples
+  // of one pixel that are spread evenly, as Sobol's, are better than that as a rule.
   double noise(const Rect& block) const;
 
   // As a checkpoint keeps them, one after the other, each row by row (render/checkpoint.hpp).

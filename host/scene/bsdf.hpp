@@ -15,7 +15,8 @@ struct Bsdf {
   double covered = 1;           // the share of the surface that mirrors by `glossy`; the rest is glass
   double coat = 0;              // the share of the surface that is coated
   double coat_roughness = 1;
-  Vec3 sheen{0};  // colour of the fibres above all that, under the coat
+  Vec3 coat_normal{0, 0, 1};  // in the surface's own frame
+  Vec3 sheen{0};              // colour of the fibres above all that, under the coat
   double sheen_roughness = 1;
   Vec3 thin{0};         // throughput of a rough pane, under `layer`
   Vec3 glass{0};        // throughput of rough glass, before Fresnel, …

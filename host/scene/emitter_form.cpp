@@ -173,6 +173,10 @@ double area_of(const EmitterForm& form) {
   return std::visit(Area(), form);
 }
 
+bool is_rectangle(const ParallelogramForm& it) {
+  return std::abs(glm::dot(it.edge_u, it.edge_v)) <= 1e-7 * glm::length(it.edge_u) * glm::length(it.edge_v);
+}
+
 double share_of_side(const CylinderForm& cylinder) {
   return side_area(cylinder) / area_of(cylinder);
 }

@@ -29,6 +29,9 @@ EmitterForm mapped(const EmitterForm& form, const Affine& map);
 
 // Of its one side.
 double area_of(const EmitterForm& form);
+// Whether its angles are right ones: so nearly that places chosen on it as if they were are as even as
+// float32 tells.
+bool is_rectangle(const ParallelogramForm& it);
 // The share of a cylinder's area that its side has.
 double share_of_side(const CylinderForm& cylinder);
 // Without its power.

@@ -45,4 +45,9 @@ constexpr bool walks_at_random(IntegratorType type) {
   return traits_of(type).shadow_rays == ShadowRays::one_light;
 }
 
+// Whether lights send out photons, which its paths gather (scene/photons.hpp).
+constexpr bool sends_photons(IntegratorType type) {
+  return type == IntegratorType::sppm;
+}
+
 }  // namespace eyeray

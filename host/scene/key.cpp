@@ -90,6 +90,8 @@ std::string describe(const Key& declared) {
       return "a table { NAME = number or [2 to 4 numbers], … }";
     case KeyType::color_map:
       return "a list of colors [[t, color], …], t rising from 0 to 1 at most";
+    case KeyType::keyframes:
+      return "a list of keyframes [[frame, value], …], frames rising";
     case KeyType::color:
       return "a color [r, g, b] or one number for all three" + each(key);
     case KeyType::texture:

@@ -6,7 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "host/scene/affine.hpp"
+#include "host/scene/extent.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/scene/luminance.hpp"
 #include "host/scene/scene.hpp"
 #include "host/scene/whole_shares.hpp"
@@ -22,19 +23,8 @@ constexpr size_t least_for_bvh = 64;
 
 // The radius of a sphere around all that has an end, and the eye.
 double reach(const Scene& scene) {
-  Bounds all;
+  Bounds all = extent(scene);
   all.include(scene.camera.eye);
-  const auto include = [&](const Bounds& box, const Affine& map) {
-    if (!std::isfinite(glm::length(box.max - box.min))) return;
-    for (int corner = 0; corner < 8; ++corner)
-      all.include(map.point({(corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
-                             (corner & 4 ? box.max : box.min).z}));
-  };
-  for (const auto& shape : scene.shapes) include(shape->bounds(), Affine(Mat4(1.0)));
-  for (const Instance& instance : scene.instances)
-    include(bounds(scene.meshes[size_t(instance.mesh)]), Affine(instance.transform));
-  for (const GroupInstance& instance : scene.group_instances)
-    include(bounds(scene.groups[size_t(instance.group)], scene.meshes), Affine(instance.transform));
   return glm::length(all.max - all.min) / 2;
 }
 
@@ -113,6 +103,7 @@ LightBvh bvh_of(const Scene& scene, const std::vector<Emitter>& emitters) {
 }
 
 bool wants_bvh(const Scene& scene, size_t lights) {
+  if (sends_photons(scene.render.integrator)) return false;
   return scene.render.light_sampler == LightSampler::bvh ||
          (scene.render.light_sampler == LightSampler::automatic && lights >= least_for_bvh);
 }

@@ -49,6 +49,7 @@ struct ScatteringContext {
   double ior_from;  // of the medium the ray comes through
   double ior_to;    // of the medium behind the surface
   Vec3 color{1.0};  // of a mesh's vertices: what the colours that scatter are multiplied by
+  Vec3 coat_normal{0, 0, 1};  // in the surface's own frame, whose z is the shading normal
 };
 
 // Cutouts: where the alpha, times that of a mesh's vertices, is below `cutoff`, there is no surface.
@@ -101,7 +102,8 @@ class Material {
   bool emits_in_front = false;    // light of its own only where normals point; else on both sides
   std::optional<AlphaMask> mask;  // never where there is a medium
   std::optional<NormalMap> normal_map;
-  std::optional<BumpMap> bump_map;  // on top of that
+  std::optional<BumpMap> bump_map;           // on top of that
+  std::optional<NormalMap> coat_normal_map;  // of a coat, which the others do not bend
 };
 
 struct MaterialType {

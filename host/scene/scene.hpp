@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ enum class SamplePattern : uint32_t;
 enum class IntegratorType : uint32_t;
 
 class EnvironmentMap;  // scene/environment.hpp
+struct Scene;
 
 // What of the picture around its middle a pixel shows, each sample for as much: samples are drawn from it.
 enum class PixelFilter : uint32_t { box, gaussian, blackman_harris };
@@ -54,14 +56,31 @@ struct RenderSettings {
   TriangleMethod triangle_method = TriangleMethod::woop;
   LightSampler light_sampler = LightSampler::automatic;
   GroupStorage groups = GroupStorage::automatic;  // which groups are instanced
-  Vec3 background{0.0};                           // what a ray that hits nothing sees
-  Vec3 ambient{0.0};                              // light that reaches every point from everywhere
+  int photons = 1 << 17;                          // of `sppm`, sent out for each sample
+  double photon_radius = 0;  // within which the first sample gathers them; 0: as scene/photons.hpp says
+  Vec3 background{0.0};      // what a ray that hits nothing sees
+  Vec3 ambient{0.0};         // light that reaches every point from everywhere
 };
 
 // What `eyeray verify` is told of a scene.
 struct VerifySettings {
   double max_explained = 0.005;  // the share of pixels that may differ for a reason
 };
+
+// Where a scene stands in its animation, of which only this moment is in it; frames are counted from 0.
+struct Animation {
+  double frame = 0;               // shown
+  double frames_per_second = 24;  // of a video
+  int tracks = 0;                 // how many values move, …
+  double first = 0, last = 0;     // … from which frame to which
+  // Motion blur: the shutter is open for this long, in frames, around `frame`, and a picture shows so many
+  // moments of that time.
+  double shutter = 0;
+  int shutter_steps = 16;
+  // The scene at another frame, with the errors of its file; null where the shutter shows but one moment.
+  std::function<Scene(double frame)> at = nullptr;
+};
+inline constexpr double most_frames = 1e6;
 
 // Whether the material fills the shapes that are made of it: to paths, panes have no inside.
 bool fills(const Material& material, IntegratorType integrator);
@@ -74,6 +93,7 @@ struct Scene {
   Camera camera;
   RenderSettings render;
   VerifySettings verify;
+  Animation animation;
   Medium medium;                                      // around all, for paths; of ior 1
   std::shared_ptr<const EnvironmentMap> environment;  // in place of the background; null where there is none
   std::vector<std::unique_ptr<Light>> lights;

@@ -40,6 +40,7 @@ enum class KeyType {
   formula_file,  // the name of a file of it
   parameters,    // { NAME = number or [2 to 4 numbers], … }
   color_map,     // [[t, color], …], t rising from 0 to 1 at most
+  keyframes,     // [[frame, value], …], frames rising; checked by who reads them (loader/keyframes.hpp)
   color,         // [r, g, b], each ≥ 0, or one number for all three
   texture,       // a color, or a table of a kind of texture
   scale2,        // [u, v], or one number for both

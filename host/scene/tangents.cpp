@@ -74,7 +74,9 @@ void make_tangents(Scene& scene) {
   std::set<int> wanted;
   const auto note = [&](const std::vector<Instance>& instances) {
     for (const Instance& instance : instances)
-      if (scene.materials[size_t(instance.material)]->normal_map) wanted.insert(instance.mesh);
+      if (const Material& material = *scene.materials[size_t(instance.material)];
+          material.normal_map || material.coat_normal_map)
+        wanted.insert(instance.mesh);
   };
   note(scene.instances);
   for (const Group& group : scene.groups) note(group.instances);

@@ -284,6 +284,9 @@ Value Reader::value(const toml::node& node) {
       return parameters(node);
     case KeyType::color_map:
       return color_map(node);
+    case KeyType::keyframes:
+      if (!node.is_array() || node.as_array()->empty()) mismatch(node);
+      return true;
     case KeyType::color:
       return vector<3>(node, true);
     case KeyType::texture:
@@ -350,6 +353,8 @@ Value stand_in(const Key& key, const ValueSources& sources) {
       return std::vector<Vec3>();
     case KeyType::color_map:
       return std::vector<Vec4>();
+    case KeyType::keyframes:
+      return true;
     case KeyType::outlines:
       return std::vector<std::vector<Vec3>>();
     case KeyType::formula:

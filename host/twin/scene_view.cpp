@@ -73,11 +73,15 @@ SceneView view_of(const records::PackedScene& scene) {
           .lights = scene.lights.data(),
           .emitters = scene.emitters.data(),
           .light_nodes = scene.light_nodes.data(),
+          .emitter_media = scene.emitter_media.data(),
           .albedos = scene.albedos.data(),
           .albedo_count = uint32_t(scene.albedos.size()),
           .has_bvh = scene.has_bvh,
           .quantised_nodes = scene.quantised_nodes,
           .panes = scene.panes,
+          .photon_pass = nullptr,
+          .photons = nullptr,
+          .photon_cells = nullptr,
           .formulas = formulas,
           .stop_if_interrupted = [] { stop_if_interrupted(); }};
 }

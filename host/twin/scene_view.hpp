@@ -39,14 +39,25 @@ struct SceneView {
   const shader::Light* lights;
   const shader::Emitter* emitters;
   const shader::LightNode* light_nodes;
+  const uint32_t* emitter_media;
   const shader::vec4* albedos;
   uint32_t albedo_count;  // those of lobes that the scene lacks are not there
   bool has_bvh, quantised_nodes, panes;
+  // Of the sample that is taken: set by whoever traces its photons.
+  const shader::PhotonPass* photon_pass;
+  const shader::Photon* photons;
+  const uint32_t* photon_cells;
   FormulaView formulas;
   void (*stop_if_interrupted)();  // throws
 
   // Of the primitives of `kind` in no BVH.
   uint32_t first_linear(uint32_t kind) const { return kind == 0 ? 0 : linear_ends[kind - 1]; }
+};
+
+// Is given what a photon leaves behind.
+struct PhotonSink {
+  void* to;
+  void (*store)(void* to, const shader::Photon& photon);
 };
 
 // Is told what shaders PROBE; each is given `recorder`.
@@ -66,6 +77,9 @@ struct Functions {
                                  const Spectator* spectator);
   shader::AuxiliaryResult (*auxiliary)(const SceneView& scene, uint32_t x, uint32_t y, uint32_t index);
   shader::HitResult (*first_hit)(const SceneView& scene, uint32_t x, uint32_t y);
+  // What kernels/photons.comp.glsl computes for photon `number` of sample `index`.
+  shader::PhotonResult (*photon)(const SceneView& scene, uint32_t index, uint32_t number,
+                                 const PhotonSink& sink);
   // What kernels/query.comp.glsl computes for one ray.
   shader::QueryHit (*query)(const SceneView& scene, const shader::QueryRay& ray, bool any);
 };

@@ -12,18 +12,23 @@ namespace {
 
 thread_local const twin::SceneView* bound_scene = nullptr;
 thread_local const twin::Spectator* bound_spectator = nullptr;
+thread_local const twin::PhotonSink* bound_sink = nullptr;
 
 // Lets shader functions on this thread read `scene` for its lifetime, and show what they PROBE to
-// `spectator`, if there is one.
+// `spectator`, if there is one, and store photons in `sink`.
 class Binding {
  public:
-  explicit Binding(const twin::SceneView& scene, const twin::Spectator* spectator = nullptr) : scene_(scene) {
+  explicit Binding(const twin::SceneView& scene, const twin::Spectator* spectator = nullptr,
+                   const twin::PhotonSink* sink = nullptr)
+      : scene_(scene) {
     bound_scene = &scene_;
     bound_spectator = spectator;
+    bound_sink = sink;
   }
   ~Binding() {
     bound_scene = nullptr;
     bound_spectator = nullptr;
+    bound_sink = nullptr;
   }
   Binding(const Binding&) = delete;
   Binding& operator=(const Binding&) = delete;
@@ -82,6 +87,24 @@ class Binding {
 }
 [[maybe_unused]] vec4 load_albedo(uint i) {
   return i < bound_scene->albedo_count ? bound_scene->albedos[i] : vec4(0);
+}
+[[maybe_unused]] uint load_emitter_media(uint i) {
+  return bound_scene->emitter_media[i];
+}
+[[maybe_unused]] const PhotonPass& load_photon_pass() {
+  return *bound_scene->photon_pass;
+}
+[[maybe_unused]] const vec4& load_photon_target(uint i) {
+  return bound_scene->photon_pass->targets[i];
+}
+[[maybe_unused]] const Photon& load_photon(uint i) {
+  return bound_scene->photons[i];
+}
+[[maybe_unused]] uint load_photon_cell(uint key) {
+  return bound_scene->photon_cells[key];
+}
+[[maybe_unused]] void store_photon(const Photon& photon) {
+  bound_sink->store(bound_sink->to, photon);
 }
 
 // PROBE, where somebody looks.
@@ -169,6 +192,7 @@ void show(const char* name, uint line, const T& shown) {
 #include "lights/all.glsl"
 #include "emitters/all.glsl"
 #include "integrators/all.glsl"
+#include "integrators/photon.glsl"
 #include "kernels/pixel.glsl"
 #include "kernels/cooperative/shaft.glsl"
 // clang-format on

@@ -19,6 +19,11 @@ shader::HitResult first_hit(const SceneView& scene, uint32_t x, uint32_t y) {
   return shader::first_hit(*scene.frame, x, y);
 }
 
+shader::PhotonResult photon(const SceneView& scene, uint32_t index, uint32_t number, const PhotonSink& sink) {
+  const shader::Binding binding(scene, nullptr, &sink);
+  return shader::photon_way(*scene.frame, index, number);
+}
+
 shader::QueryHit query(const SceneView& scene, const shader::QueryRay& ray, bool any) {
   const shader::Binding binding(scene);
   return shader::query(ray, any);
@@ -28,6 +33,6 @@ shader::QueryHit query(const SceneView& scene, const shader::QueryRay& ray, bool
 
 // By this name executors/twin_module.cpp finds it in a shared object of the user's shaders.
 extern "C" [[gnu::visibility("default")]] const Functions eyeray_twin;
-const Functions eyeray_twin{sample, auxiliary, first_hit, query};
+const Functions eyeray_twin{sample, auxiliary, first_hit, photon, query};
 
 }  // namespace eyeray::twin

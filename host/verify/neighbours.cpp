@@ -96,6 +96,7 @@ compare::PathReference path_neighbours(const Scene& scene, const reference::Rend
     return events;
   };
   paths.variants = 8;
+  if (sends_photons(scene.render.integrator)) paths.shared = photon_radius(photon_settings(scene), 0);
   paths.reference = [&](compare::Pixel pixel, int sample, const Vec2& shift, int variant) {
     const uint32_t seed = seed_of(shift) | 1;
     constexpr double share = reference::float32_ray_offset;

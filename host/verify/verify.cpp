@@ -2,11 +2,13 @@
 
 #include "host/core/stopwatch.hpp"
 #include "host/executors/executors.hpp"
+#include "host/raster/witness.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/objects.hpp"
 #include "host/verify/evidence.hpp"
 #include "host/verify/neighbours.hpp"
+#include "host/verify/photon_judge.hpp"
 
 namespace eyeray::verify {
 namespace {
@@ -114,6 +116,29 @@ void name_hits(const Scene& scene, compare::Report& report) {
   }
 }
 
+// Draws what gate R compares with, on the device that renders.
+std::optional<raster::Witness> draw(const Scene& scene, const Rect& area, const Options& options) {
+  if (!options.raster) return std::nullopt;
+  gpu::DeviceOptions device;
+  device.select = options.executor.device;
+  device.validation = options.executor.validation;
+  device.sets_environment = options.executor.sets_environment;
+  device.timeout_seconds = options.executor.timeout_seconds;
+  device.compile_seconds = std::max(options.executor.timeout_seconds, options.executor.least_compile_seconds);
+  return std::make_optional<raster::Witness>(scene, area, device);
+}
+
+// Gate R: every executor, the reference too.
+void compare_with_drawn(const raster::Witness& drawn, std::span<const compare::Frame> frames,
+                        compare::Report& report) {
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const std::string& value = report.participants[i].name;
+    const bool same = i > 0 && i <= report.exact.size() && report.exact[i - 1].comparison.passes(0);
+    report.raster.push_back(same ? report.raster[0] : drawn.compare(frames[i], value));
+    report.raster.back().value = value;
+  }
+}
+
 }  // namespace
 
 compare::Report verify_scene(const Subject& subject, const Options& options) {
@@ -127,19 +152,32 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   report.area = options.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : options.crop;
   report.samples = scene.image.samples;
 
+  // What cannot be drawn is said before anything is rendered.
+  const std::optional<raster::Witness> drawn = draw(scene, report.area, options);
+
   // Render, the reference last.
   std::vector<compare::Frame> frames;
   std::unique_ptr<executors::Executor> twin;
+  const auto renderer =
+      std::make_shared<const reference::Renderer>(scene, options.executor.pack.acceleration);
+  const auto reference_executor = executors::make_reference_executor(renderer);
+  std::vector<std::vector<uint32_t>> left_out;
+  if (sends_photons(scene.render.integrator)) {
+    JudgedPhotons judged =
+        judge_photons(scene, *executors::make_executor(executors::Backend::twin, scene, options.executor),
+                      *reference_executor, *renderer);
+    left_out = std::move(judged.left_out);
+    report.photons = std::move(judged.tally);
+    reference_executor->leave_out(left_out);
+  }
   for (const executors::Backend backend : options.backends) {
     std::unique_ptr<executors::Executor> executor =
         executors::make_executor(backend, scene, options.executor);
+    executor->leave_out(left_out);
     frames.push_back(render_frame(backend, *executor, scene, options, report));
     if (backend == executors::Backend::twin) twin = std::move(executor);
   }
-  const auto renderer =
-      std::make_shared<const reference::Renderer>(scene, options.executor.pack.acceleration);
-  frames.push_back(render_frame(executors::Backend::reference, *executors::make_reference_executor(renderer),
-                                scene, options, report));
+  frames.push_back(render_frame(executors::Backend::reference, *reference_executor, scene, options, report));
 
   compare_backends(frames, options, report);
   const compare::Reference reference = neighbours(scene, *renderer);
@@ -150,13 +188,14 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   const compare::PathReference paths = path_neighbours(scene, *renderer, twin.get());
   const auto outcomes = compare_each_with_reference(frames, reference, by_samples ? &paths : nullptr,
                                                     tolerances, options, report);
+  if (drawn) compare_with_drawn(*drawn, frames, report);
   if (subject.golden) {
     report.golden = compare_with_golden(*subject.golden, scene, frames[0], reference, tolerances, report);
     bless(*subject.golden, scene, frames[0], report);
   }
   name_hits(scene, report);
   report.seconds = watch.seconds();
-  if (subject.keep_always || !report.passes()) {
+  if (!subject.evidence.empty() && (subject.keep_always || !report.passes())) {
     keep_evidence(subject.evidence, frames, outcomes, report);
     report.kept = subject.evidence.string();
   }

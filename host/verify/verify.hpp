@@ -23,6 +23,7 @@ struct Options {
   Rect crop;                                               // what is compared; empty: the whole picture
   std::optional<double> max_explained;                     // instead of the scene's
   int64_t ulp = 0;                                         // the bound of gate A
+  bool raster = false;                                     // compare with the rasteriser, too: gate R
   // Is shown what was compared, at last: as Page::add. May be empty.
   std::function<void(const compare::Report&, std::span<const compare::Frame>,
                      std::span<const std::vector<compare::PixelOutcome>>)>
@@ -35,17 +36,19 @@ struct Options {
 // What is verified, and its names.
 struct Subject {
   const Scene& scene;
-  std::string file;                // Report::scene
-  std::string written_options;     // Report::options
-  std::filesystem::path evidence;  // the folder where pictures are left when a gate fails (evidence.hpp) …
+  std::string file;             // Report::scene
+  std::string written_options;  // Report::options
+  std::filesystem::path
+      evidence;  // the folder where pictures are left when a gate fails (evidence.hpp), if any …
   bool keep_always = false;        // … or when none does, too
   std::optional<Golden> golden{};  // what gate G compares with
 };
 
 // Renders the scene by each backend and at last by the reference. Gate A compares each backend with the
-// first, gates B and C compare each with the reference, gate G the first with a golden picture. The report
-// says which of them pass. Error (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be
-// written, and what make_executor and render throw.
+// first, gates B and C compare each with the reference, gate G the first with a golden picture, and gate R,
+// where it is asked for, each and the reference with what the device's rasteriser draws. The report says
+// which of them pass. Error (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be written,
+// and what make_executor and render throw.
 compare::Report verify_scene(const Subject& subject, const Options& options);
 
 }  // namespace eyeray::verify

@@ -11,8 +11,7 @@ Directions directions(Bsdf bsdf, vec3 o, vec3 i) {
   Directions at;
   at.o = o;
   at.i = i;
-  vec3 sum = o + i;
-  at.half_way = sum / sqrt(maximum(dot3(sum, sum), 1.0e-30f));
+  at.half_way = half_way_of(o, i);
 #if HAS_GLOSSY
   at.albedo = ggx_albedo(abs(i.z), bsdf.roughness);
 #endif
@@ -77,25 +76,38 @@ LobeShares lobe_shares(Bsdf bsdf) {
   return shares;
 }
 
-// Of all lobes but those of a single direction.
-LobeValue bsdf_value(Bsdf bsdf, LobeShares shares, vec3 o, vec3 i) {
+#if HAS_BENT_COAT
+// Whether light from i shines on the coat.
+bool coat_faces(Bsdf bsdf, vec3 i) { return bsdf.coat > 0.0f && into_coat(bsdf, i).z > 0.0f; }
+#endif
+
+// Of all lobes but those of a single direction. `before`: whether the light is before the surface; a bent coat may have it above itself, and
+// what it covers below.
+LobeValue bsdf_value(Bsdf bsdf, LobeShares shares, vec3 o, vec3 i, bool before) {
   Directions at = directions(bsdf, o, i);
   LobeValue all = no_value();
   // Layers are on the viewer's side.
-  bool before = i.z > 0.0f;
+  bool above = i.z > 0.0f;
   float through_coat = under_coat(bsdf);
   float through_sheen = under_sheen(bsdf);
 #if HAS_COAT
-  if (before) through_coat = through_coat * coat_transmittance(bsdf, ggx_albedo(i.z, bsdf.coat_roughness));
+  if (above)
+    through_coat = through_coat * coat_transmittance(bsdf, ggx_albedo(maximum(into_coat(bsdf, i).z, 0.0f), bsdf.coat_roughness));
 #endif
 #if HAS_SHEEN
-  if (before) through_sheen = through_sheen * (1.0f - max_component(bsdf.sheen) * sheen_table(i.z, bsdf.sheen_roughness).y);
+  if (above) through_sheen = through_sheen * (1.0f - max_component(bsdf.sheen) * sheen_table(i.z, bsdf.sheen_roughness).y);
 #endif
-#define ADD_VALUE(name, number, layers)                                                                                  \
-  if (shares.name > 0.0f) {                                                                                              \
-    LobeValue of_lobe = name##_value(bsdf, at);                                                                          \
-    all.value = all.value + of_lobe.value * (layers > 0u ? through_coat : 1.0f) * (layers > 1u ? through_sheen : 1.0f); \
-    all.density = all.density + of_lobe.density * shares.name;                                                           \
+#if HAS_BENT_COAT
+#define COUNTS_LOBE(layers) ((layers) == 0u ? before : before == above)
+#else
+#define COUNTS_LOBE(layers) true
+#endif
+#define ADD_VALUE(name, number, layers)                                                                                    \
+  if (shares.name > 0.0f) {                                                                                                \
+    LobeValue of_lobe = name##_value(bsdf, at);                                                                            \
+    if (COUNTS_LOBE(layers))                                                                                               \
+      all.value = all.value + of_lobe.value * (layers > 0u ? through_coat : 1.0f) * (layers > 1u ? through_sheen : 1.0f); \
+    all.density = all.density + of_lobe.density * shares.name;                                                             \
   }
   LOBES(ADD_VALUE)
   return all;

@@ -39,6 +39,10 @@ struct Bsdf {
   float coat;              // its share of the surface
   float coat_roughness;
   vec4 coat_albedo;
+#if HAS_BENT_COAT
+  vec3 coat_normal;        // (0, 0, 1) where it is the surface's
+  bool adjoint;            // of light that goes towards `o`: a photon's
+#endif
 #endif
 #if HAS_ROUGH_GLASS
   vec3 glass;              // throughput of rough glass, before Fresnel
@@ -79,6 +83,11 @@ struct Directions {
 #endif
 };
 
+vec3 half_way_of(vec3 o, vec3 i) {
+  vec3 sum = o + i;
+  return sum / sqrt(maximum(dot3(sum, sum), 1.0e-30f));
+}
+
 // A lobe's BSDF · |cosine| of the light, and the density of its direction by solid angle.
 struct LobeValue {
   vec3 value;
@@ -113,6 +122,10 @@ Bsdf black_bsdf() {
   bsdf.coat = 0.0f;
   bsdf.coat_roughness = 1.0f;
   bsdf.coat_albedo = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+#if HAS_BENT_COAT
+  bsdf.coat_normal = vec3(0.0f, 0.0f, 1.0f);
+  bsdf.adjoint = false;
+#endif
 #endif
 #if HAS_ROUGH_GLASS
   bsdf.glass = black;

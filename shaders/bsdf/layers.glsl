@@ -2,6 +2,7 @@
 #ifndef LAYERS_GLSL
 #define LAYERS_GLSL
 #include "bsdf/bsdf_record.glsl"
+#include "math/sampling.glsl"
 
 SHADER_BEGIN
 
@@ -10,6 +11,14 @@ SHADER_BEGIN
 Fresnel coat_fresnel() { return schlick(vec3(COAT_F0, COAT_F0, COAT_F0), vec3(1.0f, 1.0f, 1.0f)); }
 
 #if HAS_COAT
+// A direction in the coat's own frame.
+vec3 into_coat(Bsdf bsdf, vec3 v) {
+#if HAS_BENT_COAT
+  if (bsdf.coat_normal.z != 1.0f) v = into_frame(frame_turned_to(bsdf.coat_normal), v);
+#endif
+  return v;
+}
+
 float coat_transmittance(Bsdf bsdf, vec4 albedo) { return 1.0f - mirrored_once(coat_fresnel(), albedo).x * bsdf.coat; }
 #endif
 

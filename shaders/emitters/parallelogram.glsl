@@ -1,19 +1,56 @@
-// a = a corner    b, c = the edges from there
+// a = a corner    b, c = the edges from there, at no right angle: emitters/rectangle.glsl
 #ifndef EMITTER_PARALLELOGRAM_GLSL
 #define EMITTER_PARALLELOGRAM_GLSL
-#include "emitters/emitter_sample.glsl"
+#include "emitters/spherical_triangle.glsl"
 
 SHADER_BEGIN
 
+// As two triangles of one apex, on either side of the diagonal.
+struct SphericalParallelogram {
+  SphericalTriangle low;   // with the edge b, …
+  SphericalTriangle high;  // … with the edge c
+};
+
+SphericalParallelogram spherical_parallelogram(Emitter e, vec3 from) {
+  vec3 b = vec3(e.b);
+  vec3 c = vec3(e.c);
+  SphericalParallelogram seen;
+  seen.low = spherical_triangle(vec3(e.a) - from, b, b + c);
+  seen.high = spherical_triangle(vec3(e.a) - from, b + c, c);
+  return seen;
+}
+
+float half_angle_of(SphericalParallelogram seen) { return seen.low.half_angle + seen.high.half_angle; }
+
+bool is_by_solid_angle(SphericalParallelogram seen) {
+  float angle = 2.0f * half_angle_of(seen);
+  return angle >= LEAST_SPHERICAL_TRIANGLE && angle <= MOST_SOLID_ANGLE;
+}
+
 EmitterSample parallelogram_emitter_sample(Emitter e, vec3 from, vec2 u) {
+  SphericalParallelogram seen = spherical_parallelogram(e, from);
+  // Round the apex, from b to c: one triangle ends where the other begins, so that numbers side by side stay side by side.
+  float turn = u.y * half_angle_of(seen);
+  bool low = turn < seen.low.half_angle || seen.high.half_angle == 0.0f;
+  SphericalTriangle part;
+  if (low) part = seen.low;
+  if (!low) part = seen.high;
+  float rest = (low ? turn : turn - seen.low.half_angle) / maximum(part.half_angle, 1.0e-30f);
+  vec2 weights = spherical_triangle_place(part, vec2(u.x, minimum(rest, 1.0f)));
+  vec2 spherical = low ? vec2(weights.x + weights.y, weights.y) : vec2(weights.x, weights.x + weights.y);
+  vec2 at = u;
+  if (is_by_solid_angle(seen)) at = spherical;
   EmitterSample place;
-  place.p = vec3(e.a) + (vec3(e.b) * u.x + vec3(e.c) * u.y);
+  place.p = vec3(e.a) + (vec3(e.b) * at.x + vec3(e.c) * at.y);
   place.normal = normalize3(cross3(vec3(e.b), vec3(e.c)));
-  place.uv = u;
+  place.uv = at;
   return place;
 }
 
-float parallelogram_emitter_density(Emitter e, vec3 from, EmitterSample place) { return density_of_area(e.area, from, place); }
+float parallelogram_emitter_density(Emitter e, vec3 from, EmitterSample place) {
+  SphericalParallelogram seen = spherical_parallelogram(e, from);
+  return is_by_solid_angle(seen) ? 1.0f / (2.0f * half_angle_of(seen)) : density_of_area(e.area, from, place);
+}
 
 SHADER_END
 #endif

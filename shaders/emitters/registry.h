@@ -8,5 +8,6 @@
   X(parallelogram, 3u, false) \
   X(box, 4u, true)        \
   X(ellipsoid, 5u, true)  \
-  X(cylinder, 6u, true)
+  X(cylinder, 6u, true)   \
+  X(rectangle, 7u, false)
 #endif

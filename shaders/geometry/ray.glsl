@@ -51,6 +51,9 @@ struct Surface {
   vec3 p;                 // on the surface, projected
   vec3 normal_geometric;  // unit; outward, or by winding
   vec3 normal;            // unit shading normal
+#if HAS_BENT_COAT
+  vec3 coat_normal;       // … of a clear coat, which only a normal map of its own bends
+#endif
   vec2 uv;
   float offset;  // a ray that starts this far off p along the geometric normal does not hit the surface again
   // What bent normals ask (materials/bent_normal.glsl).
@@ -78,6 +81,9 @@ Surface no_surface() {
   surface.p = vec3(0.0f, 0.0f, 0.0f);
   surface.normal_geometric = surface.p;
   surface.normal = surface.p;
+#if HAS_BENT_COAT
+  surface.coat_normal = surface.p;
+#endif
   surface.uv = vec2(0.0f, 0.0f);
   surface.offset = 0.0f;
   set_gradients(surface, surface.p, surface.p);

@@ -51,6 +51,9 @@ Surface face_viewer(Surface surface, bool front) {
   Surface seen = surface;
   seen.normal_geometric = front ? surface.normal_geometric : -surface.normal_geometric;
   seen.normal = front ? surface.normal : -surface.normal;
+#if HAS_BENT_COAT
+  seen.coat_normal = front ? surface.coat_normal : -surface.coat_normal;
+#endif
   return seen;
 }
 

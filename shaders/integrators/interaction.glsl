@@ -51,6 +51,12 @@ Interaction struck_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   at.context.color = vertex_color(primitive, hit);
 #endif
   at.context.cos_view = minimum(maximum(-dot3(ray.d, at.seen.normal), 0.0f), 1.0f);
+#if HAS_BENT_COAT
+  vec3 coat = at.seen.coat_normal;
+  bool bent = coat.x != at.seen.normal.x || coat.y != at.seen.normal.y || coat.z != at.seen.normal.z;
+  at.context.coat_normal = bent ? into_frame(frame_around(at.seen.normal), coat) : vec3(0.0f, 0.0f, 1.0f);
+  at.context.cos_coat = -dot3(ray.d, coat);
+#endif
   at.context.ior_from = 1.0f;
   at.context.ior_to = 1.0f;
   at.media_behind = media;

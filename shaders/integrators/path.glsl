@@ -39,29 +39,21 @@ vec3 last_vertex(Path path) {
 }
 
 // A point's own frame: z is the normal towards where the ray came from.
-struct LocalFrame {
-  vec3 s;
-  vec3 t;
-  vec3 n;
-};
+LocalFrame local_frame(Interaction at) { return frame_around(at.seen.normal); }
 
-LocalFrame local_frame(Interaction at) {
-  LocalFrame local;
-  local.n = at.seen.normal;
-  tangents(local.n, local.s, local.t);
-  return local;
+vec3 towards_viewer(LocalFrame local, Interaction at) { return seen_from(into_frame(local, -at.d)); }
+
+bool is_before(Interaction at, vec3 d) { return dot3(at.seen.normal_geometric, d) > 0.0f; }
+
+// Whether the surface may send light on from direction d, `i` in its own frame: it is where normals, which may be bent, have it.
+bool on_its_side(Interaction at, vec3 d, vec3 i) {
+  bool before = is_before(at, d);
+  bool on_side = before == (i.z > 0.0f);
+#if HAS_BENT_COAT
+  on_side = on_side || (before && coat_faces(at.bsdf, i));
+#endif
+  return on_side;
 }
-vec3 into_frame(LocalFrame local, vec3 v) { return vec3(dot3(v, local.s), dot3(v, local.t), dot3(v, local.n)); }
-vec3 out_of_frame(LocalFrame local, vec3 v) { return local.s * v.x + local.t * v.y + local.n * v.z; }
-
-vec3 towards_viewer(LocalFrame local, Interaction at) {
-  vec3 o = into_frame(local, -at.d);
-  o.z = maximum(o.z, LEAST_COSINE);
-  return normalize3(o);
-}
-
-// Whether the surface may send light on from direction d: that is on the side of it where the normals, which may be bent, have it.
-bool on_its_side(Interaction at, vec3 d, float cosine) { return (dot3(at.seen.normal_geometric, d) > 0.0f) == (cosine > 0.0f); }
 
 // The power heuristic of what was chosen with density p, and could have been with density q. The ratio is squared: densities may be too large.
 float power_heuristic(float p, float q) {
@@ -202,16 +194,13 @@ Arriving light_arriving(Frame frame, Path path, Interaction at) {
   return arriving;
 }
 
-bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution, OUT(uint) light) {
-  Arriving arriving = light_arriving(frame, path, at);
+// The shadow ray to what arrives along `i_local` in the point's own frame, of which `lobes` are sent on.
+bool shadow_ray_to(Frame frame, Path path, Interaction at, Arriving arriving, vec3 i_local, LobeValue lobes, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution, OUT(uint) light) {
   ray = arriving.ray;
   light = arriving.light;
   // So that from afar, where t is rounded by more than the emitter's own offset, it does not stand in its own way.
   distance = arriving.distance * (1.0f - 9.5367432e-7f);
-  LocalFrame local = local_frame(at);
-  vec3 i_local = into_frame(local, arriving.direction);
-  LobeValue lobes = bsdf_value(at.bsdf, lobe_shares(at.bsdf), towards_viewer(local, at), i_local);
-  bool on_side = on_its_side(at, arriving.direction, i_local.z);
+  bool on_side = on_its_side(at, arriving.direction, i_local);
 #if HAS_SCATTERING
   if (at.in_medium) {
     lobes.density = phase_value(at.anisotropy, at.d, arriving.direction);
@@ -222,7 +211,7 @@ bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ra
 #if HAS_ABSORPTION
   // Surfaces keep shadow rays in the medium that they begin in.
   arriving.radiance =
-      arriving.radiance * medium_transmittance(i_local.z > 0.0f ? path.media : at.media_behind, arriving.distance);
+      arriving.radiance * medium_transmittance(is_before(at, arriving.direction) ? path.media : at.media_behind, arriving.distance);
 #endif
   float density = arriving.density;
   contribution =
@@ -230,26 +219,34 @@ bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ra
   return max_component(contribution) > 0.0f && on_side && path.depth <= frame.max_depth;
 }
 
-// By one of its lobes. The vertex behind the last is there for its light alone.
-Continuations path_scatter(Frame frame, Path path, Interaction at) {
+bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution, OUT(uint) light) {
+  Arriving arriving = light_arriving(frame, path, at);
+  LocalFrame local = local_frame(at);
+  vec3 i_local = into_frame(local, arriving.direction);
+  LobeValue lobes = bsdf_value(at.bsdf, lobe_shares(at.bsdf), towards_viewer(local, at), i_local, is_before(at, arriving.direction));
+  return shadow_ray_to(frame, path, at, arriving, i_local, lobes, ray, distance, contribution, light);
+}
+
+// By one of the lobes that have shares. The vertex behind the last is there for its light alone.
+Continuations scatter_by(Frame frame, Path path, Interaction at, LobeShares shares) {
   Continuations all = no_continuation(path);
   LocalFrame local = local_frame(at);
   vec3 o = towards_viewer(local, at);
-  LobeShares shares = lobe_shares(at.bsdf);
   vec2 choice = path_pair(frame, path, PAIR_SCATTER);
   BsdfSample s = sample_bsdf(at.bsdf, shares, o, choice.x, path_pair(frame, path, PAIR_DIRECTION));
 
   Path next = path;
   next.d = out_of_frame(local, s.i);
   next.d = next.d / sqrt(maximum(dot3(next.d, next.d), 1.0e-30f));
-  LobeValue lobes = bsdf_value(at.bsdf, shares, o, s.i);
+  bool before = is_before(at, next.d);
+  LobeValue lobes = bsdf_value(at.bsdf, shares, o, s.i, before);
   next.density = lobes.density;
 #if HAS_LIGHT_BVH
   next.normal = normal_for_lights(at);
 #endif
-  bool lost = !(lobes.density > 0.0f) || !on_its_side(at, next.d, s.i.z);
+  bool lost = !(lobes.density > 0.0f) || !on_its_side(at, next.d, s.i);
   vec3 weight = lobes.value / maximum(lobes.density, 1.0e-30f);
-  bool refracted = s.refracted || s.i.z < 0.0f;
+  bool refracted = s.refracted || !before;
   if (s.mirrored || s.refracted) {
     next.density = 0.0f;
     next.d = reflected_direction(at);
@@ -319,6 +316,8 @@ Continuations path_scatter(Frame frame, Path path, Interaction at) {
   PROBE(survival, survival);
   return all;
 }
+
+Continuations path_scatter(Frame frame, Path path, Interaction at) { return scatter_by(frame, path, at, lobe_shares(at.bsdf)); }
 
 SHADER_END
 #endif

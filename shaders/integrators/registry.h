@@ -4,5 +4,6 @@
 #define INTEGRATORS(X)           \
   X(raycast, 0u, no_light, 0u)    \
   X(whitted, 1u, each_light, 2u)  \
-  X(path, 2u, one_light, 1u)
+  X(path, 2u, one_light, 1u)      \
+  X(sppm, 3u, one_light, 1u)
 #endif

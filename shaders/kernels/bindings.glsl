@@ -20,6 +20,7 @@ layout(rgba32ui, binding = BINDING_TEXELS) readonly restrict uniform uimageBuffe
 layout(rgba32ui, binding = BINDING_ENVIRONMENT) readonly restrict uniform uimageBuffer environment;
 layout(rgba32ui, binding = BINDING_FRAME) readonly restrict uniform uimageBuffer frame_words;
 #define LOOP_PROBE imageLoad(frame_words, 2).y
+#define FRAME_SEED imageLoad(frame_words, 0).z
 #else
 layout(std430, binding = BINDING_PRIMITIVES) readonly restrict buffer Primitives { Primitive primitives[]; };
 layout(std430, binding = BINDING_VERTICES) readonly restrict buffer Vertices { uvec4 vertices[]; };
@@ -28,6 +29,7 @@ layout(std430, binding = BINDING_TEXELS) readonly restrict buffer Texels { uint 
 layout(std430, binding = BINDING_ENVIRONMENT) readonly restrict buffer EnvironmentBuffer { uvec4 environment[]; };
 layout(std430, binding = BINDING_FRAME) readonly restrict buffer FrameBuffer { Frame frame_record; };
 #define LOOP_PROBE frame_record.loop_probe
+#define FRAME_SEED frame_record.seed
 #endif
 #if STORED_HITS
 // What kernels/cooperative/packet.comp.glsl found for this sample: what the eye rays hit, and how much of each light is lost there.
@@ -43,6 +45,18 @@ layout(std430, binding = BINDING_LIGHTS) readonly restrict buffer Lights { Light
 layout(std430, binding = BINDING_EMITTERS) readonly restrict buffer Emitters { Emitter emitters[]; };
 #if HAS_LIGHT_BVH
 layout(std430, binding = BINDING_LIGHT_NODES) readonly restrict buffer LightNodes { LightNode light_nodes[]; };
+#endif
+#if HAS_PHOTONS
+layout(std430, binding = BINDING_PHOTON_PASS) readonly restrict buffer PhotonPassBuffer { PhotonPass photon_pass; };
+layout(std430, binding = BINDING_EMITTER_MEDIA) readonly restrict buffer EmitterMedia { uint emitter_media[]; };
+#ifdef SENDS_PHOTONS
+layout(std430, binding = BINDING_PHOTONS) writeonly restrict buffer Photons { Photon photons[]; };
+// How many were stored, or would be if all had room.
+layout(std430, binding = BINDING_NEXT_LIST) restrict buffer NextList { uint next_list[]; };
+#else
+layout(std430, binding = BINDING_PHOTONS) readonly restrict buffer Photons { Photon photons[]; };
+layout(std430, binding = BINDING_PHOTON_CELLS) readonly restrict buffer PhotonCells { uint photon_cells[]; };
+#endif
 #endif
 #if RANDOM_WALK
 layout(std430, binding = BINDING_ALBEDOS) readonly restrict buffer Albedos { vec4 albedos[]; };

@@ -25,6 +25,9 @@
 #ifndef HAS_LIGHT_BVH  // lights are chosen by one
 #define HAS_LIGHT_BVH 1
 #endif
+#ifndef HAS_PHOTONS  // lights send out photons, which paths gather
+#define HAS_PHOTONS 1
+#endif
 #ifndef HAS_GLOSSY  // a surface has the lobe of bsdf/glossy.glsl …
 #define HAS_GLOSSY 1
 #endif
@@ -39,6 +42,9 @@
 #endif
 #ifndef HAS_COAT  // a surface is coated
 #define HAS_COAT 1
+#endif
+#ifndef HAS_BENT_COAT  // … where its own normal is not the surface's
+#define HAS_BENT_COAT 1
 #endif
 #ifndef HAS_ROUGH_GLASS
 #define HAS_ROUGH_GLASS 1
@@ -212,6 +218,7 @@
 #endif
 //   FIRST_HITS            first hits instead of samples
 //   AUXILIARY             what a denoiser asks of them (integrators/auxiliary.glsl)
+//   SENDS_PHOTONS         photons are sent out and stored, where other kernels gather them
 //   QUERY_ANY             any hit will do
 //   LISTED                the pixels of a list
 //   ENDS_ONLY             of a wavefront: what goes on is only listed

@@ -49,6 +49,15 @@ uint load_occlusion(uint light) { return occlusions[light * dispatch.count + sto
 #if HAS_LIGHT_BVH
 LightNode load_light_node(uint i) { return light_nodes[i]; }
 #endif
+#if HAS_PHOTONS
+PhotonPass load_photon_pass() { return photon_pass; }
+vec4 load_photon_target(uint i) { return photon_pass.targets[i]; }
+uint load_emitter_media(uint i) { return emitter_media[i]; }
+#ifndef SENDS_PHOTONS
+Photon load_photon(uint i) { return photons[i]; }
+uint load_photon_cell(uint key) { return photon_cells[key]; }
+#endif
+#endif
 #if RANDOM_WALK
 vec4 load_albedo(uint i) { return albedos[i]; }
 #endif

@@ -1,6 +1,7 @@
 // a = the unit direction towards the light; its w the versine of half the angle under which it is seen.
 #ifndef DIRECTIONAL_GLSL
 #define DIRECTIONAL_GLSL
+#include "lights/photon_aim.glsl"
 #include "lights/light_sample.glsl"
 
 SHADER_BEGIN
@@ -13,6 +14,15 @@ LightSample directional_sample(Light light, vec3 p) {
   s.versine = light.a.w;
   return s;
 }
+
+#if HAS_PHOTONS
+LightEmission directional_emission(Light light, PhotonPass pass, vec2 start, vec2 heading, float aim) {
+  vec3 towards = light.a.w > 0.0f ? within_cone(vec3(light.a), light.a.w, heading) : vec3(light.a);
+  LightEmission emission = from_afar(pass, towards, start, aim);
+  emission.flux = light.intensity * (2.0f * PI / (2.0f - light.a.w) * emission.flux.x);
+  return emission;
+}
+#endif
 
 SHADER_END
 #endif

@@ -1,6 +1,7 @@
-// From a light and a point to what arrives there: asks the kind of light.
+// From a light and a point to what arrives there, and to a photon that it sends out: asks the kind of light.
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
+#include "lights/light_emission.glsl"
 #include "lights/light_sample.glsl"
 
 SHADER_BEGIN
@@ -12,6 +13,17 @@ LightSample sample_light(Light light, vec3 p) {
   LIGHTS(SAMPLE_OF)
   return s;
 }
+
+#if HAS_PHOTONS
+// start, heading: two random numbers each; aim: one.
+LightEmission light_emission(Light light, PhotonPass pass, vec2 start, vec2 heading, float aim) {
+  LightEmission emission = no_emission();
+#define EMISSION_OF_LIGHT(name, number) \
+  if (light.kind == number) emission = name##_emission(light, pass, start, heading, aim);
+  LIGHTS(EMISSION_OF_LIGHT)
+  return emission;
+}
+#endif
 
 SHADER_END
 #endif

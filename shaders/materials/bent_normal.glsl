@@ -16,8 +16,8 @@ vec3 unit_or(vec3 v, vec3 otherwise) {
   return squared > 1.0e-30f && squared < 1.0e30f ? v / sqrt(squared) : otherwise;
 }
 
-// `n`: the surface's own, on either side of it.
-vec3 mapped_normal(Material material, Surface surface, vec3 n, TextureContext place) {
+// `n`: the surface's own, on either side of it. `code`: the map's colour.
+vec3 mapped_normal(Surface surface, vec3 n, vec3 code, float scale) {
   float left = dot3(surface.normal_geometric, cross3(surface.u_gradient, surface.v_gradient)) < 0.0f ? -1.0f : 1.0f;
   vec3 along_u = cross3(surface.v_gradient, surface.normal_geometric) * left;
   bool own = surface.tangent.w != 0.0f;
@@ -25,9 +25,8 @@ vec3 mapped_normal(Material material, Surface surface, vec3 n, TextureContext pl
   along_u = own ? vec3(surface.tangent) : along_u;
   vec3 t = unit_or(along_u - n * dot3(n, along_u), vec3(0.0f, 0.0f, 0.0f));
   vec3 b = cross3(n, t) * left;
-  vec3 code = normal_map_of(material, place);
-  float x = (2.0f * code.x - 1.0f) * material.normal_scale;
-  float y = (2.0f * code.y - 1.0f) * material.normal_scale;
+  float x = (2.0f * code.x - 1.0f) * scale;
+  float y = (2.0f * code.y - 1.0f) * scale;
   return unit_or(t * x + b * y + n * (2.0f * code.z - 1.0f), n);
 }
 
@@ -72,12 +71,19 @@ Surface bent_by(Material material, Surface surface, vec3 d) {
   TextureContext place = place_of_uv(surface.uv);
   place.p = surface.p;
   vec3 n = surface.normal;
-  if (material.normal_map != NONE) n = mapped_normal(material, surface, n, place);
+  if (material.normal_map != NONE) n = mapped_normal(surface, n, normal_map_of(material, place), material.normal_scale);
   if (material.bump != NONE) n = bumped_normal(material, surface, n, place);
   float side = dot3(d, surface.normal_geometric) < 0.0f ? 1.0f : -1.0f;
+  vec3 up = surface.normal_geometric * side;
   Surface bent = surface;
-  if (material.normal_map != NONE || material.bump != NONE)
-    bent.normal = above_surface(n * side, surface.normal_geometric * side, d) * side;
+  if (material.normal_map != NONE || material.bump != NONE) bent.normal = above_surface(n * side, up, d) * side;
+#if HAS_BENT_COAT
+  bent.coat_normal = surface.normal;
+  if (material.coat_normal != NONE) {
+    vec3 coat = mapped_normal(surface, surface.normal, coat_normal_of(material, place), material.coat_normal_scale);
+    bent.coat_normal = above_surface(coat * side, up, d) * side;
+  }
+#endif
   return bent;
 }
 

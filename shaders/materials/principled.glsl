@@ -53,7 +53,10 @@ Bsdf principled_surface(Material material, ScatteringContext context, vec3 color
 #if HAS_COAT
   bsdf.coat = coat_of(material, context.place).x;
   bsdf.coat_roughness = coat_roughness_of(material, context.place).y;
-  bsdf.coat_albedo = ggx_albedo(viewed_cosine(context), bsdf.coat_roughness);
+  bsdf.coat_albedo = ggx_albedo(coat_cosine(context), bsdf.coat_roughness);
+#if HAS_BENT_COAT
+  bsdf.coat_normal = context.coat_normal;
+#endif
 #endif
 #if HAS_SHEEN
   bsdf.sheen = sheen_of(material, context.place);

@@ -37,5 +37,6 @@
   X(sheen_roughness)         \
   X(normal_map)              \
   X(bump)                    \
+  X(coat_normal)             \
   X(alpha)
 #endif

@@ -5,7 +5,7 @@
 #if RANDOM_WALK
 #include "bsdf/bsdf_record.glsl"
 #endif
-#include "math/math.glsl"
+#include "math/sampling.glsl"
 #include "records.h"
 #include "textures/texture.glsl"
 
@@ -17,11 +17,20 @@ struct ScatteringContext {
   float cos_view;  // in [0, 1]
   float ior_from;
   float ior_to;
+#if HAS_BENT_COAT
+  vec3 coat_normal;  // in the surface's own frame; (0, 0, 1) where it is the surface's
+  float cos_coat;    // as cos_view, of that
+#endif
 };
 
-#define LEAST_COSINE 1.0e-4f  // towards the viewer: what bent normals turn away is seen edge-on
 // The viewer's, by which lobes look up how much light they send on.
 float viewed_cosine(ScatteringContext context) { return maximum(context.cos_view, LEAST_COSINE); }
+float coat_cosine(ScatteringContext context) {
+#if HAS_BENT_COAT
+  if (context.coat_normal.z != 1.0f) return maximum(context.cos_coat, LEAST_COSINE);
+#endif
+  return viewed_cosine(context);
+}
 
 struct Scattering {
   vec3 ambient;      // × the scene's ambient light

@@ -21,6 +21,11 @@ uint pcg_hash(uint x) {
 #define PAIR_LIGHT 6u     // which light
 #define PAIR_EMITTER 7u   // where on it
 #define PAIRS_A_VERTEX 4u
+#define PHOTONS_OF 0x80000000u  // + a sample's number: in place of a pixel for its photons, in place of whose samples those are
+#define PAIR_SIDE 3u            // of a photon: which side of a surface it leaves, and what it is aimed at; before that, …
+#define PAIR_SOURCE 0u          // … which light, …
+#define PAIR_START 1u           // … where on it or from where around, …
+#define PAIR_HEADING 2u         // … and where to
 #define PAIR_FLIGHT 0x10000u  // how far the path gets on its way to the first vertex; one further on to the next
 
 // The upper 24 bits as a number in [0, 1): exactly.

@@ -29,5 +29,37 @@ void tangents(vec3 n, OUT(vec3) s, OUT(vec3) t) {
   t = cross3(n, s);
 }
 
+// A frame of its own around the unit vector n, which is its z.
+struct LocalFrame {
+  vec3 s;
+  vec3 t;
+  vec3 n;
+};
+
+LocalFrame frame_around(vec3 n) {
+  LocalFrame local;
+  local.n = n;
+  tangents(n, local.s, local.t);
+  return local;
+}
+
+// The frame that is turned the shortest way until its z is the unit vector n, which does not point far down.
+LocalFrame frame_turned_to(vec3 n) {
+  float scale = 1.0f / maximum(1.0f + n.z, 1.0e-6f);
+  LocalFrame local;
+  local.n = n;
+  local.s = vec3(1.0f - n.x * n.x * scale, -n.x * n.y * scale, -n.x);
+  local.t = vec3(-n.x * n.y * scale, 1.0f - n.y * n.y * scale, -n.y);
+  return local;
+}
+
+#define LEAST_COSINE 1.0e-4f  // towards the viewer: what bent normals turn away is seen edge-on
+
+// A direction towards the viewer, above its frame's horizon.
+vec3 seen_from(vec3 o) { return normalize3(vec3(o.x, o.y, maximum(o.z, LEAST_COSINE))); }
+
+vec3 into_frame(LocalFrame local, vec3 v) { return vec3(dot3(v, local.s), dot3(v, local.t), dot3(v, local.n)); }
+vec3 out_of_frame(LocalFrame local, vec3 v) { return local.s * v.x + local.t * v.y + local.n * v.z; }
+
 SHADER_END
 #endif

@@ -67,7 +67,8 @@ class Tree {
   Tree() {
     fs::remove_all(root_);
     fs::create_directories(root_);
-    for (const char* part : {"CMakeLists.txt", "CMakePresets.json", "cmake", "host", "shaders"})
+    for (const char* part :
+         {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "cmake", "host", "include", "python", "shaders"})
       fs::copy(part, root_ / part, fs::copy_options::recursive);
   }
 

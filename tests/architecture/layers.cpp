@@ -40,7 +40,7 @@ const Library libraries[] = {
      {"gpu", "formula"}},
     {std::regex(R"(toml\+\+/.*)"), {"scene", "loader"}, {"scene", "loader"}},
     {std::regex(R"(nlohmann/json\.hpp)"),
-     {"aov", "bench", "cli", "compare", "dev", "importers", "loader", "verify", "probe"},
+     {"shards", "slurm", "aov", "bench", "cli", "compare", "dev", "importers", "loader", "verify", "probe"},
      {"importers", "dev"}},
     {std::regex(R"(httplib\.h)"), {"dev"}, {"dev"}},
     {std::regex(R"(tiny_.*)"), {"importers"}, {}},

@@ -7,7 +7,8 @@ using namespace eyeray::test;
 namespace {
 
 bool entry(const SourceFile& file) {
-  return file.path.ends_with(".comp.glsl");
+  return file.path.ends_with(".comp.glsl") || file.path.ends_with(".vert.glsl") ||
+         file.path.ends_with(".frag.glsl");
 }
 
 // The self-test is no shader of pictures: it asks the driver about its arithmetic.
@@ -50,11 +51,13 @@ TEST_CASE("nothing is left to the driver's built-in functions but abs, floor, sq
       R"(transpose|determinant|outerProduct|matrixCompMult|bitCount|bitfieldExtract|findLSB|findMSB|umulExtended|dFdx|dFdy|)"
       R"(texture|packHalf\w+|packUnorm\w+|packSnorm\w+|unpack\w+)\s*\()");
   CHECK(find_code(loose, [](const SourceFile& file) { return !self_test(file); }) == "");
-  // Lanes talk to each other, and paths enter themselves in lists, in the entries that are about it.
-  const auto no_wavefront = [](const SourceFile& file) {
-    return file.path != "shaders/kernels/wavefront.comp.glsl";
+  // Lanes talk to each other, and paths and photons enter themselves in lists, in the entries that are about
+  // it.
+  const auto no_list = [](const SourceFile& file) {
+    return file.path != "shaders/kernels/wavefront.comp.glsl" &&
+           file.path != "shaders/kernels/photons.comp.glsl";
   };
-  CHECK(find_code(std::regex(R"(\batomic\w+\s*\()"), no_wavefront) == "");
+  CHECK(find_code(std::regex(R"(\batomic\w+\s*\()"), no_list) == "");
   const auto alone = [](const SourceFile& file) {
     return !self_test(file) && file.path != "shaders/kernels/cooperative/subgroup.glsl" &&
            file.path != "shaders/kernels/cooperative/packet.glsl" &&

@@ -64,6 +64,31 @@ TEST_CASE("slopes, and what an equal error costs") {
     CHECK(report.series[0].processor_until(8 * std::pow(samples, -1.5)) == doctest::Approx(0.25 * samples));
 }
 
+TEST_CASE("what is left after a time, and two renderers at an equal time") {
+  const PathReport report = sample_path_report();
+  // 8 / samples^1.5 at 0.25 s a sample: between levels, at them, before them and beyond.
+  for (const int samples : {1, 2, 4, 8, 32, 64, 256})
+    CHECK(report.series[0].error_after(0.25 * samples) == doctest::Approx(8 * std::pow(samples, -1.5)));
+  // The first takes 16 s in all, the other 32 s: by then that has taken 32 samples of 8 / 32.
+  const EqualTime equal = at_equal_time(report.series[2], report.series[0]);
+  CHECK(equal.processor == doctest::Approx(16));
+  CHECK(equal.ratio == doctest::Approx(std::sqrt((8.0 / 32) / (8 * std::pow(64, -1.5)))));
+}
+
+TEST_CASE("a report of photons says what they are measured against, and how paths are at an equal time") {
+  PathReport report = sample_path_report();
+  CHECK(to_text(report).find("path : sppm") == std::string::npos);
+  CHECK_FALSE(to_json(report).contains("equal_time"));
+  report.series = {series_named("gpu, sppm", 8, 1.5, 0.25), series_named("gpu, path", 8, 1, 0.5)};
+  report.likeness = {};
+  report.reference = "two pictures";
+  CHECK(to_text(report).find("errors are against two pictures\n"
+                             "after 16 CPU seconds, RMSE, path : sppm = 4.00\n") != std::string::npos);
+  const auto json = to_json(report);
+  CHECK(json.at("reference") == "two pictures");
+  CHECK(json.at("equal_time").at("rmse_of_path_over_sppm") == doctest::Approx(4));
+}
+
 TEST_CASE("a report of paths says rates, error, efficiency, slopes, and how it is beside others") {
   const std::string text = to_text(sample_path_report());
   const auto row = [](const char* name, const char* a, const char* b, const char* c) {

@@ -101,8 +101,8 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Material, bump),
                 MEMBER(Material, bump_height),
                 MEMBER(Material, bump_width),
-                MEMBER(Material, unused_0),
-                MEMBER(Material, unused_1)});
+                MEMBER(Material, coat_normal),
+                MEMBER(Material, coat_normal_scale)});
   check_struct(samples, "Medium", sizeof(shader::Medium),
                {MEMBER(Medium, absorption), MEMBER(Medium, ior), MEMBER(Medium, scattering),
                 MEMBER(Medium, anisotropy)});
@@ -170,6 +170,22 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Emitter, c), MEMBER(Emitter, primitive), MEMBER(Emitter, end), MEMBER(Emitter, area),
                 MEMBER(Emitter, offset), MEMBER(Emitter, trail), MEMBER(Emitter, texture),
                 MEMBER(Emitter, corners), MEMBER(Emitter, side)});
+  PackedScene gathering = paths;
+  gathering.frame.integrator = uint32_t(IntegratorType::sppm);
+  const gpu::Reflection sending = gpu::reflect(
+      test::compile_entry("kernels/photons.comp.glsl", gathering, {}, "#define SENDS_PHOTONS\n"));
+  check_struct(
+      sending, "Photon", sizeof(shader::Photon),
+      {MEMBER(Photon, position), MEMBER(Photon, key), MEMBER(Photon, direction), MEMBER(Photon, number),
+       MEMBER(Photon, normal), MEMBER(Photon, depth), MEMBER(Photon, flux), MEMBER(Photon, unused)});
+  check_struct(sending, "PhotonResult", sizeof(shader::PhotonResult),
+               {MEMBER(PhotonResult, trail), MEMBER(PhotonResult, flags), MEMBER(PhotonResult, rays),
+                MEMBER(PhotonResult, stored)});
+  check_struct(sending, "PhotonPass", sizeof(shader::PhotonPass),
+               {MEMBER(PhotonPass, center), MEMBER(PhotonPass, reach), MEMBER(PhotonPass, radius_squared),
+                MEMBER(PhotonPass, height), MEMBER(PhotonPass, cells), MEMBER(PhotonPass, scale),
+                MEMBER(PhotonPass, key_mask), MEMBER(PhotonPass, capacity), MEMBER(PhotonPass, target_count),
+                MEMBER(PhotonPass, unused), MEMBER(PhotonPass, targets)});
 
   const gpu::Reflection wavefront =
       gpu::reflect(test::compile_entry("kernels/wavefront.comp.glsl", scene, {}, "#define STORED_HITS 1\n"));

@@ -54,3 +54,12 @@ TEST_CASE("a kernel has the shapes and textures of its scene, and no other's") {
     }
   }
 }
+
+TEST_CASE("another seed needs no other kernel") {
+  const auto kernel = [](uint32_t seed) {
+    PackedScene packed = pack::pack(load_scene("scenes/path/cornell_box.toml"));
+    packed.frame.seed = seed;
+    return test::compile_entry("kernels/render.comp.glsl", packed, {.constants = true});
+  };
+  CHECK(kernel(1) == kernel(2));
+}

@@ -34,7 +34,7 @@ Function* shim(const char* name) {
 #define SHIM(function) shim<decltype(function)>(#function)
 
 // Everything that the layer does with a device: kernels from source and from the cache, buffers of both
-// kinds, shared or staged, and all ways of copying.
+// kinds, shared or staged, all ways of copying, and drawing.
 void use_device(const std::string& cache_folder, bool staging) {
   const DiskCache cache{cache_folder};
   static const std::vector<uint32_t> spirv = compile(
@@ -42,7 +42,8 @@ void use_device(const std::string& cache_folder, bool staging) {
       "};\n"
       "layout(binding = 1, rgba32ui) uniform readonly uimageBuffer texels;\n"
       "void main() { data[gl_GlobalInvocationID.x] += imageLoad(texels, 0).x; }\n");
-  gpu::Device device({.force_staging = staging});
+  static const gpu::RasterShaders shaders = raster_shaders();
+  gpu::Device device({.draws = true, .force_staging = staging});
   gpu::Buffer data(device, 16, "data");
   gpu::Buffer texels(device, 16, "texels", gpu::BindingKind::texels);
   gpu::Kernel kernel(device, spirv, "add", cache);
@@ -54,6 +55,10 @@ void use_device(const std::string& cache_folder, bool staging) {
   gpu::dispatch(device, kernel, {}, {1});
   if (data.read_records<uint32_t>(4) != std::vector<uint32_t>{7, 7, 7, 7})
     throw std::runtime_error("wrong results");
+  gpu::Rasterizer rasterizer(device, shaders, 2, 2);
+  const gpu::RasterVertex whole[] = {{-1, -1, 1, 7}, {3, -1, 1, 7}, {-1, 3, 1, 7}};
+  rasterizer.draw(whole);
+  if (rasterizer.read().ids != std::vector<uint32_t>{7, 7, 7, 7}) throw std::runtime_error("a wrong picture");
 }
 
 // Where it fails, nobody knows whether the device is at work.

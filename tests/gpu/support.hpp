@@ -8,6 +8,7 @@
 #include "host/gpu/command_list.hpp"
 #include "host/gpu/float_policy.hpp"
 #include "host/gpu/kernel_compiler.hpp"
+#include "host/gpu/rasterizer.hpp"
 #include "host/gpu/self_test.hpp"
 #include "host/gpu/shader_compiler.hpp"
 #include "tests/support/doctest.hpp"
@@ -38,6 +39,14 @@ inline std::optional<std::string> project_shader(std::string_view path) {
 inline std::vector<uint32_t> compile(const std::string& text, const std::string& preamble = "") {
   return gpu::compile_shader(gpu::read_shader(files({{"test.comp.glsl", text}}), "test.comp.glsl"), preamble)
       .spirv;
+}
+
+// The project's own, to draw with.
+inline gpu::RasterShaders raster_shaders() {
+  const auto compiled = [](std::string_view entry) {
+    return gpu::compile_shader(gpu::read_shader(project_shader, entry), "").spirv;
+  };
+  return {compiled("kernels/raster.vert.glsl"), compiled("kernels/raster.frag.glsl")};
 }
 
 // A kernel of one buffer of words, `data`, at binding 0.

@@ -30,6 +30,11 @@ std::vector<Seed> seeds() {
   gltf.primitive()["attributes"]["NORMAL"] = gltf.add({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 5126, "VEC3", 3);
   gltf.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}}}};
   gltf.json["nodes"][0]["translation"] = {1, 2, 3};
+  gltf.json["animations"] = {
+      {{"samplers",
+        {{{"input", gltf.add({0, 1}, 5126, "SCALAR", 1)},
+          {"output", gltf.add({0, 0, 0, 1, 0, 1, 0, 0}, 5126, "VEC4", 4)}}}},
+       {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
   return {
       {"a.obj",
        "mtllib a.mtl\no thing\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.2 0\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
@@ -46,7 +51,7 @@ std::vector<Seed> seeds() {
 // Whether it is read.
 bool survives(const std::string& bytes, const std::string& name) {
   try {
-    const ImportedScene scene = import_bytes(bytes, name);
+    const ImportedScene scene = import_bytes(bytes, name, {.playing = {.seconds = 0.5}});
     REQUIRE(broken_promise(scene) == "");
     return true;
   } catch (const Error& error) {

@@ -7,7 +7,7 @@ using namespace eyeray::test;
 
 namespace {
 
-const Vec2 square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+const Vec2 outline[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 std::string header(const std::string& format, const std::string& rest) {
   return "ply\nformat " + format + " 1.0\ncomment made by a test\n" + rest + "end_header\n";
@@ -47,7 +47,7 @@ TEST_CASE("every type of coordinate, of index and of a list's length, in every o
           CAPTURE(index);
           CAPTURE(length);
           Bytes data(order);
-          for (const Vec2& p : square)
+          for (const Vec2& p : outline)
             data.add_as(coordinate, p.x).add_as(coordinate, p.y).add_as(coordinate, 0);
           data.add_as(length, 4);
           for (int i = 0; i < 4; ++i) data.add_as(index, i);

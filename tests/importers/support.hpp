@@ -20,9 +20,10 @@ inline importers::ImportedScene import_sound(const std::string& bytes, const std
 }
 
 // Why the bytes are refused, or "accepted".
-inline std::string refusal(const std::string& bytes, const std::string& name) {
+inline std::string refusal(const std::string& bytes, const std::string& name,
+                           const importers::ImportOptions& options = {}) {
   try {
-    importers::import_bytes(bytes, name);
+    importers::import_bytes(bytes, name, options);
   } catch (const InputError& error) {
     return error.what();
   }

@@ -111,7 +111,7 @@ TEST_CASE("what is wrong with a mesh is an error at its key") {
         "3:13: error: the transformed vertices are out of range (coordinates up to 1e12)");
   CHECK(said("file = 'a.obj'\nradius = 3") ==
         "3:1: error: unknown key `radius` in [[mesh]]; its keys are name, file, material, transform, smooth, "
-        "batch");
+        "animation, loop, batch");
   CHECK(contains(said("file = 'a.obj'\nbatch = { radius = [3] }"),
                  "unknown key `radius` in the batch of [[mesh]]"));
   CHECK_THROWS_AS(parse_scene("[[mesh]]\nfile = 'a.obj'", "memory.toml"), InputError);

@@ -78,7 +78,7 @@ TEST_CASE("a wrong override is refused, and says which it is") {
       {"render.max_dept=3", "unknown key `max_dept` in [render]; did you mean `max_depth`?"},
       {"render.max_depth=1099", "`max_depth` must be an integer from 0 to 1024, not 1099"},
       {"render.integrator=whited",
-       "`integrator` must be \"raycast\", \"whitted\" or \"path\", not \"whited\"; did you mean "
+       "`integrator` must be \"raycast\", \"whitted\", \"path\" or \"sppm\", not \"whited\"; did you mean "
        "\"whitted\"?"},
       {"sphere.7.radius=2", "there is no sphere.7: the scene has 2 [[sphere]], from 0 to 1"},
       {"sphere.-1.radius=2", "there is no sphere.-1: the scene has 2 [[sphere]], from 0 to 1"},

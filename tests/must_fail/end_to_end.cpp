@@ -67,6 +67,7 @@ std::vector<Fault> faults() {
       {"checker", {bits, colors}},
       {"noise", {bits, colors}, {"scenes/solid_patterns.toml"}},
       {"normal_map", {bits, first_hits, colors, "parts at normal"}, {"scenes/bumps.toml"}},
+      {"coat_normal", {bits, paths}, {"scenes/path/lacquer.toml", "--spp", "2"}},
       {"bump", {bits, first_hits, colors, "parts at normal"}, {"scenes/bumps.toml"}},
       {"horizon", {bits, first_hits, colors}, {"scenes/bumps.toml"}},
       {"counts", {bits, counts, "parts at counts"}},
@@ -91,6 +92,8 @@ std::vector<Fault> faults() {
       {"twice", {bits, paths}, box},
       {"share", {bits, paths}, lamps},
       {"density", {bits, paths}, lamps},
+      {"solid_angle", {bits, paths}, box},
+      {"spherical", {bits, paths}, lamps},
       {"cosine", {bits, paths}, box},
       {"roulette", {bits, paths}, box},
       {"shadow_end", {bits, paths}, box},
@@ -111,6 +114,13 @@ std::vector<Fault> faults() {
       {"phase", {bits, paths}, {"scenes/path/fog.toml", "--spp", "2"}},
       {"pane", {bits, paths}, {"scenes/path/panes.toml", "--spp", "2"}},
       {"sheen", {bits, paths}, {"scenes/path/panes.toml", "--spp", "2"}},
+      {"kernel", {bits, paths}, {"scenes/sppm/box.toml", "--spp", "1"}},
+      {"cells", {bits, paths}, {"scenes/sppm/box.toml", "--spp", "1"}},
+      {"gathered_twice", {bits, paths}, {"scenes/sppm/box.toml", "--spp", "1"}},
+      {"photon_area", {bits, paths}, {"scenes/sppm/box.toml", "--spp", "1"}},
+      {"photon_heading", {bits, paths}, {"scenes/sppm/box.toml", "--spp", "1"}},
+      {"photon_flux", {bits, paths}, {"scenes/sppm/points.toml", "--spp", "1"}},
+      {"photon_aim", {bits, paths}, {"scenes/sppm/points.toml", "--spp", "1"}},
   };
 }
 

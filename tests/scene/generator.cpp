@@ -219,6 +219,7 @@ std::string Writer::value(const Key& key) {
       return numbers(key, 3);
     case KeyType::transform:
       return transform();
+    case KeyType::keyframes:
     case KeyType::rotation:
     case KeyType::matrix:
       return "[]";
@@ -256,9 +257,10 @@ std::string Writer::write() {
   }
   for (int i = 0; i < materials; ++i) {
     const MaterialType& type = one_of(materials::types());
-    // Few shapes may have holes. A conductor is one of several things.
+    // Few shapes may have holes. What bends a coat asks for one, and for each other. A conductor is one of
+    // several things.
     std::set<std::string_view> left_out;
-    if (chance(0.9)) left_out = {"alpha", "alpha_cutoff"};
+    if (chance(0.9)) left_out = {"alpha", "alpha_cutoff", "coat_normal", "coat_normal_scale"};
     const bool conductor = type.name == "conductor";
     if (conductor) left_out.insert({"metal", "n", "k", "color"});
     table("[[material]]", {type.keys}, left_out,

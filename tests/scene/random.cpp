@@ -23,12 +23,13 @@ using namespace eyeray::test;
 
 namespace {
 
-// As small as `width` × `height`, and of a depth at which trees of rays end.
+// As small as `width` × `height`, of a depth at which trees of rays end, and of few photons.
 Scene shrunk(Scene scene, int width, int height) {
   scene.image.width = width;
   scene.image.height = height;
   scene.image.samples = std::min(scene.image.samples, 4);
   scene.render.max_depth = std::min(scene.render.max_depth, 6);
+  scene.render.photons = std::min(scene.render.photons, 256);
   return scene;
 }
 

@@ -51,12 +51,27 @@ Place some_place(Random& random, bool own_tangent) {
   return {point, surface, d};
 }
 
-// What the shader makes of it, by a material like that.
-Vec3 shaded(const Material& material, const Place& place) {
+// The surface's normal and a coat's.
+struct Normals {
+  Vec3 normal;
+  Vec3 coat;
+};
+
+// What the reference makes of them, by that material.
+Normals expected(const Material& material, const Place& place) {
+  SurfacePoint point = place.point;
+  reference::bend_normals(material, point, place.d);
+  return {point.normal, point.coat_normal};
+}
+
+// What the shader makes of them.
+Normals shaded(const Material& material, const Place& place) {
   Packer packer(Vec3(0));
   shader::Material record{};
   record.normal_map = material.normal_map ? material.normal_map->texture->pack(packer) : NONE;
   record.normal_scale = material.normal_map ? float(material.normal_map->scale) : 0;
+  record.coat_normal = material.coat_normal_map ? material.coat_normal_map->texture->pack(packer) : NONE;
+  record.coat_normal_scale = material.coat_normal_map ? float(material.coat_normal_map->scale) : 0;
   record.bump = material.bump_map ? material.bump_map->texture->pack(packer) : NONE;
   if (material.bump_map) {
     record.bump_height = float(material.bump_map->height);
@@ -64,7 +79,14 @@ Vec3 shaded(const Material& material, const Place& place) {
   }
   packer.write_texels();
   const shader::Binding binding(twin::view_of(packer.scene));
-  return Vec3(shader::bent_by(record, place.surface, glm::vec3(place.d)).normal);
+  const shader::Surface bent = shader::bent_by(record, place.surface, glm::vec3(place.d));
+  return {Vec3(bent.normal), Vec3(bent.coat_normal)};
+}
+
+void check_alike(const Material& material, const Place& place) {
+  const Normals there = expected(material, place), here = shaded(material, place);
+  CHECK(glm::length(here.normal - there.normal) < 2e-4);
+  CHECK(glm::length(here.coat - there.coat) < 2e-4);
 }
 
 double cross(const Place& place) {
@@ -82,8 +104,24 @@ TEST_CASE("a normal map bends as the reference says, by uv and by a mesh's tange
     material->normal_map =
         NormalMap{textures::make_constant({random.uniform(), random.uniform(), random.uniform(0.4, 1)}),
                   random.uniform(-1.5, 1.5)};
-    const Vec3 expected = reference::bent_normal(*material, place.point, place.d);
-    CHECK(glm::length(shaded(*material, place) - expected) < 2e-4);
+    check_alike(*material, place);
+  }
+}
+
+TEST_CASE("a coat is bent by its own normal map alone") {
+  Random random{6};
+  for (int i = 0; i < 2'000; ++i) {
+    const Place place = some_place(random, i % 2 == 0);
+    if (cross(place) < 0.1) continue;
+    const auto material = materials::make_principled({.coat = textures::make_constant(Vec3(1))});
+    material->normal_map =
+        NormalMap{textures::make_constant({random.uniform(), random.uniform(), random.uniform(0.4, 1)}), 1};
+    CHECK(expected(*material, place).coat == place.point.normal);
+    check_alike(*material, place);
+    const Vec3 body = expected(*material, place).normal;
+    material->coat_normal_map = material->normal_map;
+    check_alike(*material, place);
+    CHECK(expected(*material, place).coat == body);
   }
 }
 
@@ -102,8 +140,7 @@ TEST_CASE("bumps bend as the reference says, and by Blinn's formula") {
     if (cross(place) < 0.1) continue;
     const auto material = materials::make_phong({});
     material->bump_map = BumpMap{texture, random.uniform(-0.2, 0.2), 0.125};
-    const Vec3 expected = reference::bent_normal(*material, place.point, place.d);
-    CHECK(glm::length(shaded(*material, place) - expected) < 2e-4);
+    check_alike(*material, place);
   }
 }
 
@@ -120,8 +157,7 @@ TEST_CASE(
     const Vec3 up =
         place.point.normal_geometric * (glm::dot(place.d, place.point.normal_geometric) < 0 ? 1.0 : -1.0);
     const double side = glm::dot(up, place.point.normal_geometric);
-    for (const Vec3 n :
-         {side * reference::bent_normal(*material, place.point, place.d), side * shaded(*material, place)}) {
+    for (const Vec3 n : {side * expected(*material, place).normal, side * shaded(*material, place).normal}) {
       CHECK(std::abs(glm::length(n) - 1) < 1e-5);
       CHECK(glm::dot(n, up) > 0);
       CHECK(glm::dot(n, place.d) < 1e-5);

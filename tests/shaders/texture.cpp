@@ -76,7 +76,7 @@ TEST_CASE("(0, 0) is the lower left corner, (1, 1) the upper right, and the file
   check({-7, 7}, red);
 }
 
-TEST_CASE("a row of texels goes on beyond its edges as `wrap` says, and bilinear mixes across the seam") {
+TEST_CASE("a row of texels goes on beyond its edges as `wrap` says, and bilinear mixes row_image the seam") {
   // Codes that are 0, 1/5 … 1, once in a row and once in a column, there from bottom to top.
   std::vector<Texel> row, column;
   for (int i = 0; i < 6; ++i) {
@@ -97,11 +97,11 @@ TEST_CASE("a row of texels goes on beyond its edges as `wrap` says, and bilinear
       CAPTURE(int(wrap));
       CAPTURE(from + k);
       const auto check = [&](Filter filter, double place, double value) {
-        const TexturePtr across = make_image(linear_image(6, 1, row, filter, wrap));
+        const TexturePtr row_image = make_image(linear_image(6, 1, row, filter, wrap));
         const TexturePtr upward = make_image(linear_image(1, 6, column, filter, wrap));
-        CHECK(std::abs(shaded(across, {place, 0.3}).x - value) < 2e-6);
+        CHECK(std::abs(shaded(row_image, {place, 0.3}).x - value) < 2e-6);
         CHECK(std::abs(shaded(upward, {0.3, place}).y - value) < 2e-6);
-        CHECK(std::abs(across->at(Vec2{place, 0.3}).z - value) < 1e-14);
+        CHECK(std::abs(row_image->at(Vec2{place, 0.3}).z - value) < 1e-14);
         CHECK(std::abs(upward->at(Vec2{0.3, place}).x - value) < 1e-14);
       };
       const double here = texels[size_t(k)] / 5.0, next = texels[size_t(k) + 1] / 5.0;

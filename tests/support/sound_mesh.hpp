@@ -48,7 +48,7 @@ inline std::string broken_promise(const Mesh& mesh) {
 inline std::string broken_promise(const importers::ImportedScene& scene) {
   for (const Mesh& mesh : scene.meshes)
     if (const std::string broken = broken_promise(mesh); !broken.empty()) return broken;
-  if (scene.instances.empty()) return "no instances";
+  if (scene.instances.empty() && !scene.played) return "no instances";
   for (const Instance& instance : scene.instances) {
     if (instance.mesh < 0 || size_t(instance.mesh) >= scene.meshes.size()) return "mesh of an instance";
     if (instance.material < -1 || instance.material >= int(scene.materials.size()))

@@ -162,6 +162,34 @@ TEST_CASE("a lamp with a front lights what is before it, and is dark from behind
   check(behind, 0);
 }
 
+TEST_CASE("lamps next to the floor: what Lambert says, with little noise") {
+  const auto lit = [](std::unique_ptr<Shape> shape, const std::vector<Vec3>& corners) {
+    Scene scene = floor(64);
+    scene.camera.eye = {0.15, 0.04, 0.1};
+    add(scene, std::move(shape), lamp(scene));
+    const double expected = shown(irradiance_of(corners));
+    check(scene, expected);
+    // Of places chosen by area it is 1.3 to 14 times as much; of fewer samples five times.
+    const double most = 2e-3 * test::amount(5, 1, 1);
+    for (const Backend backend : {Backend::twin, Backend::reference}) {
+      const double noise = estimate(scene, backend).error / expected;
+      CAPTURE(noise);
+      CHECK(noise < most);
+    }
+  };
+  // Before it, over its corner, and right above it; one that leans, and a triangle.
+  const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  const auto both = [&](const Vec3& a, const Vec3& u, const Vec3& v) {
+    lit(make_parallelogram(a, u, v), {a, a + u, a + u + v, a + v});
+  };
+  both({-1, 0, 0.2}, 2.0 * x, y);
+  both({-1.02, 0.1, -1.02}, x, z);
+  both({-0.5, 0.05, -0.5}, x, z);
+  both({-0.6, 0.01, 0.15}, x, 0.2 * x + y + 0.3 * z);
+  const Vec3 a(-0.2, 0.01, -0.1), b(0.9, 0.02, 0.1), c(0.1, 1.1, -0.3);
+  lit(make_triangle({.vertices = {a, b, c}}), {a, b, c});
+}
+
 TEST_CASE("a lamp with a picture: each part as bright as it is") {
   const Vec3 a(-0.5, 0.6, 0.2), u(1.2, 0.5, 0.2), v(0.6, 0.3, 1);
   const double left = irradiance_of({a, a + u / 2.0, a + u / 2.0 + v, a + v}),

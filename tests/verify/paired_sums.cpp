@@ -1,8 +1,9 @@
 // Gate D's sums on a real scene: how often they fail where nothing is wrong, and how small a bias they find.
 #include "host/compare/paired_sums.hpp"
 
-#include "host/executors/executor.hpp"
+#include "host/executors/executors.hpp"
 #include "host/loader/scene_file.hpp"
+#include "host/verify/photon_judge.hpp"
 #include "tests/support/process.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -49,7 +50,75 @@ int failing(int seeds, const std::string& white) {
   return count;
 }
 
+// What a ball of glass bundles, where a disk of photons is as wide as a tile.
+struct Caustic {
+  compare::Frame value, exact;
+  double radius;
+};
+
+Caustic caustic(uint32_t seed) {
+  Scene scene =
+      loader::load_scene("bench/caustic.toml", std::vector<loader::Override>{{"image.width=48"},
+                                                                             {"image.height=48"},
+                                                                             {"image.samples=4"},
+                                                                             {"render.photons=4096"},
+                                                                             {"render.photon_radius=0.05"}});
+  scene.render.seed = seed;
+  const auto renderer = std::make_shared<const reference::Renderer>(scene);
+  const auto exact = executors::make_reference_executor(renderer);
+  const auto twin = executors::make_executor(Backend::twin, scene, {});
+  const auto left_out = verify::judge_photons(scene, *twin, *exact, *renderer).left_out;
+  const auto traced_by = [&](executors::Executor& executor) {
+    executor.leave_out(left_out);
+    compare::Frame frame;
+    frame.area = {0, 0, 48, 48};
+    const size_t pixels = size_t(frame.area.pixels());
+    frame.samples.resize(4 * pixels);
+    frame.first_hits.resize(pixels);
+    executor.first_hits(frame.area, frame.first_hits);
+    std::vector<PixelSample> samples(pixels);
+    for (uint32_t i = 0; i < 4; ++i) {
+      executor.sample(frame.area, i, samples);
+      for (size_t p = 0; p < pixels; ++p) frame.samples[4 * p + i].color = glm::vec3(samples[p].color);
+    }
+    return frame;
+  };
+  return {traced_by(*twin), traced_by(*exact), photon_radius(photon_settings(scene), 0)};
+}
+
+struct PhotonFailures {
+  int sound = 0, biased = 0, alone = 0;  // alone: as if no two pixels shared a photon
+};
+
+PhotonFailures failing_photons(int seeds, float bias) {
+  PhotonFailures failures;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    Caustic it = caustic(uint32_t(seed));
+    failures.sound += compare::worst_paired_sum(it.value, it.exact, it.radius).excess() > 1;
+    failures.alone += compare::worst_paired_sum(it.value, it.exact).excess() > 1;
+    for (auto& sample : it.value.samples) sample.color *= bias;
+    failures.biased += compare::worst_paired_sum(it.value, it.exact, it.radius).excess() > 1;
+  }
+  return failures;
+}
+
 }  // namespace
+
+TEST_CASE("photons that pixels share: no seed fails, and a hundredth too much does with every seed") {
+  const PhotonFailures failures = failing_photons(6, 1.01f);
+  CHECK(failures.sound == 0);
+  CHECK(failures.biased == 6);
+}
+
+TEST_CASE("… of a thousand seeds at most five, and of a bias of a hundredth 950; many, were none shared" *
+          doctest::test_suite("long")) {
+  const PhotonFailures failures = failing_photons(1000, 1.01f);
+  MESSAGE(failures.sound << " of 1000 seeds fail, with a bias " << failures.biased << "; were none shared "
+                         << failures.alone);
+  CHECK(failures.sound <= 5);
+  CHECK(failures.biased >= 950);
+  CHECK(failures.alone > 5);
+}
 
 TEST_CASE("where nothing is wrong no seed fails; walls that are a thousandth brighter fail with every seed") {
   CHECK(failing(10, usual) == 0);

@@ -25,13 +25,19 @@
   X(vkCreateComputePipelines)    \
   X(vkCreatePipelineLayout)      \
   X(vkCreateDescriptorSetLayout) \
-  X(vkCreateDescriptorPool)
+  X(vkCreateDescriptorPool)      \
+  X(vkCreateImage)               \
+  X(vkCreateImageView)           \
+  X(vkCreateRenderPass)          \
+  X(vkCreateFramebuffer)         \
+  X(vkCreateGraphicsPipelines)
 #define OTHERS(X)               \
   X(vkEnumerateInstanceVersion) \
   X(vkEnumeratePhysicalDevices) \
   X(vkAllocateCommandBuffers)   \
   X(vkAllocateDescriptorSets)   \
   X(vkBindBufferMemory)         \
+  X(vkBindImageMemory)          \
   X(vkMapMemory)                \
   X(vkGetPipelineCacheData)     \
   X(vkBeginCommandBuffer)       \
@@ -55,7 +61,11 @@
   X(vkDestroyPipeline)            \
   X(vkDestroyPipelineLayout)      \
   X(vkDestroyDescriptorSetLayout) \
-  X(vkDestroyDescriptorPool)
+  X(vkDestroyDescriptorPool)      \
+  X(vkDestroyImage)               \
+  X(vkDestroyImageView)           \
+  X(vkDestroyRenderPass)          \
+  X(vkDestroyFramebuffer)
 
 namespace {
 
@@ -108,6 +118,16 @@ struct Destroy<Tag, void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbac
   static void VKAPI_PTR call(VkDevice device, Handle handle, const VkAllocationCallbacks* callbacks) {
     if (handle) --alive;
     real(device, handle, callbacks);
+  }
+};
+
+// Where EYERAY_NO_GRAPHICS is set, no queue draws.
+struct QueueFamilies {
+  static inline PFN_vkGetPhysicalDeviceQueueFamilyProperties real = nullptr;
+  static void VKAPI_PTR call(VkPhysicalDevice device, uint32_t* count, VkQueueFamilyProperties* families) {
+    real(device, count, families);
+    if (!families || !std::getenv("EYERAY_NO_GRAPHICS")) return;
+    for (uint32_t i = 0; i < *count; ++i) families[i].queueFlags &= ~VkQueueFlags(VK_QUEUE_GRAPHICS_BIT);
   }
 };
 
@@ -172,6 +192,8 @@ PFN_vkVoidFunction VKAPI_PTR vkGetInstanceProcAddr(VkInstance instance, const ch
     return stand_in<Destroy<Tag, PFN_##function>>(real); \
   }
   DESTROYERS(DESTROY)
+  if (std::strcmp(name, "vkGetPhysicalDeviceQueueFamilyProperties") == 0)
+    return stand_in<QueueFamilies>(real);
   return real;
 }
 }

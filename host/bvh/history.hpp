@@ -1,0 +1,39 @@
+// BVHs of scenes that come one after the other, the frames of an animation. Where items have only moved, a
+// BVH is refitted: it keeps its nodes, whose boxes are made anew, which takes a fraction of a build.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "host/bvh/bvh.hpp"
+
+namespace eyeray::bvh {
+
+// The surface area heuristic's cost of a ray that hits the root: nodes visited, and items tested.
+double sah_cost(const Bvh& bvh);
+
+// Makes the boxes of all nodes anew. Items must be those of its build, which did not split any.
+void refit(Bvh& bvh, std::span<const Box> boxes);
+
+// Not for several threads at once.
+class BvhHistory {
+ public:
+  // The BVHs that follow are another scene's.
+  void begin_scene() { next_ = 0; }
+  // As build_bvh, of what was built at this place of the scene before: refitted if it is over the same items
+  // and costs rays little more than it did when it was built.
+  Bvh build(std::span<const Box> boxes, const BvhOptions& options);
+
+ private:
+  struct Kept {
+    Bvh bvh;
+    double cost;    // when it was built
+    size_t items;   // of all boxes
+    size_t finite;  // of them
+    uint32_t lone;  // BvhOptions::first_lone
+  };
+  std::vector<Kept> kept_;  // by place
+  size_t next_ = 0;
+};
+
+}  // namespace eyeray::bvh

@@ -1,0 +1,177 @@
+// Completions for shells. Where nothing of ours fits, shells complete the names of files.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "host/cli/option_table.hpp"
+
+namespace eyeray::cli {
+namespace {
+
+std::string shell_quoted(std::string text) {
+  for (size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 4) text.replace(at, 1, "'\\''");
+  return "'" + text + "'";
+}
+
+// What a list of completions shows of a description: its first sentence.
+std::string brief(const std::string& text) {
+  const size_t end = text.find_first_of(".:;(");
+  return text.substr(0, text.find_last_not_of(' ', end == std::string::npos ? end : end - 1) + 1);
+}
+
+std::vector<std::string> names_of(const std::vector<CommandRow>& commands) {
+  std::vector<std::string> names;
+  for (const CommandRow& each : commands) names.push_back(last_word(each));
+  return names;
+}
+
+// "'render -o'|'render --output'": the options as bash's case sees them behind their command.
+std::string pattern(const CommandRow& command, const OptionRow& option) {
+  std::vector<std::string> cases;
+  for (const std::string& name : option.names) cases.push_back(shell_quoted(command.words + " " + name));
+  return fmt::format("{}", fmt::join(cases, "|"));
+}
+
+std::string bash_command(const CommandRow& command) {
+  std::vector<std::string> words = names_of(command.commands);
+  for (const OptionRow& option : command.options)
+    if (!option.is_argument) words.insert(words.end(), option.names.begin(), option.names.end());
+  return fmt::format("    {}) words={} ;;\n", shell_quoted(command.words),
+                     shell_quoted(fmt::format("{}", fmt::join(words, " "))));
+}
+
+std::string bash_values(const CommandRow& command) {
+  std::string text;
+  for (const OptionRow& option : command.options) {
+    if (option.value.empty()) continue;
+    text += fmt::format("    {}) words={} value=1 ;;\n", pattern(command, option),
+                        shell_quoted(fmt::format("{}", fmt::join(option.choices, " "))));
+  }
+  return text;
+}
+
+std::string zsh_text(const std::string& text) {
+  std::string escaped;
+  for (const char each : brief(text)) {
+    if (each == '[' || each == ']' || each == ':' || each == '\\') escaped += '\\';
+    escaped += each;
+  }
+  return escaped;
+}
+
+// The name of a command's function: _eyeray_generate_terrain.
+std::string zsh_function(const CommandRow& command) {
+  std::string name = "_eyeray" + (command.words.empty() ? "" : "_" + command.words);
+  std::ranges::replace(name, ' ', '_');
+  return name;
+}
+
+std::string zsh_options(const CommandRow& command) {
+  std::string text;
+  for (const OptionRow& option : command.options) {
+    if (option.is_argument) continue;
+    std::string rest = fmt::format("[{}]", zsh_text(option.text));
+    if (!option.choices.empty())
+      rest += fmt::format(":value:({})", fmt::join(option.choices, " "));
+    else if (!option.value.empty())
+      rest += ":value:_files";
+    for (const std::string& name : option.names) text += " \\\n    " + shell_quoted("*" + name + rest);
+  }
+  return text;
+}
+
+std::string zsh_command(const CommandRow& command) {
+  std::string text = zsh_function(command) + "() {\n";
+  if (command.commands.empty())
+    return text + "  _arguments" + zsh_options(command) + " \\\n    '*:file:_files'\n}\n\n";
+  text += "  local curcontext=$curcontext state line\n  _arguments -C" + zsh_options(command) +
+          " \\\n    '1:command:->command' '*::rest:->rest'\n  case $state in\n    command)\n      local -a "
+          "commands=(";
+  for (const CommandRow& each : command.commands)
+    text += "\n        " + shell_quoted(last_word(each) + ":" + zsh_text(each.text));
+  text += ")\n      _describe command commands ;;\n    rest)\n      case $words[1] in\n";
+  for (const CommandRow& each : command.commands)
+    text += fmt::format("        {}) {} ;;\n", last_word(each), zsh_function(each));
+  return text + "      esac ;;\n  esac\n}\n\n";
+}
+
+// When fish is to offer what a command has.
+std::string fish_condition(const CommandRow& command) {
+  if (command.words.empty()) return "__fish_use_subcommand";
+  std::string condition, word;
+  for (const char each : command.words + " ") {
+    if (each != ' ') {
+      word += each;
+      continue;
+    }
+    condition += (condition.empty() ? "" : "; and ") + ("__fish_seen_subcommand_from " + word);
+    word.clear();
+  }
+  return condition;
+}
+
+}  // namespace
+
+std::string bash_completion(const CommandRow& table) {
+  std::vector<std::string> commands;
+  std::string words, values;
+  for (const CommandRow* each : all_commands(table)) {
+    if (!each->words.empty()) commands.push_back(shell_quoted(each->words));
+    words += bash_command(*each);
+    values += bash_values(*each);
+  }
+  return "# Made by eyeray completion bash.\n_eyeray() {\n"
+         "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} command='' words='' "
+         "value='' i\n"
+         "  for ((i = 1; i < COMP_CWORD; i++)); do\n"
+         "    case \"${command:+$command }${COMP_WORDS[i]}\" in\n"
+         "      " +
+         fmt::format("{}", fmt::join(commands, "|")) +
+         ")\n        command=\"${command:+$command }${COMP_WORDS[i]}\" ;;\n    esac\n  done\n"
+         "  case \"$command\" in\n" +
+         words + "  esac\n  case \"$command $before\" in\n" + values +
+         "  esac\n"
+         "  # Options when a word begins like one; the values that an option lists; else commands, or "
+         "files.\n"
+         "  if [ -z \"$value\" ] && [ \"${word#-}\" = \"$word\" ]; then\n"
+         "    local all=$words each; words=''\n"
+         "    for each in $all; do [ \"${each#-}\" = \"$each\" ] && words=\"$words $each\"; done\n"
+         "  fi\n"
+         "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
+         "}\ncomplete -o default -F _eyeray eyeray\n";
+}
+
+std::string zsh_completion(const CommandRow& table) {
+  std::string text = "#compdef eyeray\n# Made by eyeray completion zsh.\n\n";
+  for (const CommandRow* each : all_commands(table)) text += zsh_command(*each);
+  return text + "_eyeray \"$@\"\n";
+}
+
+std::string fish_completion(const CommandRow& table) {
+  std::string text = "# Made by eyeray completion fish.\n";
+  for (const CommandRow* command : all_commands(table)) {
+    std::string condition = fish_condition(*command);
+    for (const OptionRow& option : command->options) {
+      if (option.is_argument) continue;
+      text += "complete -c eyeray -n " + shell_quoted(condition);
+      for (const std::string& name : option.names)
+        text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+      if (!option.choices.empty())
+        text += " -x -a " + shell_quoted(fmt::format("{}", fmt::join(option.choices, " ")));
+      else if (!option.value.empty())
+        text += " -r";
+      text += " -d " + shell_quoted(brief(option.text)) + "\n";
+    }
+    // A second word of a command's own, as long as none stands there.
+    const std::vector<std::string> names = names_of(command->commands);
+    if (!command->words.empty() && !names.empty())
+      condition += fmt::format("; and not __fish_seen_subcommand_from {}", fmt::join(names, " "));
+    for (const CommandRow& each : command->commands)
+      text += fmt::format("complete -c eyeray -n {} -f -a {} -d {}\n", shell_quoted(condition),
+                          last_word(each), shell_quoted(brief(each.text)));
+  }
+  return text;
+}
+
+}  // namespace eyeray::cli

@@ -1,0 +1,188 @@
+// eyeray merge: parts become a picture, and reports of parts of a suite one report.
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "host/cli/merged_report.hpp"
+#include "host/cli/picture.hpp"
+#include "host/cli/picture_files.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/build_id.hpp"
+#include "host/core/termination.hpp"
+#include "host/image/image_file.hpp"
+#include "host/render/flags.hpp"
+#include "host/scene/luminance.hpp"
+#include "host/shards/part_set.hpp"
+
+namespace fs = std::filesystem;
+
+namespace eyeray::cli {
+namespace {
+
+struct MergeCommand {
+  std::vector<std::string> parts;
+  std::vector<std::string> outputs;
+  bool half = false;
+  bool check = false;
+  bool quiet = false;
+  bool json = false;
+
+  ExitCode run();
+  ExitCode merge_reports() const;
+  ExitCode report_faults(const shards::PartSet& set) const;
+  Picture merge(shards::PartSet& set) const;
+  void check_outputs(const shards::PartHeader& header);
+};
+
+bool is_report(const std::string& file) {
+  return fs::path(file).extension() == ".json";
+}
+
+// For programs that start again what is missing.
+Json to_json(const shards::PartFaults& faults, const shards::PartSet& set) {
+  Json json{{"complete", !faults.any()}, {"shards", faults.count}, {"parts", set.parts().size()}};
+  if (const shards::PartHeader* header = set.header()) {
+    json["scene"] = header->scene;
+    json["width"] = header->area.width;
+    json["height"] = header->area.height;
+  }
+  json["damaged"] = faults.damaged;
+  json["foreign"] = faults.foreign;
+  json["doubled"] = faults.doubled;
+  json["missing"] = Json::array();
+  for (const int index : faults.missing) json["missing"].push_back(index + 1);
+  return json;
+}
+
+void MergeCommand::check_outputs(const shards::PartHeader& header) {
+  if (outputs.empty())
+    outputs.push_back(fs::path(header.scene).filename().replace_extension(".png").string());
+  for (const std::string& output : outputs) {
+    image::image_format(output);
+    check_writable(output);
+  }
+}
+
+Picture MergeCommand::merge(shards::PartSet& set) const {
+  const Stopwatch watch;
+  const shards::PartHeader& header = *set.header();
+  const Rect& area = header.area;
+  PictureFiles files(outputs, header.aovs, area.width, area.height, half, header.tone);
+  double luminances = 0;
+  set.merge([&](size_t plane, const image::Image& rows) {
+    if (plane > 0) return files.write(plane - 1, rows);
+    files.write(rows);
+    for (size_t i = 0; i < rows.sample_count(); i += 3) {
+      const float* const color = &rows.samples()[i];
+      luminances += luminance(Vec3(color[0], color[1], color[2]));
+    }
+  });
+
+  Picture picture;
+  const shards::PartTotals totals = set.totals();
+  {
+    const Saving saving;
+    files.finish_picture(picture.files);
+    files.finish_aovs(picture.files, [&](size_t aov, const fs::path& file) {
+      return aov::write_legend(totals.legends[aov], file);
+    });
+  }
+  const double pixels = double(area.pixels());
+  picture.device = header.device;
+  picture.crop = area;
+  picture.samples = picture.samples_done = picture.most_samples = header.samples;
+  picture.mean_samples = header.samples;
+  picture.share = 1;
+  picture.parts = set.parts().size();
+  picture.rays = totals.rays;
+  picture.sampling_seconds = totals.seconds;
+  picture.sampling_processor_seconds = totals.processor_seconds;
+  picture.flagged_pixels = totals.flagged_pixels;
+  picture.flagged_hits = totals.flagged_hits;
+  picture.flags = totals.flags;
+  picture.clamp = header.clamp;
+  picture.clamped = totals.clamped;
+  if (header.random_paths)
+    picture.fireflies = totals.brightness.above(render::Fireflies::times * luminances / pixels);
+  picture.ray_kinds = totals.ray_kinds;
+  picture.seconds = watch.seconds();
+  return picture;
+}
+
+// All of them, for who asks before the picture is wanted.
+ExitCode MergeCommand::report_faults(const shards::PartSet& set) const {
+  const shards::PartFaults& faults = set.faults();
+  if (json) print_json(to_json(faults, set));
+  if (faults.any()) {
+    if (!json) faults.refuse();
+    return faults.damaged.empty() ? ExitCode::bad_input : ExitCode::file_io;
+  }
+  if (!quiet && !json)
+    fmt::print("{} parts are all of {}, {}×{}, and sound\n", set.parts().size(), set.header()->scene,
+               set.header()->area.width, set.header()->area.height);
+  return ExitCode::ok;
+}
+
+ExitCode MergeCommand::merge_reports() const {
+  if (outputs.size() > 1) throw Error(ExitCode::bad_input, "reports are merged into one file");
+  const Json merged = merged_report(parts);
+  const std::string text = merged.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (outputs.empty())
+    fmt::print("{}", text);
+  else
+    write_file_atomically(outputs[0], text);
+  return merged.at("passed").get<bool>() ? ExitCode::ok : ExitCode::comparison_failed;
+}
+
+ExitCode MergeCommand::run() {
+  if (std::ranges::all_of(parts, is_report)) return merge_reports();
+  shards::PartSet set({parts.begin(), parts.end()});
+  if (check) return report_faults(set);
+  set.faults().refuse();
+  const shards::PartHeader& header = *set.header();
+  check_outputs(header);
+  if (header.build != build_id())
+    fmt::print(stderr, "eyeray: warning: the parts were rendered by another build of eyeray than this\n");
+  const Picture picture = merge(set);
+  const uint64_t flagged = std::max(picture.flagged_pixels, picture.flagged_hits);
+  for (const std::string& warning :
+       {render::flag_warning(picture.flags, flagged), clamp_warning(picture), firefly_warning(picture)})
+    if (!warning.empty()) fmt::print(stderr, "eyeray: warning: {}\n", warning);
+  if (!quiet) fmt::print(stderr, "{}\n", summary(picture));
+  if (json) print_json(to_json(picture));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, Run& run) {
+  CLI::App* const command =
+      app.add_subcommand("merge", "Make a picture of the parts that render --shard wrote.");
+  const auto options = std::make_shared<MergeCommand>();
+  command
+      ->add_option("PARTS", options->parts,
+                   "All parts of the picture, in any order; or verify's reports, .json.")
+      ->required()
+      ->option_text(" ");
+  command
+      ->add_option(
+          "-o,--output", options->outputs,
+          "Where the picture goes: .png, .pfm, .hdr or .exr. May be repeated. Default: SCENE.png here.")
+      ->option_text("FILE")
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_flag("--half", options->half, "Write the colours of an .exr in 16 bits a channel, not 32.");
+  command->add_flag("--check", options->check,
+                    "Only say whether the parts are sound and all of one picture.");
+  command->add_flag("-q,--quiet", options->quiet, "No summary; warnings and errors remain.");
+  command->add_flag("--json", options->json, "Say what was done as JSON on standard output.");
+  command->footer(
+      "Examples:\n"
+      "  eyeray merge whitted.*-of-64.eyeray -o whitted.png\n"
+      "  eyeray merge whitted.*-of-64.eyeray --check --json      what is missing, damaged, doubled or "
+      "foreign\n"
+      "  eyeray merge report.*.json -o report.json               of verify --shard I/N --json\n"
+      "The picture is that of one machine, bit by bit.");
+  command->callback([options, &run] { run = [options] { return options->run(); }; });
+}
+
+}  // namespace eyeray::cli

@@ -1,0 +1,20 @@
+// Reports of `verify --shard` put together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/cli/json.hpp"
+#include "host/render/tiling.hpp"
+
+namespace eyeray::cli {
+
+// What a report says of its share: of how many scenes, and what names the suite and its options.
+Json shard_of_report(const render::Shard& shard, size_t scenes, const std::string& suite);
+
+// The report of all scenes, in their order, as one machine writes it. Error (bad_input) that names files
+// where shares are missing, doubled or of another suite; Error (file_io) where one cannot be read or is no
+// report.
+Json merged_report(const std::vector<std::string>& files);
+
+}  // namespace eyeray::cli

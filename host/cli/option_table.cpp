@@ -1,0 +1,70 @@
+#include "host/cli/option_table.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+namespace eyeray::cli {
+namespace {
+
+// "auto|bvh|brute-force" as three; nothing of "FILE" or "NAME=gpu".
+std::vector<std::string> choices_in(const std::string& value) {
+  std::vector<std::string> choices;
+  if (value.find('|') == std::string::npos) return choices;
+  for (size_t begin = 0; begin <= value.size();) {
+    const size_t end = std::min(value.find('|', begin), value.size());
+    choices.push_back(value.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return choices;
+}
+
+OptionRow row_of(const CLI::Option& option) {
+  OptionRow row;
+  row.text = option.get_description();
+  row.group = option.get_group();
+  row.is_argument = option.get_positional();
+  if (row.is_argument) {
+    row.names = {option.get_name(true)};
+    return row;
+  }
+  for (const std::string& name : option.get_snames()) row.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) row.names.push_back("--" + name);
+  if (option.get_items_expected_min() == 0) return row;  // a flag
+  row.value = option.get_option_text();
+  if (row.value.empty()) row.value = option.get_type_name();
+  row.choices = choices_in(row.value);
+  return row;
+}
+
+CommandRow row_of(const CLI::App& app, const std::string& words) {
+  CommandRow row{words, app.get_description(), app.get_footer(), {}, {}};
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_group().empty()) row.options.push_back(row_of(*option));
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (!command->get_group().empty())
+      row.commands.push_back(row_of(*command, words + (words.empty() ? "" : " ") + command->get_name()));
+  return row;
+}
+
+void collect(const CommandRow& row, std::vector<const CommandRow*>& all) {
+  all.push_back(&row);
+  for (const CommandRow& command : row.commands) collect(command, all);
+}
+
+}  // namespace
+
+CommandRow option_table(const CLI::App& app) {
+  return row_of(app, "");
+}
+
+std::vector<const CommandRow*> all_commands(const CommandRow& table) {
+  std::vector<const CommandRow*> all;
+  collect(table, all);
+  return all;
+}
+
+std::string last_word(const CommandRow& command) {
+  return command.words.substr(command.words.rfind(' ') + 1);
+}
+
+}  // namespace eyeray::cli

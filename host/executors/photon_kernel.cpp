@@ -1,0 +1,128 @@
+#include "host/executors/photon_kernel.hpp"
+
+#include <algorithm>
+
+#include "host/core/error.hpp"
+#include "host/core/termination.hpp"
+#include "host/executors/samples.hpp"
+#include "host/gpu/command_list.hpp"
+
+namespace eyeray::executors {
+namespace {
+
+// Two surfaces that scatter light widely stop each photon, more or less; where they do more often, there is
+// made more room.
+constexpr double usually_stopped = 2;
+
+// How many records of so many bytes a device has room for: in one buffer that a shader sees, and of those
+// that are stopped another one, in their order.
+uint64_t room_on(const gpu::DeviceInfo& device, size_t record, int buffers) {
+  return std::min(device.limits.storage_range, device.limits.heap / uint64_t(buffers)) / record;
+}
+
+// Error (no_device) where what becomes of the photons has no room.
+size_t bytes_of_results(const gpu::DeviceInfo& device, uint32_t photons) {
+  if (const uint64_t room = room_on(device, sizeof(shader::PhotonResult), 1); photons > room)
+    throw Error(
+        ExitCode::no_device,
+        "`photons` in [render] is {}, and {} has room for what becomes of {} ({} bytes each, a shader sees "
+        "{} of one buffer): lower it",
+        photons, device.name, room, sizeof(shader::PhotonResult), device.limits.storage_range);
+  return photons * sizeof(shader::PhotonResult);
+}
+
+}  // namespace
+
+PhotonKernel::PhotonKernel(gpu::Device& device, SceneKernels& kernels, StageTimes& times,
+                           const Workgroups& workgroups, const PhotonSettings& settings, const Vec3& eye)
+    : device_(device),
+      times_(times),
+      workgroups_(workgroups),
+      settings_(settings),
+      eye_(eye),
+      kernel_(kernels.make("kernels/photons.comp.glsl", "#define SENDS_PHOTONS\n")),
+      pass_(device, sizeof(shader::PhotonPass), "photon pass"),
+      results_(device, bytes_of_results(device.info(), settings.count), "photons' results"),
+      count_(device, sizeof(uint32_t), "photon count") {
+  kernel_->set_buffer(BINDING_PHOTON_PASS, pass_);
+  kernel_->set_buffer(BINDING_OUTPUT, results_);
+  kernel_->set_buffer(BINDING_NEXT_LIST, count_);
+  const uint64_t room = room_on(device.info(), sizeof(shader::Photon), 2);
+  make_room(uint32_t(std::min(usually_stopped * settings.count, double(room))));
+  // Until there are any, kernels see none.
+  const shader::PhotonPass pass = photon_pass(settings_, 0, eye_, capacity_);
+  pass_.upload_records(std::span(&pass, 1));
+  photons_.emplace(device_, sizeof(shader::Photon), "photons");
+  cells_.emplace(device_, (size_t(pass.key_mask) + 2) * sizeof(uint32_t), "photons' cells");
+}
+
+void PhotonKernel::make_room(uint32_t photons) {
+  if (photons <= capacity_) return;
+  capacity_ = photons;
+  found_.emplace(device_, size_t{photons} * sizeof(shader::Photon), "photons found");
+  kernel_->set_buffer(BINDING_PHOTONS, *found_);
+}
+
+void PhotonKernel::bind(gpu::Kernel& kernel) const {
+  kernel.set_buffer(BINDING_PHOTON_PASS, pass_);
+  kernel.set_buffer(BINDING_PHOTONS, *photons_);
+  kernel.set_buffer(BINDING_PHOTON_CELLS, *cells_);
+}
+
+bool PhotonKernel::trace(uint32_t index) {
+  const shader::PhotonPass pass = photon_pass(settings_, index, eye_, capacity_);
+  pass_.upload_records(std::span(&pass, 1));
+  count_.clear();
+  for (uint32_t first = 0; first < settings_.count;) {
+    if (interrupted()) return false;
+    shader::Dispatch push{};
+    push.tile_x = first;
+    push.sample_index = index;
+    push.count = std::min(uint32_t(dispatch_size_.rows(1)), settings_.count - first);
+    const gpu::RunTime time = gpu::dispatch(device_, *kernel_, std::as_bytes(std::span(&push, 1)),
+                                            {workgroups_.of_items(push.count), 1, 1});
+    times_.add("pipeline", time.compile_seconds);
+    times_.add("photons", time.seconds);
+    dispatch_size_.took(push.count, time.seconds);
+    first += push.count;
+  }
+  stored_ = count_.read_records<uint32_t>(1)[0];
+  return true;
+}
+
+bool PhotonKernel::send_out(uint32_t index, std::span<const uint32_t> left_out) {
+  if (sample_ == index) return true;
+  sample_.reset();
+  if (!trace(index)) return false;
+  if (stored_ > capacity_) {
+    const gpu::DeviceInfo& device = device_.info();
+    const uint64_t room = room_on(device, sizeof(shader::Photon), 2);
+    if (stored_ > room)
+      throw Error(
+          ExitCode::no_device,
+          "of {} photons surfaces stop {}, and {} has room for {} ({} bytes each, a shader sees {} of one "
+          "buffer): lower `photons` in [render] to {} or less",
+          settings_.count, stored_, device.name, room, sizeof(shader::Photon), device.limits.storage_range,
+          uint64_t(0.9 * double(room) / stored_ * settings_.count));
+    make_room(uint32_t(std::min(room, uint64_t{stored_} + stored_ / 8)));
+    if (!trace(index)) return false;
+  }
+  times_.measure("photon sort", [&] {
+    const std::span<const std::byte> bytes = found_->read(stored_ * sizeof(shader::Photon));
+    const std::span found(reinterpret_cast<const shader::Photon*>(bytes.data()), stored_);
+    const shader::PhotonPass pass = photon_pass(settings_, index, eye_, capacity_);
+    const PhotonList list = photon_list(found, pass.key_mask, left_out);
+    if (photons_->size() < list.photons.size() * sizeof(shader::Photon))
+      photons_.emplace(device_, size_t{capacity_} * sizeof(shader::Photon), "photons");
+    if (!list.photons.empty()) photons_->upload_records(list.photons);
+    cells_->upload_records(list.cells);
+  });
+  flags_ = 0;
+  for (const shader::PhotonResult& result : results_.read_records<shader::PhotonResult>(settings_.count))
+    flags_ |= result.flags;
+  check_ended(flags_);
+  sample_ = index;
+  return true;
+}
+
+}  // namespace eyeray::executors

@@ -1,0 +1,50 @@
+// Sends out a sample's photons on a device, and hands them to the kernels that gather them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "host/executors/dispatch_size.hpp"
+#include "host/executors/photon_list.hpp"
+#include "host/executors/scene_kernels.hpp"
+#include "host/executors/workgroups.hpp"
+
+namespace eyeray::executors {
+
+class PhotonKernel {
+ public:
+  // All of it must outlive it. Error (no_device) with the numbers where the device has no room for so many,
+  // here and of send_out.
+  PhotonKernel(gpu::Device& device, SceneKernels& kernels, StageTimes& times, const Workgroups& workgroups,
+               const PhotonSettings& settings, const Vec3& eye);
+
+  // Makes those of sample `index` the ones that are gathered, unless they are. Returns false when
+  // interrupted.
+  bool send_out(uint32_t index, std::span<const uint32_t> left_out);
+  // Gives the kernel what there is.
+  void bind(gpu::Kernel& kernel) const;
+  // What may be wrong with any of the last that were sent out: SampleFlags.
+  uint32_t flags() const { return flags_; }
+  void forget() { sample_.reset(); }
+
+ private:
+  bool trace(uint32_t index);
+  void make_room(uint32_t photons);
+
+  gpu::Device& device_;
+  StageTimes& times_;
+  Workgroups workgroups_;
+  PhotonSettings settings_;
+  Vec3 eye_;
+  std::shared_ptr<gpu::Kernel> kernel_;
+  DispatchSize dispatch_size_;
+  uint32_t capacity_ = 0;
+  uint32_t stored_ = 0;
+  gpu::Buffer pass_, results_, count_;
+  std::optional<gpu::Buffer> found_, photons_, cells_;
+  std::optional<uint32_t> sample_;  // whose photons these are
+  uint32_t flags_ = 0;
+};
+
+}  // namespace eyeray::executors

@@ -1,0 +1,36 @@
+// The animations of a glTF file: what one of them makes of the file's nodes at a moment. Private to the
+// importers. Source: Khronos Group: glTF 2.0 Specification (2.0.1), 3.11 and appendix C.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/importers/gltf_buffers.hpp"
+#include "host/importers/gltf_materials.hpp"
+#include "host/importers/import.hpp"
+
+namespace eyeray::importers {
+
+// The names of all animations; "" where one has none.
+std::vector<std::string> animation_names(const GltfObject& document);
+
+// Which of them is to be played; nothing for the file's rest.
+std::optional<size_t> find_animation(std::span<const std::string> names, const Playing& playing);
+
+// What nodes have in place of what is written in them: by node and key ("translation", "rotation", "scale",
+// "weights"), as many numbers as the key has. Rotations are of unit length.
+struct GltfMotion {
+  std::map<std::pair<size_t, std::string>, std::vector<double>> values;
+  PlayedAnimation played;
+};
+
+// InputError, with the place, for times that do not increase, and for outputs that are not as many as the
+// times, not finite, or of a type that they cannot be of.
+GltfMotion motion_at(const GltfObject& document, size_t animation, const Playing& playing,
+                     GltfBuffers& buffers, GltfLeftOut& left_out, GltfBreaches& breaches);
+
+}  // namespace eyeray::importers

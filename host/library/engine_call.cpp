@@ -1,0 +1,67 @@
+#include "host/library/engine_call.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <mutex>
+#include <new>
+#include <system_error>
+
+#include "host/core/termination.hpp"
+
+namespace eyeray::library {
+namespace {
+
+std::timed_mutex engine;
+
+v0::ErrorKind kind_of(ExitCode code) {
+  switch (code) {
+    case ExitCode::no_device:
+      return v0::ErrorKind::no_device;
+    case ExitCode::file_io:
+      return v0::ErrorKind::file_io;
+    case ExitCode::timed_out:
+      return v0::ErrorKind::timed_out;
+    case ExitCode::interrupted:
+      return v0::ErrorKind::cancelled;
+    default:
+      return v0::ErrorKind::bad_input;
+  }
+}
+
+// Waits for those who came before.
+std::unique_lock<std::timed_mutex> enter(const std::atomic<bool>* stop) {
+  std::unique_lock lock(engine, std::defer_lock);
+  constexpr std::chrono::milliseconds slice(10);
+  while (!lock.try_lock_for(slice))
+    if (stop && *stop) throw Error(ExitCode::interrupted, "cancelled");
+  return lock;
+}
+
+}  // namespace
+
+std::vector<v0::Diagnostic> to_public(const std::vector<Diagnostic>& diagnostics) {
+  std::vector<v0::Diagnostic> all;
+  for (const Diagnostic& each : diagnostics)
+    all.push_back({each.severity == Severity::error, each.position.file, each.position.line,
+                   each.position.column, each.message});
+  return all;
+}
+
+void call_engine(const std::function<void()>& work, const std::atomic<bool>* stop) {
+  try {
+    const std::unique_lock lock = enter(stop);
+    std::optional<Interruptible> interruptible;
+    if (stop) interruptible.emplace(*stop);
+    work();
+  } catch (const InputError& error) {
+    throw v0::Error(kind_of(error.code()), error.what(), to_public(error.diagnostics()));
+  } catch (const Error& error) {
+    throw v0::Error(kind_of(error.code()), error.what());
+  } catch (const std::bad_alloc&) {
+    throw v0::Error(v0::ErrorKind::no_device, out_of_memory().what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw v0::Error(v0::ErrorKind::file_io, error.what());
+  }
+}
+
+}  // namespace eyeray::library

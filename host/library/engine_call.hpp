@@ -1,0 +1,32 @@
+// A call of the engine on behalf of a program that is not eyeray's.
+#pragma once
+
+#include <eyeray/eyeray.hpp>
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/core/diagnostic.hpp"
+#include "host/core/error.hpp"
+
+namespace eyeray::library {
+
+std::vector<v0::Diagnostic> to_public(const std::vector<Diagnostic>& diagnostics);
+
+// Runs `work`, alone in this process: the engine's device, signals and time-outs are the process's. Whatever
+// it throws of the engine's becomes a v0::Error; what a user's callback throws goes through. `stop`, where
+// there is one, ends the wait for other calls and the work: v0::Error (cancelled).
+void call_engine(const std::function<void()>& work, const std::atomic<bool>* stop = nullptr);
+
+// The same with an answer.
+template <typename Work>
+auto ask_engine(const Work& work, const std::atomic<bool>* stop = nullptr) {
+  std::optional<decltype(work())> answer;
+  call_engine([&] { answer.emplace(work()); }, stop);
+  return std::move(*answer);
+}
+
+}  // namespace eyeray::library

@@ -1,0 +1,67 @@
+#include "host/library/picture.hpp"
+
+#include <algorithm>
+
+#include "host/image/image_file.hpp"
+#include "host/library/engine_call.hpp"
+
+namespace eyeray::library {
+namespace {
+
+v0::Plane plane_of(const image::Image& image) {
+  return {image.samples(), image.width(), image.height(), image.sample_count() > 0 ? image.channels() : 0};
+}
+
+}  // namespace
+}  // namespace eyeray::library
+
+namespace eyeray::v0 {
+
+Plane Picture::color() const {
+  return library::plane_of(data_->color);
+}
+
+std::vector<std::string> Picture::aovs() const {
+  std::vector<std::string> names;
+  for (const auto& each : data_->aovs) names.emplace_back(each.first->name);
+  return names;
+}
+
+Plane Picture::aov(std::string_view name) const {
+  for (const auto& [aov, image] : data_->aovs)
+    if (aov->name == name) return library::plane_of(image);
+  throw Error(ErrorKind::bad_input,
+              fmt::format("the picture has no AOV '{}'{}; RenderOptions::aovs names those that are made",
+                          name, data_->complete ? "" : ", since it was cancelled"));
+}
+
+int Picture::samples_done() const noexcept {
+  return data_->samples_done;
+}
+bool Picture::complete() const noexcept {
+  return data_->complete;
+}
+uint64_t Picture::rays() const noexcept {
+  return data_->rays;
+}
+double Picture::seconds() const noexcept {
+  return data_->seconds;
+}
+double Picture::sampling_seconds() const noexcept {
+  return data_->sampling_seconds;
+}
+std::string Picture::warning() const {
+  return data_->warning;
+}
+
+void Picture::write(const std::filesystem::path& file) const {
+  library::call_engine([&] {
+    const bool shown = image::image_format(file) == image::ImageFormat::png;
+    if (data_->color.sample_count() == 0)
+      throw eyeray::Error(ExitCode::bad_input, "{} is not written: the picture was cancelled and is empty",
+                          file.string());
+    image::write_image(file, shown ? image::toned(data_->color, data_->tone) : data_->color);
+  });
+}
+
+}  // namespace eyeray::v0

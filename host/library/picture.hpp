@@ -1,0 +1,27 @@
+// What stands behind the library's pictures.
+#pragma once
+
+#include <eyeray/eyeray.hpp>
+
+#include <string>
+#include <vector>
+
+#include "host/aov/aov.hpp"
+#include "host/image/image.hpp"
+#include "host/image/tone.hpp"
+
+namespace eyeray::v0 {
+
+struct Picture::Data {
+  image::Tone tone;
+  image::Image color;
+  std::vector<std::pair<aov::Aov, image::Image>> aovs;
+  int samples_done = 0;
+  bool complete = false;
+  uint64_t rays = 0;
+  double seconds = 0;
+  double sampling_seconds = 0;
+  std::string warning;
+};
+
+}  // namespace eyeray::v0

@@ -1,0 +1,95 @@
+// The renderer of the library, and what its calls share.
+#include "host/library/renderer.hpp"
+
+#include "host/executors/open_device.hpp"
+#include "host/library/engine_call.hpp"
+
+namespace eyeray::library {
+
+executors::Backend backend_of(v0::Backend backend) {
+  switch (backend) {
+    case v0::Backend::twin:
+      return executors::Backend::twin;
+    case v0::Backend::reference:
+      return executors::Backend::reference;
+    default:
+      return executors::Backend::gpu;
+  }
+}
+
+Rect crop_of(const v0::Rect& crop, const Scene& scene) {
+  const int width = scene.image.width, height = scene.image.height;
+  if (crop.width == 0 && crop.height == 0) return {0, 0, width, height};
+  const bool inside = crop.x >= 0 && crop.y >= 0 && crop.width > 0 && crop.height > 0 && crop.x < width &&
+                      crop.y < height && crop.width <= width - crop.x && crop.height <= height - crop.y;
+  if (!inside)
+    throw Error(ExitCode::bad_input, "the crop {},{},{},{} leaves the picture, which is {}x{}", crop.x,
+                crop.y, crop.width, crop.height, width, height);
+  return {crop.x, crop.y, crop.width, crop.height};
+}
+
+executors::ExecutorOptions executor_options(v0::Renderer::Data& renderer, bool gpu) {
+  executors::ExecutorOptions options;
+  options.device = renderer.options.device;
+  options.shader_folder = renderer.options.shaders;
+  options.timeout_seconds = renderer.options.timeout_seconds;
+  // What a driver reads of the environment is the process's, and other threads may be reading it.
+  options.sets_environment = false;
+  options.compile_twin = !renderer.options.shaders.empty();
+  if (gpu && !renderer.device) renderer.device = executors::open_device(options);
+  options.open_device = renderer.device;
+  return options;
+}
+
+std::function<void(const render::Progress&)> progress_of(
+    const std::function<bool(const v0::Progress&)>& progress, const v0::Cancellation& cancellation) {
+  if (!progress) return {};
+  return [&progress, cancelled = v0::Cancellation(cancellation)](const render::Progress& now) mutable {
+    const double share = double(now.samples_done) / double(std::max<uint64_t>(now.samples_total, 1));
+    if (!progress({std::min(share, 1.0), now.rays, now.seconds})) cancelled.request();
+  };
+}
+
+void call_renderer(v0::Renderer::Data& renderer, const v0::Cancellation& cancellation,
+                   const std::function<void()>& work) {
+  const auto watched = [&] {
+    try {
+      work();
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::no_device || error.code() == ExitCode::timed_out) renderer.device.reset();
+      throw;
+    }
+  };
+  call_engine(watched, &cancellation.data().requested);
+}
+
+}  // namespace eyeray::library
+
+namespace eyeray::v0 {
+
+Cancellation::Cancellation() : data_(std::make_shared<Data>()) {}
+
+void Cancellation::request() noexcept {
+  data_->requested = true;
+}
+
+bool Cancellation::requested() const noexcept {
+  return data_->requested;
+}
+
+Renderer::Renderer(const RendererOptions& options) : data_(std::make_unique<Data>(Data{options})) {
+  const double seconds = options.timeout_seconds;
+  if (!(seconds >= 0.001 && seconds <= 1e6))
+    throw Error(ErrorKind::bad_input, "timeout_seconds is from 0.001 to 1000000");
+  if (!options.shaders.empty() && !std::filesystem::is_directory(options.shaders))
+    throw Error(ErrorKind::file_io, options.shaders.string() + ": no such folder of shaders");
+}
+
+Renderer::~Renderer() {
+  // Closing the device calls the driver, which is one call's at a time.
+  if (data_ && data_->device) library::call_engine([this] { data_.reset(); });
+}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+}  // namespace eyeray::v0

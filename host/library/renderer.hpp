@@ -1,0 +1,43 @@
+// What stands behind the library's renderers.
+#pragma once
+
+#include <eyeray/eyeray.hpp>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+
+#include "host/core/rect.hpp"
+#include "host/executors/executor.hpp"
+#include "host/render/render.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray::v0 {
+
+struct Cancellation::Data {
+  std::atomic<bool> requested = false;
+};
+
+struct Renderer::Data {
+  RendererOptions options;
+  std::shared_ptr<executors::OpenDevice> device = nullptr;  // once the backend gpu was used
+};
+
+}  // namespace eyeray::v0
+
+namespace eyeray::library {
+
+executors::Backend backend_of(v0::Backend backend);
+// Error (bad_input) where it leaves the picture.
+Rect crop_of(const v0::Rect& crop, const Scene& scene);
+// What to make executors with; for the backend gpu on the renderer's device, which is opened now if it is
+// not.
+executors::ExecutorOptions executor_options(v0::Renderer::Data& renderer, bool gpu);
+// For render::RenderOptions: `progress` asked, and its no a request of `cancellation`.
+std::function<void(const render::Progress&)> progress_of(
+    const std::function<bool(const v0::Progress&)>& progress, const v0::Cancellation& cancellation);
+// Runs `work` as call_engine does. A device that was lost on the way is not used again.
+void call_renderer(v0::Renderer::Data& renderer, const v0::Cancellation& cancellation,
+                   const std::function<void()>& work);
+
+}  // namespace eyeray::library

@@ -1,0 +1,64 @@
+// Scenes of the library: read, parsed, built.
+#include "host/library/scene.hpp"
+
+#include "host/executors/formula_check.hpp"
+#include "host/library/engine_call.hpp"
+#include "host/loader/scene_file.hpp"
+
+namespace eyeray::library {
+namespace {
+
+std::vector<loader::Override> overrides_of(const v0::SceneOptions& options) {
+  std::vector<loader::Override> overrides;
+  for (const std::string& define : options.defines) overrides.push_back({define});
+  return overrides;
+}
+
+// As the program does with a scene that it has read.
+v0::Scene checked(Scene scene) {
+  executors::check_formulas(scene);
+  for (Diagnostic& doubt : executors::doubt_lipschitz_constants(scene))
+    scene.warnings.push_back(std::move(doubt));
+  std::vector<v0::Diagnostic> warnings = to_public(scene.warnings);
+  return v0::Scene(
+      std::make_shared<const v0::Scene::Data>(v0::Scene::Data{std::move(scene), std::move(warnings)}));
+}
+
+}  // namespace
+
+v0::Scene parse(std::string_view toml, const std::string& name, const v0::SceneOptions& options,
+                const loader::MemoryFiles& files) {
+  return ask_engine([&] {
+    return checked(loader::parse_scene(toml, name, overrides_of(options), files, options.formulas));
+  });
+}
+
+}  // namespace eyeray::library
+
+namespace eyeray::v0 {
+
+Scene Scene::read(const std::filesystem::path& file, const SceneOptions& options) {
+  return library::ask_engine([&] {
+    return library::checked(loader::load_scene(file, library::overrides_of(options),
+                                               {options.allowed_folders, options.formulas}));
+  });
+}
+
+Scene Scene::parse(std::string_view toml, const std::string& name, const SceneOptions& options) {
+  return library::parse(toml, name, options, {});
+}
+
+int Scene::width() const noexcept {
+  return data_->scene.image.width;
+}
+int Scene::height() const noexcept {
+  return data_->scene.image.height;
+}
+int Scene::samples() const noexcept {
+  return data_->scene.image.samples;
+}
+const std::vector<Diagnostic>& Scene::warnings() const noexcept {
+  return data_->warnings;
+}
+
+}  // namespace eyeray::v0

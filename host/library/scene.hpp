@@ -1,0 +1,28 @@
+// What stands behind the library's scenes.
+#pragma once
+
+#include <eyeray/eyeray.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/loader/scene_file.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray::v0 {
+
+struct Scene::Data {
+  eyeray::Scene scene;
+  std::vector<Diagnostic> warnings;
+};
+
+}  // namespace eyeray::v0
+
+namespace eyeray::library {
+
+// v0::Error as v0::Scene::parse.
+v0::Scene parse(std::string_view toml, const std::string& name, const v0::SceneOptions& options,
+                const loader::MemoryFiles& files);
+
+}  // namespace eyeray::library

@@ -1,0 +1,87 @@
+// Values and tables as TOML: strings escaped, numbers as short as they can be read back the same.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "host/library/toml_text.hpp"
+
+namespace eyeray::library {
+namespace {
+
+std::string quoted(std::string_view text) {
+  std::string toml = "\"";
+  for (const char each : text) {
+    const auto code = static_cast<unsigned char>(each);
+    if (each == '"' || each == '\\')
+      toml += fmt::format("\\{}", each);
+    else if (code < 0x20 || code == 0x7f)
+      toml += fmt::format("\\u{:04X}", code);
+    else
+      toml += each;
+  }
+  return toml + "\"";
+}
+
+// to_chars writes the shortest that is read back the same; what has neither point nor exponent is read as an
+// integer, which every key that wants a number takes, and keys that want an integer take from 3.0.
+std::string number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+  return {text, end};
+}
+
+std::string list_of(const v0::Value* begin, const v0::Value* end) {
+  std::string text = "[";
+  for (const v0::Value* each = begin; each != end; ++each) text += (each == begin ? "" : ", ") + each->toml();
+  return text + "]";
+}
+
+bool is_bare(std::string_view key) {
+  return !key.empty() && std::ranges::all_of(key, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+}  // namespace
+
+std::string key_text(std::string_view key) {
+  return is_bare(key) ? std::string(key) : quoted(key);
+}
+
+std::string lines(const v0::Table& table) {
+  std::string text;
+  for (const auto& [key, value] : table.entries()) text += key_text(key) + " = " + value.toml() + "\n";
+  return text;
+}
+
+}  // namespace eyeray::library
+
+namespace eyeray::v0 {
+
+Value::Value(bool value) : toml_(value ? "true" : "false") {}
+Value::Value(int value) : toml_(std::to_string(value)) {}
+Value::Value(int64_t value) : toml_(std::to_string(value)) {}
+Value::Value(double value) : toml_(library::number(value)) {}
+Value::Value(const char* value) : toml_(library::quoted(value)) {}
+Value::Value(const std::string& value) : toml_(library::quoted(value)) {}
+Value::Value(std::initializer_list<Value> list) : toml_(library::list_of(list.begin(), list.end())) {}
+Value::Value(const std::vector<Value>& list)
+    : toml_(library::list_of(list.data(), list.data() + list.size())) {}
+Value::Value(const Table& table) : toml_("{ ") {
+  for (const auto& [key, value] : table.entries())
+    toml_ += (toml_.size() > 2 ? ", " : "") + library::key_text(key) + " = " + value.toml();
+  toml_ += " }";
+}
+
+Table& Table::set(const std::string& key, const Value& value) {
+  entries_.emplace_back(key, value);
+  return *this;
+}
+
+}  // namespace eyeray::v0

@@ -1,0 +1,158 @@
+#include "host/loader/animation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "host/loader/keyframes.hpp"
+#include "host/loader/overrides.hpp"
+#include "host/loader/sections.hpp"
+#include "host/scene/table.hpp"
+
+namespace eyeray::loader {
+namespace {
+
+constexpr std::string_view curves[] = {"step", "linear", "smooth"};
+
+constexpr Key table_of_animation[] = {
+    {.name = "frame",
+     .type = KeyType::number,
+     .doc = "The moment that is shown, in frames from 0; any number. `render --frames` sets it, and so does "
+            "-D animation.frame=12.5 for every command.",
+     .fallback = "0",
+     .min = -most_frames,
+     .max = most_frames},
+    {.name = "frames_per_second",
+     .type = KeyType::number,
+     .doc =
+         "How long a frame lasts, for animations of mesh files and for a video that is made of the frames.",
+     .fallback = "24",
+     .min = 0,
+     .max = 1000,
+     .above_min = true},
+    {.name = "shutter",
+     .type = KeyType::number,
+     .doc = "Motion blur: how long the shutter is open, in frames, half of it before `frame` and half after; "
+            "0.5 is a film camera's. `render` makes pictures with it; `verify`, `probe` and `dev` look at "
+            "the moment `frame`, and so do AOVs of what rays hit first.",
+     .fallback = "0",
+     .min = 0,
+     .max = 1000},
+    {.name = "shutter_steps",
+     .type = KeyType::integer,
+     .doc = "How many moments of that time a picture shows, if it has as many samples a pixel.",
+     .fallback = "16",
+     .min = 1,
+     .max = 4096},
+};
+
+constexpr Key table_of_track[] = {
+    {.name = "target",
+     .type = KeyType::string,
+     .doc = "The value that moves, named as for -D: `camera.eye`, `sphere.0.radius`, `light.lamp.intensity`, "
+            "`mesh.wheel.transform`."},
+    {.name = "keyframes",
+     .type = KeyType::keyframes,
+     .doc = "What it is at which frame. Values are what the target takes, all of one form. Before the first "
+            "keyframe the first counts, after the last the last."},
+    {.name = "curve",
+     .type = KeyType::choice,
+     .doc =
+         "How it goes from one keyframe to the next: it jumps there, goes straight, or goes without a bend "
+         "(Catmull-Rom).",
+     .fallback = "\"linear\"",
+     .choices = curves},
+};
+
+double frame_of(const toml::node& keyframe) {
+  return keyframe.as_array()->get(0)->value_or(0.0);
+}
+
+}  // namespace
+
+constexpr std::string_view manual =
+    R"(One value of the scene that moves. Everything that -D can set may be a target.
+
+```toml
+[[track]]
+target = "camera.eye"
+curve = "smooth"
+keyframes = [[0, [0, 1, 6]], [24, [3, 1.5, 5]], [48, [6, 1, 0]]]
+
+[[group]]
+name = "wheel"
+
+[[group.cylinder]]
+from = [0, 0, -0.2]
+to = [0, 0, 0.2]
+radius = 1
+material = "wall"
+
+[[track]]
+target = "group.wheel.transform"
+keyframes = [
+  [0, [{ rotate = { axis = [0, 0, 1], degrees = 0 } }, { translate = [0, 1, 0] }]],
+  [48, [{ rotate = { axis = [0, 0, 1], degrees = -720 } }, { translate = [9, 1, 0] }]],
+]
+```
+
+`eyeray render SCENE --frames 0:48` renders them all. Degrees about one axis go straight from one number to the other, however often that is
+around; of two rotations about different axes every moment is a rotation on the shortest way.
+
+**Source.** Catmull, Rom: A Class of Local Interpolating Splines, 1974. Shoemake: Animating Rotation with Quaternion Curves, SIGGRAPH 1985.
+)";
+const std::string_view track_manual = manual;
+
+std::span<const Key> animation_keys() {
+  return table_of_animation;
+}
+std::span<const Key> track_keys() {
+  return table_of_track;
+}
+
+Animation apply_animation(toml::table& root, DiagnosticLog& log) {
+  const Section &settings = *find_section("animation"), &track = *find_section("track");
+  const toml::node* const written = root.get(settings.name);
+  const TableReader reader = read_table(
+      {.title = settings.title, .table = written ? written->as_table() : nullptr, .keys = {settings.keys}},
+      log);
+  Animation animation{.frame = reader.number("frame"),
+                      .frames_per_second = reader.number("frames_per_second"),
+                      .shutter = reader.number("shutter"),
+                      .shutter_steps = int(reader.integer("shutter_steps"))};
+  root.erase(settings.name);
+
+  // Out of the tree first: what they move changes it.
+  toml::array tracks;
+  if (toml::node* const list = root.get(track.name)) tracks = std::move(*list->as_array());
+  root.erase(track.name);
+  for (const toml::node& node : tracks) {
+    const toml::table& table = *node.as_table();
+    TableReader one = read_table({.title = track.title, .table = &table, .keys = {track.keys}}, log);
+    if (one.failed()) continue;
+    const std::string target = one.string("target"), section = target.substr(0, target.find('.'));
+    if (section == settings.name || section == track.name) {
+      one.error("target", "an animation cannot move itself");
+      continue;
+    }
+    const toml::array& keyframes = *table.get("keyframes")->as_array();
+    const auto value = value_between(keyframes, animation.frame, Curve(one.choice("curve")), log);
+    if (!value) continue;
+    add_moving(1, frame_of(keyframes.front()), frame_of(keyframes.back()), animation);
+    apply_track(root, target, *value, one.position("target"), one.position("keyframes"), log);
+  }
+  return animation;
+}
+
+double seconds(const Animation& animation) {
+  return animation.frame / animation.frames_per_second;
+}
+
+void add_moving(int values, double first, double last, Animation& animation) {
+  animation.first = animation.tracks == 0 ? first : std::min(animation.first, first);
+  animation.last = animation.tracks == 0 ? last : std::max(animation.last, last);
+  animation.tracks += values;
+}
+
+}  // namespace eyeray::loader

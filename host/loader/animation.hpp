@@ -1,0 +1,29 @@
+// What moves in a scene: tracks of keyframes, laid over its values as they are at one frame. Private to the
+// loader.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <span>
+
+#include "host/scene/diagnostic_log.hpp"
+#include "host/scene/scene.hpp"
+#include "host/scene/table_reader.hpp"
+
+namespace eyeray::loader {
+
+std::span<const Key> animation_keys();
+std::span<const Key> track_keys();
+extern const std::string_view track_manual;
+
+// Takes [animation] and every [[track]] out of the tree, puts the value that each track has at the frame that
+// is shown where it belongs, as -D does, and returns what the scene keeps of them. What is wrong goes to the
+// log: with a value, at the keyframe before it.
+Animation apply_animation(toml::table& root, DiagnosticLog& log);
+
+// The moment that is shown.
+double seconds(const Animation& animation);
+// Counts values that move from one frame to another.
+void add_moving(int values, double first, double last, Animation& animation);
+
+}  // namespace eyeray::loader

@@ -1,0 +1,66 @@
+#include "host/loader/path_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/scene/emitters.hpp"
+#include "host/scene/integrator.hpp"
+
+namespace eyeray::loader {
+
+void warn_of_paths(const Scene& scene, DiagnosticLog& log) {
+  for (const auto& material : scene.materials) {
+    const ScatteringContext context{.place = Vec2(0.5), .cos_view = 1, .ior_from = 1, .ior_to = 1};
+    const Scattering scattering = material->scattering(context);
+    const Bsdf bsdf = material->bsdf(context, scattering);
+    const auto exceeds = [](const Vec3& share) { return glm::any(glm::greaterThan(share, Vec3(1 + 1e-9))); };
+    if (exceeds(scattering.diffuse))
+      log.warning(
+          {}, fmt::format("material \"{}\" would scatter more light than it gets: its `diffuse` counts as 1 "
+                          "where it is more",
+                          material->name));
+    else if (exceeds(bsdf.diffuse + bsdf.mirror + bsdf.transmitted))
+      log.warning({}, fmt::format("material \"{}\" scatters more light than it gets: `diffuse` and "
+                                  "`reflectance` add up to more than 1",
+                                  material->name));
+  }
+  const Emitters lamps = emitters(scene);
+  const std::vector<SourcePosition>& unsampled = lamps.unsampled;
+  const auto has_size = [&](const auto& light) { return light->illuminate(scene.camera.eye).angle > 0; };
+  const auto glass = std::ranges::find_if(
+      scene.materials, [&](const auto& material) { return fills(*material, scene.render.integrator); });
+  const bool photons = sends_photons(scene.render.integrator);
+  if (!photons && glass != scene.materials.end() && !scene.lights.empty() && !scene.environment &&
+      lamps.sampled.empty() && unsampled.empty() && std::ranges::none_of(scene.lights, has_size))
+    log.warning({},
+                fmt::format("no path finds the light of points through glass (material \"{}\"): its shadow "
+                            "is black, without caustics; integrator = \"sppm\" shows them, and lamps with "
+                            "a size (`emission`, or the `angle` of a directional light) light through it",
+                            (*glass)->name));
+  if (!photons && scene.lights.empty() && lamps.sampled.empty() && unsampled.empty() &&
+      scene.render.background == Vec3(0) && !scene.environment)
+    log.warning({},
+                "nothing shines: there is no [[light]], no `emission`, no `background` and no [environment]; "
+                "the picture will be black");
+  const auto from_afar = [&](const auto& light) {
+    return std::isinf(light->illuminate(scene.camera.eye).distance);
+  };
+  const Vec3 extinction = scene.medium.absorption + scene.medium.scattering;
+  if (glm::all(glm::greaterThan(extinction, Vec3(0))) &&
+      (scene.environment || scene.render.background != Vec3(0) ||
+       std::ranges::any_of(scene.lights, from_afar)))
+    log.warning({},
+                "[medium] has no end: light from infinitely far away, of an environment, a `background` or a "
+                "directional light, is lost in it");
+  if (!photons && !unsampled.empty())
+    log.warning(
+        unsampled.front(),
+        fmt::format("paths find the light of this{} by chance alone, which is noisy: they choose places on "
+                    "spheres, ellipsoids, boxes, cylinders, disks, triangles, parallelograms and meshes "
+                    "without cutouts",
+                    unsampled.size() == 1 ? "" : fmt::format(" and {} more", unsampled.size() - 1)));
+}
+
+}  // namespace eyeray::loader

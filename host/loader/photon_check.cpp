@@ -1,0 +1,142 @@
+#include "host/loader/photon_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/scene/emitters.hpp"
+#include "host/scene/environment.hpp"
+#include "host/scene/photons.hpp"
+
+namespace eyeray::loader {
+namespace {
+
+// In float32 a place is in one of so many cells along an axis (shaders/integrators/photon_cells.glsl).
+constexpr double most_cells = 1 << 22;
+// A sample that looks at more takes seconds.
+constexpr double most_gathered = 1 << 20;
+
+bool has_end(const Shape& shape) {
+  const Bounds bounds = shape.bounds();
+  return std::isfinite(glm::length(bounds.max - bounds.min));
+}
+
+// Of the scene's surfaces; what no shape is made of keeps no photon.
+std::vector<bool> used_materials(const Scene& scene) {
+  std::vector<bool> used(scene.materials.size());
+  const auto add = [&](const std::vector<std::unique_ptr<Shape>>& shapes) {
+    for (const auto& shape : shapes)
+      for_each_leaf(*shape, [&](const Shape& leaf) { used[size_t(leaf.material)] = true; });
+  };
+  const auto add_instances = [&](const std::vector<Instance>& instances) {
+    for (const Instance& instance : instances) used[size_t(instance.material)] = true;
+  };
+  add(scene.shapes);
+  add_instances(scene.instances);
+  for (const GroupInstance& instance : scene.group_instances) {
+    add(scene.groups[size_t(instance.group)].shapes);
+    add_instances(scene.groups[size_t(instance.group)].instances);
+  }
+  return used;
+}
+
+void check_surfaces(const Scene& scene, TableReader& render) {
+  const std::vector<bool> used = used_materials(scene);
+  size_t tried = 0;
+  for (size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    if (scatters_widely(*scene.materials[i])) return;
+    ++tried;
+  }
+  render.error("integrator",
+               tried == 0
+                   ? fmt::format("`sppm` has no surface that could keep any of its {} photons: the scene "
+                                 "has no shapes",
+                                 scene.render.photons)
+                   : fmt::format("no surface keeps any of the {} photons of `sppm`: of {} materials none "
+                                 "scatters light widely, by a colour or a roughness of 0.32 or more; "
+                                 "`path` needs no such surface",
+                                 scene.render.photons, tried));
+}
+
+void check_lights(const Scene& scene, TableReader& render, std::span<const SourcePosition> lights,
+                  DiagnosticLog& log) {
+  const Emitters lamps = emitters(scene);
+  if (scene.lights.empty() && lamps.sampled.empty() && lamps.unsampled.empty() && !scene.environment)
+    render.error("integrator",
+                 fmt::format("`sppm` has no light to send its {} photons out from: there is no [[light]], no "
+                             "`emission`, no `background` and no [environment]",
+                             scene.render.photons));
+  if (!lamps.unsampled.empty())
+    log.error(
+        lamps.unsampled.front(),
+        fmt::format(
+            "`sppm` cannot send photons out from this{}: it chooses places on spheres, ellipsoids, "
+            "boxes, cylinders, disks, triangles, parallelograms and meshes without cutouts",
+            lamps.unsampled.size() == 1 ? "" : fmt::format(" and {} more", lamps.unsampled.size() - 1)));
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    const LightForm form = scene.lights[i]->form();
+    if (const auto* point = std::get_if<PointLight>(&form); point && point->falloff == Falloff::none)
+      log.error(lights[i],
+                "`sppm` cannot send photons out from a point light with falloff = \"none\": whatever the "
+                "distance, as many would have to arrive");
+    else if (std::holds_alternative<std::monostate>(form))
+      log.error(lights[i],
+                fmt::format("`sppm` does not know how a light of the type \"{}\" sends photons out",
+                            scene.lights[i]->type->name));
+  }
+}
+
+// Radii and numbers that no picture can be made with.
+void check_radius(const Scene& scene, const PhotonSettings& settings, TableReader& render) {
+  const char* const key = render.has("photon_radius") ? "photon_radius" : "integrator";
+  const double reach = settings.reach + glm::length(settings.center - scene.camera.eye);
+  const double share = settings.radius / settings.reach;
+  const double gathered = settings.count * std::min(1.0, share * share);
+  if (settings.reach > 0 && share > 1)
+    render.error(key,
+                 fmt::format("photons would be gathered within {:.3g}, which is more than the scene's own "
+                             "radius of {:.3g}: give a smaller `photon_radius`",
+                             settings.radius, settings.reach));
+  else if (settings.reach > 0 && gathered > most_gathered)
+    render.error(key,
+                 fmt::format("each sample would gather some {:.2g} of {} photons, within {:.3g} of a scene "
+                             "with a radius of {:.3g}, and {:.2g} are the most: give a smaller "
+                             "`photon_radius`, or fewer `photons`",
+                             gathered, settings.count, settings.radius, settings.reach, most_gathered));
+  else if (!(reach <= most_cells * 2 * settings.radius))
+    render.error(key,
+                 fmt::format("photons would be gathered within {:.3g}, which float32 cannot tell apart in a "
+                             "scene that reaches {:.3g} from the eye: give a `photon_radius` of {:.2g} or "
+                             "more",
+                             settings.radius, reach, reach / most_cells));
+}
+
+}  // namespace
+
+void prepare_for_photons(Scene& scene, TableReader& render, std::span<const SourcePosition> lights,
+                         DiagnosticLog& log) {
+  if (!scene.environment && scene.render.background != Vec3(0)) {
+    image::Image even(1, 1, 3);
+    for (int c = 0; c < 3; ++c) even.samples()[size_t(c)] = float(scene.render.background[c]);
+    scene.environment = std::make_shared<EnvironmentMap>(std::move(even), 0);
+  }
+  check_lights(scene, render, lights, log);
+  check_surfaces(scene, render);
+  const PhotonSettings settings = photon_settings(scene);
+  check_radius(scene, settings, render);
+
+  const bool from_afar = scene.environment || std::ranges::any_of(scene.lights, [&](const auto& light) {
+                           return std::isinf(light->illuminate(scene.camera.eye).distance);
+                         });
+  const auto endless = std::ranges::find_if(scene.shapes, [](const auto& shape) { return !has_end(*shape); });
+  if (from_afar && endless != scene.shapes.end())
+    log.warning(
+        (*endless)->position,
+        fmt::format("light from afar sends photons to {:.3g} around the middle of what has an end alone: "
+                    "what this, which has none, throws on other surfaces from beyond is not seen",
+                    settings.reach));
+}
+
+}  // namespace eyeray::loader

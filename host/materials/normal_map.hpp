@@ -1,0 +1,18 @@
+// Maps of normals and heights, as a scene's tables name them.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "host/scene/material.hpp"
+
+namespace eyeray::materials {
+
+// The texture with the codes of an image as they are, not as colours.
+TexturePtr as_data(const TexturePtr& texture);
+
+// The normal map of that key, scaled by the number of the other; nothing where the table has none. Reports a
+// scale without a map.
+std::optional<NormalMap> read_normal_map(TableReader& table, std::string_view key, std::string_view scale);
+
+}  // namespace eyeray::materials

@@ -1,0 +1,47 @@
+// All of a scene that can be drawn, as triangles on a picture, made anew each time they are gone through: a
+// scene of many instances would not fit in memory as triangles.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/raster/view.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray::raster {
+
+class DrawList {
+ public:
+  // Both must outlive it.
+  DrawList(const Scene& scene, const View& view);
+
+  // In the order of their ids.
+  void for_each(const std::function<void(const ScreenTriangle&)>& visit) const;
+
+  // Whether a primitive is drawn wherever it is seen.
+  bool draws(uint64_t primitive) const;
+  // How far from the eye the shape, or the mesh, of a primitive reaches; 0 of planes.
+  double reach(uint64_t primitive) const;
+  // How many primitives are not, by why: "implicit", "with cutouts".
+  const std::map<std::string, uint64_t>& not_drawn() const { return not_drawn_; }
+
+ private:
+  using Visit = std::function<void(const ScreenTriangle&)>;
+
+  void leave_out(const Shape& shape, uint64_t id);
+  void leave_out(const Instance& instance, uint64_t id);
+  void add(const Shape& shape, const Mat4& map, uint64_t id, const Visit& visit) const;
+  void add(const Instance& instance, const Mat4& map, uint64_t id, const Visit& visit) const;
+  // Calls shape(Shape, map, id) and instance(Instance, map, id) for all that the scene shows.
+  template <typename OfShape, typename OfInstance>
+  void walk(const OfShape& shape, const OfInstance& instance) const;
+
+  const Scene& scene_;
+  const View& view_;
+  std::map<std::string, uint64_t> not_drawn_;
+  std::map<uint64_t, uint64_t> left_out_;  // the first id of a run of those that are not drawn, and its end
+};
+
+}  // namespace eyeray::raster

@@ -1,0 +1,30 @@
+// Whether the geometry allows both what a ray hits and what was drawn, at one pixel.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "host/compare/raster_result.hpp"
+#include "host/raster/possible.hpp"
+
+namespace eyeray::raster {
+
+// What is nearest at a pixel's centre, as the one or the other has it.
+struct Seen {
+  bool anything = false;
+  bool in_list = true;  // one that is drawn
+  uint32_t id = 0;
+  double nearness = 0;
+};
+
+struct Judgement {
+  enum { equal, hidden, explained, unexplained } verdict;
+  compare::RasterCause cause = compare::RasterCause::edge;
+  bool blames_ray = true;  // of what is not explained: the ray, else the rasteriser
+};
+
+// `triangles`: all that may be within their slack of the centre.
+Judgement judge(const Seen& traced, const Seen& drawn, const Vec2& center,
+                std::span<const ScreenTriangle> triangles, const View& view, const Exactness& exactness);
+
+}  // namespace eyeray::raster

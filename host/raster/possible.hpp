@@ -1,0 +1,61 @@
+// What the geometry alone says may be seen at the centre of a pixel: by whoever snaps corners to a grid,
+// rounds depths, or draws a tessellation in place of its surface.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "host/raster/view.hpp"
+
+namespace eyeray::raster {
+
+// How exactly triangles are drawn.
+struct Exactness {
+  double snap = 0;         // pixels by which a corner may be moved
+  double depth_error = 0;  // by which a drawn nearness may be wrong, as a share of the triangle's greatest …
+  double depth_floor = 0;  // … above this nearness
+  double t = 1e-5;         // by which a hit's t may be wrong, as a share of it: gate C's
+};
+
+// How far a triangle may lie from where it is drawn, about a pixel's centre: pixels, nearness.
+Vec2 slack(const ScreenTriangle& triangle, const Vec2& center, const View& view, const Exactness& exactness,
+           bool tessellated);
+// From a point of the picture to the triangle, in pixels; 0 within it.
+double distance(const ScreenTriangle& triangle, const Vec2& point);
+
+// To whom: a ray hits a triangle within its corners; a rasteriser takes its plane, where a snapped corner
+// lets it, a little farther.
+enum class Viewer { ray, rasteriser };
+
+class Possible {
+ public:
+  // `triangles`: all that may be within their slack of `center`. Without `tessellated`, their bounds count as
+  // 0.
+  Possible(Viewer viewer, const Vec2& center, std::span<const ScreenTriangle> triangles, const View& view,
+           const Exactness& exactness, bool tessellated);
+
+  // Whether the primitive may be seen, there.
+  bool allows(uint32_t id, double nearness) const;
+  // Whether there need be nothing at all.
+  bool allows_nothing() const { return !covered_; }
+  // Whether what is there may hide everything that is drawn.
+  bool may_hide_all(double nearness) const;
+  // Whether the centre itself is within one of the primitive's triangles.
+  bool is_within(uint32_t id) const;
+
+ private:
+  struct Piece {
+    uint32_t id;
+    double low, high;  // its nearness about the centre
+    bool within;       // the centre is
+  };
+
+  std::vector<Piece> pieces_;  // that may be seen
+  bool covered_ = false;       // surely, by a sheet of triangles without a border near the centre
+  double surely_ = -std::numeric_limits<double>::infinity();  // at least as near as this
+  double tolerance_ = 0;
+};
+
+}  // namespace eyeray::raster

@@ -1,0 +1,39 @@
+// Shapes whose cross-sections are one curve at different sizes: of revolution, and superellipsoids.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host/core/vec.hpp"
+#include "host/raster/tessellation.hpp"
+
+namespace eyeray::raster {
+
+// Points of a curve in order, and how far it may be from the straight lines between them.
+struct Polyline {
+  std::vector<Vec2> points;
+  double bound = 0;
+};
+
+// A point of a convex curve, and a vector square to the curve there, of any length; (0, 0) where there is
+// none.
+struct CurvePoint {
+  Vec2 at, normal;
+};
+// Between parameters 0 and 1, halved until each piece is within `tolerance` of its chord: a convex arc lies
+// between the chord and the tangents at its ends.
+Polyline chords(const std::function<CurvePoint(double)>& curve, double tolerance);
+// A circle's arc between two angles, around `center`.
+Polyline arc(const Vec2& center, double radius, double from, double to, double tolerance);
+// One after the other, a point that both have once.
+Polyline joined(std::initializer_list<Polyline> parts);
+
+// Every point (ρ, y) of `profile`, its distance from the axis and its height, with every point (x, z) of
+// `section`, which is closed: (ρ x, y, ρ z). Where ρ = 0, a point alone. `closes`: the profile's last point
+// is its first. The bound is that of its own space.
+Tessellation sweep(const Polyline& profile, bool closes, const Polyline& section);
+
+// The unit circle around the axis, as a section of what is `reach` wide.
+Polyline circle(double reach, double tolerance);
+
+}  // namespace eyeray::raster

@@ -1,0 +1,33 @@
+// Shapes as triangles, from the forms that they say they have (scene/shape.hpp).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "host/scene/shape.hpp"
+
+namespace eyeray::raster {
+
+// In the world.
+struct Tessellation {
+  std::vector<Vec3> points;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  double bound = 0;  // the surface is nowhere farther from the triangles than this, nor they from it
+};
+
+// A ball around a shape, in the world.
+struct Ball {
+  Vec3 center;
+  double radius;
+};
+// Around a box under `map`; nothing where that has no end.
+std::optional<Ball> ball_around(const Bounds& bounds, const Mat4& map);
+
+// `form` under `map`, its bound about `tolerance` where that does not take more triangles than a picture has
+// pixels; of what is flat the bound is 0. Nothing for what is not tessellated: quadrics that are not round,
+// CSG objects, and shapes without a form. Planes have no end, and are cut to the picture instead
+// (View::plane).
+std::optional<Tessellation> tessellate(const ShapeForm& form, const Mat4& map, double tolerance);
+
+}  // namespace eyeray::raster

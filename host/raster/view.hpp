@@ -1,0 +1,96 @@
+// Where the world falls on a picture: the forward map, from points to pixels, that eye rays go the other way.
+// Written from docs/scene-reference.md's cameras, not from the shaders and not from the reference's rays.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "host/core/rect.hpp"
+#include "host/core/vec.hpp"
+#include "host/scene/camera.hpp"
+
+namespace eyeray::raster {
+
+// A triangle on the picture. Of each corner: x to the right and y down, in pixels from the area's top left,
+// so that a pixel's centre is at one half; and its nearness, which runs straight between them.
+struct ScreenTriangle {
+  std::array<Vec3, 3> at{};
+  uint32_t id = 0;   // the primitive's
+  double bound = 0;  // how far, in the world, the true surface may be from it; 0 of what is flat
+  double reach = 0;  // how far from the eye the whole shape or mesh reaches; 0 of planes
+};
+
+// Two units in the last place, as a share of the largest coordinate: what gate C grants a hit that is close
+// to something large.
+inline constexpr double coordinate_error = 0x1p-22;
+
+class View {
+ public:
+  // Of the pixels `area` of a picture of `size`. Error (bad_input) for a camera that no projection matrix
+  // describes.
+  View(const Camera& camera, const Vec2& size, const Rect& area);
+
+  const Rect& area() const { return area_; }
+
+  // A point to the right of the eye, above it, and before it.
+  Vec3 to_camera(const Vec3& world) const;
+  // A direction likewise.
+  Vec3 turned(const Vec3& direction) const;
+  // Where a point before the eye, w = 1, or a direction, w = 0, falls.
+  Vec3 project(const Vec4& point) const;
+
+  // What greater numbers are nearer of: of perspective 1 / depth, of parallel rays −depth, depth being
+  // measured along the way that the camera looks. Either runs straight over the picture of a plane.
+  bool perspective() const { return perspective_; }
+  // Of what is hit at `t` by the ray through the centre of a pixel of the area.
+  double nearness(int x, int y, double t) const;
+  // And back.
+  double t(int x, int y, double nearness) const;
+  // How much t may be wrong, as a share of it, moves the nearness.
+  double nearness_error(double nearness, double share) const;
+  // How many pixels a point that nearness lies before the eye moves aside, and what its nearness gains, where
+  // it is moved by `distance` in the world; infinite where that takes it behind the eye.
+  Vec2 shift(double x, double y, double nearness, double distance) const;
+  // The world's size of a pixel at a depth.
+  double pixel_at(double depth) const { return perspective_ ? depth / focal_ : 1 / focal_; }
+  // Whether a ball of the camera's space may be seen.
+  bool may_see(const Vec3& center, double radius) const;
+
+  // Calls visit(ScreenTriangle), `like` at other places, for what is left of a convex polygon before the eye
+  // and about the picture, some pictures wide, so that all corners are numbers that float32 tells apart. A
+  // cut between two polygons that share an edge is the same number in both.
+  template <typename Visit>
+  void cut(std::span<const Vec4> polygon, const ScreenTriangle& like, const Visit& visit) const {
+    Polygon left(polygon);
+    if (!cut_to_guard(left)) return;
+    const Vec3 first = project(left.at[0]);
+    Vec3 before = project(left.at[1]);
+    for (size_t i = 2; i < left.count; ++i) {
+      const Vec3 next = project(left.at[i]);
+      visit(ScreenTriangle{{first, before, next}, like.id, like.bound, like.reach});
+      before = next;
+    }
+  }
+  // Of the plane through `point` across `normal`, the part that `cut` leaves; Vec4 as it takes them, empty
+  // where the plane is seen from its edge.
+  std::vector<Vec4> plane(const Vec3& point, const Vec3& normal) const;
+
+ private:
+  struct Polygon {
+    explicit Polygon(std::span<const Vec4> corners);
+    std::array<Vec4, 16> at;
+    size_t count;
+  };
+  bool cut_to_guard(Polygon& polygon) const;
+  Vec4 side(int number) const;
+  double slant(int x, int y) const;
+
+  CameraAxes axes_;
+  Rect area_;
+  bool perspective_;
+  double focal_;  // pixels of what is 1 wide: at depth 1, or at any
+  Vec2 middle_;   // where the camera looks, from the area's top left
+};
+
+}  // namespace eyeray::raster

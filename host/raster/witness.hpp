@@ -1,0 +1,52 @@
+// Rasterised visibility as a witness of eye rays: forward mapping against inverse mapping. A scene's
+// triangles are drawn once, and what executors hit first is compared with that (docs/verification.md, gate
+// R).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/compare/frame.hpp"
+#include "host/compare/raster_result.hpp"
+#include "host/gpu/device.hpp"
+#include "host/gpu/rasterizer.hpp"
+#include "host/raster/draw_list.hpp"
+#include "host/raster/judge.hpp"
+#include "host/raster/possible.hpp"
+#include "host/raster/view.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray::raster {
+
+class Witness {
+ public:
+  // Draws the pixels `area` of the scene, which must outlive it. Error (bad_input) for a camera that cannot
+  // be drawn, (no_device) where the device has no graphics queue or not enough memory, or where the
+  // validation layer had something to say.
+  Witness(const Scene& scene, const Rect& area, gpu::DeviceOptions device);
+  Witness(const Witness&) = delete;
+  Witness& operator=(const Witness&) = delete;
+
+  // Compares what an executor called `name` hit first.
+  compare::RasterResult compare(const compare::Frame& frame, const std::string& name) const;
+
+ private:
+  void draw(gpu::DeviceOptions options);
+  Seen drawn_at(size_t pixel) const;
+  Seen traced_at(const compare::Frame& frame, size_t pixel) const;
+  std::string misplaced(const FirstHit& hit, int x, int y) const;
+  // Of each of some pixels, in ascending order, the triangles that may be within their slack of its centre.
+  std::vector<std::vector<ScreenTriangle>> triangles_about(const std::vector<size_t>& pixels) const;
+
+  const Scene& scene_;
+  View view_;
+  DrawList list_;
+  gpu::RasterPicture picture_;  // ids are the primitives' and 1
+  std::string device_;
+  Exactness exactness_;
+  uint64_t triangles_ = 0;
+  double low_ = 0, high_ = 1;  // the nearness of depths 0 and 1
+};
+
+}  // namespace eyeray::raster

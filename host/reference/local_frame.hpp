@@ -1,0 +1,40 @@
+// Frames whose z is a given direction: that of a surface's normal, for BSDFs.
+#pragma once
+
+#include <algorithm>
+
+#include "host/reference/emitter_sample.hpp"
+
+namespace eyeray::reference {
+
+class LocalFrame {
+ public:
+  // n: unit.
+  explicit LocalFrame(const Vec3& n) : n_(n) {
+    const auto [s, t] = tangents(n_);
+    s_ = s;
+    t_ = t;
+  }
+
+  // Turned the shortest way from the frame that n is given in, by two half turns.
+  static LocalFrame turned_to(const Vec3& n) {
+    const Vec3 h = glm::normalize(n + Vec3(0, 0, 1));
+    return {Vec3(1, 0, 0) - 2 * h.x * h, Vec3(0, 1, 0) - 2 * h.y * h, n};
+  }
+
+  Vec3 into(const Vec3& v) const { return {glm::dot(v, s_), glm::dot(v, t_), glm::dot(v, n_)}; }
+  Vec3 out_of(const Vec3& v) const { return v.x * s_ + v.y * t_ + v.z * n_; }
+  // A direction towards the viewer, in this frame: what bent normals turn away is seen edge-on.
+  Vec3 seen(const Vec3& to_viewer) const {
+    constexpr double least_cosine = 1e-4;
+    const Vec3 o = into(to_viewer);
+    return glm::normalize(Vec3(o.x, o.y, std::max(o.z, least_cosine)));
+  }
+
+ private:
+  LocalFrame(const Vec3& s, const Vec3& t, const Vec3& n) : s_(s), t_(t), n_(n) {}
+
+  Vec3 s_, t_, n_;
+};
+
+}  // namespace eyeray::reference

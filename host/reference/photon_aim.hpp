@@ -1,0 +1,41 @@
+// Half of a light's photons are aimed at what bundles light: in float64, the density of both ways together.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "host/scene/photons.hpp"
+
+namespace eyeray::reference {
+
+// What a target looks like from where photons start: a cap of the sphere of directions, or a disk of places.
+// Archimedes: a cap has the area of a disk as wide as its chord. So of both, what is `distance` from the
+// middle is within where π distance² < area.
+struct Window {
+  Vec3 middle;
+  double area;
+};
+
+// From a point on a surface of normal n, or with n = 0 from one in space: directions. None around the point
+// itself or below the horizon.
+std::vector<Window> windows_from(const PhotonSettings& settings, const Vec3& p, const Vec3& n);
+// Of light from direction d: places relative to the scene's middle, on a plane square to d.
+std::vector<Window> windows_along(const PhotonSettings& settings, const Vec3& d);
+
+struct Aimed {
+  Vec3 at;             // a direction or place
+  bool by_aim;         // not by chance
+  uint64_t event = 0;  // Event::aim
+  double density = 0;  // with which such are aimed at
+
+  // What a photon brings beside one that came by chance; own: the density with which the light would choose
+  // the same.
+  double weight(double own) const;
+};
+
+// By one random number either into a window, by in(window), each as often as it is large, or by_chance.
+Aimed aimed(std::span<const Window> windows, double chance, const Vec3& by_chance,
+            const std::function<Vec3(const Window&)>& in);
+
+}  // namespace eyeray::reference

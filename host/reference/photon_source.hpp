@@ -1,0 +1,45 @@
+// Where photons come from: a light or surface that emits, or what is around, each as likely as paths would
+// ask it; a place by area, a direction by what is sent there.
+#pragma once
+
+#include <functional>
+
+#include "host/reference/media.hpp"
+#include "host/scene/photons.hpp"
+
+namespace eyeray::reference {
+
+struct PhotonSource {
+  Ray ray;
+  Vec3 flux{0};        // of all photons, if each were as this one
+  uint64_t light;      // its number; of what is around −1
+  bool below = false;  // it leaves a surface against its normal
+  uint64_t aim = 0;    // Event::aim
+  MediaStack media{};  // that it starts in
+};
+
+// What the pairs of random numbers of a photon are for that paths do not draw.
+inline constexpr uint32_t source_pair = 0, start_pair = 1, heading_pair = 2, side_pair = 3;
+// In place of a pixel, with a sample's number, for its photons.
+inline constexpr uint32_t photons_of = 0x80000000u;
+
+// The materials whose media surround each light, outermost first; lights from afar stand in none.
+std::vector<std::vector<int>> media_of_lights(const Tracer& tracer);
+
+class PhotonSources {
+ public:
+  // `tracer` must outlive it.
+  explicit PhotonSources(const Tracer& tracer);
+
+  // `pair`: random numbers for each use.
+  PhotonSource draw(const std::function<Vec2(uint32_t)>& pair) const;
+  const PhotonSettings& settings() const { return settings_; }
+
+ private:
+  const Tracer& tracer_;
+  PhotonSettings settings_;
+  double around_;                  // how likely a photon comes from what is around
+  std::vector<MediaStack> media_;  // of each light
+};
+
+}  // namespace eyeray::reference

@@ -1,0 +1,16 @@
+#include "host/reference/photon_traces.hpp"
+
+#include "host/reference/path_sample.hpp"
+
+namespace eyeray::reference {
+
+PhotonTrace PhotonTraces::trace(uint32_t index, uint32_t number, const RayOffset& ray_offset) const {
+  PhotonTrace trace;
+  std::vector<Photon> stopped;
+  const Observer observer(trace.events);
+  PathSample(tracer_, {photons_of | index, number}, ray_offset, observer).photon(sources_, stopped);
+  for (const Photon& photon : stopped) trace.places += photon.position;
+  return trace;
+}
+
+}  // namespace eyeray::reference

@@ -1,0 +1,30 @@
+// Single photons, and what becomes of them where float32 rounds otherwise.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/reference/integrator.hpp"
+#include "host/reference/photon_source.hpp"
+
+namespace eyeray::reference {
+
+struct PhotonTrace {
+  std::vector<uint32_t> events;  // what it decides on its way (trail.hpp)
+  Vec3 places{0};                // as PhotonWay has them
+};
+
+class PhotonTraces {
+ public:
+  // `tracer` must outlive it.
+  explicit PhotonTraces(const Tracer& tracer) : tracer_(tracer), sources_(tracer) {}
+
+  // Photon `number` of sample `index`, its rays as `ray_offset` rounds them. From many threads at once.
+  PhotonTrace trace(uint32_t index, uint32_t number, const RayOffset& ray_offset) const;
+
+ private:
+  const Tracer& tracer_;
+  PhotonSources sources_;
+};
+
+}  // namespace eyeray::reference

@@ -1,0 +1,41 @@
+// Triangles and rectangles as a point sees them, on the sphere of directions around it: in float64, by their
+// angles.
+#pragma once
+
+#include <array>
+
+#include "host/core/vec.hpp"
+
+namespace eyeray::reference {
+
+// Both from where the point is. Arvo: Stratified Sampling of Spherical Triangles, SIGGRAPH 1995.
+class SphericalTriangle {
+ public:
+  explicit SphericalTriangle(const std::array<Vec3, 3>& corners);
+
+  double solid_angle() const { return solid_angle_; }
+  // Unit; u: two numbers in [0, 1), the second of which runs along the edge opposite the first corner.
+  Vec3 direction(const Vec2& u) const;
+
+ private:
+  std::array<Vec3, 3> corners_;  // as directions
+  double angle_;                 // at the second corner
+  double solid_angle_;
+};
+
+// Ureña, Fajardo, King: An Area-Preserving Parametrization for Spherical Rectangles, EGSR 2013.
+class SphericalRectangle {
+ public:
+  SphericalRectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v);
+
+  double solid_angle() const { return solid_angle_; }
+  // The shares of the edges, in [0, 1], of the place that two numbers in [0, 1) choose.
+  Vec2 place(const Vec2& u) const;
+
+ private:
+  Vec3 low_, high_;  // opposite corners in the rectangle's own space; both z are the same, and negative
+  double b0_, b1_, k_;
+  double solid_angle_;
+};
+
+}  // namespace eyeray::reference

@@ -1,0 +1,160 @@
+// Knaus, Zwicker: Progressive Photon Mapping: A Probabilistic Approach, TOG 30(3), 2011. Hachisuka, Jensen:
+// Stochastic Progressive Photon Mapping, TOG 28(5), 2009. Jensen: Global Illumination Using Photon Maps,
+// 1996.
+#include <cmath>
+
+#include "host/reference/path_sample.hpp"
+
+namespace eyeray::reference {
+
+extern const Integrator sppm_integrator;
+
+namespace {
+
+constexpr std::string_view manual =
+    "Photon mapping: as `path`, but what is lit by more than one surface is found from the lights. For each "
+    "sample they send out `photons` anew, which surfaces scatter and keep; a path from the eye gathers those "
+    "around the first point that scatters light widely, within a radius that shrinks from sample to sample. "
+    "So caustics of points of light and small lamps are soon without noise. What is lit by one surface is "
+    "the "
+    "same as in `path`; of media, volume caustics are not seen.";
+
+}  // namespace
+
+// The photons on a disk around the point. Silverman: Density Estimation, 1986, has Epanechnikov's kernel.
+Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& wide,
+                          const PhotonMap& photons) const {
+  const double radius = photons.radius();
+  const Vec3 &n = at.surface.normal_geometric, &p = at.surface.position;
+  Vec3 light(0);
+  photons.near(p, [&](const Photon& photon) {
+    const Vec3 apart = photon.position - p;
+    const double share = glm::dot(apart, apart) / (radius * radius);
+    if (share >= 1 || std::abs(glm::dot(apart, n)) >= 0.1 * radius || glm::dot(photon.normal, n) <= 0.9 ||
+        photon.depth + depth_ > scene_.render.max_depth)
+      return;
+    const Vec3 i = frame.into(photon.direction);
+    const double cosine = glm::dot(photon.direction, n);
+    const double kernel = 2 / (M_PI * radius * radius) * (1 - share);
+    light += wide.at(i, cosine > 0).value / std::abs(cosine) * kernel * photon.flux;
+  });
+  return light / double(photons.count());
+}
+
+// From one light: by the wide lobes in full, by the sharp ones as far as the path does not find it itself.
+Vec3 PathSample::direct_on_parts(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& wide,
+                                 const ViewedBsdf& sharp, const MediaStack& media) {
+  if (depth_ > scene_.render.max_depth) return Vec3(0);
+  const auto light = arriving(at);
+  if (!light || light->radiance == Vec3(0)) return Vec3(0);
+  const Vec3 i = frame.into(light->l);
+  const bool before = rays_.is_before(at.surface, light->l, light->distance);
+  const BsdfValue by_path = sharp.at(i, before);
+  const double weight = light->density > 0 ? power_heuristic(light->density, by_path.density) : 1;
+  const Vec3 value = wide.at(i, before).value + weight * by_path.value;
+  if (value == Vec3(0)) return Vec3(0);
+  return direct(at, *light, {value, 0}, before ? media : at.media_beyond);
+}
+
+PixelSample PathSample::gathering_sample(Ray ray, MediaStack media) {
+  Vec3 color(0);
+  vertex_ = ray.o;
+  for (;;) {
+    asked_ = 0;
+    const auto hit = rays_.trace(ray);
+    const Flight flight = fly(media, hit);
+    const Vec3 before = throughput_;
+    throughput_ *= flight.weight;
+    std::optional<Ray> next;
+    if (flight.scattered) {
+      // Nothing stays in a medium: there the path goes on as any.
+      next = meet_medium(ray, flight, media, color);
+    } else if (hit) {
+      const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
+      rays_.decided(Event::hit, at.primitive + 1);
+      const LocalFrame frame(at.surface.normal);
+      const ViewedBsdf bsdf(at.bsdf, frame.seen(-at.d));
+      const ViewedBsdf wide = bsdf.part(true), sharp = bsdf.part(false);
+      Vec3 light = emitted(at);
+      if (!bsdf.black()) light += direct_on_parts(at, frame, wide, sharp, media);
+      if (!wide.black() && depth_ <= scene_.render.max_depth)
+        light += gathered(at, frame, wide, *tracer_.photons(id_.index));
+      observer_.value("light", light);
+      rays_.decided(Event::light, asked_);
+      color += throughput_ * light;
+      if (at.has_medium && at.scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)
+        ++rays_.total_reflections;
+      const bool goes_on = wide.black() || pair(scatter_pair).x < sharp.followed();
+      if (goes_on) next = scatter(at, frame, sharp, media);
+    } else {
+      rays_.decided(Event::hit, 0);
+      const Vec3 light = missed(ray.d);
+      observer_.miss(throughput_, light);
+      color += throughput_ * light;
+      break;
+    }
+    if (!next) {
+      rays_.decided(Event::way, 0);
+      break;
+    }
+    ray = *next;
+  }
+  return rays_.sample(color);
+}
+
+uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& stopped) {
+  const PhotonSource source = sources.draw([&](uint32_t use) { return pair_of(use); });
+  rays_.decided(Event::light, 2 * (source.light + 2) + (source.below ? 1 : 0));
+  if (!sources.settings().targets.empty()) rays_.decided(Event::aim, source.aim);
+  MediaStack media = source.media;
+  Ray ray = rays_.start_ray(source.ray);
+  vertex_ = ray.o;
+  if (source.flux == Vec3(0)) return rays_.sample(Vec3(0)).trail;
+  while (depth_ <= scene_.render.max_depth) {
+    const auto hit = rays_.trace(ray);
+    const Flight flight = fly(media, hit);
+    const Vec3 before = throughput_;
+    throughput_ *= flight.weight;
+    std::optional<Ray> next;
+    if (flight.scattered) {
+      rays_.decided(Event::hit, in_medium);
+      next = scatter_in(rays_.medium(media), scattered_at(ray, flight.t));
+    } else if (hit) {
+      const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
+      rays_.decided(Event::hit, at.primitive + 1);
+      const LocalFrame frame(at.surface.normal);
+      const ViewedBsdf bsdf(at.bsdf, frame.seen(-at.d));
+      const Vec3 &bent = at.surface.normal, &n = at.surface.normal_geometric;
+      if (depth_ > 0 && !bsdf.part(true).black())
+        stopped.push_back({at.surface.position, -at.d, n, source.flux * throughput_, id_.index, depth_});
+      next = scatter(at, frame, bsdf.adjoint(), media);
+      // Light that comes and goes as a bent normal has it, seen from the light. Veach: Robust Monte Carlo
+      // Methods for Light Transport Simulation, 1997, section 5.3.
+      if (next && bent != n)
+        throughput_ *= std::abs(glm::dot(next->d, n) / glm::dot(next->d, bent) * glm::dot(at.d, bent) /
+                                glm::dot(at.d, n));
+    } else {
+      rays_.decided(Event::hit, 0);
+      break;
+    }
+    if (!next) {
+      rays_.decided(Event::way, 0);
+      break;
+    }
+    ray = *next;
+  }
+  return rays_.sample(Vec3(0)).trail;
+}
+
+namespace {
+
+PixelSample sppm(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
+                 const RayOffset& ray_offset, const Observer& observer) {
+  return PathSample(tracer, id, ray_offset, observer).gathering_sample(ray, media);
+}
+
+}  // namespace
+
+extern const Integrator sppm_integrator{.manual = manual, .sample = sppm};
+
+}  // namespace eyeray::reference

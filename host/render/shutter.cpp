@@ -1,0 +1,118 @@
+#include "host/render/shutter.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace eyeray::render {
+namespace {
+
+using executors::Executor;
+
+// At least, where there are so many: a well-spread set of Sobol' points, and so few that 16 moments are seen
+// in the 64 samples after which adaptive sampling first judges.
+constexpr int samples_in_run = 4;
+
+// A step through `count` numbers that reaches each, and is spread after any number of steps: about the
+// golden section of them.
+int golden_step(int count) {
+  int step = std::max(1, int(0.618034 * count));
+  while (std::gcd(step, count) != 1) ++step;
+  return step;
+}
+
+// One executor at a time: that of the moment asked for last.
+class Shutter final : public Executor {
+ public:
+  Shutter(executors::Backend backend, const Scene& scene, executors::ExecutorOptions options)
+      : backend_(backend),
+        scene_(scene),
+        options_(executors::for_frames(std::move(options), scene.image.all_samples() / moments())) {
+    show(scene_.animation.frame);
+  }
+
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+    show_moment_of(index);
+    return timed([&] { return executor_->sample(tile, index, out); });
+  }
+  bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
+    show_moment_of(index);
+    return timed([&] { return executor_->auxiliary(tile, index, out); });
+  }
+  void first_hits(const Rect& tile, std::span<FirstHit> out) override {
+    show(scene_.animation.frame);
+    timed([&] { return executor_->first_hits(tile, out), true; });
+  }
+  executors::Probed probe(int x, int y, uint32_t index) override {
+    show_moment_of(index);
+    return executor_->probe(x, y, index);
+  }
+  double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
+    show(scene_.animation.frame);
+    return executor_->query(batch, hits);
+  }
+
+  std::shared_ptr<executors::OpenDevice> device() const override { return executor_->device(); }
+  uint64_t geometry_bytes() const override { return executor_->geometry_bytes(); }
+  std::string description() const override { return executor_->description(); }
+  std::string arithmetic() const override { return executor_->arithmetic(); }
+  std::vector<std::filesystem::path> source_files() const override { return executor_->source_files(); }
+
+ private:
+  int moments() const { return std::min(scene_.animation.shutter_steps, scene_.image.samples); }
+
+  void show_moment_of(uint32_t index) {
+    const double moment = moment_of_sample(int(index), scene_.image.samples, moments());
+    show(scene_.animation.frame + scene_.animation.shutter * ((moment + 0.5) / moments() - 0.5));
+  }
+
+  void show(double frame) {
+    if (executor_ && frame == shown_) return;
+    executor_.reset();
+    gone_ = times_;
+    moment_ = std::make_unique<Scene>(scene_.animation.at(frame));
+    // What all samples of one picture have in common.
+    moment_->image = scene_.image;
+    moment_->render.integrator = scene_.render.integrator;
+    moment_->render.max_depth = scene_.render.max_depth;
+    moment_->render.min_throughput = scene_.render.min_throughput;
+    executor_ = executors::make_executor(backend_, *moment_, options_);
+    options_.open_device = executor_->device();
+    shown_ = frame;
+    add_times();
+  }
+
+  template <typename Work>
+  bool timed(const Work& work) {
+    const bool done = work();
+    add_times();
+    return done;
+  }
+  void add_times() {
+    times_ = gone_;
+    for (const auto& [stage, seconds] : executor_->times().stages()) times_.add(stage, seconds);
+  }
+
+  executors::Backend backend_;
+  const Scene& scene_;
+  executors::ExecutorOptions options_;
+  StageTimes gone_;  // of the executors before
+  double shown_ = 0;
+  std::unique_ptr<Scene> moment_;  // that the executor is of
+  std::unique_ptr<Executor> executor_;
+};
+
+}  // namespace
+
+int moment_of_sample(int index, int samples, int moments) {
+  const int64_t rounds = std::max(1, samples / (samples_in_run * moments));
+  const int64_t run = index * rounds * moments / samples;
+  return int(run * golden_step(moments) % moments);
+}
+
+std::unique_ptr<Executor> make_picture_executor(executors::Backend backend, const Scene& scene,
+                                                const executors::ExecutorOptions& options) {
+  if (!scene.animation.at) return executors::make_executor(backend, scene, options);
+  return std::make_unique<Shutter>(backend, scene, options);
+}
+
+}  // namespace eyeray::render

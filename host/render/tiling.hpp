@@ -1,0 +1,82 @@
+// How a picture is divided among machines, its shards: into tiles that each belong to one of them, with all
+// samples of their pixels.
+#pragma once
+
+#include <vector>
+
+#include "host/core/rect.hpp"
+#include "host/render/sums.hpp"
+
+namespace eyeray::render {
+
+// A share of a picture: number `index`, from 0, of `count`.
+struct Shard {
+  int index = 0;
+  int count = 1;
+
+  friend bool operator==(const Shard&, const Shard&) = default;
+};
+
+// Most shards that a picture may have.
+constexpr int most_shards = 1 << 20;
+
+// The tiles of a picture, from its top left on, row by row. They are a block of noise high and whole blocks
+// wide, but at the right and at the bottom of the picture: what is measured of a block is so one shard's.
+// A tile is a dispatch: it has some 8192 pixels; more where a shard would have more than `tiles_wanted`,
+// fewer where it would have but one; and it is no narrower than `least_width`.
+//
+// Shards get one tile each of the first `shards` tiles, one each of the next, and so on, each time in an
+// order drawn anew: so everyone has, to within one, as many, and they lie all over the picture, whatever is
+// dear in it. The orders are drawn from the number of the round alone, and are the same everywhere.
+class Tiling {
+ public:
+  // `width`, `height`, `shards` ≥ 1.
+  Tiling(int width, int height, int shards);
+
+  static constexpr int tile_height = noise_block;
+  static constexpr int tiles_wanted = 16;
+  static constexpr int least_width = 4 * noise_block;
+
+  int tile_width() const { return tile_width_; }  // of all but the last of a row
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  int count() const { return columns_ * rows_; }
+  Rect tile(int number) const;
+  // The index of the shard that it belongs to.
+  int owner(int number) const { return owners_[size_t(number)]; }
+
+ private:
+  int width_, height_;
+  int tile_width_, columns_, rows_;
+  std::vector<int> owners_;
+};
+
+// The tiles of one shard, stacked: one below the other, each with the height of a whole one. That is the
+// picture which its machine renders; what of it is to the right of a narrow tile or below a low one is no
+// pixel, and gets no sample.
+class ShardTiles {
+ public:
+  // Of `area`, a part of a picture.
+  ShardTiles(const Rect& area, const Shard& shard);
+
+  const Shard& shard() const { return shard_; }
+  // Of the stack, in pixels; the height is 0 where there are more shards than tiles.
+  int width() const { return width_; }
+  int height() const { return int(tiles_.size()) * Tiling::tile_height; }
+  // What is to be rendered: less than the stack's area.
+  int64_t pixels() const { return pixels_; }
+  // In pixels of the picture, `area` included, from the stack's top on.
+  const std::vector<Rect>& tiles() const { return tiles_; }
+  // The pixels in rows [row, row + height) of the stack, in its pixels.
+  std::vector<Rect> parts(int row, int height) const;
+  // Where in the picture such a part lies.
+  Rect in_picture(const Rect& part) const;
+
+ private:
+  Shard shard_;
+  std::vector<Rect> tiles_;
+  int width_ = 0;
+  int64_t pixels_ = 0;
+};
+
+}  // namespace eyeray::render

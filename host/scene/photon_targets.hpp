@@ -1,0 +1,29 @@
+// What photons are aimed at: what bundles light into caustics, and is hit by few photons where it is small.
+#pragma once
+
+#include <vector>
+
+#include "host/core/vec.hpp"
+
+namespace eyeray {
+
+class Material;
+struct Scene;
+
+// A sphere in the world.
+struct PhotonTarget {
+  Vec3 center;
+  double radius;
+};
+
+inline constexpr size_t most_photon_targets = 16;
+
+// Spheres around all shapes and meshes whose material has sharp lobes alone: glass, mirrors, smooth metal,
+// panes. Where there are more than `most_photon_targets`, those that are near to each other share one. None
+// of what has no end, or is wider than half of `reach`, the scene's radius: photons find that by themselves.
+std::vector<PhotonTarget> photon_targets(const Scene& scene, double reach);
+
+// Whether photons may stay on it: its roughness may be a texture's, which may be anything.
+bool scatters_widely(const Material& material);
+
+}  // namespace eyeray

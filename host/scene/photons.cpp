@@ -1,0 +1,53 @@
+#include "host/scene/photons.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/scene/extent.hpp"
+#include "host/scene/scene.hpp"
+
+namespace eyeray {
+namespace {
+
+constexpr double pixels_across = 2;
+
+// How far apart rays of neighbouring pixels are in the middle of the picture, at that distance.
+double pixel_at(const Scene& scene, double distance) {
+  const CameraAxes axes = camera_axes(scene.camera);
+  const Vec2 size = scene.image.size();
+  const auto at = [&](const Vec2& place) {
+    const Ray ray = scene.camera.projection->ray(axes, place, Vec2(0.0), size);
+    return ray.o + distance * ray.d;
+  };
+  return glm::length(at({2 / size.x, 0}) - at({0, 0}));
+}
+
+}  // namespace
+
+PhotonSettings photon_settings(const Scene& scene) {
+  Bounds all = extent(scene);
+  const bool endless = !(all.min.x <= all.max.x);
+  if (endless) all.include(scene.camera.eye);
+  PhotonSettings settings{.count = uint32_t(scene.render.photons),
+                          .radius = scene.render.photon_radius,
+                          .center = (all.min + all.max) / 2.0,
+                          .reach = glm::length(all.max - all.min) / 2};
+  // Not a rounding less than what it is around.
+  settings.reach *= 1 + 1e-5;
+  if (settings.radius == 0) {
+    const Vec3 middle = endless ? scene.camera.target : settings.center;
+    const double distance = glm::length(middle - scene.camera.eye);
+    settings.radius = pixels_across * pixel_at(scene, std::max(distance, settings.reach / 4));
+  }
+  settings.targets = photon_targets(scene, settings.reach);
+  return settings;
+}
+
+double photon_radius(const PhotonSettings& settings, uint32_t index) {
+  constexpr double kept = 2.0 / 3;
+  double squared = settings.radius * settings.radius;
+  for (uint32_t i = 1; i <= index; ++i) squared *= (i + kept) / (i + 1);
+  return std::sqrt(squared);
+}
+
+}  // namespace eyeray

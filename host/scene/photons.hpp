@@ -1,0 +1,33 @@
+// What photons are sent out and gathered by (docs/photon-mapping.md): numbers that all executors share.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/scene/photon_targets.hpp"
+
+namespace eyeray {
+
+struct PhotonSettings {
+  uint32_t count;  // of each sample
+  double radius;   // of the disk on which the first sample gathers them
+  Vec3 center;     // of a sphere around all that has an end, which lights from afar send their photons to
+  double reach;    // and its radius
+  std::vector<PhotonTarget> targets = {};  // that photons are aimed at
+};
+
+// What became of a photon.
+struct PhotonWay {
+  uint32_t trail = 0;  // what it decided on its way, as PixelSample::trail
+  Vec3 places{0};      // the sum of those where it stays
+};
+
+// Where the scene names no radius, it is two pixels wide as seen at the middle of all that has an end, or, if
+// nothing has, where the camera looks.
+PhotonSettings photon_settings(const Scene& scene);
+
+// The radius of sample `index`. Variance grows as it shrinks, and bias falls; by this choice the mean of all
+// samples converges (Knaus, Zwicker: Progressive Photon Mapping: A Probabilistic Approach, TOG 2011).
+double photon_radius(const PhotonSettings& settings, uint32_t index);
+
+}  // namespace eyeray

@@ -1,0 +1,96 @@
+// A part: what one shard of a picture came to, in a file that says of what it is a part.
+//
+// FILE, little-endian, written atomically:
+//
+//   offset   bytes
+//   0        8       "EYERAYPT"
+//   8        4       version of this layout: 1
+//   12       4       n
+//   16       4       CRC-32 of all above
+//   20       n       PartHeader as JSON
+//            4       CRC-32 of these n bytes
+//            …       the planes: the picture, then an AOV each. Of each the shard's tiles in order
+//                    (render/tiling.hpp), and of each tile
+//                      its pixels, row by row, as many float32 each as the plane has channels;
+//                      4 bytes: CRC-32 of the plane so far, begun with that of the header and of the plane's
+//                      number
+//            4       m
+//            m       PartTotals as JSON
+//            4       CRC-32 of m and of these m bytes
+//
+// No byte stands outside of a sum, and a sum tells every flipped bit, and every run of damage of up to 32.
+//
+// Pixels are the picture's own, the means of their samples in float32: all samples of a pixel are taken by
+// one shard, in the order in which one machine takes them, so that nothing is left to be added up.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/aov/aov.hpp"
+#include "host/aov/legend.hpp"
+#include "host/core/ray_counts.hpp"
+#include "host/image/tone.hpp"
+#include "host/render/brightness.hpp"
+#include "host/render/checkpoint.hpp"
+#include "host/render/tiling.hpp"
+
+namespace eyeray::shards {
+
+// Known before the first sample.
+struct PartHeader {
+  render::Shard shard;
+  std::string scene;  // its file, as it was named
+  Rect area;          // of the picture, that all parts together are
+  int samples = 1;    // a pixel
+  image::Tone tone;
+  double clamp = 0;           // RenderOptions::clamp
+  bool random_paths = false;  // whether bright samples may be fireflies
+  std::string device;         // for people
+  std::string build;          // core/build_id.hpp
+  std::vector<aov::Aov> aovs;
+  // What decides the bits: the same in all parts of one picture.
+  std::vector<render::IdentityPart> identity;
+
+  size_t planes() const { return 1 + aovs.size(); }
+  int channels(size_t plane) const { return plane == 0 ? 3 : aovs[plane - 1]->channels; }
+};
+
+// Known after the last.
+struct PartTotals {
+  uint64_t rays = 0;
+  uint64_t flagged_pixels = 0;
+  uint64_t flagged_hits = 0;
+  uint32_t flags = 0;
+  uint64_t clamped = 0;
+  render::Brightness brightness;
+  std::optional<RayCounts> ray_kinds;     // where they were asked for
+  double seconds = 0;                     // of sampling
+  double processor_seconds = 0;           // the same, of all threads
+  std::vector<aov::LegendTally> legends;  // one an AOV, empty of those that have none
+
+  // Those of another part. Kinds of rays are known where both know them.
+  void add(const PartTotals& other);
+};
+
+// As the file has them. The second of each: Error (file_io) for anything else, which says in a word what.
+std::string to_text(const PartHeader& header);
+PartHeader header_of(const std::string& text);
+std::string to_text(const PartTotals& totals);
+PartTotals totals_of(const std::string& text);
+
+inline constexpr std::string_view part_magic = "EYERAYPT";
+inline constexpr uint32_t part_version = 1;
+inline constexpr uint32_t part_prefix_bytes = 20;
+inline constexpr uint32_t longest_part_header = 1 << 24;
+
+// What the sums of a plane begin with.
+uint32_t plane_checksum(uint32_t header_checksum, size_t plane);
+
+// "3/64": counted from 1, as people do.
+std::string shard_text(const render::Shard& shard);
+// The same back; Error (bad_input) where that is no share.
+render::Shard parse_shard(const std::string& text);
+
+}  // namespace eyeray::shards

@@ -1,0 +1,55 @@
+// Parts that are to make one picture: whether they do, and the picture.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/shards/part_reader.hpp"
+
+namespace eyeray::shards {
+
+// What keeps files from making one picture. Sentences that name them.
+struct PartFaults {
+  std::vector<std::string> damaged;  // or no parts at all, or not there
+  std::vector<std::string> foreign;  // of another picture than most are
+  std::vector<std::string> doubled;
+  std::vector<int> missing;  // indices of shards, of `count`
+  int count = 0;
+
+  bool any() const { return !damaged.empty() || !foreign.empty() || !doubled.empty() || !missing.empty(); }
+  // The first few of each, in one sentence.
+  std::string text() const;
+  // Error (file_io) where files are damaged, Error (bad_input) for the other faults; nothing without any.
+  void refuse() const;
+};
+
+// Is given the next rows of a plane, from the top down.
+using PlaneSink = std::function<void(size_t plane, const image::Image& rows)>;
+
+class PartSet {
+ public:
+  // Reads every byte of the files. Finds all faults at once.
+  explicit PartSet(const std::vector<std::filesystem::path>& files);
+
+  const PartFaults& faults() const { return faults_; }
+  // Of the picture that most of the parts are of; nothing where no file is a part.
+  const PartHeader* header() const { return wanted_; }
+  // Those that are sound and of that picture, one a shard, in the order of the shards.
+  const std::vector<PartReader>& parts() const { return parts_; }
+  // Of all of them.
+  PartTotals totals() const;
+
+  // The picture, some rows of all planes at a time: no more is held. Only without faults, and once. Error
+  // (file_io) when a file is no longer as it was, Error (interrupted).
+  void merge(const PlaneSink& sink);
+
+ private:
+  void keep_most_frequent(std::vector<PartReader> read);
+
+  PartFaults faults_;
+  std::vector<PartReader> parts_;
+  const PartHeader* wanted_ = nullptr;
+};
+
+}  // namespace eyeray::shards

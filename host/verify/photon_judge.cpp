@@ -1,0 +1,101 @@
+#include "host/verify/photon_judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/core/parallel_for.hpp"
+#include "host/reference/photon_traces.hpp"
+#include "host/reference/trail.hpp"
+
+namespace eyeray::verify {
+namespace {
+
+// How far from the reference's a photon may lie, as a share of the radius: a kernel tells twice that.
+constexpr double photon_aside = 1e-3;
+
+// Surfaces that are round, or struck at a grazing angle, multiply what float32 rounds, one after the other.
+// The widest is 10⁻⁴ of the distance to the eye: as far aside as the places are in a picture 100 pixels wide
+// where gate B asks.
+constexpr double rounded_by[] = {1, 8, 64};
+constexpr uint32_t seeds = 64;
+
+// A photon that float32 sends elsewhere.
+struct Apart {
+  uint32_t number;
+  PhotonWay twin, reference;
+
+  bool parted() const { return twin.trail != reference.trail; }  // by another way; else it lies aside
+  double aside() const { return glm::length(twin.places - reference.places); }
+};
+
+// Whether the reference knows of it, rounded otherwise: it goes all of the twin's way, or its own and then
+// lies half as far aside or more.
+bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint32_t index) {
+  const auto explains = [&](const reference::RayOffset& rounded) {
+    const reference::PhotonTrace trace = traces.trace(index, photon.number, rounded);
+    return reference::trail_of(trace.events) == photon.twin.trail &&
+           (photon.parted() || glm::length(trace.places - photon.reference.places) >= photon.aside() / 2);
+  };
+  for (const double times : rounded_by) {
+    const double share = times * reference::float32_ray_offset;
+    for (uint32_t seed = 1; seed <= seeds; ++seed) {
+      const reference::RayOffset ways[] = {
+          {.share = share, .seed = seed},
+          {.share = share, .seed = seed, .numbers = seed},
+          {.share = share, .along_normal = true, .seed = seed},
+          {.share = share, .along_normal = true, .seed = seed, .coincident = true},
+          {.share = share, .seed = seed, .coincident = true, .numbers = seed},
+      };
+      if (std::ranges::any_of(ways, explains)) return true;
+    }
+  }
+  return false;
+}
+
+std::string describe(const Apart& photon, const reference::PhotonTraces& traces, uint32_t index) {
+  if (!photon.parted())
+    return fmt::format("photon {} of sample {}, which lies {:.3g} aside", photon.number, index,
+                       photon.aside());
+  std::string way;
+  for (const uint32_t event : traces.trace(index, photon.number, {}).events)
+    way += (way.empty() ? "" : ", ") + reference::describe_event(event);
+  return fmt::format("photon {} of sample {}; the reference's {}", photon.number, index, way);
+}
+
+}  // namespace
+
+JudgedPhotons judge_photons(const Scene& scene, executors::Executor& twin,
+                            executors::Executor& reference_executor, const reference::Renderer& renderer) {
+  JudgedPhotons judged;
+  compare::PhotonTally& tally = judged.tally;
+  tally.sent = int64_t{scene.render.photons} * scene.image.samples;
+  tally.depth = scene.render.max_depth;
+  const reference::PhotonTraces traces(renderer.tracer());
+  for (uint32_t index = 0; index < uint32_t(scene.image.samples); ++index) {
+    // Compare ways and places.
+    const std::vector<PhotonWay> a = twin.photon_ways(index), b = reference_executor.photon_ways(index);
+    CHECK_EQ(a.size(), b.size());
+    const double aside = photon_aside * photon_radius(photon_settings(scene), index);
+    std::vector<Apart> apart;
+    for (uint32_t number = 0; number < a.size(); ++number) {
+      const Apart photon{number, a[number], b[number]};
+      if (!photon.parted() && photon.aside() <= aside) continue;
+      apart.push_back(photon);
+      ++(photon.parted() ? tally.parted : tally.aside);
+    }
+    std::vector<uint32_t>& left_out = judged.left_out.emplace_back();
+    for (const Apart& photon : apart) left_out.push_back(photon.number);
+
+    // Ask the reference for each, until the gate has failed.
+    if (!tally.passes()) continue;
+    std::vector<char> known(apart.size());
+    parallel_for(0, int(apart.size()),
+                 [&](int i) { known[size_t(i)] = explained(apart[size_t(i)], traces, index); });
+    for (size_t i = 0; i < apart.size(); ++i)
+      if (!known[i] && tally.unexplained++ == 0) tally.worst = describe(apart[i], traces, index);
+  }
+  return judged;
+}
+
+}  // namespace eyeray::verify

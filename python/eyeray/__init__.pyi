@@ -1,0 +1,19 @@
+from collections.abc import Callable, Sequence
+from os import PathLike
+
+from eyeray._eyeray import (
+    Backend, Cancellation as Cancellation, Picture as Picture, Renderer as Renderer, Report as Report,
+    Scene as Scene, version as version)
+from eyeray.errors import (
+    CancelledError as CancelledError, DeviceError as DeviceError, DeviceTimeout as DeviceTimeout,
+    Diagnostic as Diagnostic, Error as Error, FileError as FileError, InputError as InputError)
+
+__version__: str
+
+def render(scene: Scene, *, backend: Backend = ..., aovs: Sequence[str] = ...,
+           crop: tuple[int, int, int, int] | None = ..., noise: float = ..., clamp: float = ...,
+           progress: Callable[[float], bool | None] | None = ...,
+           cancellation: Cancellation | None = ...) -> Picture: ...
+def verify(scene: Scene, *, backends: Sequence[Backend] = ..., crop: tuple[int, int, int, int] | None = ...,
+           evidence: str | PathLike[str] | None = ..., progress: Callable[[float], bool | None] | None = ...,
+           cancellation: Cancellation | None = ...) -> Report: ...

@@ -1,0 +1,223 @@
+// eyeray._eyeray: the library's classes for Python. python/eyeray/_eyeray.pyi has their types, docs/python.md
+// shows them.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <eyeray/eyeray.hpp>
+
+#include "arrays.hpp"
+#include "background.hpp"
+
+namespace eyeray_python {
+namespace {
+
+using eyeray::Backend;
+using eyeray::Cancellation;
+using eyeray::Picture;
+using eyeray::Renderer;
+using eyeray::Report;
+using eyeray::Scene;
+using Path = std::filesystem::path;
+
+py::tuple diagnostics_of(const std::vector<eyeray::Diagnostic>& diagnostics) {
+  const py::object type = py::module_::import("eyeray.errors").attr("Diagnostic");
+  py::list all;
+  for (const eyeray::Diagnostic& each : diagnostics)
+    all.append(type(each.message, each.file, each.line, each.column, each.is_error));
+  return py::tuple(all);
+}
+
+void raise(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const eyeray::Error& error) {
+    const py::object type = py::module_::import("eyeray.errors").attr("_kinds")[py::int_(int(error.kind()))];
+    const py::object value = type(error.what(), diagnostics_of(error.diagnostics()));
+    PyErr_SetObject(type.ptr(), value.ptr());
+  }
+}
+
+Backend backend_named(const std::string& name) {
+  if (name == "gpu") return Backend::gpu;
+  if (name == "twin") return Backend::twin;
+  if (name == "reference") return Backend::reference;
+  throw py::value_error("a backend is 'gpu', 'twin' or 'reference', not '" + name + "'");
+}
+
+eyeray::Rect rect_of(const std::optional<std::array<int, 4>>& crop) {
+  if (!crop) return {};
+  const auto [x, y, width, height] = *crop;
+  if (width < 1 || height < 1) throw py::value_error("a crop is (x, y, width, height), of at least a pixel");
+  return {x, y, width, height};
+}
+
+// False, or nothing at all? None goes on. From whichever thread.
+std::function<bool(const eyeray::Progress&)> progress_of(const py::object& callback) {
+  if (callback.is_none()) return {};
+  if (!PyCallable_Check(callback.ptr())) throw py::type_error("progress is a function of a float");
+  return [&callback](const eyeray::Progress& now) {
+    const py::gil_scoped_acquire acquired;
+    return !callback(now.share).is(py::bool_(false));
+  };
+}
+
+std::vector<std::string> names(const py::object& list, const char* what) {
+  if (py::isinstance<py::str>(list)) throw py::type_error(std::string(what) + " is a list of names");
+  return list.cast<std::vector<std::string>>();
+}
+
+Scene read(const Path& file, const py::object& defines, const std::vector<Path>& allowed_folders,
+           bool formulas) {
+  const eyeray::SceneOptions options{defines_of(defines), allowed_folders, formulas};
+  return in_background<Scene>({}, [&] { return Scene::read(file, options); });
+}
+
+Scene parse(const std::string& toml, const std::string& name, const py::object& defines, bool formulas) {
+  const eyeray::SceneOptions options{defines_of(defines), {}, formulas};
+  return in_background<Scene>({}, [&] { return Scene::parse(toml, name, options); });
+}
+
+void add(eyeray::SceneBuilder& builder, const std::string& section, const py::handle& value,
+         const std::string& where) {
+  if (!py::isinstance<py::dict>(value)) throw py::type_error(where + " is a dict, or a list of dicts");
+  const auto table = py::reinterpret_borrow<py::dict>(value);
+  if (section == "mesh" && is_mesh_of_arrays(table))
+    add_mesh(builder, table, where);
+  else
+    builder.add(section, table_of(table, where));
+}
+
+Scene build(const py::dict& tables, const std::string& name, const py::object& defines, bool formulas) {
+  eyeray::SceneBuilder builder;
+  for (const auto& [key, value] : tables) {
+    const std::string section = py::str(key);
+    if (py::isinstance<py::dict>(value)) {
+      builder.set(section, table_of(py::reinterpret_borrow<py::dict>(value), section));
+      continue;
+    }
+    if (!py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value))
+      throw py::type_error(section + " is a dict, or a list of dicts");
+    size_t index = 0;
+    for (const py::handle each : value) add(builder, section, each, section + "." + std::to_string(index++));
+  }
+  const eyeray::SceneOptions options{defines_of(defines), {}, formulas};
+  return in_background<Scene>({}, [&] { return builder.scene(name, options); });
+}
+
+Picture render(Renderer& renderer, const Scene& scene, const std::string& backend, const py::object& aovs,
+               const std::optional<std::array<int, 4>>& crop, double noise, double clamp,
+               const py::object& progress, const std::optional<Cancellation>& cancellation) {
+  eyeray::RenderOptions options;
+  options.backend = backend_named(backend);
+  options.aovs = names(aovs, "aovs");
+  options.crop = rect_of(crop);
+  options.noise = noise;
+  options.clamp = clamp;
+  options.progress = progress_of(progress);
+  if (cancellation) options.cancellation = *cancellation;
+  return in_background<Picture>(options.cancellation, [&] { return renderer.render(scene, options); });
+}
+
+Report verify(Renderer& renderer, const Scene& scene, const py::object& backends,
+              const std::optional<std::array<int, 4>>& crop, const std::optional<Path>& evidence,
+              const py::object& progress, const std::optional<Cancellation>& cancellation) {
+  eyeray::VerifyOptions options;
+  options.backends.clear();
+  for (const std::string& each : names(backends, "backends")) options.backends.push_back(backend_named(each));
+  options.crop = rect_of(crop);
+  options.evidence = evidence.value_or(Path());
+  options.progress = progress_of(progress);
+  if (cancellation) options.cancellation = *cancellation;
+  return in_background<Report>(options.cancellation, [&] { return renderer.verify(scene, options); });
+}
+
+void add_scene(py::module_& module) {
+  const py::tuple none;
+  py::class_<Scene>(module, "Scene", "A scene, checked. It never changes.")
+      .def_static("read", &read, py::arg("file"), py::kw_only(), py::arg("defines") = none,
+                  py::arg("allowed_folders") = std::vector<Path>(), py::arg("formulas") = true,
+                  "From a file: .toml, or a mesh (.obj .ply .gltf .glb).")
+      .def_static("parse", &parse, py::arg("toml"), py::kw_only(), py::arg("name") = "scene",
+                  py::arg("defines") = none, py::arg("formulas") = true, "From text, as a file holds it.")
+      .def_static("build", &build, py::arg("tables"), py::kw_only(),
+                  py::arg("name") = "scene built in Python", py::arg("defines") = none,
+                  py::arg("formulas") = true,
+                  "From dicts of the same keys: {'camera': {…}, 'sphere': [{…}, …]}. A mesh may have arrays: "
+                  "{'vertices': (n, 3), 'triangles': (m, 3), 'normals': (n, 3), 'uv': (n, 2), …}.")
+      .def_property_readonly("width", &Scene::width)
+      .def_property_readonly("height", &Scene::height)
+      .def_property_readonly("samples", &Scene::samples)
+      .def_property_readonly("warnings", [](const Scene& scene) { return diagnostics_of(scene.warnings()); });
+}
+
+void add_picture(py::module_& module) {
+  py::class_<Picture>(module, "Picture", "A picture. Its arrays are not copied, and cannot be written.")
+      .def_property_readonly(
+          "color", [](const py::object& self) { return array_of(self.cast<const Picture&>().color(), self); },
+          "Linear RGB, float32 of (height, width, 3), row 0 at the top.")
+      .def_property_readonly("aovs",
+                             [](const Picture& picture) { return py::tuple(py::cast(picture.aovs())); })
+      .def(
+          "aov",
+          [](const py::object& self, const std::string& name) {
+            return array_of(self.cast<const Picture&>().aov(name), self);
+          },
+          py::arg("name"), "float32 of (height, width), or (height, width, 3).")
+      .def_property_readonly("samples_done", &Picture::samples_done)
+      .def_property_readonly("complete", &Picture::complete)
+      .def_property_readonly("rays", &Picture::rays)
+      .def_property_readonly("seconds", &Picture::seconds)
+      .def_property_readonly("sampling_seconds", &Picture::sampling_seconds)
+      .def_property_readonly("warning", &Picture::warning)
+      .def("write", &Picture::write, py::arg("file"), py::call_guard<py::gil_scoped_release>(),
+           "As .png, .pfm, .hdr or .exr.");
+}
+
+// Closing a device waits for who renders, and who renders may wait for the GIL, to tell of its progress.
+struct WithoutGil {
+  void operator()(Renderer* renderer) const {
+    const py::gil_scoped_release released;
+    delete renderer;
+  }
+};
+using RendererHolder = std::unique_ptr<Renderer, WithoutGil>;
+
+void add_renderer(py::module_& module) {
+  py::class_<Cancellation>(module, "Cancellation", "Asks a call to end soon, from any thread.")
+      .def(py::init<>())
+      .def("request", &Cancellation::request)
+      .def_property_readonly("requested", &Cancellation::requested);
+  py::class_<Report>(module, "Report", "What verify() found; true where every gate passes.")
+      .def_readonly("passed", &Report::passed)
+      .def_property_readonly("failures",
+                             [](const Report& report) { return py::tuple(py::cast(report.failures)); })
+      .def_readonly("text", &Report::text)
+      .def_readonly("json", &Report::json)
+      .def("__bool__", [](const Report& report) { return report.passed; });
+  const auto make = [](const std::string& device, const std::optional<Path>& shaders, double timeout) {
+    return RendererHolder(new Renderer({device, shaders.value_or(Path()), timeout}));
+  };
+  py::class_<Renderer, RendererHolder>(module, "Renderer",
+                                       "Keeps the device open, so that a second picture starts at once.")
+      .def(py::init(make), py::kw_only(), py::arg("device") = "auto", py::arg("shaders") = py::none(),
+           py::arg("timeout") = 60.0)
+      .def("render", &render, py::arg("scene"), py::kw_only(), py::arg("backend") = "gpu",
+           py::arg("aovs") = py::tuple(), py::arg("crop") = py::none(), py::arg("noise") = 0.0,
+           py::arg("clamp") = 0.0, py::arg("progress") = py::none(), py::arg("cancellation") = py::none())
+      .def("verify", &verify, py::arg("scene"), py::kw_only(),
+           py::arg("backends") = py::make_tuple("gpu", "twin"), py::arg("crop") = py::none(),
+           py::arg("evidence") = py::none(), py::arg("progress") = py::none(),
+           py::arg("cancellation") = py::none());
+}
+
+}  // namespace
+}  // namespace eyeray_python
+
+PYBIND11_MODULE(_eyeray, module) {
+  namespace py = pybind11;
+  py::register_exception_translator(eyeray_python::raise);
+  module.def("version", [] { return std::string(eyeray::version()); });
+  eyeray_python::add_scene(module);
+  eyeray_python::add_picture(module);
+  eyeray_python::add_renderer(module);
+}

@@ -1,0 +1,90 @@
+// A photon's way: from a light from surface to surface, as a path goes, until it ends. It stays, for paths to gather, at each surface after
+// the first that scatters widely. Paths carry radiance / index², which goes both ways alike, and so photons go by the paths' own BSDFs.
+#ifndef PHOTON_GLSL
+#define PHOTON_GLSL
+#include "bsdf/parts.glsl"
+#include "bvh/traverse.glsl"
+#include "integrators/integrator.glsl"
+#include "integrators/path.glsl"
+#include "integrators/photon_cells.glsl"
+#include "integrators/photon_source.glsl"
+#include "kernels/loops.glsl"
+
+SHADER_BEGIN
+
+#if HAS_PHOTONS
+// A bent normal changes how much light a surface takes from one direction and sends in another, which paths and photons see from
+// opposite ends (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, 5.3).
+float bent_both_ways(Interaction at, vec3 d) {
+  float in_bent = abs(dot3(at.d, at.seen.normal));
+  float out_bent = abs(dot3(d, at.seen.normal));
+  float in_true = abs(dot3(at.d, at.seen.normal_geometric));
+  float out_true = abs(dot3(d, at.seen.normal_geometric));
+  return (out_true / maximum(out_bent, 1.0e-6f)) * (in_bent / maximum(in_true, 1.0e-6f));
+}
+
+PhotonResult photon_way(Frame frame, uint index, uint number) {
+  PhotonPass pass = load_photon_pass();
+  uint pixel = PHOTONS_OF | index;
+  PhotonSource source = photon_source(frame, pass, pixel, number);
+  PhotonResult result;
+  result.trail = with_event(1u, EVENT_LIGHT, 2u * (source.light + 2u) + (source.below ? 1u : 0u));
+  result.flags = 0u;
+  result.rays = 0u;
+  result.stored = 0u;
+  PROBE(event, EVENT_LIGHT | ((2u * (source.light + 2u) + (source.below ? 1u : 0u)) & EVENT_VALUE));
+  if (pass.target_count > 0u) {
+    result.trail = with_event(result.trail, EVENT_AIM, source.aim);
+    PROBE(event, EVENT_AIM | source.aim);
+  }
+  Path path = begin(frame, make_ray(source.o, source.d), pixel, number);
+  path.media = source.media;
+  bool going = max_component(source.flux) > 0.0f;
+  uint most_turns = (frame.max_depth + 2u) * (MOST_PANES + 1u);
+  for (uint turn = 0u; turn < most_turns; turn++) {
+    if (!going) break;
+    Ray ray = make_ray(path.o, path.d);
+    Hit hit = trace(ray, result.flags);
+    Flight flight = flight_of(frame, path, hit);
+    path.throughput = path.throughput * flight.weight;
+    bool struck = hit.slot != NONE && !flight.scattered;
+    uint event = flight.scattered ? EVENT_IN_MEDIUM : struck ? hit.id + 1u : 0u;
+    result.rays += 1u;
+    result.trail = with_event(result.trail, EVENT_HIT, event);
+    PROBE(event, EVENT_HIT | (event & EVENT_VALUE));
+    going = struck || flight.scattered;
+    if (going) {
+      Interaction at = met_at(path, ray, hit, flight, result.flags);
+      vec3 place = at.surface.p * pass.cells;
+      if (struck && path.depth > 0u && in_cells(place) && sum_of(part_of(at.bsdf, true)) > 0.0f) {
+        Photon photon;
+        photon.position = at.surface.p;
+        photon.key = cell_key(cell_of(place), pass.key_mask);
+        photon.direction = -at.d;
+        photon.number = number;
+        photon.normal = at.seen.normal_geometric;
+        photon.depth = path.depth;
+        photon.flux = source.flux * path.throughput;
+        photon.unused = 0u;
+        store_photon(photon);
+        result.stored += 1u;
+      }
+#if HAS_BENT_COAT
+      at.bsdf.adjoint = true;
+#endif
+      Continuations all = path_scatter(frame, path, at);
+      uint way = all.count > 0u ? all.way + 1u : 0u;
+      result.trail = with_event(result.trail, EVENT_WAY, way);
+      PROBE(event, EVENT_WAY | (way & EVENT_VALUE));
+      path = all.next;
+      path.throughput = path.throughput * bent_both_ways(at, path.d);
+      going = all.count > 0u && path.depth <= frame.max_depth;
+    }
+  }
+  result.flags = result.flags | loops_cut_off(LOOP_PROBE);
+  return result;
+}
+#endif
+
+SHADER_END
+#endif

@@ -1,0 +1,22 @@
+// Where photons lie: space is cut into cubes as wide as the disk that photons are gathered on, so that a disk meets eight at most.
+#ifndef PHOTON_CELLS_GLSL
+#define PHOTON_CELLS_GLSL
+#include "math/math.glsl"
+#include "math/rng.glsl"
+
+SHADER_BEGIN
+
+#define MOST_CELLS 8388608.0f  // from the eye along an axis; what is farther away is in none
+
+// Of a place in units of cells, relative to the eye.
+vec3 cell_of(vec3 place) { return vec3(floor(place.x), floor(place.y), floor(place.z)); }
+
+bool in_cells(vec3 place) { return max_component(abs3(place)) < MOST_CELLS; }
+
+// Cells far apart may share one.
+uint cell_key(vec3 cell, uint mask) {
+  return pcg_hash(uint(int(cell.x)) + pcg_hash(uint(int(cell.y)) + pcg_hash(uint(int(cell.z))))) & mask;
+}
+
+SHADER_END
+#endif

@@ -1,0 +1,127 @@
+// Where photons come from: a light or surface that emits, or what is around, each as likely as paths would ask it; a place by area, a
+// direction by what is sent there. What a photon brings is that divided by the density of it all.
+#ifndef PHOTON_SOURCE_GLSL
+#define PHOTON_SOURCE_GLSL
+#include "emitters/emitter.glsl"
+#include "emitters/environment.glsl"
+#include "emitters/light_disk.glsl"
+#include "lights/light.glsl"
+#include "lights/photon_aim.glsl"
+#include "samplers/sampler.glsl"
+
+SHADER_BEGIN
+
+struct PhotonSource {
+  vec3 o;
+  vec3 d;
+  vec3 flux;   // of all photons, if each were as this one
+  uint media;  // that it starts in
+  uint light;  // its number; NONE: what is around
+  bool below;  // it leaves a surface against its normal
+  uint aim;    // as LightEmission has it
+};
+
+// A point for which places are chosen by area: within what is closed, on what is flat.
+#define MIDDLE_sphere(e) vec3(e.a)
+#define MIDDLE_disk(e) vec3(e.a)
+#define MIDDLE_triangle(e) vec3(e.a)
+#define MIDDLE_parallelogram(e) vec3(e.a)
+#define MIDDLE_rectangle(e) vec3(e.a)
+#define MIDDLE_box(e) vec3(e.a.w, e.b.w, e.c.w)
+#define MIDDLE_ellipsoid(e) vec3(e.a.w, e.b.w, e.c.w)
+#define MIDDLE_cylinder(e) vec3(e.a.w, e.b.w, e.c.w)
+vec3 middle_of(Emitter e) {
+  vec3 middle = vec3(0.0f, 0.0f, 0.0f);
+#define MIDDLE_OF(name, number, itself) \
+  if (e.kind == number) middle = MIDDLE_##name(e);
+  EMITTERS(MIDDLE_OF)
+  return middle;
+}
+
+// How dense such places lie, by area. On what is flat they are chosen from its own plane, and so by area.
+float density_by_area(Emitter e, vec3 middle, EmitterSample place) {
+  vec3 way = place.p - middle;
+  float squared = maximum(dot3(way, way), 1.0e-30f);
+  float closed = emitter_density(e, middle, place) * abs(dot3(way, place.normal)) / (squared * sqrt(squared));
+  return may_light(e, e.primitive) ? closed : 1.0f / e.area;
+}
+
+#if HAS_EMISSION
+PhotonSource from_surface(PhotonPass pass, Emitter e, vec2 start, vec2 heading, vec2 side) {
+  vec3 middle = middle_of(e);
+  EmitterSample place = sample_emitter(e, middle, start);
+  PhotonSource source;
+  source.below = e.side == 0.0f ? side.x >= 0.5f : e.side < 0.0f;
+  vec3 n = source.below ? -place.normal : place.normal;
+  vec3 s;
+  vec3 t;
+  tangents(n, s, t);
+  vec3 by_cosine = cosine_direction(heading);
+  source.o = place.p + n * e.offset;
+  vec3 by_chance = normalize3(s * by_cosine.x + t * by_cosine.y + n * by_cosine.z);
+  Aimed way = aimed(pass, aim_from(place.p, n, false, side.y, heading), by_chance);
+  source.d = way.at;
+  source.aim = aim_event(way);
+  float sides = e.side == 0.0f ? 2.0f : 1.0f;
+  source.flux = emitter_radiance(e, place, -source.d) * (sides * PI / density_by_area(e, middle, place) * aimed_weight(way, dot3(n, way.at) / PI));
+  return source;
+}
+#endif
+
+#if HAS_ENVIRONMENT
+PhotonSource from_around(Frame frame, PhotonPass pass, vec2 start, vec2 heading, float aim) {
+  EnvironmentSample chosen = sample_environment(frame, heading);
+  LightEmission emission = from_afar(pass, chosen.direction, start, aim);
+  PhotonSource source;
+  source.o = emission.o;
+  source.d = emission.d;
+  source.aim = emission.aim;
+  source.flux = environment_radiance(frame, chosen.direction) * (emission.flux.x / chosen.density);
+  source.below = false;
+  return source;
+}
+#endif
+
+PhotonSource photon_source(Frame frame, PhotonPass pass, uint pixel, uint number) {
+  vec2 choice = sample_pair(frame, pixel, number, PAIR_SOURCE);
+  vec2 start = sample_pair(frame, pixel, number, PAIR_START);
+  vec2 heading = sample_pair(frame, pixel, number, PAIR_HEADING);
+  vec2 side = sample_pair(frame, pixel, number, PAIR_SIDE);
+  PhotonSource source;
+  source.o = vec3(0.0f, 0.0f, 0.0f);
+  source.d = vec3(0.0f, 1.0f, 0.0f);
+  source.flux = vec3(0.0f, 0.0f, 0.0f);
+  source.below = false;
+  source.aim = 0u;
+  float share = 1.0f;
+  uint light = NONE;
+  bool around = false;
+#if HAS_ENVIRONMENT
+  around = uint(choice.y * 16777216.0f) < frame.environment_numbers;
+  if (around) {
+    source = from_around(frame, pass, start, heading, side.y);
+    share = environment_share(frame);
+  }
+#endif
+  if (!around && EMITTER_COUNT > 0u) {
+    light = emitter_with_number(uint(choice.x * 16777216.0f));
+    share = emitter_share(light) * (1.0f - environment_share(frame));
+    if (light < LIGHT_COUNT) {
+      LightEmission emission = light_emission(load_light(light), pass, start, heading, side.y);
+      source.o = emission.o;
+      source.d = emission.d;
+      source.flux = emission.flux;
+      source.aim = emission.aim;
+    }
+#if HAS_EMISSION
+    if (light >= LIGHT_COUNT) source = from_surface(pass, load_emitter(light), start, heading, side);
+#endif
+  }
+  source.light = light;
+  source.media = light == NONE ? 0u : load_emitter_media(light);
+  source.flux = source.flux / share;
+  return source;
+}
+
+SHADER_END
+#endif

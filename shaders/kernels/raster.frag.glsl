@@ -1,0 +1,9 @@
+// Leaves the primitive's id where it is the nearest: what `eyeray verify --raster` draws.
+#version 450
+
+layout(location = 0) flat in uint drawn;
+layout(location = 0) out uint id;
+
+void main() {
+  id = drawn;
+}

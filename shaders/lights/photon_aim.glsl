@@ -1,0 +1,134 @@
+// Half of the photons of a light are aimed: at spheres around what bundles light, glass and mirrors, which few would meet by chance. So
+// Jensen's projection maps do ("Global Illumination Using Photon Maps", 1996), here without cells and without bias: what a photon brings is
+// divided by the density of both ways together, by which it may have come (Veach's balance heuristic, of one sample).
+#ifndef PHOTON_AIM_GLSL
+#define PHOTON_AIM_GLSL
+#include "lights/light_emission.glsl"
+
+SHADER_BEGIN
+
+#if HAS_PHOTONS
+#define AIMED 0.5f  // the share of photons
+
+// From where photons start: a point, with the normal of its surface or 0; or afar, in direction `n`, on a disk square to it.
+struct AimFrom {
+  vec3 p;
+  vec3 n;
+  bool afar;
+  float chance;  // two random numbers: whether and at which target, …
+  vec2 within;   // … and where in its window
+};
+
+// What a target looks like from there. As a cap of the sphere of directions, or as a disk, it has an area of 2π size, and holds what is
+// less than √(2 size) from its middle.
+struct Window {
+  vec3 middle;  // a unit vector; of disks relative to the scene's middle
+  float size;   // its versine; half the square of the radius; 0: nothing is aimed there
+};
+
+struct Aimed {
+  vec3 at;        // a direction, or a place on the disk
+  bool by_aim;    // not by chance
+  float density;  // with which such are aimed there
+  uint windows;   // that there are, …
+  uint around;    // … and that hold it
+};
+
+AimFrom aim_from(vec3 p, vec3 n, bool afar, float chance, vec2 within) {
+  AimFrom from;
+  from.p = p;
+  from.n = n;
+  from.afar = afar;
+  from.chance = chance;
+  from.within = within;
+  return from;
+}
+
+Window window_of(PhotonPass pass, vec4 target, AimFrom from) {
+  vec3 way = vec3(target) - (from.afar ? pass.center : from.p);
+  float along = dot3(way, from.n);
+  float squared = dot3(way, way);
+  float r = target.w;
+  Window window;
+  window.middle = from.afar ? way - from.n * along : way / sqrt(maximum(squared, 1.0e-30f));
+  // Of a sphere around the start, or below the horizon, there is none.
+  float sine_squared = r * r / maximum(squared, 1.0e-30f);
+  bool seen = sine_squared < 1.0f && along > -r;
+  window.size = from.afar ? 0.5f * r * r : seen ? sine_squared / (1.0f + sqrt(maximum(1.0f - sine_squared, 0.0f))) : 0.0f;
+  return window;
+}
+
+vec3 in_window(Window window, AimFrom from) {
+  if (!from.afar) return within_cone(window.middle, window.size, from.within);
+  LocalFrame local = frame_around(from.n);
+  vec2 at = on_disk(from.within) * sqrt(2.0f * window.size);
+  return window.middle + (local.s * at.x + local.t * at.y);
+}
+
+// by_chance: what the light would choose itself.
+Aimed aimed(PhotonPass pass, AimFrom from, vec3 by_chance) {
+  Aimed all;
+  all.at = by_chance;
+  all.by_aim = false;
+  all.density = 0.0f;
+  all.windows = 0u;
+  all.around = 0u;
+  float sum = 0.0f;
+  for (uint i = 0u; i < pass.target_count; i++) {
+    Window window = window_of(pass, load_photon_target(i), from);
+    sum = sum + window.size;
+    if (window.size > 0.0f) all.windows += 1u;
+  }
+  // Each as likely as it is large.
+  uint chosen = NONE;
+  float left = from.chance * (sum / AIMED);
+  if (sum > 0.0f && from.chance < AIMED) {
+    for (uint i = 0u; i < pass.target_count; i++) {
+      Window window = window_of(pass, load_photon_target(i), from);
+      if (window.size > 0.0f && left >= 0.0f) {
+        chosen = i;
+        left = left - window.size;
+      }
+    }
+    all.at = in_window(window_of(pass, load_photon_target(chosen), from), from);
+    all.by_aim = true;
+  }
+  for (uint i = 0u; i < pass.target_count; i++) {
+    Window window = window_of(pass, load_photon_target(i), from);
+    vec3 apart = all.at - window.middle;
+    if (i == chosen || dot3(apart, apart) < 2.0f * window.size) all.around += 1u;
+  }
+  if (sum > 0.0f) all.density = float(all.around) / (2.0f * PI * sum);
+  return all;
+}
+
+// What a photon brings beside one that came by chance. own: the density with which the light would choose the same.
+float aimed_weight(Aimed it, float own) {
+  if (it.windows == 0u) return 1.0f;
+  return own > 0.0f ? own / ((1.0f - AIMED) * own + AIMED * it.density) : 0.0f;
+}
+
+// For the photon's trail.
+uint aim_event(Aimed it) { return 32u * it.windows + it.around; }
+
+// Of light from direction d: a place on a disk as wide as the scene, so far off that all of the scene is before it. The flux is that of light
+// of irradiance 1.
+LightEmission from_afar(PhotonPass pass, vec3 d, vec2 start, float aim) {
+  LocalFrame local = frame_around(d);
+  vec2 at = on_disk(start);
+  vec3 by_chance = local.s * at.x + local.t * at.y;
+  Aimed place = aimed(pass, aim_from(pass.center, d, true, aim, start), by_chance * pass.reach);
+  LightEmission emission;
+  emission.o = pass.center + (place.by_aim ? place.at + d * pass.reach : (by_chance + d) * pass.reach);
+  emission.d = -d;
+  float area = PI * pass.reach * pass.reach;
+  bool before_all = !place.by_aim || dot3(place.at, place.at) < pass.reach * pass.reach;
+  float flux = before_all ? area * aimed_weight(place, 1.0f / area) : 0.0f;
+  emission.flux = vec3(flux, flux, flux);
+  emission.aim = aim_event(place);
+  return emission;
+}
+#endif
+
+SHADER_END
+#endif

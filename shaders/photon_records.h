@@ -1,0 +1,53 @@
+// The part of the ABI that photons travel by (docs/photon-mapping.md); by the rules of records.h, which includes it.
+#ifndef PHOTON_RECORDS_H
+#define PHOTON_RECORDS_H
+
+#include "language.h"
+
+SHADER_BEGIN
+
+// A photon where a surface has stopped it that scatters light widely, 64 bytes.
+struct Photon {
+  vec3 position;
+  uint key;        // of its cell (integrators/photon_cells.glsl)
+  vec3 direction;  // unit, towards where it came from
+  uint number;     // of those of its sample
+  vec3 normal;     // unit, of the surface's shape, on the side that it came to
+  uint depth;      // how often it was scattered before
+  vec3 flux;       // what it brings times the number of all
+  uint unused;
+};
+
+// What became of a photon, 16 bytes.
+struct PhotonResult {
+  uint trail;  // as that of a sample
+  uint flags;
+  uint rays;
+  uint stored;  // how many Photons it left
+};
+
+#define MOST_PHOTON_TARGETS 16
+
+// What is the same for all photons of a sample, 304 bytes.
+struct PhotonPass {
+  vec3 center;           // of a sphere around all that has an end: lights from afar send their photons there
+  float reach;           // its radius
+  float radius_squared;  // of the disk that photons are gathered on
+  float height;          // how far above and below it
+  float cells;           // a unit of length: a cell is as wide as the disk
+  float scale;           // 2 / (π radius²) / the number of photons
+  uint key_mask;         // which bits of a cell's hash are its key
+  uint capacity;         // how many photons there is room for
+  uint target_count;     // of what photons are aimed at
+  uint unused;
+  vec4 targets[MOST_PHOTON_TARGETS];  // center, radius
+};
+
+SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(eyeray::shader::Photon) == 64);
+static_assert(sizeof(eyeray::shader::PhotonResult) == 16);
+static_assert(sizeof(eyeray::shader::PhotonPass) == 304);
+#endif
+#endif

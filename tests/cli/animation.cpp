@@ -1,0 +1,198 @@
+// render --frames and --video.
+#include <sys/stat.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/image/image_file.hpp"
+#include "scene.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+constexpr const char* moving = R"(
+[animation]
+frames_per_second = 25
+[[track]]
+target = "sphere.0.center"
+keyframes = [[0, [-2, 1, 0]], [10, [2, 1, 0]]]
+)";
+
+// The small scene, whose ball goes from left to right in ten frames.
+class MovingFolder : public SceneFolder {
+ public:
+  MovingFolder() { write_text(scene(), std::string(small_scene) + moving); }
+};
+
+}  // namespace
+
+TEST_CASE("--frames renders each frame as -D animation.frame does, to files of their numbers") {
+  const MovingFolder folder;
+  const ProcessResult result = run_eyeray(
+      {"render", folder.scene(), "--frames", "0:8:4", "-o", folder / "f%03d.pfm", "--json", "--quiet"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "f000.pfm", "f004.pfm", "f008.pfm"});
+  const auto said = nlohmann::json::parse(result.out);
+  REQUIRE(said.at("frames").size() == 3);
+  CHECK(said.at("frames")[1].at("frame") == 4);
+  CHECK(said.at("kept") == 0);
+
+  CHECK(run_eyeray({"render", folder.scene(), "-D", "animation.frame=4", "-o", folder / "one.pfm", "--quiet"})
+            .code == 0);
+  CHECK(read_text(folder / "one.pfm") == read_text(folder / "f004.pfm"));
+  CHECK(read_text(folder / "one.pfm") != read_text(folder / "f008.pfm"));
+}
+
+TEST_CASE("frames that are there are kept, but for --overwrite") {
+  const MovingFolder folder;
+  write_text(folder / "f1.png", "mine");
+  const std::vector<std::string> command = {"render", folder.scene(), "--frames",
+                                            "0:1",    "-o",           folder / "f%d.png"};
+  const ProcessResult first = run_eyeray(command);
+  CHECK(first.code == 0);
+  CHECK(first.err.find("1 of 2 frames were there and are kept") != std::string::npos);
+  CHECK(read_text(folder / "f1.png") == "mine");
+  std::vector<std::string> again = command;
+  again.push_back("--overwrite");
+  CHECK(run_eyeray(again).code == 0);
+  CHECK(read_text(folder / "f1.png").substr(1, 3) == "PNG");
+}
+
+TEST_CASE("a share of frames is every N-th of them, whole") {
+  const MovingFolder folder;
+  const auto render = [&](const char* shard) {
+    return run_eyeray({"render", folder.scene(), "--frames", "1:5", "--shard", shard, "-o", folder / "%d.pfm",
+                       "--quiet"})
+        .code;
+  };
+  CHECK(render("2/3") == 0);
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "2.pfm", "5.pfm"});
+  CHECK(render("1/3") == 0);
+  CHECK(render("3/3") == 0);
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "1.pfm", "2.pfm", "3.pfm", "4.pfm", "5.pfm"});
+}
+
+TEST_CASE("--frames films a glTF file that moves, alone") {
+  const TemporaryFolder folder;
+  const auto film = [&](const char* file) {
+    return run_eyeray(
+        {"render", file, "--frames", "0:40:20", "-s", "48x48", "-o", folder / "%d.pfm", "--quiet"});
+  };
+  const ProcessResult still = film("scenes/meshes/mill.gltf");
+  CHECK(still.code == 2);
+  CHECK(still.err.find("shows no animation of a glTF file") != std::string::npos);
+  CHECK(film("scenes/meshes/flower.gltf").code == 0);
+  const auto picture = [&](const char* name) { return read_text(folder / name); };
+  CHECK(picture("0.pfm") != picture("20.pfm"));
+  CHECK(picture("20.pfm") != picture("40.pfm"));
+}
+
+TEST_CASE("what is wrong with frames is said before anything is rendered") {
+  const MovingFolder folder;
+  const auto error = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"render", folder.scene()});
+    const ProcessResult result = run_eyeray(options);
+    CHECK(result.code == 2);
+    CHECK(folder.names() == std::set<std::string>{"scene.toml"});
+    return result.err;
+  };
+  const auto says = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  CHECK(says(error({"--frames", "5"}), "FIRST:LAST"));
+  CHECK(says(error({"--frames", "5:1"}), "FIRST:LAST"));
+  CHECK(says(error({"--frames", "0:9:0"}), "FIRST:LAST"));
+  CHECK(says(error({"--frames", "0:x"}), "FIRST:LAST"));
+  CHECK(says(error({"--frames", "0:9999999"}), "FIRST:LAST"));
+  CHECK(says(error({"--frames", "0:1", "-o", folder / "a.png"}), "%04d"));
+  CHECK(says(error({"--frames", "0:1", "-o", folder / "a%s.png"}), "%04d"));
+  CHECK(says(error({"--frames", "0:1", "-o", folder / "%d%d.png"}), "%04d"));
+  CHECK(says(error({"--frames", "0:1", "-o", folder / "%d.pfm", "--video", folder / "a.mp4"}), ".png"));
+  CHECK(says(error({"--frames", "0:1", "--video", folder / "a.avi"}), ".mp4"));
+  CHECK(says(error({"--video", folder / "a.mp4"}), "--frames"));
+  CHECK(says(error({"--overwrite"}), "--frames"));
+  write_text(folder.scene(), small_scene);
+  CHECK(says(error({"--frames", "0:1"}), "no [[track]]"));
+}
+
+TEST_CASE("--video gives ffmpeg the frames in order, and its file appears when it is whole") {
+  const MovingFolder folder;
+  // In ffmpeg's place: keeps its list, and writes what it is told to, or fails where it is told to.
+  const std::string bin = folder / "bin";
+  mkdir(bin.c_str(), 0755);
+  write_text(bin + "/ffmpeg", R"(#!/bin/sh
+[ "$1" = -version ] && exit 0
+while [ "$1" != -i ]; do shift; done
+cat "$2" > ")" + folder.path().string() +
+                                  R"(/list"
+for last; do :; done
+echo half > "$last"
+[ -z "$BROKEN" ] || { echo "no such codec" >&2; exit 1; }
+echo video > "$last"
+)");
+  chmod((bin + "/ffmpeg").c_str(), 0755);
+  const Environment environment = {{"PATH", bin + ":/usr/bin:/bin"}};
+  const std::vector<std::string> command = {
+      eyeray_binary(),          "render",  folder.scene(), "--frames",      "2:4", "-o",
+      folder / "it's %02d.png", "--quiet", "--video",      folder / "a.mp4"};
+  Environment broken = environment;
+  broken.emplace_back("BROKEN", "1");
+  const ProcessResult failed = run_process(command, broken);
+  CHECK(failed.code == 4);
+  CHECK(failed.err.find("no such codec") != std::string::npos);
+  CHECK_FALSE(folder.names().contains("a.mp4"));
+
+  CHECK(run_process(command, environment).code == 0);
+  CHECK(read_text(folder / "a.mp4") == "video\n");
+  CHECK(folder.names() == std::set<std::string>{"scene.toml", "bin", "list", "a.mp4", "it's 02.png",
+                                                "it's 03.png", "it's 04.png"});
+  const std::string list = read_text(folder / "list");
+  CHECK(list.find("it'\\''s 02.png'\nduration 0.04\nfile '") != std::string::npos);
+
+  const ProcessResult none = run_process(command, {{"PATH", "/nowhere"}});
+  CHECK(none.code == 4);
+  CHECK(none.err.find("Debian: ffmpeg") != std::string::npos);
+}
+
+TEST_CASE("bench --frames measures frames in one process beside one each") {
+  const MovingFolder folder;
+  const ProcessResult result = run_eyeray({"bench", folder.scene(), "--frames", "3", "--json"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  const auto said = nlohmann::json::parse(result.out);
+  CHECK(said.at("frames") == 3);
+  for (const char* way : {"together", "apart"}) CHECK(said.at(way).at("processor") > 0);
+  CHECK(run_eyeray({"bench", folder / "none.toml", "--frames", "3"}).code == 4);
+}
+
+TEST_CASE("an open shutter blurs the picture, in shards as in one piece") {
+  const MovingFolder folder;
+  const auto render = [&](const std::string& output, std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", folder.scene(), "-D", "animation.frame=5", "-D",
+                               "image.pattern=sobol", "--spp", "16", "-o", folder / output, "--quiet"});
+    const ProcessResult result = run_eyeray(more);
+    CAPTURE(result.err);
+    CHECK(result.code == 0);
+  };
+  const std::vector<std::string> open = {"-D", "animation.shutter=2"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), open.begin(), open.end());
+    return more;
+  };
+  render("sharp.pfm", {});
+  render("blurred.pfm", open);
+  CHECK(read_text(folder / "sharp.pfm") != read_text(folder / "blurred.pfm"));
+  render("twin.pfm", with({"--backend", "twin"}));
+  CHECK(read_text(folder / "twin.pfm") == read_text(folder / "blurred.pfm"));
+  render("1.eyeray", with({"--shard", "1/2"}));
+  render("2.eyeray", with({"--shard", "2/2"}));
+  CHECK(
+      run_eyeray({"merge", folder / "1.eyeray", folder / "2.eyeray", "-o", folder / "merged.pfm", "--quiet"})
+          .code == 0);
+  CHECK(read_text(folder / "merged.pfm") == read_text(folder / "blurred.pfm"));
+  CHECK(run_eyeray({"check", folder.scene(), "-D", "animation.shutter=-1"}).code == 2);
+}

@@ -1,0 +1,77 @@
+// `verify --raster`: what it says, and of what cannot be drawn.
+#include <nlohmann/json.hpp>
+
+#include "tests/support/process.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+ProcessResult verify(std::vector<std::string> arguments, const Environment& environment = {}) {
+  const TemporaryFolder folder;
+  arguments.insert(arguments.begin(), "verify");
+  arguments.insert(arguments.end(), {"--raster", "--backends", "gpu", "--quiet", "--keep", folder / "kept"});
+  return run_eyeray(arguments, environment);
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("the report says how many pixels are equal, and what was not drawn") {
+  const ProcessResult result = verify({"scenes/shapes/csg.toml", "-s", "96x72", "--validate", "sync"});
+  CAPTURE(result.out);
+  CAPTURE(result.err);
+  CHECK(result.code == 0);
+  CHECK(has(result.out, " triangles; not drawn: 7 csg\n"));
+  CHECK(has(result.out, "  gate R passed gpu = the rasteriser: "));
+  CHECK(has(result.out, "  gate R passed reference = the rasteriser: "));
+  CHECK(has(result.out, " behind what is not drawn\n"));
+}
+
+TEST_CASE("a pixel that gate R fails is looked at with --raster, and JUnit's XML has the gate") {
+  const TemporaryFolder folder;
+  const ProcessResult result = run_eyeray(
+      {"verify", "scenes/whitted.toml", "-s", "96x72", "--raster", "--quiet", "--keep", folder / "kept",
+       "--junit", folder / "report.xml", "--report", folder / "page", "--inject-fault", "position"});
+  CHECK(result.code == 1);
+  CHECK(has(result.out, "gate R: gpu against the rasteriser: "));
+  CHECK(has(result.out, " pixels aside of its pixel, and at t "));
+  CHECK(has(result.out, "look closer: eyeray verify scenes/whitted.toml -s 96x72 --raster --crop "));
+  CHECK(has(read_text(folder / "report.xml"), "gate R FAILED gpu = the rasteriser"));
+  CHECK(has(read_text(folder / "page/index.html"), "gate R FAILED gpu = the rasteriser"));
+}
+
+TEST_CASE("a camera that no projection matrix describes is one sentence and exit code 2") {
+  for (const char* camera : {"fisheye", "panorama", "cylindrical", "thin_lens", "formula"}) {
+    CAPTURE(camera);
+    const ProcessResult result = verify({fmt::format("scenes/cameras/{}.toml", camera), "-s", "8x6"});
+    CHECK(result.code == 2);
+    CHECK(has(result.err, "eyeray: error: --raster draws what a projection matrix describes"));
+    CHECK(result.out == "");
+  }
+}
+
+TEST_CASE("a device that does not draw, or has no memory for it, is one sentence and exit code 3") {
+  const std::vector<std::string> scene = {"scenes/whitted.toml", "-s", "8x6"};
+  const ProcessResult no_queue =
+      verify(scene, {{"EYERAY_VULKAN_LOADER", FAILING_VULKAN}, {"EYERAY_NO_GRAPHICS", "1"}});
+  CHECK(no_queue.code == 3);
+  CHECK(has(no_queue.err, " has no graphics queue, so it cannot draw triangles: leave out --raster"));
+
+  const ProcessResult no_memory = verify(
+      scene, {{"EYERAY_VULKAN_LOADER", FAILING_VULKAN}, {"EYERAY_FAILING_CALL", "vkAllocateMemory 1 -2"}});
+  CHECK(no_memory.code == 3);
+  CHECK(has(no_memory.err, " bytes left for the picture's ids in a heap of "));
+  CHECK(has(no_memory.err, "VK_ERROR_OUT_OF_DEVICE_MEMORY"));
+
+  // Wider than any device draws; the crop is what is drawn.
+  const ProcessResult too_wide = verify({"scenes/whitted.toml", "-s", "60000x1"});
+  CHECK(too_wide.code == 3);
+  CHECK(has(too_wide.err, " pixels a side at most, and this one has 60000×1: leave out --raster"));
+}

@@ -1,0 +1,249 @@
+// The library as a program sees it: only its header is included, only its symbols are linked.
+#include <doctest/doctest.h>
+#include <signal.h>
+#include <unistd.h>
+#include <eyeray/eyeray.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace eyeray::v0;
+
+namespace {
+
+constexpr const char* small = "tests/library/small.toml";
+
+Renderer& renderer() {
+  static Renderer one;
+  return one;
+}
+
+std::string bytes_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+bool same_bits(const Plane& a, const Plane& b) {
+  return a.values.size() == b.values.size() && !a.values.empty() &&
+         std::memcmp(a.values.data(), b.values.data(), a.values.size_bytes()) == 0;
+}
+
+std::vector<std::string> environment() {
+  std::vector<std::string> all;
+  for (char** each = environ; *each; ++each) all.emplace_back(*each);
+  return all;
+}
+
+Scene with(std::vector<std::string> defines) {
+  return Scene::read(small, {.defines = std::move(defines)});
+}
+
+// What `work` throws; kind() of a bad_input without a diagnostic where it throws nothing.
+template <typename Work>
+Error thrown_by(const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error;
+  }
+  return {ErrorKind::bad_input, "nothing was thrown"};
+}
+
+}  // namespace
+
+TEST_CASE("a process that renders keeps its environment and its signals") {
+  const std::vector<std::string> before = environment();
+  const auto handlers = [] {
+    std::vector<void (*)(int)> all;
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+      struct sigaction action {};
+      REQUIRE(sigaction(number, nullptr, &action) == 0);
+      all.push_back(action.sa_handler);
+    }
+    return all;
+  };
+  const auto handlers_before = handlers();
+  // As large as pictures for which the program asks llvmpipe for vectors of 512 bits.
+  const Scene scene = with({"image.width=1024", "image.height=1024"});
+  renderer().render(scene, {.crop = {0, 0, 64, 48}});
+  CHECK(environment() == before);
+  CHECK((handlers() == handlers_before));
+}
+
+TEST_CASE("a picture's planes have the shapes that the header says") {
+  const Picture picture = renderer().render(Scene::read(small), {.aovs = {"depth", "normal", "hits"}});
+  CHECK(picture.complete());
+  CHECK(picture.samples_done() == 1);
+  CHECK(picture.rays() > 64 * 48);
+  CHECK(picture.warning() == "");
+  const Plane color = picture.color(), depth = picture.aov("depth"), normal = picture.aov("normal");
+  CHECK(
+      (color.width == 64 && color.height == 48 && color.channels == 3 && color.values.size() == 64 * 48 * 3));
+  CHECK((depth.channels == 1 && depth.values.size() == 64 * 48));
+  CHECK((normal.channels == 3 && normal.values.size() == 64 * 48 * 3));
+  CHECK(picture.aovs() == std::vector<std::string>{"depth", "normal", "hits"});
+  // The sphere's nearest point is three units away, and its normal looks at the eye; the corner is the
+  // background.
+  const size_t middle = 24 * 64 + 32;
+  CHECK(depth.values[middle] == doctest::Approx(3).epsilon(1e-3));
+  CHECK(normal.values[3 * middle + 2] == doctest::Approx(1).epsilon(1e-3));
+  CHECK(depth.values[0] > 1e30f);
+  CHECK(color.values[2] == 0.75f);
+  CHECK(thrown_by([&] { picture.aov("uv"); }).kind() == ErrorKind::bad_input);
+
+  const Picture part = renderer().render(Scene::read(small), {.crop = {32, 24, 4, 2}});
+  const Plane pixels = part.color();
+  CHECK((pixels.width == 4 && pixels.height == 2));
+  CHECK(std::memcmp(pixels.values.data(), &color.values[3 * middle], 12 * sizeof(float)) == 0);
+}
+
+TEST_CASE("gpu and twin make the same bits, from several threads at once too") {
+  const Scene scene = Scene::read(small);
+  const Picture alone = renderer().render(scene);
+  std::vector<Picture> pictures(3, alone);
+  std::vector<std::thread> threads;
+  for (size_t i = 0; i < pictures.size(); ++i)
+    threads.emplace_back([&, i] {
+      Renderer own;
+      pictures[i] = own.render(scene, {.backend = i == 0 ? Backend::twin : Backend::gpu});
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const Picture& each : pictures) CHECK(same_bits(each.color(), alone.color()));
+  CHECK_FALSE(same_bits(renderer().render(with({"sphere.0.radius=0.9"})).color(), alone.color()));
+}
+
+TEST_CASE("a render that is cancelled returns what it has, and the renderer goes on") {
+  const Scene scene = with({"image.pattern=random", "image.samples=65536"});
+  SUBCASE("by progress, with some samples") {
+    int calls = 0;
+    const auto progress = [&](const Progress& now) {
+      CHECK((now.share > 0 && now.share <= 1));
+      return ++calls < 3;
+    };
+    const Picture picture = renderer().render(scene, {.aovs = {"depth", "samples"}, .progress = progress});
+    CHECK(calls == 3);
+    CHECK_FALSE(picture.complete());
+    CHECK((picture.samples_done() > 0 && picture.samples_done() < 65536));
+    CHECK(picture.color().values.size() == 64 * 48 * 3);
+    CHECK(picture.aovs() == std::vector<std::string>{"samples"});
+    CHECK(picture.aov("samples").values[0] == float(picture.samples_done()));
+  }
+  SUBCASE("by another thread") {
+    RenderOptions options;
+    std::thread other([cancellation = options.cancellation]() mutable {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      cancellation.request();
+    });
+    CHECK_FALSE(renderer().render(scene, options).complete());
+    other.join();
+  }
+  SUBCASE("before it began: nothing") {
+    RenderOptions options;
+    options.cancellation.request();
+    const Picture picture = renderer().render(scene, options);
+    CHECK((picture.samples_done() == 0 && picture.color().values.empty() && picture.color().width == 0));
+    CHECK(thrown_by([&] { picture.write("never.png"); }).kind() == ErrorKind::bad_input);
+    CHECK(thrown_by([&] { renderer().verify(scene, {.cancellation = options.cancellation}); }).kind() ==
+          ErrorKind::cancelled);
+  }
+  CHECK(renderer().render(Scene::read(small)).complete());
+}
+
+TEST_CASE("what progress throws goes to who called") {
+  const auto progress = [](const Progress&) -> bool { throw std::string("enough"); };
+  CHECK_THROWS_AS(renderer().render(Scene::read(small), {.progress = progress}), std::string);
+  CHECK(renderer().render(Scene::read(small)).complete());
+}
+
+TEST_CASE("errors are of a kind, and a scene's have places") {
+  const Error missing = thrown_by([] { Scene::read("no-such.toml"); });
+  CHECK(missing.kind() == ErrorKind::file_io);
+  const Error wrong = thrown_by([] { Scene::parse("[[sphere]]\nradius = -1\nradios = 2\n", "mine"); });
+  CHECK(wrong.kind() == ErrorKind::bad_input);
+  REQUIRE(wrong.diagnostics().size() >= 2);
+  CHECK(std::ranges::all_of(wrong.diagnostics(),
+                            [](const Diagnostic& each) { return each.is_error && each.file == "mine"; }));
+  CHECK(std::ranges::any_of(wrong.diagnostics(),
+                            [](const Diagnostic& each) { return each.line == 2 && each.column == 10; }));
+  CHECK(thrown_by([] { Scene::parse("[[mesh]]\nfile = \"a.ply\"\n"); }).diagnostics().size() == 1);
+  CHECK(thrown_by([] { Renderer({.device = "no such device"}).render(Scene::read(small)); }).kind() ==
+        ErrorKind::no_device);
+  CHECK(thrown_by([] { Renderer({.shaders = "no-such-folder"}); }).kind() == ErrorKind::file_io);
+  CHECK(thrown_by([] {
+          renderer().render(Scene::read(small), {.crop = {60, 0, 10, 10}});
+        }).kind() == ErrorKind::bad_input);
+  CHECK(thrown_by([] { renderer().render(Scene::read(small), {.aovs = {"deepth"}}); }).kind() ==
+        ErrorKind::bad_input);
+}
+
+TEST_CASE("a scene built in code is the same as one from a file") {
+  SceneBuilder builder;
+  builder.set("image", Table().set("width", 64).set("height", 48));
+  builder.set("camera", Table().set("eye", {0, 1, 4}).set("target", {0, 1, 0}).set("fov", 60.0));
+  builder.set("render", Table().set("background", {0.25, 0.5, 0.75}).set("ambient", {0.2, 0.2, 0.2}));
+  builder.add("light",
+              Table().set("type", "point").set("position", {3, 5, 4}).set("intensity", {20, 20, 20}));
+  builder.add("material",
+              Table().set("name", "say \"matte\"\n").set("type", "phong").set("diffuse", {.8, .4, .2}));
+  builder.add("sphere", Table().set("center", {0, 1, 0}).set("radius", 1).set("material", "say \"matte\"\n"));
+  const Picture picture = renderer().render(builder.scene());
+  CHECK(same_bits(picture.color(), renderer().render(Scene::read(small)).color()));
+
+  // A mesh of one triangle beside the sphere changes pixels; one of wrong arrays is refused, and says why.
+  const std::vector<float> positions{-2, 0, 1, -1, 0, 1, -1.5, 2, 1};
+  const std::vector<uint32_t> corners{0, 1, 2};
+  builder.add_mesh({positions, corners}, Table().set("material", "say \"matte\"\n"));
+  CHECK_FALSE(same_bits(renderer().render(builder.scene()).color(), picture.color()));
+  const auto refusal = [&](const MeshArrays& arrays) {
+    return thrown_by([&] {
+      SceneBuilder wrong;
+      wrong.add_mesh(arrays);
+      wrong.scene();
+    });
+  };
+  const std::vector<uint32_t> beyond{0, 1, 3};
+  const std::vector<float> nan{-2, 0, 1, -1, 0, std::numeric_limits<float>::quiet_NaN(), -1.5, 2, 1};
+  CHECK(std::string(refusal({std::span(positions).first(8), corners}).what()).find("three a vertex") !=
+        std::string::npos);
+  CHECK(refusal({positions, std::span(corners).first(2)}).diagnostics().empty());
+  CHECK(refusal({positions, corners, std::span(positions).first(6)}).diagnostics().empty());
+  CHECK(refusal({positions, beyond}).diagnostics().size() == 1);
+  CHECK(refusal({nan, corners}).diagnostics().size() == 1);
+}
+
+TEST_CASE("verify reports what the program would") {
+  const Report report = renderer().verify(Scene::read(small), {.crop = {0, 0, 32, 32}});
+  CHECK(report.passed);
+  CHECK(report.failures.empty());
+  CHECK(report.text.starts_with("PASSED"));
+  CHECK(report.json.find("\"passed\"") != std::string::npos);
+  CHECK(thrown_by([] { renderer().verify(Scene::read(small), {.backends = {Backend::reference}}); }).kind() ==
+        ErrorKind::bad_input);
+}
+
+TEST_CASE("what a picture writes is what the program writes") {
+  const std::string folder = (std::filesystem::temp_directory_path() / "eyeray-library-XXXXXX").string();
+  std::string made = folder;
+  REQUIRE(mkdtemp(made.data()));
+  const char* program = std::getenv("EYERAY_BINARY");
+  REQUIRE(program);
+  for (const char* ending : {"pfm", "png"}) {
+    const std::string ours = made + "/ours." + ending, theirs = made + "/theirs." + ending;
+    const std::string options = " -D image.exposure=1";
+    renderer().render(with({"image.exposure=1"})).write(ours);
+    REQUIRE(std::system((std::string(program) + " render " + small + options + " -q -o " + theirs).c_str()) ==
+            0);
+    CHECK(bytes_of(ours).size() > 100);
+    CHECK(bytes_of(ours) == bytes_of(theirs));
+  }
+  std::filesystem::remove_all(made);
+}

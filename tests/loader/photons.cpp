@@ -1,0 +1,28 @@
+// Scenes of the suite that photons cannot light. All others are verified with photons
+// (tests/scene/entries.cmake).
+#include <fstream>
+
+#include "host/loader/scene_file.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::loader;
+
+TEST_CASE("`sppm` refuses these scenes of the suite, and says where and why") {
+  std::ifstream list("tests/loader/refused_by_sppm.txt");
+  int scenes = 0;
+  for (std::string line; std::getline(list, line); ++scenes) {
+    CAPTURE(line);
+    const size_t middle = line.find(" | ");
+    REQUIRE(middle != std::string::npos);
+    std::string said;
+    try {
+      load_scene(line.substr(0, middle), std::vector<Override>{{"render.integrator=\"sppm\""}});
+    } catch (const InputError& error) {
+      said = error.what();
+    }
+    CHECK(said.substr(0, said.find('\n')) == line.substr(middle + 3));
+  }
+  CHECK(scenes > 0);
+}

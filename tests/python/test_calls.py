@@ -1,0 +1,111 @@
+"""Calls that take long: they let Python go on, tell of their progress, and end when they are asked to."""
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import eyeray
+
+SMALL = "tests/library/small.toml"
+LONG = ["image.pattern=random", "image.samples=65536"]
+
+
+def test_progress_and_cancellation_by_it():
+    seen = []
+
+    def progress(share):
+        seen.append(share)
+        return len(seen) < 3
+
+    picture = eyeray.render(eyeray.Scene.read(SMALL, defines=LONG), progress=progress)
+    assert len(seen) == 3 and seen == sorted(seen) and 0 < seen[0] <= 1
+    assert not picture.complete and 0 < picture.samples_done < 65536 and picture.color.shape == (48, 64, 3)
+    assert eyeray.render(eyeray.Scene.read(SMALL), progress=lambda share: None).complete
+
+
+def test_what_progress_raises_comes_out():
+    with pytest.raises(KeyError, match="mine"):
+        eyeray.render(eyeray.Scene.read(SMALL), progress=lambda share: {}["mine"])
+    with pytest.raises(TypeError):
+        eyeray.render(eyeray.Scene.read(SMALL), progress=3)
+    assert eyeray.render(eyeray.Scene.read(SMALL)).complete
+
+
+def test_cancellation_from_another_thread():
+    cancellation = eyeray.Cancellation()
+    assert not cancellation.requested
+    timer = threading.Timer(0.3, cancellation.request)
+    timer.start()
+    picture = eyeray.render(eyeray.Scene.read(SMALL, defines=LONG), cancellation=cancellation)
+    timer.join()
+    assert cancellation.requested and not picture.complete
+    empty = eyeray.render(eyeray.Scene.read(SMALL), cancellation=cancellation)
+    assert empty.samples_done == 0 and empty.color.size == 0 and empty.aovs == ()
+    with pytest.raises(eyeray.CancelledError):
+        eyeray.verify(eyeray.Scene.read(SMALL), cancellation=cancellation)
+
+
+def test_python_goes_on_meanwhile():
+    turns, done = 0, threading.Event()
+
+    def count():
+        nonlocal turns
+        while not done.is_set():
+            turns += 1
+            time.sleep(0.001)
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    at_first = []
+    eyeray.render(eyeray.Scene.read(SMALL, defines=LONG), progress=lambda share: at_first.append(turns) or len(at_first) < 4)
+    done.set()
+    counter.join()
+    assert at_first[-1] > at_first[0]  # between two calls of progress, not only in them
+
+
+def test_pictures_from_several_threads():
+    scene = eyeray.Scene.read(SMALL)
+    expected = eyeray.render(scene).color
+    results = []
+
+    def work():
+        own = eyeray.Renderer()  # closed here, while others render
+        results.append(np.array_equal(own.render(scene, progress=lambda share: True).color, expected))
+
+    threads = [threading.Thread(target=work) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert results == [True] * 3
+
+
+def test_ctrl_c():
+    code = f"import eyeray; s = eyeray.Scene.read({SMALL!r}, defines={LONG}); print('go', flush=True); eyeray.render(s)"
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "go\n"
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    errors = process.communicate(timeout=600)[1]
+    assert errors.rstrip().endswith("KeyboardInterrupt") and process.returncode == -signal.SIGINT
+
+
+def test_errors_of_devices():
+    with pytest.raises(eyeray.DeviceError):
+        eyeray.Renderer(device="no such device").render(eyeray.Scene.read(SMALL))
+    with pytest.raises(eyeray.FileError):
+        eyeray.Renderer(shaders="no-such-folder")
+    with pytest.raises(eyeray.InputError):
+        eyeray.Renderer(timeout=0)
+    assert eyeray.Renderer(device="no such device").render(eyeray.Scene.read(SMALL), backend="twin").complete
+
+
+def test_the_environment_stays():
+    before = dict(os.environ)
+    eyeray.render(eyeray.Scene.read(SMALL))
+    assert dict(os.environ) == before

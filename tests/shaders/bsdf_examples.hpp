@@ -1,0 +1,123 @@
+// BSDFs that tests of lobes go through, in the reference's form and in the shaders'.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "host/optics/metals.hpp"
+#include "host/pack/albedo_records.hpp"
+#include "host/scene/bsdf.hpp"
+#include "host/twin/shader_functions.hpp"
+#include "host/twin/twin.hpp"
+
+namespace eyeray::test {
+
+struct Named {
+  std::string name;
+  Bsdf bsdf;
+};
+
+inline Bsdf conductor(const optics::Fresnel& fresnel, double roughness) {
+  return {.glossy = fresnel, .roughness = roughness};
+}
+inline Bsdf plastic(double color, double roughness, double coat = 0) {
+  const optics::Fresnel surface = optics::schlick(Vec3(0.04), Vec3(1));
+  return {.diffuse = Vec3(color), .layer = surface, .glossy = surface, .roughness = roughness, .coat = coat};
+}
+inline Bsdf glass(double roughness, double from, double to) {
+  return {.roughness = roughness, .glass = Vec3(1), .ior_from = from, .ior_to = to};
+}
+inline Bsdf cloth(double sheen, double roughness) {
+  return {.diffuse = Vec3(1), .sheen = Vec3(sheen), .sheen_roughness = roughness};
+}
+inline Bsdf pane(double color, double roughness) {
+  const optics::Fresnel surface = optics::schlick(Vec3(0.08), Vec3(1));
+  return {.layer = surface, .glossy = surface, .roughness = roughness, .thin = Vec3(color)};
+}
+// Half glass, half a body under a surface, the whole coated.
+inline Bsdf opal(double roughness) {
+  Bsdf bsdf = plastic(0.3, roughness, 0.5);
+  bsdf.coat_roughness = 0.4;
+  bsdf.covered = 0.5;
+  bsdf.glass = Vec3(0.5);
+  bsdf.glass_color = {1, 0.8, 0.5};
+  bsdf.ior_to = 1.5;
+  return bsdf;
+}
+inline optics::Fresnel perfect() {
+  return optics::schlick(Vec3(1), Vec3(1));
+}
+inline optics::Fresnel gold() {
+  return optics::conductor(optics::metals[2].n, optics::metals[2].k);
+}
+
+inline std::vector<Named> examples(double roughness) {
+  Bsdf matte{.diffuse = {0.9, 0.5, 0.1}, .diffuse_roughness = roughness};
+  Bsdf car = plastic(0.4, roughness, 1);
+  car.coat_roughness = 0.4;
+  Bsdf lacquer = car;
+  lacquer.coat_normal = glm::normalize(Vec3(0.5, -0.3, 1));
+  Bsdf velvet = plastic(0.4, 0.7, 0.3);
+  velvet.sheen = {0.9, 0.5, 0.3};
+  velvet.sheen_roughness = roughness;
+  return {{"matte", matte},
+          {"gold", conductor(gold(), roughness)},
+          {"plastic", plastic(0.6, roughness)},
+          {"coated", car},
+          {"coated aslant", lacquer},
+          {"glass from outside", glass(roughness, 1, 1.5)},
+          {"glass from inside", glass(roughness, 1.5, 1)},
+          {"velvet", velvet},
+          {"pane", pane(0.8, roughness)},
+          {"opal", opal(roughness)}};
+}
+
+// The shaders' record of it, towards o.
+inline shader::Bsdf packed(const Bsdf& bsdf, const glm::vec3& o) {
+  const auto fresnel = [](const optics::Fresnel& from) {
+    return shader::Fresnel{glm::vec3(from.f0), glm::vec3(from.f90), glm::vec3(from.mean), from.conductor};
+  };
+  shader::Bsdf record = shader::black_bsdf();
+  record.diffuse = glm::vec3(bsdf.diffuse);
+  record.diffuse_roughness = float(bsdf.diffuse_roughness);
+  record.glossy = fresnel(bsdf.glossy);
+  record.layer = fresnel(bsdf.layer);
+  record.roughness = float(bsdf.roughness);
+  record.albedo = shader::ggx_albedo(o.z, record.roughness);
+  record.coat = float(bsdf.coat);
+  record.coat_roughness = float(bsdf.coat_roughness);
+  record.coat_normal = glm::vec3(bsdf.coat_normal);
+  record.coat_albedo =
+      shader::ggx_albedo(std::max(glm::dot(o, record.coat_normal), LEAST_COSINE), record.coat_roughness);
+  record.covered = float(bsdf.covered);
+  record.sheen = glm::vec3(bsdf.sheen);
+  record.sheen_roughness = float(bsdf.sheen_roughness);
+  record.sheen_albedo = shader::sheen_table(o.z, record.sheen_roughness);
+  record.thin = glm::vec3(bsdf.thin);
+  record.glass = glm::vec3(bsdf.glass);
+  record.glass_color = glm::vec3(bsdf.glass_color);
+  record.ior_from = float(bsdf.ior_from);
+  record.ior_to = float(bsdf.ior_to);
+  if (bsdf.glass != Vec3(0))
+    record.glass_albedo = shader::glass_table(o.z, record.roughness, record.ior_from, record.ior_to);
+  return record;
+}
+
+inline records::PackedScene scene_with_albedos() {
+  records::PackedScene scene;
+  scene.lobes = {shader::LOBE_glossy, shader::LOBE_sheen, shader::LOBE_rough_glass};
+  scene.media.push_back({});
+  scene.media.back().ior = 1.5f;
+  pack::pack_albedos(scene);
+  scene.linear_ends.resize(shader::SHAPE_KINDS);
+  return scene;
+}
+
+inline Vec3 towards(double cosine, double turn = 0.7) {
+  const double sine = std::sqrt(1 - cosine * cosine);
+  return {sine * std::cos(turn), sine * std::sin(turn), cosine};
+}
+
+}  // namespace eyeray::test

@@ -1,0 +1,202 @@
+// Photon mapping where the answer is known, and where `path` knows it. All pixels of a picture gather the
+// same photons, so its samples, not its pixels, are estimates independent of each other.
+#include "host/scene/photons.hpp"
+#include "host/optics/fresnel.hpp"
+#include "host/reference/photon_map.hpp"
+#include "host/reference/renderer.hpp"
+#include "patch.hpp"
+#include "tests/support/environments.hpp"
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// Of one pixel, by as many samples.
+Estimate by_samples(const Scene& scene, Backend backend) {
+  const auto executor = executors::make_executor(backend, scene, {});
+  const int count = std::max(8, scene.image.samples * amount(1, 4, 4) / 4);
+  std::vector<double> values;
+  double mean = 0, squares = 0;
+  for (int i = 0; i < count; ++i) {
+    PixelSample sample;
+    executor->sample({0, 0, 1, 1}, uint32_t(i), {&sample, 1});
+    values.push_back(sample.color.x);
+    mean += sample.color.x / count;
+  }
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {mean, std::sqrt(squares / (double(count) * (count - 1)))};
+}
+
+Scene by_photons(Scene scene, int photons, double radius, int samples, int max_depth) {
+  scene.render.integrator = IntegratorType::sppm;
+  scene.render.photons = photons;
+  scene.render.photon_radius = radius;
+  scene.render.max_depth = max_depth;
+  scene.image.samples = samples;
+  return scene;
+}
+
+void check_photons(const Scene& scene, double expected, double greatest = 0.01, double least_error = 1e-4) {
+  CAPTURE(expected);
+  for (const Backend backend : {Backend::twin, Backend::reference}) {
+    const Estimate found = by_samples(scene, backend);
+    CAPTURE(int(backend));
+    CAPTURE(found.mean);
+    CAPTURE(found.error);
+    CHECK(found.error < greatest * expected * amount(2, 1, 1));
+    CHECK(std::abs(found.mean - expected) < 5 * found.error + least_error * expected);
+  }
+}
+
+// What lights a wall beside the floor.
+enum class WallLight { sphere, ring, parallelogram, box, triangle, spot, environment, sun };
+
+Scene beside_wall(WallLight light) {
+  Scene scene = floor(1024);
+  scene.render.max_depth = 1;
+  const int white = add(scene, make_phong({.diffuse = gray(0.9)}));
+  add(scene, make_parallelogram({0.8, 0, -1}, {0, 2, 0}, {0, 0, 2}), white);
+  const int shining = lamp(scene, 4);
+  switch (light) {
+    case WallLight::sphere:
+      add(scene, make_sphere({-0.5, 1.2, 0.1}, 0.25), shining);
+      break;
+    case WallLight::ring:
+      add(scene, make_disk({-0.5, 1.2, 0.1}, {1, -1, 0}, 0.3, 0.1), shining);
+      break;
+    case WallLight::parallelogram:
+      add(scene, make_parallelogram({-0.5, 1.2, 0}, {0.3, 0.3, 0}, {0, 0, 0.3}), shining);
+      break;
+    case WallLight::box:
+      add(scene, make_box({-0.6, 1.1, 0}, {-0.3, 1.3, 0.4}), shining);
+      break;
+    case WallLight::triangle:
+      add(scene, make_triangle({.vertices = {{{-0.5, 1, 0}, {-0.2, 1.3, 0}, {-0.4, 1.2, 0.5}}}}), shining);
+      break;
+    case WallLight::spot:
+      add_spot(scene, {{-0.5, 1.2, 0.1}, {1, -0.4, 0}, Vec3(2), 0.3, 0.7});
+      break;
+    case WallLight::environment:
+      scene.environment = environment(8, 4, [](const Vec3& d) { return Vec3(d.x < 0 ? 1.0 : 0.1); });
+      break;
+    case WallLight::sun:
+      add_sun(scene, {-1, 0.6, 0}, Vec3(1), glm::radians(10.0));
+  }
+  return scene;
+}
+
+void check_wall(WallLight light, Backend backend, int photons, double greatest) {
+  CAPTURE(int(light));
+  CAPTURE(int(backend));
+  const Scene scene = beside_wall(light);
+  const Estimate path = estimate(scene, Backend::twin);
+  const Estimate near = by_samples(by_photons(beside_wall(light), photons, 0.08, 64, 1), backend);
+  const Estimate wide = by_samples(by_photons(beside_wall(light), photons, 0.16, 64, 1), backend);
+  // Bias grows with the square of the radius (Richardson): of the smaller one a third of the difference.
+  const double bias = (wide.mean - near.mean) / 3;
+  CAPTURE(path.mean);
+  CAPTURE(near.mean);
+  CAPTURE(wide.mean);
+  CAPTURE(near.error);
+  CHECK(near.error < greatest * path.mean * amount(2, 1, 1));
+  CHECK(std::abs(bias) < 0.005 * path.mean + near.error);
+  CHECK(std::abs(near.mean - bias - path.mean) < 5 * std::hypot(1.4 * near.error, wide.error, path.error));
+}
+
+// What all photons bring to surfaces that have `depth` before them; of less than 0, to all.
+double brought(const reference::PhotonMap& map, int depth) {
+  double sum = 0;
+  for (const reference::Photon& photon : map.photons())
+    if (depth < 0 || photon.depth == depth) sum += photon.flux.x;
+  return sum / map.count();
+}
+
+}  // namespace
+
+TEST_CASE("what one surface sends on is as in paths: no photon counts twice") {
+  Scene scene = by_photons(floor(), 256, 0.1, 64, 0);
+  add_point_light(scene, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
+  check_photons(scene, albedo * 3 / 4, 1e-4);
+  // Nothing stands around that would light the floor a second time.
+  scene.render.max_depth = 4;
+  check_photons(scene, albedo * 3 / 4, 1e-4);
+}
+
+TEST_CASE("a sun through a slab of glass: E = π I cos θ (1 − R)²") {
+  for (const double degrees : {0.0, 40.0}) {
+    CAPTURE(degrees);
+    const double theta = glm::radians(degrees);
+    Scene scene = by_photons(floor(), 1 << 15, 0.4, 32, 3);
+    scene.camera.eye = {0.2, 0.3, 0.1};
+    add(scene, make_box({-2, 0.4, -2}, {2, 0.6, 2}), add(scene, make_dielectric({.ior = 1.5})));
+    add_sun(scene, {std::sin(theta), std::cos(theta), 0}, Vec3(0.5));
+    // What runs to and fro in the slab comes later.
+    scene.render.max_depth = 3;
+    const double r = optics::dielectric_reflectance(std::cos(theta), 1, 1.5);
+    check_photons(scene, albedo * 0.5 * std::cos(theta) * (1 - r) * (1 - r), 0.01, 1e-3);
+  }
+}
+
+TEST_CASE("a point in a white ball: L = (ρ/π)(E + ρ Ē / (1 − ρ))") {
+  Scene ball = by_photons(patch({0, 0, 0}, {0, 0, -1}), 1 << 16, 0.18, 32, 200);
+  add(ball, make_sphere({0, 0, 0}, 1), add(ball, make_phong({.diffuse = gray(0.5)})));
+  add_point_light(ball, {0.3, 0.1, 0}, Vec3(1), Falloff::inverse_square);
+  const Vec3 way = Vec3(0.3, 0.1, 0) - Vec3(0, 0, -1);
+  const double direct = M_PI * glm::normalize(way).z / glm::dot(way, way);
+  check_photons(ball, 0.5 / M_PI * (direct + 0.5 * M_PI / (1 - 0.5)));
+}
+
+TEST_CASE("a wall lights a floor as paths say it does; bias falls with the radius") {
+  check_wall(WallLight::sun, Backend::twin, 1 << 14, 0.02);
+}
+
+TEST_CASE("a wall lights a floor as paths say it does, whatever the lamp" * doctest::test_suite("long")) {
+  for (const WallLight light : {WallLight::sphere, WallLight::ring, WallLight::parallelogram, WallLight::box,
+                                WallLight::triangle, WallLight::spot, WallLight::environment, WallLight::sun})
+    for (const Backend backend : {Backend::twin, Backend::reference})
+      check_wall(light, backend, 1 << 15, 0.1);
+}
+
+TEST_CASE("photons bring what lights send: none is lost on the way, in glass and mirrors too") {
+  const auto closed = [](bool with_glass) {
+    Scene scene = by_photons(patch({0, 0, 0}, {0, 0, -1}), 1 << 14, 0.1, 1, 200);
+    add(scene, make_sphere({0, 0, 0}, 2), add(scene, make_phong({.diffuse = gray(0.5)})));
+    add_point_light(scene, {0.3, 0.1, 0}, Vec3(1), Falloff::inverse_square);
+    if (with_glass) {
+      add(scene, make_sphere({0, 1, 0}, 0.5), add(scene, make_dielectric({.ior = 1.5})));
+      add(scene, make_sphere({0, -1, 0}, 0.4), add(scene, make_mirror({.reflectance = gray(1)})));
+    }
+    return scene;
+  };
+  // Sent: 4π² I. Of that all comes to the wall, half goes on, and so on.
+  const double sent = 4 * M_PI * M_PI;
+  const Scene plain_scene = closed(false), glass_scene = closed(true);
+  const reference::Renderer empty(plain_scene);
+  const auto plain = empty.tracer().photons(0);
+  for (const int depth : {1, 2, 3})
+    CHECK(brought(*plain, depth) == doctest::Approx(sent * std::pow(0.5, depth)).epsilon(1e-9));
+  CHECK(brought(*plain, -1) == doctest::Approx(sent).epsilon(0.003));
+
+  // What meets glass or a mirror on its way has been scattered when it first comes to the wall.
+  const reference::Renderer with_glass(glass_scene);
+  const auto seen = [](double squared, double radius) {
+    return (1 - std::sqrt(1 - radius * radius / squared)) / 2;
+  };
+  const double scattered = seen(0.3 * 0.3 + 0.9 * 0.9, 0.5) + seen(0.3 * 0.3 + 1.1 * 1.1, 0.4);
+  CHECK(brought(*with_glass.tracer().photons(0), -1) ==
+        doctest::Approx(sent * (1 + scattered)).epsilon(0.006));
+}
+
+TEST_CASE("the radius shrinks as the first sample's, times the root of Π (i + 2/3) / (i + 1)") {
+  const Scene scene = by_photons(floor(), 1024, 0.25, 1, 2);
+  const PhotonSettings settings = photon_settings(scene);
+  CHECK(settings.count == 1024);
+  CHECK(photon_radius(settings, 0) == 0.25);
+  CHECK(photon_radius(settings, 1) == doctest::Approx(0.25 * std::sqrt(5.0 / 6)));
+  // As n^(−1/6), but for a factor.
+  const double ratio = photon_radius(settings, 4000) / photon_radius(settings, 500);
+  CHECK(ratio == doctest::Approx(std::pow(8, -1.0 / 6)).epsilon(1e-3));
+}

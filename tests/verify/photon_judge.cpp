@@ -1,0 +1,109 @@
+// Photons that go another way than the reference's: those that rounding explains, and those that nothing
+// does.
+#include "host/verify/photon_judge.hpp"
+
+#include <functional>
+
+#include "host/core/error.hpp"
+#include "host/executors/executors.hpp"
+#include "host/loader/scene_file.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+
+namespace {
+
+Scene scene_of(const std::string& file) {
+  return loader::load_scene(file, std::vector<loader::Override>{{"render.integrator=\"sppm\""},
+                                                                {"render.photons=4096"},
+                                                                {"image.samples=1"},
+                                                                {"image.width=24"},
+                                                                {"image.height=18"}});
+}
+
+// The twin's photons, some of them changed; it is asked for nothing else.
+class ChangedTwin final : public executors::Executor {
+ public:
+  using Change = std::function<void(std::vector<PhotonWay>&)>;
+  ChangedTwin(const Scene& scene, Change change)
+      : twin_(executors::make_executor(executors::Backend::twin, scene, {})), change_(std::move(change)) {}
+
+  std::vector<PhotonWay> photon_ways(uint32_t index) override {
+    std::vector<PhotonWay> ways = twin_->photon_ways(index);
+    change_(ways);
+    return ways;
+  }
+  bool sample(const Rect&, uint32_t, std::span<PixelSample>) override { return false; }
+  bool auxiliary(const Rect&, uint32_t, std::span<AuxiliarySample>) override { return false; }
+  void first_hits(const Rect&, std::span<FirstHit>) override {}
+  executors::Probed probe(int, int, uint32_t) override { return {}; }
+  double query(const QueryBatch&, std::span<QueryHit>) override { return 0; }
+  std::string description() const override { return "changed"; }
+
+ private:
+  std::unique_ptr<Executor> twin_;
+  Change change_;
+};
+
+verify::JudgedPhotons judge(const Scene& scene, ChangedTwin::Change change) {
+  ChangedTwin twin(scene, std::move(change));
+  const auto renderer = std::make_shared<const reference::Renderer>(scene);
+  const auto exact = executors::make_reference_executor(renderer);
+  return verify::judge_photons(scene, twin, *exact, *renderer);
+}
+
+const Scene& box() {
+  static const Scene scene = scene_of("scenes/sppm/box.toml");
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a photon that no rounding explains fails, though many may part") {
+  const verify::JudgedPhotons sound = judge(box(), [](auto&) {});
+  CHECK(sound.tally.sent == 4096);
+  CHECK(sound.tally.unexplained == 0);
+  CHECK(sound.tally.passes());
+
+  // Found where rounding parts none.
+  uint32_t number = 7;
+  while (std::ranges::binary_search(sound.left_out.at(0), number)) ++number;
+  const verify::JudgedPhotons parted = judge(box(), [&](auto& ways) { ways[number].trail ^= 1; });
+  CHECK(parted.tally.parted == sound.tally.parted + 1);
+  CHECK(parted.tally.may_part() > parted.tally.parted);
+  CHECK(parted.tally.unexplained == 1);
+  CHECK(
+      parted.tally.worst.starts_with("photon " + std::to_string(number) + " of sample 0; the reference's "));
+  CHECK_FALSE(parted.tally.passes());
+  CHECK(std::ranges::binary_search(parted.left_out.at(0), number));
+
+  const verify::JudgedPhotons aside = judge(box(), [&](auto& ways) { ways[number].places.x += 0.01; });
+  CHECK(aside.tally.aside == sound.tally.aside + 1);
+  CHECK(aside.tally.unexplained == 1);
+  CHECK(aside.tally.worst.find(", which lies 0.01 aside") != std::string::npos);
+  CHECK_FALSE(aside.tally.passes());
+}
+
+TEST_CASE("where surfaces coincide float32 takes either, and the reference knows of it") {
+  // Light from below comes to the floor and to what stands on it at the same place.
+  const verify::JudgedPhotons judged = judge(scene_of("scenes/cameras/formula.toml"), [](auto&) {});
+  CHECK(judged.tally.parted > 4);
+  CHECK(judged.tally.unexplained == 0);
+  CHECK(judged.tally.worst == "");
+  CHECK(judged.tally.passes());
+}
+
+TEST_CASE("more photons than may part fail, explained or not") {
+  compare::PhotonTally tally;
+  tally.sent = 100'000;
+  tally.depth = 8;
+  tally.parted = tally.may_part();
+  tally.aside = tally.may_lie_aside();
+  CHECK(tally.passes());
+  ++tally.parted;
+  CHECK_FALSE(tally.passes());
+  --tally.parted;
+  ++tally.aside;
+  CHECK_FALSE(tally.passes());
+}
