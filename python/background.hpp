@@ -5,50 +5,33 @@
 #include <eyeray/eyeray.hpp>
 
 #include <chrono>
-#include <condition_variable>
 #include <exception>
 #include <functional>
-#include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
 namespace eyeray_python {
 
 namespace py = pybind11;
 
-// A thread that ends before this does.
-class Worker {
- public:
-  explicit Worker(std::function<void()> work)
-      : work_(std::move(work)), thread_([this] {
-          try {
-            work_();
-          } catch (...) {
-            thrown_ = std::current_exception();
-          }
-          const std::lock_guard lock(mutex_);
-          done_ = true;
-          change_.notify_one();
-        }) {}
-  ~Worker() { thread_.join(); }
-  Worker(const Worker&) = delete;
-  Worker& operator=(const Worker&) = delete;
+class Worker;
 
-  bool done_within(std::chrono::milliseconds time) {
-    std::unique_lock lock(mutex_);
-    return change_.wait_for(lock, time, [this] { return done_; });
-  }
+// Work in another thread, which one such call after the other uses: while other programs are busy, TBB never
+// frees the 16 KiB that it took for a thread which has ended.
+class Background {
+ public:
+  // Neither needs the GIL. `work` must outlive this.
+  explicit Background(const std::function<void()>& work);
+  ~Background();
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
+
+  bool done_within(std::chrono::milliseconds time);
   // Once it is done.
-  std::exception_ptr thrown() const { return thrown_; }
+  std::exception_ptr thrown() const;
 
  private:
-  std::function<void()> work_;
-  std::mutex mutex_;
-  std::condition_variable change_;
-  bool done_ = false;
-  std::exception_ptr thrown_;
-  std::thread thread_;  // the last member: it uses the others
+  Worker* worker_ = nullptr;
 };
 
 // Runs `work` in another thread without the GIL. This one looks for signals, which Python handles in its main
@@ -61,15 +44,16 @@ Answer in_background(eyeray::Cancellation cancellation, const std::function<Answ
   std::exception_ptr thrown;
   {
     const py::gil_scoped_release released;
-    Worker worker([&] { answer.emplace(work()); });
-    while (!worker.done_within(between_looks)) {
+    const std::function<void()> keep_answer = [&] { answer.emplace(work()); };
+    Background background(keep_answer);
+    while (!background.done_within(between_looks)) {
       if (raised) continue;
       const py::gil_scoped_acquire acquired;
       if (PyErr_CheckSignals() == 0) continue;
       raised.emplace();
       cancellation.request();
     }
-    thrown = worker.thrown();
+    thrown = background.thrown();
   }
   if (raised) throw std::move(*raised);
   if (thrown) std::rethrow_exception(thrown);

@@ -85,6 +85,21 @@ def test_pictures_from_several_threads():
     assert results == [True] * 3
 
 
+def test_calls_share_a_thread():
+    seen = set()
+    for _ in range(3):
+        eyeray.render(eyeray.Scene.read(SMALL), progress=lambda share: seen.add(threading.get_native_id()))
+    assert len(seen) == 1 and threading.get_native_id() not in seen
+
+
+def test_a_forked_child_reads_scenes():
+    eyeray.Scene.read(SMALL)
+    child = os.fork()
+    if child == 0:
+        os._exit(eyeray.Scene.read(SMALL).width)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 64
+
+
 def test_ctrl_c():
     code = f"import eyeray; s = eyeray.Scene.read({SMALL!r}, defines={LONG}); print('go', flush=True); eyeray.render(s)"
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
