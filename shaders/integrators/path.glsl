@@ -246,11 +246,12 @@ Continuations scatter_by(Frame frame, Path path, Interaction at, LobeShares shar
 #endif
   bool lost = !(lobes.density > 0.0f) || !on_its_side(at, next.d, s.i);
   vec3 weight = lobes.value / maximum(lobes.density, 1.0e-30f);
-  bool refracted = s.refracted || !before;
+  bool refracted = !before;
   if (s.mirrored || s.refracted) {
     next.density = 0.0f;
     next.d = reflected_direction(at);
     weight = at.bsdf.mirror / shares.mirror;
+    refracted = s.refracted;
     lost = false;
   }
 #if HAS_MEDIA
