@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 namespace eyeray::bench {
 namespace {
 
-constexpr double longest_run_seconds = 600;
+constexpr double longest_run_seconds = 3600;
 
 ProcessResult run_or_throw(const std::vector<std::string>& argv, const Environment& environment = {}) {
   ProcessResult result = run_process(argv, environment, longest_run_seconds);
@@ -75,12 +75,16 @@ Spread memory_spread(const Series& series) {
   return spread(values);
 }
 
+ProcessResult run_this_program(std::vector<std::string> arguments, const Environment& environment) {
+  arguments.insert(arguments.begin(), fs::read_symlink("/proc/self/exe").string());
+  return run_or_throw(arguments, environment);
+}
+
 TimedRun run_eyeray(const std::vector<std::string>& arguments, const fs::path& output,
                     const Environment& environment) {
-  std::vector<std::string> argv{fs::read_symlink("/proc/self/exe").string(), "render"};
-  argv.insert(argv.end(), arguments.begin(), arguments.end());
-  argv.insert(argv.end(), {"-o", output.string(), "--json", "--quiet"});
-  const ProcessResult result = run_or_throw(argv, environment);
+  std::vector<std::string> words{"render", "-o", output.string(), "--json", "--quiet"};
+  words.insert(words.begin() + 1, arguments.begin(), arguments.end());
+  const ProcessResult result = run_this_program(words, environment);
 
   TimedRun run;
   run.seconds.emplace_back("whole process", result.seconds);

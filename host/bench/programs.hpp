@@ -34,7 +34,9 @@ Spread stage_spread(const Series& series, const std::string& stage);
 Spread tracing_spread(const Series& series);
 Spread memory_spread(const Series& series);
 
-// This program: eyeray render ARGUMENTS… -o OUTPUT, in a process of its own. Error when it fails.
+// This program: eyeray ARGUMENTS… Error when it fails.
+ProcessResult run_this_program(std::vector<std::string> arguments, const Environment& environment = {});
+// The same: eyeray render ARGUMENTS… -o OUTPUT.
 TimedRun run_eyeray(const std::vector<std::string>& arguments, const std::filesystem::path& output,
                     const Environment& environment = {});
 

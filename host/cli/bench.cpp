@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/bench/dev_loop.hpp"
-#include "host/bench/frames.hpp"
+#include "host/bench/processes.hpp"
 #include "host/bench/standard_scenes.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 struct BenchCommand {
   bool dev = false;
-  int frames = 0;  // only them; 0: none
+  int frames = 0, shards = 0;  // only them; 0: none
   bool with_paths = false;
   bench::PathOptions paths;
   bench::Options options;
@@ -30,6 +30,7 @@ struct BenchCommand {
 
   ExitCode run() const;
   bench::PathOptions path_options() const;
+  bench::ProcessReport process_report() const;
 };
 
 // What is said of pictures holds for paths; what is not said, they have their own values for.
@@ -44,6 +45,18 @@ bench::PathOptions BenchCommand::path_options() const {
   return result;
 }
 
+bench::ProcessReport BenchCommand::process_report() const {
+  if (options.scenes.size() > 1)
+    throw Error(ExitCode::bad_input, "{} is of one scene", frames > 0 ? "--frames" : "--shards");
+  const bench::PictureOptions& pictures = options.pictures;
+  const auto scene = [&](std::string_view otherwise) {
+    return options.scenes.empty() ? std::string(otherwise) : options.scenes[0];
+  };
+  if (frames > 0) return bench::measure_frames(scene("scenes/animation.toml"), frames, pictures.defines);
+  return bench::measure_shards(scene(bench::default_scene), shards, pictures.width, pictures.height,
+                               pictures.samples, pictures.defines);
+}
+
 ExitCode BenchCommand::run() const {
   const auto say = [&](const auto& report) {
     if (json)
@@ -53,11 +66,7 @@ ExitCode BenchCommand::run() const {
     return ExitCode::ok;
   };
   if (dev) return say(bench::measure_dev_loop(options.pictures.runs));
-  if (frames > 0) {
-    if (options.scenes.size() > 1) throw Error(ExitCode::bad_input, "--frames is of one scene");
-    const std::string scene = options.scenes.empty() ? "scenes/animation.toml" : options.scenes[0];
-    return say(bench::measure_frames(scene, frames, options.pictures.defines));
-  }
+  if (frames > 0 || shards > 0) return say(process_report());
   // Look at everything that may be wrong before measuring for minutes.
   for (const std::string& backend : options.pictures.backends) executors::parse_backend(backend);
   if (!plot.empty()) check_writable(plot);
@@ -171,6 +180,13 @@ void add_bench(CLI::App& app, Run& run) {
                    "and in one each.")
       ->option_text("N")
       ->check(CLI::Range(1, 100000));
+  command
+      ->add_option("--shards", options->shards,
+                   "Only: what SCENE, of --size and --spp, costs as N shards and their merge, one after the "
+                   "other, beside one process.")
+      ->option_text("N")
+      ->check(CLI::Range(1, 10000))
+      ->excludes("--frames");
   command->add_flag("--json", options->json, "Answer as JSON on standard output.");
   command->footer(
       "Rays: from the eye, to the light, and bounced once, on the same rays as Embree's, in turns.\n"

@@ -157,6 +157,8 @@ eyeray_mode(raster drawn -s 96x72 --raster --backends gpu --integrator raycast)
 # Cylinders as triangles that are a hundredth of a pixel wide.
 eyeray_verify(mode.raster.slivers mode QUICK scenes/shapes/cylinder.toml -s 160x79 --raster --backends gpu)
 eyeray_verify(validation.raster validation ${some} -s 96x72 --raster --backends gpu --validate core)
+# Scenes of Whitted's integrator are paths' too.
+eyeray_mode(paths.whitted small -s 48x36 --spp 2 --no-constants --integrator path --max-explained 0.05)
 
 # Pictures that no workgroup fits, and parts of pictures.
 foreach(size 1x1 7x3 1x300 300x1 17x33)

@@ -1,0 +1,42 @@
+// What a picture or an animation costs, by how many processes render it.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace eyeray::bench {
+
+// Seconds, from the start of the first process to the end of the last; one runs after the other.
+struct ProcessCost {
+  double wall = 0;
+  double processor = 0;  // of all threads
+};
+
+struct ProcessReport {
+  struct Way {
+    std::string key;  // in JSON
+    std::string words;
+    ProcessCost cost;
+  };
+  std::string scene;
+  std::string kind;  // what is counted
+  int count = 0;
+  std::vector<Way> ways;
+  ProcessCost ratio;  // of what the many ought to save, or must not cost
+};
+
+// Frames from 0 on in one process, beside each in its own. Caches are the user's, and warm, in both. Error
+// when a run fails.
+ProcessReport measure_frames(const std::filesystem::path& scene, int frames,
+                             const std::vector<std::string>& defines);
+
+// One picture of width × height pixels, of `samples` each, as shards and their merge, beside one process.
+ProcessReport measure_shards(const std::filesystem::path& scene, int shards, int width, int height,
+                             int samples, const std::vector<std::string>& defines);
+
+std::string to_text(const ProcessReport& report);
+nlohmann::ordered_json to_json(const ProcessReport& report);
+
+}  // namespace eyeray::bench
