@@ -1,6 +1,7 @@
 #include "host/render/tiling.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "host/core/error.hpp"
@@ -8,9 +9,10 @@
 namespace eyeray::render {
 namespace {
 
-// Pixels of a tile where shards have more than a few: a dispatch costs a CPU's driver what some thousand
-// samples cost (docs/many-machines.md).
-constexpr int64_t pixels_wanted = 8192;
+// Of a shard's pixels P there are √(P / 2048) tiles, each of √(2048 P) pixels. More tiles make shares more
+// alike, larger ones cost less: a dispatch takes of a CPU what some thousand samples take
+// (docs/many-machines.md).
+constexpr double pixels_by_tiles = 2048;
 constexpr int64_t least_tiles = 2;
 
 int divided_up(int64_t value, int64_t divisor) {
@@ -41,9 +43,9 @@ class SplitMix {
 Tiling::Tiling(int width, int height, int shards)
     : width_(width), height_(height), rows_(divided_up(height, tile_height)) {
   CHECK(width >= 1 && height >= 1 && shards >= 1);
-  const int64_t pixels_a_shard = int64_t{width} * height / shards;
+  const double pixels_a_shard = double(int64_t{width} * height / shards);
   const int64_t tiles_a_shard =
-      std::clamp(pixels_a_shard / pixels_wanted, least_tiles, int64_t{tiles_wanted});
+      std::clamp(int64_t(std::sqrt(pixels_a_shard / pixels_by_tiles)), least_tiles, int64_t{tiles_wanted});
   const int columns_wanted = divided_up(tiles_a_shard * shards, rows_);
   const int blocks = divided_up(width, noise_block);
   tile_width_ = std::max(blocks / columns_wanted * noise_block, std::min(least_width, blocks * noise_block));

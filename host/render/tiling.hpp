@@ -22,8 +22,8 @@ constexpr int most_shards = 1 << 20;
 
 // The tiles of a picture, from its top left on, row by row. They are a block of noise high and whole blocks
 // wide, but at the right and at the bottom of the picture: what is measured of a block is so one shard's.
-// A tile is a dispatch: it has some 8192 pixels; more where a shard would have more than `tiles_wanted`,
-// fewer where it would have but one; and it is no narrower than `least_width`.
+// A tile is a dispatch. The more pixels a shard has, the more tiles it has, and the larger these are; but no
+// more than `tiles_wanted`, and no narrower than `least_width`.
 //
 // Shards get one tile each of the first `shards` tiles, one each of the next, and so on, each time in an
 // order drawn anew: so everyone has, to within one, as many, and they lie all over the picture, whatever is
