@@ -319,9 +319,7 @@ std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOp
   records::PackedScene packed = times.measure("pack", [&] { return pack::pack(scene, options.pack); });
   std::shared_ptr<OpenDevice> device = options.open_device;
   if (!device) {
-    // Pixels gather from few photons to thousands: the wider the vectors, the more of their lanes wait.
-    const bool wide = options.wide_vectors && !sends_photons(scene.render.integrator) &&
-                      wants_wide_vectors(options.profile, scene.image, packed);
+    const bool wide = options.wide_vectors && wants_wide_vectors(options.profile, scene.image, packed);
     device = std::make_shared<OpenDevice>(options, wide, times);
   }
   return std::make_unique<GpuExecutor>(scene, std::move(packed), std::move(device), times, options);

@@ -65,6 +65,8 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
 
 bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
                         const records::PackedScene& scene) {
+  // Pixels gather from few photons to thousands: the wider the vectors, the more of their lanes wait.
+  if (sends_photons(IntegratorType(scene.frame.integrator))) return false;
   gpu::DeviceInfo llvmpipe;
   llvmpipe.type = gpu::DeviceType::cpu;
   llvmpipe.limits.subgroup_size = most_lanes_in_wavefront;

@@ -133,14 +133,23 @@ std::optional<Ray> PathSample::meet_medium(const Ray& ray, const Flight& flight,
                                            Vec3& color) {
   rays_.decided(Event::hit, in_medium);
   const Interaction at = scattered_at(ray, flight.t);
-  const Vec3 light = direct_in(at, media);
-  observer_.value("light", light);
-  rays_.decided(Event::light, asked_);
-  color += throughput_ * light;
+  gain(direct_in(at, media), color);
   return scatter_in(rays_.medium(media), at);
 }
 
-PixelSample PathSample::sample(Ray ray, MediaStack media) {
+std::optional<Ray> PathSample::meet_surface(const Interaction& at, const LocalFrame& frame,
+                                            const ViewedBsdf& bsdf, MediaStack& media, Vec3& color) {
+  gain(emitted(at) + direct_on(at, frame, bsdf, media), color);
+  return scatter(at, frame, bsdf, media);
+}
+
+void PathSample::gain(const Vec3& light, Vec3& color) {
+  observer_.value("light", light);
+  rays_.decided(Event::light, asked_);
+  color += throughput_ * light;
+}
+
+PixelSample PathSample::follow(Ray ray, MediaStack media, Meet meet) {
   Vec3 color(0);
   vertex_ = ray.o;
   for (;;) {
@@ -152,27 +161,24 @@ PixelSample PathSample::sample(Ray ray, MediaStack media) {
     std::optional<Ray> next;
     if (flight.scattered) {
       next = meet_medium(ray, flight, media, color);
-      if (!next) rays_.decided(Event::way, 0);
     } else if (hit) {
       const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
       rays_.decided(Event::hit, at.primitive + 1);
       const LocalFrame frame(at.surface.normal);
-      const ViewedBsdf bsdf(at.bsdf, frame.seen(-at.d));
-      const Vec3 light = emitted(at) + direct_on(at, frame, bsdf, media);
-      observer_.value("light", light);
-      rays_.decided(Event::light, asked_);
-      color += throughput_ * light;
       if (at.has_medium && at.scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)
         ++rays_.total_reflections;
-      next = scatter(at, frame, bsdf, media);
-      if (!next) rays_.decided(Event::way, 0);
+      next = (this->*meet)(at, frame, ViewedBsdf(at.bsdf, frame.seen(-at.d)), media, color);
     } else {
       rays_.decided(Event::hit, 0);
       const Vec3 light = missed(ray.d);
       observer_.miss(throughput_, light);
       color += throughput_ * light;
+      break;
     }
-    if (!next) break;
+    if (!next) {
+      rays_.decided(Event::way, 0);
+      break;
+    }
     ray = *next;
   }
   return rays_.sample(color);

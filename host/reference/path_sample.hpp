@@ -57,9 +57,11 @@ class PathSample {
         rays_(tracer, ray_offset, observer),
         observer_(observer) {}
 
-  PixelSample sample(Ray ray, MediaStack media);
+  PixelSample sample(Ray ray, MediaStack media) { return follow(ray, media, &PathSample::meet_surface); }
   // The same up to where photons are gathered, and what those bring.
-  PixelSample gathering_sample(Ray ray, MediaStack media);
+  PixelSample gathering_sample(Ray ray, MediaStack media) {
+    return follow(ray, media, &PathSample::meet_gathering);
+  }
   // Of the sample's photon that the id's index names, its pixel being photons_of | the sample's number: where
   // it is stopped. Its trail.
   uint32_t photon(const PhotonSources& sources, std::vector<Photon>& stopped);
@@ -80,8 +82,18 @@ class PathSample {
   uint32_t surfaces() const { return uint32_t(depth_ + all_panes_); }
   Flight fly(const MediaStack& media, const std::optional<Hit>& hit) const;
   Interaction scattered_at(const Ray& ray, double t) const;
-  // Lights the point of a medium where the flight ends, and goes on from there.
+  // Lights what the path has met, into `color`, and goes on from there: the next ray, or none.
+  using Meet = std::optional<Ray> (PathSample::*)(const Interaction& at, const LocalFrame& frame,
+                                                  const ViewedBsdf& bsdf, MediaStack& media, Vec3& color);
+  std::optional<Ray> meet_surface(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                                  MediaStack& media, Vec3& color);
+  std::optional<Ray> meet_gathering(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                                    MediaStack& media, Vec3& color);
   std::optional<Ray> meet_medium(const Ray& ray, const Flight& flight, const MediaStack& media, Vec3& color);
+  // From a vertex whose lights have been asked.
+  void gain(const Vec3& light, Vec3& color);
+  // To the path's end, `meet` at every surface.
+  PixelSample follow(Ray ray, MediaStack media, Meet meet);
   std::optional<Ray> scatter_in(const Medium& medium, const Interaction& at);
   Vec3 emitted(const Interaction& at) const;
   Vec3 missed(const Vec3& d) const;

@@ -56,50 +56,17 @@ Vec3 PathSample::direct_on_parts(const Interaction& at, const LocalFrame& frame,
   return direct(at, *light, {value, 0}, before ? media : at.media_beyond);
 }
 
-PixelSample PathSample::gathering_sample(Ray ray, MediaStack media) {
-  Vec3 color(0);
-  vertex_ = ray.o;
-  for (;;) {
-    asked_ = 0;
-    const auto hit = rays_.trace(ray);
-    const Flight flight = fly(media, hit);
-    const Vec3 before = throughput_;
-    throughput_ *= flight.weight;
-    std::optional<Ray> next;
-    if (flight.scattered) {
-      // Nothing stays in a medium: there the path goes on as any.
-      next = meet_medium(ray, flight, media, color);
-    } else if (hit) {
-      const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
-      rays_.decided(Event::hit, at.primitive + 1);
-      const LocalFrame frame(at.surface.normal);
-      const ViewedBsdf bsdf(at.bsdf, frame.seen(-at.d));
-      const ViewedBsdf wide = bsdf.part(true), sharp = bsdf.part(false);
-      Vec3 light = emitted(at);
-      if (!bsdf.black()) light += direct_on_parts(at, frame, wide, sharp, media);
-      if (!wide.black() && depth_ <= scene_.render.max_depth)
-        light += gathered(at, frame, wide, *tracer_.photons(id_.index));
-      observer_.value("light", light);
-      rays_.decided(Event::light, asked_);
-      color += throughput_ * light;
-      if (at.has_medium && at.scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)
-        ++rays_.total_reflections;
-      const bool goes_on = wide.black() || pair(scatter_pair).x < sharp.followed();
-      if (goes_on) next = scatter(at, frame, sharp, media);
-    } else {
-      rays_.decided(Event::hit, 0);
-      const Vec3 light = missed(ray.d);
-      observer_.miss(throughput_, light);
-      color += throughput_ * light;
-      break;
-    }
-    if (!next) {
-      rays_.decided(Event::way, 0);
-      break;
-    }
-    ray = *next;
-  }
-  return rays_.sample(color);
+// In a medium the path goes on as any: nothing stays there.
+std::optional<Ray> PathSample::meet_gathering(const Interaction& at, const LocalFrame& frame,
+                                              const ViewedBsdf& bsdf, MediaStack& media, Vec3& color) {
+  const ViewedBsdf wide = bsdf.part(true), sharp = bsdf.part(false);
+  Vec3 light = emitted(at);
+  if (!bsdf.black()) light += direct_on_parts(at, frame, wide, sharp, media);
+  if (!wide.black() && depth_ <= scene_.render.max_depth)
+    light += gathered(at, frame, wide, *tracer_.photons(id_.index));
+  gain(light, color);
+  const bool goes_on = wide.black() || pair(scatter_pair).x < sharp.followed();
+  return goes_on ? scatter(at, frame, sharp, media) : std::nullopt;
 }
 
 uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& stopped) {

@@ -3,6 +3,7 @@
 
 #include "host/materials/make.hpp"
 #include "host/pack/pack.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/shapes/make.hpp"
 #include "tests/support/empty_scene.hpp"
 #include "tests/support/scenes.hpp"
@@ -47,6 +48,9 @@ TEST_CASE("pictures of a million samples want wide vectors, but for big scenes i
     CHECK(wants_wide_vectors({}, picture(2048, 2048), *scene) == (scene != &most));
   }
   CHECK_FALSE(wants_wide_vectors(rays("packets"), picture(2048, 2048), many));
+  records::PackedScene gathering = few;
+  gathering.frame.integrator = uint32_t(IntegratorType::sppm);
+  CHECK_FALSE(wants_wide_vectors({}, picture(2048, 2048), gathering));
 }
 
 TEST_CASE("packets trace big pictures where vectors are narrow, or where they are asked for") {
