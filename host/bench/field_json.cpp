@@ -5,13 +5,16 @@
 #include "host/core/error.hpp"
 
 namespace eyeray::bench {
+
+// Beside the type, where the library looks for it.
+NLOHMANN_JSON_SERIALIZE_ENUM(ContenderKind, {{ContenderKind::ours, "ours"},
+                                             {ContenderKind::rasterizer, "rasterizer"},
+                                             {ContenderKind::single, "single"},
+                                             {ContenderKind::packet, "packet"}})
+
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-NLOHMANN_JSON_SERIALIZE_ENUM(ContenderKind, {{ContenderKind::ours, "ours"},
-                                             {ContenderKind::single, "single"},
-                                             {ContenderKind::packet, "packet"}})
 
 Json to_json(const BatchReport& batch, const Timing& timing) {
   Json json{{"contender", timing.contender},
@@ -20,7 +23,7 @@ Json to_json(const BatchReport& batch, const Timing& timing) {
              {{"median", timing.seconds.median}, {"min", timing.seconds.min}, {"max", timing.seconds.max}}},
             {"rays_per_second", rate(batch, timing)},
             {"differing", timing.differing}};
-  if (timing.kind != ContenderKind::ours) return json;
+  if (!beside_embree(timing.kind)) return json;
   for (const auto& [key, kind] :
        {std::pair{"times_single", ContenderKind::single}, {"times_packet", ContenderKind::packet}}) {
     if (const double ratio = times_as_fast(batch, timing, kind); ratio > 0) json[key] = ratio;

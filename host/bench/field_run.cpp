@@ -16,7 +16,8 @@ Contender contender(const contenders::Embree& embree, contenders::EmbreeCalls ca
 }  // namespace
 
 SceneReport run_field(const std::string& name, const std::string& family, const Scene& scene,
-                      const FieldOptions& options, std::span<const Contender> ours) {
+                      const FieldOptions& options, std::span<const Contender> ours,
+                      const Contender* rasterizer) {
   SceneReport report{name, family, scene.primitive_count(), {}, {}};
   const contenders::Embree embree(scene);
   report.builds.push_back({"Embree", embree.build_seconds(), embree.bytes()});
@@ -28,6 +29,9 @@ SceneReport run_field(const std::string& name, const std::string& family, const 
         contenders::EmbreeCalls::streams})
     contenders.push_back(contender(embree, calls));
 
+  std::vector<Contender> on_eye_rays = contenders;
+  if (rasterizer) on_eye_rays.push_back(*rasterizer);
+
   // What the eye rays hit is where the other two batches start.
   Batch primary = primary_batch(scene, options.width, options.height);
   std::vector<QueryHit> hits(primary.rays.size());
@@ -36,7 +40,9 @@ SceneReport run_field(const std::string& name, const std::string& family, const 
   for (const Batch& batch :
        {std::move(primary), shadow_batch(scene, from), bounce_batch(from, options.seed)}) {
     if (!batch.rays.empty())
-      report.batches.push_back({batch.name, batch.rays.size(), race(batch, contenders, options.runs)});
+      report.batches.push_back(
+          {batch.name, batch.rays.size(),
+           race(batch, batch.name == "primary" ? on_eye_rays : contenders, options.runs)});
   }
   return report;
 }

@@ -18,12 +18,12 @@ std::string ratio(double value) {
 }
 
 std::string row(const BatchReport& batch, const Timing& timing) {
-  const bool ours = timing.kind == ContenderKind::ours;
+  const bool compared = beside_embree(timing.kind);
   return fmt::format("  {:<9} {:<24} {:>8}  {:>6} … {:<6} {:>8} {:>9} {:>9}\n", batch.name, timing.contender,
                      millions(rate(batch, timing)), millions(double(batch.rays) / timing.seconds.max),
                      millions(double(batch.rays) / timing.seconds.min),
-                     ours ? ratio(times_as_fast(batch, timing, ContenderKind::single)) : "",
-                     ours ? ratio(times_as_fast(batch, timing, ContenderKind::packet)) : "",
+                     compared ? ratio(times_as_fast(batch, timing, ContenderKind::single)) : "",
+                     compared ? ratio(times_as_fast(batch, timing, ContenderKind::packet)) : "",
                      timing.differing);
 }
 

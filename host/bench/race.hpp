@@ -13,9 +13,14 @@ namespace eyeray::bench {
 
 enum class ContenderKind {
   ours,
-  single,
-  packet
-};  // ours, or Embree by single rays, or by packets and streams
+  rasterizer,
+  single,  // Embree by single rays
+  packet   // Embree by packets and streams
+};
+// Whose speed is told as a ratio to Embree's.
+constexpr bool beside_embree(ContenderKind kind) {
+  return kind == ContenderKind::ours || kind == ContenderKind::rasterizer;
+}
 
 struct Contender {
   std::string name;

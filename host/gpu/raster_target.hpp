@@ -19,6 +19,9 @@ class RasterTarget {
   RasterTarget(const RasterTarget&) = delete;
   RasterTarget& operator=(const RasterTarget&) = delete;
 
+  // Back to ids and depths of 0.
+  void clear();
+
   VkExtent2D extent() const { return {width_, height_}; }
   VkRenderPass pass() const { return pass_; }
   VkFramebuffer framebuffer() const { return framebuffer_; }
@@ -38,7 +41,6 @@ class RasterTarget {
   void create();
   void create_attachment(size_t index);
   void create_pass();
-  void clear();
   void destroy();
 
   std::shared_ptr<Context> context_;

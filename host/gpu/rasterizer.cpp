@@ -167,6 +167,10 @@ void Rasterizer::draw(std::span<const RasterVertex> vertices) {
   }
 }
 
+void Rasterizer::clear() {
+  objects_->target.clear();
+}
+
 RasterPicture Rasterizer::read() {
   context_->begin();
   objects_->target.record_copies();

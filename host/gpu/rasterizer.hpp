@@ -43,6 +43,8 @@ class Rasterizer {
 
   // Draws triangles, three vertices each, beside and behind what was drawn before. Both sides are seen.
   void draw(std::span<const RasterVertex> vertices);
+  // Forgets what was drawn.
+  void clear();
   RasterPicture read();
 
  private:

@@ -2,13 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
-#include <string_view>
 
-#include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
-#include "host/gpu/shader_compiler.hpp"
 #include "host/scene/affine.hpp"
 
 namespace eyeray::raster {
@@ -18,59 +13,15 @@ namespace {
 constexpr double ray_error = 0.004;
 constexpr double epsilon = 0x1p-24;
 
-gpu::RasterShaders raster_shaders() {
-  const auto provide = [](std::string_view path) -> std::optional<std::string> {
-    const auto files = embedded_shaders();
-    const auto found = std::ranges::find(files, path, &EmbeddedFile::name);
-    return found == files.end() ? std::nullopt : std::optional<std::string>(found->text);
-  };
-  const auto compiled = [&](std::string_view entry) {
-    return gpu::compile_shader(gpu::read_shader(provide, entry), "").spirv;
-  };
-  return {compiled("kernels/raster.vert.glsl"), compiled("kernels/raster.frag.glsl")};
-}
-
 }  // namespace
 
-Witness::Witness(const Scene& scene, const Rect& area, gpu::DeviceOptions device)
-    : scene_(scene), view_(scene.camera, scene.image.size(), area), list_(scene, view_) {
-  draw(std::move(device));
-}
-
-void Witness::draw(gpu::DeviceOptions options) {
+Witness::Witness(const Scene& scene, const Rect& area, gpu::DeviceOptions options)
+    : scene_(scene), projection_(scene, area) {
   options.draws = true;
   gpu::Device device(options);
   device_ = device.info().name;
-  const Rect& area = view_.area();
   gpu::Rasterizer rasterizer(device, raster_shaders(), area.width, area.height);
-
-  // Depths from 0 to 1, of which floats tell most near 0: as far away as anything is.
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  list_.for_each([&](const ScreenTriangle& triangle) {
-    for (const Vec3& corner : triangle.at) {
-      least = std::min(least, corner.z);
-      most = std::max(most, corner.z);
-    }
-    ++triangles_;
-  });
-  if (triangles_ > 0) {
-    high_ = most;
-    low_ =
-        view_.perspective() ? 0 : least - std::max(0x1p-10 * (most - least), 1e-3 * std::fabs(most) + 1e-12);
-  }
-
-  std::vector<gpu::RasterVertex> vertices;
-  const auto flush = [&] {
-    rasterizer.draw(vertices);
-    vertices.clear();
-  };
-  list_.for_each([&](const ScreenTriangle& triangle) {
-    for (const Vec3& corner : triangle.at)
-      vertices.push_back({float(2 * corner.x / area.width - 1), float(2 * corner.y / area.height - 1),
-                          float((corner.z - low_) / (high_ - low_)), triangle.id + 1});
-    if (vertices.size() == 3 * gpu::Rasterizer::batch) flush();
-  });
-  flush();
+  projection_.for_each_batch([&](std::span<const gpu::RasterVertex> vertices) { rasterizer.draw(vertices); });
   picture_ = rasterizer.read();
   if (const auto messages = device.validation_messages(); !messages.empty())
     throw Error(ExitCode::no_device, "the validation layer has {} complaints about drawing; the first: {}",
@@ -82,13 +33,13 @@ void Witness::draw(gpu::DeviceOptions options) {
   exactness_.snap = ray_error + std::sqrt(2.0) * std::ldexp(1.0, -int(device.info().limits.subpixel_bits)) +
                     32 * epsilon * longest;
   exactness_.depth_error = 8 * epsilon;
-  exactness_.depth_floor = low_;
+  exactness_.depth_floor = projection_.nearness(0);
 }
 
 Seen Witness::drawn_at(size_t pixel) const {
   const uint32_t id = picture_.ids[pixel];
   if (id == 0) return {};
-  return {true, true, id - 1, low_ + double(picture_.depths[pixel]) * (high_ - low_)};
+  return {true, true, id - 1, projection_.nearness(picture_.depths[pixel])};
 }
 
 Seen Witness::traced_at(const compare::Frame& frame, size_t pixel) const {
@@ -96,48 +47,48 @@ Seen Witness::traced_at(const compare::Frame& frame, size_t pixel) const {
   if (hit.primitive < 0) return {};
   const auto id = uint64_t(hit.primitive);
   // What is no primitive at all is not excused as one that is not drawn.
-  const bool in_list = id >= scene_.primitive_count() || list_.draws(id);
-  const auto width = size_t(view_.area().width);
+  const bool in_list = id >= scene_.primitive_count() || list().draws(id);
+  const auto width = size_t(view().area().width);
   return {true, in_list, uint32_t(hit.primitive),
-          view_.nearness(int(pixel % width), int(pixel / width), hit.t)};
+          view().nearness(int(pixel % width), int(pixel / width), hit.t)};
 }
 
 // A hit lies where its pixel sees it, and as far away as t says; else, in words, where.
 std::string Witness::misplaced(const FirstHit& hit, int x, int y) const {
-  const Vec3 at = view_.to_camera(hit.position);
+  const Vec3 at = view().to_camera(hit.position);
   if (!(hit.t > 0) || !std::isfinite(hit.t) || !std::isfinite(magnitude(at)))
     return "its t or its position is no number";
-  const Vec3 drawn = view_.project(Vec4(at, 1.0));
+  const Vec3 drawn = view().project(Vec4(at, 1.0));
   const Vec2 center(x + 0.5, y + 0.5);
-  const double nearness = view_.nearness(x, y, hit.t);
+  const double nearness = view().nearness(x, y, hit.t);
   const double aside = glm::length(Vec2(drawn) - center), off = std::fabs(drawn.z - nearness);
   const auto within = [&](double error) {
-    const Vec2 room = view_.shift(center.x, center.y, nearness, error);
+    const Vec2 room = view().shift(center.x, center.y, nearness, error);
     return aside <= room.x + ray_error && off <= room.y;
   };
   // Only where something is large, and close, its reach is asked for, which takes time.
   const double error = 2 * exactness_.t * hit.t;
   if (within(error)) return "";
   if (uint64_t(hit.primitive) < scene_.primitive_count()) {
-    const double reach = list_.reach(uint64_t(hit.primitive));
+    const double reach = list().reach(uint64_t(hit.primitive));
     if (within(error + 2 * coordinate_error * reach / std::max(std::fabs(hit.cosine), 0.01))) return "";
   }
   return fmt::format("its position falls {:.2g} pixels aside of its pixel, and at t {:.9g}", aside,
-                     view_.t(x, y, drawn.z));
+                     view().t(x, y, drawn.z));
 }
 
 std::vector<std::vector<ScreenTriangle>> Witness::triangles_about(const std::vector<size_t>& pixels) const {
   std::vector<std::vector<ScreenTriangle>> about(pixels.size());
   if (pixels.empty()) return about;
-  const Rect& area = view_.area();
+  const Rect& area = view().area();
   std::vector<int32_t> number(size_t(area.pixels()), -1);
   for (size_t i = 0; i < pixels.size(); ++i) number[pixels[i]] = int32_t(i);
   const Vec2 size(area.width, area.height);
-  list_.for_each([&](const ScreenTriangle& triangle) {
+  list().for_each([&](const ScreenTriangle& triangle) {
     // The bound takes most pixels in one of the area's corners.
     double most = 0;
     for (const Vec2& corner : {Vec2(0, 0), Vec2(size.x, 0), Vec2(0, size.y), size})
-      most = std::max(most, slack(triangle, corner, view_, exactness_, true).x);
+      most = std::max(most, slack(triangle, corner, view(), exactness_, true).x);
     Vec2 low(triangle.at[0]), high = low;
     for (const Vec3& corner : triangle.at)
       low = glm::min(low, Vec2(corner)), high = glm::max(high, Vec2(corner));
@@ -147,7 +98,7 @@ std::vector<std::vector<ScreenTriangle>> Witness::triangles_about(const std::vec
       for (int x = int(low.x); x < int(high.x); ++x) {
         const int32_t at = number[size_t(y) * size_t(area.width) + size_t(x)];
         const Vec2 center(x + 0.5, y + 0.5);
-        if (at >= 0 && distance(triangle, center) <= slack(triangle, center, view_, exactness_, true).x)
+        if (at >= 0 && distance(triangle, center) <= slack(triangle, center, view(), exactness_, true).x)
           about[size_t(at)].push_back(triangle);
       }
     }
@@ -156,13 +107,13 @@ std::vector<std::vector<ScreenTriangle>> Witness::triangles_about(const std::vec
 }
 
 compare::RasterResult Witness::compare(const compare::Frame& frame, const std::string& name) const {
-  const Rect& area = view_.area();
+  const Rect& area = view().area();
   CHECK(frame.area == area);
   compare::RasterResult result;
   result.value = name;
   result.device = device_;
-  result.triangles = triangles_;
-  result.not_drawn = list_.not_drawn();
+  result.triangles = projection_.triangles();
+  result.not_drawn = list().not_drawn();
   result.pixels = area.pixels();
   const auto at = [&](size_t pixel) { return glm::ivec2(int(pixel) % area.width, int(pixel) / area.width); };
   const auto show = [&](size_t pixel, const std::string& difference) {
@@ -171,7 +122,7 @@ compare::RasterResult Witness::compare(const compare::Frame& frame, const std::s
     result.difference = difference;
     result.traced = frame.first_hits[pixel];
     result.drawn = drawn.anything ? int32_t(drawn.id) : -1;
-    result.drawn_t = view_.t(at(pixel).x, at(pixel).y, drawn.nearness);
+    result.drawn_t = view().t(at(pixel).x, at(pixel).y, drawn.nearness);
   };
   const auto fail = [&](size_t pixel, const std::string& difference) {
     if (result.unexplained++ == 0) show(pixel, difference);
@@ -185,7 +136,7 @@ compare::RasterResult Witness::compare(const compare::Frame& frame, const std::s
     const Seen drawn = drawn_at(pixel), traced = traced_at(frame, pixel);
     const bool equal =
         traced.anything == drawn.anything && traced.in_list && traced.id == drawn.id &&
-        std::fabs(traced.nearness - drawn.nearness) <= view_.nearness_error(traced.nearness, exactness_.t);
+        std::fabs(traced.nearness - drawn.nearness) <= view().nearness_error(traced.nearness, exactness_.t);
     if (!why.empty())
       fail(pixel, why);
     else if (equal)
@@ -199,7 +150,7 @@ compare::RasterResult Witness::compare(const compare::Frame& frame, const std::s
   for (size_t i = 0; i < open.size(); ++i) {
     const size_t pixel = open[i];
     const Judgement judgement =
-        judge(traced_at(frame, pixel), drawn_at(pixel), Vec2(at(pixel)) + 0.5, about[i], view_, exactness_);
+        judge(traced_at(frame, pixel), drawn_at(pixel), Vec2(at(pixel)) + 0.5, about[i], view(), exactness_);
     switch (judgement.verdict) {
       case Judgement::equal:
         ++result.equal;

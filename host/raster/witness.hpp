@@ -3,7 +3,6 @@
 // R).
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,10 +10,9 @@
 #include "host/compare/raster_result.hpp"
 #include "host/gpu/device.hpp"
 #include "host/gpu/rasterizer.hpp"
-#include "host/raster/draw_list.hpp"
 #include "host/raster/judge.hpp"
 #include "host/raster/possible.hpp"
-#include "host/raster/view.hpp"
+#include "host/raster/projection.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::raster {
@@ -24,7 +22,7 @@ class Witness {
   // Draws the pixels `area` of the scene, which must outlive it. Error (bad_input) for a camera that cannot
   // be drawn, (no_device) where the device has no graphics queue or not enough memory, or where the
   // validation layer had something to say.
-  Witness(const Scene& scene, const Rect& area, gpu::DeviceOptions device);
+  Witness(const Scene& scene, const Rect& area, gpu::DeviceOptions options);
   Witness(const Witness&) = delete;
   Witness& operator=(const Witness&) = delete;
 
@@ -32,7 +30,8 @@ class Witness {
   compare::RasterResult compare(const compare::Frame& frame, const std::string& name) const;
 
  private:
-  void draw(gpu::DeviceOptions options);
+  const View& view() const { return projection_.view(); }
+  const DrawList& list() const { return projection_.list(); }
   Seen drawn_at(size_t pixel) const;
   Seen traced_at(const compare::Frame& frame, size_t pixel) const;
   std::string misplaced(const FirstHit& hit, int x, int y) const;
@@ -40,13 +39,10 @@ class Witness {
   std::vector<std::vector<ScreenTriangle>> triangles_about(const std::vector<size_t>& pixels) const;
 
   const Scene& scene_;
-  View view_;
-  DrawList list_;
+  Projection projection_;
   gpu::RasterPicture picture_;  // ids are the primitives' and 1
   std::string device_;
   Exactness exactness_;
-  uint64_t triangles_ = 0;
-  double low_ = 0, high_ = 1;  // the nearness of depths 0 and 1
 };
 
 }  // namespace eyeray::raster
