@@ -106,11 +106,12 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const EmitterSample place = sample_emitter(emitter.form, p, pair(place_pair));
   const Vec3 l = glm::normalize(place.position - p);
   Ray ray = rays_.spawn_ray(at.surface, l);
-  ray.d = glm::normalize(place.position - ray.o);
+  const Vec3 way = rays_.end_before(place.position, place.normal, l) - ray.o;
+  ray.d = glm::normalize(way);
   const double density = share * emitter_density(emitter.form, p, place);
   return Arriving{l,
                   ray,
-                  glm::length(place.position - ray.o) * (1 - 1e-9),
+                  glm::length(way) * (1 - 1e-9),
                   emitter_radiance(scene_, emitter, place, p) / density,
                   density,
                   light};

@@ -47,6 +47,11 @@ Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d) {
   return ray;
 }
 
+Vec3 SampleRays::end_before(const Vec3& place, const Vec3& normal, const Vec3& l) const {
+  const double off = ray_offset_.share * glm::dot(glm::abs(normal), glm::abs(place - scene_.camera.eye));
+  return place + normal * (glm::dot(l, normal) < 0 ? off : -off);
+}
+
 Vec3 SampleRays::rounded(const Vec3& d) const {
   if (ray_offset_.share == 0) return d;
   Vec3 aside;

@@ -52,6 +52,8 @@ class SampleRays {
   Ray start_ray(const Ray& ray);
   // A ray that leaves the surface, as float32 may round it.
   Ray spawn_ray(const SurfacePoint& point, const Vec3& d);
+  // Where a shadow ray in direction l to a place of a lamp may end: as far off it as rays start off surfaces.
+  Vec3 end_before(const Vec3& place, const Vec3& normal, const Vec3& l) const;
   // Whether a light in direction l at that distance stands before the surface. In its plane float32 may say
   // either.
   bool faces(const SurfacePoint& point, const Vec3& l, double distance) const;

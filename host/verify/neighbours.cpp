@@ -53,10 +53,11 @@ compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& rend
     };
     for (const bool along_normal : {false, true}) add_rounded(along_normal, TextureChoice::at_hit);
     if (walks_at_random(scene.render.integrator)) {
-      // Weights ask how far off a ray starts, where a lamp is as near as that: so twice as far. Long paths
-      // bring other light for less than that: so an eighth as well. And directions are rounded as numbers are
+      // Weights ask how far off a ray starts, where a lamp or the surface's own curve is as near as that: so
+      // twice as far, and eight times, as a bilinear patch has it (docs/numerics.md). Long paths bring other
+      // light for less than that: so an eighth as well. And directions are rounded as numbers are
       // that they are drawn by.
-      for (const double times : {2.0, 0.125})
+      for (const double times : {8.0, 2.0, 0.125})
         result.rounded.push_back(of(rendered({times * reference::float32_ray_offset, false, seed})));
       result.rounded.push_back(
           of(rendered({.share = reference::float32_ray_offset, .seed = seed, .numbers = seed | 1})));
@@ -95,7 +96,7 @@ compare::PathReference path_neighbours(const Scene& scene, const reference::Rend
     if (reference::trail_of(events) != trail) events.clear();
     return events;
   };
-  paths.variants = 8;
+  paths.variants = 9;
   if (sends_photons(scene.render.integrator)) paths.shared = photon_radius(photon_settings(scene), 0);
   paths.reference = [&](compare::Pixel pixel, int sample, const Vec2& shift, int variant) {
     const uint32_t seed = seed_of(shift) | 1;
@@ -108,7 +109,8 @@ compare::PathReference path_neighbours(const Scene& scene, const reference::Rend
         {.share = share, .seed = seed, .numbers = seed},
         {.share = share, .along_normal = true, .seed = seed, .coincident = true},
         {.share = 2 * share, .seed = seed},
-        {.pivot = variant == 7 ? renderer.pivot(pixel.x, pixel.y, seed) : 0},
+        {.share = 8 * share, .seed = seed},
+        {.pivot = variant == 8 ? renderer.pivot(pixel.x, pixel.y, seed) : 0},
     };
     std::vector<uint32_t> events;
     renderer.sample(pixel.x, pixel.y, uint32_t(sample), shift, ways[variant], reference::Observer(events));
