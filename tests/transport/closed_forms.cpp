@@ -215,7 +215,7 @@ TEST_CASE("one bright texel of many is found, and no more than it is") {
 }
 
 TEST_CASE("two endless walls that face each other: L₁ = L / (1 − ρ₁ρ₂), L₂ = ρ₂ L₁") {
-  Scene scene = patch({0, 0.5, 0}, {0.1, 0, 0.1}, 4096);
+  Scene scene = patch({0, 0.5, 0}, {0.1, 0, 0.1}, 1024);
   scene.render.max_depth = 64;
   add(scene, make_plane({0, 0, 0}, {0, 1, 0}),
       add(scene, make_phong({.diffuse = gray(0.5), .emission = gray(1)})));
@@ -226,12 +226,12 @@ TEST_CASE("two endless walls that face each other: L₁ = L / (1 − ρ₁ρ₂)
 }
 
 TEST_CASE("inside a sphere: light of its own, and a point's") {
-  Scene own = patch({0.1, 0.2, 0.3}, {0.1, 0, -2}, 1024);
+  Scene own = patch({0.1, 0.2, 0.3}, {0.1, 0, -2}, 256);
   own.render.max_depth = 64;
   add(own, make_sphere({0, 0, 0}, 2), add(own, make_phong({.diffuse = gray(0.6), .emission = gray(1)})));
   check(own, 1 / (1 - 0.6), 1e-4);
 
-  Scene point = patch({0.1, 0.2, 0.3}, {0, 0, -2}, 4096);
+  Scene point = patch({0.1, 0.2, 0.3}, {0, 0, -2}, 1024);
   point.render.max_depth = 64;
   add(point, make_sphere({0, 0, 0}, 2), add(point, make_phong({.diffuse = gray(0.6)})));
   add_point_light(point, {0, 0, 1}, Vec3(5), Falloff::inverse_square);
@@ -247,7 +247,7 @@ TEST_CASE("glass takes nothing: a ball of it in a furnace, and a pane before a l
   check(ball, 1, 1e-5);
 
   // T = (1 − R)² / (1 − R²), straight on.
-  Scene pane = patch({0, 0, 4}, {0, 0, 0}, 4096);
+  Scene pane = patch({0, 0, 4}, {0, 0, 0}, 1024);
   pane.render.max_depth = 64;
   add(pane, make_box({-1, -1, 0}, {1, 1, 0.1}), add(pane, make_dielectric({.ior = 1.5})));
   add(pane, make_disk({0, 0, -1}, {0, 0, 1}, 1), lamp(pane));

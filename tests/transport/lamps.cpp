@@ -102,7 +102,7 @@ TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
 
 TEST_CASE("inside a body that shines: L / (1 − ρ)") {
   const auto inside = [](std::unique_ptr<Shape> body) {
-    Scene scene = patch({0.1, 0.2, 0.15}, {0.1, -0.3, -0.4}, 1024);
+    Scene scene = patch({0.1, 0.2, 0.15}, {0.1, -0.3, -0.4}, 256);
     scene.render.max_depth = 64;
     add(scene, std::move(body), add(scene, make_phong({.diffuse = gray(0.6), .emission = gray(1)})));
     check(scene, 1 / (1 - 0.6), 1e-4);
