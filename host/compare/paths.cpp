@@ -14,7 +14,9 @@ namespace {
 constexpr size_t examined_at_once = 256;  // so that what has failed is soon told
 constexpr int usual_angles = 16;
 constexpr int many_angles = 256;
-constexpr size_t few = 32;  // samples that are looked at again at so many angles
+// Unexplained samples are looked at again at so many angles where they are so few, or such a share of what
+// does not match: where mirrors see each other, any number of them needs that.
+constexpr size_t few = 32, few_of = 64;
 
 using Events = std::vector<uint32_t>;
 
@@ -71,7 +73,7 @@ class PathJudge {
     std::vector<Apart*> left;
     for (Apart& sample : apart_)
       if (sample.outcome == Outcome::unexplained) left.push_back(&sample);
-    if (left.size() <= few) look_at(left, many_angles, true);
+    if (left.size() <= few_unexplained()) look_at(left, many_angles, true);
   }
 
   Tally tally(std::vector<PixelOutcome>& outcomes) {
@@ -102,8 +104,9 @@ class PathJudge {
   bool failed() const {
     Tally so_far;
     for (const Apart& sample : apart_) count(sample, so_far);
-    return so_far.capped_pixels() > tally_.may_be_explained || so_far.unexplained > int64_t(few);
+    return so_far.capped_pixels() > tally_.may_be_explained || so_far.unexplained > int64_t(few_unexplained());
   }
+  size_t few_unexplained() const { return std::max(few, apart_.size() / few_of); }
 
   Pixel pixel_of(size_t sample) const {
     const int i = int(sample / each_);

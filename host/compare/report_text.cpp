@@ -69,8 +69,10 @@ void add_tally(std::string& text, const Report& report, const std::string& value
        tally.passes() ? "passed" : "FAILED", value, reference, type.of, tally.equal, tally.matching,
        explained(tally), tally.unexplained);
   if (tally.unexamined > 0) {
-    line(text, "    {} more differ and were not examined: at most {} may be explained", tally.unexamined,
-         tally.may_be_explained);
+    line(text, "    {} more differ and were not examined: {}", tally.unexamined,
+         tally.capped_pixels() > tally.may_be_explained
+             ? fmt::format("at most {} may be explained", tally.may_be_explained)
+             : "too many of these are unexplained");
   }
   if (!tally.passes()) add_worst(text, report, tally.worst, value, reference, "tolerances");
 }

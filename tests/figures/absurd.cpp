@@ -9,6 +9,7 @@
 #include "host/shapes/registry.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "host/twin/twin.hpp"
+#include "tests/support/amount.hpp"
 #include "tests/support/empty_scene.hpp"
 #include "tests/support/random.hpp"
 
@@ -100,7 +101,7 @@ TEST_CASE("absurd shapes are refused or can be computed with") {
     Random random{7};
     int accepted = 0, refused = 0, wrong = 0;
     std::string first_wrong;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < test::amount(1000, 3000, 3000); ++i) {
       const std::string table = some_table(random, *type);
       if (table.empty() || type->name == "plane") break;
       Scene scene = test::empty_scene();

@@ -10,6 +10,7 @@
 #include "host/shapes/make.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "host/twin/twin.hpp"
+#include "tests/support/amount.hpp"
 #include "tests/support/random.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -60,7 +61,7 @@ TEST_CASE(
           nets.push_back(net);
         }
       const shader::Binding binding(twin::view_of(packer.scene));
-      for (int i = 0; i < 2000; ++i) {
+      for (int i = 0; i < test::amount(500, 2000, 2000); ++i) {
         const shader::Primitive& piece =
             packer.scene.primitives[size_t(random.below(int(packer.scene.primitives.size())))];
         const BezierNet& patch = nets[size_t(piece.extra) / 13];

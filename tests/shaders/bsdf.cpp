@@ -30,7 +30,7 @@ BsdfValue above(const ViewedBsdf& viewed, const Vec3& i) {
 // lobe.
 Vec3 albedo(const Bsdf& bsdf, double cosine) {
   const ViewedBsdf viewed(bsdf, towards(cosine));
-  constexpr int lobes = 16, side = 64;
+  const int lobes = amount(8, 16, 16), side = amount(32, 64, 64);
   Random random(11);
   Vec3 sum(0);
   for (int l = 0; l < lobes; ++l)

@@ -8,6 +8,7 @@
 #include "host/reference/filter.hpp"
 #include "host/reference/sampler.hpp"
 #include "host/twin/shader_functions.hpp"
+#include "tests/support/amount.hpp"
 #include "tests/support/environments.hpp"
 #include "tests/support/random.hpp"
 
@@ -88,7 +89,7 @@ TEST_CASE("two pairs, and the two numbers of one, do not depend on each other") 
 TEST_CASE("places on emitters and their densities are those of the reference") {
   Random random(2);
   double apart = 0, denser = 0;
-  for (int i = 0; i < 40'000; ++i) {
+  for (int i = 0; i < test::amount(6'000, 40'000, 40'000); ++i) {
     const Vec3 a = anywhere(random, 3), b = anywhere(random, 1), c = anywhere(random, 1),
                from = anywhere(random, 4);
     Mat4 map(1.0);
