@@ -28,7 +28,10 @@ class LocalFrame {
   Vec3 seen(const Vec3& to_viewer) const {
     constexpr double least_cosine = 1e-4;
     const Vec3 o = into(to_viewer);
-    return glm::normalize(Vec3(o.x, o.y, std::max(o.z, least_cosine)));
+    if (o.z >= least_cosine) return o;
+    const double across = std::hypot(o.x, o.y);
+    return glm::normalize(across < 1e-6 ? Vec3(1, 0, least_cosine)
+                                        : Vec3(o.x / across, o.y / across, least_cosine));
   }
 
  private:

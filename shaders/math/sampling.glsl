@@ -55,8 +55,13 @@ LocalFrame frame_turned_to(vec3 n) {
 
 #define LEAST_COSINE 1.0e-4f  // towards the viewer: what bent normals turn away is seen edge-on
 
-// A direction towards the viewer, above its frame's horizon.
-vec3 seen_from(vec3 o) { return normalize3(vec3(o.x, o.y, maximum(o.z, LEAST_COSINE))); }
+// A direction towards the viewer, that cosine above its frame's horizon at least.
+vec3 seen_from(vec3 o) {
+  float across = sqrt(o.x * o.x + o.y * o.y);
+  bool straight = across < 1.0e-6f;
+  vec3 edge_on = vec3(straight ? 1.0f : o.x / across, straight ? 0.0f : o.y / across, LEAST_COSINE);
+  return o.z < LEAST_COSINE ? edge_on : normalize3(o);
+}
 
 vec3 into_frame(LocalFrame local, vec3 v) { return vec3(dot3(v, local.s), dot3(v, local.t), dot3(v, local.n)); }
 vec3 out_of_frame(LocalFrame local, vec3 v) { return local.s * v.x + local.t * v.y + local.n * v.z; }

@@ -6,6 +6,7 @@
 
 #include "bsdf_examples.hpp"
 #include "host/reference/bsdf.hpp"
+#include "host/reference/local_frame.hpp"
 #include "host/tables/albedos.hpp"
 #include "host/twin/shader_functions.hpp"
 #include "host/twin/twin.hpp"
@@ -225,6 +226,23 @@ TEST_CASE("a shader's BSDF is the reference's, in value and in density") {
       CHECK(worst < 2e-4 + 1e-5 / (roughness * roughness));
       MESSAGE(name << ", roughness " << roughness << ": up to " << worst << " of themselves apart");
     }
+  }
+}
+
+TEST_CASE("a viewer whom normals turn away from is seen at the cosine that albedos are asked for") {
+  const Vec3 normal(0, 0, 1);
+  const reference::LocalFrame frame(normal);
+  const shader::LocalFrame local = shader::frame_around(glm::vec3(normal));
+  for (const double z : {-1.0, -0.5, -1e-3, 0.0, 5e-5, 2e-4, 0.3, 1.0}) {
+    CAPTURE(z);
+    const Vec3 viewer = towards(z, 1);
+    const Vec3 ours(shader::seen_from(shader::into_frame(local, glm::vec3(viewer))));
+    const Vec3 theirs = frame.seen(viewer);
+    const double cosine = std::max(z, double(LEAST_COSINE));
+    CHECK(ours.z == doctest::Approx(cosine).epsilon(1e-5));
+    CHECK(theirs.z == doctest::Approx(cosine).epsilon(1e-7));
+    CHECK(glm::length(theirs) == doctest::Approx(1).epsilon(1e-12));
+    CHECK(glm::length(ours - theirs) < 1e-6);
   }
 }
 
