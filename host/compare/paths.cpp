@@ -17,6 +17,10 @@ constexpr int many_angles = 256;
 // Unexplained samples are looked at again at so many angles where they are so few, or such a share of what
 // does not match: where mirrors see each other, any number of them needs that.
 constexpr size_t few = 32, few_of = 64;
+// And one in so many samples once more: a thin mirror makes a thousand of a rounding error, and a path may
+// meet several.
+constexpr int most_angles = 4096;
+constexpr size_t one_in = size_t{1} << 20;
 
 using Events = std::vector<uint32_t>;
 
@@ -70,10 +74,13 @@ class PathJudge {
       for (size_t i = part; i < apart_.size(); i += parts) chosen.push_back(&apart_[i]);
       look_at(chosen, usual_angles, false);
     }
-    std::vector<Apart*> left;
-    for (Apart& sample : apart_)
-      if (sample.outcome == Outcome::unexplained) left.push_back(&sample);
-    if (left.size() <= few_unexplained()) look_at(left, many_angles, true);
+    for (const auto& [most, angles] :
+         {std::pair(few_unexplained(), many_angles), {reference_.samples.size() / one_in, most_angles}}) {
+      std::vector<Apart*> left;
+      for (Apart& sample : apart_)
+        if (sample.outcome == Outcome::unexplained) left.push_back(&sample);
+      if (left.size() <= most) look_at(left, angles, true);
+    }
   }
 
   Tally tally(std::vector<PixelOutcome>& outcomes) {
@@ -104,7 +111,8 @@ class PathJudge {
   bool failed() const {
     Tally so_far;
     for (const Apart& sample : apart_) count(sample, so_far);
-    return so_far.capped_pixels() > tally_.may_be_explained || so_far.unexplained > int64_t(few_unexplained());
+    return so_far.capped_pixels() > tally_.may_be_explained ||
+           so_far.unexplained > int64_t(few_unexplained());
   }
   size_t few_unexplained() const { return std::max(few, apart_.size() / few_of); }
 
