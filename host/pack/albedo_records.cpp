@@ -16,7 +16,7 @@ void pack_albedos(records::PackedScene& packed) {
   std::vector<shader::vec4>& albedos = packed.albedos;
   if (has(shader::LOBE_glossy))
     for (const optics::GgxAlbedo& of : tables::ggx_albedos())
-      albedos.emplace_back(of.once, of.edge, of.mean_once, of.mean_edge);
+      albedos.emplace_back(1 - of.once, of.edge, 1 - of.mean_once, of.mean_edge);
   if (has(shader::LOBE_sheen)) {
     albedos.resize(FIRST_SHEEN_ALBEDO);
     for (const optics::SheenAlbedo& of : tables::sheen_albedos())

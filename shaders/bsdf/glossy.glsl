@@ -8,7 +8,7 @@ SHADER_BEGIN
 
 vec3 glossy_albedo(Bsdf bsdf) {
   vec3 share = mirrored_once(bsdf.glossy, bsdf.albedo);
-  return (bsdf.glossy.conductor ? bsdf.glossy.mean * bsdf.albedo.x : share) * bsdf.covered;
+  return (bsdf.glossy.conductor ? bsdf.glossy.mean * (1.0f - bsdf.albedo.x) : share) * bsdf.covered;
 }
 
 LobeValue glossy_value(Bsdf bsdf, Directions at) {

@@ -7,11 +7,11 @@
 
 SHADER_BEGIN
 
-vec3 multiple_albedo(Bsdf bsdf) { return mirrored_often(bsdf.glossy, bsdf.albedo) * ((1.0f - bsdf.albedo.x) * bsdf.covered); }
+vec3 multiple_albedo(Bsdf bsdf) { return mirrored_often(bsdf.glossy, bsdf.albedo) * (bsdf.albedo.x * bsdf.covered); }
 
 LobeValue multiple_value(Bsdf bsdf, Directions at) {
   float cosine = maximum(at.i.z, 0.0f);
-  float rest = (1.0f - bsdf.albedo.x) * (1.0f - at.albedo.x) / maximum(1.0f - bsdf.albedo.z, 1.0e-7f);
+  float rest = bsdf.albedo.x * at.albedo.x / maximum(bsdf.albedo.z, 1.0e-20f);
   LobeValue result;
   result.density = cosine / PI;
   result.value = mirrored_often(bsdf.glossy, bsdf.albedo) * (rest * result.density * bsdf.covered);

@@ -19,17 +19,17 @@ LobeValue thin_value(Bsdf bsdf, Directions at) {
     h = h / sqrt(maximum(dot3(h, h), 1.0e-30f));
     vec2 reflection = ggx_reflection(at.o, mirrored, h, ggx_width(bsdf.roughness));
     float even = -at.i.z / PI;
-    float rest = (1.0f - bsdf.albedo.x) * (1.0f - at.albedo.x) / maximum(1.0f - bsdf.albedo.z, 1.0e-7f);
+    float rest = bsdf.albedo.x * at.albedo.x / maximum(bsdf.albedo.z, 1.0e-20f);
     result.value = bsdf.thin * ((one - mirrored_share(bsdf.layer, dot3(at.o, h))) * reflection.x +
                                 (one - mirrored_often(bsdf.layer, bsdf.albedo)) * (rest * even));
-    result.density = bsdf.albedo.x * reflection.y + (1.0f - bsdf.albedo.x) * even;
+    result.density = (1.0f - bsdf.albedo.x) * reflection.y + bsdf.albedo.x * even;
   }
   return result;
 }
 
 vec3 thin_direction(Bsdf bsdf, vec3 o, vec2 u, float part) {
   vec3 i = cosine_direction(u);
-  if (part < bsdf.albedo.x) i = mirror3(o, ggx_normal(o, ggx_width(bsdf.roughness), u));
+  if (part < 1.0f - bsdf.albedo.x) i = mirror3(o, ggx_normal(o, ggx_width(bsdf.roughness), u));
   return i.z > 0.0f ? vec3(i.x, i.y, -i.z) : vec3(0.0f, 0.0f, 0.0f);
 }
 
