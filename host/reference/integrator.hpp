@@ -25,6 +25,7 @@ struct RayOffset {
   TextureChoice textures = TextureChoice::at_hit;
   bool coincident = false;  // of two surfaces that float32 cannot tell apart, the farther one is hit
   uint32_t numbers = 0;     // unless 0, a seed of how far each random number is off, by some units of 2^-24
+  double off = 1;           // how much of `share` they start off, at least; aside it is all
   double pivot = 0;  // unless 0, the eye's ray is turned: so far along it stays, and before that it is aside
 };
 

@@ -35,7 +35,8 @@ Ray SampleRays::start_ray(const Ray& ray) {
 Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d) {
   if (ray_offset_.textures != TextureChoice::at_hit) return {spawn_origin(point, d), d};
   const Vec3 from_eye = glm::abs(point.position - scene_.camera.eye);
-  const double least = ray_offset_.share * glm::dot(glm::abs(point.normal_geometric), from_eye);
+  const double least =
+      ray_offset_.off * ray_offset_.share * glm::dot(glm::abs(point.normal_geometric), from_eye);
   Ray ray{spawn_origin(point, d, least, ray_offset_.along_normal), d};
   if (ray_offset_.share == 0) return ray;
 

@@ -44,6 +44,7 @@ bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint3
           {.share = share, .seed = seed},
           {.share = share, .seed = seed, .numbers = seed},
           {.share = share, .along_normal = true, .seed = seed},
+          {.share = share, .seed = seed, .off = 1.0 / 64},  // along a ring, whose own offset is small
           {.share = share, .along_normal = true, .seed = seed, .coincident = true},
           {.share = share, .seed = seed, .coincident = true, .numbers = seed},
       };
