@@ -109,12 +109,9 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const Vec3 way = rays_.end_before(place.position, place.normal, l) - ray.o;
   ray.d = glm::normalize(way);
   const double density = share * emitter_density(emitter.form, p, place);
-  return Arriving{l,
-                  ray,
-                  glm::length(way) * (1 - 1e-9),
-                  emitter_radiance(scene_, emitter, place, p) / density,
-                  density,
-                  light};
+  return Arriving{
+      l,       ray,  glm::length(way) * (1 - 1e-9), emitter_radiance(scene_, emitter, place, p) / density,
+      density, light};
 }
 
 // What that brings to the viewer by a vertex that sends on `scattered`; all but panes keeps the ray in
