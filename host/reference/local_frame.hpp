@@ -1,7 +1,7 @@
 // Frames whose z is a given direction: that of a surface's normal, for BSDFs.
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 
 #include "host/reference/emitter_sample.hpp"
 
