@@ -2,6 +2,7 @@
 // reference; and that none makes or loses light.
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "bsdf_examples.hpp"
@@ -31,7 +32,7 @@ BsdfValue above(const ViewedBsdf& viewed, const Vec3& i) {
 // lobe.
 Vec3 albedo(const Bsdf& bsdf, double cosine) {
   const ViewedBsdf viewed(bsdf, towards(cosine));
-  const int lobes = amount(8, 16, 16), side = amount(32, 64, 64);
+  constexpr int lobes = 16, side = 64;
   Random random(11);
   Vec3 sum(0);
   for (int l = 0; l < lobes; ++l)
@@ -257,7 +258,7 @@ TEST_CASE("… at more roughnesses and angles" * doctest::test_suite("long")) {
 TEST_CASE("no BSDF sends on more light than it gets") {
   for (const double roughness : {0.0, 0.1, 0.3, 0.6, 1.0})
     for (const Named& example : examples(roughness))
-      for (const double cosine : cosines) {
+      for (const double cosine : std::span(cosines).first(size_t(amount(2, 5, 5)))) {
         const std::string& name = example.name;
         CAPTURE(name);
         CAPTURE(roughness);
