@@ -19,6 +19,7 @@ struct PathOptions {
   int height = 256;
   int most_samples = 64;  // 4, 16, … up to so many
   int runs = 5;           // each under another seed
+  double clamp = 0;       // unless 0, --clamp of render
   bool cycles = false;    // beside Blender's Cycles
   bool povray = false;    // beside POV-Ray's radiosity
 };

@@ -9,6 +9,7 @@
 #include "host/bench/standard_scenes.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
+#include "host/cli/within.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/executors/executor.hpp"
 #include "host/image/image_file.hpp"
@@ -171,6 +172,9 @@ void add_bench(CLI::App& app, Run& run) {
       "--paths", options->with_paths,
       "Only: how fast path-traced pictures of 256x256 lose their noise, by 4, 16, ... samples, each "
       "run of another seed.");
+  command->add_option("--clamp", options->paths.clamp, "Cut every sample of --paths, as render does.")
+      ->option_text("X")
+      ->check(within(1e-6, 1e15));
   command->add_flag("--cycles", options->paths.cycles,
                     "The same beside Blender's Cycles, and whether both show the same light.");
   command->add_flag("--radiosity", options->paths.povray, "The same beside POV-Ray's radiosity.");

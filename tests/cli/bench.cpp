@@ -170,6 +170,15 @@ TEST_CASE("a mesh from its file to a picture, beside POV-Ray and an older run" *
   CHECK(run({"--compare", folder / "wrong.json"}).code == 2);
 }
 
+TEST_CASE("bench --paths cuts samples as render does") {
+  const ProcessResult result = run_eyeray({"bench", "scenes/path/cornell_box.toml", "--paths", "-n", "2",
+                                           "-s", "8x8", "--spp", "4", "--clamp", "1e-6", "--json"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  const auto series = nlohmann::json::parse(result.out).at("paths").at(0).at("series");
+  for (const auto& each : series) CHECK(each.at("levels").at(0).at("mse") <= 1e-12);
+}
+
 TEST_CASE("bench as text, and a scene that is not there") {
   const SceneFolder folder;
   const ProcessResult text = run_eyeray({"bench", folder.scene(), "-n", "1", "-s", "16x16", "--no-start"});
