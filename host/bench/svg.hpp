@@ -10,8 +10,8 @@
 namespace eyeray::bench {
 
 // Told apart by colour-blind people too (Okabe and Ito).
-inline constexpr std::string_view plot_colors[] = {"#0072B2", "#E69F00", "#009E73",
-                                                   "#D55E00", "#CC79A7", "#56B4E9"};
+inline constexpr std::string_view plot_colors[] = {"#0072B2", "#E69F00", "#009E73", "#D55E00",
+                                                   "#CC79A7", "#56B4E9", "#333333"};
 inline constexpr std::string_view grid_color = "#dddddd", axis_color = "#444444";
 
 class Svg {
