@@ -20,7 +20,7 @@ constexpr size_t few = 32, few_of = 64;
 // And one in so many samples once more: a thin mirror makes a thousand of a rounding error, and a path may
 // meet several.
 constexpr int most_angles = 4096;
-constexpr size_t one_in = size_t{1} << 20;
+constexpr size_t one_in = size_t{1} << 18;
 
 using Events = std::vector<uint32_t>;
 
