@@ -9,7 +9,7 @@ namespace eyeray::bench {
 
 RasterizerContender::RasterizerContender(const Scene& scene, const std::string& device)
     : projection_(scene, {0, 0, scene.image.width, scene.image.height}),
-      device_({.select = device.empty() ? "auto" : device, .draws = true}),
+      device_({.select = device, .draws = true}),
       rasterizer_(device_, raster::raster_shaders(), scene.image.width, scene.image.height),
       build_{"rasteriser", 0, 0} {
   for (const auto& [why, count] : projection_.list().not_drawn())

@@ -13,8 +13,7 @@ namespace eyeray::bench {
 class RasterizerContender {
  public:
   // The scene must outlive it; its picture's size is that of the primary_batch that it is asked about. Error
-  // (bad_input) for a camera that cannot be drawn, (no_device) as gpu::Rasterizer, and where the scene has
-  // shapes that are not drawn.
+  // (bad_input) for a camera or a shape that cannot be drawn, (no_device) as gpu::Rasterizer.
   RasterizerContender(const Scene& scene, const std::string& device);
 
   Contender contender();

@@ -1,6 +1,7 @@
 // A scene's triangles as a rasteriser takes them: on a picture, with depths of 0 to 1.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 
