@@ -97,7 +97,8 @@ PictureReport picture_of(const std::string& name, const Options& options, const 
       }
     }
   }
-  return measure_pictures(name, file, pictures);
+  pictures.drawn = options.with_rasterizer;
+  return measure_pictures(name, file, pictures, listener.remark);
 }
 
 std::vector<std::string> all_scenes() {

@@ -52,6 +52,7 @@ void PictureRequest::add_to(CLI::App& command) {
   add_crop_option(command, crop);
   add_backend_option(command, backend);
   add_executor_options(command, executor);
+  add_primary_option(command, executor.primary);
 }
 
 void PictureRequest::check_outputs() {
@@ -64,6 +65,12 @@ void PictureRequest::check_outputs() {
   for (const aov::AovNeeds needs : {aov::AovNeeds::brightest, aov::AovNeeds::auxiliary})
     if (classic && aov::any_needs(aovs, needs))
       throw Error(ExitCode::bad_input, "--classic has not the AOVs brightest, albedo and shading_normal");
+  if (executor.primary == executors::PrimaryRays::raster && backend != executors::Backend::gpu)
+    throw Error(ExitCode::bad_input, "--primary raster draws on a device: leave out --backend {}",
+                executors::backend_name(backend));
+  if (executor.primary == executors::PrimaryRays::raster && classic)
+    throw Error(ExitCode::bad_input,
+                "--primary raster draws the middles of pixels, and --classic has rays at their corners");
   if (shard) check_shard();
   if (outputs.empty())
     outputs.push_back(fs::path(scene.file()).filename().replace_extension(".png").string());

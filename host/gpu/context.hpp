@@ -33,12 +33,13 @@ struct Context {
   DeviceInfo info;
   VkPhysicalDeviceMemoryProperties memory{};
   bool shares_memory = false;
+  bool draws = false;  // whether its queue does
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   VkCommandPool pool = VK_NULL_HANDLE;
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkFence fence = VK_NULL_HANDLE;
-  VkQueryPool timestamps = VK_NULL_HANDLE;  // two; null where the queue has none
+  VkQueryPool timestamps = VK_NULL_HANDLE;  // two; null where they tell nothing
   uint32_t timestamp_bits = 0;
   double timestamp_seconds = 0;  // of one tick
   bool recording = false;

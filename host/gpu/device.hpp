@@ -61,7 +61,7 @@ struct DeviceOptions {
   double compile_seconds = 60;   // the longest that its driver may compile one kernel
   bool wide_vectors = false;     // see set_vector_width; a process's first device decides
   bool sets_environment = true;  // whether a process's first device may tell its driver so
-  bool draws = false;            // a queue for Rasterizer, too: Error (no_device) where there is none
+  bool draws = false;            // a queue for Rasterizer, too, where there is one
   bool force_staging = false;    // tests: copy through staging buffers even where memory is shared
 };
 

@@ -28,6 +28,8 @@ class RasterTarget {
   // Records into the context's command buffer that ids and depths are copied to memory that the processor
   // sees, once it was submitted and waited for.
   void record_copies() const;
+  // The same of ids, to a buffer from `offset` on, for shaders.
+  void record_copy_of_ids(VkBuffer to, VkDeviceSize offset) const;
   const uint32_t* ids() const { return reinterpret_cast<const uint32_t*>(copies_[0]->mapped()); }
   const float* depths() const { return reinterpret_cast<const float*>(copies_[1]->mapped()); }
 
@@ -41,6 +43,7 @@ class RasterTarget {
   void create();
   void create_attachment(size_t index);
   void create_pass();
+  void record_copy(size_t index, VkBuffer to, VkDeviceSize offset) const;
   void destroy();
 
   std::shared_ptr<Context> context_;

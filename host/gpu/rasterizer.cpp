@@ -5,7 +5,6 @@
 
 #include "host/core/error.hpp"
 #include "host/core/termination.hpp"
-#include "host/gpu/buffer.hpp"
 #include "host/gpu/raster_target.hpp"
 
 namespace eyeray::gpu {
@@ -127,9 +126,18 @@ struct Rasterizer::Objects {
 };
 
 Rasterizer::Rasterizer(Device& device, const RasterShaders& shaders, int width, int height)
-    : context_(device.context()), objects_(std::make_unique<Objects>(device, width, height)) {
+    : context_(device.context()) {
   CHECK(context_->options.draws);
-  const auto layout = make<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+  if (!context_->draws)
+    throw Error(ExitCode::no_device,
+                "{} has no graphics queue, so it cannot draw triangles: leave out --raster or --primary, or "
+                "choose another --device",
+                context_->info.name);
+  objects_ = std::make_unique<Objects>(device, width, height);
+  const VkPushConstantRange offset{VK_SHADER_STAGE_VERTEX_BIT, 0, 2 * sizeof(float)};
+  auto layout = make<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+  layout.pushConstantRangeCount = 1;
+  layout.pPushConstantRanges = &offset;
   check(vkCreatePipelineLayout(context_->device, &layout, nullptr, &objects_->layout),
         "create a pipeline layout");
   objects_->pipeline = create_pipeline(*context_, objects_->target, objects_->layout, shaders);
@@ -137,7 +145,7 @@ Rasterizer::Rasterizer(Device& device, const RasterShaders& shaders, int width, 
 
 Rasterizer::~Rasterizer() = default;
 
-void Rasterizer::draw(std::span<const RasterVertex> vertices) {
+void Rasterizer::draw(std::span<const RasterVertex> vertices, const std::array<float, 2>& offset) {
   CHECK_EQ(vertices.size() % 3, 0u);
   for (size_t first = 0; first < vertices.size(); first += 3 * batch) {
     const auto some = vertices.subspan(first, std::min(3 * batch, vertices.size() - first));
@@ -159,8 +167,9 @@ void Rasterizer::draw(std::span<const RasterVertex> vertices) {
     vkCmdBeginRenderPass(commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, objects_->pipeline);
     const VkBuffer buffer = objects_->vertices.raw().handle();
-    const VkDeviceSize offset = objects_->vertices.payload_offset();
-    vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
+    const VkDeviceSize first_byte = objects_->vertices.payload_offset();
+    vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &first_byte);
+    vkCmdPushConstants(commands, objects_->layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof offset, &offset);
     vkCmdDraw(commands, uint32_t(some.size()), 1, 0, 0);
     vkCmdEndRenderPass(commands);
     context_->submit_and_wait("draw triangles");
@@ -169,6 +178,14 @@ void Rasterizer::draw(std::span<const RasterVertex> vertices) {
 
 void Rasterizer::clear() {
   objects_->target.clear();
+}
+
+void Rasterizer::copy_ids(Buffer& to) {
+  const VkExtent2D extent = objects_->target.extent();
+  CHECK(to.size() >= size_t{extent.width} * extent.height * sizeof(uint32_t));
+  context_->begin();
+  objects_->target.record_copy_of_ids(to.raw().handle(), to.payload_offset());
+  context_->submit_and_wait("copy ids on the device");
 }
 
 RasterPicture Rasterizer::read() {

@@ -1,11 +1,13 @@
 // Triangles on a picture by the device's own rasteriser and z-buffer: the one graphics pipeline here.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "host/gpu/buffer.hpp"
 #include "host/gpu/device.hpp"
 
 namespace eyeray::gpu {
@@ -31,8 +33,8 @@ struct RasterShaders {
 
 class Rasterizer {
  public:
-  // Of a device that was opened to draw (DeviceOptions::draws). Error (no_device) with the numbers when it
-  // draws no picture of that size, or has not that much memory.
+  // Of a device that was opened to draw (DeviceOptions::draws). Error (no_device) when it has no graphics
+  // queue, and with the numbers when it draws no picture of that size, or has not that much memory.
   Rasterizer(Device& device, const RasterShaders& shaders, int width, int height);
   ~Rasterizer();
   Rasterizer(const Rasterizer&) = delete;
@@ -41,11 +43,14 @@ class Rasterizer {
   // How many triangles are best drawn at once.
   static constexpr size_t batch = size_t{1} << 16;
 
-  // Draws triangles, three vertices each, beside and behind what was drawn before. Both sides are seen.
-  void draw(std::span<const RasterVertex> vertices);
+  // Draws triangles, three vertices each, beside and behind what was drawn before. Both sides are seen. All
+  // are moved by so much, in clip space.
+  void draw(std::span<const RasterVertex> vertices, const std::array<float, 2>& offset = {});
   // Forgets what was drawn.
   void clear();
   RasterPicture read();
+  // Leaves the ids in a buffer of 4 bytes a pixel, for kernels.
+  void copy_ids(Buffer& to);
 
  private:
   struct Objects;  // Vulkan's

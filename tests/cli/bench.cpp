@@ -59,6 +59,19 @@ TEST_CASE("the rasteriser races on eye rays alone, where it draws the scene") {
       std::string::npos);
 }
 
+TEST_CASE("with --raster a picture starts from what is drawn, too, where the scene can be drawn") {
+  const std::string sobol = "scenes/path/cornell_box.toml";
+  const ProcessResult result = run_eyeray({"bench", "terrain-51k", sobol, "-n", "1", "-s", "60x44",
+                                           "--raster", "--no-rays", "--no-start", "--no-povray", "--json"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  const auto pictures = nlohmann::json::parse(result.out).at("bench");
+  REQUIRE(pictures.at(0).at("series").size() == 2);
+  CHECK(pictures.at(0).at("series").at(1).at("name") == "gpu drawn");
+  CHECK(pictures.at(1).at("series").size() == 1);
+  CHECK(result.err.find(sobol + ": without what starts from the rasteriser") != std::string::npos);
+}
+
 TEST_CASE("rays are raced beside Embree, plotted, and compared with an older run") {
   const SceneFolder folder;
   const std::vector<std::string> command{"bench", folder.scene(), "terrain-51k", "-n",

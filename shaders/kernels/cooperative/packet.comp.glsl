@@ -10,6 +10,7 @@
 #include "scene.glsl"
 #include "kernels/pixel.glsl"
 #include "kernels/tile.glsl"
+#include "kernels/eye_path.glsl"
 
 #if defined(PACKET_SHADOW) || defined(QUERY_ANY)
 #define ANY true
@@ -48,24 +49,6 @@ uint place_of(uint packet, uint i) {
   return j < dispatch.count ? j : NONE;
 #endif
 }
-
-#if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
-// The sample's path through the pixel at `place` of the tile. Where the camera sees nothing there is a ray all the same, whose hit nobody
-// asks for.
-Path eye_path(uint place) {
-  uint row = quotient(place, dispatch.tile_width);
-  uint x = dispatch.tile_x + place - row * dispatch.tile_width;
-  uint y = dispatch.tile_y + row;
-  Frame frame = load_frame();
-  Ray ray;
-  eye_ray(frame, x, y, dispatch.sample_index, ray);
-  return begin(frame, ray, y * frame.width + x, dispatch.sample_index);
-}
-Ray eye_ray_of(uint place) {
-  Path path = eye_path(place);
-  return make_ray(path.o, path.d);
-}
-#endif
 
 #ifdef PACKET_SHADOW
 // Where the eye ray at `place` hits something; struck: whether it does.

@@ -1,0 +1,22 @@
+// Where the paths of a tile's pixels begin, for entries that trace eye rays before others shade them.
+#ifndef EYE_PATH_GLSL
+#define EYE_PATH_GLSL
+#include "kernels/pixel.glsl"
+
+// The sample's path through the pixel at `place` of the tile. Where the camera sees nothing there is a ray all the same, whose hit nobody
+// asks for.
+Path eye_path(uint place) {
+  uint row = quotient(place, dispatch.tile_width);
+  uint x = dispatch.tile_x + place - row * dispatch.tile_width;
+  uint y = dispatch.tile_y + row;
+  Frame frame = load_frame();
+  Ray ray;
+  eye_ray(frame, x, y, dispatch.sample_index, ray);
+  return begin(frame, ray, y * frame.width + x, dispatch.sample_index);
+}
+Ray eye_ray_of(uint place) {
+  Path path = eye_path(place);
+  return make_ray(path.o, path.d);
+}
+
+#endif
