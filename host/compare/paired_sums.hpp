@@ -15,8 +15,10 @@ struct PairedSum {
   double excess() const { return share == 0 ? 0 : share / allowed; }
 };
 
-inline constexpr int paired_tile = 8;                // pixels
-inline constexpr double paired_rounding = 1e-5;      // what rounding may add up to, of Σ|reference|
+inline constexpr int paired_tile = 8;  // pixels
+// What rounding may add up to, of Σ|reference|: what leaves a surface by the lamp leaves it all nearer, or
+// farther, by 24 ε of the eye's distance (docs/numerics.md).
+inline constexpr double paired_rounding = 5e-5;
 inline constexpr double paired_false_alarms = 1e-3;  // of all sums of a picture together, at most
 
 // Of all sums that which is farthest beyond, or nearest to, what is allowed: rounding, and √(2 ln(2 n / a))
