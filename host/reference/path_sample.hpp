@@ -54,6 +54,7 @@ class PathSample {
         scene_(tracer.scene()),
         id_(id),
         numbers_(ray_offset.numbers),
+        photons_nearer_(ray_offset.photons_nearer),
         rays_(tracer, ray_offset, observer),
         observer_(observer) {}
 
@@ -118,6 +119,7 @@ class PathSample {
   const Scene& scene_;
   const SampleId id_;
   const uint32_t numbers_;
+  const double photons_nearer_;
   SampleRays rays_;
   const Observer& observer_;
   const bool any_pane_ = std::ranges::any_of(scene_.materials, &Material::thin);

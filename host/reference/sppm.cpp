@@ -1,6 +1,7 @@
 // Knaus, Zwicker: Progressive Photon Mapping: A Probabilistic Approach, TOG 30(3), 2011. Hachisuka, Jensen:
 // Stochastic Progressive Photon Mapping, TOG 28(5), 2009. Jensen: Global Illumination Using Photon Maps,
 // 1996.
+#include <algorithm>
 #include <cmath>
 
 #include "host/reference/path_sample.hpp"
@@ -29,7 +30,8 @@ Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const 
   Vec3 light(0);
   photons.near(p, [&](const Photon& photon) {
     const Vec3 apart = photon.position - p;
-    const double share = glm::dot(apart, apart) / (radius * radius);
+    const double distance = std::max(0.0, glm::length(apart) - photons_nearer_ * radius);
+    const double share = distance * distance / (radius * radius);
     if (share >= 1 || std::abs(glm::dot(apart, n)) >= 0.1 * radius || glm::dot(photon.normal, n) <= 0.9 ||
         photon.depth + depth_ > scene_.render.max_depth)
       return;

@@ -4,6 +4,7 @@
 
 #include "host/reference/trail.hpp"
 #include "host/scene/integrator.hpp"
+#include "host/verify/photon_judge.hpp"
 
 namespace eyeray::verify {
 namespace {
@@ -62,6 +63,9 @@ compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& rend
       result.rounded.push_back(
           of(rendered({.share = reference::float32_ray_offset, .seed = seed, .numbers = seed | 1})));
     }
+    if (sends_photons(scene.render.integrator))
+      for (const double nearer : {photon_aside, -photon_aside})
+        result.rounded.push_back(of(rendered({.photons_nearer = nearer})));
     if (shift == Vec2(0.0))
       for (const auto textures : {TextureChoice::darkest, TextureChoice::brightest})
         add_rounded(false, textures);

@@ -11,9 +11,6 @@
 namespace eyeray::verify {
 namespace {
 
-// How far from the reference's a photon may lie, as a share of the radius: a kernel tells twice that.
-constexpr double photon_aside = 1e-3;
-
 // Surfaces that are round, or struck at a grazing angle, multiply what float32 rounds, one after the other.
 // The widest is 10⁻⁴ of the distance to the eye: as far aside as the places are in a picture 100 pixels wide
 // where gate B asks.

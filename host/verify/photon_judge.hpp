@@ -7,6 +7,10 @@
 
 namespace eyeray::verify {
 
+// How far from the reference's a photon may lie and be shown, as a share of the radius: of its light a kernel
+// tells twice that.
+inline constexpr double photon_aside = 1e-3;
+
 struct JudgedPhotons {
   std::vector<std::vector<uint32_t>> left_out;  // by sample, in order: those that no picture may show
   compare::PhotonTally tally;
