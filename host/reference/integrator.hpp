@@ -23,10 +23,10 @@ struct RayOffset {
   bool along_normal = false;  // they always leave along it; and what a ray runs along shows its other side
   uint32_t seed = 0;          // of where aside
   TextureChoice textures = TextureChoice::at_hit;
-  bool coincident = false;    // of two surfaces that float32 cannot tell apart, the farther one is hit
-  uint32_t numbers = 0;       // unless 0, a seed of how far each random number is off, by some units of 2^-24
-  double off = 1;             // how much of `share` they start off, at least; aside it is all
-  double photons_nearer = 0;  // by this share of the radius, to what gathers them; below 0 farther
+  bool coincident = false;   // of two surfaces that float32 cannot tell apart, the farther one is hit
+  uint32_t numbers = 0;      // unless 0, a seed of how far each random number is off, by some units of 2^-24
+  double off = 1;            // how much of `share` they start off, at least; aside it is all
+  double photon_nearer = 0;  // by this share of the radius, of those gathered the one that tells most
   double pivot = 0;  // unless 0, the eye's ray is turned: so far along it stays, and before that it is aside
 };
 

@@ -54,7 +54,7 @@ class PathSample {
         scene_(tracer.scene()),
         id_(id),
         numbers_(ray_offset.numbers),
-        photons_nearer_(ray_offset.photons_nearer),
+        photon_nearer_(ray_offset.photon_nearer),
         rays_(tracer, ray_offset, observer),
         observer_(observer) {}
 
@@ -119,7 +119,7 @@ class PathSample {
   const Scene& scene_;
   const SampleId id_;
   const uint32_t numbers_;
-  const double photons_nearer_;
+  const double photon_nearer_;
   SampleRays rays_;
   const Observer& observer_;
   const bool any_pane_ = std::ranges::any_of(scene_.materials, &Material::thin);

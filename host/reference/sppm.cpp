@@ -27,20 +27,26 @@ Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const 
                           const PhotonMap& photons) const {
   const double radius = photons.radius();
   const Vec3 &n = at.surface.normal_geometric, &p = at.surface.position;
-  Vec3 light(0);
+  const auto kernel = [&](double distance) {
+    const double share = distance * distance / (radius * radius);
+    return share < 1 ? 2 / (M_PI * radius * radius) * (1 - share) : 0;
+  };
+  Vec3 light(0), most(0);  // the most that one photon brings more, or less, where it lies nearer
   photons.near(p, [&](const Photon& photon) {
     const Vec3 apart = photon.position - p;
-    const double distance = std::max(0.0, glm::length(apart) - photons_nearer_ * radius);
-    const double share = distance * distance / (radius * radius);
-    if (share >= 1 || std::abs(glm::dot(apart, n)) >= 0.1 * radius || glm::dot(photon.normal, n) <= 0.9 ||
-        photon.depth + depth_ > scene_.render.max_depth)
+    const double distance = glm::length(apart);
+    const double moved = std::max(0.0, distance - photon_nearer_ * radius);
+    if (std::min(distance, moved) >= radius || std::abs(glm::dot(apart, n)) >= 0.1 * radius ||
+        glm::dot(photon.normal, n) <= 0.9 || photon.depth + depth_ > scene_.render.max_depth)
       return;
     const Vec3 i = frame.into(photon.direction);
     const double cosine = glm::dot(photon.direction, n);
-    const double kernel = 2 / (M_PI * radius * radius) * (1 - share);
-    light += wide.at(i, cosine > 0).value / std::abs(cosine) * kernel * photon.flux;
+    const Vec3 brought = wide.at(i, cosine > 0).value / std::abs(cosine) * photon.flux;
+    light += brought * kernel(distance);
+    const Vec3 more = brought * (kernel(moved) - kernel(distance));
+    if (glm::length(more) > glm::length(most)) most = more;
   });
-  return light / double(photons.count());
+  return (light + most) / double(photons.count());
 }
 
 // From one light: by the wide lobes in full, by the sharp ones as far as the path does not find it itself.

@@ -65,7 +65,7 @@ compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& rend
     }
     if (sends_photons(scene.render.integrator))
       for (const double nearer : {photon_aside, -photon_aside})
-        result.rounded.push_back(of(rendered({.photons_nearer = nearer})));
+        result.rounded.push_back(of(rendered({.photon_nearer = nearer})));
     if (shift == Vec2(0.0))
       for (const auto textures : {TextureChoice::darkest, TextureChoice::brightest})
         add_rounded(false, textures);
