@@ -245,7 +245,7 @@ class GpuExecutor final : public Executor {
     options.bounces = most_bounces(packed);
     options.splits = splits(packed);
     options.bounced = plan.bounced;
-    options.drawn = drawn_ ? &*drawn_ : nullptr;
+    options.drawn = drawn_ ? &drawn_->drawn() : nullptr;
     options.workgroups = workgroups_;
     wavefront_.emplace(
         device_,

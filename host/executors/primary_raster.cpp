@@ -1,7 +1,6 @@
 #include "host/executors/primary_raster.hpp"
 
 #include <array>
-#include <cmath>
 #include <span>
 
 #include "host/core/error.hpp"
@@ -51,21 +50,23 @@ std::vector<gpu::RasterVertex> vertices_of(const Scene& scene, const records::Pa
 }  // namespace
 
 PrimaryRaster::PrimaryRaster(gpu::Device& device, const Scene& scene, const records::PackedScene& packed)
-    : image_(scene.image),
+    : width_(scene.image.width),
+      height_(scene.image.height),
+      samples_per_side_(packed.frame.samples_per_side),
       vertices_(vertices_of(scene, packed)),
-      rasterizer_(device, raster::raster_shaders(), image_.width, image_.height),
-      drawn_(device, size_t(image_.width) * size_t(image_.height) * sizeof(uint32_t), "drawn ids") {}
+      rasterizer_(device, raster::raster_shaders(), width_, height_),
+      drawn_(device, size_t(width_) * size_t(height_) * sizeof(uint32_t), "drawn ids") {}
 
-gpu::Buffer& PrimaryRaster::draw(uint32_t index) {
-  if (sample_ == index) return drawn_;
-  // All moves against the sample's place, so that this lies in the pixel's middle.
-  const auto side = uint32_t(std::lround(std::sqrt(double(image_.samples))));
-  const double x = (index % side + 0.5) / side - 0.5, y = (index / side + 0.5) / side - 0.5;
+void PrimaryRaster::draw(uint32_t index) {
+  if (sample_ == index) return;
+  // All moves against the sample's place (samplers/grid.glsl), so that this lies in the pixel's middle.
+  const double side = samples_per_side_;
+  const double x = (index % samples_per_side_ + 0.5) / side - 0.5,
+               y = (index / samples_per_side_ + 0.5) / side - 0.5;
   rasterizer_.clear();
-  rasterizer_.draw(vertices_, {float(-2 * x / image_.width), float(-2 * y / image_.height)});
+  rasterizer_.draw(vertices_, {float(-2 * x / width_), float(-2 * y / height_)});
   rasterizer_.copy_ids(drawn_);
   sample_ = index;
-  return drawn_;
 }
 
 }  // namespace eyeray::executors

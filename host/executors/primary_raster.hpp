@@ -21,12 +21,14 @@ class PrimaryRaster {
   // (no_device) as gpu::Rasterizer.
   PrimaryRaster(gpu::Device& device, const Scene& scene, const records::PackedScene& packed);
 
-  // What is drawn where sample `index` lies in each pixel, row by row, as records.h says; valid until the
-  // next call.
-  gpu::Buffer& draw(uint32_t index);
+  // Draws what lies where sample `index` does in each pixel, unless that was drawn last.
+  void draw(uint32_t index);
+  // That, row by row, as records.h says.
+  gpu::Buffer& drawn() { return drawn_; }
 
  private:
-  ImageSettings image_;
+  int width_, height_;
+  uint32_t samples_per_side_;
   std::vector<gpu::RasterVertex> vertices_;
   gpu::Rasterizer rasterizer_;
   gpu::Buffer drawn_;

@@ -12,6 +12,7 @@ Wavefront::Wavefront(gpu::Device& device, const MakeKernel& make_kernel, const W
   const std::string stored = "#define STORED_HITS 1\n", listed = "#define LISTED\n";
   if (options.drawn) {
     drawn_ = make_kernel("kernels/drawn.comp.glsl", "");
+    drawn_->set_buffer(BINDING_DRAWN, *options.drawn);
     missed_ = make_kernel("kernels/drawn.comp.glsl", listed);
   } else {
     eye_.trace = make_kernel(packets, "#define PACKET_PRIMARY\n");
@@ -72,7 +73,6 @@ std::optional<double> Wavefront::run(shader::Dispatch push, gpu::Buffer& results
 double Wavefront::hit_drawn(const shader::Dispatch& push, uint32_t pixels) {
   gpu::Buffer& missed = *lists_[1];
   missed.clear(sizeof(uint32_t));
-  drawn_->set_buffer(BINDING_DRAWN, options_.drawn->draw(push.sample_index));
   drawn_->set_buffer(BINDING_NEXT_LIST, missed);
   missed_->set_buffer(BINDING_LIST, missed);
   const auto take = [&](const gpu::Kernel& kernel, uint32_t items) {

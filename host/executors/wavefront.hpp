@@ -7,9 +7,9 @@
 #include <memory>
 #include <optional>
 
-#include "host/executors/primary_raster.hpp"
 #include "host/executors/profile.hpp"
 #include "host/executors/workgroups.hpp"
+#include "host/gpu/buffer.hpp"
 #include "host/gpu/command_list.hpp"
 #include "host/records/records.hpp"
 
@@ -23,8 +23,8 @@ struct WavefrontOptions {
   // How the rays of later bounces are traced, and their shadow rays: `lanes` while they are shaded, or
   // `cooperative` by kernels of their own.
   Rays bounced = Rays::lanes;
-  // What eye rays start from; null: all are traced.
-  PrimaryRaster* drawn = nullptr;
+  // What is drawn at each pixel for the next sample (primary_raster.hpp); null: all eye rays are traced.
+  const gpu::Buffer* drawn = nullptr;
   Workgroups workgroups;
 };
 

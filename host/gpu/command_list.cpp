@@ -7,18 +7,6 @@
 #include "host/gpu/kernel_objects.hpp"
 
 namespace eyeray::gpu {
-namespace {
-
-void memory_barrier(VkCommandBuffer commands, VkAccessFlags seen_as, VkPipelineStageFlags seen_by) {
-  auto info = make<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
-  info.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
-  info.dstAccessMask = seen_as;
-  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, seen_by, 0, 1, &info, 0, nullptr, 0,
-                       nullptr);
-}
-
-}  // namespace
-
 CommandList::CommandList(Device& device) : context_(device.context()) {
   context_->begin();
   if (!context_->timestamps) return;
@@ -50,8 +38,9 @@ void CommandList::dispatch(const Kernel& kernel, std::span<const std::byte> push
 }
 
 void CommandList::barrier() {
-  memory_barrier(context_->commands, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT,
-                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+  record_barrier(context_->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                 VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
 }
 
 RunTime CommandList::run() {
@@ -60,7 +49,8 @@ RunTime CommandList::run() {
 
 RunTime CommandList::run(double timeout_seconds) {
   // Let the host see what the kernels wrote.
-  memory_barrier(context_->commands, VK_ACCESS_HOST_READ_BIT, VK_PIPELINE_STAGE_HOST_BIT);
+  record_barrier(context_->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                 VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
   if (context_->timestamps)
     vkCmdWriteTimestamp(context_->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, context_->timestamps, 1);
   const Stopwatch watch;

@@ -14,6 +14,14 @@
 
 namespace eyeray::gpu {
 
+void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags stages, VkAccessFlags written,
+                    VkPipelineStageFlags later_stages, VkAccessFlags read) {
+  auto barrier = make<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
+  barrier.srcAccessMask = written;
+  barrier.dstAccessMask = read;
+  vkCmdPipelineBarrier(commands, stages, later_stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
 Context::Context(const DeviceOptions& device_options, InstanceOnly)
     : options(device_options), instance(std::make_unique<Instance>(options)) {}
 

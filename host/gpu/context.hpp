@@ -9,6 +9,10 @@
 
 namespace eyeray::gpu {
 
+// What happened and was written before is there for what reads it after.
+void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags stages, VkAccessFlags written,
+                    VkPipelineStageFlags later_stages, VkAccessFlags read);
+
 struct Context {
   explicit Context(const DeviceOptions& options);
   ~Context();

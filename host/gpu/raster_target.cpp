@@ -49,15 +49,6 @@ constexpr VkAccessFlags drawing_accesses =
     VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
     VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 
-// What was copied is there for who reads it.
-void record_reads(VkCommandBuffer commands, VkPipelineStageFlags stage, VkAccessFlags access) {
-  auto copied = make<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
-  copied.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-  copied.dstAccessMask = access;
-  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, stage, 0, 1, &copied, 0, nullptr, 0,
-                       nullptr);
-}
-
 void check_size(const DeviceInfo& device, uint32_t width, uint32_t height) {
   if (std::max(width, height) > device.limits.drawn_size)
     throw Error(
@@ -236,12 +227,14 @@ void RasterTarget::record_copy(size_t index, VkBuffer to, VkDeviceSize offset) c
 
 void RasterTarget::record_copies() const {
   for (size_t i = 0; i < attachments_.size(); ++i) record_copy(i, copies_[i]->handle(), 0);
-  record_reads(context_->commands, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+  record_barrier(context_->commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                 VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
 void RasterTarget::record_copy_of_ids(VkBuffer to, VkDeviceSize offset) const {
   record_copy(0, to, offset);
-  record_reads(context_->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
+  record_barrier(context_->commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
 }
 
 }  // namespace eyeray::gpu

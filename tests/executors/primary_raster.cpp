@@ -81,7 +81,8 @@ TEST_CASE("what is drawn at a sample's place is what its eye ray hits") {
 
   int different = 0, triangles = 0, nothing = 0, spheres = 0;
   for (int index = 0; index < side * side; ++index) {
-    const auto drawn = raster.draw(uint32_t(index)).read_records<uint32_t>(size_t(width) * height);
+    raster.draw(uint32_t(index));
+    const auto drawn = raster.drawn().read_records<uint32_t>(size_t(width) * height);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         const int column = side * x + index % side, row = side * y + index / side;
