@@ -85,4 +85,9 @@ std::string read_input_file(const std::filesystem::path& file, std::string_view 
   }
 }
 
+void drop_byte_order_mark(std::string& text) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  if (text.starts_with(mark)) text.erase(0, mark.size());
+}
+
 }  // namespace eyeray

@@ -12,4 +12,7 @@ namespace eyeray {
 // reason", where `what` is "the scene", and a name in the same folder that the user may have meant.
 std::string read_input_file(const std::filesystem::path& file, std::string_view what, size_t most_bytes);
 
+// Removes the byte order mark that some editors put before text in UTF-8.
+void drop_byte_order_mark(std::string& text);
+
 }  // namespace eyeray

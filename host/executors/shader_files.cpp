@@ -9,6 +9,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
+#include "host/core/input_file.hpp"
 
 namespace eyeray::executors {
 namespace {
@@ -76,7 +77,11 @@ std::optional<std::string> ShaderFiles::read(std::string_view name) {
     const std::filesystem::path path = folder_ / name;
     looked_for_.insert(path);
     std::error_code error;
-    if (std::filesystem::is_regular_file(path, error)) return read_file(path);
+    if (std::filesystem::is_regular_file(path, error)) {
+      std::string text = read_file(path);
+      drop_byte_order_mark(text);
+      return text;
+    }
   }
   const std::string_view text = embedded(name);
   return text.empty() ? std::nullopt : std::optional(std::string(text));

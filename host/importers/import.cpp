@@ -42,6 +42,7 @@ ImportedScene read_mesh_file(MeshFile& file) {
   if (!read) throw malformed(file.name, "a mesh file ends in .obj, .ply, .gltf or .glb");
   if (file.bytes.starts_with("\xff\xfe") || file.bytes.starts_with("\xfe\xff"))
     throw malformed(file.name, "it is text in UTF-16: save it as UTF-8");
+  drop_byte_order_mark(file.bytes);
   ImportedScene scene;
   try {
     scene = read(file);

@@ -277,6 +277,9 @@ ImportedScene import_obj(MeshFile& file) {
     if (material < 0 && !part.material.empty() && unknown++ == 0) example = part.material;
     scene.instances.push_back({static_cast<int>(scene.meshes.size()), Mat4(1.0), material, {}});
     scene.meshes.push_back(builder.build(raw, file.smooth.value_or(default_smooth)));
+    if (material >= 0)
+      for (Vec2& uv : scene.meshes.back().uv)
+        uv = uv * reader.materials.uv(material).scale + reader.materials.uv(material).offset;
     part = {};
   }
   scene.materials = std::move(reader.materials.materials);

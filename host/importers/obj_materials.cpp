@@ -1,7 +1,7 @@
 #include "host/importers/obj_materials.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <sstream>
 
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -9,8 +9,11 @@
 #include <tiny_obj_loader.h>
 
 #include "host/core/error.hpp"
+#include "host/core/input_file.hpp"
+#include "host/importers/obj_maps.hpp"
 #include "host/materials/make.hpp"
 #include "host/scene/diagnostic_log.hpp"
+#include "host/scene/image_texture_file.hpp"
 
 namespace eyeray::importers {
 
@@ -39,41 +42,83 @@ materials::Highlight highlight(const tinyobj::material_t& source) {
   return {textures::make_constant(color(source.specular)), shininess, true};
 }
 
-std::unique_ptr<Material> convert(const tinyobj::material_t& source,
-                                  std::shared_ptr<const ImageTexture> image) {
-  if (refracts(source.illum)) {
-    const double ior = source.ior >= 1 && source.ior <= 4 ? source.ior : 1.5;
-    return materials::make_dielectric({.ior = ior, .highlight = highlight(source)});
-  }
-  const TexturePtr diffuse = textured(color(source.diffuse), std::move(image));
-  if (!mirrors(source.illum))
-    return materials::make_phong({.diffuse = diffuse, .highlight = highlight(source)});
-  const TexturePtr reflectance = textures::make_constant(color(source.specular));
-  if (color(source.diffuse) == Vec3(0)) return materials::make_mirror({.reflectance = reflectance});
-  return materials::make_phong(
-      {.diffuse = diffuse, .reflectance = reflectance, .highlight = highlight(source)});
+bool is_glass(const tinyobj::material_t& source) {
+  // Maya gives opaque materials `illum 4`, `Tf 1 1 1` and `Ni 1`: an index of 1 bends nothing.
+  return refracts(source.illum) && (source.ior > 1 || source.dissolve < 1);
 }
 
-// What a material says that ours cannot; the words for a warning.
+// Whether it has a value of the physically based extension (Pr, Pm, Pc, Ps), which `illum` does not describe.
+bool is_principled(const tinyobj::material_t& source) {
+  return source.roughness > 0 || source.metallic > 0 || source.clearcoat_thickness > 0 || source.sheen > 0;
+}
+
+// Emission of the material; beyond this a value is a mistake.
+constexpr double most_emission = 1e6;
+
+TexturePtr emission(const tinyobj::material_t& source, std::shared_ptr<const ImageTexture> picture) {
+  Vec3 color(0);
+  for (int c = 0; c < 3; ++c)
+    if (source.emission[c] > 0) color[c] = std::min<double>(source.emission[c], most_emission);
+  if (picture && color == Vec3(0)) color = Vec3(1);
+  return textured(color, std::move(picture));
+}
+
+// The pictures of a material.
+struct Maps {
+  std::shared_ptr<const ImageTexture> diffuse, emission;
+};
+
+std::unique_ptr<Material> convert(const tinyobj::material_t& source, const Maps& maps) {
+  if (is_glass(source)) {
+    const double ior = source.ior > 1 && source.ior <= 4 ? source.ior : 1.5;
+    return materials::make_dielectric({.ior = ior, .highlight = highlight(source)});
+  }
+  const TexturePtr diffuse = textured(color(source.diffuse), maps.diffuse);
+  const TexturePtr emitted = emission(source, maps.emission);
+  if (is_principled(source)) {
+    const auto constant = [](double value) { return textures::make_constant(Vec3(share(value))); };
+    return materials::make_principled({.color = diffuse,
+                                       .metallic = constant(source.metallic),
+                                       .roughness = constant(source.roughness),
+                                       .sheen = constant(source.sheen),
+                                       .coat = constant(source.clearcoat_thickness),
+                                       .coat_roughness = constant(source.clearcoat_roughness),
+                                       .emission = emitted});
+  }
+  if (!mirrors(source.illum))
+    return materials::make_phong({.diffuse = diffuse, .emission = emitted, .highlight = highlight(source)});
+  const TexturePtr reflectance = textures::make_constant(color(source.specular));
+  if (color(source.diffuse) == Vec3(0) && emitted->constant() == Vec3(0))
+    return materials::make_mirror({.reflectance = reflectance});
+  return materials::make_phong(
+      {.diffuse = diffuse, .reflectance = reflectance, .emission = emitted, .highlight = highlight(source)});
+}
+
+// The options that place a map on the surface.
+ObjUv uv_of(const tinyobj::texture_option_t& options) {
+  return {{options.scale[0], options.scale[1]}, {options.origin_offset[0], options.origin_offset[1]}};
+}
+
+// The words for a warning about each value of a material that has no counterpart here.
 std::vector<std::string> left_out(const tinyobj::material_t& source) {
   std::vector<std::string> words;
   const auto add = [&](bool has, const char* what) {
     if (has) words.emplace_back(what);
   };
-  add(source.dissolve < 1 && !refracts(source.illum), "the transparency (d, Tr) of materials");
-  add(!source.alpha_texname.empty(), "maps of transparency (map_d)");
-  add(color(source.emission) != Vec3(0) || !source.emissive_texname.empty(),
-      "the emission (Ke) of materials");
-  const auto& option = source.diffuse_texopt;
-  const auto is = [](const double(&v)[3], double value) {
-    return v[0] == value && v[1] == value && v[2] == value;
-  };
-  add(option.clamp || !is(option.scale, 1) || !is(option.origin_offset, 0), "options of map_Kd");
-  add(!source.bump_texname.empty() || !source.normal_texname.empty(), "bump and normal maps");
+  const bool glass = is_glass(source);
+  const bool emits = color(source.emission) != Vec3(0) || !source.emissive_texname.empty();
+  add(source.dissolve > 0 && source.dissolve < 1 && !glass && source.alpha_texname.empty(),
+      "the transparency (d, Tr) of materials");
+  add(glass && !source.alpha_texname.empty(), "maps of transparency (map_d) of glass");
+  add(glass && emits, "the emission (Ke) of glass");
+  add(!source.bump_texname.empty(), "bump maps");
   add(!source.displacement_texname.empty(), "displacement maps");
   add(!source.specular_texname.empty() || !source.specular_highlight_texname.empty(),
       "maps of highlights (map_Ks, map_Ns)");
   add(!source.reflection_texname.empty(), "reflection maps (refl)");
+  add(!source.roughness_texname.empty() || !source.metallic_texname.empty() || !source.sheen_texname.empty(),
+      "maps of roughness, metalness and sheen (map_Pr, map_Pm, map_Ps)");
+  add(source.anisotropy != 0, "anisotropy (aniso)");
   return words;
 }
 
@@ -112,21 +157,56 @@ bool ObjMaterials::read(const std::string& name, bool last) {
 }
 
 void ObjMaterials::parse(std::string text) {
+  drop_byte_order_mark(text);
   std::map<std::string, int> names;
   std::vector<tinyobj::material_t> sources;
-  std::istringstream stream(std::move(text));
+  std::istringstream stream(with_all_map_numbers(text));
   std::string unused;
   tinyobj::LoadMtl(&names, &sources, &stream, &unused, &unused);
   for (const tinyobj::material_t& source : sources) {
     // What stands before the first `newmtl` has no name, and nobody uses it.
     if (source.name.empty() || indices_.contains(source.name)) continue;
     indices_[source.name] = static_cast<int>(materials.size());
-    std::shared_ptr<const ImageTexture> image;
-    if (!source.diffuse_texname.empty()) image = textures_.load(source.diffuse_texname);
-    materials.push_back(convert(source, std::move(image)));
-    materials.back()->name = printable(source.name);
-    for (const std::string& what : left_out(source)) warn(what + " were left out");
+
+    // Load its pictures. A vertex has one uv: the first picture's options place them all.
+    std::optional<ObjUv> uv;
+    const auto load = [&](const std::string& name, const tinyobj::texture_option_t& options, MapUse use) {
+      if (name.empty()) return std::shared_ptr<const ImageTexture>();
+      if (uv && !(*uv == uv_of(options)))
+        warn("options -s and -o that differ between a material's maps were left out");
+      if (!uv) uv = uv_of(options);
+      return picture(name, options.clamp, use);
+    };
+    Maps maps;
+    maps.diffuse = load(source.diffuse_texname, source.diffuse_texopt, MapUse::color);
+    const auto alpha = load(source.alpha_texname, source.alpha_texopt, MapUse::alpha);
+    maps.emission = load(source.emissive_texname, source.emissive_texopt, MapUse::color);
+    const auto normals = load(source.normal_texname, source.normal_texopt, MapUse::data);
+
+    std::unique_ptr<Material> made = convert(source, maps);
+    made->name = printable(source.name);
+    if (!made->medium() && (alpha || source.dissolve <= 0))
+      made->mask = AlphaMask{textured(Vec3(alpha ? 1 : 0), alpha)};
+    if (normals) made->normal_map = NormalMap{textures::make_image(normals)};
+    materials.push_back(std::move(made));
+    uv_.push_back(uv.value_or(ObjUv{}));
+    for (const std::string& what : left_out(source)) warn("left out: " + what);
   }
+}
+
+std::shared_ptr<const ImageTexture> ObjMaterials::picture(const std::string& name, bool clamp, MapUse use) {
+  return textures_.load(
+      fmt::format("{} {} {}", name, clamp, static_cast<int>(use)), [&](image::PixelBudget& budget) {
+        ImageTexture image = load_image_texture(assets_.locate(name), budget);
+        if (clamp) image.wrap_u = image.wrap_v = Wrap::clamp;
+        image.srgb = use == MapUse::color;
+        // Transparency is the picture's alpha, or its brightness where it has none.
+        const auto opaque = [](const auto& texel) { return texel[3] == 255; };
+        if (use == MapUse::alpha && std::ranges::all_of(image.texels, opaque))
+          for (auto& texel : image.texels)
+            texel[3] = static_cast<uint8_t>((54 * texel[0] + 183 * texel[1] + 19 * texel[2] + 128) / 256);
+        return image;
+      });
 }
 
 }  // namespace eyeray::importers

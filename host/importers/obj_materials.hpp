@@ -13,6 +13,13 @@
 
 namespace eyeray::importers {
 
+// Where a material's maps lie: a vertex's uv times `scale` plus `offset`, by the options -s and -o.
+struct ObjUv {
+  Vec2 scale{1.0};
+  Vec2 offset{0.0};
+  bool operator==(const ObjUv&) const = default;
+};
+
 class ObjMaterials {
  public:
   ObjMaterials(AssetFiles& assets, image::PixelBudget& pixels)
@@ -25,18 +32,24 @@ class ObjMaterials {
   void parse(std::string text);
   // The index of a material, or −1.
   int find(const std::string& name) const;
+  // The placement of a material's maps.
+  const ObjUv& uv(int material) const { return uv_[static_cast<size_t>(material)]; }
 
   std::vector<std::string> warnings;
   std::vector<std::unique_ptr<Material>> materials;
 
  private:
+  enum class MapUse { color, alpha, data };
+
   bool read(const std::string& name, bool last);
+  std::shared_ptr<const ImageTexture> picture(const std::string& name, bool clamp, MapUse use);
   void warn(std::string message);
 
   AssetFiles& assets_;
   TextureFiles textures_;
   std::set<std::string> done_;
   std::map<std::string, int> indices_;
+  std::vector<ObjUv> uv_;  // by material
 };
 
 }  // namespace eyeray::importers

@@ -166,8 +166,12 @@ void PlyReader<Values>::read_lists(const PlyElement& element, const Read& read) 
   });
   if (wanted == element.properties.end())
     values_.fail(fmt::format("the element `{}` has no list of vertex_indices", element.name));
-  if (std::ranges::find(element.properties, "texcoord", &PlyProperty::name) != element.properties.end())
-    warnings.emplace_back("the uv of faces (texcoord) were left out");
+  const auto has = [&](std::string_view name) {
+    return std::ranges::find(element.properties, name, &PlyProperty::name) != element.properties.end();
+  };
+  if (has("texcoord")) warnings.emplace_back("the uv of faces (texcoord) were left out");
+  if (has("red") || has("diffuse_red") || has("r"))
+    warnings.emplace_back("the colours of faces were left out: only those of vertices are shown");
   polygons.sizes.reserve(polygons.sizes.size() + element.count);
   for (uint64_t i = 0; i < element.count; ++i) {
     for (const PlyProperty& property : element.properties) {
@@ -272,6 +276,8 @@ ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
 
   ImportedScene scene;
   scene.warnings = std::move(reader.warnings);
+  if (header.has_picture)
+    scene.warnings.emplace_back("its picture (comment TextureFile) was left out: give the mesh a `material`");
   if (reader.polygons.sizes.empty())
     throw malformed(file.name, "it has no faces: points alone cannot be seen");
   MeshCounts counts;

@@ -39,6 +39,7 @@ class HeaderReader {
       fail("this is no PLY file: it does not start with `ply`");
     for (;;) {
       const std::vector<std::string_view> words = next_line();
+      if (words.size() > 2 && words[0] == "comment" && words[1] == "TextureFile") header_.has_picture = true;
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
       if (words[0] == "end_header") break;
       if (words[0] == "format") {

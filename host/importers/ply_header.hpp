@@ -34,6 +34,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format;
   std::vector<PlyElement> elements;
+  bool has_picture = false;  // by a comment `TextureFile`, as MeshLab and others write it
   size_t size = 0;  // bytes up to the data
 };
 

@@ -22,6 +22,7 @@ std::optional<formula::FormulaText> FormulaFiles::load(const std::string& name,
     const bool fresh = std::ranges::find(files_, path) == files_.end();
     if (fresh) files_.push_back(path);
     formula::FormulaText text{read_input_file(path, "the formula", most_bytes), {path.string(), 1, 1}};
+    drop_byte_order_mark(text.text);
     if (fresh) log_.add_source(path.string(), text.text);
     return text;
   } catch (const Error& unreadable) {

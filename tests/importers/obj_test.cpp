@@ -104,7 +104,7 @@ TEST_CASE("each material has its mesh, and its .mtl is read") {
   CHECK(scene.materials[3]->scattering(context).diffuse == Vec3(1, 0, 0));
   CHECK(warns(scene, "1 of its materials is not defined, such as `who`"));
   CHECK(warns(scene, "transparency"));
-  CHECK(warns(scene, "bump and normal maps"));
+  CHECK(warns(scene, "bump maps"));
   CHECK(warns(scene, "a picture was left out: cannot read"));
   CHECK(scene.files.size() == 3);
 }
@@ -150,4 +150,76 @@ TEST_CASE("pictures of .mtl files are textures") {
       import_file(folder.write("a.obj", square + "mtllib a.mtl\nusemtl m\nf 1 2 3\n"));
   CHECK(scene.warnings.empty());
   CHECK(scene.files.back() == folder / "rgb.png");
+}
+
+namespace {
+
+// A square whose material has these statements; `folder` has its pictures.
+ImportedScene square_of(const Folder& folder, const std::string& statements) {
+  folder.write("a.mtl", "newmtl m\n" + statements + "\n");
+  ImportedScene scene = import_file(folder.write(
+      "a.obj", square + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nmtllib a.mtl\nusemtl m\nf 1/1 2/2 3/3 4/4\n"));
+  REQUIRE(scene.materials.size() == 1);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("an index of 1 makes no glass") {
+  const Folder folder;
+  CHECK(!square_of(folder, "Kd 1 0 0\nillum 4\nTf 1.00 1.00 1.00\nNi 1.00").materials[0]->medium());
+  CHECK(!square_of(folder, "Kd 1 0 0\nillum 7").materials[0]->medium());
+  CHECK(square_of(folder, "illum 4\nNi 1.45").materials[0]->medium()->ior == 1.45);
+  CHECK(square_of(folder, "illum 4\nd 0.2").materials[0]->medium()->ior == 1.5);
+}
+
+TEST_CASE("a byte order mark before OBJ, MTL and PLY is skipped") {
+  const std::string mark = "\xef\xbb\xbf";
+  const Folder folder;
+  folder.write("a.mtl", mark + "newmtl m\nKd 1 0 0\n");
+  const ImportedScene scene =
+      import_file(folder.write("a.obj", mark + square + "mtllib a.mtl\nusemtl m\nf 1 2 3\n"));
+  CHECK(scene.warnings.empty());
+  CHECK(scene.materials.size() == 1);
+  CHECK(scene.meshes[0].triangles.size() == 1);
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  CHECK(import_sound(mark + ply, "a.ply").meshes[0].triangles.size() == 1);
+}
+
+TEST_CASE("options of maps may have fewer numbers than they can; -s and -o place the picture") {
+  const Folder folder;
+  std::filesystem::copy_file("tests/image/pictures/rgb.png", folder / "my picture.png");
+  const auto corner = [&](const std::string& options) {
+    const ImportedScene scene = square_of(folder, "map_Kd " + options + " my picture.png");
+    CAPTURE(options);
+    CHECK(scene.warnings.empty());
+    CHECK(scene.files.back() == folder / "my picture.png");
+    return scene.meshes[0].uv[2];  // that of (1, 1)
+  };
+  CHECK(corner("") == Vec2(1));
+  CHECK(corner("-s 2") == Vec2(2, 1));
+  CHECK(corner("-s 2 3") == Vec2(2, 3));
+  CHECK(corner("-s -2 3 1 -o 0.5 -clamp on") == Vec2(-1.5, 3));
+  CHECK(corner("-mm 0 -o .25 -1e0 -texres 512 -t 1") == Vec2(1.25, 0));
+  CHECK(warns(square_of(folder, "map_Kd -s 2 my picture.png\nmap_d my picture.png"), "that differ"));
+}
+
+TEST_CASE("map_d cuts out, d = 0 hides, Ke emits, and Pr, Pm make a principled material") {
+  const Folder folder;
+  std::filesystem::copy_file("tests/image/pictures/rgb.png", folder / "rgb.png");
+  const ImportedScene cut = square_of(folder, "map_d rgb.png");
+  CHECK(cut.warnings.empty());
+  REQUIRE(cut.materials[0]->mask);
+  CHECK(cut.materials[0]->mask->alpha->alpha_at(Vec2(0.5)) < 1);
+  CHECK(!square_of(folder, "d 0").materials[0]->mask->covers(Vec2(0)));
+  CHECK(warns(square_of(folder, "d 0.5"), "the transparency (d, Tr) of materials"));
+
+  const ScatteringContext context{Vec2(0), 1, 1, 1};
+  CHECK(square_of(folder, "Ke 2 0 7e9").materials[0]->scattering(context).emitted == Vec3(2, 0, 1e6));
+  CHECK(square_of(folder, "map_Ke rgb.png").materials[0]->scattering(context).emitted != Vec3(0));
+  const ImportedScene metal = square_of(folder, "Kd 1 0.5 0\nPr 0.2\nPm 1\naniso 0.5");
+  CHECK(warns(metal, "anisotropy"));
+  CHECK(!metal.materials[0]->emits());
 }

@@ -207,3 +207,14 @@ TEST_CASE("a header may promise what it likes") {
                          "a.ply"),
                  "a list of 4000000000 is longer than the rest of the file"));
 }
+
+TEST_CASE("colours of faces and a picture in a comment are named") {
+  const std::string file =
+      "ply\nformat ascii 1.0\ncomment TextureFile wood.png\nelement vertex 3\nproperty float x\n"
+      "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+      "3 0 1 2 255 0 0\n";
+  const ImportedScene scene = import_sound(file, "a.ply");
+  CHECK(warns(scene, "colours of faces"));
+  CHECK(warns(scene, "TextureFile"));
+}
