@@ -79,6 +79,22 @@ Comparison compare(const CompareCommand& command, const image::Image& a, const i
   return result;
 }
 
+// A file without alpha is opaque.
+void compare_alpha(const CompareCommand& command, Comparison& result) {
+  std::optional<image::Image> a = image::read_alpha(command.a), b = image::read_alpha(command.b);
+  if (!a && !b) return;
+  for (auto [alpha, other] : {std::pair{&a, &b}, {&b, &a}}) {
+    if (*alpha) continue;
+    *alpha = image::Image((*other)->width(), (*other)->height(), 1);
+    std::ranges::fill((*alpha)->samples(), 1.0f);
+  }
+  const int64_t different = compare::count_different(*a, *b, command.tolerance);
+  if (different > command.max_different)
+    result.failures.push_back(fmt::format("the alpha of {} of {} pixels differs by more than {}; {} may",
+                                          different, result.pixels, command.tolerance,
+                                          command.max_different));
+}
+
 // As data, or for people in false colour from `low` to `high`, or without these over its own range.
 void write_map(const std::string& file, const image::Image& map, std::span<const float> range = {}) {
   const image::ImageFormat format = image::image_format(file);
@@ -140,9 +156,15 @@ ExitCode CompareCommand::run() const {
   if (!layer.empty() && image::image_format(a) != image::ImageFormat::exr &&
       image::image_format(b) != image::ImageFormat::exr)
     throw Error(ExitCode::bad_input, "--layer {}: neither {} nor {} is an .exr", layer, a, b);
-  image::Image image_a = image::read_image(a, layer), image_b = image::read_image(b, layer);
+  std::vector<std::string> warnings;
+  image::Image image_a = image::read_image(a, layer, warnings),
+               image_b = image::read_image(b, layer, warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "eyeray: warning: {}\n", warning);
   if (!layer.empty()) take_as_data(image_a, image_b);
-  const Comparison result = compare(*this, image_a, image_b);
+  if (image_a.channels() != image_b.channels())  // grey is equal red, green and blue
+    for (image::Image* grey : {&image_a, &image_b}) *grey = image::in_color(std::move(*grey));
+  Comparison result = compare(*this, image_a, image_b);
+  if (layer.empty() && result.metrics) compare_alpha(*this, result);
   if (result.metrics) write_maps(image_a, image_b, *result.metrics);
 
   if (json) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string_view>
 
+#include "host/image/exif.hpp"
 #include "host/image/png_rows.hpp"
 
 namespace eyeray::image {
@@ -77,6 +78,7 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
     if (!codes) throw fail(fmt::format("it is damaged ({})", stbi_failure_reason()));
     const auto* first = reinterpret_cast<const std::array<uint8_t, 4>*>(codes.get());
     image.pixels.assign(first, first + pixels);
+    image = upright(std::move(image), exif_orientation(bytes));
   }
   return image;
 }

@@ -4,6 +4,7 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfTileDescriptionAttribute.h>
 
 #include <fmt/ranges.h>
@@ -75,8 +76,52 @@ class ExrReader {
     }
   }
 
-  Image read(const std::string& layer) {
+  Image read(const std::string& layer, std::vector<std::string>& warnings) {
     const std::vector<Channel> chosen = choose(layer);
+    const Imf::Header& header = file_.header(chosen[0].part);
+    if (Imf::hasChromaticities(header) && !is_rec709(Imf::chromaticities(header)))
+      warnings.push_back(name_ +
+                         ": its chromaticities are not those of Rec. 709; its numbers are taken as they are");
+    if (header.pixelAspectRatio() != 1)
+      warnings.push_back(name_ + ": its pixelAspectRatio is not 1; pixels are taken as squares");
+    return in_display_window(read_channels(chosen), header);
+  }
+
+  std::optional<Image> read_alpha() {
+    std::vector<Channel> all = in_layer("");
+    std::erase_if(all, [](const Channel& channel) { return channel.component != "A"; });
+    if (all.empty()) return std::nullopt;
+    return in_display_window(read_channels({all[0]}), file_.header(all[0].part));
+  }
+
+  [[noreturn]] void fail(const std::string& why) const {
+    throw Error(ExitCode::file_io, "cannot read {} as EXR: {}", name_, why);
+  }
+
+ private:
+  static bool is_rec709(const Imf::Chromaticities& given) {
+    const Imf::Chromaticities usual;
+    const auto near = [](const Imath::V2f& a, const Imath::V2f& b) { return (a - b).length() < 0.002f; };
+    return near(given.red, usual.red) && near(given.green, usual.green) && near(given.blue, usual.blue) &&
+           near(given.white, usual.white);
+  }
+
+  // The data window's pixels, moved to their places in the display window.
+  Image in_display_window(Image data, const Imf::Header& header) const {
+    const Imath::Box2i from = header.dataWindow(), to = header.displayWindow();
+    if (from == to) return data;
+    const int64_t width = int64_t{to.max.x} - to.min.x + 1, height = int64_t{to.max.y} - to.min.y + 1;
+    if (!image_size_allowed(width, height)) fail("the size of its display window is out of range");
+    Image image(int(width), int(height), data.channels());
+    const int first = std::max(from.min.x, to.min.x), last = std::min(from.max.x, to.max.x);
+    if (first > last) return image;
+    for (int y = std::max(from.min.y, to.min.y); y <= std::min(from.max.y, to.max.y); ++y)
+      std::copy_n(data.pixel(first - from.min.x, y - from.min.y), (last - first + 1) * data.channels(),
+                  image.pixel(first - to.min.x, y - to.min.y));
+    return image;
+  }
+
+  Image read_channels(const std::vector<Channel>& chosen) {
     const Imf::Header& header = file_.header(chosen[0].part);
     const Imath::Box2i window = header.dataWindow();
     const int64_t width = int64_t{window.max.x} - window.min.x + 1,
@@ -95,11 +140,6 @@ class ExrReader {
     return image;
   }
 
-  [[noreturn]] void fail(const std::string& why) const {
-    throw Error(ExitCode::file_io, "cannot read {} as EXR: {}", name_, why);
-  }
-
- private:
   std::vector<Channel> in_layer(const std::string& layer) const {
     std::vector<Channel> found;
     for (const Channel& channel : channels_)
@@ -171,9 +211,9 @@ class ExrReader {
   std::string first_part_;  // its name: another for the layer ""
 };
 
-}  // namespace
-
-Image decode_exr(std::string_view bytes, const std::string& name, const std::string& layer) {
+// The value of `read` for the file's reader.
+template <typename Read>
+auto with_reader(std::string_view bytes, const std::string& name, const Read& read) {
   // Before the library takes memory for what a header promises.
   static const bool limited = [] {
     Imf::Header::setMaxImageSize(65536, 65536);
@@ -184,7 +224,8 @@ Image decode_exr(std::string_view bytes, const std::string& name, const std::str
   if (!exr_header_sound(bytes))
     throw Error(ExitCode::file_io, "cannot read {} as EXR: its header is damaged, or ends too early", name);
   try {
-    return ExrReader(bytes, name).read(layer);
+    ExrReader reader(bytes, name);
+    return read(reader);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -192,6 +233,17 @@ Image decode_exr(std::string_view bytes, const std::string& name, const std::str
   } catch (const std::exception& error) {
     throw Error(ExitCode::file_io, "cannot read {} as EXR: {}", name, error.what());
   }
+}
+
+}  // namespace
+
+Image decode_exr(std::string_view bytes, const std::string& name, const std::string& layer,
+                 std::vector<std::string>& warnings) {
+  return with_reader(bytes, name, [&](ExrReader& reader) { return reader.read(layer, warnings); });
+}
+
+std::optional<Image> decode_exr_alpha(std::string_view bytes, const std::string& name) {
+  return with_reader(bytes, name, [](ExrReader& reader) { return reader.read_alpha(); });
 }
 
 }  // namespace eyeray::image

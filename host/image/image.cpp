@@ -1,5 +1,7 @@
 #include "host/image/image.hpp"
 
+#include <algorithm>
+
 #include "host/core/error.hpp"
 
 namespace eyeray::image {
@@ -13,6 +15,14 @@ Image::Image(int width, int height, int channels) : width_(width), height_(heigh
 
 bool Image::same_size(const Image& other) const {
   return width_ == other.width_ && height_ == other.height_ && channels_ == other.channels_;
+}
+
+Image in_color(Image image) {
+  if (image.channels() == 3) return image;
+  Image colored(image.width(), image.height(), 3);
+  for (size_t i = 0; i < image.sample_count(); ++i)
+    std::fill_n(&colored.samples()[3 * i], 3, image.samples()[i]);
+  return colored;
 }
 
 }  // namespace eyeray::image

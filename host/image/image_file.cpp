@@ -66,6 +66,21 @@ Image decode_png(std::string_view bytes, const std::string& name) {
   return decode(bytes, name, stbi_load_from_memory, [](stbi_uc code) { return linear[code]; });
 }
 
+std::optional<Image> decode_png_alpha(std::string_view bytes, const std::string& name) {
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = int(std::min(bytes.size(), size_t(std::numeric_limits<int>::max())));
+  int width = 0, height = 0, channels = 0;
+  if (!stbi_info_from_memory(data, size, &width, &height, &channels)) malformed(name, stbi_failure_reason());
+  if (channels % 2 != 0 || !image_size_allowed(width, height)) return std::nullopt;
+  const std::unique_ptr<stbi_us, Free> codes(
+      stbi_load_16_from_memory(data, size, &width, &height, &channels, 4));
+  if (!codes) malformed(name, stbi_failure_reason());
+  Image alpha(width, height, 1);
+  for (size_t i = 0; i < alpha.sample_count(); ++i)
+    alpha.samples()[i] = float(codes.get()[4 * i + 3]) / 65535.0f;
+  return alpha;
+}
+
 // The least linear value that a code stands for, for codes 1 … 255: where srgb · 255 rounds up to it.
 std::array<float, 256> code_thresholds() {
   std::array<float, 256> thresholds{};
@@ -108,6 +123,18 @@ void write_image(const fs::path& path, const Image& image) {
 }
 
 Image read_image(const fs::path& path, const std::string& layer) {
+  std::vector<std::string> unheard;
+  return read_image(path, layer, unheard);
+}
+
+std::optional<Image> read_alpha(const fs::path& path) {
+  const ImageFormat format = image_format(path);
+  if (format == ImageFormat::png) return decode_png_alpha(read_file(path), path.string());
+  if (format == ImageFormat::exr) return decode_exr_alpha(read_file(path), path.string());
+  return std::nullopt;
+}
+
+Image read_image(const fs::path& path, const std::string& layer, std::vector<std::string>& warnings) {
   const ImageFormat format = image_format(path);
   const std::string bytes = read_file(path);
   switch (format) {
@@ -116,9 +143,9 @@ Image read_image(const fs::path& path, const std::string& layer) {
     case ImageFormat::pfm:
       return decode_pfm(bytes, path.string());
     case ImageFormat::hdr:
-      return decode_radiance(bytes, path.string());
+      return decode_radiance(bytes, path.string(), warnings);
     case ImageFormat::exr:
-      return decode_exr(bytes, path.string(), layer);
+      return decode_exr(bytes, path.string(), layer, warnings);
   }
   CHECK(false);
 }

@@ -7,7 +7,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "host/core/atomic_file.hpp"
 #include "host/image/image.hpp"
@@ -29,8 +31,14 @@ void write_image(const std::filesystem::path& path, const Image& image);
 std::string encode_png(const Image& image);
 
 // Reads a picture as linear float32 (a PNG through the inverse sRGB curve), of an .exr that layer. Sizes up
-// to 65536 × 65536 and 2^28 pixels; Error (file_io) for anything unreadable or malformed.
+// to 65536 × 65536 and 2^28 pixels; Error (file_io) for anything unreadable or malformed. `warnings` gets a
+// sentence for each field of the header that changes the meaning of the numbers and is not honoured.
+Image read_image(const std::filesystem::path& path, const std::string& layer,
+                 std::vector<std::string>& warnings);
 Image read_image(const std::filesystem::path& path, const std::string& layer = "");
+
+// The alpha of a .png or .exr, 1 channel; none where the file has none.
+std::optional<Image> read_alpha(const std::filesystem::path& path);
 
 // Linear [0, 1] to an 8-bit sRGB code (IEC 61966-2-1), round half up.
 unsigned char srgb8(float linear);

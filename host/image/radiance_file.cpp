@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "host/core/error.hpp"
+#include "host/core/vec.hpp"
 #include "host/image/image_file.hpp"
 #include "host/image/row_encoder.hpp"
 
@@ -43,13 +44,30 @@ class Reader {
       rest_.remove_prefix(4);
       for (size_t channel = 0; channel < 4; ++channel) runs(pixels, channel);
     } else {
-      for (Rgbe& pixel : pixels) {
-        for (unsigned char& value : pixel) value = byte();
-      }
+      plain_row(pixels);
     }
   }
 
  private:
+  // Pixels one by one. A pixel of 1, 1, 1 repeats the one before as often as its last byte says; several such
+  // make one number, the lowest byte first. (Nobody else writes 1, 1, 1: colours are scaled to 128 and more.)
+  void plain_row(std::vector<Rgbe>& pixels) {
+    int shift = 0;
+    for (size_t x = 0; x < pixels.size();) {
+      Rgbe pixel;
+      for (unsigned char& value : pixel) value = byte();
+      if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
+        pixels[x++] = pixel;
+        shift = 0;
+        continue;
+      }
+      const size_t count = shift < 32 ? size_t(pixel[3]) << shift : pixels.size();
+      if (x == 0 || count > pixels.size() - x) malformed("a run leaves its row");
+      std::fill_n(pixels.begin() + std::ptrdiff_t(x), count, pixels[x - 1]);
+      x += count;
+      shift += 8;
+    }
+  }
   unsigned char peek(size_t i) const { return static_cast<unsigned char>(rest_[i]); }
   unsigned char byte() {
     if (rest_.empty()) malformed("it ends too early");
@@ -84,6 +102,19 @@ Rgbe to_rgbe(const float* color) {
   Rgbe rgbe{0, 0, 0, (unsigned char)(exponent + 128)};
   for (size_t c = 0; c < 3; ++c) rgbe[c] = (unsigned char)(held[c] * scale);
   return rgbe;
+}
+
+// Whether the chromaticities of red, green, blue and white are near Rec. 709's or Radiance's own.
+bool usual_primaries(const std::string& line) {
+  constexpr double usual[2][8] = {{0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329},
+                                  {0.64, 0.33, 0.29, 0.6, 0.15, 0.06, 0.3333, 0.3333}};
+  double v[8];
+  if (std::sscanf(line.c_str(), "PRIMARIES=%lf %lf %lf %lf %lf %lf %lf %lf", v, v + 1, v + 2, v + 3, v + 4,
+                  v + 5, v + 6, v + 7) != 8)
+    return false;
+  return std::ranges::any_of(usual, [&](const auto& row) {
+    return std::equal(v, v + 8, row, [](double a, double b) { return std::abs(a - b) < 0.002; });
+  });
 }
 
 // Rows of the new run-length encoding, where the format has it, else plain.
@@ -151,15 +182,30 @@ std::unique_ptr<RowEncoder> radiance_encoder(AtomicFile& file, int width, int he
   return std::make_unique<RadianceEncoder>(file, width, height);
 }
 
-Image decode_radiance(std::string_view bytes, const std::string& name) {
+Image decode_radiance(std::string_view bytes, const std::string& name, std::vector<std::string>& warnings) {
   // Read the header: lines up to an empty one, then the size.
   Reader reader(bytes, name);
   const std::string magic = reader.line();
   if (magic != "#?RADIANCE" && magic != "#?RGBE") reader.malformed("it does not begin with #?RADIANCE");
   bool rgbe = false;
+  Vec3 scale(1);  // from the file's numbers to light
   for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
     rgbe = rgbe || line == "FORMAT=32-bit_rle_rgbe";
+    double r = 1, g = 1, b = 1;
+    if (std::sscanf(line.c_str(), "EXPOSURE=%lf", &r) == 1) {
+      scale /= Vec3(r);
+    } else if (std::sscanf(line.c_str(), "COLORCORR=%lf %lf %lf", &r, &g, &b) == 3) {
+      scale /= Vec3(r, g, b);
+    } else if (line.starts_with("PRIMARIES=") && !usual_primaries(line)) {
+      warnings.push_back(name +
+                         ": its PRIMARIES are not those of Rec. 709; its numbers are taken as they are");
+    } else if (std::sscanf(line.c_str(), "PIXASPECT=%lf", &r) == 1 && r != 1) {
+      warnings.push_back(name + ": its PIXASPECT is not 1; pixels are taken as squares");
+    }
   }
+  for (int c = 0; c < 3; ++c)
+    if (!(scale[c] > 0) || !std::isfinite(scale[c]))
+      reader.malformed("its EXPOSURE or COLORCORR is not above 0");
   if (!rgbe) reader.malformed("its format is not 32-bit_rle_rgbe");
   int width = 0, height = 0, end = 0;
   const std::string size = reader.line();
@@ -169,7 +215,9 @@ Image decode_radiance(std::string_view bytes, const std::string& name) {
   }
   if (!image_size_allowed(width, height)) reader.malformed("its size is out of range");
   // No row is shorter than this, so that a few bytes cannot ask for gigabytes.
-  if (reader.left() < size_t(height) * size_t(width) / 32) reader.malformed("it ends too early");
+  constexpr size_t least_of_runs = 8;
+  if (reader.left() < size_t(height) * std::min(size_t(width) / 32, least_of_runs))
+    reader.malformed("it ends too early");
 
   // Read the rows.
   Image image(width, height, 3);
@@ -179,7 +227,8 @@ Image decode_radiance(std::string_view bytes, const std::string& name) {
     for (int x = 0; x < width; ++x) {
       const Rgbe& pixel = row[size_t(x)];
       if (pixel[3] == 0) continue;
-      for (size_t c = 0; c < 3; ++c) image.pixel(x, y)[c] = std::ldexp(float(pixel[c]), pixel[3] - 136);
+      for (int c = 0; c < 3; ++c)
+        image.pixel(x, y)[c] = float(scale[c] * std::ldexp(double(pixel[size_t(c)]), pixel[3] - 136));
     }
   }
   if (reader.left() > 0) reader.malformed("it goes on after the last pixel");

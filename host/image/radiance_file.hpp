@@ -4,13 +4,17 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/image/image.hpp"
 
 namespace eyeray::image {
 
-// A 3-channel picture, top row first; flat and run-length encoded rows. Strict: Error (file_io), with `name`
-// in it, for anything else, and for a byte too few or too many.
-Image decode_radiance(std::string_view bytes, const std::string& name);
+// A 3-channel picture, top row first; flat rows, and both run-length encodings. The pixels are divided by the
+// product of all EXPOSUREs and COLORCORRs, which gives the light. PRIMARIES and PIXASPECT that are not the
+// usual ones are warnings; what other lines of the header say does not change the numbers. Strict: Error
+// (file_io), with `name` in it, for anything else, and for a byte too few or too many.
+// Source: Ward: Radiance File Formats, "Picture File Format".
+Image decode_radiance(std::string_view bytes, const std::string& name, std::vector<std::string>& warnings);
 
 }  // namespace eyeray::image

@@ -14,15 +14,9 @@ bool same_settings(const ImageTexture& a, const ImageTexture& b) {
   return a.srgb == b.srgb && a.filter == b.filter && a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v;
 }
 
-// Grey becomes equal red, green and blue.
-image::Image read_light(const std::filesystem::path& path) {
+image::Image read_light(const std::filesystem::path& path, std::vector<std::string>& warnings) {
   check_image_file(path);
-  image::Image image = image::read_image(path);
-  if (image.channels() == 3) return image;
-  image::Image colored(image.width(), image.height(), 3);
-  for (size_t i = 0; i < image.sample_count(); ++i)
-    std::fill_n(&colored.samples()[3 * i], 3, image.samples()[i]);
-  return colored;
+  return image::in_color(image::read_image(path, "", warnings));
 }
 
 // `from` with the settings of `wanted`.
@@ -54,7 +48,10 @@ std::optional<image::Image> ImageFiles::load_light(const std::string& name, cons
                   ".exr or .pfm",
                   path.string());
     take_note(path);
-    return read_light(path);
+    std::vector<std::string> warnings;
+    image::Image light = read_light(path, warnings);
+    for (const std::string& warning : warnings) log_.warning(position, warning);
+    return light;
   } catch (const Error& unreadable) {
     log_.error(position, unreadable.what());
     return std::nullopt;

@@ -9,7 +9,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   for (const std::string layer : {"", "depth"}) {
     try {
-      const eyeray::image::Image image = eyeray::image::decode_exr(bytes, INPUT_NAME, layer);
+      std::vector<std::string> warnings;
+      const eyeray::image::Image image = eyeray::image::decode_exr(bytes, INPUT_NAME, layer, warnings);
+      eyeray::image::decode_exr_alpha(bytes, INPUT_NAME);
       if (image.width() < 1 || image.height() < 1 || (image.channels() != 1 && image.channels() != 3))
         std::abort();
     } catch (const eyeray::Error&) {

@@ -1,4 +1,5 @@
 #include "host/image/coded_image.hpp"
+#include "host/image/exif.hpp"
 
 #include <cmath>
 
@@ -127,6 +128,38 @@ TEST_CASE("JPEG, baseline, progressive and grey: the codes come out, but for its
     const Pixel& pixel = grey.pixels[size_t(i)];
     CHECK(std::abs(pixel[0] - i % 16 * 16) <= 4);
     CHECK(pixel[0] == pixel[2]);
+  }
+}
+
+TEST_CASE("a JPEG is turned as its EXIF orientation says") {
+  // The stored picture is 3 × 2: 0 1 2 / 3 4 5. Row by row, as a viewer sees it (Exif 2.3, figure of tag
+  // 0x0112).
+  const std::string seen[8] = {"012345", "210543", "543210", "345012",
+                               "031425", "304152", "524130", "251403"};
+  image::CodedImage stored{3, 2, {}};
+  for (uint8_t i = 0; i < 6; ++i) stored.pixels.push_back({i, 0, 0, 255});
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    CAPTURE(orientation);
+    const image::CodedImage turned = image::upright(stored, orientation);
+    CHECK(turned.width == (orientation < 5 ? 3 : 2));
+    std::string codes;
+    for (const auto& pixel : turned.pixels) codes += char('0' + pixel[0]);
+    CHECK(codes == seen[orientation - 1]);
+
+    for (const bool little : {true, false}) {
+      const char number = char(orientation);
+      const std::string tiff =
+          little ? std::string("II*\0\x8\0\0\0\1\0\x12\1\3\0\1\0\0\0", 18) + number + std::string(7, '\0')
+                 : std::string("MM\0*\0\0\0\x8\0\1\1\x12\0\3\0\0\0\1\0", 19) + number + std::string(6, '\0');
+      const std::string jpeg = std::string("\xff\xd8\xff\xe1\0", 5) + char(2 + 6 + tiff.size()) +
+                               std::string("Exif\0\0", 6) + tiff + "\xff\xda";
+      const auto bytes = std::as_bytes(std::span(jpeg));
+      CHECK(image::exif_orientation(bytes) == orientation);
+      for (size_t size = 0; size < jpeg.size(); ++size) {
+        const int cut = image::exif_orientation(bytes.first(size));
+        CHECK((cut == 1 || cut == orientation));
+      }
+    }
   }
 }
 

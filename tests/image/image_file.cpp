@@ -161,6 +161,38 @@ TEST_CASE("HDR keeps eight bits of the largest channel, and nothing that it cann
   CHECK(read.samples()[2] > 1e37f);
 }
 
+TEST_CASE("HDR: EXPOSURE and COLORCORR are divided out, other primaries are named, old runs are read") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& lines, const std::string& rows,
+                        std::vector<std::string>& warnings) {
+    write_file_atomically(folder / "a.hdr", "#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n" + rows);
+    return read_image(folder / "a.hdr", "", warnings);
+  };
+  const std::string one = "-Y 1 +X 1\n\x80\x80\x80\x81";
+  std::vector<std::string> warnings;
+  const Image image = read("EXPOSURE=4\nEXPOSURE= 0.5\nCOLORCORR=1 2 4\n", one, warnings);
+  CHECK(image.samples() == std::vector<float>{0.5f, 0.25f, 0.125f});
+  read("PRIMARIES=0.64 0.33 0.29 0.6 0.15 0.06 0.3333 0.3333\nPIXASPECT=1\nVIEW= -vth\n", one, warnings);
+  CHECK(warnings.empty());
+  read("PRIMARIES=0.7 0.3 0.2 0.8 0.13 0.05 0.3127 0.329\nPIXASPECT=2\n", one, warnings);
+  CHECK(warnings.size() == 2);
+  for (const char* wrong : {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=nan\n", "EXPOSURE=1e-320\n"}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_AS(read(wrong, one, warnings), Error);
+  }
+
+  // 300 pixels: one, 0x28 + (1 << 8) repetitions of it, and three others.
+  const Image runs = read("",
+                          std::string("-Y 1 +X 300\n\x80\x80\x80\x81\1\1\1\x28\1\1\1\1", 24) +
+                              "\x80\x80\x80\x82\x80\x80\x80\x83\x80\x80\x80\x84",
+                          warnings);
+  CHECK(*runs.pixel(296, 0) == 1);
+  CHECK(*runs.pixel(297, 0) == 2);
+  CHECK(*runs.pixel(299, 0) == 8);
+  CHECK_THROWS_AS(read("", "-Y 1 +X 2\n\1\1\1\2", warnings), Error);
+  CHECK_THROWS_AS(read("", "-Y 1 +X 2\n\x80\x80\x80\x81\1\1\1\2", warnings), Error);
+}
+
 TEST_CASE("malformed PFM files are refused") {
   const std::string pixel("\0\0\0\0", 4);
   REQUIRE_FALSE(unreadable("a.pfm", "Pf\n1 1\n-1\n" + pixel));

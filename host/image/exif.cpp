@@ -1,0 +1,71 @@
+#include "host/image/exif.hpp"
+
+#include <string_view>
+
+namespace eyeray::image {
+
+namespace {
+
+// Numbers of a TIFF block, in its order of bytes; 0 beyond its end.
+struct Tiff {
+  std::string_view bytes;
+
+  uint64_t number(uint64_t at, uint64_t size) const {
+    if (at > bytes.size() || size > bytes.size() - at) return 0;
+    const bool little = bytes.starts_with("II");
+    uint64_t value = 0;
+    for (uint64_t i = 0; i < size; ++i)
+      value = value << 8 | uint8_t(bytes[size_t(at + (little ? size - 1 - i : i))]);
+    return value;
+  }
+};
+
+int orientation_of(const Tiff& tiff) {
+  constexpr uint64_t magic = 42, entry_size = 12, orientation_tag = 0x0112;
+  if (tiff.number(2, 2) != magic) return 1;
+  const uint64_t directory = tiff.number(4, 4), count = tiff.number(directory, 2);
+  for (uint64_t i = 0; i < count; ++i) {
+    const uint64_t entry = directory + 2 + i * entry_size;
+    if (tiff.number(entry, 2) != orientation_tag) continue;
+    const uint64_t value = tiff.number(entry + 8, 2);
+    return value >= 1 && value <= 8 ? int(value) : 1;
+  }
+  return 1;
+}
+
+}  // namespace
+
+int exif_orientation(std::span<const std::byte> jpeg) {
+  const std::string_view bytes(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
+  const auto byte = [&](size_t at) { return size_t{uint8_t(bytes[at])}; };
+  // Segments: FF, a marker, a length that counts itself. Pixels begin at FF DA.
+  for (size_t at = 2; at + 4 <= bytes.size() && byte(at) == 0xff && byte(at + 1) != 0xda;) {
+    const size_t length = byte(at + 2) << 8 | byte(at + 3);
+    if (length < 2 || length > bytes.size() - at - 2) break;
+    std::string_view segment = bytes.substr(at + 4, length - 2);
+    constexpr std::string_view exif("Exif\0\0", 6);
+    if (byte(at + 1) == 0xe1 && segment.starts_with(exif))
+      return orientation_of({segment.substr(exif.size())});
+    at += 2 + length;
+  }
+  return 1;
+}
+
+CodedImage upright(CodedImage image, int orientation) {
+  if (orientation == 1) return image;
+  const bool turned = orientation >= 5;  // rows become columns
+  const bool from_right = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
+  const bool from_bottom = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
+  CodedImage seen{turned ? image.height : image.width, turned ? image.width : image.height, {}};
+  seen.pixels.reserve(image.pixels.size());
+  for (int y = 0; y < seen.height; ++y)
+    for (int x = 0; x < seen.width; ++x) {
+      int column = turned ? y : x, row = turned ? x : y;
+      if (from_right) column = image.width - 1 - column;
+      if (from_bottom) row = image.height - 1 - row;
+      seen.pixels.push_back(image.pixels[size_t(row) * size_t(image.width) + size_t(column)]);
+    }
+  return seen;
+}
+
+}  // namespace eyeray::image
