@@ -1,12 +1,14 @@
 #include "host/loader/allowed_folders.hpp"
 
+#include <algorithm>
+
 #include "host/core/error.hpp"
 
 namespace eyeray::loader {
 
 namespace fs = std::filesystem;
 
-AllowedFolders::AllowedFolders(const fs::path& scene, std::span<const fs::path> others) {
+AllowedFolders::AllowedFolders(const fs::path& scene, std::span<const fs::path> others) : scene_(scene) {
   trees_.allow(scene.parent_path());
   for (const fs::path& folder : others) trees_.allow(folder);
 }
@@ -22,6 +24,12 @@ AllowedFolders::File AllowedFolders::find(std::string_view key, const std::strin
                 name);
   }
   return {path, fs::weakly_canonical(fs::absolute(path))};
+}
+
+AllowedFolders::File AllowedFolders::find(std::string_view key, const std::string& name,
+                                          const std::string& from, std::span<const fs::path> sources) const {
+  const auto source = std::ranges::find(sources, fs::path(from));
+  return find(key, name, source != sources.end() ? *source : scene_);
 }
 
 }  // namespace eyeray::loader

@@ -23,8 +23,13 @@ class AllowedFolders {
   // The file that the value `name` of `key`, written in the file `from`, stands for; it need not exist. Error
   // (bad_input) where the name is none, or leads out of the allowed folders, links followed.
   File find(std::string_view key, const std::string& name, const std::filesystem::path& from) const;
+  // The same for a value at a position. One that stands in none of the scene's `sources`, such as an
+  // override, is relative to the scene's folder.
+  File find(std::string_view key, const std::string& name, const std::string& from,
+            std::span<const std::filesystem::path> sources) const;
 
  private:
+  std::filesystem::path scene_;
   FolderTrees trees_;
 };
 

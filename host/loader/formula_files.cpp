@@ -16,9 +16,7 @@ constexpr size_t most_bytes = size_t{1} << 16;
 std::optional<formula::FormulaText> FormulaFiles::load(const std::string& name,
                                                        const SourcePosition& position) {
   try {
-    const auto source = std::ranges::find(sources_, std::filesystem::path(position.file));
-    const auto [path, whole] =
-        folders_.find("file", name, source != sources_.end() ? *source : sources_.front());
+    const auto [path, whole] = folders_.find("file", name, position.file, sources_);
     const bool fresh = std::ranges::find(files_, path) == files_.end();
     if (fresh) files_.push_back(path);
     formula::FormulaText text{read_input_file(path, "the formula", most_bytes), {path.string(), 1, 1}};

@@ -31,8 +31,7 @@ std::shared_ptr<const ImageTexture> with_settings(ImageTexture from, const Image
 }  // namespace
 
 AllowedFolders::File ImageFiles::find(const std::string& name, const SourcePosition& position) {
-  const auto source = std::ranges::find(sources_, std::filesystem::path(position.file));
-  return folders_.find("image", name, source != sources_.end() ? *source : sources_.front());
+  return folders_.find("image", name, position.file, sources_);
 }
 
 void ImageFiles::take_note(const std::filesystem::path& path) {

@@ -43,8 +43,7 @@ AllowedFolders::File MeshImports::find(const std::string& name, const std::strin
       throw Error(ExitCode::bad_input, "\"{}\" is none of the meshes that came with this scene", name);
     return {name, name};
   }
-  const auto source = std::ranges::find(sources_, fs::path(from));
-  return folders_->find("file", name, source != sources_.end() ? *source : sources_.front());
+  return folders_->find("file", name, from, sources_);
 }
 
 importers::ImportedScene MeshImports::read(const fs::path& file, const Wanted& wanted) {

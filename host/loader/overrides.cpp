@@ -14,12 +14,21 @@ namespace eyeray::loader {
 
 namespace {
 
+// Whether it is a name or the path of a file, which needs no quotes.
 bool is_word(std::string_view text) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  const auto inner = [&](char c) {
-    return letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '/';
+  const auto letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+           static_cast<unsigned char>(c) >= 0x80;
   };
-  return !text.empty() && letter(text[0]) && std::ranges::all_of(text, inner);
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto inner = [&](char c) {
+    return letter(c) || digit(c) || std::string_view("-./ +@~()").find(c) != std::string_view::npos;
+  };
+  if (text.empty() || !std::ranges::all_of(text, inner)) return false;
+  if (letter(text[0]) || text[0] == '.' || text[0] == '/') return true;
+  // A file's name may begin with a digit.
+  const size_t dot = text.rfind('.');
+  return digit(text[0]) && dot != std::string_view::npos && dot + 1 < text.size() && letter(text[dot + 1]);
 }
 
 std::optional<size_t> as_index(std::string_view text) {

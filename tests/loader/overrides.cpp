@@ -1,12 +1,16 @@
 // -D KEY=VALUE.
+#include <algorithm>
+
 #include "host/loader/scene_file.hpp"
 #include "host/scene/integrator.hpp"
 //
+#include "folder.hpp"
 #include "tests/support/camera.hpp"
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::loader;
+using eyeray::test::Folder;
 
 namespace {
 
@@ -107,6 +111,51 @@ TEST_CASE("a wrong override is refused, and says which it is") {
       CHECK(refusal(change) == fmt::format("-D {}: error: {}", change, message));
     } else {
       CHECK(refusal(change).ends_with("write KEY=VALUE, such as render.max_depth=3"));
+    }
+  }
+}
+
+TEST_CASE("a file that an override names lies beside the scene, whatever kind of input the scene is") {
+  const Folder folder;
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
+  folder.write("in/other.obj", triangle);
+  folder.write("in/colors.glsl", "vec3 color(vec2 uv) { return vec3(uv, 0); }\n");
+  folder.write("in/sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81");
+  std::filesystem::copy_file("tests/image/pictures/rgb.png", folder / "in/rgb.png");
+  const std::string shapes =
+      "[[material]]\nname = \"m\"\ntype = \"phong\"\n[[mesh]]\nfile = \"other.obj\"\nmaterial = \"m\"\n"
+      "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n";
+  folder.write("in/parts.toml", shapes);
+  const std::string inputs[] = {folder.write("in/scene.toml", shapes),
+                                folder.write("in/main.toml", "include = [\"parts.toml\"]\n"),
+                                folder.write("in/alone.obj", triangle)};
+
+  struct Value {
+    std::string key, file;
+    bool in_mesh;  // a mesh alone has no material to change
+  };
+  const Value values[] = {{"environment.image=NAME", "sky.hdr", true},
+                          {"mesh.0.file=NAME", "other.obj", true},
+                          {"material.0.diffuse={image=\"NAME\"}", "rgb.png", false},
+                          {"material.0.diffuse={formula={file=\"NAME\"}}", "colors.glsl", false}};
+  for (const std::string& input : inputs) {
+    for (const Value& value : values) {
+      for (const std::string& name : {value.file, "./" + value.file, folder / "in/" + value.file}) {
+        const std::string change = std::string(value.key).replace(value.key.find("NAME"), 4, name);
+        CAPTURE(input);
+        CAPTURE(change);
+        const bool alone = input.ends_with(".obj");
+        if (alone && !value.in_mesh) {
+          CHECK_THROWS_AS(load_scene(input, std::vector<Override>{{change}}), InputError);
+          continue;
+        }
+        const Scene scene = load_scene(input, std::vector<Override>{{change}});
+        CHECK(std::ranges::count(scene.files, std::filesystem::path(folder / "in/" + value.file)) == 1);
+      }
+      const std::string missing = std::string(value.key).replace(value.key.find("NAME"), 4, "missing.hdr");
+      CHECK_THROWS_AS(load_scene(input, std::vector<Override>{{missing}}), InputError);
+      // Text has no folder.
+      CHECK_THROWS_AS(parse_scene(text, "scene.toml", std::vector<Override>{{missing}}), InputError);
     }
   }
 }
