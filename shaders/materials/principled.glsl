@@ -66,11 +66,9 @@ Bsdf principled_surface(Material material, ScatteringContext context, vec3 color
   return bsdf;
 }
 
-#if HAS_TRANSMISSION
 float principled_through(Material material, ScatteringContext context, float metallic) {
   return transmission_of(material, context.place).x * (1.0f - metallic);
 }
-#endif
 
 #if HAS_PANES
 // Of a pane with that surface.
