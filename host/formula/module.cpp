@@ -1,11 +1,27 @@
 #define SPV_ENABLE_UTILITY_CODE
 #include "host/formula/module.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "host/gpu/spirv.hpp"
 
 namespace eyeray::formula {
+
+namespace {
+
+// Numbers of one type, and of all variables of a module: small enough for sums and products of them in 32
+// bits.
+constexpr uint64_t most_numbers_of_a_type = 1 << 13;
+constexpr uint64_t most_numbers_of_variables = 1 << 20;
+
+[[noreturn]] void refuse_size(const SourcePosition& where, std::string_view what, uint64_t most) {
+  throw InputError(
+      {{Severity::error, where, fmt::format("{} more than {} numbers: use smaller arrays", what, most), ""}});
+}
+
+}  // namespace
 
 uint32_t Type::member_offset(const std::map<uint32_t, Type>& types, uint32_t index) const {
   uint32_t offset = 0;
@@ -29,9 +45,14 @@ void Module::read_type(spv::Op op, std::span<const uint32_t> words) {
     case spv::OpTypeMatrix:
       type.members.assign(words[3], words[2]);
       break;
-    case spv::OpTypeArray:
-      type.members.assign(constant_bits_.at(words[3]).at(0), words[2]);
+    case spv::OpTypeArray: {
+      // Before anything is as long as that. No type has more numbers than 2^13: the product fits 64 bits.
+      const uint64_t length = constant_bits_.at(words[3]).at(0), numbers = length * types.at(words[2]).size;
+      if (length == 0 || length > most_numbers_of_a_type || numbers > most_numbers_of_a_type)
+        refuse_size({}, "an array has none or", most_numbers_of_a_type);
+      type.members.assign(length, words[2]);
       break;
+    }
     case spv::OpTypeStruct:
       type.members.assign(words.begin() + 2, words.end());
       break;
@@ -41,7 +62,16 @@ void Module::read_type(spv::Op op, std::span<const uint32_t> words) {
     default:
       return;
   }
-  for (const uint32_t member : type.members) type.size += types.at(member).size;
+  uint64_t numbers = type.size;
+  for (const uint32_t member : type.members) numbers += types.at(member).size;
+  if (numbers > most_numbers_of_a_type) refuse_size({}, "a type has", most_numbers_of_a_type);
+  type.size = uint32_t(numbers);
+}
+
+void Module::count_variable(const Instruction& variable) {
+  variable_numbers_ += types.at(types.at(variable.type).members[0]).size;
+  if (variable_numbers_ > most_numbers_of_variables)
+    refuse_size(variable.where, "the formula's variables together have", most_numbers_of_variables);
 }
 
 void Module::read_constant(const Instruction& instruction) {
@@ -117,6 +147,7 @@ Module::Module(std::span<const uint32_t> spirv) {
       default:
         break;
     }
+    if (op == spv::OpVariable) count_variable(instruction);
     if (function) {
       function->blocks.back().instructions.push_back(std::move(instruction));
     } else if (has_type) {

@@ -51,7 +51,7 @@ struct Module {
   std::vector<Instruction> constants;  // and variables outside functions, in order
   std::vector<Function> functions;     // in the order in which they stand
 
-  // Of what formula/text.hpp lets through; Error for words that are no SPIR-V.
+  // Error for words that are no SPIR-V; InputError for types and variables that are too large to be held.
   explicit Module(std::span<const uint32_t> spirv);
 
   const Function& function(uint32_t id) const;
@@ -69,10 +69,12 @@ struct Module {
 
  private:
   void read_type(spv::Op op, std::span<const uint32_t> words);
+  void count_variable(const Instruction& variable);
   void read_constant(const Instruction& instruction);
   std::map<uint32_t, uint32_t> value_types_;
   std::map<uint32_t, std::vector<uint32_t>> constant_bits_;
   std::map<uint32_t, std::string> names_;
+  uint64_t variable_numbers_ = 0;
 };
 
 }  // namespace eyeray::formula

@@ -61,6 +61,7 @@ class Judge {
   void find_functions();
   bool judge_word(size_t i);
   void judge_arrays();
+  std::vector<size_t> declared_at(size_t i) const;
   std::optional<size_t> size_written_at(size_t i) const;
   void judge_chains();
   void judge_globals();
@@ -153,25 +154,46 @@ std::optional<size_t> Judge::size_written_at(size_t i) const {
   return size <= most_elements ? std::optional(size) : std::nullopt;
 }
 
+// Where the names begin that TYPE at i declares: TYPE NAME, NAME [ SIZE ] = …, NAME; none for a function.
+std::vector<size_t> Judge::declared_at(size_t i) const {
+  std::vector<size_t> names;
+  if (!type_at(i) || !is_word(i + 1) || is(i + 2, "(")) return names;
+  names.push_back(i + 1);
+  for (size_t k = i + 2; k < t_.tokens.size() && !is(k, ";"); ++k) {
+    if (opens(k))
+      k = partner_[k];
+    else if (partner_[k] != none || (type_at(k) && is_word(k + 1)))
+      break;  // what the declaration stands in ends, or the next one begins
+    else if (is(k, ",") && is_word(k + 1) && !is_type(text(k + 1)))
+      names.push_back(k + 1);
+  }
+  return names;
+}
+
 // TYPE NAME [ SIZE ], and float[2](1, 2). Comparing arrays takes an instruction an element.
 void Judge::judge_arrays() {
   size_t largest = 0, comparisons = 0;
-  for (size_t i = 0; i + 1 < t_.tokens.size(); ++i) {
-    comparisons += is(i, "==") || is(i, "!=");
-    if (!type_at(i)) continue;
-    const bool list = is(i + 1, "[");
-    if (!list && !(is_word(i + 1) && is(i + 2, "["))) continue;
-    const size_t open = list ? i + 1 : i + 2, close = partner_[open];
-    if (list && !is(close + 1, "("))
-      fail(i, fmt::format("write the size of an array behind its name: {} name[…]", text(i)));
+  const auto judge = [&](size_t open, bool may_be_empty) {
+    const size_t close = partner_[open];
+    const bool empty = may_be_empty && close == open + 1;
     const auto size = size_written_at(open);
-    if (!size && !(list && close == open + 1))
+    if (!size && !empty)
       fail(open - 1, fmt::format("the size of an array must be a decimal number from 1 to {}, written out",
                                  most_elements));
     if (is(close + 1, "[")) fail(close + 1, "arrays of arrays are not known here");
     // A list without a size has no more elements than tokens.
-    largest = std::max(largest, size.value_or(close == open + 1 ? partner_[close + 1] - close : 0));
-    i = open;
+    largest = std::max(largest, size.value_or(empty ? partner_[close + 1] - close : 0));
+  };
+  for (size_t i = 0; i + 1 < t_.tokens.size(); ++i) {
+    comparisons += is(i, "==") || is(i, "!=");
+    if (!type_at(i)) continue;
+    if (is(i + 1, "[")) {
+      const bool list = is(partner_[i + 1] + 1, "(");
+      if (!list) fail(i, fmt::format("write the size of an array behind its name: {} name[…]", text(i)));
+      judge(i + 1, list);
+    }
+    for (const size_t name : declared_at(i))
+      if (is(name + 1, "[")) judge(name + 1, false);
   }
   if (largest * comparisons > most_compared)
     faults_.push_back(
@@ -189,12 +211,19 @@ void Judge::judge_chains() {
   };
   std::vector<Bracket> open;
   size_t links = 0;
+  const auto add_link = [&](size_t i) {
+    if (++links == most_links + 1)
+      fail(i, fmt::format("a statement chains at most {} operators: split it", most_links));
+  };
   for (size_t i = 0; i < t_.tokens.size(); ++i) {
     const size_t base = open.empty() ? 0 : open.back().links;
     const char c = text(i)[0];
     const bool is_sign = t_.tokens[i].kind == Token::Kind::sign;
     if (opens(i)) {
-      const bool is_call = is(i, "(") && i > 0 && (is(i - 1, "]") || (is_word(i - 1) && !chains(i - 1)));
+      const bool is_call =
+          is(i, "(") && i > 0 && (is(i - 1, "]") || (is_word(i - 1) && !is_keyword(text(i - 1))));
+      // a[1][0], f(p)[0]: a compiler goes one deeper for each.
+      if (!is(i, "{") && i > 0 && (is(i - 1, ")") || is(i - 1, "]"))) add_link(i);
       open.push_back({links, is_call});
     } else if (is_sign && (c == ')' || c == ']')) {
       links = base;
@@ -206,8 +235,8 @@ void Judge::judge_chains() {
       if (!is(i + 1, "else")) links = base;
     } else if (is(i, ",") && !open.empty() && open.back().is_list) {
       links = base;
-    } else if ((is_sign || chains(i)) && ++links == most_links + 1) {
-      fail(i, fmt::format("a statement chains at most {} operators: split it", most_links));
+    } else if (is_sign || chains(i)) {
+      add_link(i);
     }
   }
 }

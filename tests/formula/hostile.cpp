@@ -150,3 +150,73 @@ TEST_CASE("what is bounded is no longer than drivers compile in seconds") {
   CHECK(why(400).starts_with("without loops, calls and branches the function has 80"));
   CHECK(why(400).ends_with("and may have 512; so no interval can be computed for it: declare a `lipschitz`"));
 }
+
+TEST_CASE("an array is held to its size wherever it is declared") {
+  for (const uint64_t size : {1025ull, 65536ull, 1ull << 28, 1ull << 29, 1ull << 30, 1ull << 31, 715827883ull,
+                              1431655766ull, 4294967295ull, 1ull << 32, (1ull << 32) + 1, 1ull << 62}) {
+    const std::string list = fmt::format("[{}]", size);
+    CAPTURE(list);
+    for (const std::string type : {"float", "int", "uint", "bool", "vec2", "vec3", "vec4"}) {
+      CAPTURE(type);
+      CHECK(refusal_of_f(type + " b" + list + "; return p.x;") == odd_size);
+      CHECK(refusal_of_f(type + " a, b" + list + "; return p.x;") == odd_size);
+      CHECK(refusal_of_f(type + " a[2], b[3], c, d" + list + "; return p.x;") == odd_size);
+      CHECK(refusal_of_f(type + " a = " + type + "(p[int(p.x)]), b" + list + "; return p.x;") == odd_size);
+      CHECK(refusal_of_f(type + " a[2] = {" + type + "(1), " + type + "(2)}, b" + list + "; return p.x;") ==
+            odd_size);
+      CHECK(refusal_of_f("for (" + type + " a, b" + list + "; p.x < 1.0;) p.x++; return p.x;") == odd_size);
+      CHECK(refusal_of_f("for (int i = 0; i < 2; i++) { " + type + " a, b" + list + "; } return p.x;") ==
+            odd_size);
+      CHECK(refusal_of_f("const " + type + " a = " + type + "(1), b" + list + "; return p.x;") == odd_size);
+      const std::string f = "float f(vec3 p) { return p.x; }\n";
+      CHECK(refusal("float g(int k, " + type + " b" + list + ") { return 1.0; }\n" + f) == odd_size);
+      CHECK(refusal("float g(" + type + " b" + list + ");\n" + f) == odd_size);
+      CHECK(refusal("float g() { " + type + " a, b" + list + "; return 1.0; }\n" + f) == odd_size);
+      CHECK(refusal("const " + type + " a = " + type + "(1), b" + list + ";\n" + f) == odd_size);
+    }
+  }
+  // Commas that declare nothing.
+  CHECK(refusal_of_f("float a[4], b[3], c = max(p.x, p[1]); b[0] = c, a[3] = c; return a[3] + b[0];") == "");
+  // Memory counts the later ones too.
+  CHECK(refusal_of_f("vec4 a" + times(9, "_") +
+                     ", b[1024], c[1024], d[1024]; int i = int(p.x);\n"
+                     "b[i] = vec4(1); c[i] = b[i]; d[i] = c[i]; return d[i + 1].x;") != "");
+}
+
+TEST_CASE("all variables together are limited, whatever becomes of them") {
+  std::string names = "vec4 a0[1024]";
+  for (int i = 1; i < 400; ++i) names += fmt::format(", a{}[1024]", i);
+  std::string touched;
+  for (int i = 0; i < 400; ++i) touched += fmt::format("a{}[1].x = p.x;\n", i);
+  CHECK(refusal_of_f(names + ";\n" + touched + "return p.x;") ==
+        "the formula's variables together have more than 1048576 numbers: use smaller arrays");
+}
+
+TEST_CASE("no construct, however often it is written, takes a compiler deeper than it can go") {
+  const auto refused = [](const std::string& body) { return refusal_of_f(body) != ""; };
+  // A text of 64 KiB holds as many as fit; 100 000 do not.
+  for (const int count : {600, 10000, 100000}) {
+    CAPTURE(count);
+    for (const std::string op : {"+",  "-", "*", "/", "<",  ">",  "<=", ">=", "==", "!=", "&&",   "||",
+                                 "^^", "&", "|", "^", "<<", ">>", "%",  ",",  "=",  "+=", "?p.x:"}) {
+      CAPTURE(op);
+      CHECK(refused("return p.x" + times(count, op + "a") + ";"));
+      CHECK(refused("return (p.x" + times(count, op + "a") + ");"));
+      CHECK(refused("for (;;p.x" + times(count, op + "a") + ") ; return p.x;"));
+      CHECK(refused("return p[(0" + times(count, op + "0") + ")];"));
+    }
+    for (const std::string sign : {"- ", "+ ", "!", "~", "++", "--"})
+      CHECK(refused("return " + times(count, sign) + "p.x;"));
+    for (const std::string suffix : {"[0]", "(0)", ".x", "++", "--"})
+      CHECK(refused("return p" + times(count, suffix) + ";"));
+    for (const std::string head :
+         {"if(p.x>0.)", "for(;;)", "while(p.x>0.)", "if(p.x>0.);else ", "{", "(", "[", "sin(", "vec3(", "p["})
+      CHECK(refused(times(count, head) + ";return 0.;"));
+  }
+  CHECK(refusal_of_f("float a=p.x; return (a" + times(10000, ",a") + ");") == too_long_a_chain);
+  CHECK(refusal_of_f("return p" + times(10000, "[0]") + ";") == too_long_a_chain);
+  // What stands side by side is as long as the text may be.
+  for (const std::string statement : {"float a;", ";", "{}", "p.x;"})
+    (void)refusal_of_f(times(7000, statement));
+  (void)refusal_of_f("p.x = max(p.x" + times(20000, ",1.") + ");return p.x;");
+}
