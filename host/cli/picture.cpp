@@ -16,6 +16,7 @@
 #include "host/image/image_file.hpp"
 #include "host/render/corners.hpp"
 #include "host/render/flags.hpp"
+#include "host/render/legibility.hpp"
 #include "host/render/render.hpp"
 
 namespace fs = std::filesystem;
@@ -121,11 +122,13 @@ Picture make_picture(PictureRequest request, const std::function<void(const rend
     files->write(aov, rows);
   };
   render::CornerMean corners;
+  render::Legibility legibility(scene.render.background, scene.image.tone.exposure);
   StageTimes encoding;
   const auto write = [&](const render::FinishedRows& rows) {
     if (!files)
       files.emplace(request.outputs, request.aovs, crop.width, crop.height, request.half, scene.image.tone);
     files->write(rows.color);
+    if (scene.is_mesh_alone && !scene.environment) legibility.see(rows.color);
     values.give(rows, write_aov);
   };
   const render::RenderTotals totals = render::render_rows(
@@ -159,6 +162,7 @@ Picture make_picture(PictureRequest request, const std::function<void(const rend
   if (prepared->checkpoint && !picture.interrupted) prepared->checkpoint->remove();
 
   describe(request, *prepared, totals, picture);
+  if (scene.is_mesh_alone && !scene.environment) picture.illegible = legibility.warning();
   for (const StageTimes& times : {prepared->executor->times(), encoding}) {
     for (const auto& [stage, seconds] : times.stages()) picture.times.add(stage, seconds);
   }

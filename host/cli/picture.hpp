@@ -89,6 +89,7 @@ struct Picture {
   uint64_t rays_resumed = 0;           // of `rays`, those behind samples_resumed
   std::filesystem::path checkpoint;    // left behind, to go on from; empty: none
   std::optional<RayCounts> ray_kinds;  // of this run, where they were asked for
+  std::string illegible;               // a warning about the look of a mesh file alone, or ""
   StageTimes times;
 };
 

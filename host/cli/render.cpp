@@ -128,7 +128,7 @@ ExitCode RenderCommand::run_picture(PictureRequest wanted, Json& said) {
   if (const std::string warning = noise_warning(picture); !warning.empty())
     fmt::print(stderr, "eyeray: warning: {}\n", warning);
   // A part's are its picture's to say.
-  for (const std::string& warning : {clamp_warning(picture), firefly_warning(picture)})
+  for (const std::string& warning : {clamp_warning(picture), firefly_warning(picture), picture.illegible})
     if (!warning.empty() && !share) fmt::print(stderr, "eyeray: warning: {}\n", warning);
   if (!quiet) fmt::print(stderr, "{}\n", summary(picture));
   if (stats) print_stages(picture);

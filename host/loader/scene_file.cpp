@@ -102,7 +102,9 @@ Scene load_moment(const fs::path& file, std::span<const Override> overrides, con
     MeshImports meshes(folders, std::move(trees), {file}, pixels);
     Document document = read_mesh(file, overrides, meshes, log);
     ImageFiles images(folders, document.files, pixels, log);
-    return finish(std::move(document), file, overrides, &images, &meshes, nullptr, log);
+    Scene scene = finish(std::move(document), file, overrides, &images, &meshes, nullptr, log);
+    scene.is_mesh_alone = true;
+    return scene;
   }
   Document document = read_document(file, folders, log);
   if (!trust.formulas) refuse_formulas(document.root, log);

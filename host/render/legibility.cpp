@@ -1,0 +1,42 @@
+#include "host/render/legibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eyeray::render {
+
+namespace {
+
+// What a display may show alike.
+constexpr double alike = 1.0 / 512;
+// The share of a picture that must differ from the background, at least.
+constexpr double least_foreground = 1e-3;
+
+}  // namespace
+
+Legibility::Legibility(const Vec3& background, double exposure)
+    : background_(background), gain_(std::exp2(exposure)) {}
+
+void Legibility::see(const image::Image& rows) {
+  for (int y = 0; y < rows.height(); ++y)
+    for (int x = 0; x < rows.width(); ++x) {
+      const float* pixel = rows.pixel(x, y);
+      const Vec3 color(pixel[0], pixel[1], pixel[2]);
+      const Vec3 apart = glm::abs(color - background_) * gain_;
+      ++pixels_;
+      if (!(std::max({apart.x, apart.y, apart.z}) > alike)) continue;
+      ++foreground_;
+      bright_ += std::min({color.x, color.y, color.z}) * gain_ > 1;
+    }
+}
+
+std::string Legibility::warning() const {
+  if (double(foreground_) < least_foreground * double(pixels_))
+    return "the model cannot be told from the background: smooth metal mirrors it, and a camera may miss the "
+           "model; give it surroundings, as with -D environment.image=studio.hdr, or another camera.eye";
+  if (2 * bright_ > foreground_)
+    return "more than half of the model is brighter than white: try --exposure -4, or --tone neutral";
+  return "";
+}
+
+}  // namespace eyeray::render

@@ -1,0 +1,31 @@
+// Whether a picture shows anything: what share of it is beyond white, and whether there is more than
+// background.
+#pragma once
+
+#include <string>
+
+#include "host/core/vec.hpp"
+#include "host/image/image.hpp"
+
+namespace eyeray::render {
+
+class Legibility {
+ public:
+  // `background`: linear RGB of rays that miss. `exposure`: stops, as the picture is shown.
+  Legibility(const Vec3& background, double exposure);
+
+  // Rows of the picture, 3 channels, linear.
+  void see(const image::Image& rows);
+  // One sentence where more than half of what is not background is beyond 1, or where all but a thousandth
+  // is background; else "".
+  std::string warning() const;
+
+ private:
+  Vec3 background_;
+  double gain_;
+  int64_t pixels_ = 0;
+  int64_t foreground_ = 0;  // pixels that differ from the background
+  int64_t bright_ = 0;      // of these, with all channels beyond 1
+};
+
+}  // namespace eyeray::render

@@ -1,0 +1,33 @@
+// A model that nobody could see is a warning.
+#include "host/render/legibility.hpp"
+
+#include <algorithm>
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using render::Legibility;
+
+namespace {
+
+// The warning for 100 × 100 pixels of a grey background, the first `count` of which are `value`.
+std::string warning(int count, float value, double exposure = 0) {
+  image::Image rows(100, 100, 3);
+  std::ranges::fill(rows.samples(), 0.5f);
+  std::fill_n(rows.samples().begin(), 3 * count, value);
+  Legibility legibility(Vec3(0.5), exposure);
+  legibility.see(rows);
+  return legibility.warning();
+}
+
+}  // namespace
+
+TEST_CASE("a picture of nothing but background, or beyond white, is named") {
+  CHECK(warning(5, 0).find("cannot be told from the background") != std::string::npos);
+  CHECK(warning(5000, 0.5f).find("cannot be told from the background") != std::string::npos);
+  CHECK(warning(20, 0) == "");
+  CHECK(warning(5000, 1) == "");
+  CHECK(warning(5000, 1.5f).find("brighter than white") != std::string::npos);
+  CHECK(warning(5000, 1.5f, -1) == "");
+  CHECK(warning(5000, 0.75f, 1).find("brighter than white") != std::string::npos);
+}
