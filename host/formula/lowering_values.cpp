@@ -123,8 +123,10 @@ void FunctionLowering::each(ir::Block& out, const Instruction& instruction, Op o
                             const std::vector<ir::Place>& from) {
   ir::Place& result = values_[instruction.result];
   for (size_t i = 0; i < module_.type(instruction.type).size; ++i) {
-    const auto part = [&](size_t k) {
-      return k >= from.size() ? 0 : from[k].numbers[std::min(i, from[k].numbers.size() - 1)];
+    const auto part = [&](size_t k) -> ir::Operand {
+      if (k >= from.size()) return 0;
+      CHECK(!from[k].numbers.empty());  // of arrays nothing is computed component by component
+      return from[k].numbers[std::min(i, from[k].numbers.size() - 1)];
     };
     result.numbers.push_back(apply(out, op, part(0), part(1), part(2)));
   }
@@ -156,6 +158,15 @@ bool FunctionLowering::lower_arithmetic(const Instruction& instruction, ir::Bloc
       each(out, instruction, Op::multiply, from);
       return true;
     case spv::OpSelect:
+      if (const Type& type = module_.type(instruction.type); type.op == spv::OpTypeArray) {
+        const ir::Place chosen = new_place(type, true);
+        ir::Branch branch{from[0].numbers[0], {}, {}};
+        copy(chosen, from[1], branch.yes);
+        copy(chosen, from[2], branch.no);
+        out.push_back({std::move(branch)});
+        values_[instruction.result] = chosen;
+        return true;
+      }
       each(out, instruction, Op::select, from);
       return true;
     case spv::OpDot:

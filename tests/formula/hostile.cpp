@@ -134,6 +134,23 @@ TEST_CASE("indices reach nothing beyond their arrays") {
     CHECK(formula.value(std::array{far, far, far}) == (far > 0 && far < 2e9f ? 710.0f : 217.0f));
 }
 
+TEST_CASE("arrays are chosen between as a whole") {
+  for (const std::string index : {"1", "int(p.y)"}) {
+    CAPTURE(index);
+    const formula::Formula formula({"float f(vec3 p) {\n  vec2 a[2], b[2], c[2];\n"
+                                    "  a[" +
+                                        index + "].y = 3.0; b[" + index +
+                                        "].y = 5.0;\n"
+                                        "  c = p.x > 0.0 ? a : b; a[1].y = 9.0;\n"
+                                        "  return c[" +
+                                        index + "].y + (p.x > 0.0 ? b : a)[1].y * 10.0;\n}\n",
+                                    {"f.glsl", 1, 1}},
+                                   {}, "it");
+    CHECK(formula.value(std::array{1.0f, 1.0f, 0.0f}) == 53.0f);
+    CHECK(formula.value(std::array{-1.0f, 1.0f, 0.0f}) == 95.0f);
+  }
+}
+
 TEST_CASE("what is bounded is no longer than drivers compile in seconds") {
   const auto why = [](int terms) -> std::string {
     const formula::Formula formula(
