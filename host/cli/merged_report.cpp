@@ -7,6 +7,7 @@
 
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/json_depth.hpp"
 #include "host/shards/part_set.hpp"
 
 namespace eyeray::cli {
@@ -24,7 +25,7 @@ struct ShardReport {
 ShardReport read_report(const std::string& file) {
   const std::string text = read_file(file);
   try {
-    Json json = Json::parse(text);
+    Json json = Json::parse(unless_too_deep(text));
     const Json& shard = json.at("shard");
     ShardReport report{file,
                        shard.at("index").get<int>() - 1,

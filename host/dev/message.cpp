@@ -11,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "host/core/json_depth.hpp"
 #include "host/core/stopwatch.hpp"
 
 namespace eyeray::dev {
@@ -79,7 +80,7 @@ std::optional<Message> MessageSocket::take() {
     return std::nullopt;
   }
   Message message{
-      Json::parse(pending_.begin() + sizeof sizes, pending_.begin() + ptrdiff_t(end_of_text), nullptr, false),
+      Json::parse(unless_too_deep(std::string_view(pending_).substr(sizeof sizes, sizes[0])), nullptr, false),
       pending_.substr(end_of_text, sizes[1])};
   pending_.erase(0, end);
   if (!message.json.is_object()) {

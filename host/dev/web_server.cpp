@@ -14,6 +14,7 @@
 
 #include "host/core/embedded_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/json_depth.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/dev/guarded_server.hpp"
 #include "host/image/image_file.hpp"
@@ -221,8 +222,9 @@ void WebServer::Servers::set_up(httplib::Server& server) {
                          "application/json");
   });
   server.Post(root + "command", [this](const Request& request, Response& response) {
-    const Json json = Json::parse(request.body, nullptr, false);
-    if (!json.is_object()) return refuse(response, 400, "A command is a JSON object.");
+    const Json json = Json::parse(unless_too_deep(request.body), nullptr, false);
+    if (!json.is_object())
+      return refuse(response, 400, "A command is a JSON object, nested at most 64 deep.");
     command(json);
     response.status = 204;
   });

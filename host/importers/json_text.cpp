@@ -7,15 +7,13 @@
 #include <unordered_set>
 #include <vector>
 
+#include "host/core/json_depth.hpp"
 #include "host/importers/malformed.hpp"
 
 namespace eyeray::importers {
 
 namespace {
 
-// Copying and destroying a tree recurse; nlohmann/json could be asked at each value, but then takes time by
-// the square.
-constexpr size_t deepest = 64;
 // A tree of them takes about 1 GiB.
 constexpr size_t most_values = size_t{1} << 24;
 
@@ -61,7 +59,8 @@ void check_json_text(std::string_view text, const std::string& file) {
       }
       case '[':
       case '{':
-        if (open.size() == deepest) fail(i, fmt::format("its JSON is nested more than {} deep", deepest));
+        if (open.size() == deepest_json)
+          fail(i, fmt::format("its JSON is nested more than {} deep", deepest_json));
         open.push_back({text[i] == '{', text[i] == '{'});
         ++values;
         break;

@@ -8,6 +8,7 @@
 
 #include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
+#include "host/core/json_depth.hpp"
 
 namespace eyeray::shards {
 namespace {
@@ -30,7 +31,7 @@ std::string dumped(const Json& json) {
 template <typename Read>
 auto read_json(const std::string& text, const char* what, const Read& read) {
   try {
-    return read(Json::parse(text));
+    return read(Json::parse(unless_too_deep(text)));
   } catch (const Json::exception&) {
     nonsense(what);
   }

@@ -10,6 +10,7 @@
 
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/json_depth.hpp"
 #include "host/slurm/scripts.hpp"
 
 namespace fs = std::filesystem;
@@ -248,7 +249,8 @@ void ArrayRender::read_state() {
     return;
   }
   try {
-    const Json json = Json::parse(read_file(state));
+    const std::string text = read_file(state);
+    const Json json = Json::parse(unless_too_deep(text));
     if (json.at("identity") != request_.identity)
       throw Error(
           ExitCode::bad_input,

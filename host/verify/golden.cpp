@@ -5,6 +5,7 @@
 
 #include "host/core/atomic_file.hpp"
 #include "host/core/content_hash.hpp"
+#include "host/core/json_depth.hpp"
 #include "host/core/process.hpp"
 #include "host/image/image_file.hpp"
 #include "host/scene/integrator.hpp"
@@ -48,7 +49,8 @@ Json origin(const Golden& golden, const Scene& scene, const compare::Report& rep
 std::vector<std::string> changes(const Golden& golden, const Json& now) {
   const fs::path file = sidecar(golden.picture);
   if (!fs::exists(file)) return {"whatever it was made of: it has no " + file.filename().string()};
-  const Json then = Json::parse(read_file(file), nullptr, false);
+  const std::string text = read_file(file);
+  const Json then = Json::parse(unless_too_deep(text), nullptr, false);
   if (!then.is_object()) return {"whatever it was made of: " + file.string() + " is not JSON"};
   std::vector<std::string> changed;
   for (const auto& [name, value] : now.items())

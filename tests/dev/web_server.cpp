@@ -182,6 +182,19 @@ TEST_CASE("another host's name, or another page's origin, is refused") {
                         site.own_origin() + "\r\n")) == 404);
 }
 
+TEST_CASE("a command that is nested too deep is refused, and the server lives on") {
+  const Site site;
+  const auto nested = [&](size_t depth) {
+    return status(site.post("{\"a]\\\"[\":" + std::string(depth - 1, '[') + std::string(depth - 1, ']') + "}",
+                            site.own_origin()));
+  };
+  CHECK(nested(64) == 204);
+  CHECK(nested(65) == 400);
+  CHECK(nested(100'000) == 400);
+  CHECK(nested(500'000) == 400);
+  CHECK(status(site.get(site.root())) == 200);
+}
+
 TEST_CASE("it listens on this machine's own addresses alone") {
   const Site site;
   CHECK(Client(site.server.port()).connected());
