@@ -23,6 +23,9 @@ bool wait_for(socket_t socket, short events, double seconds) {
   }
 }
 
+// A client's time for its first byte. It is short because a silent client keeps a thread from others.
+constexpr double silent_seconds = 0.25;
+
 // A connection that ends when its request is too large or too slow, or its client does not read.
 class GuardedStream final : public httplib::Stream {
  public:
@@ -66,7 +69,11 @@ class GuardedStream final : public httplib::Stream {
   socket_t socket() const override { return socket_; }
 
  private:
-  double left() const { return limits_.request_seconds - watch_.seconds(); }
+  double left() const {
+    const double most =
+        taken_ == 0 ? std::min(silent_seconds, limits_.request_seconds) : limits_.request_seconds;
+    return most - watch_.seconds();
+  }
   void see(char c) {
     if (c == '\n')
       in_body_ = ++line_ends_ == 2;

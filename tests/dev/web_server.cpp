@@ -11,6 +11,7 @@
 #include <mutex>
 #include <thread>
 
+#include "host/core/stopwatch.hpp"
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
@@ -261,6 +262,17 @@ TEST_CASE("slow clients are dropped, and keep nobody waiting for ever") {
   for (const auto& client : slow) CHECK(status(client->answer()) != 200);
   enough = true;
   drip.join();
+}
+
+TEST_CASE("many silent clients hold the page for less than their request's time") {
+  WebLimits limits;
+  limits.connections = 4;
+  const Site site(0, limits);
+  std::vector<std::unique_ptr<Client>> silent;
+  for (int i = 0; i < 12; ++i) silent.push_back(std::make_unique<Client>(site.server.port()));
+  const Stopwatch watch;
+  CHECK(status(site.get(site.root())) == 200);
+  CHECK(watch.seconds() < 4);
 }
 
 TEST_CASE("a reader of events who does not read is dropped") {
