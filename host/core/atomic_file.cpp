@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "host/core/diagnostic.hpp"
 #include "host/core/error.hpp"
 #include "host/core/unfinished_files.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const char* what, const fs::path& path, int error) {
-  throw Error(ExitCode::file_io, "cannot {} {}: {}", what, path.string(),
+  throw Error(ExitCode::file_io, "cannot {} {}: {}", what, printable(path.string()),
               std::generic_category().message(error));
 }
 
@@ -44,30 +45,44 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// Throws where a rename would replace something that is no file of the user's: a folder, or a device such as
-// /dev/null.
-void check_replaceable(const fs::path& path) {
+// The file that `path` leads to: behind symbolic links, whether it exists or not.
+fs::path behind_links(fs::path path) {
   std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw Error(ExitCode::file_io, "cannot write {}: it is not a regular file", path.string());
-  }
+  for (int links = 0; links < 40 && fs::is_symlink(fs::symlink_status(path, error)); ++links)
+    path = path.parent_path() / fs::read_symlink(path, error);
+  return path;
+}
+
+// Gives the open file `part` the mode of the one that it replaces, and where it can its owner and group.
+void keep_mode(int part, const struct stat& replaced) {
+  mode_t mode = replaced.st_mode & 0777;
+  if (::fchown(part, uid_t(-1), replaced.st_gid) != 0) mode &= ~mode_t(S_IRWXG);  // meant for another group
+  if (::fchown(part, replaced.st_uid, gid_t(-1)) != 0) errno = 0;                 // only root can
+  ::fchmod(part, mode);
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
-  check_replaceable(path_);
+AtomicFile::AtomicFile(const fs::path& path, unsigned mode) : named_(path), path_(behind_links(path)) {
+  // stat() through the link, too: the system refuses links that others left in a folder that all may write.
+  struct stat replaced {};
+  const bool replaces = ::stat(named_.c_str(), &replaced) == 0;
+  if (!replaces && errno != ENOENT) fail("write", named_, errno);
+  // A rename would replace a folder, or a device such as /dev/null.
+  if (replaces && !S_ISREG(replaced.st_mode))
+    throw Error(ExitCode::file_io, "cannot write {}: it is not a regular file", printable(named_.string()));
+
   // A name of its own, even where one program writes a file twice at once or a killed one left its part.
   const std::string stem = path_.string() + ".part." + std::to_string(::getpid());
   part_ = stem;
   UnfinishedFiles unfinished;
   for (int i = 1; file_ < 0; ++i) {
-    file_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file_ < 0 && errno != EEXIST) fail("write", part_, errno);
+    file_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (file_ < 0 && errno != EEXIST) fail("write", named_, errno);
     if (file_ < 0) part_ = stem + "." + std::to_string(i);
   }
   unfinished.add(part_);
+  if (replaces) keep_mode(file_, replaced);
 }
 
 AtomicFile::~AtomicFile() {
@@ -87,7 +102,7 @@ void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::pwrite(file_, bytes.data(), bytes.size(), off_t(offset));
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail("write", part_, errno);
+    if (count < 0) fail("write", named_, errno);
     bytes = bytes.subspan(size_t(count));
     offset += uint64_t(count);
   }
@@ -97,20 +112,20 @@ void AtomicFile::read_at(uint64_t offset, std::span<std::byte> bytes) const {
   while (!bytes.empty()) {
     const ssize_t count = ::pread(file_, bytes.data(), bytes.size(), off_t(offset));
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail("read", part_, errno);
-    if (count == 0) fail("read", part_, EIO);
+    if (count < 0) fail("read", named_, errno);
+    if (count == 0) fail("read", named_, EIO);
     bytes = bytes.subspan(size_t(count));
     offset += uint64_t(count);
   }
 }
 
 void AtomicFile::commit() {
-  if (::fsync(file_) != 0) fail("write", part_, errno);
+  if (::fsync(file_) != 0) fail("write", named_, errno);
   // Some file systems report a full disk only here.
-  if (::close(std::exchange(file_, -1)) != 0) fail("write", part_, errno);
+  if (::close(std::exchange(file_, -1)) != 0) fail("write", named_, errno);
   {
     UnfinishedFiles unfinished;
-    if (::rename(part_.c_str(), path_.c_str()) != 0) fail("replace", path_, errno);
+    if (::rename(part_.c_str(), path_.c_str()) != 0) fail("replace", named_, errno);
     renamed_ = true;
     unfinished.drop(part_);
   }
@@ -118,7 +133,7 @@ void AtomicFile::commit() {
   // Make the rename itself durable; file systems that cannot sync a folder say EINVAL.
   const Descriptor folder(folder_of(path_), O_RDONLY | O_DIRECTORY);
   if (!folder.valid() || (::fsync(folder.get()) != 0 && errno != EINVAL))
-    fail("sync the folder of", path_, errno);
+    fail("sync the folder of", named_, errno);
 }
 
 void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {

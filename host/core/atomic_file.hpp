@@ -11,10 +11,12 @@ namespace eyeray {
 
 // A file that grows as PATH.part.PID beside `path`, so that the rename stays within one file system, and
 // takes its place at commit(). Without that the part file goes with its scope, and what stood at `path` is
-// untouched. Every failure is an Error (file_io) that says why.
+// untouched. Where `path` is a symbolic link, the file that it points to is replaced, or made. A file that is
+// replaced keeps its mode; a new one gets `mode`, less the umask. Every failure is an Error (file_io) that
+// gives the reason, and `path` as the caller wrote it.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);
+  explicit AtomicFile(const std::filesystem::path& path, unsigned mode = 0666);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -30,7 +32,8 @@ class AtomicFile {
   void commit();
 
  private:
-  std::filesystem::path path_;
+  std::filesystem::path named_;  // as the caller wrote it
+  std::filesystem::path path_;   // behind links
   std::filesystem::path part_;
   int file_ = -1;
   uint64_t end_ = 0;

@@ -100,3 +100,45 @@ TEST_CASE("check_writable leaves no trace, and the file that is there") {
   check_writable(folder / "old");
   CHECK(read_text(folder / "old") == "kept");
 }
+
+TEST_CASE("a symbolic link stays, and the file that it points to is written") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  write_text(folder / "sub/target", "old");
+  std::filesystem::create_symlink("sub/target", folder / "link");
+  std::filesystem::create_symlink("link", folder / "second");
+  std::filesystem::create_symlink("sub/new", folder / "dangling");
+  std::filesystem::create_symlink("loop", folder / "loop");
+  for (const char* name : {"link", "second"}) {
+    write_file_atomically(folder / name, std::string_view(name));
+    CHECK(read_text(folder / "sub/target") == name);
+    CHECK(std::filesystem::is_symlink(folder / name));
+  }
+  write_file_atomically(folder / "dangling", std::string_view("made"));
+  CHECK(std::filesystem::is_symlink(folder / "dangling"));
+  CHECK(read_text(folder / "sub/new") == "made");
+  CHECK(failure([&] { write_file_atomically(folder / "loop", std::string_view("x")); }) == ExitCode::file_io);
+  CHECK(std::filesystem::is_symlink(folder / "loop"));
+}
+
+TEST_CASE("a replaced file keeps its mode") {
+  using std::filesystem::perms;
+  const TemporaryFolder folder;
+  write_text(folder / "a", "old");
+  for (const unsigned mode : {0600u, 0640u, 0664u, 0755u}) {
+    std::filesystem::permissions(folder / "a", perms(mode));
+    write_file_atomically(folder / "a", std::string_view("new"));
+    CHECK(std::filesystem::status(folder / "a").permissions() == perms(mode));
+  }
+}
+
+TEST_CASE("errors give the name that was written, on one line") {
+  const TemporaryFolder folder;
+  try {
+    write_file_atomically(folder / "no\n::such/a\x1b.png", std::string_view("x"));
+    FAIL("written");
+  } catch (const Error& error) {
+    CHECK(std::string(error.what()) ==
+          "cannot write " + (folder / "no?::such/a?.png") + ": No such file or directory");
+  }
+}
