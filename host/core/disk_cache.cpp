@@ -8,6 +8,7 @@
 #include "host/core/content_hash.hpp"
 #include "host/core/error.hpp"
 #include "host/core/input_file.hpp"
+#include "host/core/private_folder.hpp"
 
 namespace eyeray {
 namespace {
@@ -36,8 +37,7 @@ std::filesystem::path DiskCache::path(std::string_view name) const {
 
 // An entry is the hash of its name and bytes, in hexadecimal, then the bytes.
 std::optional<std::string> DiskCache::load(std::string_view name) const {
-  std::error_code failed;
-  if (folder_.empty() || !std::filesystem::exists(path(name), failed)) return std::nullopt;
+  if (folder_.empty() || !is_private_folder(folder_) || !is_private_file(path(name))) return std::nullopt;
   std::string text;
   try {
     text = read_input_file(path(name), "a cache entry", most_bytes);
@@ -50,11 +50,12 @@ std::optional<std::string> DiskCache::load(std::string_view name) const {
 }
 
 void DiskCache::store(std::string_view name, std::string_view bytes) const {
-  if (folder_.empty()) return;
-  std::error_code failed;
-  std::filesystem::create_directories(folder_, failed);
+  if (folder_.empty() || !make_private_folder(folder_)) return;
   try {
-    write_file_atomically(path(name), ContentHash().add(name).add(bytes).hex() + std::string(bytes));
+    AtomicFile entry(path(name), 0600);
+    entry.write(ContentHash().add(name).add(bytes).hex());
+    entry.write(bytes);
+    entry.commit();
   } catch (const Error&) {
     return;  // a full or read-only disk costs the next start some time, and nothing else
   }

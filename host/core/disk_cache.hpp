@@ -9,7 +9,9 @@
 namespace eyeray {
 
 // Named bytes in a folder. A cache may forget: damaged entries are as good as absent, old ones are dropped
-// when there are many, and a folder that cannot be written is a cache that remembers nothing.
+// when there are many, and a folder that cannot be written is a cache that remembers nothing. So is a folder,
+// or an entry, that belongs to another user, that others may write to, or that is a link
+// (private_folder.hpp).
 class DiskCache {
  public:
   // An empty path: remembers nothing.

@@ -1,7 +1,6 @@
 #include "host/executors/twin_module.hpp"
 
 #include <dlfcn.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include "host/core/disk_cache.hpp"
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
+#include "host/core/private_folder.hpp"
 #include "host/executors/cpp_compiler.hpp"
 #include "host/executors/shader_files.hpp"
 
@@ -27,16 +27,6 @@ namespace {
 constexpr double longest_compilation = 300;  // seconds
 constexpr size_t most_kept = 16;             // of modules in the cache
 constexpr size_t most_diagnostics = 20;
-
-// Whether there is now a folder that nobody else may write to: what lies in it is loaded into this process.
-bool make_private(const fs::path& folder) {
-  std::error_code failed;
-  fs::create_directories(folder.parent_path(), failed);
-  ::mkdir(folder.c_str(), 0700);
-  struct stat status {};
-  return ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::geteuid() &&
-         (status.st_mode & (S_IWGRP | S_IWOTH)) == 0 && ::access(folder.c_str(), W_OK) == 0;
-}
 
 bool has_text(const fs::path& file, std::string_view text) {
   std::error_code failed;
@@ -68,7 +58,7 @@ fs::path write_sources(const fs::path& folder) {
     fs::create_directories((part / name).parent_path());
     std::ofstream(part / name, std::ios::binary) << text;
   });
-  if (!has_sources(part)) throw Error(ExitCode::file_io, "cannot write {}", part.string());
+  if (!has_sources(part)) throw Error(ExitCode::file_io, "cannot write {}", place.string());
   std::error_code failed;
   fs::rename(part, place, failed);
   if (failed && !has_sources(place)) {  // not that another process was faster: damaged
@@ -139,7 +129,8 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
   if (!folder.empty()) files_ = shaders_in(folder);
 
   fs::path place = DiskCache::of_user().folder();
-  if (place.empty() || !make_private(place /= "twin")) {
+  if (place.empty() || !make_private_folder(place) || !make_private_folder(place /= "twin") ||
+      ::access(place.c_str(), W_OK) != 0) {
     std::string name = (fs::temp_directory_path() / "eyeray-twin-XXXXXX").string();
     if (!::mkdtemp(name.data())) throw Error(ExitCode::file_io, "cannot make a folder like {}", name);
     place = scratch_ = name;
@@ -159,7 +150,7 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
   for (const fs::path& file : files_) hash.add(file.string()).add(read_file(file));
   const fs::path module = place / (hash.hex() + ".so");
 
-  if (!fs::exists(module, failed)) {
+  if (!is_private_file(module)) {
     const fs::path part = fmt::format("{}.part.{}", module.string(), ::getpid());
     command.insert(command.end(), {"-o", part.string()});
     const ProcessResult result = run_process(command, compiler_environment(), longest_compilation);

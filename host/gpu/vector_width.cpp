@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/core/disk_cache.hpp"
+#include "host/core/private_folder.hpp"
 
 namespace eyeray::gpu {
 namespace {
@@ -32,12 +33,10 @@ void set_vector_width(bool wide) {
   const std::string own = "vectors-" + std::string(width);
   // A parent process may have done the same.
   if (folder.filename() == own) return;
-  std::error_code failed;
-  if (!folder.empty()) std::filesystem::create_directories(folder / own, failed);
-  if (folder.empty() || failed)
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
-  else
+  if (!folder.empty() && make_private_folder(folder) && make_private_folder(folder / own))
     setenv(cache_variable, (folder / own).c_str(), 1);
+  else
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 }
 
 }  // namespace eyeray::gpu

@@ -1,0 +1,34 @@
+#include "host/core/private_folder.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <system_error>
+
+namespace eyeray {
+namespace {
+
+bool is_private(const std::filesystem::path& path, mode_t type) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == type &&
+         status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+}  // namespace
+
+bool is_private_folder(const std::filesystem::path& folder) {
+  return is_private(folder, S_IFDIR);
+}
+
+bool is_private_file(const std::filesystem::path& file) {
+  return is_private(file, S_IFREG);
+}
+
+bool make_private_folder(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder.parent_path(), failed);
+  ::mkdir(folder.c_str(), 0700);
+  return is_private_folder(folder);
+}
+
+}  // namespace eyeray

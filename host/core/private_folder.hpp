@@ -1,0 +1,16 @@
+// Folders and files that nobody else can have changed: caches believe no others.
+#pragma once
+
+#include <filesystem>
+
+namespace eyeray {
+
+// True if the path itself, not a link there, is a folder (a regular file) of this user that nobody else may
+// write to.
+bool is_private_folder(const std::filesystem::path& folder);
+bool is_private_file(const std::filesystem::path& file);
+
+// Makes the folder, and its parents, where there is none. False if there is then no private folder.
+bool make_private_folder(const std::filesystem::path& folder);
+
+}  // namespace eyeray
