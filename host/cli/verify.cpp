@@ -213,8 +213,9 @@ ExitCode VerifyCommand::run() {
   std::vector<compare::Report> reports;
   for (const std::string& file : files) {
     // A share of a suite goes on as the suite does.
-    reports.push_back(suite_size == 1 ? report_on(scene_options.for_file(file))
-                                      : report_on_one_of_many(file));
+    reports.push_back(suite_size == 1 && fs::path(file) == fs::path(scene_options.file())
+                          ? report_on(scene_options.for_file(file))
+                          : report_on_one_of_many(file));
     const compare::Report& report = reports.back();
     if (record) record_allowance(report);
     if (json) continue;

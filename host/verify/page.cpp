@@ -129,8 +129,8 @@ std::string Page::html(const std::string& summary) const {
   std::string data = fmt::format("{{\"summary\":{},\"scenes\":[", as_text(Json(summary)));
   for (size_t i = 0; i < scenes_.size(); ++i) data += (i == 0 ? "" : ",") + scenes_[i];
   data += "]}";
-  // A script's end may not stand in it.
-  for (size_t at = 0; (at = data.find("</", at)) != std::string::npos; at += 3) data.insert(at + 1, "\\");
+  // Neither a script's end nor "<!--<script>", which hides that end: < stands in JSON's strings alone.
+  for (size_t at = 0; (at = data.find('<', at)) != std::string::npos;) data.replace(at, 1, "\\u003c");
 
   std::string page(page_files()[0].text);
   constexpr std::string_view place = "@DATA@";

@@ -48,6 +48,15 @@ TEST_CASE("verify takes a folder: every scene in it and below, and no part of an
   // Alone, it is the error that it is; a folder without scenes is one, too.
   CHECK(run_eyeray({"verify", folder / "bad.toml"}).code == 2);
   std::filesystem::create_directories(folder / "empty");
+
+  // In a folder of its own it is a failed scene of a suite, with reports; a name is no markup in them.
+  std::filesystem::create_directories(folder / "one");
+  write_text(folder / "one/<!--<script>.toml", "sphere = 3\n");
+  CHECK(run_eyeray({"verify", folder / "one", "--junit", folder / "one.xml", "--report", folder / "page"})
+            .code == 1);
+  CHECK(read_text(folder / "one.xml").find("tests=\"1\" failures=\"1\"") != std::string::npos);
+  CHECK(read_text(folder / "page/index.html").find("<!--<script>") == std::string::npos);
+
   CHECK(run_eyeray({"verify", folder / "empty"}).err ==
         "eyeray: error: there is no scene in " + (folder / "empty") + "\n");
 }
