@@ -169,7 +169,8 @@ struct Material {
 };
 #define MATERIAL_BLINN 1u
 #define MATERIAL_PANE 2u   // it has no inside: paths may pass it straight
-#define MOST_PANES 8u      // that a shadow ray goes through
+#define MOST_PANES 8u      // that a shadow ray to a light with an extent goes through; paths find what lies behind more
+#define MOST_CROSSINGS 65536u  // of panes and interfaces, by any shadow ray: more set FLAG_ITERATION_LIMIT
 #define MATERIAL_CLEAR 4u  // of principled: Whitted's pictures show glass, and `base` is its colour
 #define MATERIAL_EMITS_IN_FRONT 8u  // its own light goes only where normals point
 #define MATERIAL_BUMP_IN_SPACE 16u  // bump_width is a length in the world, else in uv

@@ -80,6 +80,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_TRANSMISSION", int(any_principled_transmits(scene)));
   define("HAS_PANES", int(scene.panes));
   define("ANY_PANE", scene.panes ? "true" : "false");
+  define("ANY_INTERFACE", scene.interfaces ? "true" : "false");
   define("HAS_MEDIA", int(transmits(scene)));
   define("HAS_ABSORPTION", int(any_dims(scene)));
   define("HAS_SCATTERING", int(any_scatters(scene)));

@@ -29,8 +29,9 @@ void warn_of_paths(const Scene& scene, DiagnosticLog& log) {
   const Emitters lamps = emitters(scene);
   const std::vector<SourcePosition>& unsampled = lamps.unsampled;
   const auto has_size = [&](const auto& light) { return light->illuminate(scene.camera.eye).angle > 0; };
-  const auto glass = std::ranges::find_if(
-      scene.materials, [&](const auto& material) { return fills(*material, scene.render.integrator); });
+  const auto glass = std::ranges::find_if(scene.materials, [&](const auto& material) {
+    return fills(*material, scene.render.integrator) && material->medium()->ior != scene.medium.ior;
+  });
   const bool photons = sends_photons(scene.render.integrator);
   if (!photons && glass != scene.materials.end() && !scene.lights.empty() && !scene.environment &&
       lamps.sampled.empty() && unsampled.empty() && std::ranges::none_of(scene.lights, has_size))

@@ -23,7 +23,8 @@ absorption = [0.2, 0.02, 0.1]
 With `scattering` it is clouded: under `path` light that comes a distance d through it is weakened by exp(-(absorption +
 scattering) d), and what is scattered goes on in directions after Henyey and Greenstein, p(cos θ) = (1 - g²) / (4π (1 + g² -
 2g cos θ)^(3/2)), g the `anisotropy`. Each time counts as one of `max_depth`. `whitted` and `raycast` know `absorption` alone.
-A medium without a surface has `ior = 1`.
+A medium without a surface has `ior = 1`: where the index is the same on both sides, paths and shadow rays go straight
+through, weakened by the medium.
 
 Media nest, up to four deep: a ray that leaves one is back in the one around it. A hollow ball is a sphere of glass with a
 sphere of `ior = 1` inside it. From ior n₁ to n₂, sin²θ₂ = (n₁/n₂)² (1 − cos²θ₁); where that reaches 1 all light is mirrored, and
@@ -31,7 +32,8 @@ no root is taken. The reflected share is ½ (rₛ² + rₚ²), rₛ = (n₁cosθ
 rₚ = (n₁cosθ₂ − n₂cosθ₁) / (n₁cosθ₂ + n₂cosθ₁); equal media do not mirror at all.
 
 With `thin` it is a pane, which has no inside: light that is mirrored to and fro between its faces adds up, R' = 2R / (1 + R), and the
-rest goes straight on. Under `path` lamps light through panes, up to eight of them, as nothing else that is clear lets them.
+rest goes straight on. Under `path` lights shine through panes: suns, points and spots through any number of them, those with a size through eight.
+Paths find what lies behind more.
 
 Shadow rays go straight through and keep the share `shadow` for each shape that they hit, however often they cross it
 (a triangle is a shape). By default it is what a surface with air lets through at right angles,
@@ -96,7 +98,9 @@ class Dielectric final : public Material {
       const optics::Fresnel surface = optics::schlick(Vec3(1 - pane_transmittance()), Vec3(1));
       return {.layer = surface, .glossy = surface, .roughness = bsdf.roughness, .thin = Vec3(1)};
     }
-    if (bsdf.roughness > 0 && context.ior_from != context.ior_to) {
+    if (context.ior_from == context.ior_to)
+      std::swap(bsdf.transmitted, bsdf.passed);
+    else if (bsdf.roughness > 0) {
       bsdf.mirror = bsdf.transmitted = Vec3(0);
       bsdf.glass = Vec3(1);
       bsdf.ior_from = context.ior_from;

@@ -10,6 +10,7 @@
 #include "host/reference/media.hpp"
 #include "host/reference/photon_source.hpp"
 #include "host/scene/integrator.hpp"
+#include "host/scene/interfaces.hpp"
 
 namespace eyeray::pack {
 namespace {
@@ -110,6 +111,8 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
     }
     pack_bent_normals(*material, packer);
   }
+  packer.scene.interfaces = any_interface(scene);
+  packer.scene.panes |= packer.scene.interfaces;
   pack_geometry(scene, options, packer);
   for (const auto& light : scene.lights) light->pack(packer);
   uint32_t light_bvh_numbers = 0;

@@ -68,8 +68,9 @@ struct PackedScene {
   std::vector<shader::LightNode> light_nodes;  // empty where no light BVH is asked
   std::set<uint32_t> lobes;                    // that the materials' BSDFs have
   bool panes = false;                          // whether paths may pass any of them straight
-  bool has_conductors = false;                 // whether any of them mirrors by a metal's index
-  std::vector<shader::vec4> albedos;           // records.h says how; empty where no lobe asks
+  bool interfaces = false;            // whether one of these may be a border between media of one index
+  bool has_conductors = false;        // whether any of them mirrors by a metal's index
+  std::vector<shader::vec4> albedos;  // records.h says how; empty where no lobe asks
   shader::Frame frame{};
 };
 

@@ -79,7 +79,7 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
     if (sample.kind == BsdfSample::Kind::refracted) kind = RayKind::refracted;
     d = kind == RayKind::refracted ? at.refracted() : at.mirrored();
   }
-  if (kind == RayKind::refracted && !passes) media = at.media_beyond;
+  if (kind == RayKind::refracted) media = at.media_beyond;
 
   return continued(kind, at, d, chance.y, sample.lobe + 1 + (kind == RayKind::refracted ? through : 0),
                    straight);

@@ -21,14 +21,6 @@ LitPoint lit_point(const Interaction& at) {
   return {at.surface.position, all_around ? std::nullopt : std::optional(at.surface.normal)};
 }
 
-Vec3 transmittance(const Medium& medium, double t) {
-  const Vec3 extinction = medium.absorption + medium.scattering;
-  Vec3 left(1);
-  for (int c = 0; c < 3; ++c)
-    if (extinction[c] > 0) left[c] = std::exp(-extinction[c] * t);
-  return left;
-}
-
 // Its own light, less what shadow rays to it have brought already.
 Vec3 PathSample::emitted(const Interaction& at) const {
   const Vec3& light = at.scattering.emitted;
@@ -114,17 +106,18 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
       density, light};
 }
 
-// What that brings to the viewer by a vertex that sends on `scattered`; all but panes keeps the ray in
-// `media`.
+// What that brings to the viewer by a vertex that sends on `scattered`; all but panes and interfaces keeps
+// the ray in `media`.
 Vec3 PathSample::direct(const Interaction& at, const Arriving& light, const BsdfValue& scattered,
                         const MediaStack& media) {
   const double weight = light.density > 0 ? power_heuristic(light.density, scattered.density) : 1;
-  const Vec3 contribution =
-      light.radiance * transmittance(rays_.medium(media), light.distance) * scattered.value * weight;
+  // Between interfaces the ray itself is weakened.
+  const Vec3 left = tracer_.any_interface() ? Vec3(1) : transmittance(rays_.medium(media), light.distance);
+  const Vec3 contribution = light.radiance * left * scattered.value * weight;
   if (contribution == Vec3(0)) return Vec3(0);
   const bool beyond = glm::dot(light.ray.d, at.surface.normal_geometric) < 0;
   const MediaStack& passed = beyond && !at.in_medium() ? at.media_beyond : media;
-  const Vec3 seen = any_pane_ ? rays_.through_panes(light.ray, light.distance, passed)
+  const Vec3 seen = any_pane_ ? rays_.through_panes(light.ray, light.distance, light.density > 0, passed)
                               : Vec3(rays_.shadow(light.ray, light.distance));
   observer_.ray(RayKind::shadow, light.ray, depth_, 0);
   observer_.value("contribution", contribution);

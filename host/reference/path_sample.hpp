@@ -27,8 +27,6 @@ inline constexpr uint32_t first_flight_pair = 0x10000;  // of the vertices after
 LitPoint lit_point(const Interaction& at);
 // The weight of a technique of density p beside one of density q.
 double power_heuristic(double p, double q);
-// What comes through a medium.
-Vec3 transmittance(const Medium& medium, double t);
 
 // From a light: by direction l, along the ray where nothing stands before `distance`.
 struct Arriving {
@@ -122,7 +120,7 @@ class PathSample {
   const double photon_nearer_;
   SampleRays rays_;
   const Observer& observer_;
-  const bool any_pane_ = std::ranges::any_of(scene_.materials, &Material::thin);
+  const bool any_pane_ = tracer_.any_interface() || std::ranges::any_of(scene_.materials, &Material::thin);
   int depth_ = 0;
   int panes_ = 0, all_panes_ = 0;  // that the path has passed straight, since its last vertex and in all
   Vec3 vertex_{0};                 // its last, or the eye

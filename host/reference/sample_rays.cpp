@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/core/termination.hpp"
 #include "host/reference/bsdf.hpp"
@@ -16,6 +17,14 @@ Vec3 Interaction::refracted() const {
   const double eta = ior_before / ior_beyond;
   const double cos2_squared = 1 - eta * eta * (1 - cos_view * cos_view);
   return glm::normalize(eta * d + (eta * cos_view - std::sqrt(std::max(0.0, cos2_squared))) * surface.normal);
+}
+
+Vec3 transmittance(const Medium& medium, double t) {
+  const Vec3 extinction = medium.absorption + medium.scattering;
+  Vec3 left(1);
+  for (int c = 0; c < 3; ++c)
+    if (extinction[c] > 0) left[c] = std::exp(-extinction[c] * t);
+  return left;
 }
 
 Medium SampleRays::medium(const MediaStack& media) const {
@@ -92,27 +101,45 @@ double SampleRays::shadow(const Ray& ray, double t_end) {
   return tracer_.transmittance(ray, t_end * (1 - short_of), flags_);
 }
 
-Vec3 SampleRays::through_panes(Ray ray, double t_end, const MediaStack& media) {
+Bsdf SampleRays::bsdf(const Material& material, const ScatteringContext& context,
+                      const Scattering& scattering) const {
+  Bsdf bsdf = material.bsdf(context, scattering);
+  // Without interfaces what has the same index on both sides is glass like any other.
+  if (!tracer_.any_interface() && !material.thin()) bsdf.transmitted += std::exchange(bsdf.passed, Vec3(0));
+  return bsdf;
+}
+
+Vec3 SampleRays::through_panes(Ray ray, double t_end, bool has_extent, MediaStack media) {
   ++rays_;
-  const double ior = medium(media).ior;
   Vec3 left(1);
-  for (int panes = 0;; ++panes) {
+  for (int crossed = 0;; ++crossed) {
     const auto hit = tracer_.trace(ray, flags_, ray_offset_.coincident);
-    if (!hit || hit->at.t >= t_end) return left;
+    const bool arrives = !hit || hit->at.t >= t_end;
+    const Medium before = medium(media);
+    if (tracer_.any_interface()) left *= transmittance(before, arrives ? t_end : hit->at.t);
+    if (arrives) return left;
+    if (crossed == most_passed) flags_ |= iteration_limit;
+    if (crossed == (has_extent ? most_panes : most_passed)) return Vec3(0);
     SurfacePoint surface = tracer_.surface(ray, *hit);
-    if (glm::dot(ray.d, surface.normal_geometric) > 0) {
+    const bool front = glm::dot(ray.d, surface.normal_geometric) <= 0;
+    if (!front) {
       surface.normal_geometric = -surface.normal_geometric;
       surface.normal = -surface.normal;
       surface.coat_normal = -surface.coat_normal;
     }
     const Material& material = *scene_.materials[size_t(hit->material)];
-    if (panes == most_panes || !material.thin()) return Vec3(0);
+    if (fills(material, scene_.render.integrator)) {
+      if (!front)
+        media.remove(hit->material);
+      else
+        media.push(hit->material);
+    }
     const double cosine = std::clamp(-glm::dot(ray.d, surface.normal), 0.0, 1.0);
     const LocalFrame frame(surface.normal);
-    const ScatteringContext context{{surface.uv, surface.position}, cosine, ior, ior, surface.color,
-                                    frame.into(surface.coat_normal)};
-    const Bsdf bsdf = material.bsdf(context, material.scattering(context));
-    left *= ViewedBsdf(bsdf, frame.seen(-ray.d)).passed();
+    const ScatteringContext context{
+        {surface.uv, surface.position}, cosine, before.ior, medium(media).ior, surface.color,
+        frame.into(surface.coat_normal)};
+    left *= ViewedBsdf(bsdf(material, context, material.scattering(context)), frame.seen(-ray.d)).passed();
     if (left == Vec3(0)) return left;
     const Ray next = spawn_ray(surface, ray.d);
     t_end -= glm::dot(next.o - ray.o, ray.d);
@@ -213,7 +240,7 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
                                   LocalFrame(at.surface.normal).into(at.surface.coat_normal)};
   at.scattering = scattering(ray, hit, at.surface, context);
   if (!front && material.emits_in_front) at.scattering.emitted = Vec3(0);
-  if (walks_at_random(scene_.render.integrator)) at.bsdf = material.bsdf(context, at.scattering);
+  if (walks_at_random(scene_.render.integrator)) at.bsdf = bsdf(material, context, at.scattering);
 
   observer_.value("ior", Vec2(at.ior_before, at.ior_beyond));
   observer_.value("ambient", at.scattering.ambient);

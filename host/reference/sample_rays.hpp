@@ -28,7 +28,11 @@ struct Interaction {
   Vec3 refracted() const;
 };
 
-constexpr int most_panes = 8;  // that a shadow ray goes through
+constexpr int most_panes = 8;       // that a shadow ray to a light with an extent goes through
+constexpr int most_passed = 65536;  // by any shadow ray
+
+// What comes through a medium.
+Vec3 transmittance(const Medium& medium, double t);
 
 class SampleRays {
  public:
@@ -61,8 +65,8 @@ class SampleRays {
   bool is_before(const SurfacePoint& point, const Vec3& l, double distance) const;
   // The share of light that a shadow ray to `t_end` brings.
   double shadow(const Ray& ray, double t_end);
-  // The same where only panes let light through. `media`: that the ray goes through.
-  Vec3 through_panes(Ray ray, double t_end, const MediaStack& media);
+  // The same where only panes and interfaces let light through. `media`: those that the ray begins in.
+  Vec3 through_panes(Ray ray, double t_end, bool has_extent, MediaStack media);
 
   // What the path decides on its way, in order.
   void decided(Event kind, uint64_t value);
@@ -75,6 +79,7 @@ class SampleRays {
   bool cut_off = false;  // by max_depth
 
  private:
+  Bsdf bsdf(const Material& material, const ScatteringContext& context, const Scattering& scattering) const;
   Scattering scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
                         ScatteringContext context) const;
   bool takes_farther() const;

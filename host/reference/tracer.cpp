@@ -6,6 +6,7 @@
 #include "host/reference/bent_normal.hpp"
 #include "host/reference/photon_map.hpp"
 #include "host/scene/integrator.hpp"
+#include "host/scene/interfaces.hpp"
 
 namespace eyeray::reference {
 
@@ -16,7 +17,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 Tracer::Tracer(const Scene& scene, Acceleration acceleration)
-    : scene_(scene), ids_(scene), photon_maps_(std::make_unique<PhotonMaps>()) {
+    : scene_(scene),
+      any_interface_(eyeray::any_interface(scene)),
+      ids_(scene),
+      photon_maps_(std::make_unique<PhotonMaps>()) {
   for (const Mesh& mesh : scene.meshes) meshes_.emplace_back(mesh, acceleration);
   world_.emplace(scene.shapes, scene.instances, meshes_, scene.materials, acceleration);
   for (const Group& group : scene.groups)

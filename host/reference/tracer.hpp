@@ -52,6 +52,8 @@ class Tracer {
   const Scene& scene() const { return scene_; }
   // The scene's, where its integrator chooses one light; else empty.
   const LightChoice& light_choice() const { return light_choice_; }
+  // Whether paths of the scene may cross an interface (scene/interfaces.hpp).
+  bool any_interface() const { return any_interface_; }
   // Of sample `index`, where the scene's integrator sends out photons. From many threads at once.
   std::shared_ptr<const PhotonMap> photons(uint32_t index) const;
   // From now on these photons of each sample bring nothing.
@@ -69,6 +71,7 @@ class Tracer {
   Hit complete(const Objects& objects, const Objects::Hit& hit, int group) const;
 
   const Scene& scene_;
+  const bool any_interface_;
   PrimitiveIds ids_;
   std::deque<MeshGeometry> meshes_;  // as Scene::meshes; a deque, since instances point into it
   std::optional<Objects> world_;

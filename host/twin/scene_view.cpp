@@ -79,6 +79,7 @@ SceneView view_of(const records::PackedScene& scene) {
           .has_bvh = scene.has_bvh,
           .quantised_nodes = scene.quantised_nodes,
           .panes = scene.panes,
+          .interfaces = scene.interfaces,
           .photon_pass = nullptr,
           .photons = nullptr,
           .photon_cells = nullptr,

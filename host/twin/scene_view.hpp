@@ -42,7 +42,7 @@ struct SceneView {
   const uint32_t* emitter_media;
   const shader::vec4* albedos;
   uint32_t albedo_count;  // those of lobes that the scene lacks are not there
-  bool has_bvh, quantised_nodes, panes;
+  bool has_bvh, quantised_nodes, panes, interfaces;
   // Of the sample that is taken: set by whoever traces its photons.
   const shader::PhotonPass* photon_pass;
   const shader::Photon* photons;

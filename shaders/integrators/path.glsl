@@ -209,9 +209,11 @@ bool shadow_ray_to(Frame frame, Path path, Interaction at, Arriving arriving, ve
   }
 #endif
 #if HAS_ABSORPTION
-  // Surfaces keep shadow rays in the medium that they begin in.
-  arriving.radiance =
-      arriving.radiance * medium_transmittance(is_before(at, arriving.direction) ? path.media : at.media_behind, arriving.distance);
+  // Surfaces keep shadow rays in the medium that they begin in; interfaces do not, and there the ray itself is weakened (through_panes).
+  if (!ANY_INTERFACE) {
+    uint media = is_before(at, arriving.direction) ? path.media : at.media_behind;
+    arriving.radiance = arriving.radiance * medium_transmittance(media, arriving.distance);
+  }
 #endif
   float density = arriving.density;
   contribution =
@@ -281,7 +283,7 @@ Continuations scatter_by(Frame frame, Path path, Interaction at, LobeShares shar
     weight = at.bsdf.passed / shares.passed;
     lost = false;
     refracted = true;
-    next.media = path.media;
+    next.media = at.media_behind;
   }
   if (straight) {
     next.density = path.density;

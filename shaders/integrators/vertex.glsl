@@ -18,23 +18,46 @@ SHADER_BEGIN
 #endif
 
 #if RANDOM_WALK && HAS_PANES
-// What the panes on its way leave of a shadow ray's light; nothing where anything else is in its way. `media`: that it goes through.
-vec3 through_panes(Ray ray, float distance, uint media, INOUT(uvec4) counts) {
+// Whether paths can hit the light by chance.
+bool has_extent(uint light, vec3 p) {
+  bool extended = light >= LIGHT_COUNT;
+#if HAS_LIGHT_DISKS
+  if (!extended) extended = sample_light(load_light(light), p).versine > 0.0f;
+#endif
+  return extended;
+}
+
+// The share of a shadow ray's light that the panes on its way let through, and the media between interfaces; nothing where anything else
+// is in its way. `media`: those that the ray begins in.
+vec3 through_panes(Ray ray, float distance, uint light, uint media, INOUT(uvec4) counts) {
   vec3 left = vec3(1.0f, 1.0f, 1.0f);
   uint ignored = 0u;
   bool going = true;
-  for (uint i = 0u; i <= MOST_PANES && going; i++) {
+  uint most = has_extent(light, ray.o) ? MOST_PANES : MOST_CROSSINGS;
+  for (uint i = 0u; i <= most && going; i++) {
     counts.w += 1u + TRACE_ITERATIONS;
     TraversalState state = search(ray, distance, false);
     counts.z = counts.z | iteration_limit(state);
     going = state.hit.slot != NONE;
+#if HAS_ABSORPTION
+    if (ANY_INTERFACE) left = left * medium_transmittance(media, going ? state.hit.t : distance);
+#endif
     if (going) {
       Interaction at = struck_at(ray, state.hit, media, ignored);
-      left = i < MOST_PANES ? left * passed_by(at.material, at.context) : vec3(0.0f, 0.0f, 0.0f);
+      left = i < most ? left * passed_by(at.material, at.context) : vec3(0.0f, 0.0f, 0.0f);
+      media = at.media_behind;
+      if (i == MOST_CROSSINGS) counts.z = counts.z | FLAG_ITERATION_LIMIT;
       vec3 start = spawn_ray(at.surface, ray.d).o;
       distance = distance - dot3(start - ray.o, ray.d);
       ray = make_ray(start, ray.d);
       going = max_component(left) > 0.0f;
+#ifdef LOOP_BUDGET
+      if (going && counts.w > LOOP_BUDGET) {
+        counts.z = counts.z | FLAG_LOOP_BUDGET;
+        left = vec3(0.0f, 0.0f, 0.0f);
+        going = false;
+      }
+#endif
     }
   }
   return left;
@@ -87,7 +110,7 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
         vec3 visible = vec3(1.0f, 1.0f, 1.0f) * visibility(occluded);
 #if RANDOM_WALK && HAS_PANES
         bool beyond = dot3(to_light.d, at.seen.normal_geometric) < 0.0f;
-        if (ANY_PANE) visible = through_panes(to_light, distance, beyond ? at.media_behind : path.media, counts);
+        if (ANY_PANE) visible = through_panes(to_light, distance, number, beyond ? at.media_behind : path.media, counts);
 #endif
         PROBE(visibility, visible.x);
         PROBE_BACK(path.depth);

@@ -116,6 +116,7 @@
 //   LIGHT_COUNT        how many lights there are
 //   EMITTER_COUNT      how many lights and surfaces one is chosen from; 0 where none is
 //   ANY_PANE           true or false: whether paths may pass a surface straight
+//   ANY_INTERFACE      true or false: whether one of these may be a border between media of one index
 //   HAS_ENVIRONMENT_LIGHT  true or false: whether one is chosen from the environment
 //   INSTANCE_COUNT     how many instances
 //   TRIANGLE_METHOD    TRIANGLE_WOOP or TRIANGLE_MOLLER_TRUMBORE

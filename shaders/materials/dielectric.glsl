@@ -47,7 +47,7 @@ void add_glass(INOUT(Bsdf) bsdf, Scattering surface, float roughness, float weig
 vec3 dielectric_passed(Material material, ScatteringContext context) {
   vec3 passed = dielectric_scattering(material, context).transmitted;
 #if HAS_THIN
-  if (roughness_of(material, context.place).y > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);
+  if (!is_interface(material, context) && roughness_of(material, context.place).y > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);
 #endif
   return passed;
 }
@@ -75,6 +75,12 @@ Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering sc
     bsdf.thin = white;
   }
 #endif
+#endif
+#if HAS_PANES
+  if (is_interface(material, context)) {
+    bsdf.passed = scattering.transmitted;
+    return bsdf;
+  }
 #endif
 #if HAS_MEDIA
   if (!pane) add_glass(bsdf, scattering, bsdf.roughness, 1.0f, white, context);

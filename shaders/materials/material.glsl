@@ -37,12 +37,12 @@ Bsdf bsdf_of(uint index, Material material, ScatteringContext context, Scatterin
 }
 
 #if HAS_PANES
-// What of light a surface lets straight through: nothing where it is no pane.
+// The share of light that a surface lets straight through: nothing where it is neither a pane nor an interface.
 vec3 passed_by(Material material, ScatteringContext context) {
   vec3 passed = vec3(0.0f, 0.0f, 0.0f);
 #define PASSED_BY(name, number) \
   if (material.kind == number) passed = name##_passed(material, context);
-  if ((material.flags & MATERIAL_PANE) != 0u) {
+  if ((material.flags & MATERIAL_PANE) != 0u || is_interface(material, context)) {
     PANES(PASSED_BY)
   }
   return passed;

@@ -81,6 +81,7 @@ vec3 passed_straight(Bsdf bsdf, vec3 color, float through) {
 }
 
 vec3 principled_passed(Material material, ScatteringContext context) {
+  if ((material.flags & MATERIAL_PANE) == 0u) return vec3(0.0f, 0.0f, 0.0f);
   float metallic = metallic_of(material, context.place).z;
   vec3 color = principled_color(material, context);
   return passed_straight(principled_surface(material, context, color, metallic), color, principled_through(material, context, metallic));

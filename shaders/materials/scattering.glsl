@@ -75,5 +75,12 @@ float highlight(Material material, vec3 n, vec3 to_light, vec3 to_viewer) {
   return power_of_complement(minimum(0.5f * dot3(difference, difference), 1.0f), material.shininess);
 }
 
+#if RANDOM_WALK && HAS_PANES
+// Whether the material's surface is a border between media of one index, which refracts nothing.
+bool is_interface(Material material, ScatteringContext context) {
+  return material.medium != 0u && context.ior_from == context.ior_to && ANY_INTERFACE;
+}
+#endif
+
 SHADER_END
 #endif

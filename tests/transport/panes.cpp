@@ -48,6 +48,19 @@ TEST_CASE("panes: R' = 2R / (1 + R), and what is left goes straight on, seen and
   }
 }
 
+TEST_CASE("panes: light of no size passes any number of them") {
+  for (const int panes : {8, 9, 40}) {
+    CAPTURE(panes);
+    Scene behind = floor(256);
+    behind.camera.eye = {0.1, 0.25, 0.1};
+    const int clear = add(behind, make_dielectric({.ior = 1, .thin = true}));
+    for (int i = 0; i < panes; ++i) add(behind, make_disk({0, 0.3 + 0.01 * i, 0}, {0, 1, 0}, 9), clear);
+    add_point_light(behind, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
+    add_sun(behind, {0, 1, 1}, Vec3(0.5));
+    check(behind, albedo * (3.0 / 4 + 0.5 * std::sqrt(0.5)));
+  }
+}
+
 TEST_CASE("frosted glass and frosted panes take nothing in a furnace") {
   for (const bool thin : {false, true}) {
     CAPTURE(thin);
