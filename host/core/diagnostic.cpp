@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "host/core/github_text.hpp"
+
 namespace eyeray {
 
 namespace {
@@ -127,12 +129,12 @@ std::string format_diagnostic(const Diagnostic& diagnostic) {
   if (at.line > 0 && at.column > 0) text += fmt::format(":{}", at.column);
   if (!text.empty()) text += ": ";
   text += diagnostic.severity == Severity::error ? "error: " : "warning: ";
-  text += diagnostic.message;
+  text = log_line(text + diagnostic.message);
   if (diagnostic.source_line.empty()) return text;
 
   // Show the line, and a caret under the column.
   const std::string_view cut = diagnostic.source_column > 1 ? "…" : "";
-  text += fmt::format("\n  {}{}", cut, diagnostic.source_line);
+  text += fmt::format("\n  {}{}", cut, log_line(diagnostic.source_line));
   if (at.column >= diagnostic.source_column) {
     const std::string blank = blank_like(diagnostic.source_line, at.column - diagnostic.source_column);
     text += fmt::format("\n  {}{}^", cut.empty() ? "" : " ", blank);

@@ -17,4 +17,12 @@ std::string github_text(std::string_view text, bool property) {
   return escaped;
 }
 
+std::string log_line(std::string_view text) {
+  std::string line = printable(text);
+  const size_t first = line.find_first_not_of(" \t");
+  if (first != std::string::npos && line.compare(first, 2, "::") == 0) line[first] = '?';
+  for (size_t at = 0; (at = line.find("##[", at)) != std::string::npos;) line[at + 1] = '?';
+  return line;
+}
+
 }  // namespace eyeray

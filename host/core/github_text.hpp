@@ -9,4 +9,9 @@ namespace eyeray {
 // and : too.
 std::string github_text(std::string_view text, bool property);
 
+// `text` as one line for a terminal or a log: printable, and no command to GitHub's workflows, which are
+// `::NAME` at the start of a line and `##[NAME]` anywhere. One sign of these becomes a question mark, so that
+// columns stay.
+std::string log_line(std::string_view text);
+
 }  // namespace eyeray

@@ -1,6 +1,7 @@
 #include "host/core/diagnostic.hpp"
 
 #include <array>
+#include <sstream>
 //
 #include "tests/support/doctest.hpp"
 
@@ -40,6 +41,40 @@ TEST_CASE("of a long line only what is around the column is shown") {
   show_source_line(diagnostic, "short", 3);
   CHECK(diagnostic.source_line == "short");
   CHECK(diagnostic.source_column == 3);
+}
+
+TEST_CASE("no text of a file is a command to a terminal or to GitHub's workflows") {
+  const std::string nasty[] = {"::stop-commands::x",
+                               "  ::error::x",
+                               "\t::add-mask::x",
+                               "##[error]x",
+                               "a ##[group]b",
+                               "\x1b[2J",
+                               "a\nb",
+                               "a\r::debug::b",
+                               "\xc2\x9b"
+                               "31m",
+                               "::",
+                               "##[##[",
+                               "\x7f",
+                               "a\n::error::b",
+                               std::string("a\0b", 3)};
+  for (const std::string& text : nasty) {
+    CAPTURE(text);
+    for (const bool in_file : {false, true}) {
+      Diagnostic diagnostic{Severity::error, {in_file ? text : "a.toml", 1, 3}, in_file ? "m" : text, "", 1};
+      show_source_line(diagnostic, text);
+      std::istringstream lines(format_diagnostic(diagnostic));
+      int count = 0;
+      for (std::string line; std::getline(lines, line); ++count) {
+        CHECK(line == printable(line));
+        CHECK(line.find("##[") == std::string::npos);
+        const size_t first = line.find_first_not_of(" \t");
+        CHECK((first == std::string::npos || line.compare(first, 2, "::") != 0));
+      }
+      CHECK(count == 3);
+    }
+  }
 }
 
 TEST_CASE("an InputError tells everything") {
