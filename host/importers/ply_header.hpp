@@ -35,7 +35,7 @@ struct PlyHeader {
   PlyFormat format;
   std::vector<PlyElement> elements;
   bool has_picture = false;  // by a comment `TextureFile`, as MeshLab and others write it
-  size_t size = 0;  // bytes up to the data
+  size_t size = 0;           // bytes up to the data
 };
 
 // InputError with the line where it is wrong.

@@ -94,8 +94,8 @@ struct Scene {
   RenderSettings render;
   VerifySettings verify;
   Animation animation;
-  Medium medium;                                      // around all, for paths; of ior 1
-  bool is_mesh_alone = false;                         // a mesh file in place of a scene, in eyeray's own light
+  Medium medium;               // around all, for paths; of ior 1
+  bool is_mesh_alone = false;  // a mesh file in place of a scene, in eyeray's own light
   std::shared_ptr<const EnvironmentMap> environment;  // in place of the background; null where there is none
   std::vector<std::unique_ptr<Light>> lights;
   std::vector<std::unique_ptr<Material>> materials;

@@ -183,7 +183,6 @@ TEST_CASE("compare answers 1 to pictures of another size, too different, or not 
   Image picture(8, 6, 3);
   write_image(folder / "a.pfm", picture);
   write_image(folder / "narrow.pfm", Image(7, 6, 3));
-  write_image(folder / "grey.pfm", Image(8, 6, 1));
   picture.samples()[40] = 2e-4f;
   write_image(folder / "other.pfm", picture);
   picture.samples()[40] = -1e-6f;
@@ -201,7 +200,6 @@ TEST_CASE("compare answers 1 to pictures of another size, too different, or not 
     const char* reason;
   };
   for (const Failing& failing : {Failing{"narrow.pfm", "wrong size: 7×6 in 3 channels against 8×6"},
-                                 {"grey.pfm", "wrong size: 8×6 in 1 channel against 8×6"},
                                  {"other.pfm", "1 of 48 pixels differ"},
                                  {"negative.pfm", "1 negative (first at 5,1)"},
                                  {"nan.pfm", "1 NaN (first at 5,1)"}}) {
