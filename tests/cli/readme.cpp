@@ -1,0 +1,24 @@
+// README.md shows a report of `eyeray verify`: its gates are the ones that come out.
+#include <sstream>
+
+#include "tests/support/process.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+TEST_CASE("the report in README.md has the counts of today") {
+  const ProcessResult result = run_eyeray({"verify", "scenes/whitted.toml"});
+  CHECK(result.code == 0);
+  const std::string readme = read_text("README.md");
+  std::istringstream lines(result.out);
+  int gates = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("  gate")) continue;
+    CAPTURE(line);
+    CHECK(readme.find("\n" + line + "\n") != std::string::npos);
+    ++gates;
+  }
+  CHECK(gates == 5);
+}
