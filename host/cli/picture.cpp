@@ -73,6 +73,9 @@ void PictureRequest::check_outputs() {
     throw Error(ExitCode::bad_input,
                 "--primary raster draws the middles of pixels, and --classic has rays at their corners");
   if (shard) check_shard();
+  if (fs::is_directory(scene.file()))
+    throw Error(ExitCode::file_io, "cannot read the scene {}: it is a folder; name a scene or a mesh in it",
+                scene.file());
   if (outputs.empty())
     outputs.push_back(fs::path(scene.file()).filename().replace_extension(".png").string());
   for (const std::string& output : outputs) {

@@ -98,7 +98,14 @@ void report(const toml::parse_error& error, const std::string& text, const State
 }  // namespace
 
 std::string read_scene_text(const std::filesystem::path& file) {
-  return read_input_file(file, "the scene", most_bytes);
+  std::string text = read_input_file(file, "the scene", most_bytes);
+  if (text.find('\0') != std::string::npos)
+    throw Error(
+        ExitCode::bad_input,
+        "{} is no scene: it holds bytes that are no text; a scene is a .toml, a mesh an .obj, .ply, .gltf or "
+        ".glb",
+        file.string());
+  return text;
 }
 
 std::string explain_syntax(std::string_view description, std::string_view statement) {

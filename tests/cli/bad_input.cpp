@@ -30,6 +30,12 @@ TEST_CASE("a scene that cannot be read") {
   const ProcessResult directory = run_eyeray({"render", folder.path(), "-o", folder / "a.png"});
   CHECK(directory.code == 4);
   CHECK(directory.err.find("it is a folder") != std::string::npos);
+  const ProcessResult slash = run_eyeray({"render", folder.path().string() + "/"});
+  CHECK(slash.code == 4);
+  CHECK(slash.err.find("it is a folder; name a scene or a mesh in it\n") != std::string::npos);
+  const ProcessResult picture = run_eyeray({"check", "tests/image/pictures/rgb.png"});
+  CHECK(picture.code == 2);
+  CHECK(picture.err.starts_with("eyeray: error: tests/image/pictures/rgb.png is no scene: "));
   CHECK(folder.names() == only_the_scene);
 }
 

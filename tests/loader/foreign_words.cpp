@@ -20,6 +20,7 @@ std::string suggested(std::string_view word, const std::vector<std::string_view>
 
 TEST_CASE("a word of another renderer is answered by ours, where that is possible") {
   CHECK(suggested("look_at", {"eye", "target"}) == "target");
+  CHECK(suggested("focal_length", {"eye", "fov"}) == "fov");
   CHECK(suggested("LookAt", {"eye", "target"}) == "target");
   CHECK(suggested("look_at", {"eye", "size"}) == "");
   // What a word means depends on where it stands.
@@ -46,5 +47,6 @@ TEST_CASE("tables of other renderers") {
   CHECK(suggest_section("difference") == "did you mean [[csg]]?");
   CHECK(suggest_section("isosurface") == "did you mean [[implicit]]?");
   CHECK(suggest_section("cuboid") == "did you mean [[box]]?");
+  CHECK(suggest_section("fog") == "did you mean [medium]?");
   CHECK(suggest_section("film") == "did you mean [image]?");
 }
