@@ -99,7 +99,7 @@ void report(const toml::parse_error& error, const std::string& text, const State
 
 std::string read_scene_text(const std::filesystem::path& file) {
   std::string text = read_input_file(file, "the scene", most_bytes);
-  if (text.find('\0') != std::string::npos)
+  if (file.extension() != ".toml" && text.find('\0') != std::string::npos)
     throw Error(
         ExitCode::bad_input,
         "{} is no scene: it holds bytes that are no text; a scene is a .toml, a mesh an .obj, .ply, .gltf or "
