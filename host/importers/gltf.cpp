@@ -3,17 +3,17 @@
 // is too long, throws at an empty buffer, and takes a bufferView's range on trust.
 // Source: Khronos Group: glTF 2.0 Specification (2.0.1); KHR_lights_punctual.
 #include <algorithm>
-#include <glm/ext/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <numbers>
 #include <optional>
 #include <set>
 
 #include "host/importers/formats.hpp"
 #include "host/importers/gltf_animation.hpp"
+#include "host/importers/gltf_instancing.hpp"
+#include "host/importers/gltf_lights.hpp"
 #include "host/importers/gltf_materials.hpp"
 #include "host/importers/gltf_meshes.hpp"
+#include "host/importers/gltf_nodes.hpp"
 #include "host/importers/malformed.hpp"
 #include "host/scene/affine.hpp"
 
@@ -28,6 +28,7 @@ constexpr std::string_view known_extensions[] = {
     "KHR_materials_specular",  "KHR_materials_clearcoat", "KHR_materials_sheen",
     "KHR_mesh_quantization",   "KHR_texture_transform",   "KHR_materials_pbrSpecularGlossiness",
     "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression",
+    "KHR_node_visibility",     "EXT_mesh_gpu_instancing",
 };
 
 constexpr size_t most_extensions_named = 16;
@@ -38,11 +39,6 @@ std::set<std::string> as_set(const std::vector<std::string>& names) {
 
 // A mesh and what stands in a scene may be multiplied by each other.
 constexpr size_t most_instances = size_t{1} << 20;
-
-// The lights of glTF shine on surfaces that scatter 1/π of what arrives; ours scatter all of it.
-constexpr double unit_of_light = 1 / std::numbers::pi;
-// Of a spot light's cone, in radians: lights/spot.cpp wants a little less.
-constexpr double least_border = 2e-5;
 
 class GltfReader {
  public:
@@ -82,20 +78,18 @@ class GltfReader {
   struct Visit {
     size_t node;
     Mat4 parent;
+    bool hidden;  // as the node above it
   };
 
   void check_extensions();
-  std::vector<size_t> roots() const;
   void read_nodes();
   void read_node(size_t index);
   void read_mesh(size_t index, size_t mesh, const Mat4& world);
   void read_camera(const GltfObject& source, const Mat4& world);
-  void read_light(const GltfObject& source, const Mat4& world);
-  void read_spot(const GltfObject& light, const Mat4& world, const Vec3& arriving);
   Mat4 transform(size_t index);
   bool is_flat(const Mat4& world);
   const std::vector<double>* moved(size_t node, const char* key) const;
-  void check_roots(const std::vector<size_t>& order) const;
+  void check_parents();
 
   GltfContainer container_;
   nlohmann::json json_;
@@ -110,40 +104,30 @@ class GltfReader {
   Playing playing_;
   GltfMotion motion_;
   std::vector<std::optional<Mat4>> worlds_;               // of the nodes that stand in the scene
+  std::vector<bool> hidden_;                              // of all nodes
   std::vector<std::optional<std::vector<Mat4>>> joints_;  // of the skins, once asked for
   size_t flattened_ = 0;
 };
 
 void GltfReader::check_extensions() {
-  std::set<std::string> names;
-  for (const char* list : {"extensionsUsed", "extensionsRequired"})
-    names.merge(as_set(document_.texts(list)));
+  const std::set<std::string> required = as_set(document_.texts("extensionsRequired"));
+  std::set<std::string> names = as_set(document_.texts("extensionsUsed"));
+  names.insert(required.begin(), required.end());
+  std::string needed;
   size_t unknown = 0;
   for (const std::string& name : names) {
     if (std::ranges::find(known_extensions, name) != std::end(known_extensions)) continue;
     if (++unknown > most_extensions_named) continue;
-    left_out_.add("the extension " + name);
+    if (required.contains(name)) {
+      needed += (needed.empty() ? "" : ", ") + printable(name);
+    } else {
+      left_out_.add("the extension " + printable(name));
+    }
   }
   if (unknown > most_extensions_named) left_out_.add("more extensions", unknown - most_extensions_named);
-}
-
-// The nodes of the scene that is shown, or where there is none, those without a parent.
-std::vector<size_t> GltfReader::roots() const {
-  const size_t nodes = document_.size("nodes");
-  const size_t scenes = document_.size("scenes");
-  if (scenes > 0) {
-    const size_t shown = document_.index("scene", scenes).value_or(0);
-    return document_.element("scenes", shown).indices("nodes", nodes);
-  }
-  std::vector<bool> child(nodes, false);
-  for (size_t i = 0; i < nodes; ++i) {
-    for (const size_t below : document_.element("nodes", i).indices("children", nodes)) child[below] = true;
-  }
-  std::vector<size_t> all;
-  for (size_t i = 0; i < nodes; ++i) {
-    if (!child[i]) all.push_back(i);
-  }
-  return all;
+  if (!needed.empty())
+    scene_.warnings.push_back("the picture is not what the file means: it requires " + needed +
+                              ", which eyeray does not know (extensionsRequired)");
 }
 
 // Depth first, children in the order written.
@@ -151,11 +135,12 @@ void GltfReader::read_nodes() {
   const size_t nodes = document_.size("nodes");
   std::vector<bool> seen(nodes, false);
   std::vector<Visit> pending;
-  const auto push = [&](const std::vector<size_t>& indices, const Mat4& parent) {
-    for (size_t i = indices.size(); i-- > 0;) pending.push_back({indices[i], parent});
+  const auto push = [&](const std::vector<size_t>& indices, const Mat4& parent, bool hidden) {
+    for (size_t i = indices.size(); i-- > 0;) pending.push_back({indices[i], parent, hidden});
   };
-  push(roots(), Mat4(1.0));
+  push(root_nodes(document_, scene_.warnings), Mat4(1.0), false);
   worlds_.resize(nodes);
+  hidden_.resize(nodes);
   joints_.resize(document_.size("skins"));
   std::vector<size_t> order;
   while (!pending.empty()) {
@@ -166,27 +151,37 @@ void GltfReader::read_nodes() {
     seen[visit.node] = true;
     const Mat4 world = visit.parent * transform(visit.node);
     worlds_[visit.node] = world;
+    hidden_[visit.node] = visit.hidden || is_hidden(node);
     order.push_back(visit.node);
-    push(node.indices("children", nodes), world);
+    push(node.indices("children", nodes), world, hidden_[visit.node]);
   }
 
-  check_roots(order);
+  check_parents();
 
   // Only now is known where the joints of skins are.
   for (const size_t index : order) read_node(index);
 }
 
-// A scene that shows a node without the nodes above it puts it elsewhere than they would.
-void GltfReader::check_roots(const std::vector<size_t>& order) const {
-  const size_t nodes = document_.size("nodes");
-  std::vector<bool> shown(nodes, false);
-  for (const size_t node : order) shown[node] = true;
-  for (size_t i = 0; i < nodes; ++i) {
-    if (shown[i]) continue;
-    const GltfObject parent = document_.element("nodes", i);
-    for (const size_t below : parent.indices("children", nodes)) {
-      if (shown[below])
-        parent.fail(fmt::format("is not in the scene, but nodes[{}], which is below it, is", below));
+// A scene that shows a node without the nodes above it puts it elsewhere than they would, unless they move
+// nothing.
+void GltfReader::check_parents() {
+  const std::vector<size_t> parents = parents_of_nodes(document_);
+  std::vector<bool> still(parents.size(), false);
+  for (size_t i = 0; i < parents.size(); ++i) {
+    if (worlds_[i]) continue;
+    for (const size_t below : document_.element("nodes", i).indices("children", parents.size())) {
+      if (!worlds_[below]) continue;
+      for (size_t above = i; above != no_parent && !still[above]; above = parents[above]) {
+        if (transform(above) != Mat4(1.0)) {
+          document_.element("nodes", above)
+              .fail(fmt::format("moves nodes[{0}], which the scene shows without it: list nodes[{1}] in the "
+                                "scene in place of nodes[{0}], or take nodes[{0}] out of the children",
+                                below, above));
+        }
+        still[above] = true;
+      }
+      breaches_.add("nodes that the scene shows without the nodes above them, which move nothing",
+                    document_.element("nodes", below).place());
     }
   }
 }
@@ -222,12 +217,8 @@ Mat4 GltfReader::transform(size_t index) {
   const std::vector<double> t = numbers("translation", {0, 0, 0});
   const std::vector<double> q = numbers("rotation", {0, 0, 0, 1});
   const std::vector<double> s = numbers("scale", {1, 1, 1});
-  const glm::dquat turn(q[3], q[0], q[1], q[2]);
-  if (!(glm::length(turn) > 1e-6)) node.fail("has a rotation without length");
-  if (std::abs(glm::length(turn) - 1) > 0.01)
-    breaches_.add("rotations that are not of unit length, normalised", node.place() + ".rotation");
-  return glm::translate(Mat4(1.0), {t[0], t[1], t[2]}) * glm::mat4_cast(glm::normalize(turn)) *
-         glm::scale(Mat4(1.0), {s[0], s[1], s[2]});
+  return gltf_transform(node, "rotation", Vec3(t[0], t[1], t[2]), Vec4(q[0], q[1], q[2], q[3]),
+                        Vec3(s[0], s[1], s[2]), breaches_);
 }
 
 void GltfReader::read_node(size_t index) {
@@ -238,19 +229,18 @@ void GltfReader::read_node(size_t index) {
   const auto lights = document_.extension("KHR_lights_punctual");
   const auto light = node.extension("KHR_lights_punctual");
   if (!mesh && !camera && !light) return;
-  if (mesh) read_mesh(index, *mesh, world);
+  if (mesh && !hidden_[index]) read_mesh(index, *mesh, world);
   if ((camera || light) && is_flat(world)) return;
   if (camera) read_camera(document_.element("cameras", *camera), world);
-  if (light) {
+  if (light && !hidden_[index]) {
     const auto shown = light->index("light", lights ? lights->size("lights") : 0);
     if (!shown) light->fail("has no light");
-    read_light(lights->element("lights", *shown), world);
+    add_gltf_light(lights->element("lights", *shown), world, left_out_, breaches_, scene_);
   }
 }
 
 void GltfReader::read_mesh(size_t index, size_t mesh, const Mat4& world) {
   const GltfObject node = document_.element("nodes", index);
-  if (node.extension("EXT_mesh_gpu_instancing")) left_out_.add("instances (EXT_mesh_gpu_instancing)");
   const std::vector<double>* const weights = moved(index, "weights");
   GltfPose pose{{}, weights ? *weights : node.numbers("weights")};
   if (const auto skin = node.index("skin", document_.size("skins"))) {
@@ -261,12 +251,23 @@ void GltfReader::read_mesh(size_t index, size_t mesh, const Mat4& world) {
   }
   // What joints hold is in the world already, wherever its node is.
   const bool skinned = !pose.joints.empty();
-  if (!skinned && is_flat(world)) return;
+  std::vector<Mat4> transforms = {skinned ? Mat4(1.0) : world};
+  if (const auto instancing = node.extension("EXT_mesh_gpu_instancing")) {
+    if (skinned) {
+      left_out_.add("instances of meshes with a skin");
+    } else {
+      transforms = instance_transforms(*instancing, document_, buffers_, breaches_);
+      for (Mat4& transform : transforms) transform = world * transform;
+    }
+  }
+  if (!skinned) std::erase_if(transforms, [&](const Mat4& transform) { return is_flat(transform); });
+  if (transforms.empty()) return;
   for (const GltfMeshes::Part& part :
        skinned || !pose.weights.empty() ? meshes_.posed_parts(mesh, pose) : meshes_.parts(mesh)) {
-    if (scene_.instances.size() == most_instances)
+    if (transforms.size() > most_instances - scene_.instances.size())
       node.fail(fmt::format("is beyond the {} instances that a file may have", most_instances));
-    scene_.instances.push_back({part.mesh, skinned ? Mat4(1.0) : world, part.material, {}});
+    for (const Mat4& transform : transforms)
+      scene_.instances.push_back({part.mesh, transform, part.material, {}});
   }
 }
 
@@ -291,50 +292,6 @@ void GltfReader::read_camera(const GltfObject& source, const Mat4& world) {
     source.fail("is neither perspective nor orthographic");
   }
   scene_.camera = camera;
-}
-
-// It shines along −z. What has no cone shines as a point.
-void GltfReader::read_spot(const GltfObject& light, const Mat4& world, const Vec3& arriving) {
-  const auto cone = light.object("spot");
-  const double inner = cone ? cone->number("innerConeAngle", 0) : 0;
-  const double outer = cone ? cone->number("outerConeAngle", std::numbers::pi / 4) : 0;
-  // A quarter turn in float32 is a little more.
-  if (!(inner >= 0 && inner < outer && outer <= std::numbers::pi / 2 + 1e-6)) {
-    breaches_.add("spot lights without angles that grow from 0 to a quarter turn, taken as points",
-                  light.place());
-    scene_.lights.push_back(PointLight{.position = Vec3(world[3]), .intensity = arriving});
-    return;
-  }
-  // Angles of nearly the same size are a sharp border all the same.
-  const double most_inner = outer - least_border;
-  scene_.lights.push_back(SpotLight{.position = Vec3(world[3]),
-                                    .direction = -unit(Vec3(world[2])),
-                                    .intensity = arriving,
-                                    .inner = std::max(0.0, std::min(inner, most_inner)),
-                                    .outer = std::clamp(outer, least_border, std::numbers::pi / 2)});
-}
-
-void GltfReader::read_light(const GltfObject& source, const Mat4& world) {
-  const std::string type = source.text("type");
-  const std::vector<double> color = source.numbers("color", {1, 1, 1});
-  const double intensity = source.number("intensity", 1);
-  const Vec3 arriving = Vec3(color[0], color[1], color[2]) * intensity * unit_of_light;
-  const bool right = intensity >= 0 && *std::ranges::min_element(color) >= 0 && magnitude(arriving) < 1e12;
-  if (!right) source.fail("has an intensity that no light has");
-  if (*std::ranges::max_element(color) > 1)
-    breaches_.add("colours of lights above 1, taken as they are", source.place());
-  if (source.has("range")) left_out_.add("ranges of lights");
-  if (source.has("range") && !(source.number("range", 0) > 0))
-    breaches_.add("ranges of lights that are not above 0", source.place());
-  if (type == "directional") {
-    scene_.lights.push_back(DirectionalLight{unit(Vec3(world[2])), arriving});
-  } else if (type == "point") {
-    scene_.lights.push_back(PointLight{.position = Vec3(world[3]), .intensity = arriving});
-  } else if (type == "spot") {
-    read_spot(source, world, arriving);
-  } else {
-    source.fail("has a type that glTF does not know");
-  }
 }
 
 }  // namespace

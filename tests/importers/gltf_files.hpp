@@ -26,10 +26,13 @@ inline std::string base64(const std::string& bytes) {
 // One mesh, one node, one buffer; tests change and add.
 class GltfFile {
  public:
-  Json json = {
-      {"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}},
-      {"nodes", {{{"mesh", 0}}}},      {"meshes", {{{"primitives", {{{"attributes", Json::object()}}}}}}},
-      {"bufferViews", Json::array()},  {"accessors", Json::array()}};
+  Json json = {{"asset", {{"version", "2.0"}}},
+               {"scenes", {{{"nodes", {0}}}}},
+               {"scene", 0},
+               {"nodes", {{{"mesh", 0}}}},
+               {"meshes", {{{"primitives", {{{"attributes", Json::object()}}}}}}},
+               {"bufferViews", Json::array()},
+               {"accessors", Json::array()}};
   std::vector<Json> more_buffers;  // after the one that the bytes are in
 
   // The accessor of the numbers, stored as the component type, in a bufferView of its own.

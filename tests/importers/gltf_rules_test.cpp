@@ -88,8 +88,7 @@ std::function<void(GltfFile&)> light(const Json& json) {
 
 const std::string light_at = "extensions.KHR_lights_punctual.lights[0]";
 const std::string wrong_cone =
-    "spot lights without angles that grow from 0 to a quarter turn, taken as points: 1, the first " +
-    light_at;
+    "spot lights whose angles do not grow from 0 to a quarter turn, clamped: 1, the first " + light_at;
 const std::string attributes_at = "meshes[0].primitives[0].attributes";
 
 }  // namespace
@@ -105,8 +104,40 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
       {"rotation of length 2", set("/nodes/1/rotation", {0, 0, 0, 2}),
        "rotations that are not of unit length, normalised: 1, the first nodes[1].rotation"},
       {"rotation nearly of length 1", set("/nodes/1/rotation", {0, 0, 0, 1.005}), ""},
-      {"a scene that shows what is below a node that it does not show", set("/scenes/0/nodes", {1}),
-       error + "nodes[0] is not in the scene, but nodes[1], which is below it, is"},
+      {"a scene without the node above, which moves nothing",
+       [](GltfFile& file) {
+         file.json["nodes"] = {{{"children", {1}}, {"scale", {1, 1, 1}}}, {{"mesh", 0}}};
+         file.json["scenes"][0]["nodes"] = {1};
+         file.primitive()["attributes"].erase("JOINTS_0");
+         file.primitive()["attributes"].erase("WEIGHTS_0");
+       },
+       "nodes that the scene shows without the nodes above them, which move nothing: 1, the first nodes[1]"},
+      {"a scene without the node above the node above, which moves",
+       [](GltfFile& file) {
+         file.json["nodes"] = {{{"children", {1}}}, {{"mesh", 0}}, {{"children", {0}}, {"scale", {2, 2, 2}}}};
+         file.json["scenes"][0]["nodes"] = {1};
+       },
+       error + "nodes[2] moves nodes[1], which the scene shows without it: list nodes[2] in the scene in "
+               "place of nodes[1], or take nodes[1] out of the children"},
+      {"a node below a shown and a hidden tree",
+       [](GltfFile& file) {
+         file.json["nodes"].push_back({{"children", {1}}, {"translation", {0, 0, 1}}});
+       },
+       error + "nodes[2] moves nodes[1], which the scene shows without it: list nodes[2] in the scene in "
+               "place of nodes[1], or take nodes[1] out of the children"},
+      {"no default scene", erase("", "scene"), "it has no default scene: its only scene is shown"},
+      {"no default scene of two",
+       [](GltfFile& file) {
+         file.json.erase("scene");
+         file.json["scenes"].push_back({{"nodes", Json::array()}});
+       },
+       "it has no default scene: the first of 2 is shown"},
+      {"no scenes",
+       [](GltfFile& file) {
+         file.json.erase("scene");
+         file.json.erase("scenes");
+       },
+       "it has no scenes: all nodes without a parent are shown"},
       {"skin without joints in the mesh",
        [](GltfFile& file) {
          file.primitive()["attributes"].erase("JOINTS_0");
@@ -226,6 +257,8 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
        light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.4}}}}), wrong_cone},
       {"a cone beyond a quarter turn", light({{"type", "spot"}, {"spot", {{"outerConeAngle", 2}}}}),
        wrong_cone},
+      {"a cone of two equal angles",
+       light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.3}, {"outerConeAngle", 0.3}}}}), wrong_cone},
       {"a cone below 0", light({{"type", "spot"}, {"spot", {{"innerConeAngle", -0.1}}}}), wrong_cone},
       // The asset.
       {"a minVersion that is read", set("/asset/minVersion", "2.0"), ""},
@@ -236,8 +269,10 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
        "factors below 0 or above 1, clamped: 1, the first materials[0].pbrMetallicRoughness.roughnessFactor"},
       {"an alphaMode that there is not", set("/materials/0/alphaMode", "GLASS"),
        error + "materials[0] has an alphaMode that glTF does not know"},
-      {"an extension that is required and not used", set("/extensionsRequired", {"ABC_future"}),
-       "left out: the extension ABC_future (1)"},
+      {"required extensions that are not known",
+       set("/extensionsRequired", {"ABC_future", "KHR_x", "KHR_materials_ior"}),
+       "the picture is not what the file means: it requires ABC_future, KHR_x, which eyeray does not know "
+       "(extensionsRequired)"},
   };
   for (const Rule& rule : table) {
     GltfFile file = rich_file();

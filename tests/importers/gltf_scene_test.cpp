@@ -1,6 +1,4 @@
-// What stands around the geometry of glTF files: materials, textures, cameras, lights, and what is left out.
-#include <numbers>
-
+// The materials and textures of glTF files, and what is left out.
 #include "gltf_files.hpp"
 #include "host/image/coded_image.hpp"
 #include "host/scene/image_texture_file.hpp"
@@ -245,57 +243,6 @@ TEST_CASE("a normal map counts by its codes, with the mesh's tangents where they
   CHECK(coated.warnings.empty());
   REQUIRE(coated.materials[0]->coat_normal_map);
   CHECK(coated.materials[0]->coat_normal_map->scale == 0.25);
-}
-
-TEST_CASE("the first camera and all lights") {
-  GltfFile file = square_file();
-  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
-  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "point"}, {"intensity", std::numbers::pi}, {"color", {1, 0.5, 0}}},
-      {{"type", "directional"}, {"intensity", 2 * std::numbers::pi}},
-      {{"type", "spot"}, {"range", 3}}};
-  const auto light = [](int index) { return Json{{"KHR_lights_punctual", {{"light", index}}}}; };
-  file.json["cameras"] = {
-      {{"type", "perspective"}, {"perspective", {{"yfov", std::numbers::pi / 4}, {"znear", 1}}}},
-      {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}}}}};
-  file.json["nodes"] = {{{"mesh", 0}},
-                        {{"camera", 0}, {"translation", {1, 2, 3}}},
-                        {{"camera", 1}},
-                        {{"extensions", light(0)}, {"translation", {4, 5, 6}}},
-                        {{"extensions", light(1)}, {"rotation", {-0.70710678, 0, 0, 0.70710678}}},
-                        {{"extensions", light(2)}}};
-  file.json.erase("scenes");
-  const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
-  REQUIRE(scene.camera);
-  CHECK(scene.camera->eye == Vec3(1, 2, 3));
-  CHECK(glm::normalize(scene.camera->target - scene.camera->eye) == Vec3(0, 0, -1));
-  CHECK(scene.camera->up == Vec3(0, 1, 0));
-  const auto perspective = std::get<PerspectiveCamera>(scene.camera->form);
-  CHECK(perspective.fov_axis == FovAxis::vertical);
-  CHECK(perspective.fov_degrees == doctest::Approx(45));
-  CHECK(warns(scene, "cameras but the first (1)"));
-  REQUIRE(scene.lights.size() == 3);
-  const auto& point = std::get<PointLight>(scene.lights[0]);
-  CHECK(point.position == Vec3(4, 5, 6));
-  CHECK(glm::length(point.intensity - Vec3(1, 0.5, 0)) < 1e-12);
-  const auto& sun = std::get<DirectionalLight>(scene.lights[1]);
-  CHECK(glm::length(sun.to_light - Vec3(0, 1, 0)) < 1e-6);  // it shines along −z, turned to −y
-  CHECK(sun.intensity.x == doctest::Approx(2));
-  CHECK(std::holds_alternative<PointLight>(scene.lights[2]));
-  CHECK(warns(scene, "spot lights without angles"));
-  CHECK(warns(scene, "ranges of lights"));
-
-  file.json["extensions"]["KHR_lights_punctual"]["lights"][2] = {
-      {"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.6}}}};
-  file.json["nodes"][5]["translation"] = {7, 8, 9};
-  file.json["nodes"][1].erase("camera");
-  const ImportedScene second = import_sound(file.gltf(), "a.gltf");
-  CHECK(std::get<OrthographicCamera>(second.camera->form).size == 3);
-  const auto& spot = std::get<SpotLight>(second.lights[2]);
-  CHECK(spot.position == Vec3(7, 8, 9));
-  CHECK(spot.direction == Vec3(0, 0, -1));
-  CHECK(spot.inner == 0.2);
-  CHECK(spot.outer == 0.6);
 }
 
 TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices; else alpha is not looked at") {

@@ -1,0 +1,17 @@
+// The lights of a glTF file (KHR_lights_punctual). Private to the importers.
+#pragma once
+
+#include <vector>
+
+#include "host/importers/gltf_breaches.hpp"
+#include "host/importers/gltf_materials.hpp"
+#include "host/importers/import.hpp"
+
+namespace eyeray::importers {
+
+// Appends the light `source` of a node whose transform to the world is `world`. InputError, with the place,
+// for values that no light has.
+void add_gltf_light(const GltfObject& source, const Mat4& world, GltfLeftOut& left_out,
+                    GltfBreaches& breaches, ImportedScene& scene);
+
+}  // namespace eyeray::importers

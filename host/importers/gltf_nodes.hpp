@@ -1,0 +1,25 @@
+// The tree of a glTF file's nodes. Private to the importers.
+#pragma once
+
+#include <vector>
+
+#include "host/importers/gltf_breaches.hpp"
+
+namespace eyeray::importers {
+
+// Translation · rotation · scale. A rotation that is not of unit length is a breach, one without length an
+// InputError: at the member `key` of `owner`.
+Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& translation, const Vec4& rotation,
+                    const Vec3& scale, GltfBreaches& breaches);
+
+// The nodes at the top of the scene that is shown, or of a file without scenes those without a parent.
+std::vector<size_t> root_nodes(const GltfObject& document, std::vector<std::string>& warnings);
+
+// For each node the one above it, or `no_parent`.
+constexpr size_t no_parent = ~size_t{0};
+std::vector<size_t> parents_of_nodes(const GltfObject& document);
+
+// Whether KHR_node_visibility hides the node, and with it all that is below.
+bool is_hidden(const GltfObject& node);
+
+}  // namespace eyeray::importers
