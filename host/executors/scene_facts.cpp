@@ -22,6 +22,11 @@ bool is_black(const shader::Texture& texture) {
   return !varies(texture) && texture.color == shader::vec3(0);
 }
 
+bool any_flag(const records::PackedScene& scene, uint32_t flag) {
+  return std::ranges::any_of(scene.materials,
+                             [&](const shader::Material& material) { return (material.flags & flag) != 0; });
+}
+
 // Whether any material may send rays on.
 bool any_reflects(const records::PackedScene& scene) {
   return transmits(scene) || std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
@@ -52,9 +57,11 @@ bool any_emission_texture(const records::PackedScene& scene) {
 }
 
 bool any_emits_in_front(const records::PackedScene& scene) {
-  return std::ranges::any_of(scene.materials, [](const shader::Material& material) {
-    return (material.flags & MATERIAL_EMITS_IN_FRONT) != 0;
-  });
+  return any_flag(scene, MATERIAL_EMITS_IN_FRONT);
+}
+
+bool any_front_only(const records::PackedScene& scene) {
+  return any_flag(scene, MATERIAL_FRONT_ONLY);
 }
 
 bool any_bent_coat(const records::PackedScene& scene) {

@@ -241,6 +241,9 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
       made->mask = mask(source);
     }
   }
+  // Rays leave glass through its back.
+  made->front_only = !source.flag("doubleSided") && !made->medium() && !made->thin();
+  made->emits_in_front = made->front_only && made->emits();
   made->normal_map = normal_map(source, source.object("normalTexture"));
   if (const auto coat = source.extension("KHR_materials_clearcoat"))
     made->coat_normal_map = normal_map(source, coat->object("clearcoatNormalTexture"));

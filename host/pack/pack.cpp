@@ -97,6 +97,7 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
     material->pack(packer);
     shader::Material& record = packer.scene.materials.back();
     if (material->emits_in_front) record.flags |= MATERIAL_EMITS_IN_FRONT;
+    if (material->front_only) record.flags |= MATERIAL_FRONT_ONLY;
     if (walks_at_random(scene.render.integrator)) {
       record.optical_depth = OPTICAL_DEPTH_OPAQUE;
       if (material->thin()) {

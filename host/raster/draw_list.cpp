@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "host/raster/tessellation.hpp"
+#include "host/scene/affine.hpp"
 #include "host/scene/primitive_ids.hpp"
 
 namespace eyeray::raster {
@@ -126,8 +127,16 @@ void DrawList::add(const Instance& instance, const Mat4& map, uint64_t id, const
   for (const Vec3& point : mesh.positions)
     points.emplace_back(view_.to_camera(Vec3(map * Vec4(point, 1.0))), 1.0);
   ScreenTriangle like{.id = uint32_t(id), .reach = reach_of(around, view_)};
+  const bool front_only = scene_.materials[size_t(instance.material)]->front_only;
+  // The camera's space is left-handed.
+  const double outside = Affine(map).mirrors() ? 1 : -1;
+  const auto is_seen = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 normal = outside * glm::cross(b - a, c - a);
+    return !front_only || glm::dot(normal, view_.perspective() ? a : Vec3(0, 0, 1)) < 0;
+  };
   for (const auto& [a, b, c] : mesh.triangles) {
-    view_.cut(std::array{points[a], points[b], points[c]}, like, visit);
+    if (is_seen(Vec3(points[a]), Vec3(points[b]), Vec3(points[c])))
+      view_.cut(std::array{points[a], points[b], points[c]}, like, visit);
     ++like.id;
   }
 }

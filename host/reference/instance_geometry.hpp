@@ -8,17 +8,17 @@ namespace eyeray::reference {
 
 class InstanceGeometry {
  public:
-  // `mesh`, and the `mask` of the instance's material, null without one, must outlive it.
-  InstanceGeometry(const Instance& instance, const MeshGeometry& mesh, const AlphaMask* mask = nullptr)
-      : mesh_(&mesh), mask_(mask), map_(instance.transform), material_(instance.material) {}
+  // `mesh`, and `material`, null for one that is there everywhere, must outlive it.
+  InstanceGeometry(const Instance& instance, const MeshGeometry& mesh, const Material* material = nullptr)
+      : mesh_(&mesh), look_(material), map_(instance.transform), material_(instance.material) {}
 
   // As MeshGeometry's, for a ray of the world; t is the same in both spaces.
   std::optional<TriangleHit> intersect(const Ray& ray,
                                        double limit = std::numeric_limits<double>::infinity()) const {
-    return mesh_->intersect(map_.into(ray), limit, mask_);
+    return mesh_->intersect(map_.into(ray), limit, look_);
   }
   uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most) const {
-    return mesh_->count_crossed(map_.into(ray), t_end, most, mask_);
+    return mesh_->count_crossed(map_.into(ray), t_end, most, look_);
   }
 
   // The surface at a hit, in the world. The ray is not needed, and there so that shapes and instances are
@@ -36,7 +36,7 @@ class InstanceGeometry {
 
  private:
   const MeshGeometry* mesh_;
-  const AlphaMask* mask_;
+  const Material* look_;
   InstanceMap map_;
   int material_;
 };

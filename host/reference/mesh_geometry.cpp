@@ -34,17 +34,19 @@ BoxRay MeshGeometry::box_ray(const Ray& ray) const {
 }
 
 std::optional<TriangleHit> MeshGeometry::intersect_one(uint32_t triangle, const Ray& ray,
-                                                       const BoxRay& box_ray, const AlphaMask* mask) const {
+                                                       const BoxRay& box_ray,
+                                                       const Material* material) const {
   const Corners v = corners(triangle);
   const double entry = box_ray.entry(bounds_of(v));
   if (entry == std::numeric_limits<double>::infinity()) return std::nullopt;
-  auto hit = intersect_triangle(v, geometric_normal(v), ray);
-  if (!hit) return std::nullopt;
+  const Vec3 normal = geometric_normal(v);
+  auto hit = intersect_triangle(v, normal, ray);
+  if (!hit || (material && material->front_only && glm::dot(normal, ray.d) >= 0)) return std::nullopt;
 
   // A ray that grazes the plane may get a t before the box, by rounding.
   hit->t = std::max(hit->t, entry);
   const TriangleHit at{*hit, triangle};
-  if (mask && !mask->covers(uv(at), alpha(at))) return std::nullopt;
+  if (material && material->mask && !material->mask->covers(uv(at), alpha(at))) return std::nullopt;
   return at;
 }
 
@@ -63,11 +65,11 @@ double MeshGeometry::alpha(const TriangleHit& hit) const {
 }
 
 std::optional<TriangleHit> MeshGeometry::intersect(const Ray& ray, double limit,
-                                                   const AlphaMask* mask) const {
+                                                   const Material* material) const {
   std::optional<TriangleHit> nearest;
   const BoxRay boxes = box_ray(ray);
   bvh_.search(boxes, limit, [&](uint32_t i, double so_far) {
-    const auto hit = intersect_one(i, ray, boxes, mask);
+    const auto hit = intersect_one(i, ray, boxes, material);
     if (!hit || (nearest && !(hit->t < nearest->t || (hit->t == nearest->t && i < nearest->triangle))))
       return so_far;
     nearest = hit;
@@ -77,11 +79,11 @@ std::optional<TriangleHit> MeshGeometry::intersect(const Ray& ray, double limit,
 }
 
 uint32_t MeshGeometry::count_crossed(const Ray& ray, double t_end, uint32_t most,
-                                     const AlphaMask* mask) const {
+                                     const Material* material) const {
   uint32_t count = 0;
   const BoxRay boxes = box_ray(ray);
   bvh_.search(boxes, t_end, [&](uint32_t i, double limit) {
-    const auto hit = intersect_one(i, ray, boxes, mask);
+    const auto hit = intersect_one(i, ray, boxes, material);
     if (!hit || !(hit->t < t_end)) return limit;
     return ++count < most ? limit : -1.0;
   });

@@ -23,8 +23,8 @@ Objects::Objects(std::span<const std::unique_ptr<Shape>> shapes, std::span<const
     : shapes_(shapes), materials_(materials) {
   uint64_t triangles = 0;
   for (const Instance& instance : instances) {
-    const auto& mask = materials[size_t(instance.material)]->mask;
-    instances_.emplace_back(instance, meshes[size_t(instance.mesh)], mask ? &*mask : nullptr);
+    instances_.emplace_back(instance, meshes[size_t(instance.mesh)],
+                            materials[size_t(instance.material)].get());
     triangles_before_.push_back(triangles);
     triangles += instances_.back().triangles();
   }

@@ -100,6 +100,7 @@ class Material {
 
   std::string name;
   bool emits_in_front = false;    // light of its own only where normals point; else on both sides
+  bool front_only = false;        // of meshes: rays from behind do not hit it, and it emits in front
   std::optional<AlphaMask> mask;  // never where there is a medium
   std::optional<NormalMap> normal_map;
   std::optional<BumpMap> bump_map;           // on top of that

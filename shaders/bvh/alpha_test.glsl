@@ -1,4 +1,4 @@
-// Where a material's alpha is below its cutoff there is no surface: what is hit there was not hit, and the search goes on.
+// Where a material's alpha is below its cutoff, or behind one that is only there in front, there is no surface: the search goes on.
 #ifndef ALPHA_TEST_GLSL
 #define ALPHA_TEST_GLSL
 #include "geometry/instance.glsl"
@@ -7,10 +7,10 @@
 
 SHADER_BEGIN
 
-// `t` of a hit, or −1 where it is cut out. `ray`, as the primitive sees it. Only shapes that a ray hits once have cutouts: behind one there
+// `t` of a hit, or −1 where it is cut out or culled. `ray`, as the primitive sees it. Only shapes that a ray hits once have cutouts: behind one there
 // is nothing more of the shape.
 float alpha_test(Primitive primitive, uint instance, Ray ray, float t, vec2 uv) {
-#if HAS_ALPHA_TEST
+#if HAS_ALPHA_TEST || HAS_FRONT_ONLY
   uint index = material_of(primitive);
 #if HAS_INSTANCES
   if (instance != NONE) {
@@ -19,6 +19,12 @@ float alpha_test(Primitive primitive, uint instance, Ray ray, float t, vec2 uv) 
   }
 #endif
   Material material = load_material(index);
+#endif
+#if HAS_FRONT_ONLY
+  vec3 outside = vec3(primitive.a.w, primitive.b.w, primitive.c.w);
+  if ((material.flags & MATERIAL_FRONT_ONLY) != 0u && kind_of(primitive) == KIND_triangle && dot3(outside, ray.d) >= 0.0f) return -1.0f;
+#endif
+#if HAS_ALPHA_TEST
   if (material.alpha_cutoff > 0.0f && t > 0.0f) {
     Hit hit;
     hit.t = t;

@@ -268,6 +268,23 @@ TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices; else alpha i
   CHECK(contains(glass.warnings[0], "cutouts in glass (1)"));
 }
 
+TEST_CASE("a material that is not doubleSided is there, and shines, only in front; glass is on both sides") {
+  const auto material_of = [](const Json& json) {
+    return std::move(import_sound(with_material(json).gltf(), "a.gltf").materials[0]);
+  };
+  CHECK(material_of(Json::object())->front_only);
+  CHECK_FALSE(material_of(Json::object())->emits_in_front);
+  CHECK(material_of({{"emissiveFactor", {1, 1, 1}}})->emits_in_front);
+  CHECK_FALSE(material_of({{"doubleSided", true}})->front_only);
+  CHECK_FALSE(material_of({{"doubleSided", true}, {"emissiveFactor", {1, 1, 1}}})->emits_in_front);
+  for (const double share : {0.25, 1.0}) {
+    Json glass = {{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", share}}}}}};
+    CHECK_FALSE(material_of(glass)->front_only);
+    glass["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 1;
+    CHECK_FALSE(material_of(glass)->front_only);
+  }
+}
+
 TEST_CASE("what is left out is named once, and counted") {
   GltfFile file = with_material({{"alphaMode", "BLEND"}, {"occlusionTexture", {{"index", 0}}}});
   file.json["materials"].push_back(file.json["materials"][0]);
