@@ -55,6 +55,9 @@ class GltfReader {
 
   ImportedScene read() {
     check_extensions();
+    if (const auto asset = document_.object("asset"); asset && asset->text("version") != "2.0")
+      breaches_.add("versions of glTF above 2.0, read as 2.0", "asset.version");
+    for (const std::string& breach : container_.breaches) breaches_.add(breach, "the file");
     for (size_t i = 0; i < document_.size("materials"); ++i)
       scene_.materials.push_back(materials_.material(i));
     scene_.animations = animation_names(document_);
@@ -111,8 +114,14 @@ class GltfReader {
 
 void GltfReader::check_extensions() {
   const std::set<std::string> required = as_set(document_.texts("extensionsRequired"));
-  std::set<std::string> names = as_set(document_.texts("extensionsUsed"));
+  const std::set<std::string> declared = as_set(document_.texts("extensionsUsed"));
+  std::set<std::string> names = extensions_of_objects(json_);
   names.insert(required.begin(), required.end());
+  for (const std::string& name : names) {
+    if (!declared.contains(name))
+      breaches_.add("extensions that extensionsUsed does not name", printable(name));
+  }
+  names.insert(declared.begin(), declared.end());
   std::string needed;
   size_t unknown = 0;
   for (const std::string& name : names) {
@@ -208,6 +217,8 @@ Mat4 GltfReader::transform(size_t index) {
         glm::make_mat4(node.numbers("matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}).data());
     if (matrix[0].w != 0 || matrix[1].w != 0 || matrix[2].w != 0 || matrix[3].w != 1)
       node.fail("has a matrix that is not affine");
+    if (shears(Mat3(matrix)))
+      breaches_.add("matrices of nodes that shear, taken as they are", node.place() + ".matrix");
     return matrix;
   }
   const auto numbers = [&](const char* key, std::vector<double> fallback) {
@@ -280,6 +291,8 @@ void GltfReader::read_camera(const GltfObject& source, const Mat4& world) {
   camera.up = unit(Vec3(world[1]));
   if (source.has("perspective") && source.has("orthographic"))
     source.fail("is both perspective and orthographic");
+  if (const std::string type = source.text("type"); !type.empty() && !source.has(type.c_str()))
+    breaches_.add("cameras whose type is not that of their values, which count", source.place());
   if (const auto perspective = source.object("perspective")) {
     const double degrees = glm::degrees(perspective->number("yfov", 0));
     if (!(degrees > 0 && degrees < 180)) perspective->fail("has a yfov that no camera has");

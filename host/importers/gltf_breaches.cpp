@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "host/core/diagnostic.hpp"
 #include "host/importers/gltf_components.hpp"
 
 namespace eyeray::importers {
@@ -82,6 +83,26 @@ void GltfBreaches::check_attribute(std::string_view name, size_t index) {
                               is_normalized ? "normalized " : "", component));
   }
   add("attributes of component types that glTF does not give them, read as they say", accessor.place());
+}
+
+void GltfBreaches::check_attribute_names(const GltfObject& attributes) {
+  constexpr std::string_view sets[] = {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"};
+  for (const std::string& name : attributes.keys()) {
+    const auto place = [&] { return attributes.place() + "." + printable(name); };
+    // Names of applications and of extensions.
+    if (name.starts_with('_') || name.find(':') != std::string::npos) continue;
+    if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") continue;
+    const auto set = std::ranges::find_if(sets, [&](std::string_view s) { return name.starts_with(s); });
+    const std::string number = set == std::end(sets) ? "" : name.substr(set->size());
+    const bool counted = !number.empty() && number.size() < 6 && (number == "0" || number[0] != '0') &&
+                         std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
+    if (!counted) {
+      add("attributes whose names glTF does not know, left out", place());
+    } else if (number != "0") {
+      const std::string before = fmt::format("{}{}", *set, std::stoi(number) - 1);
+      if (!attributes.has(before.c_str())) add("sets of attributes that are not counted from 0", place());
+    }
+  }
 }
 
 }  // namespace eyeray::importers

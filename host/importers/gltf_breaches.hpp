@@ -27,6 +27,9 @@ class GltfBreaches {
   // breach where KHR_mesh_quantization has to be declared and is not.
   void check_attribute(std::string_view name, size_t accessor);
 
+  // What the attributes of a primitive are called: what has another name than readers look for is lost.
+  void check_attribute_names(const GltfObject& attributes);
+
  private:
   struct Kind {
     std::string name;

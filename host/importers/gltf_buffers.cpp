@@ -88,6 +88,11 @@ std::string_view GltfBuffers::buffer(size_t index) {
   }
   if (length > bytes.size())
     source.fail(fmt::format("is to have {} bytes, but there are only {}", length, bytes.size()));
+  const size_t padding = source.has("uri") ? 0 : 3;
+  if (source.text("uri").starts_with("data:") || padding > 0) {
+    if (bytes.size() - length > padding)
+      breaches_.add("buffers with more data than their byteLength, left out", source.place());
+  }
   return bytes.substr(0, length);
 }
 
@@ -195,6 +200,8 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
   const uint64_t component = accessor.count("componentType", 0);
   const bool normalized = accessor.flag("normalized");
   if (count == 0) accessor.fail("has no elements");
+  if (normalized && (component == floating || component == unsigned_int))
+    breaches_.add("accessors of floats or of 32 bits that are normalized", accessor.place());
 
   const auto copy = [&](const Elements& from, uint64_t i, T& to) {
     const char* bytes = from.bytes + i * from.stride;

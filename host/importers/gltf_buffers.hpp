@@ -19,6 +19,7 @@ namespace eyeray::importers {
 struct GltfContainer {
   std::string_view json;
   std::optional<std::string_view> binary;
+  std::vector<std::string> breaches = {};  // as GltfBreaches::add takes them
 };
 GltfContainer open_gltf(std::string_view bytes, const std::string& file);
 

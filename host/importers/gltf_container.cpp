@@ -56,29 +56,34 @@ std::optional<std::string> decode_base64(std::string_view text) {
 }  // namespace
 
 GltfContainer open_gltf(std::string_view bytes, const std::string& file) {
-  if (bytes.size() < 4 || word(bytes, 0) != magic) return {bytes, {}};
+  if (bytes.size() < 4 || word(bytes, 0) != magic) return {bytes, {}, {}};
   if (bytes.size() < 12) throw malformed(file, "the file ends too early");
   if (word(bytes, 4) != 2) throw malformed(file, fmt::format("it is not glTF 2 but {}", word(bytes, 4)));
 
   // Cut the chunks: JSON first, then perhaps binary data; what else follows means nothing to us.
   std::optional<std::string_view> json;
   std::optional<std::string_view> binary;
+  std::vector<std::string> breaches;
+  if (word(bytes, 8) != bytes.size()) breaches.emplace_back("lengths of .glb that are not the file's");
   bytes = bytes.substr(0, word(bytes, 8));
   for (size_t at = 12; at + 8 <= bytes.size();) {
     const uint32_t length = word(bytes, at);
     const uint32_t type = word(bytes, at + 4);
     at += 8;
     if (length > bytes.size() - at) throw malformed(file, "the file ends too early");
+    if (length % 4 != 0) breaches.emplace_back("chunks of .glb whose length is no multiple of 4");
     if (!json && type != json_chunk) throw malformed(file, "its first chunk is not JSON");
     if (!json) {
       json = bytes.substr(at, length);
     } else if (type == binary_chunk && !binary) {
       binary = bytes.substr(at, length);
+    } else if (type == json_chunk || type == binary_chunk) {
+      breaches.emplace_back("second chunks of a type in .glb, left out");
     }
     at += length;
   }
   if (!json) throw malformed(file, "the file ends too early");
-  return {*json, binary};
+  return {*json, binary, std::move(breaches)};
 }
 
 std::string decode_uri(std::string_view uri) {

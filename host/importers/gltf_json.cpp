@@ -149,6 +149,18 @@ std::optional<GltfObject> GltfObject::extension(const char* name) const {
   return extensions ? extensions->object(name) : std::nullopt;
 }
 
+// The depth of the document is bounded by parse_gltf_json.
+std::set<std::string> extensions_of_objects(const Json& document) {
+  std::set<std::string> names;
+  for (const auto& [key, value] : document.items()) {
+    if (key == "extras" || !value.is_structured()) continue;
+    if (key == "extensions" && value.is_object())
+      for (const auto& [name, extension] : value.items()) names.insert(name);
+    names.merge(extensions_of_objects(value));
+  }
+  return names;
+}
+
 Json parse_gltf_json(std::string_view text, const std::string& file) {
   check_json_text(text, file);
   Json json;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,9 @@ class GltfObject {
   std::string place_;  // "accessors[3]"; "" for the document
   const std::string* file_;
 };
+
+// The names of all extensions that objects of the document have, but for those in `extras`.
+std::set<std::string> extensions_of_objects(const nlohmann::json& document);
 
 // InputError for what is no JSON, is nested absurdly deep, has more than 2^24 values, or is no glTF 2.
 nlohmann::json parse_gltf_json(std::string_view text, const std::string& file);

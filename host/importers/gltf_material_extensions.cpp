@@ -65,7 +65,7 @@ std::unique_ptr<Material> GltfMaterials::glass(const GltfObject& material, const
 Vec3 GltfMaterials::absorption(const GltfObject& material) {
   const auto volume = material.extension("KHR_materials_volume");
   if (!volume) return Vec3(0);
-  const double distance = volume->number("attenuationDistance", 0);
+  const double distance = not_negative(*volume, "attenuationDistance", 0);
   const std::vector<double> color = factors(*volume, "attenuationColor", {1, 1, 1});
   if (!(distance > 1e-12)) return Vec3(0);
   return -glm::log(glm::max(Vec3(color[0], color[1], color[2]), Vec3(1e-6))) / distance;
@@ -83,6 +83,8 @@ std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, co
   if (const auto specular = source.extension("KHR_materials_specular")) {
     const std::vector<double> color = specular->numbers("specularColorFactor", {1, 1, 1});
     const Vec3 tint = glm::max(Vec3(color[0], color[1], color[2]), Vec3(0));
+    if (tint != Vec3(color[0], color[1], color[2]))
+      breaches_.add("values of materials below 0, taken as 0", specular->place() + ".specularColorFactor");
     values.specular = scaled(source, *specular, "specularTexture",
                              Vec3(factor(*specular, "specularFactor", 1)), Content::alpha);
     values.specular_color = scaled(source, *specular, "specularColorTexture", tint, Content::color);
@@ -92,7 +94,7 @@ std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, co
                                  Vec3(factor(*transmission, "transmissionFactor", 0)));
     // Without thickness it has no inside; how thick it is paths see for themselves.
     const auto volume = source.extension("KHR_materials_volume");
-    values.thin = !(volume && volume->number("thicknessFactor", 0) > 0);
+    values.thin = !(volume && not_negative(*volume, "thicknessFactor", 0) > 0);
     values.absorption = absorption(source);
   }
   if (const auto sheen = source.extension("KHR_materials_sheen")) {

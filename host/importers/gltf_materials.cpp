@@ -92,11 +92,16 @@ ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budge
   std::string data;
   std::string_view bytes;
   if (const auto view = image.index("bufferView", document_.size("bufferViews"))) {
+    if (image.has("uri")) image.fail("has both a uri and a bufferView: it is one picture");
     bytes = buffers_.view(*view);
   } else {
     data = buffers_.read_uri(image, "the picture");
     bytes = data;
   }
+  const std::string type = image.text("mimeType");
+  if ((type == "image/png" && bytes.starts_with("\xff\xd8")) ||
+      (type == "image/jpeg" && bytes.starts_with("\x89PNG")))
+    breaches_.add("pictures of another type than their mimeType, decoded as what they are", image.place());
   return decode_image_texture(std::as_bytes(std::span(bytes)), image.place(), budget);
 }
 
@@ -158,7 +163,7 @@ TexturePtr GltfMaterials::emission(const GltfObject& material) {
   Vec3 color = share(factors(material, "emissiveFactor", {0, 0, 0}));
   if (color == Vec3(0)) return none;
   if (const auto strength = material.extension("KHR_materials_emissive_strength"))
-    color *= std::clamp(strength->number("emissiveStrength", 1), 0.0, most_emission);
+    color *= std::clamp(not_negative(*strength, "emissiveStrength", 1), 0.0, most_emission);
   const auto reference = material.object("emissiveTexture");
   if (!reference) return textures::make_constant(color);
   const auto image = texture(*reference, Content::color);
@@ -265,7 +270,7 @@ std::optional<NormalMap> GltfMaterials::normal_map(const GltfObject& material,
 
 // Nothing where the cutoff cuts nothing out.
 std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material) {
-  const double cutoff = material.number("alphaCutoff", 0.5);
+  const double cutoff = not_negative(material, "alphaCutoff", 0.5);
   if (!(cutoff > 0)) return std::nullopt;
   const auto pbr = material.object("pbrMetallicRoughness");
   const auto old = pbr ? std::nullopt : material.extension(specular_glossiness);
@@ -303,6 +308,13 @@ double GltfMaterials::factor(const GltfObject& owner, const char* key, double fa
   if (share(value) != value)
     breaches_.add("factors below 0 or above 1, clamped", fmt::format("{}.{}", owner.place(), key));
   return share(value);
+}
+
+double GltfMaterials::not_negative(const GltfObject& owner, const char* key, double fallback) {
+  const double value = owner.number(key, fallback);
+  if (value < 0)
+    breaches_.add("values of materials below 0, taken as 0", fmt::format("{}.{}", owner.place(), key));
+  return std::max(value, 0.0);
 }
 
 std::vector<double> GltfMaterials::factors(const GltfObject& owner, const char* key,

@@ -88,6 +88,7 @@ class GltfMaterials {
   void note_rest(const GltfObject& material);
   // Numbers that are shares, from 0 to 1.
   double factor(const GltfObject& owner, const char* key, double fallback);
+  double not_negative(const GltfObject& owner, const char* key, double fallback);
   std::vector<double> factors(const GltfObject& owner, const char* key, std::vector<double> fallback);
 
   const GltfObject& document_;

@@ -70,6 +70,7 @@ std::vector<GltfMeshes::Part> GltfMeshes::posed_parts(size_t index, const GltfPo
   GltfPose whole = pose;
   if (whole.weights.empty()) whole.weights = mesh.numbers("weights");
   std::vector<Part> parts;
+  if (mesh.size("primitives") == 0) breaches_.add("meshes without primitives", mesh.place());
   for (size_t i = 0; i < mesh.size("primitives"); ++i) {
     const GltfObject primitive = mesh.element("primitives", i);
     const auto material = primitive.index("material", document_.size("materials"));
@@ -95,6 +96,8 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   const auto attributes = primitive.object("attributes");
   if (!attributes) primitive.fail("has no attributes");
 
+  breaches_.check_attribute_names(*attributes);
+
   // Read the vertices.
   const size_t accessors = document_.size("accessors");
   const auto positions = attributes->index("POSITION", accessors);
@@ -112,6 +115,8 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   auto tangents = attributes->index("TANGENT", accessors);
   const bool bent =
       !pose.joints.empty() || std::ranges::any_of(pose.weights, [](double w) { return w != 0; });
+  if (tangents && !normals)
+    breaches_.add("meshes with tangents and without normals, made of their uv instead", attributes->place());
   if (bent || !normals || !uv) tangents.reset();
   if (uv_use.taken && !uv)
     breaches_.add("meshes without the uv that their material's picture takes", primitive.place());
@@ -140,6 +145,8 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
     for (const Vec4& color : buffers_.colors(*colors)) {
       pool.colors.push_back(sound_color(Vec3(color)));
       pool.alphas.push_back(sound_color(Vec3(color.w)).x);
+      if (Vec4(pool.colors.back(), pool.alphas.back()) != color)
+        breaches_.add("colours of vertices below 0 or above 1, clamped", attributes->place() + ".COLOR_0");
     }
     if (std::ranges::all_of(pool.alphas, [](double alpha) { return alpha == 1; })) pool.alphas.clear();
   }

@@ -19,6 +19,14 @@ Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& transl
          glm::scale(Mat4(1.0), scale);
 }
 
+bool shears(const Mat3& matrix) {
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &a = matrix[i], &b = matrix[(i + 1) % 3];
+    if (std::abs(glm::dot(a, b)) > 1e-3 * glm::length(a) * glm::length(b)) return true;
+  }
+  return false;
+}
+
 std::vector<size_t> parents_of_nodes(const GltfObject& document) {
   const size_t nodes = document.size("nodes");
   std::vector<size_t> parents(nodes, no_parent);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/importers/gltf_breaches.hpp"
+#include "host/scene/affine.hpp"
 
 namespace eyeray::importers {
 
@@ -11,6 +12,9 @@ namespace eyeray::importers {
 // InputError: at the member `key` of `owner`.
 Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& translation, const Vec4& rotation,
                     const Vec3& scale, GltfBreaches& breaches);
+
+// Whether the map of a matrix is no rotation with a scale along each axis.
+bool shears(const Mat3& matrix);
 
 // The nodes at the top of the scene that is shown, or of a file without scenes those without a parent.
 std::vector<size_t> root_nodes(const GltfObject& document, std::vector<std::string>& warnings);

@@ -61,6 +61,8 @@ void add_targets(const GltfObject& primitive, std::span<const double> weights, c
     const GltfObject target = primitive.element("targets", i);
     const auto add = [&](const char* name, std::vector<Vec3>& to) {
       const auto accessor = target.index(name, document.size("accessors"));
+      if (accessor && to.empty())
+        breaches.add("morph targets of attributes that the mesh has not, left out", target.place());
       if (!accessor || to.empty()) return;
       breaches.check_attribute(name, *accessor);
       const std::vector<Vec3> change = buffers.vec3(*accessor);

@@ -1,7 +1,9 @@
 // Small glTF files, made by tests.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -71,13 +73,13 @@ class GltfFile {
   // With the buffer as a data URI, as a file's name, or as the chunk of a .glb.
   std::string gltf() const { return gltf("data:application/octet-stream;base64," + base64(data_.text())); }
   std::string gltf(const std::string& uri) const {
-    Json whole = json;
+    Json whole = declared();
     whole["buffers"] = {{{"byteLength", data_.text().size()}, {"uri", uri}}};
     for (const Json& buffer : more_buffers) whole["buffers"].push_back(buffer);
     return whole.dump();
   }
   std::string glb() const {
-    Json whole = json;
+    Json whole = declared();
     whole["buffers"] = {{{"byteLength", data_.text().size()}}};
     for (const Json& buffer : more_buffers) whole["buffers"].push_back(buffer);
     std::string text = whole.dump();
@@ -93,6 +95,23 @@ class GltfFile {
   }
 
  private:
+  // With its extensions in extensionsUsed, unless the test says which are there.
+  Json declared() const {
+    Json whole = json;
+    if (whole.contains("extensionsUsed")) return whole;
+    std::set<std::string> names;
+    const std::function<void(const Json&)> collect = [&](const Json& part) {
+      for (const auto& [key, value] : part.items()) {
+        if (key == "extensions")
+          for (const auto& extension : value.items()) names.insert(extension.key());
+        if (value.is_structured()) collect(value);
+      }
+    };
+    collect(whole);
+    if (!names.empty()) whole["extensionsUsed"] = names;
+    return whole;
+  }
+
   Bytes data_;
 };
 

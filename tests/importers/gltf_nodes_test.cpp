@@ -10,7 +10,6 @@ namespace {
 // The square at a node with attributes of EXT_mesh_gpu_instancing.
 GltfFile instanced_file() {
   GltfFile file = square_file();
-  file.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
   file.json["nodes"][0]["translation"] = {0, 0, 10};
   file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
       {"TRANSLATION", file.add({1, 2, 3, 4, 5, 6}, 5126, "VEC3", 3)}};
@@ -28,7 +27,6 @@ Vec3 corner(const ImportedScene& scene, size_t instance) {
 
 TEST_CASE("KHR_node_visibility hides a node and all below it, but moves joints and cameras") {
   GltfFile file = square_file();
-  file.json["extensionsUsed"] = {"KHR_node_visibility"};
   file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
   file.json["cameras"] = {{{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}}}}};
   const Json hidden = {{"KHR_node_visibility", {{"visible", false}}}};

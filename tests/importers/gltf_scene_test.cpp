@@ -327,6 +327,7 @@ TEST_CASE("emission, by factor, strength and picture; what is unlit emits its ba
       with_material({{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}}});
   file.json["textures"] = {{{"source", 0}}};
   file.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
+  file.primitive()["attributes"]["TEXCOORD_0"] = file.add(std::vector<double>(8, 0), 5126, "VEC2", 2);
   file.primitive()["attributes"]["TEXCOORD_1"] = file.add({0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
   const ImportedScene alone = import_sound(file.gltf(), "a.gltf");
   CHECK(alone.warnings.empty());

@@ -39,6 +39,7 @@ TEST_CASE("every type of index and of coordinate") {
   }
   for (const int component : {5120, 5121, 5122, 5123, 5126}) {
     for (const bool normalized : {false, true}) {
+      if (component == 5126 && normalized) continue;  // which breaks a rule
       CAPTURE(component);
       CAPTURE(normalized);
       const std::map<int, double> one = {{5120, 127}, {5121, 255}, {5122, 32767}, {5123, 65535}, {5126, 1}};

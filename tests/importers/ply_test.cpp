@@ -13,7 +13,7 @@ std::string header(const std::string& format, const std::string& rest) {
   return "ply\nformat " + format + " 1.0\ncomment made by a test\n" + rest + "end_header\n";
 }
 
-void check_square(const ImportedScene& scene) {
+void check_ply_square(const ImportedScene& scene) {
   REQUIRE(scene.meshes.size() == 1);
   CHECK(scene.meshes[0].positions.size() == 4);
   CHECK(scene.meshes[0].triangles.size() == 2);
@@ -51,7 +51,7 @@ TEST_CASE("every type of coordinate, of index and of a list's length, in every o
             data.add_as(coordinate, p.x).add_as(coordinate, p.y).add_as(coordinate, 0);
           data.add_as(length, 4);
           for (int i = 0; i < 4; ++i) data.add_as(index, i);
-          check_square(import_sound(
+          check_ply_square(import_sound(
               header(format, fmt::format("element vertex 4\nproperty {0} x\nproperty {0} y\nproperty {0} z\n"
                                          "element face 1\nproperty list {1} {2} vertex_indices\n",
                                          coordinate, length, index)) +
@@ -64,11 +64,11 @@ TEST_CASE("every type of coordinate, of index and of a list's length, in every o
 }
 
 TEST_CASE("text, with any spaces and line breaks") {
-  check_square(import_sound(ascii("0 0 0\n1 0 0\n1 1 0\n0 1 0\n", "4 0 1 2 3\n"), "a.ply"));
-  check_square(import_sound(ascii("0 0 0  +1 0 0\r\n1e0 1.0 -0 0 1 0", "\t4 0 1\n2 3"), "A.PLY"));
+  check_ply_square(import_sound(ascii("0 0 0\n1 0 0\n1 1 0\n0 1 0\n", "4 0 1 2 3\n"), "a.ply"));
+  check_ply_square(import_sound(ascii("0 0 0  +1 0 0\r\n1e0 1.0 -0 0 1 0", "\t4 0 1\n2 3"), "A.PLY"));
   std::string windows = ascii("0 0 0\n1 0 0\n1 1 0\n0 1 0\n", "4 0 1 2 3\n");
   for (size_t at = 0; (at = windows.find('\n', at)) != std::string::npos; at += 2) windows.insert(at, "\r");
-  check_square(import_sound(windows, "a.ply"));
+  check_ply_square(import_sound(windows, "a.ply"));
 }
 
 TEST_CASE("other elements and properties are stepped over, wherever they are") {

@@ -1,0 +1,41 @@
+// A glTF file that keeps all rules, for tests that break them one by one.
+#pragma once
+
+#include "gltf_files.hpp"
+
+namespace eyeray::test {
+
+// The accessors of the file below, in order.
+enum Accessor { positions, indices, normals, uv, joints, weights, bind_matrices, target };
+
+inline const std::vector<double> identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+// A square with all that rules are about, none of them broken.
+inline GltfFile rich_file() {
+  GltfFile file = square_file();
+  Json& attributes = file.primitive()["attributes"];
+  attributes["NORMAL"] = file.add({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 5126, "VEC3", 3);
+  attributes["TEXCOORD_0"] = file.add({0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
+  attributes["JOINTS_0"] = file.add(std::vector<double>(16, 0), 5121, "VEC4", 4);
+  attributes["WEIGHTS_0"] = file.add({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4);
+  const int bind = file.add(identity, 5126, "MAT4", 16);
+  file.primitive()["targets"] = {{{"POSITION", file.add(std::vector<double>(12, 0.5), 5126, "VEC3", 3)}}};
+  file.json["meshes"][0]["weights"] = {1};
+  file.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"children", {1}}}, {{"rotation", {0, 0, 0, 1}}}};
+  file.json["skins"] = {{{"joints", {1}}, {"inverseBindMatrices", bind}}};
+  file.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 0}}}}};
+  file.primitive()["material"] = 0;
+  return file;
+}
+
+// The refusal, or the warnings, or "".
+inline std::string said_of(const GltfFile& file) {
+  const std::string refused = refusal(file.gltf(), "a.gltf");
+  if (refused != "accepted") return refused;
+  std::string all;
+  for (const std::string& warning : import_sound(file.gltf(), "a.gltf").warnings)
+    all += (all.empty() ? "" : "; ") + warning;
+  return all;
+}
+
+}  // namespace eyeray::test
