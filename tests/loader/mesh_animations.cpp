@@ -44,13 +44,14 @@ std::string walker(const Folder& folder, const std::string& name = "walker.gltf"
                        0, 0, 0, 0, 8, 0}));
   return folder.write(
       name, fmt::format(
-                R"({{"asset": {{"version": "2.0"}}, {},
+                R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [{}]}}], {},
   "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
   "buffers": [{{"uri": "{}", "byteLength": 92}}], "bufferViews": [{}, {}, {}, {}],
   "accessors": [{}, {}, {}, {}], "animations": [{}, {}]}})",
-                nodes, binary, view(0, 36), view(36, 8), view(44, 24), view(68, 24), accessor(0, 3, "VEC3"),
-                accessor(1, 2, "SCALAR"), accessor(2, 2, "VEC3"), accessor(3, 2, "VEC3"),
-                animation("Walk", 2, path), animation("Run", 3, "translation")));
+                nodes.find("camera") == std::string::npos ? "0" : "0, 1", nodes, binary, view(0, 36),
+                view(36, 8), view(44, 24), view(68, 24), accessor(0, 3, "VEC3"), accessor(1, 2, "SCALAR"),
+                accessor(2, 2, "VEC3"), accessor(3, 2, "VEC3"), animation("Walk", 2, path),
+                animation("Run", 3, "translation")));
 }
 
 Scene load(const std::string& file, const std::vector<std::string>& defines = {}) {

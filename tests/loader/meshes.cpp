@@ -181,7 +181,8 @@ TEST_CASE("overrides and a file's own camera and lights") {
   CHECK(scene.render.background == Vec3(1));
 
   const std::string gltf =
-      folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_mesh_quantization"],
+      folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+    "extensionsUsed": ["KHR_mesh_quantization", "KHR_lights_punctual"],
     "nodes": [{"mesh": 0}, {"camera": 0, "translation": [1, 2, 3]},
               {"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [4, 5, 6]}],
     "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}},
