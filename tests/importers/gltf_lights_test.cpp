@@ -67,8 +67,9 @@ TEST_CASE("a spot stays a spot, whatever its angles are") {
         {{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}}};
     return std::get<SpotLight>(import_sound(file.gltf(), "a.gltf").lights.at(0));
   };
-  for (const auto& [inner, outer] :
+  for (const auto& [narrow, wide] :
        {std::pair(0.3, 0.3), {0.5, 0.3}, {0.3, std::nextafter(0.3f, 1.0f)}, {0.3, 0.3 + 1e-9}}) {
+    const double inner = narrow, outer = wide;  // CAPTURE takes no structured bindings
     CAPTURE(inner);
     CHECK(spot(inner, outer).outer == outer);
     CHECK(spot(inner, outer).inner == doctest::Approx(outer).epsilon(1e-4));
