@@ -1,11 +1,11 @@
-# Everything comes from Debian 12's packages (scripts/setup); nothing is vendored.
+# Everything comes from Debian's packages, 12's or 13's (scripts/setup); nothing is vendored.
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(TBB REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
-find_package(embree 3 REQUIRED)
+find_package(embree REQUIRED)  # 3 or 4
 find_package(Threads REQUIRED)
 find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
@@ -14,6 +14,7 @@ find_package(draco REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(VulkanHeaders REQUIRED)
 find_package(glslang REQUIRED)
+find_package(SPIRV-Headers REQUIRED)
 find_package(SPIRV-Tools REQUIRED)
 find_package(SPIRV-Tools-opt REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -36,7 +37,7 @@ target_compile_definitions(volk INTERFACE VK_NO_PROTOTYPES)
 target_link_libraries(volk INTERFACE Vulkan::Headers ${CMAKE_DL_LIBS})
 
 add_library(glslang_compiler INTERFACE)
-target_link_libraries(glslang_compiler INTERFACE glslang::glslang glslang::SPIRV glslang::glslang-default-resource-limits)
+target_link_libraries(glslang_compiler INTERFACE SPIRV-Headers::SPIRV-Headers glslang::glslang glslang::SPIRV glslang::glslang-default-resource-limits)
 target_compile_options(glslang_compiler INTERFACE -fno-sanitize=vptr)  # Debian builds glslang without RTTI
 add_library(spirv_tools INTERFACE)
 target_link_libraries(spirv_tools INTERFACE SPIRV-Tools-opt SPIRV-Tools-static)

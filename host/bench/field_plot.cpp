@@ -13,7 +13,7 @@ namespace {
 
 constexpr double panel_width = 320, panel_height = 260, margin = 60, bar_height = 12;
 
-// The name under which a timing is drawn: packets and streams count as one contender, the fastest of them.
+// The name under which a timing is drawn: packets of any size count as one contender, the fastest of them.
 std::string drawn_name(const Timing& timing) {
   return timing.kind == ContenderKind::packet ? "Embree packets" : timing.contender;
 }

@@ -25,8 +25,7 @@ SceneReport run_field(const std::string& name, const std::string& family, const 
   std::vector<Contender> contenders{contender(embree, contenders::EmbreeCalls::one)};
   contenders.insert(contenders.end(), ours.begin(), ours.end());
   for (const contenders::EmbreeCalls calls :
-       {contenders::EmbreeCalls::packets_of_8, contenders::EmbreeCalls::packets_of_16,
-        contenders::EmbreeCalls::streams})
+       {contenders::EmbreeCalls::packets_of_8, contenders::EmbreeCalls::packets_of_16})
     contenders.push_back(contender(embree, calls));
 
   std::vector<Contender> on_eye_rays = contenders;

@@ -11,9 +11,9 @@ struct FieldOptions {
   uint32_t seed = 0;  // of the bounced rays
 };
 
-// Builds Embree's BVH, makes the three batches, and races `ours` on them beside Embree by single rays,
-// packets and streams, and `rasterizer`, unless it is null, on eye rays. Embree's single rays are the first
-// contender: the hits of all others are compared with theirs.
+// Builds Embree's BVH, makes the three batches, and races `ours` on them beside Embree by single rays and
+// packets, and `rasterizer`, unless it is null, on eye rays. Embree's single rays are the first contender:
+// the hits of all others are compared with theirs.
 SceneReport run_field(const std::string& name, const std::string& family, const Scene& scene,
                       const FieldOptions& options, std::span<const Contender> ours,
                       const Contender* rasterizer = nullptr);

@@ -15,7 +15,7 @@ enum class ContenderKind {
   ours,
   rasterizer,
   single,  // Embree by single rays
-  packet   // Embree by packets and streams
+  packet   // Embree by packets
 };
 // Whose speed is told as a ratio to Embree's.
 constexpr bool beside_embree(ContenderKind kind) {

@@ -1,12 +1,11 @@
 #include "host/bvh/bvh.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <memory>
 
+#include "host/bvh/embree_version.hpp"
 #include "host/core/error.hpp"
 #include "host/core/free_memory.hpp"
 #include "host/core/parallel_for.hpp"

@@ -1,11 +1,11 @@
 #include "host/contenders/embree.hpp"
 
-#include <embree3/rtcore.h>
 #include <pmmintrin.h>
 #include <xmmintrin.h>
 
 #include <limits>
 
+#include "host/bvh/embree_version.hpp"
 #include "host/contenders/embree_world.hpp"
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
@@ -16,7 +16,6 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr size_t rays_at_once = 4096;  // a piece of parallel work
-constexpr size_t stream_length = 256;
 
 // As rays and hits lie in memory between a renderer's stages.
 struct FloatRay {
@@ -72,19 +71,58 @@ void clear(RTCHit& hit) {
   hit.geomID = hit.primID = hit.instID[0] = none;
 }
 
+// How Embree is asked: version 4 takes arguments after the rays, version 3 a context before them.
+class Settings {
+ public:
+  explicit Settings(bool coherent) {
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitIntersectArguments(&nearest_);
+    rtcInitOccludedArguments(&any_);
+    if (coherent) nearest_.flags = any_.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+#else
+    rtcInitIntersectContext(&context_);
+    if (coherent) context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+#endif
+  }
+
+  // `valid` marks the rays of a packet; a single ray has none.
+  template <auto intersect, typename RayHit, typename... Valid>
+  void nearest(RTCScene scene, RayHit& query, Valid... valid) {
+#if RTC_VERSION_MAJOR >= 4
+    intersect(valid..., scene, &query, &nearest_);
+#else
+    intersect(valid..., scene, &context_, &query);
+#endif
+  }
+  template <auto occluded, typename Ray, typename... Valid>
+  void any(RTCScene scene, Ray& query, Valid... valid) {
+#if RTC_VERSION_MAJOR >= 4
+    occluded(valid..., scene, &query, &any_);
+#else
+    occluded(valid..., scene, &context_, &query);
+#endif
+  }
+
+ private:
+#if RTC_VERSION_MAJOR >= 4
+  RTCIntersectArguments nearest_;
+  RTCOccludedArguments any_;
+#else
+  RTCIntersectContext context_;
+#endif
+};
+
 // The rays of one piece, in one of the ways.
 struct Piece {
   RTCScene scene;
-  RTCIntersectContext context;
+  Settings settings;
   std::span<const FloatRay> rays;
   std::span<FloatHit> hits;
   QueryKind kind;
 
   void one_by_one();
-  void streams();
-  template <int width, typename RayHit, typename Ray>
-  void packets(void (*intersect)(const int*, RTCScene, RTCIntersectContext*, RayHit*),
-               void (*occluded)(const int*, RTCScene, RTCIntersectContext*, Ray*));
+  template <int width, auto intersect, auto occluded, typename RayHit>
+  void packets();
 };
 
 void Piece::one_by_one() {
@@ -92,33 +130,16 @@ void Piece::one_by_one() {
     RTCRayHit query;
     load(query.ray, rays[i]);
     clear(query.hit);
-    kind == QueryKind::any ? rtcOccluded1(scene, &context, &query.ray)
-                           : rtcIntersect1(scene, &context, &query);
+    if (kind == QueryKind::any)
+      settings.any<rtcOccluded1>(scene, query.ray);
+    else
+      settings.nearest<rtcIntersect1>(scene, query);
     hits[i] = to_hit(query.ray.tfar, query.hit.geomID, query.hit.instID[0], query.hit.primID);
   }
 }
 
-void Piece::streams() {
-  RTCRayHit queries[stream_length];
-  for (size_t first = 0; first < rays.size(); first += stream_length) {
-    const size_t count = std::min(stream_length, rays.size() - first);
-    for (size_t i = 0; i < count; ++i) {
-      load(queries[i].ray, rays[first + i]);
-      clear(queries[i].hit);
-    }
-    kind == QueryKind::any
-        ? rtcOccluded1M(scene, &context, &queries[0].ray, unsigned(count), sizeof(RTCRayHit))
-        : rtcIntersect1M(scene, &context, queries, unsigned(count), sizeof(RTCRayHit));
-    for (size_t i = 0; i < count; ++i) {
-      const RTCHit& hit = queries[i].hit;
-      hits[first + i] = to_hit(queries[i].ray.tfar, hit.geomID, hit.instID[0], hit.primID);
-    }
-  }
-}
-
-template <int width, typename RayHit, typename Ray>
-void Piece::packets(void (*intersect)(const int*, RTCScene, RTCIntersectContext*, RayHit*),
-                    void (*occluded)(const int*, RTCScene, RTCIntersectContext*, Ray*)) {
+template <int width, auto intersect, auto occluded, typename RayHit>
+void Piece::packets() {
   RayHit query;
   alignas(64) int valid[width];
   for (size_t first = 0; first < rays.size(); first += width) {
@@ -138,8 +159,11 @@ void Piece::packets(void (*intersect)(const int*, RTCScene, RTCIntersectContext*
       query.ray.flags[i] = 0;
       query.hit.geomID[i] = query.hit.primID[i] = query.hit.instID[0][i] = none;
     }
-    kind == QueryKind::any ? occluded(valid, scene, &context, &query.ray)
-                           : intersect(valid, scene, &context, &query);
+    const int* const marks = valid;
+    if (kind == QueryKind::any)
+      settings.any<occluded>(scene, query.ray, marks);
+    else
+      settings.nearest<intersect>(scene, query, marks);
     for (int i = 0; i < width && first + size_t(i) < rays.size(); ++i)
       hits[first + size_t(i)] =
           to_hit(query.ray.tfar[i], query.hit.geomID[i], query.hit.instID[0][i], query.hit.primID[i]);
@@ -151,11 +175,9 @@ void trace(Piece& piece, EmbreeCalls calls) {
     case EmbreeCalls::one:
       return piece.one_by_one();
     case EmbreeCalls::packets_of_8:
-      return piece.packets<8, RTCRayHit8, RTCRay8>(rtcIntersect8, rtcOccluded8);
+      return piece.packets<8, rtcIntersect8, rtcOccluded8, RTCRayHit8>();
     case EmbreeCalls::packets_of_16:
-      return piece.packets<16, RTCRayHit16, RTCRay16>(rtcIntersect16, rtcOccluded16);
-    case EmbreeCalls::streams:
-      return piece.streams();
+      return piece.packets<16, rtcIntersect16, rtcOccluded16, RTCRayHit16>();
   }
 }
 
@@ -169,8 +191,6 @@ std::string_view name(EmbreeCalls calls) {
       return "packets of 8";
     case EmbreeCalls::packets_of_16:
       return "packets of 16";
-    case EmbreeCalls::streams:
-      return "streams";
   }
   return "";
 }
@@ -214,12 +234,10 @@ double Embree::query(std::span<const Query> rays, QueryKind kind, std::span<Quer
       }
     }
     Piece piece{kind == QueryKind::any ? world_->opaque() : world_->all(),
-                {},
+                Settings(coherent),
                 some,
                 {float_hits.data() + first, count},
                 kind};
-    rtcInitIntersectContext(&piece.context);
-    if (coherent) piece.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     trace(piece, calls);
   });
   const double seconds = watch.seconds();

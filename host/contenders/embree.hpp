@@ -1,4 +1,4 @@
-// Embree 3 (Wald et al.: Embree, a Kernel Framework for Efficient CPU Ray Tracing, SIGGRAPH 2014) on our
+// Embree 3 or 4 (Wald et al.: Embree, a Kernel Framework for Efficient CPU Ray Tracing, SIGGRAPH 2014) on our
 // scenes, to be measured beside our executors on the same rays.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace eyeray::contenders {
 class EmbreeWorld;
 
 // How rays are handed to Embree.
-enum class EmbreeCalls { one, packets_of_8, packets_of_16, streams };
+enum class EmbreeCalls { one, packets_of_8, packets_of_16 };
 std::string_view name(EmbreeCalls calls);
 
 class Embree {

@@ -1,9 +1,8 @@
 #include "host/contenders/embree_world.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <span>
 
+#include "host/bvh/embree_version.hpp"
 #include "host/core/error.hpp"
 #include "host/core/stopwatch.hpp"
 

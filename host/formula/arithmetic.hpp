@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include <glslang/SPIRV/spirv.hpp>
+#include <spirv/unified1/spirv.hpp>
 
 #include "host/expression/expression.hpp"
 

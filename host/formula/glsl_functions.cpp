@@ -1,4 +1,4 @@
-#include <glslang/SPIRV/GLSL.std.450.h>
+#include <spirv/unified1/GLSL.std.450.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 // What computes, and what puts numbers together.
-#include <glslang/SPIRV/GLSL.std.450.h>
+#include <spirv/unified1/GLSL.std.450.h>
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <glslang/SPIRV/spirv.hpp>
+#include <spirv/unified1/spirv.hpp>
 
 #include "host/core/diagnostic.hpp"
 

@@ -1,6 +1,6 @@
 #include "host/gpu/float_policy.hpp"
 
-#include <glslang/SPIRV/spirv.hpp>
+#include <spirv/unified1/spirv.hpp>
 
 #include <set>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include "host/gpu/reflect.hpp"
 
-#include <glslang/SPIRV/spirv.hpp>
+#include <spirv/unified1/spirv.hpp>
 
 #include <algorithm>
 #include <map>

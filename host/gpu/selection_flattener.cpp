@@ -1,6 +1,6 @@
 #include "host/gpu/selection_flattener.hpp"
 
-#include <glslang/SPIRV/GLSL.std.450.h>
+#include <spirv/unified1/GLSL.std.450.h>
 
 #include <algorithm>
 #include <iterator>

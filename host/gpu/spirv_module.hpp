@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <glslang/SPIRV/spirv.hpp>
+#include <spirv/unified1/spirv.hpp>
 #include <initializer_list>
 #include <span>
 #include <vector>

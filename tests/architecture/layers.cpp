@@ -46,7 +46,7 @@ const Library libraries[] = {
     {std::regex(R"(tiny_.*)"), {"importers"}, {}},
     {std::regex(R"(CLI/.*)"), {"cli"}, {"cli"}},
     {std::regex(R"(tbb/.*)"), {"core"}, {"core"}},
-    {std::regex(R"(embree3/.*)"), {"bvh", "contenders"}, {}},
+    {std::regex(R"(embree[34]/.*)"), {"bvh", "contenders"}, {"bvh"}},
     {std::regex(R"(stb.*)"), {"image"}, {}},
     {std::regex(R"((png|zlib)\.h)"), {"core", "image"}, {}},
 };

@@ -16,8 +16,7 @@ using eyeray::test::Random;
 
 namespace {
 
-constexpr EmbreeCalls all_calls[] = {EmbreeCalls::one, EmbreeCalls::packets_of_8, EmbreeCalls::packets_of_16,
-                                     EmbreeCalls::streams};
+constexpr EmbreeCalls all_calls[] = {EmbreeCalls::one, EmbreeCalls::packets_of_8, EmbreeCalls::packets_of_16};
 
 // Opaque and clear shapes of every kind.
 Scene mixed_scene() {

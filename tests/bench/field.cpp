@@ -29,7 +29,7 @@ FieldReport sample(double our_seconds) {
                         {timing("Embree single", ContenderKind::single, 0.1),
                          timing("gpu", ContenderKind::ours, our_seconds),
                          timing("Embree packets of 8", ContenderKind::packet, 0.05),
-                         timing("Embree streams", ContenderKind::packet, 0.04)}}}});
+                         timing("Embree packets of 16", ContenderKind::packet, 0.04)}}}});
   }
   return report;
 }
@@ -47,13 +47,13 @@ TEST_CASE("ratios are with the fastest of a kind") {
   CHECK(rate(batch, batch.timings[0]) == doctest::Approx(1e7));
   CHECK(times_as_fast(batch, batch.timings[1], ContenderKind::single) == doctest::Approx(1.25));
   CHECK(times_as_fast(batch, batch.timings[1], ContenderKind::packet) == doctest::Approx(0.5));
-  CHECK(fastest(batch, ContenderKind::packet)->contender == "Embree streams");
+  CHECK(fastest(batch, ContenderKind::packet)->contender == "Embree packets of 16");
   CHECK(fastest({}, ContenderKind::ours) == nullptr);
 }
 
 TEST_CASE("the table has a row for each of ours and single rays, and one for the fastest packets") {
   const std::string text = to_text(sample(0.08));
-  CHECK(count(text, "Embree streams") == 2);
+  CHECK(count(text, "Embree packets of 16") == 2);
   CHECK(count(text, "packets of 8") == 0);
   CHECK(text.find("1.25") != std::string::npos);
   CHECK(text.find("80.0 bytes a primitive") != std::string::npos);

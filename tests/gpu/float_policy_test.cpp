@@ -1,6 +1,6 @@
 #include <bit>
 #include <cmath>
-#include <glslang/SPIRV/spirv.hpp>
+#include <spirv/unified1/spirv.hpp>
 #include <map>
 #include <set>
 #include <spirv-tools/libspirv.hpp>

@@ -1,6 +1,6 @@
 #include "host/gpu/spirv_optimiser.hpp"
 
-#include <glslang/SPIRV/spirv.hpp>
+#include <spirv/unified1/spirv.hpp>
 #include <spirv-tools/libspirv.hpp>
 
 #include "host/gpu/spirv.hpp"
