@@ -22,7 +22,7 @@ std::string text_of(const optics::GgxAlbedo& of) {
   return fmt::format("{{{}, {}, {}, {}}}", of.once, of.edge, of.mean_once, of.mean_edge);
 }
 std::string text_of(const optics::SheenAlbedo& of) {
-  return fmt::format("{{{}, {}, {}}}", of.unweakened, of.albedo, of.mean);
+  return fmt::format("{{{}, {}}}", of.unweakened, of.albedo);
 }
 
 // An array of `rows` rows, each a vector: row(number).

@@ -82,8 +82,7 @@ Bsdf only_bsdf(const Material& material) {
     const Bsdf bsdf = material.bsdf(context, material.scattering(context));
     if (bsdf.diffuse_roughness > 0 || bsdf.coat > 0 || bsdf.glass != Vec3(0)) fail("is rough or coated");
     if (bsdf.sheen != Vec3(0) || bsdf.thin != Vec3(0) || material.thin()) fail("has sheen, or is a pane");
-    for (const optics::Fresnel& fresnel : {bsdf.layer, bsdf.glossy})
-      if (fresnel.f0 != Vec3(0) || fresnel.f90 != Vec3(0)) fail("has highlights");
+    if (bsdf.metallic > 0 || bsdf.layer.f0 != Vec3(0) || bsdf.layer.f90 != Vec3(0)) fail("has highlights");
     if (!first) first = bsdf;
     if (bsdf.diffuse != first->diffuse || bsdf.mirror != first->mirror) fail("varies");
   }

@@ -67,9 +67,10 @@ class Conductor final : public Physical {
   Vec3 base_color(const TextureContext& place) const override { return color()->at(place); }
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering&) const override {
-    return {.glossy = values_.color
-                          ? optics::schlick(values_.color->at(context.place) * context.color, Vec3(1))
-                          : values_.index,
+    return {.metal = values_.color
+                         ? optics::schlick(values_.color->at(context.place) * context.color, Vec3(1))
+                         : values_.index,
+            .metallic = 1,
             .roughness = values_.roughness->at(context.place).y};
   }
 

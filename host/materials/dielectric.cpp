@@ -96,7 +96,7 @@ class Dielectric final : public Material {
       std::swap(bsdf.transmitted, bsdf.passed);
       if (bsdf.roughness == 0) return bsdf;
       const optics::Fresnel surface = optics::schlick(Vec3(1 - pane_transmittance()), Vec3(1));
-      return {.layer = surface, .glossy = surface, .roughness = bsdf.roughness, .thin = Vec3(1)};
+      return {.layer = surface, .roughness = bsdf.roughness, .thin = Vec3(1)};
     }
     if (context.ior_from == context.ior_to)
       std::swap(bsdf.transmitted, bsdf.passed);

@@ -169,7 +169,9 @@ class Principled final : public Physical {
     const double through = values_.transmission->at(context.place).x * (1 - metallic);
     Bsdf bsdf{.diffuse = color * (1 - metallic - through),
               .layer = optics::schlick(f0, edge),
-              .glossy = optics::schlick(glm::mix(f0, color, metallic), glm::mix(edge, Vec3(1), metallic)),
+              .layered = 1 - metallic,
+              .metal = optics::schlick(color, Vec3(1)),
+              .metallic = metallic,
               .roughness = values_.roughness->at(context.place).y,
               .coat = values_.coat->at(context.place).x,
               .coat_roughness = values_.coat_roughness->at(context.place).y,
@@ -181,7 +183,7 @@ class Principled final : public Physical {
       (bsdf.roughness == 0 ? bsdf.passed : bsdf.thin) = color * through;
       return bsdf;
     }
-    bsdf.covered = 1 - through;
+    bsdf.layered -= through;
     bsdf.ior_from = context.ior_from;
     bsdf.ior_to = context.ior_to;
     if (bsdf.roughness == 0 || context.ior_from == context.ior_to) {

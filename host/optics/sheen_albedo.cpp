@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/optics/mean_by_cosine.hpp"
-
 namespace eyeray::optics {
 namespace {
 
@@ -56,8 +54,6 @@ std::vector<SheenAlbedo> sheen_albedo_row(int places, double roughness) {
     const double there = std::lerp(near[0].unweakened, near[1].unweakened, x - left);
     return 1 / std::max({1.0, here.unweakened, there});
   });
-  const double mean = mean_by_cosine(places, [&](int i) { return row[size_t(i)].albedo; });
-  for (SheenAlbedo& albedo : row) albedo.mean = mean;
   return row;
 }
 

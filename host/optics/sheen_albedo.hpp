@@ -7,12 +7,10 @@
 namespace eyeray::optics {
 
 // Edge-on the formula would send on more light than comes: `unweakened`. It is divided by the larger of what
-// that is on light's way and on the viewer's, where this is above 1: what is left then, of one direction and
-// over the half sphere, by cosine.
+// that is on light's way and on the viewer's, where this is above 1: `albedo` is left then.
 struct SheenAlbedo {
   double unweakened;
   double albedo;
-  double mean;
 };
 
 inline constexpr double least_sheen_roughness = 0.07;

@@ -20,7 +20,7 @@ void pack_albedos(records::PackedScene& packed) {
   if (has(shader::LOBE_sheen)) {
     albedos.resize(FIRST_SHEEN_ALBEDO);
     for (const optics::SheenAlbedo& of : tables::sheen_albedos())
-      albedos.emplace_back(of.unweakened, of.albedo, of.mean, 0);
+      albedos.emplace_back(of.unweakened, of.albedo, 0, 0);
   }
   if (has(shader::LOBE_rough_glass)) {
     albedos.resize(FIRST_GLASS_ALBEDO);

@@ -74,6 +74,19 @@ Vec3 once(const Fresnel& fresnel, double once, double edge) {
   return fresnel.f0 * (once - edge) + fresnel.f90 * edge;
 }
 
+// What the layer and the metal mirror together: by one microfacet, and by more.
+Vec3 mirrored_at(const Bsdf& bsdf, double cosine) {
+  return bsdf.layered * bsdf.layer.at(cosine) + bsdf.metallic * bsdf.metal.at(cosine);
+}
+Vec3 mirrored_once(const Bsdf& bsdf, const GgxAlbedo& albedo) {
+  const Vec3 metal =
+      bsdf.metal.conductor ? bsdf.metal.mean * albedo.once : once(bsdf.metal, albedo.once, albedo.edge);
+  return bsdf.layered * once(bsdf.layer, albedo.once, albedo.edge) + bsdf.metallic * metal;
+}
+Vec3 mirrored_often(const Bsdf& bsdf, const GgxAlbedo& albedo) {
+  return bsdf.layered * often(bsdf.layer, albedo) + bsdf.metallic * often(bsdf.metal, albedo);
+}
+
 // What a layer mirrors in all, of one direction and in the mean.
 Vec3 layer_albedo(const Fresnel& fresnel, const GgxAlbedo& albedo) {
   return once(fresnel, albedo.once, albedo.edge) + often(fresnel, albedo) * (1 - albedo.once);
@@ -112,28 +125,30 @@ Vec3 rough_diffuse(const Vec3& color, double r, const Vec3& o, const Vec3& i) {
 
 }  // namespace
 
-ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o)
-    : bsdf_(bsdf), o_(o), coat_(LocalFrame::turned_to(bsdf.coat_normal)), coat_o_(coat_.seen(o)) {
-  const bool any_glossy = bsdf.glossy.f90 != Vec3(0) || bsdf.layer.f90 != Vec3(0);
+ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o, bool adjoint)
+    : bsdf_(bsdf),
+      o_(o),
+      coat_(LocalFrame::turned_to(bsdf.coat_normal)),
+      coat_o_(coat_.seen(o)),
+      adjoint_(adjoint) {
+  const bool any_glossy = bsdf.metallic > 0 || bsdf.layer.f90 != Vec3(0);
   const GgxAlbedo albedo = any_glossy ? tables::ggx_albedo(o.z, bsdf.roughness) : GgxAlbedo{};
-  const double coated = through_coat(bsdf.coat, bsdf.coat_roughness, coat_o_.z);
-  const double under = coated * through_sheen(bsdf.sheen, bsdf.sheen_roughness, o.z);
+  const Layers crossed = layers(o_);
+  // A photon's viewer is not known yet.
+  const double coated = adjoint_ ? 1 : crossed.coat, under = coated * (adjoint_ ? 1 : crossed.sheen);
   const Vec3 let_in = 1.0 - layer_albedo(bsdf.layer, albedo);
-  single_ = under;
-  passed_ = under * let_in;
+  passed_ = crossed.coat * crossed.sheen * let_in;
   Vec3 albedos[lobes];
   albedos[diffuse] = under * bsdf.diffuse * let_in;
-  albedos[glossy] =
-      under * bsdf.covered *
-      (bsdf.glossy.conductor ? bsdf.glossy.mean * albedo.once : once(bsdf.glossy, albedo.once, albedo.edge));
-  albedos[multiple] = under * bsdf.covered * often(bsdf.glossy, albedo) * (1 - albedo.once);
-  albedos[coat] = Vec3(1 - coated);
+  albedos[glossy] = under * mirrored_once(bsdf, albedo);
+  albedos[multiple] = under * mirrored_often(bsdf, albedo) * (1 - albedo.once);
+  albedos[coat] = Vec3(1 - crossed.coat);
   albedos[glass] = under * bsdf.glass;
   albedos[sheen] = Vec3(0);
   if (bsdf.sheen != Vec3(0))
     albedos[sheen] = coated * bsdf.sheen * tables::sheen_albedo(o.z, bsdf.sheen_roughness).albedo;
   albedos[thin] = under * bsdf.thin * let_in;
-  albedos[mirror] = bsdf.mirror * under * under;
+  albedos[mirror] = bsdf.mirror * under;
   albedos[transmitted] = bsdf.transmitted * under;
   albedos[straight] = passed();
   for (int lobe = 0; lobe < lobes; ++lobe) {
@@ -173,12 +188,6 @@ ViewedBsdf ViewedBsdf::part(bool wide) const {
   return part;
 }
 
-ViewedBsdf ViewedBsdf::adjoint() const {
-  ViewedBsdf other = *this;
-  other.adjoint_ = true;
-  return other;
-}
-
 double ViewedBsdf::followed() const {
   double sum = 0;
   for (const double share : shares_) sum += share;
@@ -198,18 +207,15 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
         value *= (1.0 - layer_albedo(bsdf_.layer, albedo(o_))) *
                  (1.0 - layer_albedo(bsdf_.layer, albedo(i))) /
                  (1.0 - mean_layer_albedo(bsdf_.layer, albedo(o_)));
-      // The sheen above lets light in and out again, as the layer does.
-      if (bsdf_.sheen != Vec3(0))
-        value /= 1 - largest(bsdf_.sheen) * tables::sheen_albedo(1, bsdf_.sheen_roughness).mean;
       return {value, even};
     }
     case glossy: {
       BsdfValue result = reflection(o_, i, width_of(bsdf_.roughness));
-      result.value *= bsdf_.covered * bsdf_.glossy.at(std::min(1.0, glm::dot(o_, glm::normalize(o_ + i))));
+      result.value *= mirrored_at(bsdf_, std::min(1.0, glm::dot(o_, glm::normalize(o_ + i))));
       return result;
     }
     case multiple:
-      return {bsdf_.covered * often(bsdf_.glossy, albedo(o_)) * (1 - albedo(o_).once) * (1 - albedo(i).once) /
+      return {mirrored_often(bsdf_, albedo(o_)) * (1 - albedo(o_).once) * (1 - albedo(i).once) /
                   (1 - albedo(o_).mean_once) * even,
               even};
     case coat: {
@@ -262,25 +268,33 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
   }
 }
 
-// Layers are on the viewer's side.
-double ViewedBsdf::through_layers(Lobe lobe, const Vec3& i) const {
-  if (lobe == coat) return 1;
-  double left = 1;
-  for (const auto& [cosine, in_coat] : {std::pair(o_.z, coat_o_.z), std::pair(i.z, coat_.into(i).z)}) {
-    if (cosine <= 0) continue;
-    left *= through_coat(bsdf_.coat, bsdf_.coat_roughness, std::max(0.0, in_coat));
-    if (lobe != sheen) left *= through_sheen(bsdf_.sheen, bsdf_.sheen_roughness, cosine);
-  }
-  return left;
+ViewedBsdf::Layers ViewedBsdf::layers(const Vec3& w) const {
+  const double in_coat = w == o_ ? coat_o_.z : std::max(0.0, coat_.into(w).z);
+  return {through_coat(bsdf_.coat, bsdf_.coat_roughness, in_coat),
+          through_sheen(bsdf_.sheen, bsdf_.sheen_roughness, w.z)};
+}
+
+// A layer takes from what lies under it as much as it sends to the viewer (Khronos: KHR_materials_clearcoat,
+// KHR_materials_sheen), so that a white surface stays white. A photon's viewer is in i; seen from behind,
+// layers lie there.
+ViewedBsdf::Layers ViewedBsdf::layers_between(const Vec3& i) const {
+  return layers(!adjoint_ ? o_ : i.z < 0 ? -i : i);
+}
+
+double ViewedBsdf::through_layers(const Vec3& i) const {
+  const Layers left = layers_between(i);
+  return left.coat * left.sheen;
 }
 
 BsdfValue ViewedBsdf::at(const Vec3& i, bool before) const {
   BsdfValue all;
+  const Layers left = layers_between(i);
   for (const Lobe lobe : {diffuse, glossy, multiple, coat, glass, sheen, thin}) {
     if (shares_[lobe] == 0) continue;
     const BsdfValue one = value(lobe, i);
     const bool counts = lobe == coat ? before : before == (i.z > 0);
-    if (counts) all.value += through_layers(lobe, i) * one.value;
+    const double under = lobe == coat ? 1 : lobe == sheen ? left.coat : left.coat * left.sheen;
+    if (counts) all.value += under * one.value;
     all.density += shares_[lobe] * one.density;
   }
   return all;
@@ -329,9 +343,9 @@ BsdfSample ViewedBsdf::sample(double chance, const Vec2& u) const {
   const double share = shares_[chosen];
   switch (chosen) {
     case mirror:
-      return {BsdfSample::Kind::mirrored, Vec3(0), bsdf_.mirror * single_ * single_ / share, 14};
+      return {BsdfSample::Kind::mirrored, Vec3(0), bsdf_.mirror / share, 14};
     case transmitted:
-      return {BsdfSample::Kind::refracted, Vec3(0), bsdf_.transmitted * single_ / share, 15};
+      return {BsdfSample::Kind::refracted, Vec3(0), bsdf_.transmitted / share, 15};
     case straight:
       return {BsdfSample::Kind::passed, Vec3(0), passed() / share, 16};
     default:

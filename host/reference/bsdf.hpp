@@ -16,7 +16,7 @@ struct BsdfSample {
   enum class Kind { lobe, mirrored, refracted, passed };
   Kind kind;
   Vec3 i;         // of a lobe: where light may come from; 0 where the surface itself stands in the way
-  Vec3 weight;    // of a single direction: its throughput by how likely it was chosen
+  Vec3 weight;    // of a single direction: its throughput by how likely it was chosen, but for layers
   uint32_t lobe;  // as the shaders number them
 };
 
@@ -24,7 +24,7 @@ struct BsdfSample {
 class ViewedBsdf {
  public:
   // o: towards the viewer, o.z > 0.
-  ViewedBsdf(const Bsdf& bsdf, const Vec3& o);
+  ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : ViewedBsdf(bsdf, o, false) {}
 
   // Of light from i; of all lobes, but not of the mirrored and the refracted direction. `before`: whether the
   // light is before the surface. Lobes whose normals, which may be bent, have it elsewhere do not count.
@@ -43,12 +43,16 @@ class ViewedBsdf {
   Vec3 albedo() const { return glm::min(albedo_, Vec3(1)); }
   // Whether light leaves in single directions alone.
   bool specular() const { return shares_[mirror] + shares_[transmitted] + shares_[straight] > 0 && !rough(); }
-  // The same for light that goes the other way, as photons' does, and is weighed by the surface's normal.
-  ViewedBsdf adjoint() const;
+  // The same for photons, which come from o and are weighed by the surface's normal.
+  ViewedBsdf adjoint() const { return {bsdf_, o_, true}; }
+  // What coat and sheen leave of the light of a single direction, mirrored or refracted.
+  double through_layers(const Vec3& i) const;
   // Whether it sends no light on at all.
   bool black() const { return sum_ == 0; }
 
  private:
+  ViewedBsdf(const Bsdf& bsdf, const Vec3& o, bool adjoint);
+
   // In the order in which they are chosen.
   enum Lobe { diffuse, glossy, multiple, coat, glass, sheen, thin, mirror, transmitted, straight, lobes };
 
@@ -58,19 +62,23 @@ class ViewedBsdf {
     return sum > 0;
   }
   BsdfValue value(Lobe lobe, const Vec3& i) const;
-  double through_layers(Lobe lobe, const Vec3& i) const;
+  // What each layer leaves of light that crosses it in direction w, before the surface.
+  struct Layers {
+    double coat, sheen;
+  };
+  Layers layers(const Vec3& w) const;
+  Layers layers_between(const Vec3& i) const;
   Vec3 direction(Lobe lobe, double part, const Vec2& u) const;
 
   const Bsdf& bsdf_;
   Vec3 o_;
   LocalFrame coat_;
   Vec3 coat_o_;  // o_ in that frame
-  bool adjoint_ = false;
+  bool adjoint_;
   double shares_[lobes] = {};
   double sum_ = 0;
   Vec3 albedo_{0};
-  double single_;  // what layers leave of a single direction's light on their way to the viewer
-  Vec3 passed_;    // and of what goes straight on
+  Vec3 passed_;  // what layers leave of light that goes straight on
 };
 
 }  // namespace eyeray::reference

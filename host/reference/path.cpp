@@ -75,9 +75,9 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
     throughput_ *= value.value / value.density;
     if (!before) kind = RayKind::refracted;
   } else {
-    throughput_ *= sample.weight;
     if (sample.kind == BsdfSample::Kind::refracted) kind = RayKind::refracted;
     d = kind == RayKind::refracted ? at.refracted() : at.mirrored();
+    throughput_ *= sample.weight * bsdf.through_layers(frame.into(d));
   }
   if (kind == RayKind::refracted) media = at.media_beyond;
 

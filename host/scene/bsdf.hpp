@@ -9,11 +9,12 @@ namespace eyeray {
 struct Bsdf {
   Vec3 diffuse{0};  // albedo, under `layer`
   double diffuse_roughness = 0;
-  optics::Fresnel layer = {};   // that light goes through on its way to the diffuse lobe and back
-  optics::Fresnel glossy = {};  // what its microfacets mirror; `layer` is part of it
-  double roughness = 1;         // of `layer`, `glossy`, `glass` and `thin`
-  double covered = 1;           // the share of the surface that mirrors by `glossy`; the rest is glass
-  double coat = 0;              // the share of the surface that is coated
+  optics::Fresnel layer = {};  // that light goes through on its way to the diffuse lobe and back
+  double layered = 1;          // the share of the surface that mirrors by `layer`
+  optics::Fresnel metal = {};
+  double metallic = 0;   // the share of the surface that mirrors by `metal`
+  double roughness = 1;  // of `layer`, `metal`, `glass` and `thin`
+  double coat = 0;       // the share of the surface that is coated
   double coat_roughness = 1;
   Vec3 coat_normal{0, 0, 1};  // in the surface's own frame
   Vec3 sheen{0};              // colour of the fibres above all that, under the coat

@@ -53,7 +53,7 @@ optics::SheenAlbedo sheen_albedo(double cosine, double roughness) {
     return between(sheen_albedos(), sheen_side, cosine, roughness,
                    [&](const SheenAlbedo& of) { return of.*member; });
   };
-  return {at(&SheenAlbedo::unweakened), at(&SheenAlbedo::albedo), at(&SheenAlbedo::mean)};
+  return {at(&SheenAlbedo::unweakened), at(&SheenAlbedo::albedo)};
 }
 
 double glass_albedo(double cosine, double roughness, double ior_from, double ior_to) {

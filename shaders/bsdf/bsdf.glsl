@@ -20,11 +20,12 @@ Directions directions(Bsdf bsdf, vec3 o, vec3 i) {
 
 // About the share of the light that all lobes send towards the viewer.
 vec3 bsdf_albedo(Bsdf bsdf) {
-  vec3 all = bsdf.mirror + bsdf.transmitted;
+  Layers left = layers_towards_viewer(bsdf);
+  vec3 all = (bsdf.mirror + bsdf.transmitted) * under_layers(left, 2u);
 #if HAS_PANES
   all = all + bsdf.passed;
 #endif
-#define ADD_ALBEDO(name, number, layers) all = all + name##_albedo(bsdf) * under_layers(bsdf, layers);
+#define ADD_ALBEDO(name, number, layers) all = all + name##_albedo(bsdf) * under_layers(left, layers);
   LOBES(ADD_ALBEDO)
   return vec3(minimum(all.x, 1.0f), minimum(all.y, 1.0f), minimum(all.z, 1.0f));
 }
@@ -53,16 +54,17 @@ struct LobeShares {
 };
 
 LobeShares lobe_shares(Bsdf bsdf) {
+  Layers left = layers_for_choice(bsdf);
   LobeShares shares;
-  shares.mirror = max_component(bsdf.mirror);
-  shares.transmitted = max_component(bsdf.transmitted);
+  shares.mirror = max_component(bsdf.mirror) * under_layers(left, 2u);
+  shares.transmitted = max_component(bsdf.transmitted) * under_layers(left, 2u);
   float all = shares.mirror + shares.transmitted;
 #if HAS_PANES
   shares.passed = max_component(bsdf.passed);
   all = all + shares.passed;
 #endif
 #define ALBEDO_OF_LOBE(name, number, layers)                                      \
-  shares.name = max_component(name##_albedo(bsdf)) * under_layers(bsdf, layers); \
+  shares.name = max_component(name##_albedo(bsdf)) * under_layers(left, layers); \
   all = all + shares.name;
   LOBES(ALBEDO_OF_LOBE)
   float scale = all > 0.0f ? 1.0f / all : 0.0f;
@@ -86,28 +88,17 @@ bool coat_faces(Bsdf bsdf, vec3 i) { return bsdf.coat > 0.0f && into_coat(bsdf, 
 LobeValue bsdf_value(Bsdf bsdf, LobeShares shares, vec3 o, vec3 i, bool before) {
   Directions at = directions(bsdf, o, i);
   LobeValue all = no_value();
-  // Layers are on the viewer's side.
-  bool above = i.z > 0.0f;
-  float through_coat = under_coat(bsdf);
-  float through_sheen = under_sheen(bsdf);
-#if HAS_COAT
-  if (above)
-    through_coat = through_coat * coat_transmittance(bsdf, ggx_albedo(maximum(into_coat(bsdf, i).z, 0.0f), bsdf.coat_roughness));
-#endif
-#if HAS_SHEEN
-  if (above) through_sheen = through_sheen * (1.0f - max_component(bsdf.sheen) * sheen_table(i.z, bsdf.sheen_roughness).y);
-#endif
+  Layers left = layers_between(bsdf, i);
 #if HAS_BENT_COAT
-#define COUNTS_LOBE(layers) ((layers) == 0u ? before : before == above)
+#define COUNTS_LOBE(layers) ((layers) == 0u ? before : before == (i.z > 0.0f))
 #else
 #define COUNTS_LOBE(layers) true
 #endif
-#define ADD_VALUE(name, number, layers)                                                                                    \
-  if (shares.name > 0.0f) {                                                                                                \
-    LobeValue of_lobe = name##_value(bsdf, at);                                                                            \
-    if (COUNTS_LOBE(layers))                                                                                               \
-      all.value = all.value + of_lobe.value * (layers > 0u ? through_coat : 1.0f) * (layers > 1u ? through_sheen : 1.0f); \
-    all.density = all.density + of_lobe.density * shares.name;                                                             \
+#define ADD_VALUE(name, number, layers)                                                               \
+  if (shares.name > 0.0f) {                                                                           \
+    LobeValue of_lobe = name##_value(bsdf, at);                                                       \
+    if (COUNTS_LOBE(layers)) all.value = all.value + of_lobe.value * under_layers(left, layers);      \
+    all.density = all.density + of_lobe.density * shares.name;                                        \
   }
   LOBES(ADD_VALUE)
   return all;

@@ -5,7 +5,7 @@
 
 SHADER_BEGIN
 
-// Of sheen: .x as its formula has it, .y as it is weakened (bsdf/sheen.glsl); .z: the mean of that over the half sphere, by cosine.
+// The albedo of sheen: .x as its formula has it, .y as it is weakened (bsdf/sheen.glsl).
 vec4 sheen_table(float cosine, float roughness) { return albedo_between(FIRST_SHEEN_ALBEDO, SHEEN_ALBEDOS, cosine, roughness); }
 
 // What microfacets between two media mirror and refract before another of them takes it.
@@ -24,15 +24,16 @@ struct Bsdf {
   vec3 diffuse;            // albedo, under the layer
   float diffuse_roughness;
   vec3 mirror;             // throughput of the mirrored direction, and …
-  vec3 transmitted;        // … of the refracted one
+  vec3 transmitted;        // … of the refracted one, both under coat and sheen
 #if HAS_PANES
   vec3 passed;             // throughput of what goes straight on, through a pane
 #endif
-  float roughness;         // of the glossy lobe, of rough glass and of a rough pane
-  float covered;           // the share of the surface that mirrors by the glossy lobe; the rest is glass
+  float roughness;         // of layer and metal, of rough glass and of a rough pane
 #if HAS_GLOSSY
-  Fresnel glossy;
   Fresnel layer;           // that light goes through to the diffuse lobe and back
+  float layered;           // the share of the surface that mirrors by it
+  Fresnel metal;
+  float metallic;          // the share of the surface that mirrors by that
   vec4 albedo;             // ggx_albedo towards the viewer
 #endif
 #if HAS_COAT
@@ -41,7 +42,6 @@ struct Bsdf {
   vec4 coat_albedo;
 #if HAS_BENT_COAT
   vec3 coat_normal;        // (0, 0, 1) where it is the surface's
-  bool adjoint;            // of light that goes towards `o`: a photon's
 #endif
 #endif
 #if HAS_ROUGH_GLASS
@@ -58,6 +58,9 @@ struct Bsdf {
 #endif
 #if HAS_THIN
   vec3 thin;               // throughput of a rough pane, under the layer
+#endif
+#if HAS_COAT || HAS_SHEEN
+  bool adjoint;            // of a photon, which comes from `o`
 #endif
 };
 
@@ -109,13 +112,14 @@ Bsdf black_bsdf() {
   bsdf.mirror = black;
   bsdf.transmitted = black;
   bsdf.roughness = 1.0f;
-  bsdf.covered = 1.0f;
 #if HAS_PANES
   bsdf.passed = black;
 #endif
 #if HAS_GLOSSY
-  bsdf.glossy = schlick(black, black);
-  bsdf.layer = bsdf.glossy;
+  bsdf.layer = schlick(black, black);
+  bsdf.layered = 1.0f;
+  bsdf.metal = bsdf.layer;
+  bsdf.metallic = 0.0f;
   bsdf.albedo = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 #endif
 #if HAS_COAT
@@ -124,7 +128,6 @@ Bsdf black_bsdf() {
   bsdf.coat_albedo = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 #if HAS_BENT_COAT
   bsdf.coat_normal = vec3(0.0f, 0.0f, 1.0f);
-  bsdf.adjoint = false;
 #endif
 #endif
 #if HAS_ROUGH_GLASS
@@ -141,6 +144,9 @@ Bsdf black_bsdf() {
 #endif
 #if HAS_THIN
   bsdf.thin = black;
+#endif
+#if HAS_COAT || HAS_SHEEN
+  bsdf.adjoint = false;
 #endif
   return bsdf;
 }

@@ -47,10 +47,6 @@ LobeValue diffuse_value(Bsdf bsdf, Directions at) {
   albedo = albedo * (one - layer_albedo(bsdf.layer, bsdf.albedo)) * (one - layer_albedo(bsdf.layer, at.albedo)) /
            (one - mean_layer_albedo(bsdf.layer, bsdf.albedo));
 #endif
-#if HAS_SHEEN
-  // The sheen above lets light in and out again, as the layer does.
-  albedo = albedo / (1.0f - max_component(bsdf.sheen) * bsdf.sheen_albedo.z);
-#endif
   LobeValue result;
   result.density = cosine / PI;
   result.value = albedo * result.density;

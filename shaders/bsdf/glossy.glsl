@@ -1,4 +1,4 @@
-// A rough mirror: what one microfacet reflects.
+// A rough mirror, a layer or metal or both: what one microfacet reflects.
 #ifndef GLOSSY_GLSL
 #define GLOSSY_GLSL
 #include "bsdf/bsdf_record.glsl"
@@ -7,15 +7,17 @@
 SHADER_BEGIN
 
 vec3 glossy_albedo(Bsdf bsdf) {
-  vec3 share = mirrored_once(bsdf.glossy, bsdf.albedo);
-  return (bsdf.glossy.conductor ? bsdf.glossy.mean * (1.0f - bsdf.albedo.x) : share) * bsdf.covered;
+  vec3 metal = bsdf.metal.conductor ? bsdf.metal.mean * (1.0f - bsdf.albedo.x) : mirrored_once(bsdf.metal, bsdf.albedo);
+  return mirrored_once(bsdf.layer, bsdf.albedo) * bsdf.layered + metal * bsdf.metallic;
 }
 
 LobeValue glossy_value(Bsdf bsdf, Directions at) {
   LobeValue result = no_value();
   if (at.i.z > 0.0f) {
     vec2 reflection = ggx_reflection(at.o, at.i, at.half_way, ggx_width(bsdf.roughness));
-    result.value = mirrored_share(bsdf.glossy, dot3(at.o, at.half_way)) * (reflection.x * bsdf.covered);
+    float cosine = dot3(at.o, at.half_way);
+    vec3 share = mirrored_share(bsdf.layer, cosine) * bsdf.layered + mirrored_share(bsdf.metal, cosine) * bsdf.metallic;
+    result.value = share * reflection.x;
     result.density = reflection.y;
   }
   return result;

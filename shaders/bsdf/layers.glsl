@@ -1,4 +1,6 @@
-// What lies over other lobes, and how much light that lets through, one way.
+// What lies over other lobes: a coat, and under that sheen. A layer takes from what lies under it as much as it sends to the viewer, as
+// KHR_materials_clearcoat and KHR_materials_sheen have it, whatever the light's direction: so a white surface stays white. f(o, i) is not
+// f(i, o) then. A photon (`adjoint`) goes towards the viewer, whose direction is i.
 #ifndef LAYERS_GLSL
 #define LAYERS_GLSL
 #include "bsdf/bsdf_record.glsl"
@@ -19,30 +21,57 @@ vec3 into_coat(Bsdf bsdf, vec3 v) {
   return v;
 }
 
-float coat_transmittance(Bsdf bsdf, vec4 albedo) { return 1.0f - mirrored_once(coat_fresnel(), albedo).x * bsdf.coat; }
 #endif
 
-// Towards the viewer.
-float under_coat(Bsdf bsdf) {
-  float left = 1.0f;
+// What each layer leaves of light.
+struct Layers {
+  float coat;
+  float sheen;
+};
+
+Layers layers_towards_viewer(Bsdf bsdf) {
+  Layers left;
+  left.coat = 1.0f;
+  left.sheen = 1.0f;
 #if HAS_COAT
-  left = coat_transmittance(bsdf, bsdf.coat_albedo);
+  left.coat = 1.0f - mirrored_once(coat_fresnel(), bsdf.coat_albedo).x * bsdf.coat;
 #endif
-  return left;
-}
-
-float under_sheen(Bsdf bsdf) {
-  float left = 1.0f;
 #if HAS_SHEEN
-  left = 1.0f - max_component(bsdf.sheen) * bsdf.sheen_albedo.y;
+  left.sheen = 1.0f - max_component(bsdf.sheen) * bsdf.sheen_albedo.y;
 #endif
   return left;
 }
 
-// Of a lobe with so many layers above it: the coat, and under that the sheen.
-float under_layers(Bsdf bsdf, uint layers) {
-  return (layers > 0u ? under_coat(bsdf) : 1.0f) * (layers > 1u ? under_sheen(bsdf) : 1.0f);
+// For choosing lobes. A photon's viewer is not known then.
+Layers layers_for_choice(Bsdf bsdf) {
+  Layers left = layers_towards_viewer(bsdf);
+#if HAS_COAT || HAS_SHEEN
+  if (bsdf.adjoint) {
+    left.coat = 1.0f;
+    left.sheen = 1.0f;
+  }
+#endif
+  return left;
 }
+
+// For light from i, or a photon that leaves by i; behind the surface, layers lie on that side.
+Layers layers_between(Bsdf bsdf, vec3 i) {
+#if HAS_COAT || HAS_SHEEN
+  if (bsdf.adjoint) {
+    vec3 w = i.z < 0.0f ? -i : i;
+#if HAS_COAT
+    bsdf.coat_albedo = ggx_albedo(maximum(into_coat(bsdf, w).z, 0.0f), bsdf.coat_roughness);
+#endif
+#if HAS_SHEEN
+    bsdf.sheen_albedo = sheen_table(w.z, bsdf.sheen_roughness);
+#endif
+  }
+#endif
+  return layers_towards_viewer(bsdf);
+}
+
+// Of a lobe with so many layers above it.
+float under_layers(Layers left, uint layers) { return (layers > 0u ? left.coat : 1.0f) * (layers > 1u ? left.sheen : 1.0f); }
 
 SHADER_END
 #endif

@@ -7,14 +7,19 @@
 
 SHADER_BEGIN
 
-vec3 multiple_albedo(Bsdf bsdf) { return mirrored_often(bsdf.glossy, bsdf.albedo) * (bsdf.albedo.x * bsdf.covered); }
+// Layer and metal lie beside each other, so each has its own light to and fro.
+vec3 often_of_both(Bsdf bsdf) {
+  return mirrored_often(bsdf.layer, bsdf.albedo) * bsdf.layered + mirrored_often(bsdf.metal, bsdf.albedo) * bsdf.metallic;
+}
+
+vec3 multiple_albedo(Bsdf bsdf) { return often_of_both(bsdf) * bsdf.albedo.x; }
 
 LobeValue multiple_value(Bsdf bsdf, Directions at) {
   float cosine = maximum(at.i.z, 0.0f);
   float rest = bsdf.albedo.x * at.albedo.x / maximum(bsdf.albedo.z, 1.0e-20f);
   LobeValue result;
   result.density = cosine / PI;
-  result.value = mirrored_often(bsdf.glossy, bsdf.albedo) * (rest * result.density * bsdf.covered);
+  result.value = often_of_both(bsdf) * (rest * result.density);
   return result;
 }
 

@@ -263,6 +263,7 @@ Continuations scatter_by(Frame frame, Path path, Interaction at, LobeShares shar
   }
   if (refracted) next.media = at.media_behind;
 #endif
+  if (s.mirrored || s.refracted) weight = weight * under_layers(layers_between(at.bsdf, into_frame(local, next.d)), 2u);
 #if HAS_SCATTERING
   if (at.in_medium) {
     next.d = normalize3(out_of_frame(local, phase_direction(at.anisotropy, path_pair(frame, path, PAIR_DIRECTION))));

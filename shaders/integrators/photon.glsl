@@ -69,7 +69,7 @@ PhotonResult photon_way(Frame frame, uint index, uint number) {
         store_photon(photon);
         result.stored += 1u;
       }
-#if HAS_BENT_COAT
+#if HAS_COAT || HAS_SHEEN
       at.bsdf.adjoint = true;
 #endif
       Continuations all = path_scatter(frame, path, at);

@@ -11,12 +11,13 @@ Scattering conductor_scattering(Material material, ScatteringContext context) { 
 Bsdf conductor_bsdf(Material material, ScatteringContext context, Scattering scattering) {
   Bsdf bsdf = black_bsdf();
 #if HAS_GLOSSY
-  bsdf.glossy = schlick(color_of(material, context.place) * context.color, vec3(1.0f, 1.0f, 1.0f));
+  bsdf.metallic = 1.0f;
+  bsdf.metal = schlick(color_of(material, context.place) * context.color, vec3(1.0f, 1.0f, 1.0f));
   if (material.b.w != 0.0f) {
-    bsdf.glossy.f0 = vec3(material.b);
-    bsdf.glossy.f90 = material.c;
-    bsdf.glossy.mean = vec3(material.a);
-    bsdf.glossy.conductor = true;
+    bsdf.metal.f0 = vec3(material.b);
+    bsdf.metal.f90 = material.c;
+    bsdf.metal.mean = vec3(material.a);
+    bsdf.metal.conductor = true;
   }
   bsdf.roughness = roughness_of(material, context.place).y;
   bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);

@@ -70,7 +70,6 @@ Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering sc
     bsdf.mirror = vec3(0.0f, 0.0f, 0.0f);
     bsdf.passed = bsdf.mirror;
     bsdf.layer = schlick(white * material.a.y, white);
-    bsdf.glossy = bsdf.layer;
     bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);
     bsdf.thin = white;
   }

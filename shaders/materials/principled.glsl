@@ -46,7 +46,9 @@ Bsdf principled_surface(Material material, ScatteringContext context, vec3 color
   edge = edge * level;
 #endif
   bsdf.layer = schlick(f0, edge);
-  bsdf.glossy = schlick(f0 * (1.0f - metallic) + color * metallic, edge * (1.0f - metallic) + white * metallic);
+  bsdf.layered = 1.0f - metallic;
+  bsdf.metal = schlick(color, white);
+  bsdf.metallic = metallic;
   bsdf.roughness = roughness_of(material, context.place).y;
   bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);
 #endif
@@ -73,7 +75,7 @@ float principled_through(Material material, ScatteringContext context, float met
 #if HAS_PANES
 // Of a pane with that surface.
 vec3 passed_straight(Bsdf bsdf, vec3 color, float through) {
-  vec3 passed = color * through * (vec3(1.0f, 1.0f, 1.0f) - layer_albedo(bsdf.layer, bsdf.albedo)) * under_layers(bsdf, 2u);
+  vec3 passed = color * through * (vec3(1.0f, 1.0f, 1.0f) - layer_albedo(bsdf.layer, bsdf.albedo)) * under_layers(layers_towards_viewer(bsdf), 2u);
 #if HAS_THIN
   if (bsdf.roughness > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);
 #endif
@@ -111,14 +113,12 @@ Bsdf principled_bsdf(Material material, ScatteringContext context, Scattering sc
       surface.reflected = white * mirrored;
       surface.transmitted = white * (1.0f - mirrored);
       add_glass(bsdf, surface, bsdf.roughness, through, color, context);
-      bsdf.covered = 1.0f - through;
+#if HAS_GLOSSY
+      bsdf.layered = bsdf.layered - through;
+#endif
     }
 #endif
   }
-  // Single directions cross the layers too.
-  float under = under_layers(bsdf, 2u);
-  bsdf.mirror = bsdf.mirror * (under * under);
-  bsdf.transmitted = bsdf.transmitted * under;
 #endif
   return bsdf;
 }

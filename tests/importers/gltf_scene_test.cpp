@@ -76,7 +76,9 @@ TEST_CASE("metallic-roughness as a BSDF, with its coat, its index and its map") 
   CHECK(painted.diffuse == Vec3(0.25, 0.125, 0));
   CHECK(painted.layer.f0.x == doctest::Approx(0.5 / 9));
   CHECK(painted.layer.f90.x == 0.5);
-  CHECK(painted.glossy.f0.x == doctest::Approx(0.25 + 0.25 / 9));
+  CHECK(painted.layered == 0.5);
+  CHECK(painted.metal.f0.x == 0.5);
+  CHECK(painted.metallic == 0.5);
   CHECK(painted.roughness == 0.4);
   CHECK(painted.coat == 0.75);
   CHECK(painted.coat_roughness == 0.1);
@@ -171,7 +173,7 @@ TEST_CASE("extensions of materials, with their pictures: which channel of each c
   const ScatteringContext entering{Vec2(0), 1, 1, 1.33};
   const Bsdf half = thick.materials[0]->bsdf(entering, thick.materials[0]->scattering(entering));
   CHECK(half.glass == Vec3(0.25));
-  CHECK(half.covered == 0.75);
+  CHECK(half.layered == 0.75);
 }
 
 TEST_CASE("pictures, from data and files, with their samplers") {

@@ -205,7 +205,8 @@ TEST_CASE("a shader's BSDF is the reference's, in value and in density") {
       double worst = 0;
       for (int n = 0; n < 20'000; ++n) {
         const glm::vec3 o(glm::normalize(towards(random.uniform(0.01, 1), random.uniform(0, 6))));
-        const shader::Bsdf record = packed(bsdf, o);
+        shader::Bsdf record = packed(bsdf, o);
+        record.adjoint = n % 4 >= 2;
         const shader::LobeShares shares = shader::lobe_shares(record);
         // Half of them where the lobes are.
         const shader::vec2 u(float(random.below(1 << 24)) * 0x1p-24f,
@@ -215,7 +216,8 @@ TEST_CASE("a shader's BSDF is the reference's, in value and in density") {
                                   : glm::vec3(glm::normalize(random.direction()));
         if (i == glm::vec3(0) || std::abs(i.z) < 0.01f) continue;
         const shader::LobeValue ours = shader::bsdf_value(record, shares, o, i, i.z > 0);
-        const BsdfValue theirs = above(ViewedBsdf(bsdf, Vec3(o)), Vec3(i));
+        const ViewedBsdf viewed(bsdf, Vec3(o));
+        const BsdfValue theirs = above(record.adjoint ? viewed.adjoint() : viewed, Vec3(i));
         const auto apart = [&](double a, double b) {
           if (std::max(std::abs(a), std::abs(b)) > 1e-6)
             worst = std::max(worst, std::abs(a - b) / std::max(std::abs(b), 0.1));
@@ -286,7 +288,7 @@ TEST_CASE("a white furnace stays white: rough and smooth, matte, metal and plast
   }
 }
 
-TEST_CASE("light goes both ways alike: f(o, i) is f(i, o), of glass by the square of the index") {
+TEST_CASE("light goes both ways alike: f(o, i) is a photon's f(i, o), of glass by the square of the index") {
   // But for what is given back to rough glass, by the direction of the viewer alone.
   const auto given = [](const Bsdf& bsdf, const Vec3& o) {
     return bsdf.glass == Vec3(0) ? 1 : tables::glass_albedo(o.z, bsdf.roughness, bsdf.ior_from, bsdf.ior_to);
@@ -311,7 +313,8 @@ TEST_CASE("light goes both ways alike: f(o, i) is f(i, o), of glass by the squar
         // Seen from beyond, that side is above.
         const Vec3 flip(1, 1, through ? -1 : 1);
         const Vec3 there = above(ViewedBsdf(bsdf, o), i).value / std::abs(i.z) * given(bsdf, o);
-        const Vec3 again = above(ViewedBsdf(back, flip * i), flip * o).value / o.z * given(back, flip * i);
+        const Vec3 again =
+            above(ViewedBsdf(back, flip * i).adjoint(), flip * o).value / o.z * given(back, flip * i);
         const double ratio = through ? bsdf.ior_from / bsdf.ior_to : 1;
         const double once = there.x * ratio * ratio, larger = std::max(once, again.x);
         if (larger > 1e-9) worst = std::max(worst, std::abs(once - again.x) / larger);

@@ -20,11 +20,11 @@ struct Named {
 };
 
 inline Bsdf conductor(const optics::Fresnel& fresnel, double roughness) {
-  return {.glossy = fresnel, .roughness = roughness};
+  return {.metal = fresnel, .metallic = 1, .roughness = roughness};
 }
 inline Bsdf plastic(double color, double roughness, double coat = 0) {
   const optics::Fresnel surface = optics::schlick(Vec3(0.04), Vec3(1));
-  return {.diffuse = Vec3(color), .layer = surface, .glossy = surface, .roughness = roughness, .coat = coat};
+  return {.diffuse = Vec3(color), .layer = surface, .roughness = roughness, .coat = coat};
 }
 inline Bsdf glass(double roughness, double from, double to) {
   return {.roughness = roughness, .glass = Vec3(1), .ior_from = from, .ior_to = to};
@@ -34,13 +34,13 @@ inline Bsdf cloth(double sheen, double roughness) {
 }
 inline Bsdf pane(double color, double roughness) {
   const optics::Fresnel surface = optics::schlick(Vec3(0.08), Vec3(1));
-  return {.layer = surface, .glossy = surface, .roughness = roughness, .thin = Vec3(color)};
+  return {.layer = surface, .roughness = roughness, .thin = Vec3(color)};
 }
 // Half glass, half a body under a surface, the whole coated.
 inline Bsdf opal(double roughness) {
   Bsdf bsdf = plastic(0.3, roughness, 0.5);
   bsdf.coat_roughness = 0.4;
-  bsdf.covered = 0.5;
+  bsdf.layered = 0.5;
   bsdf.glass = Vec3(0.5);
   bsdf.glass_color = {1, 0.8, 0.5};
   bsdf.ior_to = 1.5;
@@ -82,8 +82,10 @@ inline shader::Bsdf packed(const Bsdf& bsdf, const glm::vec3& o) {
   shader::Bsdf record = shader::black_bsdf();
   record.diffuse = glm::vec3(bsdf.diffuse);
   record.diffuse_roughness = float(bsdf.diffuse_roughness);
-  record.glossy = fresnel(bsdf.glossy);
   record.layer = fresnel(bsdf.layer);
+  record.layered = float(bsdf.layered);
+  record.metal = fresnel(bsdf.metal);
+  record.metallic = float(bsdf.metallic);
   record.roughness = float(bsdf.roughness);
   record.albedo = shader::ggx_albedo(o.z, record.roughness);
   record.coat = float(bsdf.coat);
@@ -91,7 +93,6 @@ inline shader::Bsdf packed(const Bsdf& bsdf, const glm::vec3& o) {
   record.coat_normal = glm::vec3(bsdf.coat_normal);
   record.coat_albedo =
       shader::ggx_albedo(std::max(glm::dot(o, record.coat_normal), LEAST_COSINE), record.coat_roughness);
-  record.covered = float(bsdf.covered);
   record.sheen = glm::vec3(bsdf.sheen);
   record.sheen_roughness = float(bsdf.sheen_roughness);
   record.sheen_albedo = shader::sheen_table(o.z, record.sheen_roughness);
