@@ -15,7 +15,12 @@ std::string shape_of(const py::array& array) {
   return py::str(array.attr("shape"));
 }
 
-eyeray::Value value_of(const py::handle& value, const std::string& where) {
+constexpr int deepest = 64;
+
+eyeray::Table table_within(const py::dict& dict, const std::string& where, int depth);
+
+// `depth`: of lists and dicts around it.
+eyeray::Value value_of(const py::handle& value, const std::string& where, int depth) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
   if (py::isinstance<py::int_>(value)) {
     try {
@@ -26,15 +31,30 @@ eyeray::Value value_of(const py::handle& value, const std::string& where) {
   }
   if (py::isinstance<py::float_>(value)) return value.cast<double>();
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
-  if (py::isinstance<py::dict>(value)) return table_of(py::reinterpret_borrow<py::dict>(value), where);
+  if (depth > deepest)
+    throw py::value_error(where.substr(0, 60) + ": lists and dicts are nested more than " +
+                          std::to_string(deepest) + " deep; does one hold itself?");
+  if (py::isinstance<py::dict>(value))
+    return table_within(py::reinterpret_borrow<py::dict>(value), where, depth + 1);
   // numpy's scalars and arrays as Python's numbers and lists.
-  if (py::hasattr(value, "tolist")) return value_of(value.attr("tolist")(), where);
+  if (py::hasattr(value, "tolist")) return value_of(value.attr("tolist")(), where, depth + 1);
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
     std::vector<eyeray::Value> values;
-    for (const py::handle each : value) values.push_back(value_of(each, where));
+    for (const py::handle each : value) values.push_back(value_of(each, where, depth + 1));
     return values;
   }
   throw py::type_error(where + ": " + type_name(value) + " is nothing that a scene can hold");
+}
+
+eyeray::Table table_within(const py::dict& dict, const std::string& where, int depth) {
+  eyeray::Table table;
+  for (const auto& [key, value] : dict) {
+    if (!py::isinstance<py::str>(key))
+      throw py::type_error(where + ": a key is a str, not " + type_name(key));
+    const std::string name = py::str(key);
+    table.set(name, value_of(value, where + "." + name, depth));
+  }
+  return table;
 }
 
 py::array array_named(const py::dict& table, const char* name, const std::string& where, int columns,
@@ -107,14 +127,7 @@ void add_mesh(eyeray::SceneBuilder& builder, const py::dict& table, const std::s
 }
 
 eyeray::Table table_of(const py::dict& dict, const std::string& where) {
-  eyeray::Table table;
-  for (const auto& [key, value] : dict) {
-    if (!py::isinstance<py::str>(key))
-      throw py::type_error(where + ": a key is a str, not " + type_name(key));
-    const std::string name = py::str(key);
-    table.set(name, value_of(value, where + "." + name));
-  }
-  return table;
+  return table_within(dict, where, 1);
 }
 
 std::vector<std::string> defines_of(const py::object& defines) {
@@ -122,7 +135,7 @@ std::vector<std::string> defines_of(const py::object& defines) {
   if (py::isinstance<py::str>(defines)) throw py::type_error("defines is a list of \"key=value\", or a dict");
   if (py::isinstance<py::dict>(defines)) {
     for (const auto& [key, value] : py::reinterpret_borrow<py::dict>(defines))
-      all.push_back(std::string(py::str(key)) + "=" + value_of(value, std::string(py::str(key))).toml());
+      all.push_back(std::string(py::str(key)) + "=" + value_of(value, std::string(py::str(key)), 1).toml());
     return all;
   }
   for (const py::handle each : defines) all.push_back(each.cast<std::string>());

@@ -1,4 +1,4 @@
-// Calls that take long: Python goes on meanwhile, and Ctrl-C ends them.
+// Calls that take long: Python goes on meanwhile, and Ctrl-C ends the wait for them.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -7,6 +7,7 @@
 #include <chrono>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -20,8 +21,8 @@ class Worker;
 // frees the 16 KiB that it took for a thread which has ended.
 class Background {
  public:
-  // Neither needs the GIL. `work` must outlive this.
-  explicit Background(const std::function<void()>& work);
+  // `work` needs the GIL neither to run nor to be destroyed.
+  explicit Background(std::function<void()> work);
   ~Background();
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
@@ -29,35 +30,60 @@ class Background {
   bool done_within(std::chrono::milliseconds time);
   // Once it is done.
   std::exception_ptr thrown() const;
+  // Nobody waits for the work any more, but the process does before it tears itself down: a driver may be
+  // compiling.
+  void abandon();
 
  private:
   Worker* worker_ = nullptr;
 };
 
+// While one is alive this thread runs a callback of such a call.
+class InsideCallback {
+ public:
+  InsideCallback() : before_(std::exchange(here, true)) {}
+  ~InsideCallback() { here = before_; }
+  InsideCallback(const InsideCallback&) = delete;
+  InsideCallback& operator=(const InsideCallback&) = delete;
+
+  static inline thread_local bool here = false;
+
+ private:
+  bool before_;
+};
+
 // Runs `work` in another thread without the GIL. This one looks for signals, which Python handles in its main
 // thread alone; what a handler raises, KeyboardInterrupt say, cancels the work and goes on to the caller.
+// Work that does not end then within 0.3 s, since a driver compiles a kernel, is left alone: it must own all
+// that it uses, and ask for the GIL no more once it is cancelled. Called from a callback it runs in the
+// callback's thread, where the library refuses it.
 template <typename Answer>
-Answer in_background(eyeray::Cancellation cancellation, const std::function<Answer()>& work) {
+Answer in_background(eyeray::Cancellation cancellation, std::function<Answer()> work) {
   constexpr std::chrono::milliseconds between_looks(50);
-  std::optional<Answer> answer;
+  constexpr int most_looks_after = 6;
+  const auto answer = std::make_shared<std::optional<Answer>>();
   std::optional<py::error_already_set> raised;
   std::exception_ptr thrown;
   {
     const py::gil_scoped_release released;
-    const std::function<void()> keep_answer = [&] { answer.emplace(work()); };
-    Background background(keep_answer);
-    while (!background.done_within(between_looks)) {
-      if (raised) continue;
+    if (InsideCallback::here) return work();
+    Background background([answer, work = std::move(work)] { answer->emplace(work()); });
+    for (int looks_after = 0; !background.done_within(between_looks);) {
+      if (raised) {
+        if (++looks_after < most_looks_after) continue;
+        background.abandon();
+        break;
+      }
       const py::gil_scoped_acquire acquired;
       if (PyErr_CheckSignals() == 0) continue;
       raised.emplace();
       cancellation.request();
     }
-    thrown = background.thrown();
+    if (!raised) thrown = background.thrown();
   }
   if (raised) throw std::move(*raised);
   if (thrown) std::rethrow_exception(thrown);
-  return std::move(*answer);
+  return std::move(**answer);
 }
 
 }  // namespace eyeray_python

@@ -51,13 +51,19 @@ eyeray::Rect rect_of(const std::optional<std::array<int, 4>>& crop) {
   return {x, y, width, height};
 }
 
-// False, or nothing at all? None goes on. From whichever thread.
-std::function<bool(const eyeray::Progress&)> progress_of(const py::object& callback) {
+// False, or nothing at all? None goes on. From whichever thread. Once the call is cancelled its frame, and
+// with it the callback, may be gone: it is not asked then.
+std::function<bool(const eyeray::Progress&)> progress_of(const py::object& callback,
+                                                         const Cancellation& cancellation) {
   if (callback.is_none()) return {};
   if (!PyCallable_Check(callback.ptr())) throw py::type_error("progress is a function of a float");
-  return [&callback](const eyeray::Progress& now) {
+  return [&callback, cancellation](const eyeray::Progress& now) {
+    if (cancellation.requested()) return false;
     const py::gil_scoped_acquire acquired;
-    return !callback(now.share).is(py::bool_(false));
+    if (cancellation.requested()) return false;
+    const InsideCallback inside;
+    const py::object kept = callback;
+    return !kept(now.share).is(py::bool_(false));
   };
 }
 
@@ -69,12 +75,12 @@ std::vector<std::string> names(const py::object& list, const char* what) {
 Scene read(const Path& file, const py::object& defines, const std::vector<Path>& allowed_folders,
            bool formulas) {
   const eyeray::SceneOptions options{defines_of(defines), allowed_folders, formulas};
-  return in_background<Scene>({}, [&] { return Scene::read(file, options); });
+  return in_background<Scene>({}, [file, options] { return Scene::read(file, options); });
 }
 
 Scene parse(const std::string& toml, const std::string& name, const py::object& defines, bool formulas) {
   const eyeray::SceneOptions options{defines_of(defines), {}, formulas};
-  return in_background<Scene>({}, [&] { return Scene::parse(toml, name, options); });
+  return in_background<Scene>({}, [toml, name, options] { return Scene::parse(toml, name, options); });
 }
 
 void add(eyeray::SceneBuilder& builder, const std::string& section, const py::handle& value,
@@ -88,37 +94,37 @@ void add(eyeray::SceneBuilder& builder, const std::string& section, const py::ha
 }
 
 Scene build(const py::dict& tables, const std::string& name, const py::object& defines, bool formulas) {
-  eyeray::SceneBuilder builder;
+  const auto builder = std::make_shared<eyeray::SceneBuilder>();
   for (const auto& [key, value] : tables) {
     const std::string section = py::str(key);
     if (py::isinstance<py::dict>(value)) {
-      builder.set(section, table_of(py::reinterpret_borrow<py::dict>(value), section));
+      builder->set(section, table_of(py::reinterpret_borrow<py::dict>(value), section));
       continue;
     }
     if (!py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value))
       throw py::type_error(section + " is a dict, or a list of dicts");
     size_t index = 0;
-    for (const py::handle each : value) add(builder, section, each, section + "." + std::to_string(index++));
+    for (const py::handle each : value) add(*builder, section, each, section + "." + std::to_string(index++));
   }
   const eyeray::SceneOptions options{defines_of(defines), {}, formulas};
-  return in_background<Scene>({}, [&] { return builder.scene(name, options); });
+  return in_background<Scene>({}, [builder, name, options] { return builder->scene(name, options); });
 }
 
-Picture render(Renderer& renderer, const Scene& scene, const std::string& backend, const py::object& aovs,
-               const std::optional<std::array<int, 4>>& crop, double noise, double clamp,
-               const py::object& progress, const std::optional<Cancellation>& cancellation) {
+Picture render(const std::shared_ptr<Renderer>& renderer, const Scene& scene, const std::string& backend,
+               const py::object& aovs, const std::optional<std::array<int, 4>>& crop, double noise,
+               double clamp, const py::object& progress, const std::optional<Cancellation>& cancellation) {
   eyeray::RenderOptions options;
   options.backend = backend_named(backend);
   options.aovs = names(aovs, "aovs");
   options.crop = rect_of(crop);
   options.noise = noise;
   options.clamp = clamp;
-  options.progress = progress_of(progress);
   if (cancellation) options.cancellation = *cancellation;
-  return in_background<Picture>(options.cancellation, [&] { return renderer.render(scene, options); });
+  options.progress = progress_of(progress, options.cancellation);
+  return in_background<Picture>(options.cancellation, [=] { return renderer->render(scene, options); });
 }
 
-Report verify(Renderer& renderer, const Scene& scene, const py::object& backends,
+Report verify(const std::shared_ptr<Renderer>& renderer, const Scene& scene, const py::object& backends,
               const std::optional<std::array<int, 4>>& crop, const std::optional<Path>& evidence,
               const py::object& progress, const std::optional<Cancellation>& cancellation) {
   eyeray::VerifyOptions options;
@@ -126,9 +132,9 @@ Report verify(Renderer& renderer, const Scene& scene, const py::object& backends
   for (const std::string& each : names(backends, "backends")) options.backends.push_back(backend_named(each));
   options.crop = rect_of(crop);
   options.evidence = evidence.value_or(Path());
-  options.progress = progress_of(progress);
   if (cancellation) options.cancellation = *cancellation;
-  return in_background<Report>(options.cancellation, [&] { return renderer.verify(scene, options); });
+  options.progress = progress_of(progress, options.cancellation);
+  return in_background<Report>(options.cancellation, [=] { return renderer->verify(scene, options); });
 }
 
 void add_scene(py::module_& module) {
@@ -173,14 +179,12 @@ void add_picture(py::module_& module) {
            "As .png, .pfm, .hdr or .exr.");
 }
 
-// Closing a device waits for who renders, and who renders may wait for the GIL, to tell of its progress.
-struct WithoutGil {
-  void operator()(Renderer* renderer) const {
-    const py::gil_scoped_release released;
-    delete renderer;
-  }
-};
-using RendererHolder = std::unique_ptr<Renderer, WithoutGil>;
+// Closing a device waits for calls that render, and those may wait for the GIL, to tell of their progress.
+void close_without_gil(Renderer* renderer) {
+  std::optional<py::gil_scoped_release> released;
+  if (PyGILState_Check()) released.emplace();
+  delete renderer;
+}
 
 void add_renderer(py::module_& module) {
   py::class_<Cancellation>(module, "Cancellation", "Asks a call to end soon, from any thread.")
@@ -195,10 +199,11 @@ void add_renderer(py::module_& module) {
       .def_readonly("json", &Report::json)
       .def("__bool__", [](const Report& report) { return report.passed; });
   const auto make = [](const std::string& device, const std::optional<Path>& shaders, double timeout) {
-    return RendererHolder(new Renderer({device, shaders.value_or(Path()), timeout}));
+    return std::shared_ptr<Renderer>(new Renderer({device, shaders.value_or(Path()), timeout}),
+                                     close_without_gil);
   };
-  py::class_<Renderer, RendererHolder>(module, "Renderer",
-                                       "Keeps the device open, so that a second picture starts at once.")
+  py::class_<Renderer, std::shared_ptr<Renderer>>(
+      module, "Renderer", "Keeps the device open, so that a second picture starts at once.")
       .def(py::init(make), py::kw_only(), py::arg("device") = "auto", py::arg("shaders") = py::none(),
            py::arg("timeout") = 60.0)
       .def("render", &render, py::arg("scene"), py::kw_only(), py::arg("backend") = "gpu",

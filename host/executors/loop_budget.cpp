@@ -1,6 +1,7 @@
 #include "host/executors/loop_budget.hpp"
 
 #include "host/core/error.hpp"
+#include "host/core/option_text.hpp"
 
 namespace eyeray::executors {
 namespace {
@@ -22,20 +23,19 @@ uint32_t loop_budget_of(const records::PackedScene& scene, std::string_view driv
   if (one_ray < granted_iterations) return uint32_t(granted_iterations - one_ray);
   throw Error(ExitCode::no_device,
               "{} ends loops after 65 535 iterations and says nothing, too few for {} primitives{} and "
-              "{} lights without a BVH: use a newer driver, or --backend twin",
+              "{} lights without a BVH: use a newer driver, or {}",
               driver, scene.primitives.size(),
               scene.shape_iterations > 0
                   ? fmt::format(" ({} iterations round their outlines)", scene.shape_iterations)
                   : "",
-              scene.lights.size());
+              scene.lights.size(), option_text("backend", "twin"));
 }
 
 void check_traced(uint32_t flags, std::string_view driver) {
   if (flags & FLAG_LOOP_BUDGET)
     throw Error(ExitCode::no_device,
-                "{} ends loops after 65 535 iterations, before a ray was traced: use a newer driver, or "
-                "--backend twin",
-                driver);
+                "{} ends loops after 65 535 iterations, before a ray was traced: use a newer driver, or {}",
+                driver, option_text("backend", "twin"));
 }
 
 }  // namespace eyeray::executors

@@ -10,6 +10,7 @@
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
 #include "host/core/input_file.hpp"
+#include "host/core/option_text.hpp"
 
 namespace eyeray::executors {
 namespace {
@@ -65,8 +66,8 @@ void check_records(const std::filesystem::path& folder, std::string_view shared)
 ShaderFiles::ShaderFiles(std::filesystem::path folder, std::string scene_glsl)
     : folder_(std::move(folder)), scene_glsl_(std::move(scene_glsl)) {
   if (!folder_.empty() && !std::filesystem::is_directory(folder_))
-    throw Error(ExitCode::file_io, "--shaders {}: not a folder; `eyeray shaders --export {}` makes one",
-                folder_.string(), folder_.string());
+    throw Error(ExitCode::file_io, "{}: not a folder; `eyeray shaders --export {}` makes one",
+                option_text("shaders", folder_.string()), folder_.string());
   if (!folder_.empty())
     for (const std::string_view shared : shared_files) check_records(folder_, shared);
 }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/core/error.hpp"
+#include "host/core/option_text.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 #include "host/gpu/device_choice.hpp"
@@ -140,9 +141,12 @@ void Context::submit_and_wait(std::string_view what, double timeout_seconds) {
 
 Error Context::time_out(std::string_view what, double seconds) const {
   return {ExitCode::timed_out,
-          "{} could not {} within {} s: look for a loop that does not end, or raise --timeout if the work is "
-          "really that heavy",
-          info.name, what, seconds};
+          "{} could not {} within {} s: look for a loop that does not end, or raise {} if the work is really "
+          "that heavy",
+          info.name,
+          what,
+          seconds,
+          option_text("timeout")};
 }
 
 void Context::abandon(const Error& error) {

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "host/core/error.hpp"
+#include "host/core/option_text.hpp"
 
 namespace eyeray::gpu {
 namespace {
@@ -46,9 +47,10 @@ const DeviceInfo& choose_device(std::span<const DeviceInfo> devices, std::string
   }
   if (best) return *best;
   if (any_match)
-    throw Error(ExitCode::no_device, "no device that --device {} means is usable; there is{}", select,
-                list(devices));
-  throw Error(ExitCode::no_device, "no Vulkan device matches --device {}; there is{}", select, list(devices));
+    throw Error(ExitCode::no_device, "no device that {} means is usable; there is{}",
+                option_text("device", select), list(devices));
+  throw Error(ExitCode::no_device, "no Vulkan device matches {}; there is{}", option_text("device", select),
+              list(devices));
 }
 
 }  // namespace eyeray::gpu

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include "host/core/error.hpp"
 #include "host/core/memory_shortage.hpp"
+#include "host/core/option_text.hpp"
 #include "host/core/termination.hpp"
 #include "host/gpu/vector_width.hpp"
 
@@ -15,8 +17,24 @@ namespace eyeray::gpu {
 namespace {
 
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
-constexpr const char* install_driver =
-    "install one (Debian: apt install mesa-vulkan-drivers, which renders on the processor too)";
+
+// What to do where no driver has a device. Where one of these variables names drivers the loader sees no
+// others.
+std::string way_out() {
+  std::string variables;
+  for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
+    const char* const value = std::getenv(variable);
+    if (!value || !*value) continue;
+    const bool is_lost = !std::strchr(value, ':') && !std::filesystem::exists(value);
+    variables += fmt::format("{}={} {}, correct or unset it; ", variable, value,
+                             is_lost ? "names no file" : "allows no other driver");
+  }
+  return fmt::format(
+      "{}install one (Debian: apt install mesa-vulkan-drivers, which renders on the processor too), or "
+      "render without Vulkan "
+      "by {}",
+      variables, option_text("backend", "twin"));
+}
 
 // Of 8 cold starts on lavapipe, two threads, whitted came to its end in all with 800 MiB, in one with 600. A
 // driver with less may crash or hang in threads of its own.
@@ -35,8 +53,8 @@ void open_loader(const DeviceOptions& options) {
     throw Error(
         ExitCode::no_device,
         "there is no Vulkan loader on this machine: install it and a driver (Debian: apt install libvulkan1 "
-        "mesa-vulkan-drivers); {}",
-        reason ? reason : "vkGetInstanceProcAddr is missing");
+        "mesa-vulkan-drivers), or render without Vulkan by {}; {}",
+        option_text("backend", "twin"), reason ? reason : "vkGetInstanceProcAddr is missing");
   }
   if (options.sets_environment) set_vector_width(options.wide_vectors);
   volkInitializeCustom(reinterpret_cast<PFN_vkGetInstanceProcAddr>(entry));
@@ -86,8 +104,8 @@ Instance::Instance(const DeviceOptions& options) : Instance(options.timeout_seco
   if (!address_space_left(needed_addresses))
     throw Error(
         ExitCode::no_device,
-        "Vulkan drivers need a GiB of address space, and less is left: allow more (ulimit -v), or use "
-        "--backend twin");
+        "Vulkan drivers need a GiB of address space, and less is left: allow more (ulimit -v), or use {}",
+        option_text("backend", "twin"));
   const ForeignCall drivers(timeout_seconds_, late_start(timeout_seconds_));
   open_loader(options);
   if (volkGetInstanceVersion() < VK_API_VERSION_1_1)
@@ -125,7 +143,7 @@ Instance::Instance(const DeviceOptions& options) : Instance(options.timeout_seco
   const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
     throw Error(ExitCode::no_device, "there is no Vulkan driver on this machine ({}): {}",
-                result_name(result), install_driver);
+                result_name(result), way_out());
   check(result, "create an instance");
   volkLoadInstance(instance_);
   if (!validation.empty())
@@ -145,7 +163,7 @@ std::vector<VkPhysicalDevice> Instance::physical_devices() const {
   const VkResult result = vkEnumeratePhysicalDevices(instance_, &count, nullptr);
   // Mesa's drivers answer INITIALIZATION_FAILED when none of them finds its hardware.
   if (result == VK_ERROR_INITIALIZATION_FAILED || (result == VK_SUCCESS && count == 0))
-    throw Error(ExitCode::no_device, "no Vulkan driver on this machine offers a device: {}", install_driver);
+    throw Error(ExitCode::no_device, "no Vulkan driver on this machine offers a device: {}", way_out());
   check(result, "list its devices");
   std::vector<VkPhysicalDevice> devices(count);
   check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "list its devices");

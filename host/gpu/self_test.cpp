@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/core/error.hpp"
+#include "host/core/option_text.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/gpu/command_list.hpp"
 #include "host/gpu/kernel_compiler.hpp"
@@ -56,10 +57,9 @@ void expect(const Device& device, const char* what, uint32_t index, uint32_t exp
   if (found == expected) return;
   throw Error(ExitCode::no_device,
               "{} (driver {} {}) computes wrong: {} of invocation {} should be {:#010x}, and is {:#010x}; "
-              "choose another "
-              "device with --device, or update the driver",
+              "choose another device by {}, or update the driver",
               device.info().name, device.info().driver, device.info().driver_version, what, index, expected,
-              found);
+              found, option_text("device"));
 }
 
 bool arithmetic_is_exact(const Inputs& inputs, uint32_t i, const uint32_t* found) {

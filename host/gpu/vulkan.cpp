@@ -1,5 +1,7 @@
 #include "host/gpu/vulkan.hpp"
 
+#include "host/core/option_text.hpp"
+
 namespace eyeray::gpu {
 
 std::string result_name(VkResult result) {
@@ -45,8 +47,8 @@ Error failure(VkResult result, std::string_view what) {
 
 Error late_start(double seconds) {
   return {ExitCode::timed_out,
-          "the Vulkan driver could not start within {} s: look whether its device hangs, or raise --timeout",
-          seconds};
+          "the Vulkan driver could not start within {} s: look whether its device hangs, or raise {}",
+          seconds, option_text("timeout")};
 }
 
 void check(VkResult result, std::string_view what) {

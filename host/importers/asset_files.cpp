@@ -4,6 +4,7 @@
 
 #include "host/core/error.hpp"
 #include "host/core/input_file.hpp"
+#include "host/core/option_text.hpp"
 
 namespace eyeray::importers {
 
@@ -22,8 +23,8 @@ fs::path AssetFiles::locate(std::string_view name) {
     throw Error(ExitCode::bad_input, "it refers to a file without a name");
   const fs::path file = (folder_ / portable).lexically_normal();
   if (!allowed_.hold(file)) {
-    throw Error(ExitCode::bad_input, "{} lies outside the file's folder; --allow-path DIR allows other ones",
-                name);
+    throw Error(ExitCode::bad_input, "{} lies outside the file's folder; {} allows other ones", name,
+                option_text("allow-path", "DIR"));
   }
   if (known_.insert(file).second) files_.push_back(file);
   return file;

@@ -1,17 +1,38 @@
 #include "host/library/engine_call.hpp"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <filesystem>
 #include <mutex>
 #include <new>
 #include <system_error>
+#include <utility>
 
+#include "host/core/option_text.hpp"
 #include "host/core/termination.hpp"
 
 namespace eyeray::library {
 namespace {
 
-std::timed_mutex engine;
+// One call's at a time. A forked child has none of its parent's threads, so a call of theirs holds nothing
+// there.
+struct Engine {
+  pid_t process = ::getpid();
+  std::timed_mutex mutex;
+};
+
+std::timed_mutex& engine() {
+  static std::atomic<Engine*> current = new Engine;
+  Engine* known = current;
+  if (known->process == ::getpid()) return known->mutex;
+  auto* const own = new Engine;
+  if (current.compare_exchange_strong(known, own)) return own->mutex;
+  delete own;
+  return known->mutex;
+}
+
+thread_local bool inside = false;
 
 v0::ErrorKind kind_of(ExitCode code) {
   switch (code) {
@@ -30,7 +51,7 @@ v0::ErrorKind kind_of(ExitCode code) {
 
 // Waits for those who came before.
 std::unique_lock<std::timed_mutex> enter(const std::atomic<bool>* stop) {
-  std::unique_lock lock(engine, std::defer_lock);
+  std::unique_lock lock(engine(), std::defer_lock);
   constexpr std::chrono::milliseconds slice(10);
   while (!lock.try_lock_for(slice))
     if (stop && *stop) throw Error(ExitCode::interrupted, "cancelled");
@@ -38,6 +59,11 @@ std::unique_lock<std::timed_mutex> enter(const std::atomic<bool>* stop) {
 }
 
 }  // namespace
+
+InsideCall::InsideCall() : before_(std::exchange(inside, true)) {}
+InsideCall::~InsideCall() {
+  inside = before_;
+}
 
 std::vector<v0::Diagnostic> to_public(const std::vector<Diagnostic>& diagnostics) {
   std::vector<v0::Diagnostic> all;
@@ -49,6 +75,13 @@ std::vector<v0::Diagnostic> to_public(const std::vector<Diagnostic>& diagnostics
 
 void call_engine(const std::function<void()>& work, const std::atomic<bool>* stop) {
   try {
+    speak_to_library();
+    if (inside)
+      throw Error(
+          ExitCode::bad_input,
+          "eyeray is called from within `progress`, and would wait for itself: call it once this call "
+          "is done");
+    const InsideCall entered;
     const std::unique_lock lock = enter(stop);
     std::optional<Interruptible> interruptible;
     if (stop) interruptible.emplace(*stop);

@@ -16,9 +16,23 @@ namespace eyeray::library {
 
 std::vector<v0::Diagnostic> to_public(const std::vector<Diagnostic>& diagnostics);
 
+// While one is alive this thread serves a call, whose end it must not wait for: it runs the call, or its
+// callback.
+class InsideCall {
+ public:
+  InsideCall();
+  ~InsideCall();
+  InsideCall(const InsideCall&) = delete;
+  InsideCall& operator=(const InsideCall&) = delete;
+
+ private:
+  bool before_;
+};
+
 // Runs `work`, alone in this process: the engine's device, signals and time-outs are the process's. Whatever
 // it throws of the engine's becomes a v0::Error; what a user's callback throws goes through. `stop`, where
-// there is one, ends the wait for other calls and the work: v0::Error (cancelled).
+// there is one, ends the wait for other calls and the work: v0::Error (cancelled). v0::Error (bad_input)
+// inside another call, as from its `progress`.
 void call_engine(const std::function<void()>& work, const std::atomic<bool>* stop = nullptr);
 
 // The same with an answer.

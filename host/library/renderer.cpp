@@ -1,6 +1,8 @@
 // The renderer of the library, and what its calls share.
 #include "host/library/renderer.hpp"
 
+#include <unistd.h>
+
 #include "host/executors/open_device.hpp"
 #include "host/library/engine_call.hpp"
 
@@ -28,6 +30,28 @@ Rect crop_of(const v0::Rect& crop, const Scene& scene) {
   return {crop.x, crop.y, crop.width, crop.height};
 }
 
+namespace {
+
+void open_device(v0::Renderer::Data& renderer, const executors::ExecutorOptions& options) {
+  static std::atomic<pid_t> first_process = 0;
+  pid_t process = 0;
+  if (!first_process.compare_exchange_strong(process, ::getpid()) && process != ::getpid())
+    throw Error(
+        ExitCode::no_device,
+        "this process was forked from one that had opened a Vulkan device, whose driver's threads it has "
+        "not: "
+        "start it anew (in Python, multiprocessing's \"spawn\"), fork before the first picture, or use the "
+        "backend twin");
+  if (renderer.device) return;
+  std::shared_ptr<executors::OpenDevice> opened = executors::open_device(options);
+  // A forked child cannot close it either: it is left to the end of the process.
+  renderer.device = {opened.get(), [opened, opener = ::getpid()](executors::OpenDevice*) mutable {
+                       if (opener != ::getpid()) new std::shared_ptr(std::move(opened));
+                     }};
+}
+
+}  // namespace
+
 executors::ExecutorOptions executor_options(v0::Renderer::Data& renderer, bool gpu) {
   executors::ExecutorOptions options;
   options.device = renderer.options.device;
@@ -36,7 +60,7 @@ executors::ExecutorOptions executor_options(v0::Renderer::Data& renderer, bool g
   // What a driver reads of the environment is the process's, and other threads may be reading it.
   options.sets_environment = false;
   options.compile_twin = !renderer.options.shaders.empty();
-  if (gpu && !renderer.device) renderer.device = executors::open_device(options);
+  if (gpu) open_device(renderer, options);
   options.open_device = renderer.device;
   return options;
 }
@@ -46,6 +70,7 @@ std::function<void(const render::Progress&)> progress_of(
   if (!progress) return {};
   return [&progress, cancelled = v0::Cancellation(cancellation)](const render::Progress& now) mutable {
     const double share = double(now.samples_done) / double(std::max<uint64_t>(now.samples_total, 1));
+    const InsideCall inside;
     if (!progress({std::min(share, 1.0), now.rays, now.seconds})) cancelled.request();
   };
 }
@@ -87,7 +112,12 @@ Renderer::Renderer(const RendererOptions& options) : data_(std::make_unique<Data
 
 Renderer::~Renderer() {
   // Closing the device calls the driver, which is one call's at a time.
-  if (data_ && data_->device) library::call_engine([this] { data_.reset(); });
+  if (!data_ || !data_->device) return;
+  try {
+    library::call_engine([this] { data_.reset(); });
+  } catch (const Error&) {
+    static_cast<void>(data_.release());  // inside a call, which may be using it
+  }
 }
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/core/error.hpp"
+#include "host/core/option_text.hpp"
 
 namespace eyeray::loader {
 
@@ -20,8 +21,8 @@ AllowedFolders::File AllowedFolders::find(std::string_view key, const std::strin
   const fs::path path = (from.parent_path() / name).lexically_normal();
 
   if (!trees_.hold(path)) {
-    throw Error(ExitCode::bad_input, "{} lies outside the scene's folder; --allow-path DIR allows other ones",
-                name);
+    throw Error(ExitCode::bad_input, "{} lies outside the scene's folder; {} allows other ones", name,
+                option_text("allow-path", "DIR"));
   }
   return {path, fs::weakly_canonical(fs::absolute(path))};
 }

@@ -1,4 +1,5 @@
 #include "host/loader/formula_refusal.hpp"
+#include "host/core/option_text.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ void refuse(const toml::node& node, bool may_have, DiagnosticLog& log) {
   for (const auto& [key, value] : *table) {
     if (may_have && (key == "code" || key == "file"))
       log.error(position_of(value.source()),
-                fmt::format("`{}` has a function, which --no-formulas refuses", key.str()));
+                fmt::format("`{}` has a function, which {} refuses", key.str(), option_text("no-formulas")));
     refuse(value, may_have || key == "implicit" || key == "formula", log);
   }
 }

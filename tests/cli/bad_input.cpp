@@ -193,11 +193,13 @@ TEST_CASE("without a Vulkan driver or loader nothing is rendered, and what to in
                               {"VK_ICD_FILENAMES", "/nonexistent.json"}};
   const Environment no_loader{{"EYERAY_VULKAN_LOADER", "/nonexistent.so"}};
   for (const auto& [environment, what] :
-       {std::pair{no_driver, "no Vulkan driver"}, std::pair{no_loader, "no Vulkan loader"}}) {
+       {std::pair{no_driver, "VK_DRIVER_FILES=/nonexistent.json names no file, correct or unset it"},
+        std::pair{no_loader, "no Vulkan loader"}}) {
     const ProcessResult render = run_eyeray({"render", folder.scene(), "-o", folder / "a.png"}, environment);
     CHECK(render.code == 3);
     CHECK(render.err.find(what) != std::string::npos);
     CHECK(render.err.find("apt install") != std::string::npos);
+    CHECK(render.err.find("by --backend twin") != std::string::npos);
     CHECK(run_eyeray({"devices"}, environment).code == 3);
     // The CPU backends need neither.
     CHECK(run_eyeray({"render", folder.scene(), "--backend", "twin", "-o", folder / "twin.png"}, environment)

@@ -55,6 +55,7 @@ TEST_CASE("a machine without drivers is told what to install") {
     CHECK(result.code == int(ExitCode::no_device));
     CHECK(contains(result.err, "there is no Vulkan driver on this machine (VK_ERROR_INCOMPATIBLE_DRIVER)"));
     CHECK(contains(result.err, "apt install mesa-vulkan-drivers"));
+    CHECK(contains(result.err, std::string("VK_ICD_FILENAMES=") + path));
     CHECK(result.out == "");
   }
 }

@@ -93,6 +93,41 @@ def test_calls_share_a_thread():
     assert len(seen) == 1 and threading.get_native_id() not in seen
 
 
+def test_a_call_within_progress_is_refused():
+    scene = eyeray.Scene.read(SMALL)
+    refused = []
+
+    def progress(share):
+        for call in (lambda: eyeray.render(scene), lambda: eyeray.Scene.read(SMALL), lambda: eyeray.verify(scene)):
+            with pytest.raises(eyeray.InputError, match="within `progress`") as error:
+                call()
+            refused.append(error)
+        eyeray.Renderer(timeout=5)  # opens nothing, and closes nothing
+        return False
+
+    eyeray.render(scene, progress=progress)
+    assert len(refused) == 3
+    assert eyeray.render(scene).complete
+
+
+def test_a_forked_child_uses_no_device_of_its_parent():
+    code = f"""
+import eyeray, os, sys
+scene = eyeray.Scene.read({SMALL!r})
+eyeray.render(scene)
+child = os.fork()
+if child == 0:
+    try:
+        eyeray.render(scene)
+    except eyeray.DeviceError as error:
+        sys.exit(3 if "forked" in str(error) and eyeray.render(scene, backend="twin").complete else 4)
+    sys.exit(5)
+print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), eyeray.render(scene).complete)
+"""
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=600)
+    assert process.stdout == "3 True\n", process.stderr
+
+
 def test_a_forked_child_reads_scenes():
     eyeray.Scene.read(SMALL)
     child = os.fork()
@@ -111,8 +146,29 @@ def test_ctrl_c():
     assert errors.rstrip().endswith("KeyboardInterrupt") and process.returncode == -signal.SIGINT
 
 
+def test_ctrl_c_does_not_wait_for_a_driver():
+    """A progress callback that takes its time stands for a driver that compiles: nobody waits for either."""
+    code = f"""
+import eyeray, signal, threading, time
+scene = eyeray.Scene.read({SMALL!r}, defines={LONG})
+held, asked = threading.Event(), threading.Event()
+def progress(share):
+    asked.set()
+    held.wait()
+threading.Thread(target=lambda: (asked.wait(), signal.raise_signal(signal.SIGINT)), daemon=True).start()
+try:
+    eyeray.render(scene, progress=progress)
+except KeyboardInterrupt:
+    print("free", asked.is_set(), held.is_set(), flush=True)
+held.set()
+print(eyeray.render(eyeray.Scene.read({SMALL!r})).complete)
+"""
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=600)
+    assert (process.stdout, process.returncode) == ("free True False\nTrue\n", 0), process.stderr
+
+
 def test_errors_of_devices():
-    with pytest.raises(eyeray.DeviceError):
+    with pytest.raises(eyeray.DeviceError, match="matches `device` no such device; there is\\n  0  "):
         eyeray.Renderer(device="no such device").render(eyeray.Scene.read(SMALL))
     with pytest.raises(eyeray.FileError):
         eyeray.Renderer(shaders="no-such-folder")

@@ -133,3 +133,18 @@ def test_stubs_name_what_is_there():
                 given = [one.arg for one in function.args.args + function.args.kwonlyargs if one.arg != "self"]
                 words = getattr(getattr(native, name), function.name).__doc__ or ""
                 assert all(f"{one}:" in words for one in given), (name, function.name)
+
+
+def test_what_holds_itself_or_is_very_deep_is_refused():
+    ring = []
+    ring.append(ring)
+    loop = {}
+    loop["x"] = loop
+    deep = 1.0
+    for _ in range(100_000):
+        deep = [deep]
+    for value in (ring, loop, deep):
+        with pytest.raises(ValueError, match="nested more than 64 deep"):
+            eyeray.Scene.build({"camera": {"eye": value}})
+        with pytest.raises(ValueError, match="nested more than 64 deep"):
+            eyeray.Scene.parse("", defines={"camera.eye": value})
