@@ -31,7 +31,9 @@ class Assembler {
     Slots input{{}, true, ir::Type::real};
     while (input.at.size() < machine_.input_count_) input.at.push_back(real_top_++);
     Frame frame = enter(program_.functions[number]);
-    machine_.results_ = slots(frame, frame.function.result).at;
+    const Slots results = slots(frame, frame.function.result);
+    machine_.results_ = results.at;
+    machine_.gives_reals_ = results.type == ir::Type::real;
     call(frame, {input});
     emit({.op = Machine::end});
     machine_.real_count_ = std::max(real_most_, real_top_);

@@ -16,41 +16,25 @@ constexpr int most_turns = 1'000;      // of one loop
 
 Execution::Execution(const Module& module, Expression& expression)
     : module_(module), expression_(expression) {
-  for (const Instruction& instruction : module.constants) define_constant(instruction);
+  for (const Instruction& global : module.constants) {
+    const auto held = module.held.find(global.result);
+    if (held == module.held.end()) continue;
+    const uint32_t variable = new_variable(module.type(module.type(global.type).members[0]));
+    memory_[variable] = constant(held->second);
+    globals_[global.result] = {variable, 0};
+  }
 }
 
-void Execution::define_constant(const Instruction& instruction) {
-  const Type& type = module_.type(instruction.type);
-  Value& value = constants_[instruction.result];
-  switch (instruction.op) {
-    case spv::OpConstantTrue:
-    case spv::OpConstantFalse:
-      value = {expression_.truth(instruction.op == spv::OpConstantTrue)};
-      break;
-    case spv::OpConstant: {
-      const uint32_t bits = instruction.words[0];
-      if (type.op == spv::OpTypeFloat) {
-        value = {expression_.constant(double(__builtin_bit_cast(float, bits)))};
-      } else {
-        value = {expression_.constant(type.is_signed ? double(int32_t(bits)) : double(bits))};
-      }
-      break;
-    }
-    case spv::OpConstantComposite:
-      for (const uint32_t part : instruction.words)
-        value.insert(value.end(), constants_.at(part).begin(), constants_.at(part).end());
-      break;
-    case spv::OpVariable: {
-      constants_.erase(instruction.result);
-      const uint32_t variable = new_variable(module_.type(type.members[0]));
-      if (instruction.words.size() > 1) memory_[variable] = constants_.at(instruction.words[1]);
-      globals_[instruction.result] = {variable, 0};
-      break;
-    }
-    default:  // OpConstantNull, OpUndef
-      value.assign(type.size,
-                   type.op == spv::OpTypeBool ? expression_.truth(false) : expression_.constant(0));
-  }
+Value Execution::constant(uint32_t id) const {
+  const Type* scalar = &module_.type_of(id);
+  while (!scalar->members.empty()) scalar = &module_.type(scalar->members[0]);
+  Value value;
+  for (const uint32_t bits : module_.constant_bits(id))
+    value.push_back(scalar->op == spv::OpTypeBool ? expression_.truth(bits != 0)
+                    : scalar->op == spv::OpTypeFloat
+                        ? expression_.constant(double(__builtin_bit_cast(float, bits)))
+                        : expression_.constant(scalar->is_signed ? double(int32_t(bits)) : double(bits)));
+  return value;
 }
 
 Term Execution::run(std::string_view name) {
@@ -188,9 +172,12 @@ void Execution::run_instruction(Call& call, const Instruction& instruction) {
   call.values[instruction.result] = *result;
 }
 
-const Value& Execution::value(const Call& call, uint32_t id) const {
+const Value& Execution::value(const Call& call, uint32_t id) {
   const auto found = call.values.find(id);
-  return found != call.values.end() ? found->second : constants_.at(id);
+  if (found != call.values.end()) return found->second;
+  const auto [known, is_new] = constants_.try_emplace(id);
+  if (is_new) known->second = constant(id);
+  return known->second;
 }
 const Execution::Pointer& Execution::pointer(const Call& call, uint32_t id) const {
   const auto found = call.pointers.find(id);
@@ -205,7 +192,7 @@ uint32_t Execution::new_variable(const Type& type) {
   return variables_;
 }
 
-uint32_t Execution::index(const Call& call, uint32_t id, const Instruction& instruction) const {
+uint32_t Execution::index(const Call& call, uint32_t id, const Instruction& instruction) {
   const Term term = value(call, id)[0];
   if (!expression_.known(term)) refuse(instruction, "an array's or vector's index is computed from p");
   return uint32_t(int64_t(expression_.value(term)));

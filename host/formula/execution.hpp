@@ -52,23 +52,23 @@ class Execution {
   bool run_memory(Call& call, const Instruction& instruction);
   bool run_composite(Call& call, const Instruction& instruction);
   bool run_branch(Call& call, const Instruction& instruction);
-  void define_constant(const Instruction& instruction);
 
   // Joins ways into `memory_`, and returns the condition under which any is taken.
   Term join(const std::vector<Way>& ways, Value& returned);
   Value choose(Term condition, const Value& x, const Value& y);
   void go(Call& call, uint32_t to, Term condition);
 
-  const Value& value(const Call& call, uint32_t id) const;
+  const Value& value(const Call& call, uint32_t id);
+  Value constant(uint32_t id) const;
   const Pointer& pointer(const Call& call, uint32_t id) const;
   uint32_t new_variable(const Type& type);
-  uint32_t index(const Call& call, uint32_t id, const Instruction& instruction) const;
+  uint32_t index(const Call& call, uint32_t id, const Instruction& instruction);
   [[noreturn]] void refuse(const Instruction& instruction, const std::string& what) const;
 
   const Module& module_;
   Expression& expression_;
   Memory memory_;
-  std::map<uint32_t, Value> constants_;
+  std::map<uint32_t, Value> constants_;  // those asked for
   std::map<uint32_t, Pointer> globals_;
   uint32_t variables_ = 0;
   size_t memory_size_ = 0;  // numbers

@@ -11,6 +11,7 @@
 
 #include "host/core/termination.hpp"
 #include "host/formula/execution.hpp"
+#include "host/formula/folding.hpp"
 #include "host/formula/kernel_text.hpp"
 #include "host/formula/limits.hpp"
 #include "host/formula/lowering.hpp"
@@ -57,16 +58,16 @@ std::string as_asked(FormulaKind kind, bool has_other) {
   return of_both(entry_of(kind)) + (has_other ? of_both(other_entry_of(kind)) : "");
 }
 
-// "const TYPE NAME = TYPE(…);" a line each.
-std::string constants(const std::vector<FormulaParameter>& parameters) {
+// "QUALIFIER TYPE NAME = TYPE(…);" a line each.
+std::string constants(const std::vector<FormulaParameter>& parameters, std::string_view qualifier) {
   std::string text;
   for (const FormulaParameter& parameter : parameters) {
     std::vector<std::string> values;
     for (const double value : parameter.values) values.push_back(fmt::format("{:.9e}", double(float(value))));
     const std::string type =
         parameter.values.size() == 1 ? "float" : fmt::format("vec{}", parameter.values.size());
-    text += fmt::format("const {0} {1}{2} = {0}({3});\n", type, user_prefix, parameter.name,
-                        fmt::join(values, ", "));
+    text += fmt::format("{4} {0} {1}{2} = {0}({3});\n", type, user_prefix, parameter.name,
+                        fmt::join(values, ", "), qualifier);
   }
   return text;
 }
@@ -74,18 +75,29 @@ std::string constants(const std::vector<FormulaParameter>& parameters) {
 constexpr const char* main_file = "formula.comp";
 constexpr const char* text_file = "text";
 
-// What glslang compiles.
-std::vector<uint32_t> spirv_of(FormulaKind kind, const Text& text,
-                               const std::vector<FormulaParameter>& parameters) {
+// What glslang makes of a text, and of the declarations before it.
+std::vector<uint32_t> spirv_of(FormulaKind kind, bool has_other, const std::string& before,
+                               const std::string& text) {
   gpu::ShaderSource source{main_file, {}};
-  source.files[text_file] = text.glsl();
+  source.files[text_file] = text;
   source.files[main_file] = fmt::format(
       "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, set = 0, binding = 0) buffer Values {{ "
       "vec4 values[]; }};\n{}"
       "#line 1 \"{}\"\n{}\n#line 1 \"{}\"\n{}void main() {{ {} {} }}\n",
-      constants(parameters), text_file, source.files[text_file], main_file, as_asked(kind, text.has_other),
-      call(entry_of(kind), 1), text.has_other ? call(other_entry_of(kind), 2) : "");
+      before, text_file, text, main_file, as_asked(kind, has_other), call(entry_of(kind), 1),
+      has_other ? call(other_entry_of(kind), 2) : "");
   return gpu::compile_shader(source, "", gpu::Lines::kept).spirv;
+}
+
+// InputError for what glslang finds wrong with the text as it was written. The module is of the text as it is
+// spelled for us alone: what glslang computes of constants, it computes in float64 and by rules of its own.
+Module module_of(FormulaKind kind, const Text& text, const std::vector<FormulaParameter>& parameters) {
+  (void)spirv_of(kind, text.has_other, constants(parameters, "const"), text.glsl());
+  std::string before = constants(parameters, "");
+  const std::string unfolded = text.unfolded(before);
+  Module module(spirv_of(kind, text.has_other, before, unfolded));
+  fold(module);
+  return module;
 }
 
 // A place in the text as one in the file that it stands in.
@@ -120,14 +132,14 @@ std::shared_ptr<const Compiled> compiled(FormulaKind kind, const Text& text,
                                          std::vector<Fault>& faults) {
   static std::mutex mutex;
   static std::map<std::string, std::weak_ptr<const Compiled>> known;
-  const std::string entry = mangled(entry_of(kind)), key = entry + constants(parameters) + text.glsl();
+  const std::string entry = mangled(entry_of(kind)), key = entry + constants(parameters, "") + text.glsl();
   const std::scoped_lock lock(mutex);
   std::erase_if(known, [](const auto& known_text) { return known_text.second.expired(); });
   // Who has it may let go of it meanwhile.
   if (const auto found = known.find(key); found != known.end())
     if (auto still_there = found->second.lock()) return still_there;
 
-  Module module(spirv_of(kind, text, parameters));
+  Module module = module_of(kind, text, parameters);
   ir::Program program = lower(module, entry, text.has_other ? mangled(other_entry_of(kind)) : "");
   if (std::string why = limit(program); !why.empty()) {
     faults.push_back({1, 1, std::move(why)});

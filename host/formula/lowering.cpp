@@ -44,12 +44,21 @@ ir::Program lower(const Module& module, std::string_view value, std::string_view
   return program;
 }
 
+ir::Program lower(const Module& module, const Instruction& instruction) {
+  ir::Program program;
+  program.functions.push_back(FunctionLowering(module, program, {}, {}).run(instruction));
+  return program;
+}
+
 FunctionLowering::FunctionLowering(const Module& module, ir::Program& program,
                                    const std::map<uint32_t, uint32_t>& numbers, const Function& function)
     : module_(module), program_(program), numbers_(numbers), function_(function) {}
 
 ir::Function FunctionLowering::run() {
   look_ahead();
+  for (const Instruction& global : module_.constants)
+    if (module_.held.contains(global.result) && accesses_.contains(global.result))
+      lower_constant_variable(global, out_.body);
 
   // Parameters: what glslang passes by pointer is the variable itself.
   for (const uint32_t id : function_.parameters) {
@@ -69,6 +78,13 @@ ir::Function FunctionLowering::run() {
   if (result.op != spv::OpTypeVoid) out_.result = new_place(result, result.op == spv::OpTypeArray);
 
   lower_from(function_.blocks[0].label, 0, out_.body);
+  return std::move(out_);
+}
+
+ir::Function FunctionLowering::run(const Instruction& instruction) {
+  out_.parameters.push_back({});
+  lower_instruction(instruction, out_.body);
+  out_.result = value(instruction.result);
   return std::move(out_);
 }
 
@@ -126,11 +142,10 @@ void FunctionLowering::note_accesses() {
         accesses.blocks.insert(b);
         return accesses;
       };
-      const auto write = [&](uint32_t id, bool all_of_it, uint32_t stored) {
+      const auto write = [&](uint32_t id, bool all_of_it) {
         Accesses& accesses = touch(id, all_of_it);
         accesses.writes[b].insert(i);
         ++(all_of_it ? accesses.stores : accesses.part_writes);
-        accesses.stored = stored;
       };
       if (is_access(instruction.op)) {
         variable_of[instruction.result] = variable(instruction.words[0]);
@@ -140,28 +155,16 @@ void FunctionLowering::note_accesses() {
       } else if (instruction.op == spv::OpLoad) {
         touch(instruction.words[0], false);
       } else if (instruction.op == spv::OpStore) {
-        write(instruction.words[0], !variable_of.contains(instruction.words[0]), instruction.words[1]);
+        write(instruction.words[0], !variable_of.contains(instruction.words[0]));
       } else if (instruction.op == spv::OpFunctionCall) {
         for (size_t k = 1; k < instruction.words.size(); ++k)
           if (module_.type_of(instruction.words[k]).op == spv::OpTypePointer)
-            write(instruction.words[k], false, 0);
+            write(instruction.words[k], false);
       } else if (instruction.op == spv::OpVariable && instruction.words.size() > 1) {
-        write(instruction.result, true, instruction.words[1]);
+        write(instruction.result, true);
       }
     }
   }
-}
-
-// Whether a variable is only ever what one constant says: glslang makes such ones to find an element of a
-// constant. Stored in the first block, or used nowhere but where it is stored, it is never seen without.
-bool FunctionLowering::is_table(uint32_t variable) const {
-  const auto found = accesses_.find(variable);
-  if (found == accesses_.end() || !defined_in_.contains(variable))
-    return false;  // a parameter is its caller's
-  const Accesses& accesses = found->second;
-  return accesses.stores == 1 && accesses.part_writes == 0 && accesses.first_is_store &&
-         (accesses.first_block == 0 || accesses.blocks.size() == 1) &&
-         !defined_in_.contains(accesses.stored) && module_.is_constant(accesses.stored);
 }
 
 // ---- From block to block ----

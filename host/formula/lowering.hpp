@@ -14,6 +14,9 @@ namespace eyeray::formula {
 // the latter may be missing. InputError, with the line, for what formulas cannot be made of.
 ir::Program lower(const Module& module, std::string_view value, std::string_view other);
 
+// One function without parameters, whose result is what the instruction gives of constants.
+ir::Program lower(const Module& module, const Instruction& instruction);
+
 // One function's.
 class FunctionLowering {
  public:
@@ -21,6 +24,7 @@ class FunctionLowering {
   FunctionLowering(const Module& module, ir::Program& program, const std::map<uint32_t, uint32_t>& numbers,
                    const Function& function);
   ir::Function run();
+  ir::Function run(const Instruction& instruction);
 
  private:
   // Where a variable or a part of it lies. In an array at `offset`, or, where its index is not known
@@ -51,13 +55,11 @@ class FunctionLowering {
     bool is_indexed = false;  // by what is not known beforehand
     size_t stores = 0;        // of all of it
     size_t part_writes = 0;
-    uint32_t stored = 0;  // the value of the last store
   };
 
   void look_ahead();
   void count_uses(size_t block);
   void note_accesses();
-  bool is_table(uint32_t variable) const;
 
   // Blocks in order from `label` until `stop`.
   void lower_from(uint32_t label, uint32_t stop, ir::Block& out);
@@ -71,6 +73,7 @@ class FunctionLowering {
   bool lower_composite(const Instruction& instruction, ir::Block& out);
   bool lower_arithmetic(const Instruction& instruction, ir::Block& out);
   bool lower_function(const Instruction& instruction, ir::Block& out);
+  void lower_constant_variable(const Instruction& variable, ir::Block& out);
   void lower_call(const Instruction& instruction, ir::Block& out);
   Pointer index(const Instruction& instruction, ir::Block& out);
   void load(const Instruction& instruction, ir::Block& out);

@@ -11,9 +11,9 @@ bool FunctionLowering::lower_memory(const Instruction& instruction, ir::Block& o
     case spv::OpVariable: {
       const Type& type = module_.type(module_.type(instruction.type).members[0]);
       const Accesses& accesses = accesses_[id];
-      if (is_table(id)) {
-        pointers_[id] = {.variable = id, .place = value(accesses.stored), .type = &type};
-        if (!accesses.is_indexed || type.op == spv::OpTypeArray) return true;
+      if (module_.held.contains(id)) {
+        lower_constant_variable(instruction, out);
+        return true;
       }
       const bool as_array = type.op == spv::OpTypeArray || accesses.is_indexed;
       pointers_[id] = {.variable = id, .place = new_place(type, as_array), .type = &type};
@@ -41,6 +41,17 @@ bool FunctionLowering::lower_memory(const Instruction& instruction, ir::Block& o
     default:
       return false;
   }
+}
+
+void FunctionLowering::lower_constant_variable(const Instruction& variable, ir::Block& out) {
+  const Type& type = module_.type(module_.type(variable.type).members[0]);
+  Pointer at{.variable = variable.result, .place = value(module_.held.at(variable.result)), .type = &type};
+  if (accesses_[variable.result].is_indexed && !at.place.is_array) {
+    const ir::Place array = new_place(type, true);
+    copy(array, at.place, out);
+    at.place = array;
+  }
+  pointers_[variable.result] = at;
 }
 
 // Indices are clamped as Vulkan's robust access does: a negative one is 0, one past the end is the last.
@@ -118,7 +129,11 @@ void FunctionLowering::load(const Instruction& instruction, ir::Block& out) {
 void FunctionLowering::store(const Instruction& instruction, ir::Block& out) {
   const Pointer& at = pointer(instruction.words[0]);
   const uint32_t id = instruction.words[1];
-  if (is_table(at.variable) && (!at.place.is_array || at.place.array < 0)) return;
+  if (module_.held.contains(at.variable)) return;
+  if (at.place.is_array && module_.is_zero(id) && module_.type_of(id).op == spv::OpTypeArray) {
+    out.push_back({ir::Instruction{.op = ir::Op::clear, .array = at.place.array}});
+    return;
+  }
   const ir::Place& stored = value(id);
   if (!at.place.is_array) {
     const auto first = at.place.numbers.begin() + at.offset;

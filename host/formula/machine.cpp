@@ -225,7 +225,7 @@ bool Machine::run_as(std::span<const T> input, T* result, uint64_t* turns) const
         if (turns) *turns += made;
         return false;
       case end:
-        for (size_t i = 0; i < results_.size(); ++i) result[i] = r[results_[i]];
+        for (size_t i = 0; result && i < results_.size(); ++i) result[i] = r[results_[i]];
         if (turns) *turns += made;
         return true;
       default: CHECK(false);
@@ -239,6 +239,15 @@ bool Machine::run(std::span<const float> input, float* result, uint64_t* turns) 
 }
 bool Machine::run(std::span<const double> input, double* result, uint64_t* turns) const {
   return run_as(input, result, turns);
+}
+
+std::vector<uint32_t> Machine::bits() const {
+  CHECK(run_as<float>({}, nullptr, nullptr));
+  const Files<float>& files = Files<float>::of(*this);
+  std::vector<uint32_t> bits;
+  for (const uint32_t at : results_)
+    bits.push_back(gives_reals_ ? __builtin_bit_cast(uint32_t, files.reals[at]) : files.wholes[at]);
+  return bits;
 }
 
 }  // namespace eyeray::formula

@@ -24,6 +24,8 @@ class Machine {
   // Thread-safe.
   bool run(std::span<const float> input, float* result, uint64_t* turns = nullptr) const;
   bool run(std::span<const double> input, double* result, uint64_t* turns = nullptr) const;
+  // What a function without an input gives in float32, of any type.
+  std::vector<uint32_t> bits() const;
 
  private:
   friend class Assembler;
@@ -63,7 +65,8 @@ class Machine {
   size_t real_count_ = 0, whole_count_ = 0;
   uint32_t input_ = 0;  // the first of the input's floats
   uint32_t input_count_ = 0;
-  std::vector<uint32_t> results_;  // floats
+  std::vector<uint32_t> results_;
+  bool gives_reals_ = true;
 };
 
 }  // namespace eyeray::formula

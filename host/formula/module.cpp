@@ -173,6 +173,17 @@ const Function* Module::named(std::string_view name) const {
   return found == functions.end() ? nullptr : &*found;
 }
 
+bool Module::is_zero(uint32_t id) const {
+  return is_constant(id) && std::ranges::all_of(constant_bits(id), [](uint32_t bits) { return bits == 0; });
+}
+
+uint32_t Module::new_zero(uint32_t type) {
+  const uint32_t id = new_ids_++;
+  value_types_[id] = type;
+  constant_bits_[id].assign(types.at(type).size, 0);
+  return id;
+}
+
 std::optional<uint32_t> Module::constant(uint32_t id) const {
   if (!is_constant(id) || type_of(id).op != spv::OpTypeInt) return std::nullopt;
   return constant_bits(id)[0];

@@ -66,6 +66,12 @@ struct Module {
   bool is_constant(uint32_t id) const { return constant_bits_.contains(id); }
   // The bits of a constant's numbers, flat.
   const std::vector<uint32_t>& constant_bits(uint32_t id) const { return constant_bits_.at(id); }
+  bool is_zero(uint32_t id) const;  // a constant, of zero bits
+  // Makes a constant of the value `id`, or of a new one of this type.
+  void define_constant(uint32_t id, std::vector<uint32_t> bits) { constant_bits_[id] = std::move(bits); }
+  uint32_t new_zero(uint32_t type);
+  // The variables, in and outside of functions, that are only ever seen as one constant: fold() finds them.
+  std::map<uint32_t, uint32_t> held;
 
  private:
   void read_type(spv::Op op, std::span<const uint32_t> words);
@@ -75,6 +81,7 @@ struct Module {
   std::map<uint32_t, std::vector<uint32_t>> constant_bits_;
   std::map<uint32_t, std::string> names_;
   uint64_t variable_numbers_ = 0;
+  uint32_t new_ids_ = 0x80000000;  // glslang's are below
 };
 
 }  // namespace eyeray::formula

@@ -37,6 +37,7 @@ class Judge {
     judge_chains();
     judge_globals();
     judge_entries();
+    find_unset();
   }
 
  private:
@@ -66,6 +67,8 @@ class Judge {
   void judge_chains();
   void judge_globals();
   void judge_entries();
+  void find_unset();
+  void add_unset(size_t behind, size_t type, size_t name, bool is_parameter);
   bool defines(const Entry& entry) const;
 
   Text& t_;
@@ -281,34 +284,28 @@ void Judge::judge_entries() {
          fmt::format("the text must have a function `{} {}({})`", entry.type, entry.name, entry.written)});
 }
 
+void Judge::add_unset(size_t behind, size_t type, size_t name, bool is_parameter) {
+  const size_t length = is(name + 1, "[") ? size_written_at(name + 1).value_or(0) : 0;
+  t_.unset.push_back({behind, text(type), length, is_parameter ? text(name) : ""});
+}
+
+void Judge::find_unset() {
+  for (const Function& function : functions_) {
+    if (!function.defined) continue;
+    const size_t open = function.type + 2, close = partner_[open], body = close + 1;
+    for (size_t i = open; i < close; ++i)
+      if (is(i, "out") && is_word(i + 2)) add_unset(body, i + 1, i + 2, true);
+    for (size_t i = body; i < partner_[body]; ++i) {
+      for (const size_t name : declared_at(i)) {
+        const size_t last = is(name + 1, "[") ? partner_[name + 1] : name;
+        if (!is(last + 1, "=")) add_unset(last, i, name, false);
+      }
+    }
+  }
+  std::ranges::stable_sort(t_.unset, {}, &Text::Unset::token);
+}
+
 }  // namespace
-
-std::string Text::glsl() const {
-  std::string result;
-  int line = 1;
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    result += tokens[i].line == line ? " " : "";
-    for (; line < tokens[i].line; ++line) result += '\n';
-    if (is_name[i]) result += user_prefix;
-    result += tokens[i].text;
-  }
-  return result + '\n';
-}
-
-std::vector<Text::Place> Text::places() const {
-  std::vector<Place> places;
-  int line = 0, column = 1;
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    if (tokens[i].line != line)
-      column = tokens[i].line == 1 ? 2 : 1;
-    else
-      column += 1;
-    line = tokens[i].line;
-    places.push_back({line, column, tokens[i].column});
-    column += int(tokens[i].text.size() + (is_name[i] ? user_prefix.size() : 0));
-  }
-  return places;
-}
 
 Text read_text(std::string_view text, FormulaKind kind, std::vector<Fault>& faults) {
   Text result;

@@ -20,6 +20,15 @@ struct Text {
   std::vector<bool> is_name;  // of the text's own, for each token
   bool has_other = false;     // whether it defines other_entry_of() its kind
 
+  // A variable that the text gives no value where it begins: declared without one, or an `out` parameter.
+  struct Unset {
+    size_t token;      // its value is to be written behind this one
+    std::string type;  // of an element, if it is an array
+    size_t length;     // of an array, else 0
+    std::string name;  // of a parameter, else empty
+  };
+  std::vector<Unset> unset{};  // in the order of their tokens
+
   // Where a token of glsl() stands in the text; both from 1.
   struct Place {
     int line, column;
@@ -29,6 +38,15 @@ struct Text {
   // each name. Comments, line continuations and whatever else two readers might read in two ways are gone.
   std::string glsl() const;
   std::vector<Place> places() const;
+  // The same program, which must have passed a compiler as glsl(), line by line, so spelled that a compiler
+  // computes nothing of it beforehand: its constants are global variables, and every variable is given the 0
+  // that it begins with. `zeros`: declarations that it wants before it.
+  std::string unfolded(std::string& zeros) const;
+
+ private:
+  std::string name_prefix(size_t token) const {
+    return is_name[token] ? std::string(user_prefix) : std::string();
+  }
 };
 
 // Adds to `faults` what is wrong with the text, each at its place. Without faults a compiler may see it: it

@@ -1,0 +1,14 @@
+// Constants of a formula, computed as everything else is. Private to this layer.
+#pragma once
+
+#include "host/formula/module.hpp"
+
+namespace eyeray::formula {
+
+// Finds the variables that are only ever seen as one constant, those outside of functions among them, and
+// replaces each instruction that computes from constants alone by what it gives: in float32, by the functions
+// of the interpreter. The module must be of a text as Text::unfolded() spells it, in which each variable is
+// stored to where it begins: one that is stored to once is never seen otherwise.
+void fold(Module& module);
+
+}  // namespace eyeray::formula
