@@ -144,7 +144,7 @@ struct Material {
   uint ambient;
   uint emission;
   uint alpha;
-  float alpha_cutoff;  // below which alpha is cut out; 0 without cutouts
+  float alpha_cutoff;  // below which alpha is cut out; above 0 where there is an alpha at all
   float shininess;
   vec4 a;  // what these hold is said in the material's .glsl
   uint color;  // more textures, of BSDFs; of roughness the green channel counts, of metallic the blue one; raycast shades color + emission
@@ -174,6 +174,7 @@ struct Material {
 #define MATERIAL_CLEAR 4u  // of principled: Whitted's pictures show glass, and `base` is its colour
 #define MATERIAL_EMITS_IN_FRONT 8u  // its own light goes only where normals point
 #define MATERIAL_FRONT_ONLY 32u  // rays that come from behind a triangle do not hit it
+#define MATERIAL_BLENDS 64u  // rays hit it with a probability of its alpha, whatever alpha_cutoff is
 #define MATERIAL_BUMP_IN_SPACE 16u  // bump_width is a length in the world, else in uv
 // Optical depth: what each primitive that a shadow ray hits takes from it, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
 #define OPTICAL_DEPTH_OPAQUE 0x10000000u

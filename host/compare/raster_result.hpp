@@ -24,7 +24,7 @@ struct RasterResult {
   std::string value;                          // the executor
   std::string device;                         // that drew
   uint64_t triangles = 0;                     // as they were drawn: cut to the picture, tessellated
-  std::map<std::string, uint64_t> not_drawn;  // primitives, by why: "implicit", "with cutouts"
+  std::map<std::string, uint64_t> not_drawn;  // primitives, by why: "implicit", "with cutouts", "that blend"
   int64_t pixels = 0;
   int64_t equal = 0;   // the same primitive, as near, where the pixel is
   int64_t hidden = 0;  // something that is not drawn is in front of all that is

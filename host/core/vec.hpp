@@ -1,6 +1,8 @@
 // The host's float64 vocabulary. Float32 exists on the host only in packed records and in the twin.
 #pragma once
 
+#include <cstdint>
+
 #include <glm/glm.hpp>
 
 namespace eyeray {
@@ -14,6 +16,7 @@ using Mat4 = glm::dmat4;  // column-major, acts on column vectors: p' = M * p
 struct Ray {
   Vec3 o;
   Vec3 d;
+  uint32_t alpha_key = 0;  // decides which blended surfaces it hits (reference/rng.hpp)
 };
 
 }  // namespace eyeray

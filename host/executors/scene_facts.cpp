@@ -60,6 +60,10 @@ bool any_emits_in_front(const records::PackedScene& scene) {
   return any_flag(scene, MATERIAL_EMITS_IN_FRONT);
 }
 
+bool any_blends(const records::PackedScene& scene) {
+  return any_flag(scene, MATERIAL_BLENDS);
+}
+
 bool any_front_only(const records::PackedScene& scene) {
   return any_flag(scene, MATERIAL_FRONT_ONLY);
 }

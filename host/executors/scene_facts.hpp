@@ -13,6 +13,7 @@ bool any_emits(const records::PackedScene& scene);
 // Whether a surface that a path may choose has a texture for its light.
 bool any_emission_texture(const records::PackedScene& scene);
 bool any_emits_in_front(const records::PackedScene& scene);
+bool any_blends(const records::PackedScene& scene);
 bool any_front_only(const records::PackedScene& scene);
 // Whether a coat's normal may be another than its surface's.
 bool any_bent_coat(const records::PackedScene& scene);

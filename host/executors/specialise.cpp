@@ -75,6 +75,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_ROUGH_GLASS", int(scene.lobes.contains(shader::LOBE_rough_glass)));
   define("HAS_BENT_NORMALS", int(scene.bent_normals));
   define("HAS_ALPHA_TEST", int(!used.alpha_tested.empty()));
+  define("HAS_BLEND", int(!used.alpha_tested.empty() && any_blends(scene)));
   define("HAS_FRONT_ONLY", int(any_front_only(scene)));
   define("HAS_SHEEN", int(scene.lobes.contains(shader::LOBE_sheen)));
   define("HAS_THIN", int(scene.lobes.contains(shader::LOBE_thin)));

@@ -239,11 +239,12 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
                                            .highlight = highlight});
     made = principled(source, s, std::move(stand_in));
   }
-  if (source.text("alphaMode") == "MASK") {
+  if (const std::string mode = source.text("alphaMode"); mode == "MASK" || mode == "BLEND") {
+    const bool blends = mode == "BLEND";
     if (made->medium()) {
-      left_out_.add("cutouts in glass");
+      left_out_.add(blends ? "transparency by alpha of glass" : "cutouts in glass");
     } else {
-      made->mask = mask(source);
+      made->mask = mask(source, blends);
     }
   }
   // Rays leave glass through its back.
@@ -269,8 +270,8 @@ std::optional<NormalMap> GltfMaterials::normal_map(const GltfObject& material,
 }
 
 // Nothing where the cutoff cuts nothing out.
-std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material) {
-  const double cutoff = not_negative(material, "alphaCutoff", 0.5);
+std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material, bool blends) {
+  const double cutoff = blends ? 1 : not_negative(material, "alphaCutoff", 0.5);
   if (!(cutoff > 0)) return std::nullopt;
   const auto pbr = material.object("pbrMetallicRoughness");
   const auto old = pbr ? std::nullopt : material.extension(specular_glossiness);
@@ -278,7 +279,8 @@ std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material) {
   if (pbr) alpha = factors(*pbr, "baseColorFactor", {1, 1, 1, 1})[3];
   if (old) alpha = factors(*old, "diffuseFactor", {1, 1, 1, 1})[3];
   const auto reference = base_texture(material);
-  return AlphaMask{textured(Vec3(alpha), reference ? texture(*reference, Content::color) : nullptr), cutoff};
+  return AlphaMask{textured(Vec3(alpha), reference ? texture(*reference, Content::color) : nullptr), cutoff,
+                   blends};
 }
 
 // Of metallic-roughness, or where there is only that of specular-glossiness.
@@ -333,7 +335,6 @@ void GltfMaterials::note_rest(const GltfObject& material) {
   if (!alpha.empty() && alpha != "OPAQUE" && alpha != "MASK" && alpha != "BLEND")
     material.fail("has an alphaMode that glTF does not know");
   if (material.has("occlusionTexture")) left_out_.add("occlusion maps");
-  if (alpha == "BLEND") left_out_.add("transparency by alpha");
 }
 
 }  // namespace eyeray::importers

@@ -72,7 +72,7 @@ class GltfMaterials {
   std::unique_ptr<Material> glass(const GltfObject& material, const Surface& surface);
   double ior(const GltfObject& material);
   Vec3 absorption(const GltfObject& material);
-  std::optional<AlphaMask> mask(const GltfObject& material);
+  std::optional<AlphaMask> mask(const GltfObject& material, bool blends);
   std::optional<NormalMap> normal_map(const GltfObject& material, const std::optional<GltfObject>& reference);
   // What of a picture counts: its sRGB colours, its numbers, or its alpha in place of each channel.
   enum class Content { color, data, alpha };

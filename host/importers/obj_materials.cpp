@@ -94,6 +94,18 @@ std::unique_ptr<Material> convert(const tinyobj::material_t& source, const Maps&
       {.diffuse = diffuse, .reflectance = reflectance, .emission = emitted, .highlight = highlight(source)});
 }
 
+// Of `d` and `map_d`. Blends where either is between 0 and 1; else it cuts out.
+std::optional<AlphaMask> mask(double dissolve, const std::shared_ptr<const ImageTexture>& picture) {
+  const double factor = share(dissolve);
+  if (!picture && factor == 1) return std::nullopt;
+  if (!picture) return AlphaMask{.alpha = textured(Vec3(factor), nullptr), .blends = factor > 0};
+  // Beside a map some writers set `d 0`.
+  const bool counts = factor > 0 && factor < 1;
+  const auto between = [](const auto& texel) { return texel[3] != 0 && texel[3] != 255; };
+  return AlphaMask{.alpha = textured(Vec3(counts ? factor : 1), picture),
+                   .blends = counts || std::ranges::any_of(picture->texels, between)};
+}
+
 // The options that place a map on the surface.
 ObjUv uv_of(const tinyobj::texture_option_t& options) {
   return {{options.scale[0], options.scale[1]}, {options.origin_offset[0], options.origin_offset[1]}};
@@ -107,8 +119,6 @@ std::vector<std::string> left_out(const tinyobj::material_t& source) {
   };
   const bool glass = is_glass(source);
   const bool emits = color(source.emission) != Vec3(0) || !source.emissive_texname.empty();
-  add(source.dissolve > 0 && source.dissolve < 1 && !glass && source.alpha_texname.empty(),
-      "the transparency (d, Tr) of materials");
   add(glass && !source.alpha_texname.empty(), "maps of transparency (map_d) of glass");
   add(glass && emits, "the emission (Ke) of glass");
   add(!source.bump_texname.empty(), "bump maps");
@@ -185,8 +195,7 @@ void ObjMaterials::parse(std::string text) {
 
     std::unique_ptr<Material> made = convert(source, maps);
     made->name = printable(source.name);
-    if (!made->medium() && (alpha || source.dissolve <= 0))
-      made->mask = AlphaMask{textured(Vec3(alpha ? 1 : 0), alpha)};
+    if (!made->medium()) made->mask = mask(source.dissolve, alpha);
     if (normals) made->normal_map = NormalMap{textures::make_image(normals)};
     materials.push_back(std::move(made));
     uv_.push_back(uv.value_or(ObjUv{}));

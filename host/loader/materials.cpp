@@ -45,11 +45,17 @@ void Materials::add(const Section& section, const toml::table& table) {
   if (reader.has("alpha")) {
     if (material->medium())
       reader.error("alpha", "what light passes through fills its shape, which can have no cutouts");
-    material->mask = AlphaMask{reader.texture("alpha"), reader.number("alpha_cutoff")};
+    material->mask = AlphaMask{.alpha = reader.texture("alpha"),
+                               .cutoff = reader.number("alpha_cutoff"),
+                               .blends = reader.choice("alpha_mode") == 1};
     if (material->mask->alpha && material->mask->alpha->in_space())
       reader.error("alpha", "a pattern in space can cut nothing out");
-  } else if (reader.has("alpha_cutoff")) {
-    reader.error("alpha_cutoff", "without `alpha` there is nothing to cut off");
+    if (material->mask->blends && reader.has("alpha_cutoff"))
+      reader.error("alpha_cutoff",
+                   "what blends is not cut off: leave out `alpha_cutoff`, or set `alpha_mode` to \"mask\"");
+  } else {
+    for (const std::string_view key : {"alpha_cutoff", "alpha_mode"})
+      if (reader.has(key)) reader.error(key, fmt::format("`{}` needs an `alpha`", key));
   }
   material->emits_in_front = reader.choice("emission_side") == 1;
   if (material->emits_in_front && !material->emits())

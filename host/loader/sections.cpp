@@ -58,6 +58,7 @@ std::span<const Key> light_keys() {
 }
 
 constexpr std::string_view emission_sides[] = {"both", "front"};
+constexpr std::string_view alpha_modes[] = {"mask", "blend"};
 
 std::span<const Key> material_keys() {
   static const std::vector<std::string_view> names = names_of(materials::types());
@@ -68,11 +69,18 @@ std::span<const Key> material_keys() {
       {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = names},
       {.name = "alpha",
        .type = KeyType::texture,
-       .doc = "Where it is below `alpha_cutoff`, there is no surface. Of a color the first component counts, "
-              "of an "
-              "image its alpha. Only on shapes that a ray hits once.",
+       .doc =
+           "How much of the surface there is. Of a color the first component counts, of an image its alpha. "
+           "Only on shapes that a ray hits once.",
        .max = 1,
        .optional = true},
+      {.name = "alpha_mode",
+       .type = KeyType::choice,
+       .doc =
+           "\"mask\": where `alpha` is below `alpha_cutoff`, there is no surface. \"blend\": a ray hits the "
+           "surface with a probability of `alpha`, so that on average it lets the rest through.",
+       .fallback = "\"mask\"",
+       .choices = alpha_modes},
       {.name = "alpha_cutoff",
        .type = KeyType::number,
        .doc = "The least `alpha` that is not cut out.",

@@ -109,6 +109,7 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
     if (material->mask) {
       record.alpha = material->mask->alpha->pack(packer);
       record.alpha_cutoff = float(material->mask->cutoff);
+      if (material->mask->blends) record.flags |= MATERIAL_BLENDS;
     }
     pack_bent_normals(*material, packer);
   }

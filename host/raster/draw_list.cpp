@@ -22,6 +22,10 @@ bool is_drawn(const ShapeForm& form) {
   return tessellate(form, Mat4(1.0), 1e300).has_value();
 }
 
+std::string why_not(const AlphaMask& mask) {
+  return mask.blends ? "that blend" : "with cutouts";
+}
+
 double reach_of(const std::optional<Ball>& around, const View& view) {
   return around ? glm::length(view.to_camera(around->center)) + around->radius : 0;
 }
@@ -52,17 +56,18 @@ void DrawList::walk(const OfShape& shape, const OfInstance& instance) const {
 }
 
 void DrawList::leave_out(const Shape& shape, uint64_t id) {
-  const bool has_cutouts = scene_.materials[size_t(shape.material)]->mask.has_value();
-  if (!has_cutouts && is_drawn(shape.form())) return;
-  ++not_drawn_[has_cutouts ? "with cutouts" : std::string(shape.type ? shape.type->name : "shape")];
+  const auto& mask = scene_.materials[size_t(shape.material)]->mask;
+  if (!mask && is_drawn(shape.form())) return;
+  ++not_drawn_[mask ? why_not(*mask) : std::string(shape.type ? shape.type->name : "shape")];
   left_out_[id] = id + 1;
 }
 
 void DrawList::leave_out(const Instance& instance, uint64_t id) {
-  if (!scene_.materials[size_t(instance.material)]->mask) return;
+  const auto& mask = scene_.materials[size_t(instance.material)]->mask;
+  if (!mask) return;
   const uint64_t count = scene_.meshes[size_t(instance.mesh)].triangles.size();
   if (count == 0) return;
-  not_drawn_["with cutouts"] += count;
+  not_drawn_[why_not(*mask)] += count;
   left_out_[id] = id + count;
 }
 

@@ -24,7 +24,7 @@ class DrawList {
   bool draws(uint64_t primitive) const;
   // How far from the eye the shape, or the mesh, of a primitive reaches; 0 of planes.
   double reach(uint64_t primitive) const;
-  // How many primitives are not, by why: "implicit", "with cutouts".
+  // How many primitives are not, by why: "implicit", "with cutouts", "that blend".
   const std::map<std::string, uint64_t>& not_drawn() const { return not_drawn_; }
 
  private:

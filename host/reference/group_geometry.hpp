@@ -7,9 +7,9 @@ namespace eyeray::reference {
 
 class GroupGeometry {
  public:
-  // `objects`, the group's, must outlive it.
-  GroupGeometry(const GroupInstance& instance, const Objects& objects)
-      : objects_(&objects), map_(instance.transform), box_(map_.bounds(objects.bounds())) {}
+  // `objects`, the group's, must outlive it. `before`: as PrimitiveIds has it for the group instance.
+  GroupGeometry(const GroupInstance& instance, const Objects& objects, const PrimitiveIds::First& before)
+      : objects_(&objects), map_(instance.transform), box_(map_.bounds(objects.bounds())), before_(before) {}
 
   const Objects& objects() const { return *objects_; }
   // In the world: around the group's own box.
@@ -19,7 +19,7 @@ class GroupGeometry {
 
   // As its objects', for rays of the world; t is the same in both spaces.
   std::optional<Objects::Hit> trace(const Ray& ray, double limit, double& sure_until) const {
-    return objects_->trace(map_.into(ray), limit, sure_until);
+    return objects_->trace(map_.into(ray), limit, sure_until, before_);
   }
   std::optional<Objects::Hit> intersect(size_t object, const Ray& ray) const {
     return objects_->intersect(object, map_.into(ray));
@@ -29,7 +29,7 @@ class GroupGeometry {
   }
   bool add_shares(const Ray& ray, double t_end, size_t space, std::vector<Objects::Share>& shares,
                   bool& gave_up) const {
-    return objects_->add_shares(map_.into(ray), t_end, space, shares, gave_up);
+    return objects_->add_shares(map_.into(ray), t_end, space, shares, gave_up, before_);
   }
   double reach(const Objects::Hit& hit, const Vec3& eye) const {
     const double in_group = objects_->reach(hit, Vec3(0));
@@ -40,6 +40,7 @@ class GroupGeometry {
   const Objects* objects_;
   InstanceMap map_;
   Bounds box_;
+  PrimitiveIds::First before_;
 };
 
 }  // namespace eyeray::reference

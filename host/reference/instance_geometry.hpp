@@ -13,12 +13,12 @@ class InstanceGeometry {
       : mesh_(&mesh), look_(material), map_(instance.transform), material_(instance.material) {}
 
   // As MeshGeometry's, for a ray of the world; t is the same in both spaces.
-  std::optional<TriangleHit> intersect(const Ray& ray,
-                                       double limit = std::numeric_limits<double>::infinity()) const {
-    return mesh_->intersect(map_.into(ray), limit, look_);
+  std::optional<TriangleHit> intersect(const Ray& ray, double limit = std::numeric_limits<double>::infinity(),
+                                       uint64_t first_id = 0) const {
+    return mesh_->intersect(map_.into(ray), limit, look_, first_id);
   }
-  uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most) const {
-    return mesh_->count_crossed(map_.into(ray), t_end, most, look_);
+  uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most, uint64_t first_id) const {
+    return mesh_->count_crossed(map_.into(ray), t_end, most, look_, first_id);
   }
 
   // The surface at a hit, in the world. The ray is not needed, and there so that shapes and instances are

@@ -13,7 +13,7 @@ Mat3 size(const Mat3& m) {
 
 Ray InstanceMap::into(const Ray& ray) const {
   // v · M is Mᵀ · v. The difference comes first: near the instance it is exact or nearly so.
-  return {(ray.o - to_world_.offset) * to_world_.cotangent, ray.d * to_world_.cotangent};
+  return {(ray.o - to_world_.offset) * to_world_.cotangent, ray.d * to_world_.cotangent, ray.alpha_key};
 }
 
 SurfacePoint InstanceMap::out(const SurfacePoint& local) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/reference/rng.hpp"
 #include "host/scene/affine.hpp"
 
 namespace eyeray::reference {
@@ -34,8 +35,8 @@ BoxRay MeshGeometry::box_ray(const Ray& ray) const {
 }
 
 std::optional<TriangleHit> MeshGeometry::intersect_one(uint32_t triangle, const Ray& ray,
-                                                       const BoxRay& box_ray,
-                                                       const Material* material) const {
+                                                       const BoxRay& box_ray, const Material* material,
+                                                       uint64_t first_id) const {
   const Corners v = corners(triangle);
   const double entry = box_ray.entry(bounds_of(v));
   if (entry == std::numeric_limits<double>::infinity()) return std::nullopt;
@@ -46,7 +47,9 @@ std::optional<TriangleHit> MeshGeometry::intersect_one(uint32_t triangle, const 
   // A ray that grazes the plane may get a t before the box, by rounding.
   hit->t = std::max(hit->t, entry);
   const TriangleHit at{*hit, triangle};
-  if (material && material->mask && !material->mask->covers(uv(at), alpha(at))) return std::nullopt;
+  if (material && material->mask &&
+      !material->mask->covers(uv(at), alpha(at), least_alpha(ray.alpha_key, first_id + triangle)))
+    return std::nullopt;
   return at;
 }
 
@@ -64,12 +67,12 @@ double MeshGeometry::alpha(const TriangleHit& hit) const {
   return of[a] + (of[b] - of[a]) * hit.u + (of[c] - of[a]) * hit.v;
 }
 
-std::optional<TriangleHit> MeshGeometry::intersect(const Ray& ray, double limit,
-                                                   const Material* material) const {
+std::optional<TriangleHit> MeshGeometry::intersect(const Ray& ray, double limit, const Material* material,
+                                                   uint64_t first_id) const {
   std::optional<TriangleHit> nearest;
   const BoxRay boxes = box_ray(ray);
   bvh_.search(boxes, limit, [&](uint32_t i, double so_far) {
-    const auto hit = intersect_one(i, ray, boxes, material);
+    const auto hit = intersect_one(i, ray, boxes, material, first_id);
     if (!hit || (nearest && !(hit->t < nearest->t || (hit->t == nearest->t && i < nearest->triangle))))
       return so_far;
     nearest = hit;
@@ -78,12 +81,12 @@ std::optional<TriangleHit> MeshGeometry::intersect(const Ray& ray, double limit,
   return nearest;
 }
 
-uint32_t MeshGeometry::count_crossed(const Ray& ray, double t_end, uint32_t most,
-                                     const Material* material) const {
+uint32_t MeshGeometry::count_crossed(const Ray& ray, double t_end, uint32_t most, const Material* material,
+                                     uint64_t first_id) const {
   uint32_t count = 0;
   const BoxRay boxes = box_ray(ray);
   bvh_.search(boxes, t_end, [&](uint32_t i, double limit) {
-    const auto hit = intersect_one(i, ray, boxes, material);
+    const auto hit = intersect_one(i, ray, boxes, material, first_id);
     if (!hit || !(hit->t < t_end)) return limit;
     return ++count < most ? limit : -1.0;
   });

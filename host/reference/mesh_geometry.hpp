@@ -22,11 +22,12 @@ class MeshGeometry {
   // The nearest hit with t > 0; of exactly equal ones that of the lowest triangle. Beyond `limit` it may be
   // missing.
   // With a material, neither its cutouts are hit nor, if it is `front_only`, triangles from behind.
-  std::optional<TriangleHit> intersect(const Ray& ray, double limit,
-                                       const Material* material = nullptr) const;
+  // `first_id`: the scene's primitive index of the first triangle, where the material blends.
+  std::optional<TriangleHit> intersect(const Ray& ray, double limit, const Material* material = nullptr,
+                                       uint64_t first_id = 0) const;
   // How many triangles the ray hits at 0 < t < t_end; counting ends at `most`.
-  uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most,
-                         const Material* material = nullptr) const;
+  uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most, const Material* material = nullptr,
+                         uint64_t first_id = 0) const;
 
   // Texture coordinates at a hit.
   Vec2 uv(const TriangleHit& hit) const;
@@ -38,7 +39,7 @@ class MeshGeometry {
  private:
   BoxRay box_ray(const Ray& ray) const;
   std::optional<TriangleHit> intersect_one(uint32_t triangle, const Ray& ray, const BoxRay& box_ray,
-                                           const Material* material) const;
+                                           const Material* material, uint64_t first_id) const;
   double alpha(const TriangleHit& hit) const;
 
   const Mesh& mesh_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/reference/crossings.hpp"
+#include "host/reference/rng.hpp"
 
 namespace eyeray::reference {
 
@@ -19,15 +20,11 @@ bool finite(const Bounds& bounds) {
 
 Objects::Objects(std::span<const std::unique_ptr<Shape>> shapes, std::span<const Instance> instances,
                  const std::deque<MeshGeometry>& meshes, std::span<const std::unique_ptr<Material>> materials,
-                 Acceleration acceleration)
-    : shapes_(shapes), materials_(materials) {
-  uint64_t triangles = 0;
-  for (const Instance& instance : instances) {
+                 std::vector<uint64_t> first_ids, Acceleration acceleration)
+    : shapes_(shapes), materials_(materials), first_ids_(std::move(first_ids)) {
+  for (const Instance& instance : instances)
     instances_.emplace_back(instance, meshes[size_t(instance.mesh)],
                             materials[size_t(instance.material)].get());
-    triangles_before_.push_back(triangles);
-    triangles += instances_.back().triangles();
-  }
 
   const auto add = [&](size_t object, const Bounds& box) {
     bounded_.push_back(uint32_t(object));
@@ -64,21 +61,25 @@ int Objects::most_crossings(size_t object) const {
 }
 
 // A cutout is not hit, and behind it there is nothing more of a shape that may have one.
-std::optional<Intersection> Objects::intersect_shape(size_t index, const Ray& ray) const {
+std::optional<Intersection> Objects::intersect_shape(size_t index, const Ray& ray,
+                                                     const PrimitiveIds::First& before) const {
   const Shape& shape = *shapes_[index];
   const auto hit = shape.intersect(ray);
   const auto& mask = materials_[size_t(shape.material)]->mask;
-  if (hit && mask && !mask->covers(shape.surface(ray, *hit).uv)) return std::nullopt;
+  if (hit && mask &&
+      !mask->covers(shape.surface(ray, *hit).uv, 1, least_alpha(ray.alpha_key, first_id(index, before))))
+    return std::nullopt;
   return hit;
 }
 
-std::optional<Objects::Hit> Objects::intersect(size_t object, const Ray& ray, double limit) const {
+std::optional<Objects::Hit> Objects::intersect(size_t object, const Ray& ray, double limit,
+                                               const PrimitiveIds::First& before) const {
   if (is_shape(object)) {
-    const auto hit = intersect_shape(object, ray);
+    const auto hit = intersect_shape(object, ray, before);
     if (!hit) return std::nullopt;
     return Hit{TriangleHit{*hit}, object};
   }
-  const auto hit = instances_[object - shapes_.size()].intersect(ray, limit);
+  const auto hit = instances_[object - shapes_.size()].intersect(ray, limit, first_id(object, before));
   if (!hit) return std::nullopt;
   return Hit{*hit, object};
 }
@@ -97,10 +98,11 @@ void Objects::for_each_entered(const Ray& ray, double limit, const Visit& visit)
   });
 }
 
-std::optional<Objects::Hit> Objects::trace(const Ray& ray, double limit, double& sure_until) const {
+std::optional<Objects::Hit> Objects::trace(const Ray& ray, double limit, double& sure_until,
+                                           const PrimitiveIds::First& before) const {
   std::optional<Hit> nearest;
   for_each_entered(ray, limit, [&](size_t object, double entry, double so_far) {
-    auto hit = intersect(object, ray, so_far);
+    auto hit = intersect(object, ray, so_far, before);
     if (!hit) return so_far;
     if (hit->at.iteration_limit) {
       sure_until = std::min(sure_until, hit->at.t);
@@ -127,8 +129,8 @@ double Objects::reach(const Hit& hit, const Vec3& eye) const {
 }
 
 // The share of light that comes through one shape which the ray enters at t = entry.
-double Objects::share_of_shape(size_t index, const Ray& ray, double entry, double t_end,
-                               bool& gave_up) const {
+double Objects::share_of_shape(size_t index, const Ray& ray, double entry, double t_end, bool& gave_up,
+                               const PrimitiveIds::First& before) const {
   const Shape& shape = *shapes_[index];
   const auto share_of = [&](int material) { return materials_[size_t(material)]->shadow_transmittance(); };
   if (const double each = share_of(shape.material); shape.counts_crossings() && each > 0) {
@@ -141,7 +143,7 @@ double Objects::share_of_shape(size_t index, const Ray& ray, double entry, doubl
     gave_up = gave_up || told < t_end;
     return std::pow(each, crossed / 2.0);
   }
-  const auto hit = intersect_shape(index, ray);
+  const auto hit = intersect_shape(index, ray, before);
   if (hit && hit->iteration_limit) {
     gave_up = gave_up || hit->t < t_end;
     return 1;
@@ -161,20 +163,22 @@ double Objects::share_of_shape(size_t index, const Ray& ray, double entry, doubl
 }
 
 // The same of an instance of a mesh.
-double Objects::share_of_instance(const InstanceGeometry& instance, const Ray& ray, double t_end) const {
+double Objects::share_of_instance(size_t object, const Ray& ray, double t_end,
+                                  const PrimitiveIds::First& before) const {
+  const InstanceGeometry& instance = instances_[object - shapes_.size()];
   const double share = materials_[size_t(instance.material())]->shadow_transmittance();
-  const uint32_t crossed = instance.count_crossed(ray, t_end, share == 0 ? 1 : instance.triangles());
+  const uint32_t crossed =
+      instance.count_crossed(ray, t_end, share == 0 ? 1 : instance.triangles(), first_id(object, before));
   return crossed == 0 ? 1 : std::pow(share, crossed / 2.0);
 }
 
 bool Objects::add_shares(const Ray& ray, double t_end, size_t space, std::vector<Share>& shares,
-                         bool& gave_up) const {
+                         bool& gave_up, const PrimitiveIds::First& before) const {
   bool lost = false;
   for_each_entered(ray, t_end, [&](size_t object, double entry, double limit) {
     if (!(entry < t_end)) return limit;
-    const double share = is_shape(object)
-                             ? share_of_shape(object, ray, entry, t_end, gave_up)
-                             : share_of_instance(instances_[object - shapes_.size()], ray, t_end);
+    const double share = is_shape(object) ? share_of_shape(object, ray, entry, t_end, gave_up, before)
+                                          : share_of_instance(object, ray, t_end, before);
     if (share != 1) shares.push_back({space, object, share});
     lost = share == 0;
     return lost ? -1.0 : limit;

@@ -6,16 +6,19 @@
 #include <span>
 
 #include "host/reference/instance_geometry.hpp"
+#include "host/scene/primitive_ids.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::reference {
 
 class Objects {
  public:
-  // All of them must outlive it. `meshes` and `materials`: as the scene's.
+  // All of them must outlive it. `meshes` and `materials`: as the scene's. `first_ids`: by object, the
+  // primitive index of a shape or of an instance's first triangle; of a group, counted from its own first
+  // shape and first triangle, which is what `before` is for below.
   Objects(std::span<const std::unique_ptr<Shape>> shapes, std::span<const Instance> instances,
           const std::deque<MeshGeometry>& meshes, std::span<const std::unique_ptr<Material>> materials,
-          Acceleration acceleration);
+          std::vector<uint64_t> first_ids, Acceleration acceleration);
 
   struct Hit {
     TriangleHit at;  // of a shape: its intersection
@@ -24,7 +27,8 @@ class Objects {
   // The nearest hit with t > 0; of exactly equal ones that of the lowest object. Beyond `limit` it may be
   // missing. Where the steps allowed did not suffice for a shape, `sure_until` becomes no more than the t up
   // to which there is nothing of it.
-  std::optional<Hit> trace(const Ray& ray, double limit, double& sure_until) const;
+  std::optional<Hit> trace(const Ray& ray, double limit, double& sure_until,
+                           const PrimitiveIds::First& before = {}) const;
   // The surface where `ray` has that hit.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
 
@@ -32,7 +36,8 @@ class Objects {
   // Of an instance, or of a shape's part that has the surface there.
   int material(const Hit& hit) const;
   std::optional<Hit> intersect(size_t object, const Ray& ray,
-                               double limit = std::numeric_limits<double>::infinity()) const;
+                               double limit = std::numeric_limits<double>::infinity(),
+                               const PrimitiveIds::First& before = {}) const;
   // How often a line crosses the object at most, as far as that is known.
   int most_crossings(size_t object) const;
   // Calls visit(material) for each that the object has surfaces of.
@@ -41,9 +46,11 @@ class Objects {
     if (!is_shape(object)) return visit(instances_[object - shapes_.size()].material());
     for_each_leaf(*shapes_[object], [&](const Shape& leaf) { visit(leaf.material); });
   }
-  // Whether it is a shape; else how many triangles of instances come before those of the object.
   bool is_shape(size_t object) const { return object < shapes_.size(); }
-  uint64_t triangles_before(size_t object) const { return triangles_before_[object - shapes_.size()]; }
+  // The primitive index of a shape, or of an instance's first triangle.
+  uint64_t first_id(size_t object, const PrimitiveIds::First& before = {}) const {
+    return first_ids_[object] + (is_shape(object) ? before.shape : before.triangle);
+  }
 
   // Adds the shares of light that come through those objects at 0 < t < t_end that keep any away, in any
   // order; returns whether all is lost. A shape counts once; of an instance each triangle lets the square
@@ -54,8 +61,8 @@ class Objects {
     size_t object;
     double share;
   };
-  bool add_shares(const Ray& ray, double t_end, size_t space, std::vector<Share>& shares,
-                  bool& gave_up) const;
+  bool add_shares(const Ray& ray, double t_end, size_t space, std::vector<Share>& shares, bool& gave_up,
+                  const PrimitiveIds::First& before = {}) const;
 
   // Around all that has bounds.
   const Bounds& bounds() const { return bounds_; }
@@ -66,19 +73,22 @@ class Objects {
   double growth() const { return growth_; }
 
  private:
-  std::optional<Intersection> intersect_shape(size_t shape, const Ray& ray) const;
-  double share_of_shape(size_t shape, const Ray& ray, double entry, double t_end, bool& gave_up) const;
-  double share_of_instance(const InstanceGeometry& instance, const Ray& ray, double t_end) const;
+  std::optional<Intersection> intersect_shape(size_t shape, const Ray& ray,
+                                              const PrimitiveIds::First& before) const;
+  double share_of_shape(size_t shape, const Ray& ray, double entry, double t_end, bool& gave_up,
+                        const PrimitiveIds::First& before) const;
+  double share_of_instance(size_t object, const Ray& ray, double t_end,
+                           const PrimitiveIds::First& before) const;
   template <typename Visit>
   void for_each_entered(const Ray& ray, double limit, const Visit& visit) const;
 
   std::span<const std::unique_ptr<Shape>> shapes_;
   std::span<const std::unique_ptr<Material>> materials_;
   std::vector<InstanceGeometry> instances_;
-  std::vector<uint64_t> triangles_before_;  // by instance
-  std::vector<uint32_t> unbounded_;         // objects
-  std::vector<uint32_t> bounded_;           // objects, …
-  std::vector<Bounds> boxes_;               // … and where they are
+  std::vector<uint64_t> first_ids_;  // by object
+  std::vector<uint32_t> unbounded_;  // objects
+  std::vector<uint32_t> bounded_;    // objects, …
+  std::vector<Bounds> boxes_;        // … and where they are
   Bounds bounds_;
   double reach_ = 0;   // the largest coordinate in any computation that yields a box
   double growth_ = 1;  // the largest of all instances

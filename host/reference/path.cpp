@@ -154,6 +154,7 @@ PixelSample PathSample::follow(Ray ray, MediaStack media, Meet meet) {
   vertex_ = ray.o;
   for (;;) {
     asked_ = 0;
+    ray = with_key(ray, 0);
     const auto hit = rays_.trace(ray);
     const Flight flight = fly(media, hit);
     const Vec3 before = throughput_;
@@ -187,6 +188,7 @@ PixelSample PathSample::follow(Ray ray, MediaStack media, Meet meet) {
 AuxiliarySample PathSample::auxiliary(Ray ray, MediaStack media) {
   roulette_ = false;
   for (;;) {
+    ray = with_key(ray, 0);
     const auto hit = rays_.trace(ray);
     const Flight flight = fly(media, hit);
     const Vec3 before = throughput_;

@@ -117,9 +117,10 @@ Vec3 PathSample::direct(const Interaction& at, const Arriving& light, const Bsdf
   if (contribution == Vec3(0)) return Vec3(0);
   const bool beyond = glm::dot(light.ray.d, at.surface.normal_geometric) < 0;
   const MediaStack& passed = beyond && !at.in_medium() ? at.media_beyond : media;
-  const Vec3 seen = any_pane_ ? rays_.through_panes(light.ray, light.distance, light.density > 0, passed)
-                              : Vec3(rays_.shadow(light.ray, light.distance));
-  observer_.ray(RayKind::shadow, light.ray, depth_, 0);
+  const Ray ray = with_key(light.ray, 1);
+  const Vec3 seen = any_pane_ ? rays_.through_panes(ray, light.distance, light.density > 0, passed)
+                              : Vec3(rays_.shadow(ray, light.distance));
+  observer_.ray(RayKind::shadow, ray, depth_, 0);
   observer_.value("contribution", contribution);
   observer_.value("visibility", seen.x);
   observer_.back(depth_);

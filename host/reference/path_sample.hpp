@@ -77,6 +77,11 @@ class PathSample {
                                   0.0, 1 - 0x1p-24);
     return pair;
   }
+  // The ray as ray `number` from here on.
+  Ray with_key(Ray ray, uint32_t number) const {
+    ray.alpha_key = alpha_key(id_.pixel, id_.index, surfaces(), number, scene_.render.seed);
+    return ray;
+  }
   // That the path has come through.
   uint32_t surfaces() const { return uint32_t(depth_ + all_panes_); }
   Flight fly(const MediaStack& media, const std::optional<Hit>& hit) const;

@@ -1,5 +1,6 @@
 #include "host/reference/environment.hpp"
 #include "host/reference/integrator.hpp"
+#include "host/reference/rng.hpp"
 
 namespace eyeray::reference {
 
@@ -11,9 +12,11 @@ constexpr std::string_view manual =
     "Eye rays only: the first surface in its own colour, lit without shadows, or, in a scene without lights, "
     "by a lamp at the eye.";
 
-PixelSample raycast(const Tracer& tracer, const SampleId&, const Ray& ray, const MediaStack&,
+PixelSample raycast(const Tracer& tracer, const SampleId& id, const Ray& eye_ray, const MediaStack&,
                     const RayOffset& ray_offset, const Observer& observer) {
   const Scene& scene = tracer.scene();
+  Ray ray = eye_ray;
+  ray.alpha_key = alpha_key(id.pixel, id.index, 0, 0, scene.render.seed);
   uint32_t flags = 0;
   const auto hit = tracer.trace(ray, flags, ray_offset.coincident);
   if (!hit) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/reference/rng.hpp"
 #include "host/reference/sampler.hpp"
 #include "host/scene/integrator.hpp"
 
@@ -53,18 +54,20 @@ PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const Ray
 }
 
 FirstHit Renderer::first_hit(int x, int y, Vec2 shift, const RayOffset& ray_offset) const {
-  return hit({Vec2(x, y) + Vec2(0.5)}, shift, ray_offset);
+  return hit({Vec2(x, y) + Vec2(0.5)}, id(x, y, 0), shift, ray_offset);
 }
 
 FirstHit Renderer::first_hit_of_sample(int x, int y, uint32_t index, Vec2 shift,
                                        const RayOffset& ray_offset) const {
-  return hit(aim(x, y, index), shift, ray_offset);
+  return hit(aim(x, y, index), id(x, y, index), shift, ray_offset);
 }
 
-FirstHit Renderer::hit(const Aim& aim, const Vec2& shift, const RayOffset& ray_offset) const {
+FirstHit Renderer::hit(const Aim& aim, const SampleId& id, const Vec2& shift,
+                       const RayOffset& ray_offset) const {
   FirstHit result;
   if (!camera_.sees(aim.place + shift, aim.lens)) return result;
-  const Ray ray = eye_ray(aim, shift, ray_offset.pivot);
+  Ray ray = eye_ray(aim, shift, ray_offset.pivot);
+  ray.alpha_key = alpha_key(id.pixel, id.index, 0, 0, scene_.render.seed);
   const auto hit = tracer_.trace(ray, result.flags, ray_offset.coincident);
   if (!hit) return result;
   const SurfacePoint surface = tracer_.surface(ray, *hit);

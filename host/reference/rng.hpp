@@ -17,4 +17,11 @@ double random(uint32_t pixel, uint32_t sample, uint32_t dimension, uint32_t seed
 // The same of dimensions 2 · pair and 2 · pair + 1.
 Vec2 random_pair(uint32_t pixel, uint32_t sample, uint32_t pair, uint32_t seed);
 
+// Ray::alpha_key of the ray that a sample's path takes after `surfaces` surfaces, number 0, or of its i-th
+// shadow ray from there, number 1 + i.
+uint32_t alpha_key(uint32_t pixel, uint32_t sample, uint32_t surfaces, uint32_t number, uint32_t seed);
+// The least alpha of a blended surface at which a ray of that key hits the primitive, in (0, 1]: a hash, so
+// that it does not depend on the order of a search.
+double least_alpha(uint32_t key, uint64_t primitive);
+
 }  // namespace eyeray::reference

@@ -141,7 +141,8 @@ Vec3 SampleRays::through_panes(Ray ray, double t_end, bool has_extent, MediaStac
         frame.into(surface.coat_normal)};
     left *= ViewedBsdf(bsdf(material, context, material.scattering(context)), frame.seen(-ray.d)).passed();
     if (left == Vec3(0)) return left;
-    const Ray next = spawn_ray(surface, ray.d);
+    Ray next = spawn_ray(surface, ray.d);
+    next.alpha_key = ray.alpha_key;
     t_end -= glm::dot(next.o - ray.o, ray.d);
     ray = next;
   }
@@ -163,7 +164,8 @@ Scattering SampleRays::scattering(const Ray& ray, const Hit& hit, const SurfaceP
   const Vec3 v = glm::cross(ray.d, u);
   const double aside = ray_offset_.share * glm::length(point.position - scene_.camera.eye);
   for (int i = 0; i < 8; ++i) {
-    const Ray moved{ray.o + aside * (std::cos(i * M_PI / 4) * u + std::sin(i * M_PI / 4) * v), ray.d};
+    const Ray moved{ray.o + aside * (std::cos(i * M_PI / 4) * u + std::sin(i * M_PI / 4) * v), ray.d,
+                    ray.alpha_key};
     const auto other_hit = tracer_.trace(moved);
     if (!other_hit || other_hit->primitive != hit.primitive) continue;
     const SurfacePoint other_point = tracer_.surface(moved, *other_hit);

@@ -86,6 +86,7 @@ uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& s
   vertex_ = ray.o;
   if (source.flux == Vec3(0)) return rays_.sample(Vec3(0)).trail;
   while (depth_ <= scene_.render.max_depth) {
+    ray = with_key(ray, 0);
     const auto hit = rays_.trace(ray);
     const Flight flight = fly(media, hit);
     const Vec3 before = throughput_;

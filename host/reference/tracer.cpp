@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "host/reference/bent_normal.hpp"
 #include "host/reference/photon_map.hpp"
@@ -14,6 +15,26 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Of the scene's own objects, as Objects takes them.
+std::vector<uint64_t> first_ids(const Scene& scene, const PrimitiveIds& ids) {
+  std::vector<uint64_t> first;
+  for (size_t i = 0; i < scene.shapes.size(); ++i) first.push_back(ids.of_shape(i));
+  for (size_t i = 0; i < scene.instances.size(); ++i) first.push_back(ids.of_instance(i));
+  return first;
+}
+
+// And of a group's.
+std::vector<uint64_t> first_ids(const Group& group, const std::vector<Mesh>& meshes) {
+  std::vector<uint64_t> first(group.shapes.size());
+  std::iota(first.begin(), first.end(), uint64_t(0));
+  uint64_t triangles = 0;
+  for (const Instance& instance : group.instances) {
+    first.push_back(triangles);
+    triangles += meshes[size_t(instance.mesh)].triangles.size();
+  }
+  return first;
+}
+
 }  // namespace
 
 Tracer::Tracer(const Scene& scene, Acceleration acceleration)
@@ -22,11 +43,14 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration)
       ids_(scene),
       photon_maps_(std::make_unique<PhotonMaps>()) {
   for (const Mesh& mesh : scene.meshes) meshes_.emplace_back(mesh, acceleration);
-  world_.emplace(scene.shapes, scene.instances, meshes_, scene.materials, acceleration);
+  world_.emplace(scene.shapes, scene.instances, meshes_, scene.materials, first_ids(scene, ids_),
+                 acceleration);
   for (const Group& group : scene.groups)
-    group_bodies_.emplace_back(group.shapes, group.instances, meshes_, scene.materials, acceleration);
-  for (const GroupInstance& instance : scene.group_instances) {
-    groups_.emplace_back(instance, group_bodies_[size_t(instance.group)]);
+    group_bodies_.emplace_back(group.shapes, group.instances, meshes_, scene.materials,
+                               first_ids(group, scene.meshes), acceleration);
+  for (size_t i = 0; i < scene.group_instances.size(); ++i) {
+    const GroupInstance& instance = scene.group_instances[i];
+    groups_.emplace_back(instance, group_bodies_[size_t(instance.group)], ids_.of_group(i));
     groups_reach_ = std::max(groups_reach_, groups_.back().reach());
     groups_growth_ = std::max(groups_growth_, groups_.back().growth());
   }
@@ -50,11 +74,8 @@ BoxRay Tracer::group_box_ray(const Ray& ray) const {
 }
 
 uint64_t Tracer::primitive(const Objects& objects, const Objects::Hit& hit, int group) const {
-  if (objects.is_shape(hit.object))
-    return group < 0 ? ids_.of_shape(hit.object) : ids_.of_group(size_t(group)).shape + hit.object;
-  const uint64_t triangle = objects.triangles_before(hit.object) + hit.at.triangle;
-  if (group >= 0) return ids_.of_group(size_t(group)).triangle + triangle;
-  return ids_.of_instance(hit.object - scene_.shapes.size()) + hit.at.triangle;
+  const PrimitiveIds::First before = group < 0 ? PrimitiveIds::First{} : ids_.of_group(size_t(group));
+  return objects.first_id(hit.object, before) + (objects.is_shape(hit.object) ? 0 : hit.at.triangle);
 }
 
 Hit Tracer::complete(const Objects& objects, const Objects::Hit& hit, int group) const {
@@ -83,7 +104,7 @@ std::optional<Hit> Tracer::coincident_with(const Ray& ray, const Hit& hit) const
   const double apart = 8 * 0x1p-24 * glm::length(point.position - scene_.camera.eye) / cosine;
   // Where both lie at the very same place, no ray this way tells them apart. Seen from beyond, the farther
   // one comes first.
-  if (auto found = trace({ray.o + (hit.at.t + apart) * ray.d, -ray.d});
+  if (auto found = trace({ray.o + (hit.at.t + apart) * ray.d, -ray.d, ray.alpha_key});
       found && found->primitive != hit.primitive && found->at.t <= 2 * apart) {
     found->at.t = hit.at.t + apart - found->at.t;
     return found;
@@ -92,7 +113,7 @@ std::optional<Hit> Tracer::coincident_with(const Ray& ray, const Hit& hit) const
   const double step = 1e-6 * apart;
   double start = hit.at.t - step;
   for (int again = 0; again < 4; ++again) {
-    auto found = trace({ray.o + start * ray.d, ray.d});
+    auto found = trace({ray.o + start * ray.d, ray.d, ray.alpha_key});
     if (!found || start + found->at.t > hit.at.t + apart) break;
     found->at.t += start;
     if (found->primitive != hit.primitive) return found;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/reference/integrator.hpp"
+#include "host/reference/rng.hpp"
 #include "host/reference/sample_rays.hpp"
 
 namespace eyeray::reference {
@@ -26,8 +27,8 @@ struct Path {
 
 class Recursion {
  public:
-  Recursion(const Tracer& tracer, const RayOffset& ray_offset, const Observer& observer)
-      : rays(tracer, ray_offset, observer), scene_(tracer.scene()), observer_(observer) {}
+  Recursion(const Tracer& tracer, const SampleId& id, const RayOffset& ray_offset, const Observer& observer)
+      : rays(tracer, ray_offset, observer), scene_(tracer.scene()), id_(id), observer_(observer) {}
 
   Vec3 radiance(const Path& path);
 
@@ -38,13 +39,21 @@ class Recursion {
   Vec3 child(RayKind kind, const Path& path, const Interaction& at, const Vec3& d, const MediaStack& media,
              const Vec3& share);
 
+  // Of ray `number` from that depth on.
+  uint32_t key(int depth, size_t number) const {
+    return alpha_key(id_.pixel, id_.index, uint32_t(depth), uint32_t(number), scene_.render.seed);
+  }
+
   const Scene& scene_;
+  const SampleId id_;
   const Observer& observer_;
 };
 
 Vec3 Recursion::radiance(const Path& path) {
-  const auto at = rays.hit(path.ray, path.media, path.throughput);
-  if (!at) return rays.surroundings(path.ray.d);
+  Ray ray = path.ray;
+  ray.alpha_key = key(path.depth, 0);
+  const auto at = rays.hit(ray, path.media, path.throughput);
+  if (!at) return rays.surroundings(ray.d);
 
   // Add up the light that the point scatters, mirrors and lets through, and dim it on its way here.
   const Scattering& scattering = at->scattering;
@@ -82,7 +91,8 @@ Vec3 Recursion::direct(const Interaction& at, int depth) {
   for (size_t i = 0; i < scene_.lights.size(); ++i) {
     const auto [l, arriving, distance, angle] = scene_.lights[i]->illuminate(at.surface.position);
     if (!rays.faces(at.surface, l, distance)) continue;
-    const Ray ray = rays.spawn_ray(at.surface, l);
+    Ray ray = rays.spawn_ray(at.surface, l);
+    ray.alpha_key = key(depth, 1 + i);
     const double seen = rays.shadow(ray, distance);
     if (seen == 0 && !observer_) continue;
 
@@ -100,9 +110,9 @@ Vec3 Recursion::direct(const Interaction& at, int depth) {
   return color;
 }
 
-PixelSample whitted(const Tracer& tracer, const SampleId&, const Ray& ray, const MediaStack& media,
+PixelSample whitted(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
                     const RayOffset& ray_offset, const Observer& observer) {
-  Recursion recursion(tracer, ray_offset, observer);
+  Recursion recursion(tracer, id, ray_offset, observer);
   const Vec3 color = recursion.radiance({ray, media, 0, Vec3(1)});
   return recursion.rays.sample(color);
 }

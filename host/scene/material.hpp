@@ -52,13 +52,17 @@ struct ScatteringContext {
   Vec3 coat_normal{0, 0, 1};  // in the surface's own frame, whose z is the shading normal
 };
 
-// Cutouts: where the alpha, times that of a mesh's vertices, is below `cutoff`, there is no surface.
+// Where the alpha, times that of a mesh's vertices, is below a limit, there is no surface: below `cutoff`, or
+// where the material blends below a random number of each ray, which so hits it with a probability of its
+// alpha.
 struct AlphaMask {
   TexturePtr alpha;     // by Texture::alpha_at
   double cutoff = 0.5;  // above 0
+  bool blends = false;
 
-  bool covers(const Vec2& uv, double vertex_alpha = 1) const {
-    return alpha->alpha_at(uv) * vertex_alpha >= cutoff;
+  // `random`: the ray's number, in (0, 1].
+  bool covers(const Vec2& uv, double vertex_alpha = 1, double random = 1) const {
+    return alpha->alpha_at(uv) * vertex_alpha >= (blends ? random : cutoff);
   }
 };
 

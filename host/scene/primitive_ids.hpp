@@ -22,8 +22,8 @@ class PrimitiveIds {
 
   // Of a group instance's first shape and first triangle; the others follow in the group's order.
   struct First {
-    uint64_t shape;
-    uint64_t triangle;
+    uint64_t shape = 0;
+    uint64_t triangle = 0;
   };
   First of_group(size_t group_instance) const { return groups_[group_instance]; }
 

@@ -73,7 +73,7 @@ class Capsule final : public ObjectShape {
  private:
   // Each part by itself, where it is the outermost.
   Crossings crossings(const Ray& ray) const override {
-    const auto& [o, d] = ray;
+    const Vec3 &o = ray.o, &d = ray.d;
     Crossings all;
     for (const double t :
          quadratic_roots(d.x * d.x + d.z * d.z, o.x * d.x + o.z * d.z, o.x * o.x + o.z * o.z - 1))

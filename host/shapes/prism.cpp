@@ -137,7 +137,7 @@ class Prism final : public ObjectShape {
   // wind round the point.
   Crossings crossings(const Ray& ray) const override {
     constexpr double room = 1e-14;  // for edges, where faces meet
-    const auto& [o, d] = ray;
+    const Vec3 &o = ray.o, &d = ray.d;
     const Vec2 start(o.x, o.z), line(d.x, d.z);
     Crossings all;
     for (size_t i = 0; i < form_.walls.size(); ++i) {

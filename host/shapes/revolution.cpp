@@ -44,7 +44,7 @@ ShapeForm Revolution::form() const {
 
 // Each part by itself: the side where it is between the planes, the caps where they are within the side.
 ObjectShape::Crossings Revolution::crossings(const Ray& ray) const {
-  const auto& [o, d] = ray;
+  const Vec3 &o = ray.o, &d = ray.d;
   const auto& [square, linear, constant, bottom, top] = profile_;
   Crossings all;
   const double a = d.x * d.x + d.z * d.z - square * d.y * d.y;

@@ -1,15 +1,25 @@
-// Where a material's alpha is below its cutoff, or behind one that is only there in front, there is no surface: the search goes on.
+// Where a material's alpha is below its cutoff, or behind one that is only there in front, there is no surface: the search goes on. A ray hits a
+// surface of alpha_mode "blend" with a probability of its alpha (Enderton et al., "Stochastic Transparency", I3D 2010).
 #ifndef ALPHA_TEST_GLSL
 #define ALPHA_TEST_GLSL
 #include "geometry/instance.glsl"
 #include "geometry/ray.glsl"
+#include "math/rng.glsl"
 #include "textures/texture.glsl"
 
 SHADER_BEGIN
 
-// `t` of a hit, or −1 where it is cut out or culled. `ray`, as the primitive sees it. Only shapes that a ray hits once have cutouts: behind one there
-// is nothing more of the shape.
-float alpha_test(Primitive primitive, uint instance, Ray ray, float t, vec2 uv) {
+// The least alpha at which the ray hits that primitive.
+float least_alpha(Material material, Ray ray, uint id) {
+#if HAS_BLEND
+  if ((material.flags & MATERIAL_BLENDS) != 0u) return unit_float(pcg_hash(ray.alpha_key + pcg_hash(id))) + EPSILON;
+#endif
+  return material.alpha_cutoff;
+}
+
+// `t` of a hit, or −1 where it is cut out or culled. `id`: the scene's primitive index; `ray`, as the primitive sees it. Only shapes that a ray
+// hits once have an alpha: behind a hit that does not count there is nothing more of the shape.
+float alpha_test(Primitive primitive, uint id, uint instance, Ray ray, float t, vec2 uv) {
 #if HAS_ALPHA_TEST || HAS_FRONT_ONLY
   uint index = material_of(primitive);
 #if HAS_INSTANCES
@@ -40,7 +50,7 @@ float alpha_test(Primitive primitive, uint instance, Ray ray, float t, vec2 uv) 
 #if HAS_COLORS
     alpha = alpha * vertex_alpha(primitive, uv);
 #endif
-    if (alpha < material.alpha_cutoff) return -1.0f;
+    if (alpha < least_alpha(material, ray, id)) return -1.0f;
   }
 #endif
   return t;

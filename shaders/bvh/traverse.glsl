@@ -99,7 +99,7 @@ void record_in_order(INOUT(TraversalState) state, float t, vec2 uv, uint slot, u
 #else
 // A primitive of the BVH that `local` is in, whose shape the ray hits at t_shape.
 void record_in_bvh(INOUT(TraversalState) state, float t_shape, vec2 uv, uint slot, Primitive primitive, bool is_csg, LocalRay local, bool any) {
-  float t = alpha_test(primitive, local.instance, local.ray, t_shape, uv);
+  float t = alpha_test(primitive, id_of(local, primitive), local.instance, local.ray, t_shape, uv);
   uint optical_depth = local.optical_depth;
   if (HAS_INSTANCES == 0 || optical_depth == NONE) optical_depth = optical_depth_of(primitive, is_csg, local.ray, state.hit.t, any);
   record_intersection(state, t, uv, slot, id_of(local, primitive), local.instance, optical_depth, any);
@@ -242,7 +242,7 @@ void intersect_linear_list(INOUT(TraversalState) state, Ray ray, bool any) {
   {                                                                                         \
     COUNT_TEST(state);                                                                      \
     float t = name##_intersect(constants, ray, uv);                                         \
-    t = alpha_test(constants, NONE, ray, t, uv);                                        \
+    t = alpha_test(constants, constants.id, NONE, ray, t, uv);                              \
     record_in_order(state, t, uv, index, constants.id, constants.optical_depth, any);            \
   }
   SCENE_PRIMITIVES(INTERSECT_CONSTANT)
@@ -254,7 +254,7 @@ void intersect_linear_list(INOUT(TraversalState) state, Ray ray, bool any) {
       Primitive primitive = load_primitive(i);                                                   \
       COUNT_TEST(state);                                                                         \
       float t = name##_intersect(primitive, ray, uv);                                            \
-      t = alpha_test(primitive, NONE, ray, t, uv);                                           \
+      t = alpha_test(primitive, primitive.id, NONE, ray, t, uv);                                   \
       uint optical_depth = optical_depth_of(primitive, number == KIND_csg, ray, state.hit.t, any);     \
       record_intersection(state, t, uv, i, primitive.id, NONE, optical_depth, any);                               \
     }

@@ -47,8 +47,8 @@ vec3 transposed(vec4 rows[3], vec3 n) { return vec3(rows[0]) * n.x + vec3(rows[1
 // or nearly so.
 LocalRay into_instance(Ray ray, Instance instance, uint index) {
   LocalRay local;
-  local.ray = make_ray(map_direction(instance.to_local, ray.o - map_offset(instance.to_world)),
-                       map_direction(instance.to_local, ray.d));
+  local.ray = continue_ray(ray, map_direction(instance.to_local, ray.o - map_offset(instance.to_world)),
+                           map_direction(instance.to_local, ray.d));
   local.instance = index;
   local.first_id = instance.first_id;
   local.first_triangle = first_triangle_of(instance);

@@ -18,6 +18,9 @@ struct Ray {
   float after;
   uint side;
 #endif
+#if HAS_BLEND
+  uint alpha_key;  // decides, with a primitive's id, whether the ray hits a surface of alpha_mode "blend" (bvh/alpha_test.glsl)
+#endif
 };
 
 // What `intersect` of closed shapes asks, so that it is for CSG objects too (shapes/csg.glsl): a crossing is the same number for whoever asks.
@@ -138,10 +141,22 @@ Ray make_ray(vec3 o, vec3 d) {
   ray.after = 0.0f;
   ray.side = SIDE_UNKNOWN;
 #endif
+#if HAS_BLEND
+  ray.alpha_key = 0u;
+#endif
   // Over the whole length of the ray, 1e-12 of it is far less than what bvh.glsl widens its boxes by.
   float least = 1.0e-12f * abs(p.z);
   ray.inverse = vec3(bounded_inverse(d.x, least), bounded_inverse(d.y, least), bounded_inverse(d.z, least));
   return ray;
+}
+
+// A ray from o in direction d that hits the same blended surfaces as `ray`: the same line, in another space or from further on.
+Ray continue_ray(Ray ray, vec3 o, vec3 d) {
+  Ray next = make_ray(o, d);
+#if HAS_BLEND
+  next.alpha_key = ray.alpha_key;
+#endif
+  return next;
 }
 
 // A ray that leaves `s` in direction d, started clear of the surface on the side that d points to. Where d is steep enough the start

@@ -26,7 +26,7 @@ AuxiliaryResult auxiliary_of(Frame frame, Ray camera_ray, uint pixel, uint index
   uint most_turns = (frame.max_depth + 2u) * (MOST_PANES + 1u);
   for (uint turn = 0u; turn < most_turns; turn++) {
     if (!going) break;
-    Ray ray = make_ray(path.o, path.d);
+    Ray ray = path_ray(frame, path);
     Hit hit = trace(ray, result.flags);
     Flight flight = flight_of(frame, path, hit);
     path.throughput = path.throughput * flight.weight;

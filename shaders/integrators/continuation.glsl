@@ -3,6 +3,7 @@
 #define CONTINUATION_GLSL
 #include "geometry/ray.glsl"
 #include "integrators/trail.glsl"
+#include "math/rng.glsl"
 
 SHADER_BEGIN
 
@@ -15,8 +16,12 @@ struct Path {
 #if RANDOM_WALK
   float density;  // by solid angle, that its direction was chosen with; 0 from the eye, a mirror or glass, which leave no choice
   vec3 normal;    // where it chose that, by which it asks for lights; 0 where light may come from either side
+#endif
+#if RANDOM_WALK || HAS_BLEND
   uint pixel;     // of the picture, and which of its samples: what its random numbers go by
   uint index;
+#endif
+#if RANDOM_WALK
 #if HAS_PANES
   vec3 from;        // where its last vertex is, or the eye: panes that it passes straight are none
   uint panes;       // passed since then, …
@@ -41,6 +46,27 @@ struct Continuations {
   bool cut_off;  // by max_depth
 #endif
 };
+
+// Surfaces that the path has come through or left so far.
+uint surfaces_behind(Path path) {
+  uint surfaces = path.depth;
+#if RANDOM_WALK && HAS_PANES
+  surfaces = surfaces + path.panes + path.past_panes;
+#endif
+  return surfaces;
+}
+
+// `ray` with the key of the path's next ray, number 0, or of the i-th shadow ray from there, number 1 + i. Keys along a path are independent of each
+// other; those of two ways in which it goes on may be equal, since their light is only added.
+Ray with_alpha_key(Ray ray, Frame frame, Path path, uint number) {
+#if HAS_BLEND
+  uint dimension = ALPHA_KEYS + (surfaces_behind(path) << 16u) + number;
+  ray.alpha_key = pcg_hash(path.pixel + pcg_hash(path.index + pcg_hash(dimension + pcg_hash(frame.seed))));
+#endif
+  return ray;
+}
+
+Ray path_ray(Frame frame, Path path) { return with_alpha_key(make_ray(path.o, path.d), frame, path, 0u); }
 
 Continuations no_continuation(Path path) {
   Continuations none;

@@ -40,11 +40,7 @@ Flight flight_of(Frame frame, Path path, Hit hit) {
   Medium medium = load_medium(innermost_medium(path.media));
   if (max_component(medium.scattering) > 0.0f) {
     vec3 extinction = medium.absorption + medium.scattering;
-    uint surfaces = path.depth;
-#if HAS_PANES
-    surfaces = surfaces + path.panes + path.past_panes;
-#endif
-    vec2 chance = sample_pair(frame, path.pixel, path.index, PAIR_FLIGHT + surfaces);
+    vec2 chance = sample_pair(frame, path.pixel, path.index, PAIR_FLIGHT + surfaces_behind(path));
     float all = path.throughput.x + path.throughput.y + path.throughput.z;
     vec3 shares = path.throughput / maximum(all, 1.0e-30f);
     float rate = chance.x < shares.x ? extinction.x : chance.x < shares.x + shares.y ? extinction.y : extinction.z;

@@ -44,8 +44,12 @@ Path begin(Frame frame, Ray camera_ray, uint pixel, uint index) {
 #if RANDOM_WALK
   path.density = 0.0f;
   path.normal = vec3(0.0f, 0.0f, 0.0f);
+#endif
+#if RANDOM_WALK || HAS_BLEND
   path.pixel = pixel;
   path.index = index;
+#endif
+#if RANDOM_WALK
 #if HAS_PANES
   path.from = path.o;
   path.panes = 0u;
@@ -90,6 +94,7 @@ bool shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OU
 #define SHADOW_RAY_OF(name, number, lights, ways) \
   if (INTEGRATOR_IS(number)) counts = name##_shadow_ray(frame, path, at, i, ray, distance, contribution, light);
   INTEGRATORS(SHADOW_RAY_OF)
+  ray = with_alpha_key(ray, frame, path, 1u + i);
   return counts;
 }
 

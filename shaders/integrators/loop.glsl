@@ -20,7 +20,7 @@ vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) 
   Path path = begin(frame, camera_ray, pixel, index);
   bool going = true;
   for (; going;) {
-    Ray ray = make_ray(path.o, path.d);
+    Ray ray = path_ray(frame, path);
     PROBE_RAY(path.depth == 0u ? RAY_EYE : path.refracted ? RAY_REFRACTED : RAY_REFLECTED, 0u, path.depth);
     PROBE(origin, ray.o);
     PROBE(direction, ray.d);
@@ -71,8 +71,10 @@ vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) 
   PROBE_RAY(RAY_EYE, 0u, 0u);
   PROBE(origin, camera_ray.o);
   PROBE(direction, camera_ray.d);
-  Hit hit = trace(camera_ray, counts.z);
-  shade(frame, begin(frame, camera_ray, pixel, index), camera_ray, hit, color, counts, trail);
+  Path path = begin(frame, camera_ray, pixel, index);
+  Ray ray = with_alpha_key(camera_ray, frame, path, 0u);
+  Hit hit = trace(ray, counts.z);
+  shade(frame, path, ray, hit, color, counts, trail);
 #if RAY_KINDS
   counts = counts_by_kind(counts, 0u, 0u, 0u);
 #endif

@@ -22,11 +22,7 @@ SHADER_BEGIN
 #define LEAST_SURVIVAL 0.05f    // its probability
 
 vec2 path_pair(Frame frame, Path path, uint pair) {
-  uint surfaces = path.depth;
-#if HAS_PANES
-  surfaces = surfaces + path.panes + path.past_panes;
-#endif
-  return sample_pair(frame, path.pixel, path.index, pair + PAIRS_A_VERTEX * surfaces);
+  return sample_pair(frame, path.pixel, path.index, pair + PAIRS_A_VERTEX * surfaces_behind(path));
 }
 
 // Where the path's last vertex is, to which densities by solid angle belong.

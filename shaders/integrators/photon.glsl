@@ -43,7 +43,7 @@ PhotonResult photon_way(Frame frame, uint index, uint number) {
   uint most_turns = (frame.max_depth + 2u) * (MOST_PANES + 1u);
   for (uint turn = 0u; turn < most_turns; turn++) {
     if (!going) break;
-    Ray ray = make_ray(path.o, path.d);
+    Ray ray = path_ray(frame, path);
     Hit hit = trace(ray, result.flags);
     Flight flight = flight_of(frame, path, hit);
     path.throughput = path.throughput * flight.weight;

@@ -49,7 +49,7 @@ vec3 through_panes(Ray ray, float distance, uint light, uint media, INOUT(uvec4)
       if (i == MOST_CROSSINGS) counts.z = counts.z | FLAG_ITERATION_LIMIT;
       vec3 start = spawn_ray(at.surface, ray.d).o;
       distance = distance - dot3(start - ray.o, ray.d);
-      ray = make_ray(start, ray.d);
+      ray = continue_ray(ray, start, ray.d);
       going = max_component(left) > 0.0f;
 #ifdef LOOP_BUDGET
       if (going && counts.w > LOOP_BUDGET) {

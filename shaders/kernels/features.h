@@ -67,6 +67,9 @@
 #ifndef HAS_ALPHA_TEST  // a material has an alpha
 #define HAS_ALPHA_TEST 1
 #endif
+#ifndef HAS_BLEND  // … of alpha_mode "blend"
+#define HAS_BLEND 1
+#endif
 #ifndef HAS_FRONT_ONLY  // a material is not hit from behind
 #define HAS_FRONT_ONLY 1
 #endif

@@ -48,11 +48,12 @@ AuxiliaryResult render_auxiliary(Frame frame, uint x, uint y, uint index) {
   return result;
 }
 
-// Through the middle of the pixel, from that of the lens.
+// Through the middle of the pixel, from that of the lens; of what blends it hits what the pixel's first sample does.
 HitResult first_hit(Frame frame, uint x, uint y) {
   vec2 place = vec2(float(x) + 0.5f, float(y) + 0.5f);
   vec2 lens = vec2(0.0f, 0.0f);
   Ray ray = camera_ray(frame, place, lens);
+  ray = with_alpha_key(ray, frame, begin(frame, ray, y * frame.width + x, 0u), 0u);
   uint flags = 0u;
   TraversalState state = search(ray, camera_sees(frame, place, lens) ? T_MISS : -1.0f, false);
   Hit hit = state.hit;

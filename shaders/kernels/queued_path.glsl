@@ -17,6 +17,8 @@ Path queued_path(uint place) {
 #if HAS_LIGHT_BVH
   path.normal = paths[place].normal;
 #endif
+#endif
+#if RANDOM_WALK || HAS_BLEND
   path.pixel = paths[place].pixel;
   path.index = dispatch.sample_index;
 #endif
@@ -37,6 +39,8 @@ void queue_path(uint place, Path path) {
 #if HAS_LIGHT_BVH
   paths[place].normal = path.normal;
 #endif
+#endif
+#if RANDOM_WALK || HAS_BLEND
   paths[place].pixel = path.pixel;
 #endif
 }

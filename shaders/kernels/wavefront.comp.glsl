@@ -54,7 +54,7 @@ void main() {
   Path path = begin(frame, first, y * frame.width + x, dispatch.sample_index);
 #endif
 
-  Ray ray = make_ray(path.o, path.d);
+  Ray ray = path_ray(frame, path);
 #if STORED_HITS
   stored_place = place;
   Hit hit = hit_of_packet(load_packet_hit(), counts);

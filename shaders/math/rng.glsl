@@ -28,6 +28,8 @@ uint pcg_hash(uint x) {
 #define PAIR_HEADING 2u         // … and where to
 #define PAIR_FLIGHT 0x10000u  // how far the path gets on its way to the first vertex; one further on to the next
 
+#define ALPHA_KEYS 0x80000000u  // in place of a dimension, + a path's depth · 2^16: of its ray; one further on each of its shadow rays
+
 // The upper 24 bits as a number in [0, 1): exactly.
 float unit_float(uint bits) { return float(bits >> 8u) * 5.9604645e-8f; }
 

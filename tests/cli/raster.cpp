@@ -1,4 +1,5 @@
 // `verify --raster` and `render --primary raster`: what they say, and of what cannot be drawn.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/process.hpp"
@@ -90,6 +91,15 @@ TEST_CASE("--primary raster says what it cannot draw, and why") {
   CHECK(has(error_of({"scenes/cornell.toml", "-D", "image.filter=\"gaussian\""}), "a filter has its own"));
   CHECK(has(error_of({"scenes/cameras/fisheye.toml"}), "leave out --raster or --primary"));
   CHECK(has(error_of({"scenes/veil.toml"}), "primitives (with cutouts): leave out --primary"));
+  std::string veils =
+      "[image]\npattern = 'regular'\n[camera]\neye = [0, 0, 3]\n[[material]]\nname = 'veil'\ntype = 'phong'\n"
+      "alpha = 0.5\nalpha_mode = 'blend'\n";
+  for (int i = 0; i < 100; ++i)
+    veils +=
+        fmt::format("[[disk]]\ncenter = [{}, 0, 0]\nnormal = [0, 0, 1]\nradius = 1\nmaterial = 'veil'\n", i);
+  write_text(folder / "veil.toml", veils);
+  CHECK(has(error_of({folder / "veil.toml"}),
+            "100 of this scene's primitives (that blend): leave out --primary"));
   CHECK(has(error_of({"scenes/forest.toml"}), "it has instances; leave out --primary"));
   CHECK(has(error_of({"scenes/cornell.toml", "--rays", "lanes"}), "each ray is to be traced alone"));
   CHECK(has(error_of({"scenes/cornell.toml", "--acceleration", "brute-force"}), "there is no BVH"));

@@ -59,6 +59,8 @@ const std::array<std::vector<std::string>, factors> levels = {{
      "[[material]]\nname = 'netting'\ntype = 'mirror'\nalpha = { checker = { even = 0, odd = 1, size = 1 } "
      "}\n"
      "[[disk]]\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 1\nmaterial = 'netting'",
+     "[[material]]\nname = 'veil'\ntype = 'phong'\nalpha = 0.5\nalpha_mode = 'blend'\n"
+     "[[disk]]\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 1\nmaterial = 'veil'",
      "bump = { checker = { even = 0, odd = 1, size = 1 } }\nbump_height = 0.1\nbump_width = 0.1"},
     {"[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'a'",
      "[[triangle]]\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nmaterial = 'a'",

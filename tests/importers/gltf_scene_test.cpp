@@ -247,7 +247,7 @@ TEST_CASE("a normal map counts by its codes, with the mesh's tangents where they
   CHECK(coated.materials[0]->coat_normal_map->scale == 0.25);
 }
 
-TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices; else alpha is not looked at") {
+TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices, BLEND blends by them") {
   Json material = {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.6}}}}};
   const auto mask_of = [&] {
     return import_sound(with_material(material).gltf(), "a.gltf").materials[0]->mask;
@@ -268,6 +268,16 @@ TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices; else alpha i
   CHECK_FALSE(glass.materials[0]->mask);
   REQUIRE(glass.warnings.size() == 1);
   CHECK(contains(glass.warnings[0], "cutouts in glass (1)"));
+
+  material.erase("extensions");
+  material["alphaMode"] = "BLEND";
+  REQUIRE(mask_of());
+  CHECK(mask_of()->blends);
+  CHECK(mask_of()->alpha->alpha_at(Vec2(0)) == 0.6);
+  // A ray hits it with a probability of 0.6, or of half that where its vertices say so.
+  CHECK(mask_of()->covers(Vec2(0), 1, 0.6));
+  CHECK_FALSE(mask_of()->covers(Vec2(0), 0.5, 0.6));
+  CHECK(mask_of()->covers(Vec2(0), 0.5, 0.3));
 }
 
 TEST_CASE("a material that is not doubleSided is there, and shines, only in front; glass is on both sides") {
@@ -288,7 +298,7 @@ TEST_CASE("a material that is not doubleSided is there, and shines, only in fron
 }
 
 TEST_CASE("what is left out is named once, and counted") {
-  GltfFile file = with_material({{"alphaMode", "BLEND"}, {"occlusionTexture", {{"index", 0}}}});
+  GltfFile file = with_material({{"occlusionTexture", {{"index", 0}}}});
   file.json["materials"].push_back(file.json["materials"][0]);
   file.json["extensionsUsed"] = {"KHR_materials_iridescence", "KHR_materials_ior"};
   Json points = file.primitive();
@@ -297,7 +307,7 @@ TEST_CASE("what is left out is named once, and counted") {
   const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
   CHECK(scene.warnings ==
         std::vector<std::string>{"left out: the extension KHR_materials_iridescence (1), occlusion maps (2), "
-                                 "transparency by alpha (2), points and lines (1)"});
+                                 "points and lines (1)"});
 }
 
 TEST_CASE("textures in formats that are not read leave the colour") {

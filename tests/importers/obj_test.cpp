@@ -103,7 +103,8 @@ TEST_CASE("each material has its mesh, and its .mtl is read") {
   CHECK(scene.materials[2]->medium()->ior == 1.33);
   CHECK(scene.materials[3]->scattering(context).diffuse == Vec3(1, 0, 0));
   CHECK(warns(scene, "1 of its materials is not defined, such as `who`"));
-  CHECK(warns(scene, "transparency"));
+  REQUIRE(scene.materials[3]->mask);
+  CHECK(scene.materials[3]->mask->blends);
   CHECK(warns(scene, "bump maps"));
   CHECK(warns(scene, "a picture was left out: cannot read"));
   CHECK(scene.files.size() == 3);
@@ -206,7 +207,9 @@ TEST_CASE("options of maps may have fewer numbers than they can; -s and -o place
   CHECK(warns(square_of(folder, "map_Kd -s 2 my picture.png\nmap_d my picture.png"), "that differ"));
 }
 
-TEST_CASE("map_d cuts out, d = 0 hides, Ke emits, and Pr, Pm make a principled material") {
+TEST_CASE(
+    "map_d cuts out or blends, d = 0 hides, d = 0.5 blends, Ke emits, and Pr, Pm make a principled "
+    "material") {
   const Folder folder;
   std::filesystem::copy_file("tests/image/pictures/rgb.png", folder / "rgb.png");
   const ImportedScene cut = square_of(folder, "map_d rgb.png");
@@ -214,7 +217,15 @@ TEST_CASE("map_d cuts out, d = 0 hides, Ke emits, and Pr, Pm make a principled m
   REQUIRE(cut.materials[0]->mask);
   CHECK(cut.materials[0]->mask->alpha->alpha_at(Vec2(0.5)) < 1);
   CHECK(!square_of(folder, "d 0").materials[0]->mask->covers(Vec2(0)));
-  CHECK(warns(square_of(folder, "d 0.5"), "the transparency (d, Tr) of materials"));
+  CHECK(cut.materials[0]->mask->blends);  // its picture is grey in places
+  for (const std::string half : {"d 0.5", "Tr 0.5", "illum 2\nd 0.5"}) {
+    const ImportedScene blended = square_of(folder, half);
+    CHECK(blended.warnings.empty());
+    REQUIRE(blended.materials[0]->mask);
+    CHECK(blended.materials[0]->mask->blends);
+    CHECK(blended.materials[0]->mask->alpha->alpha_at(Vec2(0)) == 0.5);
+  }
+  CHECK_FALSE(square_of(folder, "d 1").materials[0]->mask);
 
   const ScatteringContext context{Vec2(0), 1, 1, 1};
   CHECK(square_of(folder, "Ke 2 0 7e9").materials[0]->scattering(context).emitted == Vec3(2, 0, 1e6));

@@ -29,7 +29,7 @@ AlphaMask picture_mask(Filter filter) {
   return {textures::make_image(image), 128.0 / 255};
 }
 
-// Of three materials: with cutouts by checks, by a picture, by vertices and a factor; and one without.
+// Of four materials: with cutouts by checks, by a picture, one that blends, by vertices and a factor; and one without alpha.
 Scene leafy_scene(Random& random, int count, int instances) {
   Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0);
@@ -37,13 +37,13 @@ Scene leafy_scene(Random& random, int count, int instances) {
   for (int i = 0; i < 4; ++i) add(scene, make_phong({}));
   scene.materials[0]->mask = AlphaMask{textures::make_checker(Vec3(1), Vec3(0.2), Vec2(0.3)), 0.5};
   scene.materials[1]->mask = picture_mask(Filter::bilinear);
-  scene.materials[2]->mask = AlphaMask{textures::make_constant(Vec3(0.8)), 0.4};
+  scene.materials[2]->mask = AlphaMask{.alpha = textures::make_constant(Vec3(0.8)), .blends = true};
   for (int i = 0; i < count; ++i) {
     TriangleValues triangle;
     const Vec3 a = random.point(3);
     triangle.vertices = {a, a + random.point(2), a + random.point(2)};
     if (i % 2) triangle.uv = {{Vec2(0, 0), Vec2(2, 0), Vec2(-1, 3)}};
-    add(scene, make_triangle(triangle), i % 4 == 3 ? 3 : i % 4 % 2);
+    add(scene, make_triangle(triangle), i % 4);
   }
   if (instances == 0) return scene;
   Mesh mesh = globe(12, 6);
@@ -118,7 +118,7 @@ TEST_CASE("cutouts: BVHs find what brute force finds, and in float64 too, to the
     }
     MESSAGE(fmt::format("{} instances: {} of {} rays hit cutouts, {} differ from float64", instances, cut,
                         2 * rays.size(), apart));
-    CHECK(cut > 20'000);
+    CHECK(cut > 19'000);
     CHECK(apart < 100);  // where rounding is to say on which side of a cutout's edge a ray is
   }
 }

@@ -44,12 +44,12 @@ void main() {
   bool there = i < list[0];
   uint place = list[1u + (there ? i : 0u)];
   Path path = queued_path(place);
-  Ray bounced = make_ray(path.o, path.d);
+  Frame frame = load_frame();
+  Ray bounced = path_ray(frame, path);
 #ifdef BOUNCE_HITS
   TraversalState found = trace_cooperatively(bounced, there ? T_MISS : -1.0f);
   if (there) hits[place] = packet_of_hit(found.hit, loops_cut_off(LOOP_PROBE) | iteration_limit(found));
 #else
-  Frame frame = load_frame();
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   Hit hit = hit_of_packet(hits[place], counts);
   bool struck;

@@ -113,7 +113,7 @@ void visit_leaf() {
 #define INTERSECT_COOPERATIVELY(name, number) \
   if (BVH_HOLDS(number, primitive)) t = name##_intersect(primitive, ray, uv);
   SHAPES(INTERSECT_COOPERATIVELY)
-  t = alpha_test(primitive, NONE, ray, t, uv);
+  t = alpha_test(primitive, primitive.id, NONE, ray, t, uv);
   record_intersection(state, mine ? t : -1.0f, uv, slot, primitive.id, NONE, primitive.optical_depth, ANY);
   uint next = from_lane(stack[0], 0u);
   if (ANY) next = sum(state.occluded) >= OPTICAL_DEPTH_OPAQUE ? TRAVERSAL_DONE : next;
@@ -233,6 +233,9 @@ TraversalState trace_cooperatively(Ray own, float t_max) {
     ray.inverse = of_source(own.inverse);
     ray.major = of_source(own.major);
     ray.shear = of_source(own.shear);
+#if HAS_BLEND
+    ray.alpha_key = of_source(own.alpha_key);
+#endif
     boxes.scale = of_source(own_boxes.scale);
     boxes.near = of_source(own_boxes.near);
     boxes.far = of_source(own_boxes.far);

@@ -261,7 +261,7 @@ float intersect_primitive(Primitive primitive, Ray r, out vec2 uv) {
 #define INTERSECT_TOGETHER(name, number) \
   if (BVH_HOLDS(number, primitive)) t = name##_intersect(primitive, r, uv);
   SHAPES(INTERSECT_TOGETHER)
-  return alpha_test(primitive, NONE, r, t, uv);
+  return alpha_test(primitive, primitive.id, NONE, r, t, uv);
 }
 
 #if BVH_OF_TRIANGLES
@@ -280,6 +280,9 @@ void intersect_passing() {
     r.d = here ? ray[k].d : r.d;
     r.inverse = here ? ray[k].inverse : r.inverse;
     r.shear = here ? ray[k].shear : r.shear;
+#if HAS_BLEND
+    r.alpha_key = here ? ray[k].alpha_key : r.alpha_key;
+#endif
   }
   vec2 uv;
   float t = intersect_primitive(primitive, r, uv);
