@@ -2,9 +2,13 @@
 
 #include <stb_image.h>
 
+#include <cstring>
 #include <memory>
+#include <optional>
 #include <string_view>
 
+#include "host/image/bitmap_rows.hpp"
+#include "host/image/color_fields.hpp"
 #include "host/image/exif.hpp"
 #include "host/image/png_rows.hpp"
 
@@ -30,6 +34,53 @@ struct Free {
   void operator()(stbi_uc* pixels) const { stbi_image_free(pixels); }
 };
 
+// A format, and what is needed of it before memory is taken for its pixels.
+enum class Format { png, jpeg, bmp, tga, other };
+
+Format format_of(std::string_view bytes) {
+  if (is_png(bytes)) return Format::png;
+  if (is_jpeg(bytes)) return Format::jpeg;
+  if (is_bmp(bytes)) return Format::bmp;
+  return is_tga(bytes) ? Format::tga : Format::other;
+}
+
+int64_t most_pixels_a_byte(Format format) {
+  switch (format) {
+    case Format::png:
+      return most_png_pixels_a_byte;
+    case Format::jpeg:
+      return most_jpeg_pixels_a_byte;
+    case Format::bmp:
+      return most_bmp_pixels_a_byte;
+    default:
+      return most_tga_pixels_a_byte;
+  }
+}
+
+const stbi_uc* stb_bytes(std::string_view bytes) {
+  return reinterpret_cast<const stbi_uc*>(bytes.data());
+}
+
+// Nothing where the header of a PNG or a JPEG cannot be read.
+std::optional<BitmapSize> size_of(std::string_view bytes, Format format) {
+  if (format == Format::bmp) return bmp_size(bytes);
+  if (format == Format::tga) return tga_size(bytes);
+  int width = 0, height = 0, channels = 0;
+  if (!stbi_info_from_memory(stb_bytes(bytes), int(bytes.size()), &width, &height, &channels))
+    return std::nullopt;
+  return BitmapSize{width, height};
+}
+
+// To four channels; returns what is wrong, or "".
+std::string read_jpeg(std::string_view bytes, std::span<std::array<uint8_t, 4>> pixels) {
+  int width = 0, height = 0, channels = 0;
+  const std::unique_ptr<stbi_uc, Free> codes(
+      stbi_load_from_memory(stb_bytes(bytes), int(bytes.size()), &width, &height, &channels, 4));
+  if (!codes) return stbi_failure_reason();
+  std::memcpy(pixels.data(), codes.get(), pixels.size_bytes());
+  return "";
+}
+
 }  // namespace
 
 void PixelBudget::take(int width, int height, const std::string& name) {
@@ -43,8 +94,8 @@ void PixelBudget::take(int width, int height, const std::string& name) {
   left -= pixels;
 }
 
-CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name,
-                              PixelBudget& budget) {
+CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name, PixelBudget& budget,
+                              std::vector<std::string>& warnings) {
   const auto fail = [&](const std::string& why) {
     return Error(ExitCode::file_io, "cannot read {}: {}", name, why);
   };
@@ -53,33 +104,40 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
   if (bytes.size() > most_coded_bytes)
     throw fail(fmt::format("it has {} bytes; the most is {} (1 GiB)", bytes.size(), most_coded_bytes));
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (!is_png(text) && !is_jpeg(text)) throw fail("it is neither a PNG nor a JPEG");
-  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-  const int size = int(bytes.size());
-  int width = 0, height = 0, channels = 0;
-  if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-    throw fail(fmt::format("it is damaged ({})", stbi_failure_reason()));
+  const Format format = format_of(text);
+  if (format == Format::other) throw fail("it is no PNG, JPEG, BMP or TGA");
+  const auto size = size_of(text, format);
+  if (!size) throw fail(fmt::format("it is damaged ({})", stbi_failure_reason()));
+  const auto [width, height] = *size;
   if (width < 1 || height < 1 || width > most_coded_side || height > most_coded_side)
     throw fail(fmt::format("it has {}×{} pixels; the most is {} a side", width, height, most_coded_side));
-  const int64_t pixels = int64_t{width} * height;
-  if (pixels > (is_png(text) ? most_png_pixels_a_byte : most_jpeg_pixels_a_byte) * size)
-    throw fail("it ends early");
-  budget.take(width, height, name);
+  if (width * height > most_pixels_a_byte(format) * int64_t(bytes.size())) throw fail("it ends early");
+  budget.take(int(width), int(height), name);
 
   // Decode it, always to four channels.
-  CodedImage image{width, height, {}};
-  if (is_png(text)) {
-    image.pixels.resize(size_t(pixels));
-    if (const std::string fault = read_png_rows(bytes, image.pixels); !fault.empty())
-      throw fail(fmt::format("it is damaged ({})", fault));
-  } else {
-    const std::unique_ptr<stbi_uc, Free> codes(
-        stbi_load_from_memory(data, size, &width, &height, &channels, 4));
-    if (!codes) throw fail(fmt::format("it is damaged ({})", stbi_failure_reason()));
-    const auto* first = reinterpret_cast<const std::array<uint8_t, 4>*>(codes.get());
-    image.pixels.assign(first, first + pixels);
-    image = upright(std::move(image), exif_orientation(bytes));
-  }
+  CodedImage image{int(width), int(height), {}};
+  image.pixels.resize(size_t(width * height));
+  std::vector<std::string> clauses;
+  const auto damaged = [](const std::string& why) {
+    return why.empty() ? why : fmt::format("it is damaged ({})", why);
+  };
+  const std::string fault = [&] {
+    switch (format) {
+      case Format::png:
+        clauses = png_color_fields(text);
+        return damaged(read_png_rows(bytes, image.pixels));
+      case Format::jpeg:
+        clauses = jpeg_color_fields(text);
+        return damaged(read_jpeg(text, image.pixels));
+      case Format::bmp:
+        return read_bmp(text, image.pixels, clauses);
+      default:
+        return read_tga(text, image.pixels, clauses);
+    }
+  }();
+  if (!fault.empty()) throw fail(fault);
+  for (const std::string& clause : clauses) warnings.push_back(fmt::format("{}: {}", name, clause));
+  if (format == Format::jpeg) image = upright(std::move(image), exif_orientation(bytes));
   return image;
 }
 

@@ -34,11 +34,13 @@ struct PixelBudget {
   void take(int width, int height, const std::string& name);
 };
 
-// Decodes a PNG or a JPEG, told apart by their first bytes. Grey becomes equal red, green and blue, of 16
-// bits the upper 8 are kept, and what has no alpha gets 255; colour profiles and gamma chunks are not read,
-// and a JPEG is turned as its EXIF orientation says. Error (file_io) that says "cannot read NAME: why" for
-// all else, a file that ends early included. The header is believed only as far as a file of that length can
-// go, so that memory is bounded by the file's size; and no more is decoded than is taken from the budget.
-CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name, PixelBudget& budget);
+// Decodes a PNG, a JPEG, a BMP or a TGA, distinguished by their first bytes. Grey becomes equal red, green
+// and blue, of 16 bits the upper 8 are kept, and what has no alpha gets 255; a JPEG is turned as its EXIF
+// orientation says. `warnings` gets a sentence for each field of the header that changes the meaning of the
+// codes and is not honoured. Error (file_io) that says "cannot read NAME: why" for all else, a file that ends
+// early included. The header is believed only as far as a file of that length can go, so that memory is
+// bounded by the file's size; and no more is decoded than is taken from the budget.
+CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name, PixelBudget& budget,
+                              std::vector<std::string>& warnings);
 
 }  // namespace eyeray::image

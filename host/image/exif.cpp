@@ -1,6 +1,6 @@
 #include "host/image/exif.hpp"
 
-#include <string_view>
+#include <optional>
 
 namespace eyeray::image {
 
@@ -36,19 +36,31 @@ int orientation_of(const Tiff& tiff) {
 }  // namespace
 
 int exif_orientation(std::span<const std::byte> jpeg) {
-  const std::string_view bytes(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
-  const auto byte = [&](size_t at) { return size_t{uint8_t(bytes[at])}; };
-  // Segments: FF, a marker, a length that counts itself. Pixels begin at FF DA.
-  for (size_t at = 2; at + 4 <= bytes.size() && byte(at) == 0xff && byte(at + 1) != 0xda;) {
+  constexpr std::string_view exif("Exif\0\0", 6);
+  constexpr uint32_t app1 = 0xe1;
+  std::optional<int> orientation;
+  for_each_jpeg_segment({reinterpret_cast<const char*>(jpeg.data()), jpeg.size()},
+                        [&](uint32_t marker, std::string_view content) {
+                          if (!orientation && marker == app1 && content.starts_with(exif))
+                            orientation = tiff_orientation(content.substr(exif.size()));
+                        });
+  return orientation.value_or(1);
+}
+
+int tiff_orientation(std::string_view tiff) {
+  return orientation_of({tiff});
+}
+
+void for_each_jpeg_segment(std::string_view jpeg,
+                           const std::function<void(uint32_t, std::string_view)>& visit) {
+  const auto byte = [&](size_t at) { return size_t{uint8_t(jpeg[at])}; };
+  // FF, a marker, a length that counts itself. Pixels begin at FF DA.
+  for (size_t at = 2; at + 4 <= jpeg.size() && byte(at) == 0xff && byte(at + 1) != 0xda;) {
     const size_t length = byte(at + 2) << 8 | byte(at + 3);
-    if (length < 2 || length > bytes.size() - at - 2) break;
-    std::string_view segment = bytes.substr(at + 4, length - 2);
-    constexpr std::string_view exif("Exif\0\0", 6);
-    if (byte(at + 1) == 0xe1 && segment.starts_with(exif))
-      return orientation_of({segment.substr(exif.size())});
+    if (length < 2 || length > jpeg.size() - at - 2) break;
+    visit(uint32_t(byte(at + 1)), jpeg.substr(at + 4, length - 2));
     at += 2 + length;
   }
-  return 1;
 }
 
 CodedImage upright(CodedImage image, int orientation) {

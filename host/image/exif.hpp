@@ -1,7 +1,10 @@
 // The orientation that a camera wrote into a JPEG.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <span>
+#include <string_view>
 
 #include "host/image/coded_image.hpp"
 
@@ -10,6 +13,12 @@ namespace eyeray::image {
 // 1 … 8, as EXIF numbers them; 1, upright, where the file says nothing that can be read.
 // Source: CIPA DC-008 (Exif 2.3), tag 0x0112 of the first directory.
 int exif_orientation(std::span<const std::byte> jpeg);
+// The same of a TIFF block alone, as a PNG holds it.
+int tiff_orientation(std::string_view tiff);
+
+// Calls visit(marker, content) for each segment of a JPEG before its pixels.
+void for_each_jpeg_segment(std::string_view jpeg,
+                           const std::function<void(uint32_t marker, std::string_view content)>& visit);
 
 // The picture as it is to be seen, from one that was stored with this orientation.
 CodedImage upright(CodedImage image, int orientation);

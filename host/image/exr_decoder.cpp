@@ -84,6 +84,8 @@ class ExrReader {
                          ": its chromaticities are not those of Rec. 709; its numbers are taken as they are");
     if (header.pixelAspectRatio() != 1)
       warnings.push_back(name_ + ": its pixelAspectRatio is not 1; pixels are taken as squares");
+    if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
+      warnings.push_back(name_ + ": it holds the faces of a cube (envmap), taken as one picture");
     return in_display_window(read_channels(chosen), header);
   }
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "host/core/error.hpp"
+#include "host/image/color_fields.hpp"
 #include "host/image/exr_file.hpp"
 #include "host/image/image_writer.hpp"
 #include "host/image/pfm_file.hpp"
@@ -139,6 +140,8 @@ Image read_image(const fs::path& path, const std::string& layer, std::vector<std
   const std::string bytes = read_file(path);
   switch (format) {
     case ImageFormat::png:
+      for (const std::string& clause : png_color_fields(bytes))
+        warnings.push_back(fmt::format("{}: {}", path.string(), clause));
       return decode_png(bytes, path.string());
     case ImageFormat::pfm:
       return decode_pfm(bytes, path.string());

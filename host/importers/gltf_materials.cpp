@@ -87,7 +87,8 @@ GltfMaterials::GltfMaterials(const GltfObject& document, GltfBuffers& buffers, T
                              GltfLeftOut& left_out, GltfBreaches& breaches)
     : document_(document), buffers_(buffers), textures_(textures), left_out_(left_out), breaches_(breaches) {}
 
-ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budget) {
+ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budget,
+                                         std::vector<std::string>& warnings) {
   const GltfObject image = document_.element("images", index);
   std::string data;
   std::string_view bytes;
@@ -102,7 +103,9 @@ ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budge
   if ((type == "image/png" && bytes.starts_with("\xff\xd8")) ||
       (type == "image/jpeg" && bytes.starts_with("\x89PNG")))
     breaches_.add("pictures of another type than their mimeType, decoded as what they are", image.place());
-  return decode_image_texture(std::as_bytes(std::span(bytes)), image.place(), budget);
+  if (!bytes.starts_with("\xff\xd8") && !bytes.starts_with("\x89PNG"))
+    breaches_.add("pictures that are neither PNG nor JPEG, decoded as what they are", image.place());
+  return decode_image_texture(std::as_bytes(std::span(bytes)), image.place(), budget, warnings);
 }
 
 // Null where the picture cannot be had.
@@ -140,8 +143,8 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
   const std::string name =
       fmt::format("{} {} {} {} {}", *source, static_cast<int>(content), static_cast<int>(settings.filter),
                   static_cast<int>(settings.wrap_u), static_cast<int>(settings.wrap_v));
-  return textures_.load(name, [&](image::PixelBudget& budget) {
-    ImageTexture image = decode_image(*source, budget);
+  return textures_.load(name, [&](image::PixelBudget& budget, std::vector<std::string>& warnings) {
+    ImageTexture image = decode_image(*source, budget, warnings);
     image.srgb = settings.srgb;
     image.filter = settings.filter;
     image.wrap_u = settings.wrap_u;

@@ -80,7 +80,7 @@ class GltfMaterials {
   // `factor` times the picture `map` of an extension, where that is to be had.
   TexturePtr scaled(const GltfObject& material, const GltfObject& extension, const char* map,
                     const Vec3& factor, Content content = Content::data);
-  ImageTexture decode_image(size_t index, image::PixelBudget& budget);
+  ImageTexture decode_image(size_t index, image::PixelBudget& budget, std::vector<std::string>& warnings);
   static std::optional<GltfObject> base_texture(const GltfObject& material);
   static std::optional<GltfObject> first_texture(const GltfObject& material);
   static std::optional<GltfObject> first_extension_texture(const GltfObject& material);

@@ -10,16 +10,16 @@ TexturePtr textured(const Vec3& color, std::shared_ptr<const ImageTexture> pictu
 }
 
 std::shared_ptr<const ImageTexture> TextureFiles::load(const std::string& name) {
-  return load(name,
-              [&](image::PixelBudget& budget) { return load_image_texture(assets_.locate(name), budget); });
+  return load(name, [&](image::PixelBudget& budget, std::vector<std::string>& warnings) {
+    return load_image_texture(assets_.locate(name), budget, warnings);
+  });
 }
 
-std::shared_ptr<const ImageTexture> TextureFiles::load(
-    const std::string& name, const std::function<ImageTexture(image::PixelBudget&)>& decode) {
+std::shared_ptr<const ImageTexture> TextureFiles::load(const std::string& name, const Decode& decode) {
   const auto [entry, fresh] = known_.try_emplace(name);
   if (!fresh) return entry->second;
   try {
-    entry->second = std::make_shared<const ImageTexture>(decode(budget_));
+    entry->second = std::make_shared<const ImageTexture>(decode(budget_, warnings_));
   } catch (const image::TooManyPixels&) {
     throw;
   } catch (const Error& error) {

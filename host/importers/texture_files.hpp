@@ -21,11 +21,13 @@ class TextureFiles {
   TextureFiles(AssetFiles& assets, image::PixelBudget& budget, std::vector<std::string>& warnings)
       : assets_(assets), budget_(budget), warnings_(warnings) {}
 
+  // Makes a picture; may throw Error, and add warnings.
+  using Decode = std::function<ImageTexture(image::PixelBudget&, std::vector<std::string>& warnings)>;
+
   // The picture in a file; null, with a warning, where it cannot be had. TooManyPixels beyond the budget.
   std::shared_ptr<const ImageTexture> load(const std::string& name);
-  // The same for a picture that `decode` makes the first time that `name` is asked for; it may throw Error.
-  std::shared_ptr<const ImageTexture> load(const std::string& name,
-                                           const std::function<ImageTexture(image::PixelBudget&)>& decode);
+  // The same for a picture that `decode` makes the first time that `name` is asked for.
+  std::shared_ptr<const ImageTexture> load(const std::string& name, const Decode& decode);
 
  private:
   AssetFiles& assets_;

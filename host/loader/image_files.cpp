@@ -65,7 +65,9 @@ std::shared_ptr<const ImageTexture> ImageFiles::load(ImageTexture wanted, const 
     if (fresh) {
       take_note(path);
       try {
-        variants.push_back(with_settings(load_image_texture(path, budget_), wanted));
+        std::vector<std::string> warnings;
+        variants.push_back(with_settings(load_image_texture(path, budget_, warnings), wanted));
+        for (const std::string& warning : warnings) log_.warning(position, warning);
       } catch (const Error& unreadable) {
         refused = unreadable.what();
       }

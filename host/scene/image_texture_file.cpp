@@ -25,15 +25,16 @@ void check_image_file(const fs::path& path) {
     throw fail(fmt::format("it has {} bytes; the most is {} (1 GiB)", size, image::most_coded_bytes));
 }
 
-ImageTexture load_image_texture(const fs::path& path, image::PixelBudget& budget) {
+ImageTexture load_image_texture(const fs::path& path, image::PixelBudget& budget,
+                                std::vector<std::string>& warnings) {
   check_image_file(path);
   const std::string bytes = read_file(path);
-  return decode_image_texture(std::as_bytes(std::span(bytes)), path.string(), budget);
+  return decode_image_texture(std::as_bytes(std::span(bytes)), path.string(), budget, warnings);
 }
 
 ImageTexture decode_image_texture(std::span<const std::byte> bytes, const std::string& name,
-                                  image::PixelBudget& budget) {
-  image::CodedImage image = image::decode_coded_image(bytes, name, budget);
+                                  image::PixelBudget& budget, std::vector<std::string>& warnings) {
+  image::CodedImage image = image::decode_coded_image(bytes, name, budget, warnings);
   return {.name = name, .width = image.width, .height = image.height, .texels = std::move(image.pixels)};
 }
 

@@ -1,4 +1,4 @@
-// Image textures from PNG and JPEG files, and from such bytes as model files embed.
+// Image textures from PNG, JPEG, BMP and TGA files, and from such bytes as model files embed.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,14 @@ namespace eyeray {
 void check_image_file(const std::filesystem::path& path);
 
 // The picture in a regular file of at most 1 GiB and 16384 pixels a side, named after the path; filter, wrap
-// and colour space are an ImageTexture's defaults. Error (file_io), one sentence with the path and the
-// reason, where it cannot be read or the budget has fewer pixels left.
-ImageTexture load_image_texture(const std::filesystem::path& path, image::PixelBudget& budget);
+// and colour space are an ImageTexture's defaults. `warnings` as decode_coded_image has them. Error
+// (file_io), one sentence with the path and the reason, where it cannot be read or the budget has fewer
+// pixels left.
+ImageTexture load_image_texture(const std::filesystem::path& path, image::PixelBudget& budget,
+                                std::vector<std::string>& warnings);
 
 // The same from memory; `name` stands in messages.
 ImageTexture decode_image_texture(std::span<const std::byte> bytes, const std::string& name,
-                                  image::PixelBudget& budget);
+                                  image::PixelBudget& budget, std::vector<std::string>& warnings);
 
 }  // namespace eyeray

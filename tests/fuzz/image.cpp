@@ -9,8 +9,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
     eyeray::image::PixelBudget budget;
+    std::vector<std::string> warnings;
     const auto image = std::make_shared<eyeray::ImageTexture>(
-        eyeray::decode_image_texture(std::as_bytes(std::span(data, size)), INPUT_NAME, budget));
+        eyeray::decode_image_texture(std::as_bytes(std::span(data, size)), INPUT_NAME, budget, warnings));
     if (image->width < 1 || image->height < 1 ||
         image->texels.size() != size_t(image->width) * size_t(image->height))
       std::abort();

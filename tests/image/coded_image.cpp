@@ -22,9 +22,14 @@ std::string bytes_of(const std::string& file) {
   return read_file("tests/image/pictures/" + file);
 }
 
-CodedImage decode(const std::string& bytes) {
+CodedImage decode(const std::string& bytes, std::vector<std::string>& warnings) {
   PixelBudget budget;
-  return decode_coded_image(std::as_bytes(std::span(bytes)), "a picture", budget);
+  return decode_coded_image(std::as_bytes(std::span(bytes)), "a picture", budget, warnings);
+}
+
+CodedImage decode(const std::string& bytes) {
+  std::vector<std::string> warnings;
+  return decode(bytes, warnings);
 }
 
 // What is said of bytes that are no picture.
@@ -91,9 +96,10 @@ TEST_CASE("a PNG takes little more memory than its pixels, and only what the bud
   CHECK(image.pixels.back() == Pixel{255, 255, 255, 255});
 
   PixelBudget budget{4096 * 4096 + 6};
+  std::vector<std::string> warnings;
   const auto said = [&](const std::string& picture) -> std::string {
     try {
-      decode_coded_image(std::as_bytes(std::span(picture)), "a picture", budget);
+      decode_coded_image(std::as_bytes(std::span(picture)), "a picture", budget, warnings);
     } catch (const Error& error) {
       return error.what();
     }
@@ -226,8 +232,8 @@ TEST_CASE("pictures with damaged bytes are decoded or refused") {
   CHECK(refused > 100);
 }
 
-TEST_CASE("what is neither PNG nor JPEG is refused, though stb_image could read it") {
+TEST_CASE("what is no PNG, JPEG, BMP or TGA is refused, though stb_image could read it") {
   for (const std::string& bytes : {std::string(), std::string("GIF89a"), std::string("P6 1 1 255\nabc"),
                                    std::string("BM"), std::string("#?RADIANCE\n"), std::string(1000, '\0')})
-    CHECK(refusal(bytes) == "cannot read a picture: it is neither a PNG nor a JPEG");
+    CHECK(refusal(bytes) == "cannot read a picture: it is no PNG, JPEG, BMP or TGA");
 }

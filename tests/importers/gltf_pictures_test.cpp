@@ -33,6 +33,13 @@ TEST_CASE("rules of glTF: samplers, and pictures without uv") {
   image["mimeType"] = "image/jpeg";
   CHECK(said_of(file) ==
         "pictures of another type than their mimeType, decoded as what they are: 1, the first images[0]");
+  const Json as_it_was = image;
+  const std::string tga =
+      std::string(2, '\0') + "\2" + std::string(9, '\0') + std::string("\1\0\1\0\30\0abc", 9);
+  image = {{"uri", "data:image/x-tga;base64," + base64(tga)}};
+  CHECK(said_of(file) ==
+        "pictures that are neither PNG nor JPEG, decoded as what they are: 1, the first images[0]");
+  image = as_it_was;
   image["bufferView"] = 0;
   CHECK(
       said_of(file) ==

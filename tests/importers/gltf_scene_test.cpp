@@ -140,7 +140,9 @@ TEST_CASE("extensions of materials, with their pictures: which channel of each c
   CHECK(cloth.warnings.empty());
   CHECK(clear.materials[0]->thin());
   image::PixelBudget budget;
-  const ImageTexture read = decode_image_texture(std::as_bytes(std::span(picture)), "a.png", budget);
+  std::vector<std::string> warnings;
+  const ImageTexture read =
+      decode_image_texture(std::as_bytes(std::span(picture)), "a.png", budget, warnings);
   const auto channel = [&](int i) {
     ImageTexture alone = read;
     alone.srgb = false;

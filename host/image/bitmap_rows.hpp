@@ -1,0 +1,45 @@
+// Pictures in TGA and BMP files, for coded_image.cpp. Our own, since stb_image takes what a file lacks for
+// zeros.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace eyeray::image {
+
+// As the header has it, not yet believed.
+struct BitmapSize {
+  int64_t width;
+  int64_t height;
+};
+
+// The most pixels that a byte of a file can stand for: a run of 128 in two bytes; 8 a byte.
+inline constexpr int64_t most_tga_pixels_a_byte = 64;
+inline constexpr int64_t most_bmp_pixels_a_byte = 8;
+
+// Truevision's TGA 1 and 2 (TGA File Format Specification, Version 2.0, 1991). It has no magic number:
+// whether the header can be one.
+bool is_tga(std::string_view bytes);
+BitmapSize tga_size(std::string_view bytes);
+// Windows' and OS/2's BMP (Microsoft: Bitmap Storage).
+bool is_bmp(std::string_view bytes);
+BitmapSize bmp_size(std::string_view bytes);
+
+// Decode to `pixels`, the top row first: red, green, blue and alpha, 8 bits each, 255 where the file has no
+// alpha. There are as many as the size says. Return what is wrong, as in "it ends early", or "". `warnings`
+// gets a clause for each field that changes what the numbers mean and is not honoured, as in "its colours are
+// …".
+std::string read_tga(std::string_view bytes, std::span<std::array<uint8_t, 4>> pixels,
+                     std::vector<std::string>& warnings);
+std::string read_bmp(std::string_view bytes, std::span<std::array<uint8_t, 4>> pixels,
+                     std::vector<std::string>& warnings);
+
+// A little-endian number of `size` bytes; 0 beyond the end.
+uint32_t number_at(std::string_view bytes, uint64_t at, uint64_t size);
+
+}  // namespace eyeray::image
