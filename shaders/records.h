@@ -41,6 +41,7 @@ SHADER_BEGIN
 #define BINDING_PHOTON_PASS 27
 #define BINDING_EMITTER_MEDIA 28
 #define BINDING_DRAWN 29
+#define BINDING_FORMULA_NUMBERS 30
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss

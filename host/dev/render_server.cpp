@@ -91,7 +91,6 @@ void RenderServer::load(const Json& request) {
   send("stage", {{"stage", "load"}});
   scene_ = options_.load(request.value("defines", std::vector<std::string>{}));
   revision_ = request.value("revision", int64_t{0});
-  own_kernel_ = request.value("shaders_changed", true);
 
   Json tunables = Json::array();
   if (!scene_->files.empty() && scene_->files[0].extension() == ".toml")
@@ -103,6 +102,8 @@ void RenderServer::load(const Json& request) {
                           {"high", each.high},
                           {"written", each.written},
                           {"value", each.written}});
+  // What has sliders is about to move.
+  own_kernel_ = request.value("shaders_changed", true) && tunables.empty();
   Json files = Json::array();
   for (const auto& file : scene_->files) files.push_back(file.string());
   send("scene", {{"width", scene_->image.width},
@@ -127,6 +128,7 @@ executors::Executor& RenderServer::executor_for(const View& view) {
     options_.executor.compile_twin = !executors::cpp_compiler().empty();
   executors::ExecutorOptions options = options_.executor;
   options.constants = options.constants && own_kernel_;
+  options.formula_numbers = !own_kernel_;
   options.ray_kinds = view.needs() == aov::AovNeeds::ray_kinds;
   options.search_cost = view.needs() == aov::AovNeeds::search_cost;
   std::unique_ptr<executors::Executor> executor;

@@ -21,8 +21,8 @@ namespace eyeray::dev {
 //   {"do": "render", "revision": 7, "generation": 12, "defines": ["camera.eye=[0,1,5]"], "views": ["gpu"]}
 //     "tunables": {"shapes/sphere.glsl:WIDTH": [0.5]}, the values chosen for constants of shaders
 //     the same revision: the same files and defines, nothing is loaded or compiled anew;
-//     with "shaders_changed" the kernel is the scene's own, which compiles in half the time, else one that
-//     does for other values too
+//     with "shaders_changed" the kernel of a scene without sliders is its own, which compiles in half the
+//     time, else one that does for other values too
 //   {"do": "probe", "x": 3, "y": 4}: of what was rendered last
 //
 // It sends, each with "event", and with the request's generation:

@@ -108,6 +108,7 @@ struct ExecutorOptions {
   bool ray_kinds = false;        // gpu: count reflected and refracted rays; the others always do
   bool search_cost = false;      // gpu: FirstHit::cost; the twin always counts, the reference never
   bool constants = true;         // gpu: compile the primitives of a small scene into the kernel
+  bool formula_numbers = false;  // gpu: kernels load the numbers of formulas, and suit others too
   bool optimise = true;          // gpu: give the driver an optimised kernel
   bool wide_vectors = true;      // gpu: where the picture wants them (trace_plan.hpp)
   bool sets_environment = true;  // gpu: DeviceOptions::sets_environment

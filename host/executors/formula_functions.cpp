@@ -10,16 +10,17 @@
 namespace eyeray::executors {
 namespace {
 
+using expression::LoadedNumbers;
 using formula::FormulaKind;
 using records::PackedFormula;
 
 // How rays find the surface of formula `i`.
-std::string surface_functions(size_t i, const PackedFormula& packed) {
+std::string surface_functions(size_t i, const PackedFormula& packed, LoadedNumbers* numbers) {
   const formula::Formula& formula = *packed.formula;
   if (packed.by_bounds) {
     const expression::StraightLine& line = formula.straight_line();
-    return expression::bound_text(line, fmt::format("formula{}_bound", i)) +
-           expression::gradient_text(line, fmt::format("formula{}_dual", i)) +
+    return expression::bound_text(line, fmt::format("formula{}_bound", i), numbers) +
+           expression::gradient_text(line, fmt::format("formula{}_dual", i), numbers) +
            fmt::format(
                "#define FORMULA_NAME(part) formula{0}_##part\n"
                "#define FORMULA_BOUND(it, x, y, z) formula{0}_bound(x, y, z)\n"
@@ -30,7 +31,7 @@ std::string surface_functions(size_t i, const PackedFormula& packed) {
   }
   const std::string name = fmt::format("f{}_", i);
   const std::string restart = formula.loops() ? "formula_turns = 0u; " : "";
-  return formula.kernel(name) +
+  return formula.kernel(name, numbers) +
          fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i, restart, name) +
          fmt::format("vec3 formula{}_gradient(vec3 p) {{ {}return {}; }}\n", i, restart,
                      formula.has_other() ? name + "gradient(p)" : "vec3(0.0f, 0.0f, 0.0f)") +
@@ -45,13 +46,13 @@ std::string surface_functions(size_t i, const PackedFormula& packed) {
 }
 
 // Each colour's formula, and the one that picks by number.
-std::string color_functions(const std::vector<PackedFormula>& formulas) {
+std::string color_functions(const std::vector<PackedFormula>& formulas, LoadedNumbers* numbers) {
   std::string text, choice;
   for (size_t i = 0; i < formulas.size(); ++i) {
     const formula::Formula& formula = *formulas[i].formula;
     if (formula.kind() != FormulaKind::color) continue;
     const std::string name = fmt::format("f{}_", i);
-    text += formula.kernel(name);
+    text += formula.kernel(name, numbers);
     choice += fmt::format("  if (number == {}u) {{ {}color = {}color(uv); }}\n", i,
                           formula.loops() ? "formula_turns = 0u; " : "", name);
   }
@@ -61,13 +62,13 @@ std::string color_functions(const std::vector<PackedFormula>& formulas) {
 }
 
 // A camera's formula: there is one at most.
-std::string camera_functions(const std::vector<PackedFormula>& formulas) {
+std::string camera_functions(const std::vector<PackedFormula>& formulas, LoadedNumbers* numbers) {
   std::string text;
   for (size_t i = 0; i < formulas.size(); ++i) {
     const formula::Formula& formula = *formulas[i].formula;
     if (formula.kind() != FormulaKind::camera) continue;
     const std::string name = fmt::format("f{}_", i), restart = formula.loops() ? "formula_turns = 0u; " : "";
-    text = formula.kernel(name) +
+    text = formula.kernel(name, numbers) +
            fmt::format("vec3 formula_direction(vec4 at) {{ {}return {}direction(at); }}\n", restart, name) +
            fmt::format("vec3 formula_origin(vec4 at) {{ {}return {}; }}\n", restart,
                        formula.has_other() ? name + "origin(at)" : "vec3(0.0f, 0.0f, 0.0f)") +
@@ -79,7 +80,7 @@ std::string camera_functions(const std::vector<PackedFormula>& formulas) {
 
 }  // namespace
 
-std::string formula_functions(const records::PackedScene& scene) {
+std::string formula_functions(const records::PackedScene& scene, expression::LoadedNumbers* numbers) {
   const auto loops = [](const PackedFormula& f) { return !f.by_bounds && f.formula->loops(); };
   const auto is_surface = [](const PackedFormula& f) { return f.formula->kind() == FormulaKind::surface; };
   std::string text;
@@ -95,10 +96,10 @@ std::string formula_functions(const records::PackedScene& scene) {
   for (size_t i = 0; i < scene.formulas.size(); ++i) {
     if (!is_surface(scene.formulas[i])) continue;
     rows += fmt::format(" X({0}u, formula{0})", i);
-    text += surface_functions(i, scene.formulas[i]);
+    text += surface_functions(i, scene.formulas[i], numbers);
   }
-  return text + color_functions(scene.formulas) + camera_functions(scene.formulas) + "#define FORMULAS(X)" +
-         rows + "\n";
+  return text + color_functions(scene.formulas, numbers) + camera_functions(scene.formulas, numbers) +
+         "#define FORMULAS(X)" + rows + "\n";
 }
 
 }  // namespace eyeray::executors

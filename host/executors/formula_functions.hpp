@@ -4,10 +4,12 @@
 
 #include <string>
 
+#include "host/expression/loaded_numbers.hpp"
 #include "host/records/packer.hpp"
 
 namespace eyeray::executors {
 
-std::string formula_functions(const records::PackedScene& scene);
+// With `numbers`, they load their numbers (FORMULA_NUMBERS of kernels/features.h).
+std::string formula_functions(const records::PackedScene& scene, expression::LoadedNumbers* numbers);
 
 }  // namespace eyeray::executors

@@ -209,6 +209,8 @@ class GpuExecutor final : public Executor {
     specialisation.search_cost = options_.search_cost;
     specialisation.subgroup_size = workgroups_.subgroup;
     specialisation.group_stride = workgroups_.stride;
+    expression::LoadedNumbers numbers;
+    if (options_.formula_numbers && !packed.formulas.empty()) specialisation.formula_numbers = &numbers;
     if (open_device_->facts().loop_cap)
       specialisation.loop_budget = loop_budget_of(packed, device_.info().driver_version);
     // A copy of the nodes, to which those for packets are about to be appended.
@@ -225,6 +227,7 @@ class GpuExecutor final : public Executor {
     if (options_.fast_math || fault_.contracts()) how.strict = std::nullopt;
     kernels_.emplace(SceneKernels::Workshop{*open_device_, fault_, times_, how, options_.tunables.get()},
                      uploaded_, ShaderFiles(options_.shader_folder, specialise(packed, specialisation)));
+    if (specialisation.formula_numbers) uploaded_.add(formula_numbers_buffer(numbers.words()));
     if (!nodes.empty()) kernels_->make_bvh4_of(std::move(nodes), packed.bvhs[0]);
   }
 

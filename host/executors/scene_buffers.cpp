@@ -37,6 +37,10 @@ std::array<SceneBuffer, 16> scene_buffers(const records::PackedScene& scene) {
           buffer(BINDING_FRAME, "frame", std::span(&scene.frame, 1), texels, shading)};
 }
 
+SceneBuffer formula_numbers_buffer(std::span<const uint32_t> words) {
+  return buffer(BINDING_FORMULA_NUMBERS, "formula numbers", words, Kind::storage, Part::shading);
+}
+
 SceneBuffer bvh4_buffer(std::span<const shader::uvec4> nodes) {
   return buffer(BINDING_BVH4_NODES, "BVH4 nodes", nodes, Kind::texels, Part::geometry);
 }

@@ -24,6 +24,8 @@ struct SceneBuffer {
 
 // `scene` must stay.
 std::array<SceneBuffer, 16> scene_buffers(const records::PackedScene& scene);
+// What kernels need that load formulas' numbers; `words` must stay.
+SceneBuffer formula_numbers_buffer(std::span<const uint32_t> words);
 // What kernels/cooperative/bvh4.comp.glsl needs besides; `nodes` must stay.
 SceneBuffer bvh4_buffer(std::span<const shader::uvec4> nodes);
 

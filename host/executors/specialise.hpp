@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "host/executors/profile.hpp"
+#include "host/expression/loaded_numbers.hpp"
 #include "host/pack/collapse.hpp"
 #include "host/records/packer.hpp"
 
@@ -21,6 +22,8 @@ struct Specialisation {
   uint32_t group_stride = 1;  // kernels/render.comp.glsl: runs of workgroups
   bool ray_kinds = false;     // count reflected and refracted rays
   bool search_cost = false;   // of first hits
+  // Where formulas put their numbers, for BINDING_FORMULA_NUMBERS; null: into the text.
+  expression::LoadedNumbers* formula_numbers = nullptr;
 };
 
 std::string specialise(const records::PackedScene& scene, const Specialisation& options);

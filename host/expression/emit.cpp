@@ -16,14 +16,14 @@ struct Kind {
 constexpr Kind bounds{"bound", "vec3", "uint"};
 constexpr Kind duals{"dual", "vec4", "bool"};
 
-std::string literal(double x) {
-  return fmt::format("{:.9e}f", x);
+std::string number(double x, LoadedNumbers* numbers) {
+  return numbers ? numbers->add_float(float(x)) : fmt::format("{:.9e}f", x);
 }
 
-std::string constant(const Kind& kind, const Step& step) {
-  const std::string value = literal(double(float(step.value)));
+std::string constant(const Kind& kind, const Step& step, LoadedNumbers* numbers) {
+  const std::string value = number(double(float(step.value)), numbers);
   return kind.number == "vec3"
-             ? fmt::format("vec3({}, 0.0f, {})", value, literal(double(constant_error(step))))
+             ? fmt::format("vec3({}, 0.0f, {})", value, number(double(constant_error(step)), numbers))
              : fmt::format("vec4(0.0f, 0.0f, 0.0f, {})", value);
 }
 
@@ -31,7 +31,8 @@ std::string truth(const Kind& kind, bool yes) {
   return kind.truth == "bool" ? (yes ? "true" : "false") : (yes ? "TRUTH_YES" : "TRUTH_NO");
 }
 
-std::string lines(const StraightLine& line, const Kind& kind, const char* const (&inputs)[3]) {
+std::string lines(const StraightLine& line, const Kind& kind, const char* const (&inputs)[3],
+                  LoadedNumbers* numbers) {
   std::string text;
   for (size_t i = 0; i < line.size(); ++i) {
     const Step& step = line[i];
@@ -39,7 +40,7 @@ std::string lines(const StraightLine& line, const Kind& kind, const char* const 
     std::string value;
     switch (step.op) {
       case Op::constant:
-        value = constant(kind, step);
+        value = constant(kind, step, numbers);
         break;
       case Op::truth:
         value = truth(kind, step.value != 0);
@@ -49,7 +50,8 @@ std::string lines(const StraightLine& line, const Kind& kind, const char* const 
         break;
       case Op::scale:
       case Op::power:
-        value = fmt::format("{}_{}({}, {})", kind.prefix, name(step.op), from(0), literal(step.value));
+        value =
+            fmt::format("{}_{}({}, {})", kind.prefix, name(step.op), from(0), number(step.value, numbers));
         break;
       default: {
         std::string arguments;
@@ -70,16 +72,17 @@ float constant_error(const Step& step) {
   return error == 0 ? 0.0f : std::nextafter(float(error * (1 + 1e-6)), 1e38f);
 }
 
-std::string bound_text(const StraightLine& line, std::string_view name) {
+std::string bound_text(const StraightLine& line, std::string_view name, LoadedNumbers* numbers) {
   return fmt::format("vec3 {}(vec3 x, vec3 y, vec3 z) {{\n{}}}\n", name,
-                     lines(line, bounds, {"x", "y", "z"}));
+                     lines(line, bounds, {"x", "y", "z"}, numbers));
 }
 
-std::string gradient_text(const StraightLine& line, std::string_view name) {
+std::string gradient_text(const StraightLine& line, std::string_view name, LoadedNumbers* numbers) {
   return fmt::format(
       "vec4 {}(vec3 p) {{\n{}}}\n", name,
       lines(line, duals,
-            {"vec4(1.0f, 0.0f, 0.0f, p.x)", "vec4(0.0f, 1.0f, 0.0f, p.y)", "vec4(0.0f, 0.0f, 1.0f, p.z)"}));
+            {"vec4(1.0f, 0.0f, 0.0f, p.x)", "vec4(0.0f, 1.0f, 0.0f, p.y)", "vec4(0.0f, 0.0f, 1.0f, p.z)"},
+            numbers));
 }
 
 }  // namespace eyeray::expression

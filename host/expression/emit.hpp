@@ -4,14 +4,17 @@
 #include <string>
 
 #include "host/expression/expression.hpp"
+#include "host/expression/loaded_numbers.hpp"
 
 namespace eyeray::expression {
 
+// With `numbers`, the constants are loaded.
+
 // vec3 NAME(vec3 x, vec3 y, vec3 z): bounds the function along a ray; needs shaders/math/affine_bound.glsl.
-std::string bound_text(const StraightLine& line, std::string_view name);
+std::string bound_text(const StraightLine& line, std::string_view name, LoadedNumbers* numbers = nullptr);
 
 // vec4 NAME(vec3 p): the function's gradient and, in w, its value; needs shaders/math/dual.glsl.
-std::string gradient_text(const StraightLine& line, std::string_view name);
+std::string gradient_text(const StraightLine& line, std::string_view name, LoadedNumbers* numbers = nullptr);
 
 // How far the constant, as a float, may be from what was meant.
 float constant_error(const Step& step);

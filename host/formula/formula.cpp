@@ -213,8 +213,8 @@ double Formula::instructions() const {
   return size_of(compiled_->program).instructions;
 }
 
-std::string Formula::kernel(const std::string& name) const {
-  return kernel_text(compiled_->program, compiled_->kind, name);
+std::string Formula::kernel(const std::string& name, expression::LoadedNumbers* numbers) const {
+  return kernel_text(compiled_->program, compiled_->kind, name, numbers);
 }
 
 bool Formula::loops() const {

@@ -12,6 +12,7 @@
 
 #include "host/core/diagnostic.hpp"
 #include "host/expression/expression.hpp"
+#include "host/expression/loaded_numbers.hpp"
 #include "host/formula/entry.hpp"
 
 namespace eyeray::formula {
@@ -56,8 +57,9 @@ class Formula {
 
   // What the text must define, `float NAMEf(vec3 p)` say, and what it has beside that, as GLSL for kernels
   // that have shaders/math/formula.glsl. Loops ask `bool formula_turn(uint turns)`, if there are any
-  // that must (loops()).
-  std::string kernel(const std::string& name) const;
+  // that must (loops()). With `numbers`, constants are loaded: then formulas whose parameters differ mostly
+  // have the same text.
+  std::string kernel(const std::string& name, expression::LoadedNumbers* numbers = nullptr) const;
   bool loops() const;
 
   // f as straight-line code, of which bounds and derivatives are made. InputError, at the place in the text,

@@ -179,8 +179,9 @@ std::string_view pattern(Op op) {
 
 class Writer {
  public:
-  Writer(const ir::Program& program, FormulaKind kind, const std::string& name)
-      : program_(program), kind_(kind), name_(name) {}
+  Writer(const ir::Program& program, FormulaKind kind, const std::string& name,
+         expression::LoadedNumbers* numbers)
+      : program_(program), kind_(kind), name_(name), numbers_(numbers) {}
 
   std::string run() {
     for (size_t i = 0; i < program_.tables.size(); ++i) write_table(i);
@@ -208,15 +209,24 @@ class Writer {
   void write_table(size_t i) {
     const ir::Table& table = program_.tables[i];
     std::vector<std::string> values;
-    for (const uint32_t bits : table.bits) values.push_back(literal(table.type, bits));
+    for (const uint32_t bits : table.bits) values.push_back(constant(table.type, bits));
     line("{0} {1}t{2}[{3}] = {0}[{3}]({4});", name_of(table.type), name_, i, table.bits.size(),
          fmt::join(values, ", "));
   }
 
-  std::string operand(ir::Operand operand) const {
+  std::string constant(ir::Type type, uint32_t bits) {
+    if (!numbers_ || type == ir::Type::truth) return literal(type, bits);
+    return type == ir::Type::real ? numbers_->add_float(bits) : numbers_->add_uint(bits);
+  }
+  std::string operand(ir::Operand operand) {
     if (operand >= 0) return fmt::format("r{}", operand);
-    const ir::Constant& constant = program_.constants[size_t(~operand)];
-    return literal(constant.type, constant.bits);
+    const ir::Constant& known = program_.constants[size_t(~operand)];
+    return constant(known.type, known.bits);
+  }
+  // Compilers keep an array in registers where they know its places.
+  std::string place(ir::Operand operand) const {
+    if (operand >= 0) return fmt::format("r{}", operand);
+    return literal(ir::Type::whole, program_.constants[size_t(~operand)].bits);
   }
   std::string array(ir::ArrayId id) const {
     return id >= 0 ? fmt::format("a{}", id) : fmt::format("{}t{}", name_, ~id);
@@ -291,10 +301,10 @@ class Writer {
     const auto from = [&](size_t i) { return operand(instruction.from[i]); };
     switch (instruction.op) {
       case Op::load:
-        line("r{} = {}[{}];", instruction.to, array(instruction.array), from(0));
+        line("r{} = {}[{}];", instruction.to, array(instruction.array), place(instruction.from[0]));
         return;
       case Op::store:
-        line("{}[{}] = {};", array(instruction.array), from(0), from(1));
+        line("{}[{}] = {};", array(instruction.array), place(instruction.from[0]), from(1));
         return;
       case Op::copy:
         line("{} = {};", array(instruction.array), array(instruction.other));
@@ -368,6 +378,7 @@ class Writer {
   const ir::Program& program_;
   FormulaKind kind_;
   const std::string& name_;
+  expression::LoadedNumbers* numbers_;  // null: constants stand in the text
   const ir::Function* function_ = nullptr;
   std::string text_;
   size_t depth_ = 0;
@@ -376,8 +387,9 @@ class Writer {
 
 }  // namespace
 
-std::string kernel_text(const ir::Program& program, FormulaKind kind, const std::string& name) {
-  return Writer(program, kind, name).run();
+std::string kernel_text(const ir::Program& program, FormulaKind kind, const std::string& name,
+                        expression::LoadedNumbers* numbers) {
+  return Writer(program, kind, name, numbers).run();
 }
 
 }  // namespace eyeray::formula

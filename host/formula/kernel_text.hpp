@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "host/expression/loaded_numbers.hpp"
 #include "host/formula/entry.hpp"
 #include "host/formula/ir.hpp"
 
@@ -10,7 +11,9 @@ namespace eyeray::formula {
 
 // The entry of that kind, its name behind `name`, the other one if there is one, and what they call; needs
 // shaders/math/formula.glsl and, where loops are counted, `bool formula_turn(uint)`. One operation a
-// statement, on numbers alone: nothing of the user's text is left, and nothing for a compiler to fold.
-std::string kernel_text(const ir::Program& program, FormulaKind kind, const std::string& name);
+// statement, on numbers alone: nothing of the user's text is left, and nothing for a compiler to fold. With
+// `numbers`, constants are loaded, but those that are places in arrays.
+std::string kernel_text(const ir::Program& program, FormulaKind kind, const std::string& name,
+                        expression::LoadedNumbers* numbers = nullptr);
 
 }  // namespace eyeray::formula

@@ -10,6 +10,9 @@ layout(std430, binding = BINDING_PROBE) writeonly restrict buffer ProbeRecords {
 #ifdef TUNABLES
 layout(std430, binding = BINDING_TUNABLES) readonly restrict buffer Tunables { vec4 tunables[]; };
 #endif
+#ifdef FORMULA_NUMBERS
+layout(std430, binding = BINDING_FORMULA_NUMBERS) readonly restrict buffer FormulaNumbers { uint formula_numbers[]; };
+#endif
 
 layout(push_constant) uniform PushConstants { Dispatch dispatch; };
 #if TEXEL_BUFFERS

@@ -169,6 +169,7 @@
 //   FORMULA_DIRECTION     (number, at): what a camera's formula says …
 //   FORMULA_ORIGIN        … and where it says that the ray starts
 //   FORMULA_OVERRAN       defined where a formula loops: whether one made too many turns
+//   FORMULA_NUMBERS       defined where formulas read their numbers from a buffer
 
 // ---- What is compiled in: defined or not; the twin has none of it ----------------------------------------------------
 //   SHADING_AS_CONSTANTS  materials, textures, media and lights
