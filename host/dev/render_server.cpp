@@ -1,6 +1,7 @@
 #include "host/dev/render_server.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 #include "host/core/atomic_file.hpp"
 #include "host/core/stopwatch.hpp"
@@ -9,9 +10,16 @@
 #include "host/executors/cpp_compiler.hpp"
 #include "host/probe/probe.hpp"
 #include "host/render/flags.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::dev {
 namespace {
+
+constexpr std::pair colors_of_gpu(executors::Backend::gpu, aov::AovNeeds::nothing);
+constexpr int no_sample = -1;
+constexpr double longest_wait = 3600;  // for a driver; the supervisor loses patience before
+// Packing a larger scene twice takes too much memory, and its preview too long.
+constexpr uint64_t most_previewed = 1 << 18;
 
 // "path" is for editors: nothing of the shaders that are embedded.
 Json to_json(const Diagnostic& diagnostic) {
@@ -72,6 +80,7 @@ void RenderServer::send_failure(const Error& error) {
 void RenderServer::render(const Json& request) {
   generation_ = request.value("generation", int64_t{0});
   try {
+    previews_ = request.value("previews", false);
     if (request.value("revision", int64_t{0}) != revision_) load(request);
     choose_tunables(request.value("tunables", Json::object()));
     const auto views = request.value("views", std::vector<std::string>{"gpu"});
@@ -89,7 +98,7 @@ void RenderServer::load(const Json& request) {
   tunables_->begin();
   tunables_->as_constants = false;
   send("stage", {{"stage", "load"}});
-  scene_ = options_.load(request.value("defines", std::vector<std::string>{}));
+  scene_ = std::make_shared<const Scene>(options_.load(request.value("defines", std::vector<std::string>{})));
   revision_ = request.value("revision", int64_t{0});
 
   Json tunables = Json::array();
@@ -118,19 +127,27 @@ void RenderServer::load(const Json& request) {
                    {"up", to_json(scene_->camera.up)}}}});
 }
 
-executors::Executor& RenderServer::executor_for(const View& view) {
-  const auto known = executors_.find({view.backend, view.needs()});
-  if (known != executors_.end()) return *known->second;
-  send("stage", {{"stage", "compile"}});
-  if (view.backend == executors::Backend::gpu && !options_.executor.open_device)
-    options_.executor.open_device = executors::open_device(options_.executor);
-  if (view.backend == executors::Backend::twin && !options_.executor.shader_folder.empty())
-    options_.executor.compile_twin = !executors::cpp_compiler().empty();
+executors::ExecutorOptions RenderServer::options_for(const View& view) {
   executors::ExecutorOptions options = options_.executor;
   options.constants = options.constants && own_kernel_;
   options.formula_numbers = !own_kernel_;
   options.ray_kinds = view.needs() == aov::AovNeeds::ray_kinds;
   options.search_cost = view.needs() == aov::AovNeeds::search_cost;
+  return options;
+}
+
+executors::Executor& RenderServer::executor_for(const View& view) {
+  const auto known = executors_.find({view.backend, view.needs()});
+  if (known != executors_.end()) return *known->second;
+  send("stage", {{"stage", "compile"}});
+  if (view.backend == executors::Backend::gpu) {
+    collect(longest_wait);
+    if (!options_.executor.open_device)
+      options_.executor.open_device = executors::open_device(options_.executor);
+  }
+  if (view.backend == executors::Backend::twin && !options_.executor.shader_folder.empty())
+    options_.executor.compile_twin = !executors::cpp_compiler().empty();
+  const executors::ExecutorOptions options = options_for(view);
   std::unique_ptr<executors::Executor> executor;
   try {
     executor = executors::make_executor(view.backend, *scene_, options);
@@ -142,6 +159,73 @@ executors::Executor& RenderServer::executor_for(const View& view) {
   }
   if (view.backend == executors::Backend::gpu) send_tunables();
   return *(executors_[{view.backend, view.needs()}] = std::move(executor));
+}
+
+// ---- Previews ----
+
+bool RenderServer::may_preview(const View& view) const {
+  // Edited shaders are compiled as C++ only where somebody asks for that.
+  return previews_ && view.backend == executors::Backend::gpu && !view.aov &&
+         !executors_.contains(colors_of_gpu) && options_.executor.shader_folder.empty() &&
+         scene_->primitive_count() <= most_previewed && !sends_photons(scene_->render.integrator);
+}
+
+void RenderServer::start_making() {
+  // While it is made nothing else uses the device.
+  std::erase_if(executors_, [](const auto& each) { return each.first.first == executors::Backend::gpu; });
+  made_of_ = revision_;
+  being_made_ = std::async(std::launch::async, [scene = scene_, options = options_for({})]() mutable {
+    if (!options.open_device) options.open_device = executors::open_device(options);
+    std::unique_ptr<executors::Executor> executor =
+        executors::make_executor(executors::Backend::gpu, *scene, options);
+    // Drivers may compile at the first dispatch.
+    const Rect row{0, 0, scene->image.width, 1};
+    std::vector<PixelSample> samples(size_t(row.pixels()));
+    executor->sample(row, 0, samples);
+    return executor;
+  });
+}
+
+void RenderServer::collect(double seconds) {
+  if (!being_made_.valid() ||
+      being_made_.wait_for(std::chrono::duration<double>(seconds)) != std::future_status::ready)
+    return;
+  const bool wanted = made_of_ == revision_;
+  try {
+    std::unique_ptr<executors::Executor> executor = being_made_.get();
+    options_.executor.open_device = executor->device();
+    if (wanted) executors_[colors_of_gpu] = std::move(executor);
+  } catch (const std::exception&) {
+    if (wanted) throw;
+  }
+}
+
+bool RenderServer::gpu_is_ready(double seconds) {
+  collect(seconds);
+  if (executors_.contains(colors_of_gpu)) return true;
+  if (!being_made_.valid()) start_making();
+  return false;
+}
+
+std::optional<int> RenderServer::preview(const std::string& name) {
+  send("stage", {{"stage", "compile"}});
+  const auto wait = [&](double seconds) {
+    const Stopwatch watch;
+    while (!outdated() && watch.seconds() < seconds && !gpu_is_ready(0.01)) {
+    }
+  };
+  int begun = no_sample;
+  wait(options_.unnoticed_seconds);
+  if (!outdated() && !gpu_is_ready(0)) {
+    const View twin{executors::Backend::twin};
+    dev::paint(twin, *scene_, executor_for(twin), [&](const PaintedRows& rows) {
+      begun = rows.sample;
+      send_rows(name, twin, rows, true);
+      return !outdated() && !gpu_is_ready(0);
+    });
+    wait(longest_wait);
+  }
+  return outdated() ? std::nullopt : std::optional(begun);
 }
 
 void RenderServer::choose_tunables(const Json& values) {
@@ -178,22 +262,15 @@ void RenderServer::paint(const std::string& name, bool last) {
   const View view = parse_view(name);
   const auto known = executors_.find({view.backend, view.needs()});
   const StageTimes before = known != executors_.end() ? known->second->times() : StageTimes();
+  const std::optional<int> shown = may_preview(view) ? preview(name) : no_sample;
+  if (!shown) return;
   executors::Executor& executor = executor_for(view);
   if (outdated()) return;
   send("stage", {{"stage", "render"}});
-  const auto painted = dev::paint(view, *scene_, executor, [&](const PaintedRows& painted_rows) {
-    const image::Image& rows = painted_rows.rows;
-    Json json{{"view", name},
-              {"width", scene_->image.width},
-              {"height", scene_->image.height},
-              {"row", painted_rows.first},
-              {"rows", rows.height()},
-              {"stride", painted_rows.stride},
-              {"channels", rows.channels()},
-              {"sample", painted_rows.sample}};
-    if (view.aov) json["shown_as"] = int(view.aov->shown_as);
-    send("rows", std::move(json),
-         {reinterpret_cast<const char*>(rows.samples().data()), rows.sample_count() * sizeof(float)});
+  const auto painted = dev::paint(view, *scene_, executor, [&](const PaintedRows& rows) {
+    // Nothing is shown coarser than a preview has it.
+    const bool is_news = *shown == no_sample || (rows.stride == 1 && rows.sample >= *shown);
+    if (is_news) send_rows(name, view, rows, false);
     return !outdated();
   });
   if (!painted) return;
@@ -214,6 +291,23 @@ void RenderServer::paint(const std::string& name, bool last) {
                 {"files", std::move(files)}});
 }
 
+void RenderServer::send_rows(const std::string& name, const View& view, const PaintedRows& painted,
+                             bool is_preview) {
+  const image::Image& rows = painted.rows;
+  Json json{{"view", name},
+            {"width", scene_->image.width},
+            {"height", scene_->image.height},
+            {"row", painted.first},
+            {"rows", rows.height()},
+            {"stride", painted.stride},
+            {"channels", rows.channels()},
+            {"sample", painted.sample},
+            {"preview", is_preview}};
+  if (view.aov) json["shown_as"] = int(view.aov->shown_as);
+  send("rows", std::move(json),
+       {reinterpret_cast<const char*>(rows.samples().data()), rows.sample_count() * sizeof(float)});
+}
+
 std::vector<std::string> RenderServer::doubts(const View& view, const Painted& painted) const {
   std::vector<std::string> doubts;
   if (painted.flags != 0) doubts.push_back(render::flag_warning(painted.flags, painted.flagged_pixels));
@@ -231,12 +325,13 @@ std::vector<std::string> RenderServer::doubts(const View& view, const Painted& p
 
 void RenderServer::probe(const Json& request) {
   probe::Options options;
-  options.executor = options_.executor;
   options.x = request.value("x", 0);
   options.y = request.value("y", 0);
   Json answer{{"x", options.x}, {"y", options.y}};
   try {
     if (!scene_) throw Error(ExitCode::bad_input, "there is no scene to look into yet");
+    collect(longest_wait);
+    options.executor = options_.executor;
     const probe::Findings findings = probe::probe_pixel(*scene_, options);
     answer["findings"] = Json::parse(probe::to_json(findings));
     answer["text"] = probe::to_text(findings, false);

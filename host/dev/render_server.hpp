@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,7 +23,8 @@ namespace eyeray::dev {
 //     "tunables": {"shapes/sphere.glsl:WIDTH": [0.5]}, the values chosen for constants of shaders
 //     the same revision: the same files and defines, nothing is loaded or compiled anew;
 //     with "shaders_changed" the kernel of a scene without sliders is its own, which compiles in half the
-//     time, else one that does for other values too
+//     time, else one that does for other values too;
+//     with "previews" the twin paints "gpu" while a kernel compiles
 //   {"do": "probe", "x": 3, "y": 4}: of what was rendered last
 //
 // It sends, each with "event", and with the request's generation:
@@ -30,7 +32,7 @@ namespace eyeray::dev {
 //   "scene"   what was loaded: "width", "height", "samples", "files" that were read, "camera", and
 //             "scene_tunables", as below
 //   "tunables"  what moves in the shaders, each with "id", "name", "type", "low", "high", "written", "value"
-//   "rows"    see Board::put_rows
+//   "rows"    see Board::put_rows; "preview": whether the twin made them
 //   "done"    a view is complete, whether it is the "last": "device", "seconds", "stages", "rays",
 //             "samples", "doubts" (sentences), "files"
 //   "failed"  "code", "message", "diagnostics"
@@ -41,6 +43,7 @@ class RenderServer {
     // The scene with "KEY=VALUE"s laid over it.
     std::function<Scene(const std::vector<std::string>& defines)> load;
     executors::ExecutorOptions executor;
+    double unnoticed_seconds = 0.15;  // a kernel that is there sooner needs no preview
   };
   RenderServer(Options options, MessageSocket socket);
 
@@ -54,7 +57,21 @@ class RenderServer {
   std::vector<std::string> doubts(const View& view, const Painted& painted) const;
   void choose_tunables(const Json& values);
   void send_tunables();
+  executors::ExecutorOptions options_for(const View& view);
   executors::Executor& executor_for(const View& view);
+  void send_rows(const std::string& name, const View& view, const PaintedRows& rows, bool is_preview);
+
+  // Drivers compile for seconds and listen to nobody, so where previews may be shown a thread makes the
+  // executor of the GPU's colours. What it has made goes to executors_ within so many seconds, or is
+  // forgotten where it is of another revision; its error is thrown.
+  bool may_preview(const View& view) const;
+  void start_making();
+  void collect(double seconds);
+  bool gpu_is_ready(double seconds);
+  // Shows the twin's picture until the GPU is ready. Returns the sample that it has begun to show, or
+  // no_sample; nothing when the request is outdated.
+  std::optional<int> preview(const std::string& view);
+
   void probe(const Json& request);
   void send(const char* event, Json json, std::string bytes = "");
   void send_failure(const Error& error);
@@ -66,9 +83,12 @@ class RenderServer {
   int64_t revision_ = -1;
   bool own_kernel_ = true;  // of this revision
   std::shared_ptr<executors::Tunables> tunables_;
-  std::optional<Scene> scene_;
+  bool previews_ = false;
+  std::shared_ptr<const Scene> scene_;
   // Of this revision; by what they count.
   std::map<std::pair<executors::Backend, aov::AovNeeds>, std::unique_ptr<executors::Executor>> executors_;
+  int64_t made_of_ = -1;  // revision
+  std::future<std::unique_ptr<executors::Executor>> being_made_;
 };
 
 }  // namespace eyeray::dev

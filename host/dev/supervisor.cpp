@@ -148,7 +148,8 @@ void Supervisor::ask_worker() {
                          {"generation", generation_},
                          {"defines", defines()},
                          {"tunables", tunables_},
-                         {"views", views()}},
+                         {"views", views()},
+                         {"previews", !options_.once}},
                         ""};
   if (!worker_.socket().send(message)) lose_worker(ExitCode::bad_input, "");
 }
@@ -200,6 +201,7 @@ void Supervisor::handle(const Message& message) {
       status["stale"] = false;
       status["failure"] = nullptr;
       status["sample"] = json.value("sample", 0);
+      status["preview"] = json.value("preview", false);
     });
   } else if (event == "stage") {
     board_.update([&](Json& status) { status["state"] = json.value("stage", ""); });

@@ -41,6 +41,14 @@ bool for_each_pixel(const Rect& tile, std::span<Result> out, const Pixel& pixel)
   return true;
 }
 
+// Calls pixel(x, y, out[i]) for every stride-th pixel of every stride-th row.
+template <typename Pixel>
+bool for_each_coarse_pixel(const ImageSettings& image, int stride, std::span<PixelSample> out,
+                           const Pixel& pixel) {
+  const Rect coarse{0, 0, (image.width + stride - 1) / stride, (image.height + stride - 1) / stride};
+  return for_each_pixel(coarse, out, [&](int x, int y) { return pixel(x * stride, y * stride); });
+}
+
 // Calls answer(ray) for every ray, in parallel; the seconds that took.
 template <typename Answer>
 double timed_queries(std::span<const Query> rays, std::span<QueryHit> hits, const Answer& answer) {
@@ -57,7 +65,7 @@ double timed_queries(std::span<const Query> rays, std::span<QueryHit> hits, cons
 class TwinExecutor final : public Executor {
  public:
   TwinExecutor(const Scene& scene, const ExecutorOptions& options)
-      : folder_(options.shader_folder), eye_(scene.camera.eye) {
+      : folder_(options.shader_folder), eye_(scene.camera.eye), image_(scene.image) {
     if (options.compile_twin)
       times_.measure("compile", [&] { module_.emplace(options.shader_folder, options.sanitizers); });
     times_.measure("pack", [&] { packed_ = pack::pack(scene, options.pack); });
@@ -72,12 +80,13 @@ class TwinExecutor final : public Executor {
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
     if (!send_out_photons(index)) return false;
     return times_.measure("trace", [&] {
-      return for_each_pixel(tile, out, [&](int x, int y) {
-        PixelSample sample =
-            to_sample(functions().sample(view_, uint32_t(x), uint32_t(y), index, nullptr), true);
-        sample.flags |= photon_flags_;
-        return sample;
-      });
+      return for_each_pixel(tile, out, [&](int x, int y) { return sample_of(x, y, index); });
+    });
+  }
+
+  bool coarse_sample(int stride, uint32_t index, std::span<PixelSample> out) override {
+    return send_out_photons(index) && times_.measure("trace", [&] {
+      return for_each_coarse_pixel(image_, stride, out, [&](int x, int y) { return sample_of(x, y, index); });
     });
   }
 
@@ -140,6 +149,12 @@ class TwinExecutor final : public Executor {
   }
 
  private:
+  PixelSample sample_of(int x, int y, uint32_t index) const {
+    PixelSample sample = to_sample(functions().sample(view_, uint32_t(x), uint32_t(y), index, nullptr), true);
+    sample.flags |= photon_flags_;
+    return sample;
+  }
+
   const twin::Functions& functions() const { return module_ ? module_->functions() : twin::eyeray_twin; }
 
   // Makes the photons of sample `index` those that samples gather, unless they are. Returns false when
@@ -202,6 +217,7 @@ class TwinExecutor final : public Executor {
   records::PackedScene packed_;
   twin::SceneView view_{};
   Vec3 eye_;
+  ImageSettings image_;
 
   // Where the scene's integrator gathers photons: those of one sample.
   std::optional<PhotonSettings> photon_settings_;
@@ -221,6 +237,13 @@ class ReferenceExecutor final : public Executor {
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
     return times_.measure("trace", [&] {
       return for_each_pixel(tile, out, [&](int x, int y) { return renderer_->sample(x, y, index); });
+    });
+  }
+
+  bool coarse_sample(int stride, uint32_t index, std::span<PixelSample> out) override {
+    return times_.measure("trace", [&] {
+      return for_each_coarse_pixel(renderer_->tracer().scene().image, stride, out,
+                                   [&](int x, int y) { return renderer_->sample(x, y, index); });
     });
   }
 

@@ -101,7 +101,9 @@ function tell() {
   $('scene').textContent = status.scene;
   document.title = `${status.state === 'failed' ? '✗ ' : ''}${status.scene} – eyeray dev`;
   const busy = status.stale && status.state !== 'failed' && Object.keys(status.pictures).length > 0;
-  $('state').textContent = (words[status.state] ?? status.state) + (busy ? ', the last picture stays' : '');
+  const preview = status.preview && status.state === 'compile';
+  const more = preview ? '; until then the CPU computes the same picture' : busy ? ', the last picture stays' : '';
+  $('state').textContent = (words[status.state] ?? status.state) + more;
   $('state').className = `badge ${status.state}`;
   document.body.dataset.state = status.state;
   document.body.dataset.generation = status.generation;
