@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 
 #include "host/image/image_file.hpp"
 
@@ -33,9 +35,11 @@ void Board::put_rows(const Message& message) {
   if (image.width() != width || image.height() != height || image.channels() != channels) {
     image = image::Image(int(width), int(height), int(channels));
     std::ranges::fill(image.samples(), std::numeric_limits<float>::quiet_NaN());  // not rendered yet
+    pictures_[view].rows.assign(size_t(height), Row());
   }
   const int64_t last = std::min(height, (row + rows) * stride);
   for (int64_t y = row * stride; y < last; ++y) {
+    pictures_[view].rows[size_t(y)] = {number("generation"), number("sample"), stride};
     for (int64_t x = 0; x < width; ++x) {
       const int64_t from = (y / stride - row) * columns + x / stride;
       const size_t pixel = size_t(channels) * sizeof(float);
@@ -52,6 +56,27 @@ std::optional<Board::Picture> Board::picture(const std::string& view) const {
   const std::lock_guard lock(mutex_);
   const auto found = pictures_.find(view);
   return found == pictures_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<Board::Picture> Board::difference() const {
+  std::optional<Picture> gpu = picture("gpu");
+  const std::optional<Picture> reference = picture("reference");
+  if (!gpu || !reference || !reference->image.same_size(gpu->image)) return std::nullopt;
+  const size_t row_floats = size_t(gpu->image.width()) * size_t(gpu->image.channels());
+  for (int y = 0; y < gpu->image.height(); ++y) {
+    const bool comparable = gpu->rows[size_t(y)] == reference->rows[size_t(y)];
+    const std::span<float> a(gpu->image.pixel(0, y), row_floats);
+    const std::span<const float> b(reference->image.pixel(0, y), a.size());
+    for (size_t i = 0; i < a.size(); ++i) {
+      if (!comparable)
+        a[i] = std::numeric_limits<float>::quiet_NaN();
+      else if (a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i])))
+        a[i] = 0;
+      else if (a[i] = std::abs(a[i] - b[i]); std::isnan(a[i]))
+        a[i] = std::numeric_limits<float>::infinity();
+    }
+  }
+  return gpu;
 }
 
 void Board::put_probe(Json answer) {

@@ -23,17 +23,27 @@ class Board {
     publish();
   }
 
+  // How far a row has come: with the picture of which request, up to which sample, of how many pixels one.
+  struct Row {
+    int64_t generation = -1, sample = -1, stride = 0;
+    bool operator==(const Row&) const = default;
+  };
   // What a view shows: colours, or data, which is shown in false colour.
   struct Picture {
     image::Image image;
     std::optional<image::FalseColor> shown_as;
+    std::vector<Row> rows;
   };
-  // Rows of a view's picture, from the worker: {"view", "width", "height", "row", "rows", "stride",
-  // "channels"} and float32s; with "shown_as", a FalseColor. Of a coarse picture (stride > 1) each pixel
-  // fills a square. Nothing for a message that does not add up.
+  // Rows of a view's picture, from the worker: {"generation", "view", "width", "height", "row", "rows",
+  // "sample", "stride", "channels"} and float32s; with "shown_as", a FalseColor. Of a coarse picture
+  // (stride > 1) each pixel fills a square. Nothing for a message that does not add up.
   void put_rows(const Message& message);
   // A copy of a view's picture; nothing where there is none.
   std::optional<Picture> picture(const std::string& view) const;
+  // How far the colours of "gpu" and "reference" are from each other: 0 where both are no number, infinity
+  // where one is. NaN in rows of which one has come farther than the other: their difference would say
+  // nothing. Nothing where there are no two pictures of one size.
+  std::optional<Picture> difference() const;
 
   // The answer to the last probe.
   void put_probe(Json answer);

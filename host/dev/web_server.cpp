@@ -29,7 +29,8 @@ using httplib::Request;
 using httplib::Response;
 
 constexpr int ports_to_try = 32;
-constexpr int most_values = 4096;  // pixels of one answer
+constexpr int most_values = 4096;     // pixels of one answer
+constexpr float not_compared = 0.2f;  // the grey of pixels whose difference is not known yet
 constexpr double seconds_between_signs_of_life = 10;
 
 constexpr std::array<std::pair<const char*, const char*>, 6> headers{{
@@ -65,16 +66,10 @@ const char* content_type(std::string_view file) {
                                   : "image/svg+xml";
 }
 
-// A view, or how two of them differ.
+constexpr const char* difference = "difference";
+
 std::optional<Board::Picture> values_of(const Board& board, const std::string& view) {
-  if (view != "difference") return board.picture(view);
-  std::optional<Board::Picture> gpu = board.picture("gpu");
-  const std::optional<Board::Picture> reference = board.picture("reference");
-  if (!gpu || !reference || !reference->image.same_size(gpu->image)) return std::nullopt;
-  std::vector<float>& samples = gpu->image.samples();
-  for (size_t i = 0; i < samples.size(); ++i)
-    samples[i] = std::abs(samples[i] - reference->image.samples()[i]);
-  return gpu;
+  return view == difference ? board.difference() : board.picture(view);
 }
 
 // Data in false colour, or colours brightened by so many stops.
@@ -148,7 +143,10 @@ bool WebServer::Servers::is_allowed(const Request& request, Response& response) 
 void WebServer::Servers::picture(const Request& request, Response& response) const {
   std::optional<Board::Picture> found = values_of(board, request.get_param_value("view"));
   if (!found) return refuse(response, 404, "There is no such picture yet.");
-  const image::Image image = for_people(std::move(*found), number(request, "exposure", 0));
+  image::Image image = for_people(std::move(*found), number(request, "exposure", 0));
+  if (request.get_param_value("view") == difference)
+    for (float& sample : image.samples())
+      if (std::isnan(sample)) sample = not_compared;
   response.set_content(image::encode_png(image), "image/png");
 }
 

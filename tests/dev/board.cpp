@@ -56,6 +56,42 @@ TEST_CASE("what was not rendered yet has no value") {
   CHECK(std::isnan(board.picture("gpu")->image.pixel(0, 1)[0]));
 }
 
+TEST_CASE("pictures are compared where both have come equally far") {
+  Board board;
+  const auto put = [&](const char* view, int row, int generation, int sample,
+                       const std::vector<float>& values) {
+    Message message = rows(row, 1, 1, values);
+    message.json["view"] = view;
+    message.json["generation"] = generation;
+    message.json["sample"] = sample;
+    board.put_rows(message);
+  };
+  const auto difference = [&](int x, int y) { return board.difference()->image.pixel(x, y)[0]; };
+  for (int y = 0; y < 3; ++y) put("gpu", y, 1, 0, grey(5, 0.5f));
+  CHECK_FALSE(board.difference());
+  for (int y = 0; y < 3; ++y) put("reference", y, 1, 0, grey(5, 0.25f));
+  CHECK(difference(0, 0) == 0.25f);
+
+  // Another picture: of the reference's old rows nothing is said, nor of those with fewer samples.
+  for (int y = 0; y < 3; ++y) put("gpu", y, 2, 1, grey(5, 1));
+  CHECK(std::isnan(difference(0, 0)));
+  put("reference", 0, 2, 0, grey(5, 0.5f));
+  CHECK(std::isnan(difference(0, 0)));
+  put("reference", 0, 2, 1, grey(5, 1));
+  CHECK(difference(0, 0) == 0);
+  CHECK(std::isnan(difference(0, 1)));
+
+  // What is no number is no secret.
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::vector<float> values = grey(5, 1);
+  values[0] = values[3] = nan;
+  put("gpu", 1, 2, 1, values);
+  values[3] = 1;
+  put("reference", 1, 2, 1, values);
+  CHECK(difference(0, 1) == 0);
+  CHECK(difference(1, 1) == std::numeric_limits<float>::infinity());
+}
+
 TEST_CASE("rows that do not add up are left out") {
   Board board;
   for (const Message& message :
