@@ -105,7 +105,8 @@ void RenderServer::load(const Json& request) {
   if (!scene_->files.empty() && scene_->files[0].extension() == ".toml")
     for (const SceneTunable& each : scene_tunables(read_file(scene_->files[0])))
       tunables.push_back({{"id", each.key},
-                          {"name", each.key},
+                          {"owner", each.owner},
+                          {"name", each.name},
                           {"type", each.type},
                           {"low", each.low},
                           {"high", each.high},
@@ -248,6 +249,7 @@ void RenderServer::send_tunables() {
   Json list = Json::array();
   for (const executors::Tunable& each : tunables_->found())
     list.push_back({{"id", each.id},
+                    {"owner", each.file},
                     {"name", each.name},
                     {"type", types[size_t(each.type)]},
                     {"low", each.low},

@@ -31,7 +31,8 @@ namespace eyeray::dev {
 //   "stage"   what it does now: "load", "compile" or "render"
 //   "scene"   what was loaded: "width", "height", "samples", "files" that were read, "camera", and
 //             "scene_tunables", as below
-//   "tunables"  what moves in the shaders, each with "id", "name", "type", "low", "high", "written", "value"
+//   "tunables"  what moves in the shaders, each with "id", "owner", "name", "type", "low", "high",
+//             "written", "value"
 //   "rows"    see Board::put_rows; "preview": whether the twin made them
 //   "done"    a view is complete, whether it is the "last": "device", "seconds", "stages", "rays",
 //             "samples", "doubts" (sentences), "files"

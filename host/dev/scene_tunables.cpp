@@ -1,6 +1,7 @@
 #include "host/dev/scene_tunables.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <regex>
@@ -11,6 +12,7 @@ namespace {
 
 const std::regex header(R"(^\s*(\[\[?)\s*([\w.-]+)\s*\]\]?\s*(#.*)?$)");
 const std::regex annotated(R"(^\s*([\w.-]+)\s*=\s*(.*?)\s*#\s*@(slider|color|checkbox)\b(.*)$)");
+const std::regex naming(R"-(^\s*(name|file)\s*=\s*"([^"\\]+)"\s*(#.*)?$)-");
 const std::regex number(R"([-+]?(\d[\d_]*\.?\d*|\.\d+)([eE][-+]?\d+)?)");
 
 std::vector<std::string> numbers_in(const std::string& text) {
@@ -44,11 +46,32 @@ bool read_value(const std::string& control, const std::string& text, SceneTunabl
   return true;
 }
 
+// "material", "0" and "diffuse.formula.parameters.size" of a key; the number is that of an array's table.
+struct Parts {
+  std::string table, number, rest;
+  std::string instance() const { return table + "." + number; }
+};
+Parts parts_of(const std::string& key) {
+  static const std::regex form(R"(([^.]+)\.(?:(\d+)\.)?(.*))");
+  std::smatch match;
+  return std::regex_match(key, match, form) ? Parts{match[1], match[2], match[3]} : Parts{"", "", key};
+}
+
+// Without what says only how it is computed.
+std::string property_name(const std::string& path) {
+  std::string name;
+  std::istringstream words(path);
+  for (std::string word; std::getline(words, word, '.');)
+    if (word != "formula" && word != "parameters") name += (name.empty() ? "" : " ") + word;
+  return name;
+}
+
 }  // namespace
 
 std::vector<SceneTunable> scene_tunables(std::string_view text) {
   std::vector<SceneTunable> found;
-  std::map<std::string, int> counts;  // of the tables of each array
+  std::map<std::string, int> counts;          // of the tables of each array
+  std::map<std::string, std::string> called;  // those tables, by "material.0"
   std::string table;
   std::istringstream lines{std::string(text)};
   for (std::string line; std::getline(lines, line);) {
@@ -63,12 +86,27 @@ std::vector<SceneTunable> scene_tunables(std::string_view text) {
       else
         table = name + ".";
     } else if (std::regex_match(line, match, annotated)) {
-      SceneTunable tunable{table + match[1].str(), "", 0, 1, {}};
+      SceneTunable tunable{table + match[1].str(), "", "", "", 0, 1, {}};
       if (!read_value(match[3], match[2], tunable)) continue;
       const std::vector<std::string> range = numbers_in(match[4]);
       if (range.size() == 2) tunable.low = std::stod(range[0]), tunable.high = std::stod(range[1]);
       if (tunable.low < tunable.high) found.push_back(std::move(tunable));
+    } else if (std::regex_match(line, match, naming)) {
+      const Parts parts = parts_of(table + "name");
+      if (parts.number.empty() || parts.rest != "name") continue;
+      if (match[1] == "name")
+        called[parts.instance()] = match[2];
+      else
+        called.try_emplace(parts.instance(), std::filesystem::path(match[2].str()).stem().string());
     }
+  }
+  for (SceneTunable& tunable : found) {
+    const Parts parts = parts_of(tunable.key);
+    const auto name = called.find(parts.instance());
+    tunable.owner = name != called.end() ? name->second : parts.table;
+    if (name == called.end() && !parts.number.empty() && counts[parts.table] > 1)
+      tunable.owner += " " + std::to_string(std::stoi(parts.number) + 1);
+    tunable.name = property_name(parts.rest);
   }
   return found;
 }

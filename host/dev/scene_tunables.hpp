@@ -13,7 +13,10 @@
 namespace eyeray::dev {
 
 struct SceneTunable {
-  std::string key;   // as -D takes it: "sphere.0.radius"
+  std::string key;  // as -D takes it: "material.2.diffuse.formula.parameters.size"
+  // For people: whose it is, by its `name`, its `file`'s or its kind, "bricks", "sphere 2", and what,
+  // "diffuse size".
+  std::string owner, name;
   std::string type;  // "float", "int", "bool" or "vec3"
   double low = 0, high = 1;
   std::array<double, 3> written{};  // of which a vec3 has three

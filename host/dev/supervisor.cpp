@@ -118,6 +118,7 @@ std::vector<std::string> Supervisor::views() const {
 // Files or defines are others than before.
 void Supervisor::begin_revision() {
   ++revision_;
+  ++edit_;
   began_ = SourceFiles::now();
   request();
 }
@@ -125,13 +126,16 @@ void Supervisor::begin_revision() {
 void Supervisor::request() {
   watch();
   ++generation_;
+  probing_ = false;  // an answer would be of an older request: it is asked again
   result_.reset();
   board_.update([&](Json& status) {
     status["state"] = "loading";
     status["stale"] = true;
     status["view"] = view_;
     status["generation"] = generation_;
+    status["edit"] = edit_;
     status["defines"] = defines_;
+    status["chosen"] = tunables_;
   });
   ask_worker();
 }
@@ -235,12 +239,16 @@ void Supervisor::handle(const Message& message) {
     fail(json);
   } else if (event == "probed") {
     busy_ = false;
-    board_.put_probe(json);
+    if (std::exchange(probing_, false)) probe_.reset();
+    Json answer = json;
+    answer["edit"] = edit_;
+    board_.put_probe(std::move(answer));
   }
 }
 
 void Supervisor::fail(Json failure) {
   result_ = ExitCode(failure.value("code", 2));
+  if (std::exchange(probing_, false)) probe_.reset();  // it would fail again
   // What the attempt read is not known; its messages name some of it.
   for (const Json& diagnostic : failure.value("diagnostics", Json::array()))
     scene_files_.insert(diagnostic.value("file", ""));
@@ -318,21 +326,21 @@ void Supervisor::obey(const Json& command) {
       else
         tunables_.erase(id);
     }
+    ++edit_;
     request();
   }
   if (const auto found = command.find("probe"); found != command.end() && found->is_array() &&
                                                 found->size() == 2 && (*found)[0].is_number_integer() &&
                                                 (*found)[1].is_number_integer())
-    probe_ = {(*found)[0], (*found)[1]};
+    probe_ = {(*found)[0], (*found)[1]}, probing_ = false;
 }
 
 // Not while a picture grows: it would have to wait.
 void Supervisor::send_probe() {
   if (!probe_ || busy_ || !worker_.running()) return;
-  busy_ = true;
+  busy_ = probing_ = true;
   since_message_ = {};
   worker_.socket().send({{{"do", "probe"}, {"x", probe_->first}, {"y", probe_->second}}, ""});
-  probe_.reset();
 }
 
 }  // namespace eyeray::dev

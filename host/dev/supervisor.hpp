@@ -74,6 +74,7 @@ class Supervisor {
 
   int64_t revision_ = 0;         // of files and defines
   int64_t generation_ = 0;       // of requests
+  int64_t edit_ = 0;             // of what pictures show: files, defines and values of shaders
   bool busy_ = false;            // the worker has not answered the last request
   bool heard_ = false;           // it has begun with it
   bool shaders_changed_ = true;  // since the last picture
@@ -84,6 +85,7 @@ class Supervisor {
   std::optional<ExitCode> result_;              // of the last request
   bool seen_any_ = false;                       // picture
   std::optional<std::pair<int, int>> probe_;    // a pixel to look into once the worker has time
+  bool probing_ = false;                        // it has it
 
   // From the web server's threads.
   std::mutex commands_mutex_;

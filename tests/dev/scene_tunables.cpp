@@ -37,6 +37,38 @@ two_sided = false      # @checkbox
   CHECK(found[5].type == "bool");
 }
 
+TEST_CASE("for people they have the names of what they belong to") {
+  const auto found = scene_tunables(R"(
+top = 1.5                 # @slider 0 2
+[camera]
+fov = 45                  # @slider 20 90
+[[material]]
+diffuse = [1, 0.5, 0.25]  # @color
+name = "clay"
+[[material]]
+name = "mosaic"
+[material.diffuse.formula]
+file = "materials/tiles.glsl"
+[material.diffuse.formula.parameters]
+tiles = 28                # @slider 1 60
+[[sphere]]
+radius = 1.0              # @slider 0 3
+[[sphere]]
+radius = 2.0              # @slider 0 3
+[[implicit]]
+file = "shapes/column.glsl"
+[implicit.parameters]
+twist = 1.5               # @slider -2.5 2.5
+[[torus]]
+major = 1.5               # @slider 0 3
+)");
+  std::string names;
+  for (const SceneTunable& each : found) names += each.owner + ": " + each.name + "\n";
+  CHECK(names ==
+        ": top\ncamera: fov\nclay: diffuse\nmosaic: diffuse tiles\nsphere 1: radius\nsphere 2: radius\n"
+        "column: twist\ntorus: major\n");
+}
+
 TEST_CASE("what no control moves is left alone") {
   for (const char* line : {"a = \"text\"  # @slider 0 1", "a = 1  # @slider 2 1", "a = [1, 2] # @color",
                            "a = 1  # @checkbox", "# a = 1  # @slider 0 1", "a = 1  # slider 0 1"}) {

@@ -9,7 +9,8 @@ const $ = id => document.getElementById(id);
 const keys = { gpu: '1', twin: '2', reference: '3', difference: 'd' };
 
 let status = { pictures: {}, view: 'gpu' };
-let camera = null;         // that is moved; null: the scene's
+let camera = null;         // as this page has moved it, until the server has it too; null: the server's
+let moved = -Infinity;     // when it was
 let mode = 'look';
 let shown_picture = '';    // view, version and exposure of what is on the stage
 let loading = false;
@@ -67,6 +68,8 @@ function choose_pixel(at) {
   stage.marked = at;
   stage.draw();
   show_values(at);
+  probed = null;
+  tell_whether_stale();
   $('probe').textContent = `Looking into ${at[0]},${at[1]} …`;
   send({ probe: at });
 }
@@ -83,26 +86,30 @@ const camera_now = () => camera ?? status.camera;
 function move_camera(to) {
   if (!status.camera) return true;
   camera = to;
-  $('reset').hidden = false;
+  moved = performance.now();
   const text = v => `[${v.map(x => x.toPrecision(9)).join(', ')}]`;
   choose({ defines: { 'camera.eye': text(camera.eye), 'camera.target': text(camera.target) } });
   return true;
 }
 function reset_camera() {
   camera = null;
-  $('reset').hidden = true;
   send({ defines: { 'camera.eye': null, 'camera.target': null } });
 }
 
 // ---- The status ----
 const words = { starting: 'starting', load: 'loading', loading: 'loading', compile: 'compiling', render: 'rendering', done: 'done', failed: 'failed' };
 let probes = 0;
+let probed = null;  // the edit that the rays shown are of
+const tell_whether_stale = () => { $('stale').hidden = probed === null || probed === status.edit; };
 function tell() {
-  $('scene').textContent = status.scene;
-  document.title = `${status.state === 'failed' ? '✗ ' : ''}${status.scene} – eyeray dev`;
-  const busy = status.stale && status.state !== 'failed' && Object.keys(status.pictures).length > 0;
   const preview = status.preview && status.state === 'compile';
-  const more = preview ? '; until then the CPU computes the same picture' : busy ? ', the last picture stays' : '';
+  const comparing = status.view === 'difference' && status.state === 'render';
+  const name = status.scene.split('/').pop();
+  $('scene').textContent = name;
+  $('scene').title = status.scene;
+  document.title = `${status.state === 'failed' ? '✗ ' : ''}${name} – eyeray dev`;
+  const busy = status.stale && status.state !== 'failed' && Object.keys(status.pictures).length > 0;
+  const more = preview ? '; until then the CPU computes the same picture' : busy ? ', the last picture stays' : comparing ? '; what is grey is not compared yet' : '';
   $('state').textContent = (words[status.state] ?? status.state) + more;
   $('state').className = `badge ${status.state}`;
   document.body.dataset.state = status.state;
@@ -114,14 +121,24 @@ function tell() {
       `${(status.rays / Math.max(tracing, 1e-6) / 1e6).toPrecision(3)} Mrays/s`;
     $('stages').textContent = [...Object.entries(status.stages).map(([name, s]) => `${name.padEnd(16)} ${ms(s)}`), '', status.device].join('\n');
   }
+  // Another page may have moved it since.
+  if (status.state === 'done' && performance.now() - moved > 1000) camera = null;
+  $('reset').hidden = !('camera.eye' in (status.defines ?? {}));
   show_failure($('failure'), status.failure);
   show_warnings($('warnings-panel'), $('warnings'), status.warnings ?? [], status.doubts ?? []);
-  show_tunables($('tunables-panel'), $('tunables'), status.tunables ?? [], status.scene_tunables ?? [], choose);
+  show_tunables($('tunables-panel'), $('tunables'), status, choose);
   show_views();
   if (status.probes && status.probes !== probes) {
     probes = status.probes;
-    fetch('probe').then(answer => answer.json()).then(answer => show_probe($('probe'), answer));
+    fetch('probe').then(answer => answer.json()).then(answer => {
+      probed = answer.edit;
+      stage.marked ??= [answer.x, answer.y];  // another page may have asked
+      stage.draw();
+      show_probe($('probe'), answer);
+      tell_whether_stale();
+    });
   }
+  tell_whether_stale();
   refresh();
 }
 const ms = seconds => seconds < 1 ? `${(seconds * 1000).toFixed(0)} ms` : `${seconds.toFixed(2)} s`;

@@ -25,6 +25,7 @@ export class Stage {
     this.image?.close();
     this.image = image;
     this.size = [image.width, image.height];
+    this.canvas.style.setProperty('--shape', image.width / image.height);
     if (resized) this.fit();
     else this.draw();
   }

@@ -14,30 +14,62 @@ const value_of = (type, input) => type === 'bool' ? [Number(input.checked)] : ty
 const said = (type, value) => type === 'bool' ? String(value[0] !== 0) : type === 'vec3' ? hex(value) : String(Number(value[0].toPrecision(4)));
 
 const in_toml = (type, value) => type === 'bool' ? String(value[0] !== 0) : type === 'vec3' ? `[${value.join(', ')}]` : String(value[0]);
+const from_toml = text => [JSON.parse(text)].flat().map(Number);
+
+const set_input = (type, input, value) => type === 'bool' ? input.checked = value[0] !== 0 : input.value = type === 'vec3' ? hex(value) : value[0];
+const still_mine = 1000;  // milliseconds for which a control that was moved here is not moved by what another page does
 
 let shown = '';
+let rows = [];  // what is on the page: { each, node, input, output, touched }
 
-// `choose(command)` is called while a control is moved. A double click on the name gives the value back to its file.
-export function show_tunables(panel, place, of_shaders, of_scene, choose) {
-  const all = [...of_shaders.map(each => ({ ...each, set: value => choose({ tunables: { [each.id]: value } }) })),
-               ...of_scene.map(each => ({ ...each, set: value => choose({ defines: { [each.id]: value && in_toml(each.type, value) } }) }))];
+function show_value(row) {
+  if (performance.now() - row.touched < still_mine) return;
+  set_input(row.each.type, row.input, row.each.now);
+  row.output.textContent = said(row.each.type, row.each.now);
+}
+
+function row_of(each) {
+  const node = make('div', { className: 'tunable', title: `${each.id}; a double click on the name gives back what the file says` });
+  const input = controls[each.type](each), output = make('output', {});
+  const row = { each, node, input, output, touched: -Infinity };
+  input.id = `tunable ${each.id}`;
+  input.oninput = () => {
+    const value = value_of(each.type, input);
+    output.textContent = said(each.type, value);
+    row.touched = performance.now();
+    setTimeout(show_value, 1.1 * still_mine, row);
+    row.each.set(value);
+  };
+  const label = make('label', { textContent: each.name, htmlFor: input.id });
+  label.ondblclick = () => { row.touched = -Infinity; row.each.set(null); };
+  node.append(label, input, output);
+  return row;
+}
+
+// `of_shaders`, `of_scene`: what the server says there is; `chosen`, `defines`: the values that pages have chosen of them. `choose(command)` is called
+// while a control is moved.
+export function show_tunables(panel, place, { tunables = [], chosen = {}, scene_tunables = [], defines = {} }, choose) {
+  const all = [
+    ...(tunables ?? []).map(each => ({ ...each, now: chosen[each.id] ?? each.written, set: value => choose({ tunables: { [each.id]: value } }) })),
+    ...(scene_tunables ?? []).map(each => ({ ...each, now: each.id in defines ? from_toml(defines[each.id]) : each.written,
+                                             set: value => choose({ defines: { [each.id]: value && in_toml(each.type, value) } }) })),
+  ];
   panel.hidden = all.length === 0;
-  // What is held by a hand is not taken from it: only other tunables, or other texts, make new controls.
-  const key = JSON.stringify(all.map(each => [each.id, each.type, each.low, each.high, each.written]));
-  if (key === shown) return;
-  shown = key;
-  place.replaceChildren(...all.map(each => {
-    const row = make('div', { className: 'tunable', title: each.id });
-    const input = controls[each.type](each), output = make('output', { textContent: said(each.type, each.value) });
-    input.id = `tunable ${each.id}`;
-    input.oninput = () => {
-      const value = value_of(each.type, input);
-      output.textContent = said(each.type, value);
-      each.set(value);
-    };
-    const label = make('label', { textContent: each.name, htmlFor: input.id });
-    label.ondblclick = () => { each.set(null); shown = ''; };
-    row.append(label, input, output);
-    return row;
-  }));
+  // A control keeps its node while it is held: only other tunables make new ones.
+  const key = JSON.stringify(all.map(each => [each.id, each.owner, each.name, each.type, each.low, each.high]));
+  if (key !== shown) {
+    shown = key;
+    rows = all.map(row_of);
+    const owners = new Map();
+    for (const row of rows) owners.set(row.each.owner, [...(owners.get(row.each.owner) ?? []), row.node]);
+    place.replaceChildren(...[...owners].map(([owner, nodes]) => {
+      const group = make('fieldset', {});
+      group.append(...(owner ? [make('legend', { textContent: owner })] : []), ...nodes);
+      return group;
+    }));
+  }
+  rows.forEach((row, i) => {
+    row.each = all[i];
+    show_value(row);
+  });
 }

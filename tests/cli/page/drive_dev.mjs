@@ -85,6 +85,16 @@ await page.locator('#probe details').first().waitFor();
 assert.match(await page.locator('#probe').textContent(), /gpu, twin, reference agree/);
 assert.match(await page.locator('#pixel').textContent(), /^\d+,\d+ {2}[\d.]+/);
 
+// Rays of a picture that has changed since say so.
+const scene_file = `${folder}/scene.toml`, scene = readFileSync(scene_file, 'utf8');
+assert.ok(await page.locator('#stale').isHidden());
+await next('gpu', () => writeFileSync(scene_file, scene.replace(/^radius = .*$/m, 'radius = 0.5')));
+assert.ok(await page.locator('#stale').isVisible());
+await next('gpu', () => writeFileSync(scene_file, scene));
+await page.mouse.click(...middle);
+await page.locator('#stale').waitFor({ state: 'hidden' });
+await page.locator('#probe details').first().waitFor();
+
 // A constant with a control gets a slider, which compiles nothing; a value of the scene too.
 const slider = name => page.locator(`#tunables input[id$="${name}"]`);
 const tunable = good.replace('  return sample_result(', '  const float GLOW = 0.0f;  // @slider 0 1\n  color.y += GLOW;\n  return sample_result(');
@@ -92,11 +102,30 @@ const dark = await stage();
 assert.equal(await next('gpu', () => writeFileSync(pixel, tunable)), dark);
 const glowing = await next('gpu', () => slider('GLOW').fill('0.75'));
 assert.notEqual(glowing, dark);
-const scene_file = `${folder}/scene.toml`, scene = readFileSync(scene_file, 'utf8');
 await next('gpu', () => writeFileSync(scene_file, scene.replace(/^radius = .*$/m, 'radius = 1.0  # @slider 0.25 1.5')));
 const smaller = await stage();
 assert.notEqual(await next('gpu', () => slider('sphere.0.radius').fill('0.5')), smaller);
+assert.match(await page.locator('#tunables').textContent(), /^kernels\/pixel\.glslGLOW.*sphereradius/);
 await page.screenshot({ path: `${folder}/tunables.png` });
+
+// Two pages show the same: what one moves, the other shows moved.
+const other = await browser.newPage({ viewport: { width: 1280, height: 900 } });
+await other.goto(address);
+const there = name => other.locator(`#tunables input[id$="${name}"]`);
+const shows = (tab, value) => tab.waitForFunction(wanted => document.getElementById('tunable sphere.0.radius').value === wanted, value);
+await there('sphere.0.radius').waitFor();
+await shows(other, '0.5');
+assert.equal(await there('GLOW').inputValue(), '0.75');
+await there('sphere.0.radius').fill('0.75');
+await shows(page, '0.75');
+await page.locator('#tunables label', { hasText: 'radius' }).dblclick();
+await shows(other, '1');
+await page.keyboard.press('w');
+await other.locator('#reset:not([hidden])').waitFor();
+await other.locator('#reset').click();
+await page.locator('#reset').waitFor({ state: 'hidden' });
+await other.close();
+await done('gpu');
 await next('gpu', () => writeFileSync(scene_file, scene));
 await next('gpu', () => writeFileSync(pixel, good));
 
@@ -125,5 +154,7 @@ assert.notEqual(turned, await stage());
 await page.setViewportSize({ width: 390, height: 844 });
 await page.emulateMedia({ colorScheme: 'dark' });
 assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'the page is wider than a phone');
+const small = await page.locator('#stage').boundingBox();
+assert.ok(Math.abs(small.width / small.height - 64 / 48) < 0.02 && small.y < 150, 'the picture has bars around it, or is not at the top');
 await page.screenshot({ path: `${folder}/dark.png` });
 await browser.close();
