@@ -64,6 +64,9 @@ class GuardedStream final : public httplib::Stream {
     return ssize_t(done);
   }
 
+  // Whether nothing has come.
+  bool is_silent() const { return taken_ == 0; }
+
   void get_remote_ip_and_port(std::string&, int&) const override {}
   void get_local_ip_and_port(std::string&, int&) const override {}
   socket_t socket() const override { return socket_; }
@@ -102,10 +105,13 @@ bool GuardedServer::process_and_close_socket(socket_t socket) {
   GuardedStream stream(socket, limits_);
   bool closed = false;
   const bool answered = process_request(stream, true, closed, nullptr);
-  // What the client still sends would turn the close into a reset, and take the answer with it.
+  // What the client still sends would turn the close into a reset, and take the answer with it. One that is
+  // silent gets no answer, and no more time of this thread.
   ::shutdown(socket, SHUT_WR);
   char rest[4096];
-  for (int i = 0; i < 64 && wait_for(socket, POLLIN, 0.1) && ::recv(socket, rest, sizeof rest, 0) > 0; ++i) {
+  for (int i = 0; i < 64 && !stream.is_silent() && wait_for(socket, POLLIN, 0.1) &&
+                  ::recv(socket, rest, sizeof rest, 0) > 0;
+       ++i) {
   }
   ::close(socket);
   return answered;

@@ -19,7 +19,7 @@ struct WebLimits {
   size_t body_bytes = 1 << 20;
   double request_seconds = 5;  // for a request to arrive in
   double write_seconds = 5;    // for a client to take something in
-  int connections = 32;        // at a time; more wait
+  int connections = 64;        // at a time; more wait
   int listeners = 8;           // to the status, which keep their connections
 };
 

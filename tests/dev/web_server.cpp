@@ -264,12 +264,10 @@ TEST_CASE("slow clients are dropped, and keep nobody waiting for ever") {
   drip.join();
 }
 
-TEST_CASE("many silent clients hold the page for less than their request's time") {
-  WebLimits limits;
-  limits.connections = 4;
-  const Site site(0, limits);
+TEST_CASE("300 silent clients hold the page for less than one request's time") {
+  const Site site;
   std::vector<std::unique_ptr<Client>> silent;
-  for (int i = 0; i < 12; ++i) silent.push_back(std::make_unique<Client>(site.server.port()));
+  for (int i = 0; i < 300; ++i) silent.push_back(std::make_unique<Client>(site.server.port()));
   const Stopwatch watch;
   CHECK(status(site.get(site.root())) == 200);
   CHECK(watch.seconds() < 4);
