@@ -272,7 +272,7 @@ struct LightNode {
 // row and first column again. The fourth word says where the numbers end by which the cell is chosen whose lower left corner this is,
 // among those of its row; in the last column, those by which the row is.
 
-// ---- Frame: what is the same for all pixels, 176 bytes --------------------------------------------------------------
+// ---- Frame: what is the same for all pixels, 208 bytes --------------------------------------------------------------
 struct Frame {
   uint width;
   uint height;
@@ -307,7 +307,11 @@ struct Frame {
   float filter_width;        // pixels
   uint light_bvh_numbers;    // of 2^24, that choose a light by the light BVH; 0 without one
   uint camera_formula;       // the number of the camera's, where it has one
-  uint unused_0;
+  uint has_medium_extent;    // 1 where the medium around all has the extent that follows (materials/medium_extent.glsl)
+  vec3 medium_min;  // corners of a box; ±T_MISS where a side is infinitely far away
+  float medium_decay;  // 1 / scale height; 0 where the medium is the same at all heights
+  vec3 medium_max;
+  float medium_base;  // height at which the density is 1
 };
 #define FILTER_BOX 0u
 #define FILTER_GAUSSIAN 1u
@@ -341,7 +345,7 @@ static_assert(sizeof(eyeray::shader::Texture) == 64);
 static_assert(sizeof(eyeray::shader::Light) == 48);
 static_assert(sizeof(eyeray::shader::Emitter) == 96);
 static_assert(sizeof(eyeray::shader::LightNode) == 48);
-static_assert(sizeof(eyeray::shader::Frame) == 176);
+static_assert(sizeof(eyeray::shader::Frame) == 208);
 static_assert(sizeof(eyeray::shader::Dispatch) == 32);
 #endif
 #endif

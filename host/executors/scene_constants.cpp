@@ -66,13 +66,13 @@ std::string literal(const shader::Emitter& e) {
 }
 // The seed comes from the buffer: another one needs no other kernel.
 std::string literal(const shader::Frame& f) {
-  return record_literal("Frame", f.width, f.height, std::string_view("FRAME_SEED"), f.samples_per_side,
-                        f.camera, f.pattern, f.media, f.max_depth, f.light_count, f.loop_probe, f.integrator,
-                        f.triangle_method, f.right, f.min_throughput, f.up, f.pixel_width, f.forward,
-                        f.pixel_height, f.background, f.emitter_count, f.ambient, f.aperture, f.sharpness,
-                        f.blade_rotation, f.blades, f.pixel_filter, f.environment_width, f.environment_height,
-                        f.environment_numbers, f.environment_turn, f.filter_width, f.light_bvh_numbers,
-                        f.camera_formula, f.unused_0);
+  return record_literal(
+      "Frame", f.width, f.height, std::string_view("FRAME_SEED"), f.samples_per_side, f.camera, f.pattern,
+      f.media, f.max_depth, f.light_count, f.loop_probe, f.integrator, f.triangle_method, f.right,
+      f.min_throughput, f.up, f.pixel_width, f.forward, f.pixel_height, f.background, f.emitter_count,
+      f.ambient, f.aperture, f.sharpness, f.blade_rotation, f.blades, f.pixel_filter, f.environment_width,
+      f.environment_height, f.environment_numbers, f.environment_turn, f.filter_width, f.light_bvh_numbers,
+      f.camera_formula, f.has_medium_extent, f.medium_min, f.medium_decay, f.medium_max, f.medium_base);
 }
 
 // A loader that chooses among constants. A driver that runs both sides of every branch selects between

@@ -86,6 +86,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_MEDIA", int(transmits(scene)));
   define("HAS_ABSORPTION", int(any_dims(scene)));
   define("HAS_SCATTERING", int(any_scatters(scene)));
+  define("HAS_MEDIUM_EXTENT", int(scene.frame.has_medium_extent));
   // Only where a ray splits in two does a child wait, and one a level at most.
   define("PATH_STACK", splits(scene) ? scene.frame.max_depth : 0u);
   define("RANDOM_WALK", int(walks_at_random(scene)));

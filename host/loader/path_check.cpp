@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/loader/medium.hpp"
 #include "host/scene/emitters.hpp"
 #include "host/scene/integrator.hpp"
 
@@ -45,16 +46,7 @@ void warn_of_paths(const Scene& scene, DiagnosticLog& log) {
     log.warning({},
                 "nothing shines: there is no [[light]], no `emission`, no `background` and no [environment]; "
                 "the picture will be black");
-  const auto from_afar = [&](const auto& light) {
-    return std::isinf(light->illuminate(scene.camera.eye).distance);
-  };
-  const Vec3 extinction = scene.medium.absorption + scene.medium.scattering;
-  if (glm::all(glm::greaterThan(extinction, Vec3(0))) &&
-      (scene.environment || scene.render.background != Vec3(0) ||
-       std::ranges::any_of(scene.lights, from_afar)))
-    log.warning({},
-                "[medium] has no end: light from infinitely far away, of an environment, a `background` or a "
-                "directional light, is lost in it");
+  warn_of_endless_medium(scene, log);
   if (!photons && !unsampled.empty())
     log.warning(
         unsampled.front(),

@@ -14,6 +14,7 @@
 #include "host/loader/group_plan.hpp"
 #include "host/loader/lights.hpp"
 #include "host/loader/materials.hpp"
+#include "host/loader/medium.hpp"
 #include "host/loader/mesh_placement.hpp"
 #include "host/loader/path_check.hpp"
 #include "host/loader/photon_check.hpp"
@@ -72,6 +73,7 @@ class Builder {
                    "[environment] takes the place of `background`: a scene has one or the other");
     TableReader medium = read_single("medium");
     scene_.medium = read_medium(medium, scene_.render.integrator);
+    scene_.medium_extent = read_medium_extent(medium);
     TableReader verify = read_single("verify");
     scene_.verify = read_verify(verify);
 

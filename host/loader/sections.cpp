@@ -8,6 +8,7 @@
 #include "host/lights/registry.hpp"
 #include "host/loader/animation.hpp"
 #include "host/loader/environments.hpp"
+#include "host/loader/medium.hpp"
 #include "host/loader/settings.hpp"
 #include "host/materials/registry.hpp"
 #include "host/scene/foreign_words.hpp"
@@ -155,16 +156,6 @@ constexpr Key keys_of_parts[] = {
     shape_keys[2],
 };
 
-constexpr std::string_view medium_manual =
-    R"(It fills what no other medium does, to no end: light of an environment, of a `background` and of directional lights, which
-comes from infinitely far away, is lost in it. The keys mean what they mean for a [dielectric](#type--dielectric).
-
-```toml
-[medium]
-scattering = 0.04
-anisotropy = 0.5
-```)";
-
 constexpr std::string_view mesh_manual =
     R"(The ending says what the file is: `.obj` (Wavefront), `.ply`, `.gltf` or `.glb` (glTF 2.0). The name is relative to the
 scene file, and the file, as all that it names, lies in the scene's folder tree, links followed, or where `--allow-path`
@@ -291,7 +282,7 @@ std::vector<Section> make_sections() {
        "Light from all around, in place of the `background` of [render].", environment_keys()},
       {medium, "medium", "[medium]",
        "What is around all, for the integrator `path`: fog, haze, water. The others see none of it.",
-       medium_keys(), nullptr, medium_manual},
+       medium_keys(), nullptr, medium_manual()},
       {verify, "verify", "[verify]", "What `eyeray verify` is told of the scene.", verify_keys()},
       {animation, "animation", "[animation]", "Which moment of an animation is shown.", animation_keys()},
       {track, "track", "[[track]]", "A value that moves, by its keyframes.", track_keys(), nullptr,

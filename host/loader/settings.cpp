@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "host/materials/medium_keys.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 
@@ -147,9 +146,6 @@ constexpr Key render_table[] = {
      .fallback = "0"},
 };
 
-constexpr Key medium_table[] = {materials::absorption_key, materials::scattering_key,
-                                materials::anisotropy_key};
-
 constexpr Key verify_table[] = {
     {.name = "max_explained",
      .type = KeyType::number,
@@ -183,10 +179,6 @@ std::span<const Key> image_keys() {
 }
 std::span<const Key> render_keys() {
   return render_table;
-}
-
-std::span<const Key> medium_keys() {
-  return medium_table;
 }
 
 std::span<const Key> verify_keys() {
@@ -241,11 +233,6 @@ RenderSettings read_render(TableReader& table) {
   render.background = table.color("background");
   render.ambient = table.color("ambient");
   return render;
-}
-
-Medium read_medium(TableReader& table, IntegratorType integrator) {
-  const Medium medium = materials::read_medium(table, 1);
-  return walks_at_random(integrator) ? medium : Medium{};
 }
 
 VerifySettings read_verify(TableReader& table) {

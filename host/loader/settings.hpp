@@ -9,14 +9,11 @@ namespace eyeray::loader {
 
 std::span<const Key> image_keys();
 std::span<const Key> render_keys();
-std::span<const Key> medium_keys();
 std::span<const Key> verify_keys();
 
 // What the table says; what is wrong between its values is reported to it.
 RenderSettings read_render(TableReader& table);
 ImageSettings read_image(TableReader& table, IntegratorType integrator);
-// Around all: the vacuum for integrators that know no other.
-Medium read_medium(TableReader& table, IntegratorType integrator);
 VerifySettings read_verify(TableReader& table);
 
 }  // namespace eyeray::loader

@@ -30,6 +30,19 @@ uint32_t pack_media(const Scene& scene, const records::PackedScene& packed) {
   return media_stack(reference::media_at(scene, scene.camera.eye), packed, "the camera's eye");
 }
 
+void pack_medium_extent(const Scene& scene, shader::Frame& frame) {
+  const MediumExtent& extent = scene.medium_extent;
+  if (extent.endless() || !walks_at_random(scene.render.integrator)) return;
+  const Vec3& eye = scene.camera.eye;
+  const Vec3 far{double(T_MISS)};
+  const Bounds box = extent.bounds();
+  frame.has_medium_extent = 1;
+  frame.medium_min = glm::vec3(glm::max(box.min - eye, -far));
+  frame.medium_max = glm::vec3(glm::min(box.max - eye, far));
+  frame.medium_decay = float(1 / extent.scale_height);
+  frame.medium_base = float(extent.base - eye.y);
+}
+
 shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed) {
   const CameraFrame camera = camera_frame(scene.camera, scene.image.size());
   shader::Frame frame{};
@@ -69,6 +82,7 @@ shader::Frame pack_frame(const Scene& scene, const records::PackedScene& packed)
   }
   frame.pixel_filter = uint32_t(scene.image.filter);
   frame.filter_width = float(scene.image.filter_width);
+  pack_medium_extent(scene, frame);
   return frame;
 }
 

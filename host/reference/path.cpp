@@ -30,24 +30,26 @@ double largest(const Vec3& v) {
 }  // namespace
 
 // A channel says how far, each as likely as it has light left; the density is that of all three.
-Flight PathSample::fly(const MediaStack& media, const std::optional<Hit>& hit) const {
+Flight PathSample::fly(const Ray& ray, const MediaStack& media, const std::optional<Hit>& hit) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Medium medium = rays_.medium(media);
   const double end = hit ? hit->at.t : infinity;
+  const double length = rays_.medium_length(media, ray, end);
   if (medium.scattering == Vec3(0)) {
     const bool open = !hit && media.top() >= 0;
-    return {end, false, open ? Vec3(1) : transmittance(medium, end)};
+    return {end, false, open ? Vec3(1) : transmittance(medium, length)};
   }
   const Vec3 extinction = medium.absorption + medium.scattering;
   const Vec2 chance = pair_of(first_flight_pair + surfaces());
   const Vec3 shares = throughput_ / (throughput_.x + throughput_.y + throughput_.z);
   const int channel = chance.x < shares.x ? 0 : chance.x < shares.x + shares.y ? 1 : 2;
-  const double t = extinction[channel] > 0 ? -std::log1p(-chance.y) / extinction[channel] : infinity;
-  if (t < end) {
-    const Vec3 left = transmittance(medium, t);
-    return {t, true, medium.scattering * left / glm::dot(shares, extinction * left)};
+  const double drawn = extinction[channel] > 0 ? -std::log1p(-chance.y) / extinction[channel] : infinity;
+  if (drawn < length) {
+    const Vec3 left = transmittance(medium, drawn);
+    return {rays_.medium_distance(media, ray, drawn), true,
+            medium.scattering * left / glm::dot(shares, extinction * left)};
   }
-  const Vec3 left = transmittance(medium, end);
+  const Vec3 left = transmittance(medium, length);
   return {end, false, left / glm::dot(shares, left)};
 }
 
@@ -156,7 +158,7 @@ PixelSample PathSample::follow(Ray ray, MediaStack media, Meet meet) {
     asked_ = 0;
     ray = with_key(ray, 0);
     const auto hit = rays_.trace(ray);
-    const Flight flight = fly(media, hit);
+    const Flight flight = fly(ray, media, hit);
     const Vec3 before = throughput_;
     throughput_ *= flight.weight;
     std::optional<Ray> next;
@@ -190,7 +192,7 @@ AuxiliarySample PathSample::auxiliary(Ray ray, MediaStack media) {
   for (;;) {
     ray = with_key(ray, 0);
     const auto hit = rays_.trace(ray);
-    const Flight flight = fly(media, hit);
+    const Flight flight = fly(ray, media, hit);
     const Vec3 before = throughput_;
     throughput_ *= flight.weight;
     if (flight.scattered) {

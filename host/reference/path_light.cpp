@@ -112,7 +112,10 @@ Vec3 PathSample::direct(const Interaction& at, const Arriving& light, const Bsdf
                         const MediaStack& media) {
   const double weight = light.density > 0 ? power_heuristic(light.density, scattered.density) : 1;
   // Between interfaces the ray itself is weakened.
-  const Vec3 left = tracer_.any_interface() ? Vec3(1) : transmittance(rays_.medium(media), light.distance);
+  const Vec3 left =
+      tracer_.any_interface()
+          ? Vec3(1)
+          : transmittance(rays_.medium(media), rays_.medium_length(media, light.ray, light.distance));
   const Vec3 contribution = light.radiance * left * scattered.value * weight;
   if (contribution == Vec3(0)) return Vec3(0);
   const bool beyond = glm::dot(light.ray.d, at.surface.normal_geometric) < 0;

@@ -84,7 +84,7 @@ class PathSample {
   }
   // That the path has come through.
   uint32_t surfaces() const { return uint32_t(depth_ + all_panes_); }
-  Flight fly(const MediaStack& media, const std::optional<Hit>& hit) const;
+  Flight fly(const Ray& ray, const MediaStack& media, const std::optional<Hit>& hit) const;
   Interaction scattered_at(const Ray& ray, double t) const;
   // Lights what the path has met, into `color`, and goes on from there: the next ray, or none.
   using Meet = std::optional<Ray> (PathSample::*)(const Interaction& at, const LocalFrame& frame,

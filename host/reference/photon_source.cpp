@@ -5,7 +5,9 @@
 
 #include "host/reference/emitter_sample.hpp"
 #include "host/reference/environment.hpp"
+#include "host/reference/medium_extent.hpp"
 #include "host/reference/photon_aim.hpp"
+#include "host/reference/sample_rays.hpp"
 #include "host/scene/integrator.hpp"
 
 namespace eyeray::reference {
@@ -40,6 +42,17 @@ PhotonSource from_afar(const PhotonSettings& scene, const Vec3& d, const Vec2& s
           .flux = Vec3(before_all ? area * place.weight(1 / area) : 0),
           .light = 0,
           .aim = place.event};
+}
+
+// Light from infinitely far away has come through the medium around all. A photon of which that leaves little
+// is rare instead, by a random number.
+void weaken_upstream(const Scene& scene, PhotonSource& source, double chance) {
+  if (scene.medium_extent.endless()) return;
+  const Ray upstream{source.ray.o, -source.ray.d};
+  const Vec3 left = transmittance(
+      scene.medium, medium_length(scene.medium_extent, upstream, std::numeric_limits<double>::infinity()));
+  const double survival = std::max({left.x, left.y, left.z});
+  source.flux *= chance < survival ? left / survival : Vec3(0);
 }
 
 // A light of classic intensity 1 sends π into each unit of solid angle, or on each unit of area.
@@ -167,6 +180,7 @@ PhotonSource PhotonSources::draw(const std::function<Vec2(uint32_t)>& pair) cons
     const auto [d, density] = sample_environment(*scene.environment, heading);
     PhotonSource source = from_afar(settings_, d, start, side.y);
     source.flux *= environment_radiance(*scene.environment, d) / (density * around_);
+    weaken_upstream(scene, source, side.x);
     source.light = uint64_t(-1);
     return source;
   }
@@ -180,6 +194,8 @@ PhotonSource PhotonSources::draw(const std::function<Vec2(uint32_t)>& pair) cons
           : from_surface(scene, settings_, choice.emitters[light - scene.lights.size()], start, heading,
                          side);
   source.flux /= (1 - around_) * choice.share(light);
+  if (light < scene.lights.size() && std::isinf(scene.lights[light]->illuminate(source.ray.o).distance))
+    weaken_upstream(scene, source, side.x);
   source.light = light;
   source.media = media_[light];
   return source;

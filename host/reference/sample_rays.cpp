@@ -8,6 +8,7 @@
 #include "host/reference/bsdf.hpp"
 #include "host/reference/crossings.hpp"
 #include "host/reference/environment.hpp"
+#include "host/reference/medium_extent.hpp"
 #include "host/reference/rng.hpp"
 
 namespace eyeray::reference {
@@ -19,16 +20,24 @@ Vec3 Interaction::refracted() const {
   return glm::normalize(eta * d + (eta * cos_view - std::sqrt(std::max(0.0, cos2_squared))) * surface.normal);
 }
 
-Vec3 transmittance(const Medium& medium, double t) {
+Vec3 transmittance(const Medium& medium, double length) {
   const Vec3 extinction = medium.absorption + medium.scattering;
   Vec3 left(1);
   for (int c = 0; c < 3; ++c)
-    if (extinction[c] > 0) left[c] = std::exp(-extinction[c] * t);
+    if (extinction[c] > 0) left[c] = std::exp(-extinction[c] * length);
   return left;
 }
 
 Medium SampleRays::medium(const MediaStack& media) const {
   return media.top() < 0 ? scene_.medium : *scene_.materials[size_t(media.top())]->medium();
+}
+
+double SampleRays::medium_length(const MediaStack& media, const Ray& ray, double t) const {
+  return media.top() < 0 ? reference::medium_length(scene_.medium_extent, ray, t) : t;
+}
+
+double SampleRays::medium_distance(const MediaStack& media, const Ray& ray, double length) const {
+  return media.top() < 0 ? reference::medium_distance(scene_.medium_extent, ray, length) : length;
 }
 
 Ray SampleRays::start_ray(const Ray& ray) {
@@ -116,7 +125,8 @@ Vec3 SampleRays::through_panes(Ray ray, double t_end, bool has_extent, MediaStac
     const auto hit = tracer_.trace(ray, flags_, ray_offset_.coincident);
     const bool arrives = !hit || hit->at.t >= t_end;
     const Medium before = medium(media);
-    if (tracer_.any_interface()) left *= transmittance(before, arrives ? t_end : hit->at.t);
+    if (tracer_.any_interface())
+      left *= transmittance(before, medium_length(media, ray, arrives ? t_end : hit->at.t));
     if (arrives) return left;
     if (crossed == most_passed) flags_ |= iteration_limit;
     if (crossed == (has_extent ? most_panes : most_passed)) return Vec3(0);

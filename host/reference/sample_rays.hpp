@@ -31,8 +31,8 @@ struct Interaction {
 constexpr int most_panes = 8;       // that a shadow ray to a light with an extent goes through
 constexpr int most_passed = 65536;  // by any shadow ray
 
-// What comes through a medium.
-Vec3 transmittance(const Medium& medium, double t);
+// The share of light that comes through this length of a medium.
+Vec3 transmittance(const Medium& medium, double length);
 
 class SampleRays {
  public:
@@ -48,6 +48,10 @@ class SampleRays {
                           const Vec3& dimming);
   // The innermost.
   Medium medium(const MediaStack& media) const;
+  // How long the ray up to t would be in that medium with the same transmittance, if the medium had the same
+  // coefficients all along; and the t where that is `length`.
+  double medium_length(const MediaStack& media, const Ray& ray, double t) const;
+  double medium_distance(const MediaStack& media, const Ray& ray, double length) const;
   // What a ray in that unit direction sees where it hits nothing.
   Vec3 surroundings(const Vec3& d) const;
   // The unit direction as float32 may round it.

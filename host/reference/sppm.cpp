@@ -88,7 +88,7 @@ uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& s
   while (depth_ <= scene_.render.max_depth) {
     ray = with_key(ray, 0);
     const auto hit = rays_.trace(ray);
-    const Flight flight = fly(media, hit);
+    const Flight flight = fly(ray, media, hit);
     const Vec3 before = throughput_;
     throughput_ *= flight.weight;
     std::optional<Ray> next;

@@ -22,6 +22,12 @@ double pixel_at(const Scene& scene, double distance) {
   return glm::length(at({2 / size.x, 0}) - at({0, 0}));
 }
 
+// The sphere around the box; not a rounding less than what it is around.
+void put_around(const Bounds& box, PhotonSettings& settings) {
+  settings.center = (box.min + box.max) / 2.0;
+  settings.reach = glm::length(box.max - box.min) / 2 * (1 + 1e-5);
+}
+
 }  // namespace
 
 PhotonSettings photon_settings(const Scene& scene) {
@@ -30,16 +36,22 @@ PhotonSettings photon_settings(const Scene& scene) {
   if (endless) all.include(scene.camera.eye);
   PhotonSettings settings{.count = uint32_t(scene.render.photons),
                           .radius = scene.render.photon_radius,
-                          .center = (all.min + all.max) / 2.0,
-                          .reach = glm::length(all.max - all.min) / 2};
-  // Not a rounding less than what it is around.
-  settings.reach *= 1 + 1e-5;
+                          .center = {},
+                          .reach = 0};
+  put_around(all, settings);
   if (settings.radius == 0) {
     const Vec3 middle = endless ? scene.camera.target : settings.center;
     const double distance = glm::length(middle - scene.camera.eye);
     settings.radius = pixels_across * pixel_at(scene, std::max(distance, settings.reach / 4));
   }
   settings.targets = photon_targets(scene, settings.reach);
+  // Light from afar also passes through a medium that has an end, so its photons start before it.
+  const Bounds medium = scene.medium_extent.bounds();
+  if (std::isfinite(glm::length(medium.max - medium.min))) {
+    all.include(medium.min);
+    all.include(medium.max);
+    put_around(all, settings);
+  }
   return settings;
 }
 

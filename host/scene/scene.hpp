@@ -14,6 +14,7 @@
 #include "host/scene/group.hpp"
 #include "host/scene/light.hpp"
 #include "host/scene/material.hpp"
+#include "host/scene/medium_extent.hpp"
 #include "host/scene/mesh.hpp"
 #include "host/scene/shape.hpp"
 
@@ -95,6 +96,7 @@ struct Scene {
   VerifySettings verify;
   Animation animation;
   Medium medium;               // around all, for paths; of ior 1
+  MediumExtent medium_extent;  // of that medium
   bool is_mesh_alone = false;  // a mesh file in place of a scene, in eyeray's own light
   std::shared_ptr<const EnvironmentMap> environment;  // in place of the background; null where there is none
   std::vector<std::unique_ptr<Light>> lights;

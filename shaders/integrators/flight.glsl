@@ -4,6 +4,7 @@
 #define FLIGHT_GLSL
 #include "integrators/continuation.glsl"
 #include "integrators/interaction.glsl"
+#include "materials/medium_extent.glsl"
 #include "samplers/sampler.glsl"
 
 SHADER_BEGIN
@@ -15,14 +16,14 @@ struct Flight {
 };
 
 #if HAS_ABSORPTION
-// The share of light that a medium lets through.
-vec3 medium_transmittance(uint media, float t) {
+// The share of light that comes through this length of a medium (medium_extent.glsl).
+vec3 medium_transmittance(uint media, float length) {
   Medium medium = load_medium(innermost_medium(media));
   vec3 extinction = medium.absorption;
 #if HAS_SCATTERING
   extinction = extinction + medium.scattering;
 #endif
-  return vec3(exp_negative(-extinction.x * t), exp_negative(-extinction.y * t), exp_negative(-extinction.z * t));
+  return vec3(exp_negative(-extinction.x * length), exp_negative(-extinction.y * length), exp_negative(-extinction.z * length));
 }
 #endif
 
@@ -33,8 +34,9 @@ Flight flight_of(Frame frame, Path path, Hit hit) {
   flight.scattered = false;
   flight.weight = vec3(1.0f, 1.0f, 1.0f);
 #if HAS_ABSORPTION
-  // What is around all has no end; what is open and hit nowhere lets light through.
-  if (hit.slot != NONE || innermost_medium(path.media) == 0u) flight.weight = medium_transmittance(path.media, hit.t);
+  float length = medium_length(frame, path.media, path.o, path.d, hit.t);
+  // A shape's medium that the ray never leaves lets all light through.
+  if (hit.slot != NONE || innermost_medium(path.media) == 0u) flight.weight = medium_transmittance(path.media, length);
 #endif
 #if HAS_SCATTERING
   Medium medium = load_medium(innermost_medium(path.media));
@@ -44,10 +46,10 @@ Flight flight_of(Frame frame, Path path, Hit hit) {
     float all = path.throughput.x + path.throughput.y + path.throughput.z;
     vec3 shares = path.throughput / maximum(all, 1.0e-30f);
     float rate = chance.x < shares.x ? extinction.x : chance.x < shares.x + shares.y ? extinction.y : extinction.z;
-    float t = rate > 0.0f ? -log_positive(1.0f - chance.y) / rate : T_MISS;
-    flight.scattered = t < hit.t;
-    flight.t = flight.scattered ? t : hit.t;
-    vec3 left = medium_transmittance(path.media, flight.t);
+    float drawn = rate > 0.0f ? -log_positive(1.0f - chance.y) / rate : T_MISS;
+    flight.scattered = drawn < length;
+    if (flight.scattered) flight.t = minimum(medium_distance(frame, path.media, path.o, path.d, drawn), hit.t);
+    vec3 left = medium_transmittance(path.media, flight.scattered ? drawn : length);
     vec3 densities = shares * left;
     if (flight.scattered) {
       densities = densities * extinction;

@@ -208,7 +208,8 @@ bool shadow_ray_to(Frame frame, Path path, Interaction at, Arriving arriving, ve
   // Surfaces keep shadow rays in the medium that they begin in; interfaces do not, and there the ray itself is weakened (through_panes).
   if (!ANY_INTERFACE) {
     uint media = is_before(at, arriving.direction) ? path.media : at.media_behind;
-    arriving.radiance = arriving.radiance * medium_transmittance(media, arriving.distance);
+    float length = medium_length(frame, media, arriving.ray.o, arriving.ray.d, arriving.distance);
+    arriving.radiance = arriving.radiance * medium_transmittance(media, length);
   }
 #endif
   float density = arriving.density;

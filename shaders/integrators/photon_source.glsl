@@ -5,6 +5,7 @@
 #include "emitters/emitter.glsl"
 #include "emitters/environment.glsl"
 #include "emitters/light_disk.glsl"
+#include "integrators/flight.glsl"
 #include "lights/light.glsl"
 #include "lights/photon_aim.glsl"
 #include "samplers/sampler.glsl"
@@ -82,6 +83,16 @@ PhotonSource from_around(Frame frame, PhotonPass pass, vec2 start, vec2 heading,
 }
 #endif
 
+#if HAS_MEDIUM_EXTENT && HAS_ABSORPTION
+// Light from infinitely far away has come through the medium around all before its photon starts. A photon of which
+// that leaves little is rare instead: it starts with the probability `survival`, by a random number.
+vec3 after_upstream(Frame frame, PhotonSource source, float chance) {
+  vec3 left = medium_transmittance(0u, medium_length(frame, 0u, source.o, -source.d, T_MISS));
+  float survival = max_component(left);
+  return chance < survival ? source.flux * left / survival : vec3(0.0f, 0.0f, 0.0f);
+}
+#endif
+
 PhotonSource photon_source(Frame frame, PhotonPass pass, uint pixel, uint number) {
   vec2 choice = sample_pair(frame, pixel, number, PAIR_SOURCE);
   vec2 start = sample_pair(frame, pixel, number, PAIR_START);
@@ -120,6 +131,11 @@ PhotonSource photon_source(Frame frame, PhotonPass pass, uint pixel, uint number
   source.light = light;
   source.media = light == NONE ? 0u : load_emitter_media(light);
   source.flux = source.flux / share;
+#if HAS_MEDIUM_EXTENT && HAS_ABSORPTION
+  bool afar = light == NONE;
+  if (light < LIGHT_COUNT) afar = sample_light(load_light(light), source.o).distance == T_MISS;
+  if (afar && frame.has_medium_extent != 0u) source.flux = after_upstream(frame, source, side.x);
+#endif
   return source;
 }
 

@@ -29,7 +29,7 @@ bool has_extent(uint light, vec3 p) {
 
 // The share of a shadow ray's light that the panes on its way let through, and the media between interfaces; nothing where anything else
 // is in its way. `media`: those that the ray begins in.
-vec3 through_panes(Ray ray, float distance, uint light, uint media, INOUT(uvec4) counts) {
+vec3 through_panes(Frame frame, Ray ray, float distance, uint light, uint media, INOUT(uvec4) counts) {
   vec3 left = vec3(1.0f, 1.0f, 1.0f);
   uint ignored = 0u;
   bool going = true;
@@ -40,7 +40,10 @@ vec3 through_panes(Ray ray, float distance, uint light, uint media, INOUT(uvec4)
     counts.z = counts.z | iteration_limit(state);
     going = state.hit.slot != NONE;
 #if HAS_ABSORPTION
-    if (ANY_INTERFACE) left = left * medium_transmittance(media, going ? state.hit.t : distance);
+    if (ANY_INTERFACE) {
+      float length = medium_length(frame, media, ray.o, ray.d, going ? state.hit.t : distance);
+      left = left * medium_transmittance(media, length);
+    }
 #endif
     if (going) {
       Interaction at = struck_at(ray, state.hit, media, ignored);
@@ -110,7 +113,7 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
         vec3 visible = vec3(1.0f, 1.0f, 1.0f) * visibility(occluded);
 #if RANDOM_WALK && HAS_PANES
         bool beyond = dot3(to_light.d, at.seen.normal_geometric) < 0.0f;
-        if (ANY_PANE) visible = through_panes(to_light, distance, number, beyond ? at.media_behind : path.media, counts);
+        if (ANY_PANE) visible = through_panes(frame, to_light, distance, number, beyond ? at.media_behind : path.media, counts);
 #endif
         PROBE(visibility, visible.x);
         PROBE_BACK(path.depth);

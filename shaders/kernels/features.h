@@ -82,6 +82,9 @@
 #ifndef HAS_SCATTERING  // … and sends some of it elsewhere
 #define HAS_SCATTERING 1
 #endif
+#ifndef HAS_MEDIUM_EXTENT  // the medium around all is not endless
+#define HAS_MEDIUM_EXTENT 1
+#endif
 #ifndef HAS_LENS  // the camera has one that rays start from
 #define HAS_LENS 1
 #endif

@@ -32,10 +32,13 @@ Frame load_frame() {
   uvec4 lens = imageLoad(frame_words, 8);
   uvec4 around = imageLoad(frame_words, 9);
   uvec4 pixel = imageLoad(frame_words, 10);
+  vec4 medium_min = uintBitsToFloat(imageLoad(frame_words, 11));
+  vec4 medium_max = uintBitsToFloat(imageLoad(frame_words, 12));
   return Frame(image.x, image.y, image.z, image.w, camera.x, camera.y, camera.z, camera.w, counts.x, counts.y, counts.z, counts.w,
                vec3(right), right.w, vec3(up), up.w, vec3(forward), forward.w, vec3(background), floatBitsToUint(background.w), vec3(ambient), ambient.w,
                uintBitsToFloat(lens.x), uintBitsToFloat(lens.y), lens.z, lens.w, around.x, around.y,
-               around.z, uintBitsToFloat(around.w), uintBitsToFloat(pixel.x), pixel.y, pixel.z, pixel.w);
+               around.z, uintBitsToFloat(around.w), uintBitsToFloat(pixel.x), pixel.y, pixel.z, pixel.w,
+               vec3(medium_min), medium_min.w, vec3(medium_max), medium_max.w);
 }
 #else
 Frame load_frame() { return frame_record; }

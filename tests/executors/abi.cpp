@@ -145,7 +145,11 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Frame, filter_width),
                 MEMBER(Frame, light_bvh_numbers),
                 MEMBER(Frame, camera_formula),
-                MEMBER(Frame, unused_0)});
+                MEMBER(Frame, has_medium_extent),
+                MEMBER(Frame, medium_min),
+                MEMBER(Frame, medium_decay),
+                MEMBER(Frame, medium_max),
+                MEMBER(Frame, medium_base)});
   check_struct(samples, "Dispatch", sizeof(shader::Dispatch),
                {MEMBER(Dispatch, tile_x), MEMBER(Dispatch, tile_y), MEMBER(Dispatch, tile_width),
                 MEMBER(Dispatch, tile_height), MEMBER(Dispatch, sample_index), MEMBER(Dispatch, depth),

@@ -54,7 +54,8 @@ const std::array<std::vector<std::string>, factors> levels = {{
      "[[material]]\nname = 'lamp'\ntype = 'phong'\ndiffuse = 0\nemission = 9\n[[sphere]]\ncenter = [0, 5, "
      "0]\nradius = 1\nmaterial = 'lamp'",
      "[environment]\ntype = 'sky'\nsun = [0, 1, 0]"},
-    {"", "[medium]\nscattering = 0.1", "[medium]\nabsorption = 0.1"},
+    {"", "[medium]\nscattering = 0.1", "[medium]\nabsorption = 0.1",
+     "[medium]\nscattering = 0.1\nscale_height = 2", "[medium]\nabsorption = 0.1\ntop = 3"},
     {"",
      "[[material]]\nname = 'netting'\ntype = 'mirror'\nalpha = { checker = { even = 0, odd = 1, size = 1 } "
      "}\n"
@@ -81,7 +82,8 @@ struct Row {
 bool possible(const Levels& level) {
   const bool paths = level[integrator] < 2, raycast = level[integrator] == 3;
   const bool from_afar = level[light] == 2 || level[light] == 3 || level[light] == 5;
-  if (level[medium] > 0 && (!paths || from_afar)) return false;
+  const bool any_medium = level[medium] > 0, endless = level[medium] == 1 || level[medium] == 2;
+  if ((any_medium && !paths) || (endless && from_afar)) return false;
   if (level[light] == 5 && !paths) return false;
   return !raycast || level[light] == 0;
 }

@@ -1,0 +1,125 @@
+#include "host/loader/medium.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/materials/medium_keys.hpp"
+#include "host/scene/integrator.hpp"
+
+namespace eyeray::loader {
+
+namespace {
+
+constexpr std::string_view manual =
+    R"(It fills the space outside of all other media. `absorption`, `scattering` and `anisotropy` mean what they mean for a
+[dielectric](#type--dielectric). By itself it has no end: light of an environment, of a `background` and of directional lights,
+which comes from infinitely far away, is lost in it. An extent lets that light in:
+
+| keys | the medium fills |
+| --- | --- |
+| `min`, `max` | a box |
+| `top` | everything below a height |
+| `scale_height`, `base` | all heights; its density falls by 1/e with each `scale_height`, and ends 40 of them above `base` |
+
+`scale_height` may stand beside a box or `top`. Below a `top`, and in height fog, light that comes horizontally or from below is
+lost.
+
+```toml
+[medium]
+scattering = 0.04
+anisotropy = 0.5
+scale_height = 3
+```)";
+
+constexpr Key medium_table[] = {
+    materials::absorption_key,
+    materials::scattering_key,
+    materials::anisotropy_key,
+    {.name = "min",
+     .type = KeyType::vec3,
+     .doc = "With `max`: the medium fills only the box between these two corners.",
+     .optional = true},
+    {.name = "max",
+     .type = KeyType::vec3,
+     .doc = "The corner opposite to `min`, above it in each coordinate.",
+     .optional = true},
+    {.name = "top",
+     .type = KeyType::number,
+     .doc = "The medium fills only what is below this height, y. Not beside `max`.",
+     .optional = true},
+    {.name = "scale_height",
+     .type = KeyType::number,
+     .doc = "Exponential height fog: at height y, `absorption` and `scattering` are multiplied by "
+            "exp(-(y - base) / scale_height).",
+     .min = 1e-6,
+     .max = 1e9,
+     .optional = true},
+    {.name = "base",
+     .type = KeyType::number,
+     .doc = "The height at which that factor is 1; 0 when absent. Only beside `scale_height`.",
+     .optional = true},
+};
+
+}  // namespace
+
+std::span<const Key> medium_keys() {
+  return medium_table;
+}
+
+std::string_view medium_manual() {
+  return manual;
+}
+
+Medium read_medium(TableReader& table, IntegratorType integrator) {
+  const Medium medium = materials::read_medium(table, 1);
+  return walks_at_random(integrator) ? medium : Medium{};
+}
+
+MediumExtent read_medium_extent(TableReader& table) {
+  MediumExtent extent;
+  for (const auto& [key, other] : {std::pair("min", "max"), std::pair("max", "min")})
+    if (table.has(key) && !table.has(other))
+      table.error(key, fmt::format("`{}` needs `{}` beside it: the two corners of a box", key, other));
+  if (table.has("min") && table.has("max")) {
+    extent.min = table.vec3("min");
+    extent.max = table.vec3("max");
+    if (!glm::all(glm::lessThan(extent.min, extent.max)))
+      table.error("max", "the medium's box has no volume: `max` must be above `min` in each coordinate");
+  }
+  if (table.has("top")) {
+    if (table.has("max")) table.error("top", "`top` is not for a box, which ends at the height of its `max`");
+    extent.max.y = table.number("top");
+  }
+  if (table.has("scale_height"))
+    extent.scale_height = table.number("scale_height");
+  else if (table.has("base"))
+    table.error("base",
+                "`base` is only for a medium with a `scale_height`, whose density depends on the height");
+  if (table.has("base")) extent.base = table.number("base");
+  return extent;
+}
+
+void warn_of_endless_medium(const Scene& scene, DiagnosticLog& log) {
+  const MediumExtent& extent = scene.medium_extent;
+  const auto lost = [&](const auto& light) {
+    const Illumination arriving = light->illuminate(scene.camera.eye);
+    return std::isinf(arriving.distance) && extent.endless_towards(arriving.l);
+  };
+  const Vec3 extinction = scene.medium.absorption + scene.medium.scattering;
+  if (!glm::all(glm::greaterThan(extinction, Vec3(0)))) return;
+  const bool any_lost = std::ranges::any_of(scene.lights, lost);
+  if (extent.endless() && (any_lost || scene.environment || scene.render.background != Vec3(0)))
+    log.warning({},
+                "[medium] has no end: light from infinitely far away, of an environment, a `background` or a "
+                "directional light, is lost in it; `min` and `max`, `top` or `scale_height` give it an end");
+  else if (any_lost)
+    log.warning(
+        {},
+        "[medium] has no end in the direction of a directional light, whose light is lost in it; `min` and "
+        "`max` give it an end on all sides");
+}
+
+}  // namespace eyeray::loader

@@ -1,0 +1,25 @@
+// The extent of the medium that is around all shapes: everywhere, in a box, below a height, or exponential
+// height fog, whose density falls by 1/e with every `scale_height`.
+#pragma once
+
+#include "host/scene/bounds.hpp"
+
+namespace eyeray {
+
+struct MediumExtent {
+  Vec3 min = Bounds::unbounded().min;  // corners of the box, whose sides may be infinitely far away
+  Vec3 max = Bounds::unbounded().max;
+  // At height y the medium has exp((base − y) / scale_height) times the coefficients that the scene states.
+  double scale_height = std::numeric_limits<double>::infinity();
+  double base = 0;
+
+  // Whether the medium fills all space evenly.
+  bool endless() const;
+  // Whether a ray in direction d, from a point of the medium, never leaves it.
+  bool endless_towards(const Vec3& d) const;
+  // The box that holds the medium for all executors: that of min and max, less what lies more than 40 scale
+  // heights above `base`, where the density is below 1e-17.
+  Bounds bounds() const;
+};
+
+}  // namespace eyeray
