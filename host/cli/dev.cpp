@@ -119,8 +119,8 @@ void DevCommand::report(const Json& event, const dev::Board& board) {
   if (what == "listening") {
     const int listens = event.value("port", 0);
     if (listens != event.value("wanted", 0))
-      fmt::print(stderr, "port {} is taken: {} it is\n", event.value("wanted", 0), listens);
-    fmt::print(stderr, "look at {}\nfrom afar, first: ssh -L {}:127.0.0.1:{} THIS-MACHINE\n",
+      fmt::print(stderr, "port {} is in use; the page is on port {}\n", event.value("wanted", 0), listens);
+    fmt::print(stderr, "look at {}\nfrom another machine, first: ssh -L {}:127.0.0.1:{} THIS-MACHINE\n",
                event.value("address", ""), listens, listens);
   }
   if (what == "changed")

@@ -1,4 +1,8 @@
 // eyeray dev, end to end: edits, broken and endless shaders, Ctrl-C.
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -210,6 +214,27 @@ TEST_CASE("dev outlives hostile shaders, and keeps the last good picture") {
     return;
   }
   back_to_good();
+}
+
+TEST_CASE("dev says in a sentence that its port is in use, and Ctrl-C ends it as it starts") {
+  const SceneFolder folder;
+  REQUIRE(run_eyeray({"shaders", "--export", folder / "shaders"}).code == 0);
+  const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  REQUIRE(::bind(socket, reinterpret_cast<sockaddr*>(&address), size) == 0);
+  REQUIRE(::listen(socket, 1) == 0);
+  REQUIRE(::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0);
+  const std::string port = std::to_string(ntohs(address.sin_port));
+  Dev dev(folder, "60", {"--port", port});
+  CHECK(dev.says("port " + port + " is in use; the page is on port "));
+  CHECK(dev.says("look at "));
+  dev.process().send_signal(SIGINT);
+  CHECK(dev.process().wait(600));
+  CHECK(dev.process().code() == 130);
+  ::close(socket);
 }
 
 TEST_CASE("dev says at once what no save can mend") {

@@ -10,9 +10,8 @@ namespace eyeray::test {
 // A running `eyeray dev`, and the place in its words up to which they have been looked at.
 class Dev {
  public:
-  Dev(const SceneFolder& folder, const std::string& timeout)
-      : process_({eyeray_binary(), "dev", folder.scene(), "--shaders", folder / "shaders", "-o",
-                  folder / "a.pfm", "--timeout", timeout}) {}
+  Dev(const SceneFolder& folder, const std::string& timeout, const std::vector<std::string>& options = {})
+      : process_(command(folder, timeout, options)) {}
 
   // Whether it says `text` from here on.
   bool says(const std::string& text) {
@@ -34,6 +33,15 @@ class Dev {
   Process& process() { return process_; }
 
  private:
+  static std::vector<std::string> command(const SceneFolder& folder, const std::string& timeout,
+                                          const std::vector<std::string>& options) {
+    std::vector<std::string> words{
+        eyeray_binary(),  "dev",       folder.scene(), "--shaders", folder / "shaders", "-o",
+        folder / "a.pfm", "--timeout", timeout};
+    words.insert(words.end(), options.begin(), options.end());
+    return words;
+  }
+
   Process process_;
   size_t seen_ = 0;
 };

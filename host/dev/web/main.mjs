@@ -102,15 +102,16 @@ let probes = 0;
 let probed = null;  // the edit that the rays shown are of
 const tell_whether_stale = () => { $('stale').hidden = probed === null || probed === status.edit; };
 function tell() {
-  const preview = status.preview && status.state === 'compile';
-  const comparing = status.view === 'difference' && status.state === 'render';
   const name = status.scene.split('/').pop();
   $('scene').textContent = name;
   $('scene').title = status.scene;
   document.title = `${status.state === 'failed' ? '✗ ' : ''}${name} – eyeray dev`;
-  const busy = status.stale && status.state !== 'failed' && Object.keys(status.pictures).length > 0;
-  const more = preview ? '; until then the CPU computes the same picture' : busy ? ', the last picture stays' : comparing ? '; what is grey is not compared yet' : '';
-  $('state').textContent = (words[status.state] ?? status.state) + more;
+  const { state } = status;
+  const note = status.preview && state === 'compile' ? 'A preview: the CPU computes the same picture while the kernel compiles.'
+    : status.stale && state !== 'failed' && Object.keys(status.pictures).length > 0 ? 'The last picture stays until there is a new one.'
+    : status.view === 'difference' && state === 'render' ? 'What is grey is not compared yet.' : '';
+  $('state').textContent = words[state] ?? state;
+  if (note) $('times').textContent = note;
   $('state').className = `badge ${status.state}`;
   document.body.dataset.state = status.state;
   document.body.dataset.generation = status.generation;
