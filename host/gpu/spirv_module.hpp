@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <spirv/unified1/spirv.hpp>
 #include <initializer_list>
 #include <span>
+#include <spirv/unified1/spirv.hpp>
 #include <vector>
 
 namespace eyeray::gpu {

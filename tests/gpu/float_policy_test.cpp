@@ -1,9 +1,9 @@
 #include <bit>
 #include <cmath>
-#include <spirv/unified1/spirv.hpp>
 #include <map>
 #include <set>
 #include <spirv-tools/libspirv.hpp>
+#include <spirv/unified1/spirv.hpp>
 
 #include "host/gpu/spirv.hpp"
 #include "support.hpp"

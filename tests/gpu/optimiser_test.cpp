@@ -1,7 +1,7 @@
 #include "host/gpu/spirv_optimiser.hpp"
 
-#include <spirv/unified1/spirv.hpp>
 #include <spirv-tools/libspirv.hpp>
+#include <spirv/unified1/spirv.hpp>
 
 #include "host/gpu/spirv.hpp"
 #include "support.hpp"
