@@ -25,10 +25,6 @@
 namespace eyeray::cli {
 namespace {
 
-// An exception that nothing here expects: a bug, told apart from every fault of the world (sysexits'
-// EX_SOFTWARE).
-constexpr int internal_error = 70;
-
 void describe(CLI::App& app) {
   app.name("eyeray");
   app.description("eyeray: a ray tracer on Vulkan compute shaders, checked pixel by pixel against the CPU.");
@@ -183,11 +179,8 @@ int guarded_main(int argc, char** argv) {
     report({ExitCode::file_io, "{}", error.what()}, json);
     return int(ExitCode::file_io);
   } catch (const std::exception& error) {
-    fmt::print(
-        stderr,
-        "eyeray: internal error: {}\nThis is a bug in eyeray; please report it with the command line.\n",
-        error.what());
-    return internal_error;
+    report(own_fault(error.what()), json);
+    return int(ExitCode::internal);
   }
 }
 

@@ -4,14 +4,20 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace eyeray::detail {
+namespace eyeray {
 
-void check_failed(const char* file, int line, const char* expression, const std::string& values) {
-  fmt::print(stderr,
-             "{}:{}: check failed: {}{}\nThis is a bug in eyeray; please report it with the command line.\n",
-             file, line, expression, values);
+namespace {
+constexpr const char* please_report = "This is a bug in eyeray; please report it with the command line.";
+}
+
+Error own_fault(const std::string& what) {
+  return {ExitCode::internal, "internal error: {}\n{}", what, please_report};
+}
+
+void detail::check_failed(const char* file, int line, const char* expression, const std::string& values) {
+  fmt::print(stderr, "{}:{}: check failed: {}{}\n{}\n", file, line, expression, values, please_report);
   std::signal(SIGABRT, SIG_DFL);  // whatever memory is left, this is a bug
   std::abort();
 }
 
-}  // namespace eyeray::detail
+}  // namespace eyeray

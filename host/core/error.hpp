@@ -18,6 +18,7 @@ enum class ExitCode : int {
   no_device = 3,  // no usable Vulkan device, or it was lost
   file_io = 4,
   timed_out = 5,
+  internal = 70,  // a fault of eyeray's own (sysexits' EX_SOFTWARE)
   interrupted = 130,
 };
 
@@ -35,6 +36,20 @@ class Error : public std::runtime_error {
  private:
   ExitCode code_;
 };
+
+// A fault of eyeray's own (internal), with the request to report it: nobody else can mend it.
+Error own_fault(const std::string& what);
+
+// What work() gives, which reads nothing of the user's: bad input there is a fault of eyeray's own.
+template <typename Work>
+auto of_own_input(const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::bad_input) throw own_fault(error.what());
+    throw;
+  }
+}
 
 namespace detail {
 [[noreturn]] void check_failed(const char* file, int line, const char* expression, const std::string& values);

@@ -312,6 +312,8 @@ constexpr FaultType types[] = {
     // Which pixel, and the float policy.
     {.name = "shift", .shift = 1},
     {.name = "contraction", .contracts = true},
+    // A text that does not compile.
+    {.name = "syntax", .file = "kernels/pixel.glsl", .from = "result.primitive = hit.id;", .to = "nonsense;"},
 };
 
 }  // namespace

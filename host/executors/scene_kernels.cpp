@@ -18,7 +18,10 @@ std::shared_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::s
     try {
       const gpu::ShaderSource text = source(entry);
       if (moves_tunables()) defines += "#define TUNABLES 1\n";
-      return gpu::compile_kernel(text, defines, workshop_.how, workshop_.device.cache()).spirv;
+      const auto compile = [&] {
+        return gpu::compile_kernel(text, defines, workshop_.how, workshop_.device.cache()).spirv;
+      };
+      return files_.gave_users() ? compile() : of_own_input(compile);
     } catch (const InputError& error) {
       std::vector<Diagnostic> diagnostics = error.diagnostics();
       for (Diagnostic& d : diagnostics) d.position.file = files_.shown(d.position.file);

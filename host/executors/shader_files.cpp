@@ -81,6 +81,7 @@ std::optional<std::string> ShaderFiles::read(std::string_view name) {
     if (std::filesystem::is_regular_file(path, error)) {
       std::string text = read_file(path);
       drop_byte_order_mark(text);
+      gave_users_ = true;
       return text;
     }
   }

@@ -21,6 +21,8 @@ class ShaderFiles {
   std::optional<std::string> read(std::string_view name);
   // As people know it: the path in the folder if the text came from there, else the name.
   std::string shown(const std::string& name) const;
+  // Whether any text came from the folder: without, what does not compile is a fault of eyeray's own.
+  bool gave_users() const { return gave_users_; }
   // The paths in the folder that were looked for, there or not: what a watcher watches.
   const std::set<std::filesystem::path>& looked_for() const { return looked_for_; }
 
@@ -28,6 +30,7 @@ class ShaderFiles {
   std::filesystem::path folder_;
   std::string scene_glsl_;
   std::set<std::filesystem::path> looked_for_;
+  bool gave_users_ = false;
 };
 
 }  // namespace eyeray::executors

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 
+#include "host/core/error.hpp"
 #include "host/core/termination.hpp"
 #include "host/formula/execution.hpp"
 #include "host/formula/folding.hpp"
@@ -95,7 +96,7 @@ Module module_of(FormulaKind kind, const Text& text, const std::vector<FormulaPa
   (void)spirv_of(kind, text.has_other, constants(parameters, "const"), text.glsl());
   std::string before = constants(parameters, "");
   const std::string unfolded = text.unfolded(before);
-  Module module(spirv_of(kind, text.has_other, before, unfolded));
+  Module module(of_own_input([&] { return spirv_of(kind, text.has_other, before, unfolded); }));
   fold(module);
   return module;
 }

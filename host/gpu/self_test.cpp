@@ -100,7 +100,8 @@ DeviceFacts judge(const Device& device, const Inputs& inputs, std::span<const ui
 DeviceFacts self_test(Device& device, const SourceProvider& shaders, const DiskCache& cache) {
   const Stopwatch watch;
   const ShaderSource source = read_shader(shaders, "kernels/selftest.comp.glsl");
-  const std::vector<uint32_t> spirv = compile_kernel(source, "", {device.info().float_modes}, cache).spirv;
+  const std::vector<uint32_t> spirv =
+      of_own_input([&] { return compile_kernel(source, "", {device.info().float_modes}, cache).spirv; });
   Kernel kernel(device, spirv, "selftest", cache);
 
   const Inputs inputs;

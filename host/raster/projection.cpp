@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "host/core/embedded_shaders.hpp"
+#include "host/core/error.hpp"
 #include "host/gpu/shader_compiler.hpp"
 
 namespace eyeray::raster {
@@ -50,7 +51,7 @@ gpu::RasterShaders raster_shaders() {
     return found == files.end() ? std::nullopt : std::optional<std::string>(found->text);
   };
   const auto compiled = [&](std::string_view entry) {
-    return gpu::compile_shader(gpu::read_shader(provide, entry), "").spirv;
+    return of_own_input([&] { return gpu::compile_shader(gpu::read_shader(provide, entry), "").spirv; });
   };
   return {compiled("kernels/raster.vert.glsl"), compiled("kernels/raster.frag.glsl")};
 }

@@ -170,12 +170,31 @@ TEST_CASE("every fault on the GPU's side is noticed, with its reason, and is in 
     CHECK(read_text("docs/verification.md").find(fmt::format("\n| `{}` | ", fault.name)) !=
           std::string::npos);
   }
-  // There are no others.
+  // There are no others, but the one that is no picture's.
   const TemporaryFolder folder;
   const ProcessResult unknown = verify(folder, "none");
   CHECK(unknown.code == 2);
   for (const Fault& fault : faults()) CHECK(unknown.err.find(fault.name) != std::string::npos);
-  CHECK(std::ranges::count(unknown.err, ',') + 1 == std::ptrdiff_t(faults().size()));
+  CHECK(std::ranges::count(unknown.err, ',') == std::ptrdiff_t(faults().size()));
+}
+
+TEST_CASE("a shader of eyeray's own that does not compile is eyeray's fault, and a user's is the user's") {
+  const TemporaryFolder folder;
+  const ProcessResult own = verify(folder, "syntax");
+  CAPTURE(own.err);
+  CHECK(own.code == 70);
+  CHECK(own.err.starts_with("eyeray: error: internal error: kernels/pixel.glsl:"));
+  CHECK(own.err.find("please report it") != std::string::npos);
+
+  std::string text = read_text("shaders/kernels/pixel.glsl");
+  const size_t place = text.find("result.primitive = hit.id;");
+  REQUIRE(place != std::string::npos);
+  std::filesystem::create_directories(folder / "shaders/kernels");
+  write_text(folder / "shaders/kernels/pixel.glsl", text.insert(place, "nonsense; "));
+  const ProcessResult users = verify(folder, "", {"scenes/whitted.toml", "--shaders", folder / "shaders"});
+  CAPTURE(users.err);
+  CHECK(users.code == 2);
+  CHECK(users.err.find("please report it") == std::string::npos);
 }
 
 TEST_CASE("compare answers 1 to pictures of another size, too different, or not a number") {
