@@ -8,6 +8,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/json_depth.hpp"
+#include "host/core/json_number.hpp"
 #include "host/shards/part_set.hpp"
 
 namespace eyeray::cli {
@@ -27,22 +28,23 @@ ShardReport read_report(const std::string& file) {
   try {
     Json json = Json::parse(unless_too_deep(text));
     const Json& shard = json.at("shard");
+    const int count = whole_number<int>(shard.at("count"), 1, render::most_shards);
     ShardReport report{file,
-                       shard.at("index").get<int>() - 1,
-                       shard.at("count").get<int>(),
-                       shard.at("suite_size").get<size_t>(),
+                       whole_number<int>(shard.at("index"), 1, count) - 1,
+                       count,
+                       whole_number<size_t>(shard.at("suite_size")),
                        shard.at("suite").get<std::string>(),
                        json.at("passed").get<bool>(),
                        std::move(json.at("scenes"))};
-    const auto index = size_t(report.index), count = size_t(report.count);
-    if (report.index < 0 || report.count < 1 || index >= count || count > size_t(render::most_shards))
-      throw Error(ExitCode::file_io, "{}: it is no report of verify --shard: its share makes no sense", file);
-    const size_t scenes = index < report.suite_size ? (report.suite_size - index - 1) / count + 1 : 0;
+    const auto index = size_t(report.index);
+    const size_t scenes = index < report.suite_size ? (report.suite_size - index - 1) / size_t(count) + 1 : 0;
     if (!report.scenes.is_array() || report.scenes.size() != scenes)
       throw Error(ExitCode::file_io, "{}: it is damaged: it has not the scenes of its share", file);
     return report;
   } catch (const Json::exception&) {
     throw Error(ExitCode::file_io, "{}: it is no report of verify --shard I/N --json", file);
+  } catch (const std::out_of_range&) {
+    throw Error(ExitCode::file_io, "{}: it is no report of verify --shard: its share makes no sense", file);
   }
 }
 

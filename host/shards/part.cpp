@@ -5,18 +5,21 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
 
 #include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
 #include "host/core/json_depth.hpp"
+#include "host/core/json_number.hpp"
 
 namespace eyeray::shards {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// As renders allow them (docs/command-line.md).
+// As scenes allow them (docs/scene-reference.md).
 constexpr int64_t most_pixels_of_picture = int64_t{1} << 28;
+constexpr int most_pixels_of_side = 65536;
 
 // File names may hold any bytes; JSON may not.
 std::string dumped(const Json& json) {
@@ -34,6 +37,8 @@ auto read_json(const std::string& text, const char* what, const Read& read) {
     return read(Json::parse(unless_too_deep(text)));
   } catch (const Json::exception&) {
     nonsense(what);
+  } catch (const std::out_of_range&) {
+    nonsense(what);
   }
 }
 
@@ -47,7 +52,7 @@ RayCounts ray_counts_of(const Json& json) {
   uint64_t* const members[] = {&kinds.eye,       &kinds.eye_hits,          &kinds.reflected,
                                &kinds.refracted, &kinds.total_reflections, &kinds.cut_off,
                                &kinds.shadow};
-  for (size_t i = 0; i < std::size(members); ++i) *members[i] = json.at(i).get<uint64_t>();
+  for (size_t i = 0; i < std::size(members); ++i) *members[i] = whole_number<uint64_t>(json.at(i));
   return kinds;
 }
 
@@ -58,10 +63,10 @@ Json to_json(const aov::LegendTally& legend) {
 }
 
 aov::LegendTally legend_of(const Json& json) {
-  aov::LegendTally legend{json.at("nothing").get<uint64_t>(), {}};
+  aov::LegendTally legend{whole_number<uint64_t>(json.at("nothing")), {}};
   for (const Json& entry : json.at("entries"))
-    legend.entries[entry.at(0).get<uint64_t>()] = {entry.at(1).get<std::string>(),
-                                                   entry.at(2).get<uint64_t>()};
+    legend.entries[whole_number<uint64_t>(entry.at(0))] = {entry.at(1).get<std::string>(),
+                                                           whole_number<uint64_t>(entry.at(2))};
   return legend;
 }
 
@@ -98,14 +103,18 @@ std::string to_text(const PartHeader& header) {
 PartHeader header_of(const std::string& text) {
   return read_json(text, "its header makes no sense", [](const Json& json) {
     PartHeader header;
-    header.shard = {json.at("shard").at(0).get<int>(), json.at("shard").at(1).get<int>()};
+    header.shard.count = whole_number<int>(json.at("shard").at(1), 1, render::most_shards);
+    header.shard.index = whole_number<int>(json.at("shard").at(0), 0, header.shard.count - 1);
     header.scene = json.at("scene").get<std::string>();
     const Json& area = json.at("area");
-    header.area = {area.at(0).get<int>(), area.at(1).get<int>(), area.at(2).get<int>(),
-                   area.at(3).get<int>()};
-    header.samples = json.at("samples").get<int>();
+    header.area.x = whole_number<int>(area.at(0), 0, most_pixels_of_side - 1);
+    header.area.y = whole_number<int>(area.at(1), 0, most_pixels_of_side - 1);
+    header.area.width = whole_number<int>(area.at(2), 1, most_pixels_of_side - header.area.x);
+    header.area.height = whole_number<int>(area.at(3), 1, most_pixels_of_side - header.area.y);
+    header.samples = whole_number<int>(json.at("samples"), 1);
     header.tone.exposure = json.at("exposure").get<double>();
-    header.tone.curve = image::ToneCurve(json.at("curve").get<int>());
+    header.tone.curve =
+        image::ToneCurve(whole_number<int>(json.at("curve"), 0, int(std::size(image::tone_curves)) - 1));
     header.clamp = json.at("clamp").get<double>();
     header.random_paths = json.at("random_paths").get<bool>();
     header.device = json.at("device").get<std::string>();
@@ -120,12 +129,7 @@ PartHeader header_of(const std::string& text) {
       header.identity.push_back(
           {part.at(0).get<std::string>(), part.at(1).get<std::string>(), part.at(2).get<bool>()});
 
-    const render::Shard& shard = header.shard;
-    const Rect& whole = header.area;
-    if (shard.count > render::most_shards || shard.index < 0 || shard.index >= shard.count || whole.x < 0 ||
-        whole.y < 0 || whole.width < 1 || whole.height < 1 || whole.pixels() > most_pixels_of_picture ||
-        header.samples < 1 || size_t(header.tone.curve) >= std::size(image::tone_curves))
-      nonsense("its header makes no sense");
+    if (header.area.pixels() > most_pixels_of_picture) nonsense("its header makes no sense");
     return header;
   });
 }
@@ -148,15 +152,14 @@ std::string to_text(const PartTotals& totals) {
 PartTotals totals_of(const std::string& text) {
   return read_json(text, "its totals make no sense", [](const Json& json) {
     PartTotals totals;
-    totals.rays = json.at("rays").get<uint64_t>();
-    totals.flagged_pixels = json.at("flagged_pixels").get<uint64_t>();
-    totals.flagged_hits = json.at("flagged_hits").get<uint64_t>();
-    totals.flags = json.at("flags").get<uint32_t>();
-    totals.clamped = json.at("clamped").get<uint64_t>();
+    totals.rays = whole_number<uint64_t>(json.at("rays"));
+    totals.flagged_pixels = whole_number<uint64_t>(json.at("flagged_pixels"));
+    totals.flagged_hits = whole_number<uint64_t>(json.at("flagged_hits"));
+    totals.flags = whole_number<uint32_t>(json.at("flags"));
+    totals.clamped = whole_number<uint64_t>(json.at("clamped"));
     for (const Json& count : json.at("brightness")) {
-      const auto place = count.at(0).get<size_t>();
-      if (place >= totals.brightness.counts().size()) nonsense("its totals make no sense");
-      totals.brightness.counts()[place] = count.at(1).get<uint64_t>();
+      auto& counts = totals.brightness.counts();
+      counts[whole_number<size_t>(count.at(0), 0, counts.size() - 1)] = whole_number<uint64_t>(count.at(1));
     }
     if (const Json& kinds = json.at("ray_kinds"); !kinds.is_null()) totals.ray_kinds = ray_counts_of(kinds);
     totals.seconds = json.at("seconds").get<double>();

@@ -267,11 +267,38 @@ TEST_CASE("a header that says what no picture has is refused") {
   CHECK_FALSE(refused([](PartHeader&) {}));
   for (const render::Shard shard : {render::Shard{3, 3}, {-1, 3}, {0, 0}, {0, render::most_shards + 1}})
     CHECK(refused([&](PartHeader& header) { header.shard = shard; }));
-  for (const Rect& rect :
-       {Rect{-1, 0, 4, 4}, {0, -1, 4, 4}, {0, 0, 0, 4}, {0, 0, 4, 0}, {0, 0, 1 << 20, 1 << 20}})
+  for (const Rect& rect : {Rect{-1, 0, 4, 4},
+                           {0, -1, 4, 4},
+                           {0, 0, 0, 4},
+                           {0, 0, 4, 0},
+                           {0, 0, 1 << 20, 1 << 20},
+                           {65535, 0, 2, 1},
+                           {0, 2147483647, 1, 1},
+                           {0, 0, 1, 1 << 28}})
     CHECK(refused([&](PartHeader& header) { header.area = rect; }));
   CHECK(refused([](PartHeader& header) { header.samples = 0; }));
   CHECK(refused([](PartHeader& header) { header.tone.curve = image::ToneCurve(99); }));
+}
+
+TEST_CASE("a number that its place cannot hold is refused, and not wrapped around or cut off") {
+  const auto changed = [](std::string text, const std::string& from, const std::string& to) {
+    const size_t place = text.find(from);
+    REQUIRE(place != std::string::npos);
+    return text.replace(place, from.size(), to);
+  };
+  const std::string header = to_text(header_of_shard({0, 3})), totals = to_text(PartTotals{});
+  for (const std::string number : {"4294967300", "-4294967292", "18446744073709551615", "1e300", "4.5",
+                                   "true", "99999999999999999999"}) {
+    CAPTURE(number);
+    CHECK_THROWS_AS((void)header_of(changed(header, "\"samples\":4", "\"samples\":" + number)), Error);
+    CHECK_THROWS_AS((void)header_of(changed(header, "[3,2,43,21]", "[3,2,43," + number + "]")), Error);
+    CHECK_THROWS_AS((void)totals_of(changed(totals, "\"flags\":0", "\"flags\":" + number)), Error);
+  }
+  for (const std::string number : {"-1", "1e300", "0.5", "18446744073709551616"}) {
+    CAPTURE(number);
+    CHECK_THROWS_AS((void)totals_of(changed(totals, "\"rays\":0", "\"rays\":" + number)), Error);
+  }
+  CHECK(totals_of(changed(totals, "\"rays\":0", "\"rays\":18446744073709551615")).rays == ~uint64_t{0});
 }
 
 TEST_CASE("all that is wrong with a set is named at once") {

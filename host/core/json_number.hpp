@@ -1,0 +1,26 @@
+// Whole numbers of JSON that a stranger may have written.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace eyeray {
+
+// The whole number that `json` is. std::out_of_range where it is none from `least` to `most`: Json::get would
+// wrap it around or cut it off.
+template <typename T, typename Json>
+T whole_number(const Json& json, T least = 0, T most = std::numeric_limits<T>::max()) {
+  const auto within = [&](auto value) {
+    return std::cmp_greater_equal(value, least) && std::cmp_less_equal(value, most);
+  };
+  if (json.is_number_unsigned()) {
+    if (const auto value = json.template get<uint64_t>(); within(value)) return T(value);
+  } else if (json.is_number_integer()) {
+    if (const auto value = json.template get<int64_t>(); within(value)) return T(value);
+  }
+  throw std::out_of_range("a number of the JSON");
+}
+
+}  // namespace eyeray

@@ -1,0 +1,95 @@
+// What a fuzzer asks of a checkpoint: it is refused, or gives as many sums and rows as are asked for. The
+// bytes are a file's, or, where they begin with "size: ", an identity, a 0, the bytes of the position, the
+// sums and the rows, to which the lengths and checksums are made: else nothing behind these would be seen.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "host/core/checksum.hpp"
+#include "host/core/error.hpp"
+#include "host/render/checkpoint.hpp"
+
+using namespace eyeray;
+using namespace eyeray::render;
+
+namespace {
+
+constexpr int side = 4;
+
+std::string word(uint32_t value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+uint32_t sum_of(std::string_view bytes) {
+  return crc32(std::as_bytes(std::span(bytes)));
+}
+void write(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary).write(bytes.data(), std::streamsize(bytes.size()));
+}
+
+// Of everything that may be counted, what the bits of `first` say.
+Counted counted_by(uint8_t first) {
+  Counted counted;
+  counted.kinds = first & 1;
+  counted.noise = first & 2;
+  counted.brightest = first & 4;
+  counted.auxiliary = first & 8;
+  return counted;
+}
+
+struct Folder {
+  std::string path = (std::filesystem::temp_directory_path() / "eyeray-fuzz-XXXXXX").string();
+  Folder() {
+    if (!::mkdtemp(path.data())) std::abort();
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const Folder folder;
+  const std::filesystem::path file = folder.path + "/a.checkpoint", rows = file.string() + ".rows";
+  std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  const Counted counted = counted_by(size > 0 ? data[size - 1] : 0);
+  PixelSums sums;
+  sums.reset(side, side, counted);
+
+  if (bytes.starts_with("size: ")) {
+    const auto take = [&](size_t count) {
+      std::string taken(bytes.substr(0, count));
+      bytes.remove_prefix(std::min(bytes.size(), count));
+      taken.resize(count, '\0');
+      return taken;
+    };
+    const std::string identity = take(std::min(bytes.find('\0'), bytes.size()));
+    take(1);
+    std::string position = take(sizeof(RenderPosition)), all;
+    for (const std::span<std::byte> part : sums.parts()) all += take(part.size());
+    const std::string stored(bytes);
+    std::string header =
+        "EYERAYCP" + word(6) + word(uint32_t(identity.size())) + identity + position + word(sum_of(stored));
+    header += word(sum_of(header));
+    write(file, header + all + word(sum_of(all)));
+    write(rows, stored);
+  } else {
+    write(file, std::string(bytes));
+    write(rows, std::string(bytes));
+  }
+  try {
+    Checkpoint checkpoint = Checkpoint::resume(file, {{"size", "4x4"}}, 1);
+    checkpoint.read_sums(sums);
+    (void)sums.samples();
+    if (sums.mean(0, side).color.height() != side) std::abort();
+    for (int row = 0; row < int(std::min<uint64_t>(checkpoint.position().finished_rows, side)); ++row)
+      if (checkpoint.read_rows(row, 1, side, counted).hits.sample_count() != side) std::abort();
+    checkpoint.check_rows();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::file_io && error.code() != ExitCode::bad_input) std::abort();
+  }
+  return 0;
+}
