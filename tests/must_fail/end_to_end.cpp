@@ -111,6 +111,7 @@ std::vector<Fault> faults() {
       {"face", {bits, paths}, {"scenes/path/emitters.toml", "--spp", "2"}},
       {"light_leaf", {bits, paths}, {"scenes/path/many_lamps.toml", "--spp", "2"}},
       {"flight", {bits, paths}, {"scenes/path/fog.toml", "--spp", "2"}},
+      {"height_fog", {bits, paths}, {"scenes/path/morning.toml", "--spp", "2"}},
       {"phase", {bits, paths}, {"scenes/path/fog.toml", "--spp", "2"}},
       {"pane", {bits, paths}, {"scenes/path/panes.toml", "--spp", "2"}},
       {"sheen", {bits, paths}, {"scenes/path/panes.toml", "--spp", "2"}},
