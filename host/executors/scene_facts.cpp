@@ -56,6 +56,13 @@ bool any_emission_texture(const records::PackedScene& scene) {
                              [](const shader::Emitter& emitter) { return emitter.texture != NONE; });
 }
 
+bool any_smooth(const records::PackedScene& scene) {
+  return std::ranges::any_of(scene.primitives, [&](const shader::Primitive& primitive) {
+    return kind_of(primitive) == shader::KIND_triangle && primitive.extra != NONE &&
+           (scene.vertices[primitive.extra].w & CORNERS_NORMALS) != 0;
+  });
+}
+
 bool any_emits_in_front(const records::PackedScene& scene) {
   return any_flag(scene, MATERIAL_EMITS_IN_FRONT);
 }

@@ -9,6 +9,8 @@ namespace eyeray::executors {
 
 // Whether any texture of the material varies over a surface.
 bool varies(const records::PackedScene& scene, const shader::Material& material);
+// Whether any triangle has normals at its corners.
+bool any_smooth(const records::PackedScene& scene);
 bool any_emits(const records::PackedScene& scene);
 // Whether a surface that a path may choose has a texture for its light.
 bool any_emission_texture(const records::PackedScene& scene);

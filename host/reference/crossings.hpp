@@ -7,11 +7,16 @@
 
 namespace eyeray::reference {
 
+// A ray leaves a surface straight on, on the side that it points to; or scattered to one side of normal_side,
+// where a smooth triangle lifts it.
+enum class Leaving { straight, in_front, behind };
+
 // Where a ray into direction `d` leaves from a surface point: off the surface by a few error bounds, and by
 // `least`, on the side of `d`, so that the ray does not hit the surface that it leaves. As the shaders do
 // (geometry/ray.glsl), it stays on its line where that is steep: near an edge it then starts beyond the same
 // other face. With `along_normal` it never does.
-Vec3 spawn_origin(const SurfacePoint& point, const Vec3& d, double least = 0, bool along_normal = false);
+Vec3 spawn_origin(const SurfacePoint& point, const Vec3& d, double least = 0, bool along_normal = false,
+                  Leaving leaving = Leaving::straight);
 
 // Many more than the surfaces of a mesh that a ray can sensibly cross.
 inline constexpr int most_crossings = 1 << 20;

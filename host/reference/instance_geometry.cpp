@@ -26,7 +26,10 @@ SurfacePoint InstanceGeometry::surface(const Ray&, const TriangleHit& hit) const
   point.position = v[0] + (v[1] - v[0]) * hit.u + (v[2] - v[0]) * hit.v;
   point.position -= point.normal_geometric * glm::dot(point.normal_geometric, point.position - v[0]);
   point.position_error = 1e-13 * std::max({magnitude(v[0]), magnitude(v[1]), magnitude(v[2])});
-  point.normal = mesh.normals.empty() ? point.normal_geometric : interpolate(mesh.normals, triangle, hit);
+  point.normal = point.normal_geometric;
+  if (!mesh.normals.empty())
+    set_smooth(point, v, {mesh.normals[triangle[0]], mesh.normals[triangle[1]], mesh.normals[triangle[2]]},
+               {1 - hit.u - hit.v, hit.u, hit.v});
   if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, triangle, hit);
   point.uv = mesh_->uv(hit);
   const auto [a, b, c] = triangle;

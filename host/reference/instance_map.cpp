@@ -23,6 +23,8 @@ SurfacePoint InstanceMap::out(const SurfacePoint& local) const {
   point.position = to_world_.point(local.position);
   point.normal_geometric = unit(across);
   point.normal = unit(shading);
+  point.lift = local.lift / glm::length(shading);
+  for (Vec3& edge : point.edges) edge = to_world_.linear * edge;
   point.along_u = to_world_.linear * local.along_u;
   point.along_v = to_world_.linear * local.along_v;
   point.tangent =

@@ -69,7 +69,7 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
     throughput_ *= sample.weight;
   } else if (sample.kind == BsdfSample::Kind::lobe) {
     d = frame.out_of(sample.i);
-    const bool before = glm::dot(at.surface.normal_geometric, d) > 0;
+    const bool before = leaving(at, d) == Leaving::in_front;
     const BsdfValue value = bsdf.at(sample.i, before);
     if (!(value.density > 0) || !bsdf.faces(sample.i, before)) return std::nullopt;
     density_ = value.density;
@@ -83,7 +83,12 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
   }
   if (kind == RayKind::refracted) media = at.media_beyond;
 
-  return continued(kind, at, d, chance.y, sample.lobe + 1 + (kind == RayKind::refracted ? through : 0),
+  // What is seen through a surface stays on its line.
+  const bool bent = passes || sample.kind == BsdfSample::Kind::refracted;
+  const Leaving side = bent                         ? Leaving::straight
+                       : kind == RayKind::reflected ? Leaving::in_front
+                                                    : Leaving::behind;
+  return continued(kind, at, d, side, chance.y, sample.lobe + 1 + (kind == RayKind::refracted ? through : 0),
                    straight);
 }
 
@@ -91,12 +96,12 @@ std::optional<Ray> PathSample::scatter_in(const Medium& medium, const Interactio
   const Vec3 d = phase_direction(medium.anisotropy, at.d, pair(direction_pair));
   density_ = phase_value(medium.anisotropy, glm::dot(at.d, d));
   chosen_at_ = lit_point(at);
-  return continued(RayKind::reflected, at, d, pair(scatter_pair).y, way_in_medium + 1);
+  return continued(RayKind::reflected, at, d, Leaving::straight, pair(scatter_pair).y, way_in_medium + 1);
 }
 
 // Roulette.
-std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, const Vec3& d, double chance,
-                                         uint32_t way, bool straight) {
+std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, const Vec3& d, Leaving side,
+                                         double chance, uint32_t way, bool straight) {
   const double survival = depth_ < first_roulette ? 1 : std::clamp(largest(throughput_), least_survival, 1.0);
   observer_.value("survival", survival);
   if (roulette_ && !(chance < survival)) return std::nullopt;
@@ -113,7 +118,7 @@ std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, co
     ++depth_;
   }
   ++(kind == RayKind::reflected ? rays_.reflected : rays_.refracted);
-  const Ray next = rays_.spawn_ray(at.surface, d);
+  const Ray next = rays_.spawn_ray(at.surface, d, side);
   if (!straight) vertex_ = next.o;
   observer_.ray(kind, next, depth_);
   return next;
@@ -123,7 +128,7 @@ std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, co
 Interaction PathSample::scattered_at(const Ray& ray, double t) const {
   Interaction at{.surface = {}, .d = ray.d, .cos_view = 1, .primitive = ~uint64_t{0}};
   at.surface.position = ray.o + t * ray.d;
-  at.surface.normal = at.surface.normal_geometric = -ray.d;
+  at.surface.normal = at.surface.normal_geometric = at.surface.normal_side = -ray.d;
   observer_.value("primitive", -1);
   observer_.value("t", t);
   observer_.value("position", at.surface.position);

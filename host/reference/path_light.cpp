@@ -21,6 +21,10 @@ LitPoint lit_point(const Interaction& at) {
   return {at.surface.position, all_around ? std::nullopt : std::optional(at.surface.normal)};
 }
 
+Leaving leaving(const Interaction& at, const Vec3& d) {
+  return glm::dot(at.surface.normal_side, d) > 0 ? Leaving::in_front : Leaving::behind;
+}
+
 // Its own light, less what shadow rays to it have brought already.
 Vec3 PathSample::emitted(const Interaction& at) const {
   const Vec3& light = at.scattering.emitted;
@@ -58,7 +62,7 @@ std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) 
   const auto [l, by_angle] = sample_environment(*scene_.environment, pair(place_pair));
   const double density = environment_share() * by_angle;
   return Arriving{l,
-                  rays_.spawn_ray(at.surface, l),
+                  rays_.spawn_ray(at.surface, l, leaving(at, l)),
                   std::numeric_limits<double>::infinity(),
                   rays_.surroundings(l) / density,
                   density,
@@ -78,26 +82,22 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const Vec3& p = at.surface.position;
   if (light < scene_.lights.size()) {
     const Illumination arriving = scene_.lights[light]->illuminate(p);
+    double distance = arriving.distance;
     if (arriving.angle > 0) {
       const Vec3 l = disk_direction(arriving, pair(place_pair));
       const double density = share * disk_density(arriving);
-      return Arriving{
-          l,    rays_.spawn_ray(at.surface, l), arriving.distance, disk_radiance(arriving) / density, density,
-          light};
+      const Ray ray = rays_.spawn_to_light(at.surface, l, leaving(at, l), distance);
+      return Arriving{l, ray, distance, disk_radiance(arriving) / density, density, light};
     }
-    return Arriving{arriving.l,
-                    rays_.spawn_ray(at.surface, arriving.l),
-                    arriving.distance,
-                    M_PI / share * arriving.color,
-                    0,
-                    light};
+    const Ray ray = rays_.spawn_to_light(at.surface, arriving.l, leaving(at, arriving.l), distance);
+    return Arriving{arriving.l, ray, distance, M_PI / share * arriving.color, 0, light};
   }
   const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
   // What is flat does not light itself.
   if (emitter.primitive == at.primitive && is_flat(emitter.form)) return std::nullopt;
   const EmitterSample place = sample_emitter(emitter.form, p, pair(place_pair));
   const Vec3 l = glm::normalize(place.position - p);
-  Ray ray = rays_.spawn_ray(at.surface, l);
+  Ray ray = rays_.spawn_ray(at.surface, l, leaving(at, l));
   const Vec3 way = rays_.end_before(place.position, place.normal, l) - ray.o;
   ray.d = glm::normalize(way);
   const double density = share * emitter_density(emitter.form, p, place);
@@ -118,7 +118,7 @@ Vec3 PathSample::direct(const Interaction& at, const Arriving& light, const Bsdf
           : transmittance(rays_.medium(media), rays_.medium_length(media, light.ray, light.distance));
   const Vec3 contribution = light.radiance * left * scattered.value * weight;
   if (contribution == Vec3(0)) return Vec3(0);
-  const bool beyond = glm::dot(light.ray.d, at.surface.normal_geometric) < 0;
+  const bool beyond = glm::dot(light.ray.d, at.surface.normal_side) < 0;
   const MediaStack& passed = beyond && !at.in_medium() ? at.media_beyond : media;
   const Ray ray = with_key(light.ray, 1);
   const Vec3 seen = any_pane_ ? rays_.through_panes(ray, light.distance, light.density > 0, passed)

@@ -25,6 +25,8 @@ inline constexpr uint32_t first_flight_pair = 0x10000;  // of the vertices after
 
 // Where lights are asked from.
 LitPoint lit_point(const Interaction& at);
+// The side of the surface that a ray in that direction leaves on.
+Leaving leaving(const Interaction& at, const Vec3& d);
 // The weight of a technique of density p beside one of density q.
 double power_heuristic(double p, double q);
 
@@ -109,8 +111,8 @@ class PathSample {
   Vec3 direct_on(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                  const MediaStack& media);
   Vec3 direct_in(const Interaction& at, const MediaStack& media);
-  std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, double chance,
-                               uint32_t way, bool straight = false);
+  std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, Leaving side,
+                               double chance, uint32_t way, bool straight = false);
   std::optional<Ray> scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                              MediaStack& media);
   Vec3 direct_on_parts(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& wide,

@@ -50,12 +50,12 @@ Ray SampleRays::start_ray(const Ray& ray) {
   return started;
 }
 
-Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d) {
-  if (ray_offset_.textures != TextureChoice::at_hit) return {spawn_origin(point, d), d};
+Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d, Leaving leaving) {
+  if (ray_offset_.textures != TextureChoice::at_hit) return {spawn_origin(point, d, 0, false, leaving), d};
   const Vec3 from_eye = glm::abs(point.position - scene_.camera.eye);
   const double least =
       ray_offset_.off * ray_offset_.share * glm::dot(glm::abs(point.normal_geometric), from_eye);
-  Ray ray{spawn_origin(point, d, least, ray_offset_.along_normal), d};
+  Ray ray{spawn_origin(point, d, least, ray_offset_.along_normal, leaving), d};
   if (ray_offset_.share == 0) return ray;
 
   Vec3 aside;
@@ -63,6 +63,15 @@ Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d) {
   ++spawned_;
   aside -= glm::dot(aside, point.normal_geometric) * point.normal_geometric;
   ray.o += ray_offset_.share * glm::length(from_eye) * aside;
+  return ray;
+}
+
+Ray SampleRays::spawn_to_light(const SurfacePoint& point, const Vec3& l, Leaving leaving, double& distance) {
+  Ray ray = spawn_ray(point, l, leaving);
+  if (point.lift.x < 0 || !std::isfinite(distance)) return ray;
+  const Vec3 way = point.position + distance * l - ray.o;
+  distance = glm::length(way);
+  ray.d = way / distance;
   return ray;
 }
 
@@ -96,11 +105,11 @@ double SampleRays::tilt(const SurfacePoint& point, double distance) const {
 
 bool SampleRays::faces(const SurfacePoint& point, const Vec3& l, double distance) const {
   const double by = tilt(point, distance);
-  return glm::dot(point.normal, l) + by > 0 && glm::dot(point.normal_geometric, l) + by > 0;
+  return glm::dot(point.normal, l) + by > 0 && glm::dot(point.normal_side, l) + by > 0;
 }
 
 bool SampleRays::is_before(const SurfacePoint& point, const Vec3& l, double distance) const {
-  return glm::dot(point.normal_geometric, l) + tilt(point, distance) > 0;
+  return glm::dot(point.normal_side, l) + tilt(point, distance) > 0;
 }
 
 double SampleRays::shadow(const Ray& ray, double t_end) {
@@ -132,11 +141,7 @@ Vec3 SampleRays::through_panes(Ray ray, double t_end, bool has_extent, MediaStac
     if (crossed == (has_extent ? most_panes : most_passed)) return Vec3(0);
     SurfacePoint surface = tracer_.surface(ray, *hit);
     const bool front = glm::dot(ray.d, surface.normal_geometric) <= 0;
-    if (!front) {
-      surface.normal_geometric = -surface.normal_geometric;
-      surface.normal = -surface.normal;
-      surface.coat_normal = -surface.coat_normal;
-    }
+    if (!front) turn_over(surface);
     const Material& material = *scene_.materials[size_t(hit->material)];
     if (fills(material, scene_.render.integrator)) {
       if (!front)
@@ -222,11 +227,7 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
   const double cosine = glm::dot(at.d, at.surface.normal_geometric);
   const bool along = std::abs(cosine) < cosine_rounding(at.surface, hit.at.t);
   const bool front = (cosine < 0) != (along && ray_offset_.along_normal);
-  if (!front) {
-    at.surface.normal_geometric = -at.surface.normal_geometric;
-    at.surface.normal = -at.surface.normal;
-    at.surface.coat_normal = -at.surface.coat_normal;
-  }
+  if (!front) turn_over(at.surface);
   at.cos_view = std::clamp(-glm::dot(at.d, at.surface.normal), 0.0, 1.0);
 
   // Say which media hit here.

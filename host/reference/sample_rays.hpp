@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "host/reference/crossings.hpp"
 #include "host/reference/integrator.hpp"
 #include "host/reference/trail.hpp"
 
@@ -59,7 +60,9 @@ class SampleRays {
   // A ray that leaves a light, as float32 may round it.
   Ray start_ray(const Ray& ray);
   // A ray that leaves the surface, as float32 may round it.
-  Ray spawn_ray(const SurfacePoint& point, const Vec3& d);
+  Ray spawn_ray(const SurfacePoint& point, const Vec3& d, Leaving leaving = Leaving::straight);
+  // The same to a light at that distance from the point; both change where the ray starts elsewhere.
+  Ray spawn_to_light(const SurfacePoint& point, const Vec3& l, Leaving leaving, double& distance);
   // Where a shadow ray in direction l to a place of a lamp may end: as far off it as rays start off surfaces.
   Vec3 end_before(const Vec3& place, const Vec3& normal, const Vec3& l) const;
   // Whether a light in direction l at that distance stands before the surface. In its plane float32 may say

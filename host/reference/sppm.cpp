@@ -41,7 +41,8 @@ Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const 
       return;
     const Vec3 i = frame.into(photon.direction);
     const double cosine = glm::dot(photon.direction, n);
-    const Vec3 brought = wide.at(i, cosine > 0).value / std::abs(cosine) * photon.flux;
+    const bool before = leaving(at, photon.direction) == Leaving::in_front;
+    const Vec3 brought = wide.at(i, before).value / std::abs(cosine) * photon.flux;
     light += brought * kernel(distance);
     const Vec3 more = brought * (kernel(moved) - kernel(distance));
     if (glm::length(more) > glm::length(most)) most = more;
@@ -109,6 +110,8 @@ uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& s
       if (next && bent != n)
         throughput_ *= std::abs(glm::dot(next->d, n) / glm::dot(next->d, bent) * glm::dot(at.d, bent) /
                                 glm::dot(at.d, n));
+      // No path comes from where the triangle is seen from its other side.
+      if (next && glm::dot(next->d, n) * glm::dot(next->d, at.surface.normal_side) < 0) throughput_ = Vec3(0);
     } else {
       rays_.decided(Event::hit, 0);
       break;

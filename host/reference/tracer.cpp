@@ -15,6 +15,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// The greatest SurfacePoint::lift, as a share of the longest edge: rays of wild normals stay near.
+constexpr double most_lift = 0.25;
+
 // Of the scene's own objects, as Objects takes them.
 std::vector<uint64_t> first_ids(const Scene& scene, const PrimitiveIds& ids) {
   std::vector<uint64_t> first;
@@ -144,7 +147,14 @@ SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
   SurfacePoint point =
       hit.group < 0 ? world_->surface(ray, object) : groups_[size_t(hit.group)].surface(ray, object);
   // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
-  if (!(glm::dot(point.normal, point.normal_geometric) > 0)) point.normal = point.normal_geometric;
+  if (!(glm::dot(point.normal, point.normal_geometric) > 0)) {
+    point.normal = point.normal_geometric;
+    point.lift = Vec2(-1);
+  }
+  point.normal_side = point.lift.x < 0 ? point.normal_geometric : point.normal;
+  double longest = 0;
+  for (const Vec3& edge : point.edges) longest = std::max(longest, glm::length(edge));
+  point.lift = glm::min(point.lift, most_lift * longest);
   bend_normals(*scene_.materials[size_t(hit.material)], point, ray.d);
   return point;
 }

@@ -77,7 +77,8 @@ Vec3 Recursion::child(RayKind kind, const Path& path, const Interaction& at, con
   const double most = std::max({throughput.x, throughput.y, throughput.z});
   if (path.depth >= scene_.render.max_depth || !(most > scene_.render.min_throughput)) return Vec3(0);
   ++(kind == RayKind::reflected ? rays.reflected : rays.refracted);
-  const Path next{rays.spawn_ray(at.surface, d), media, path.depth + 1, throughput};
+  const Leaving side = kind == RayKind::reflected ? Leaving::in_front : Leaving::straight;
+  const Path next{rays.spawn_ray(at.surface, d, side), media, path.depth + 1, throughput};
   observer_.ray(kind, next.ray, next.depth);
   return share * radiance(next);
 }
@@ -89,9 +90,9 @@ Vec3 Recursion::direct(const Interaction& at, int depth) {
   const Scattering& scattering = at.scattering;
   Vec3 color = scattering.emitted + scattering.ambient * scene_.render.ambient;
   for (size_t i = 0; i < scene_.lights.size(); ++i) {
-    const auto [l, arriving, distance, angle] = scene_.lights[i]->illuminate(at.surface.position);
+    auto [l, arriving, distance, angle] = scene_.lights[i]->illuminate(at.surface.position);
     if (!rays.faces(at.surface, l, distance)) continue;
-    Ray ray = rays.spawn_ray(at.surface, l);
+    Ray ray = rays.spawn_to_light(at.surface, l, Leaving::in_front, distance);
     ray.alpha_key = key(depth, 1 + i);
     const double seen = rays.shadow(ray, distance);
     if (seen == 0 && !observer_) continue;

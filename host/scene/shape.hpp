@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -55,7 +56,21 @@ struct SurfacePoint {
   Vec4 tangent{0.0};      // of a mesh that has its own, as Mesh::tangents; not unit, w = 0 of any other
   Vec3 color{1.0};        // of a mesh's vertices
   Vec3 coat_normal{0.0};  // unit, as normal; of a clear coat, once its material has said it
+  // How far a triangle with normals at its corners lifts its scattered rays along its interpolated normal, in
+  // front and behind (docs/numerics.md); −1 of any other surface. And the triangle's edges.
+  Vec2 lift{-1.0};
+  std::array<Vec3, 3> edges{};
+  // Unit; decides on which side of the surface a direction is, once the surface is in the world. It is the
+  // interpolated normal where rays are lifted, else normal_geometric.
+  Vec3 normal_side{0.0};
 };
+
+// Its normals, and what belongs to them, towards the other side.
+inline void turn_over(SurfacePoint& point) {
+  for (Vec3* normal : {&point.normal_geometric, &point.normal, &point.coat_normal, &point.normal_side})
+    *normal = -*normal;
+  std::swap(point.lift.x, point.lift.y);
+}
 
 // Of a surface square to `normal` where gradients of u and v along it are known.
 inline void set_along(SurfacePoint& point, const Vec3& u_gradient, const Vec3& v_gradient) {

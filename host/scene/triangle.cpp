@@ -39,6 +39,22 @@ std::pair<Vec3, Vec3> along_uv(const Corners& v, const std::array<Vec2, 3>& uv) 
   return {(c.y * to_b - b.y * to_c) / area, (b.x * to_c - c.x * to_b) / area};
 }
 
+void set_smooth(SurfacePoint& point, const Corners& corners, const Corners& normals,
+                const std::array<double, 3>& weights) {
+  Vec3 flat(0), across(0);
+  for (size_t i = 0; i < 3; ++i) {
+    flat += weights[i] * corners[i];
+    across += weights[i] * normals[i];
+  }
+  point.lift = Vec2(0);
+  for (size_t i = 0; i < 3; ++i) {
+    const double height = weights[i] * glm::dot(flat - corners[i], normals[i]) / glm::length(across);
+    (height < 0 ? point.lift.x : point.lift.y) += std::abs(height);
+  }
+  point.normal = unit(across);
+  point.edges = {corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
+}
+
 CornerNormals::CornerNormals(const Affine& map)
     : keeps_angles_(similarity(map.matrix()).has_value()), linear_(map.cotangent) {
   if (!keeps_angles_)

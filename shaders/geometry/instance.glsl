@@ -64,7 +64,11 @@ Surface out_of_instance(Surface surface, Instance instance) {
   vec3 across = transposed(instance.to_local, surface.normal_geometric);
   float shrinks = sqrt(dot3(across, across));
   world.normal_geometric = across / shrinks;
-  world.normal = normalize3(transposed(instance.to_local, surface.normal));
+  vec3 shading = transposed(instance.to_local, surface.normal);
+  world.normal = normalize3(shading);
+#if HAS_SMOOTH
+  world.lift = surface.lift / sqrt(dot3(shading, shading));
+#endif
   vec3 tangent = map_direction(instance.to_world, vec3(surface.tangent));
   float turned = dot3(vec3(instance.to_world[0]), cross3(vec3(instance.to_world[1]), vec3(instance.to_world[2])));
   set_gradients(world, transposed(instance.to_local, surface.u_gradient), transposed(instance.to_local, surface.v_gradient));

@@ -57,6 +57,10 @@ struct Surface {
 #if HAS_BENT_COAT
   vec3 coat_normal;       // … of a clear coat, which only a normal map of its own bends
 #endif
+#if HAS_SMOOTH
+  vec3 normal_side;       // unit, see side_normal; not bent by the material
+  vec2 lift;              // of a smooth triangle, see geometry/lift.glsl; −1 of any other surface
+#endif
   vec2 uv;
   float offset;  // a ray that starts this far off p along the geometric normal does not hit the surface again
   // What bent normals ask (materials/bent_normal.glsl).
@@ -86,6 +90,10 @@ Surface no_surface() {
   surface.normal = surface.p;
 #if HAS_BENT_COAT
   surface.coat_normal = surface.p;
+#endif
+#if HAS_SMOOTH
+  surface.normal_side = surface.p;
+  surface.lift = vec2(-1.0f, -1.0f);
 #endif
   surface.uv = vec2(0.0f, 0.0f);
   surface.offset = 0.0f;
@@ -159,6 +167,16 @@ Ray continue_ray(Ray ray, vec3 o, vec3 d) {
   return next;
 }
 
+// The normal that decides on which side of the surface a direction is: the interpolated normal of a smooth triangle, the geometric normal of
+// any other surface.
+vec3 side_normal(Surface s) {
+#if HAS_SMOOTH
+  return s.normal_side;
+#else
+  return s.normal_geometric;
+#endif
+}
+
 // A ray that leaves `s` in direction d, started clear of the surface on the side that d points to. Where d is steep enough the start
 // moves along the ray itself, which keeps its line: a step along the normal would shift every refracted ray sideways.
 Ray spawn_ray(Surface s, vec3 d) {
@@ -166,6 +184,33 @@ Ray spawn_ray(Surface s, vec3 d) {
   float side = cosine < 0.0f ? -s.offset : s.offset;
   bool steep = abs(cosine) > 0.125f;
   return make_ray(s.p + (steep ? d * (s.offset / abs(cosine)) : s.normal_geometric * side), d);
+}
+
+// The same for a ray that the surface scatters to its front, or behind it. It leaves a smooth triangle from the curved surface that the
+// triangle stands for, and may point into the triangle's plane from there.
+Ray spawn_scattered(Surface s, vec3 d, bool front) {
+#if HAS_SMOOTH
+  if (s.lift.x >= 0.0f) {
+    float up = front ? 1.0f : -1.0f;
+    float cosine = dot3(d, s.normal_geometric) * up;
+    vec3 off = cosine > 0.125f ? d * (s.offset / cosine) : s.normal_geometric * (up * s.offset);
+    return make_ray(s.p + s.normal_side * (up * (front ? s.lift.x : s.lift.y)) + off, d);
+  }
+#endif
+  return spawn_ray(s, d);
+}
+
+// The same for a shadow ray to a light in the unit direction d, `distance` away from s.p. Both change where the ray starts elsewhere.
+Ray spawn_to_light(Surface s, vec3 d, bool front, INOUT(float) distance) {
+  Ray ray = spawn_scattered(s, d, front);
+#if HAS_SMOOTH
+  if (s.lift.x >= 0.0f && distance < T_MISS) {
+    vec3 way = d * distance - (ray.o - s.p);
+    distance = sqrt(dot3(way, way));
+    ray = make_ray(ray.o, way / distance);
+  }
+#endif
+  return ray;
 }
 
 SHADER_END

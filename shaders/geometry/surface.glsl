@@ -2,6 +2,7 @@
 #ifndef SURFACE_GLSL
 #define SURFACE_GLSL
 #include "geometry/instance.glsl"
+#include "geometry/lift.glsl"
 #include "geometry/ray.glsl"
 #if HAS_BENT_NORMALS
 #include "materials/bent_normal.glsl"
@@ -35,11 +36,20 @@ Surface surface_at(Primitive primitive, Ray ray, Hit hit) {
 #define SURFACE_OF(name, number) \
   if (kind_of(primitive) == number) surface = name##_surface(primitive, local, hit);
   SHAPES(SURFACE_OF)
+#if HAS_SMOOTH
+  surface.lift = lift_of(primitive, hit.uv);
+#endif
 #if HAS_INSTANCES
   if (hit.instance != NONE) surface = out_of_instance(surface, load_instance(hit.instance));
 #endif
   // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
-  if (!(dot3(surface.normal, surface.normal_geometric) > 0.0f)) surface.normal = surface.normal_geometric;
+  bool turned = !(dot3(surface.normal, surface.normal_geometric) > 0.0f);
+  if (turned) surface.normal = surface.normal_geometric;
+#if HAS_SMOOTH
+  bool lifts = !turned && surface.lift.x >= 0.0f;
+  surface.normal_side = lifts ? surface.normal : surface.normal_geometric;
+  surface.lift = lifts ? bounded_lift(surface.lift, primitive, hit.instance) : vec2(-1.0f, -1.0f);
+#endif
 #if HAS_BENT_NORMALS
   surface = bent_surface(material_of(primitive), surface, ray.d);
 #endif
@@ -51,6 +61,10 @@ Surface face_viewer(Surface surface, bool front) {
   Surface seen = surface;
   seen.normal_geometric = front ? surface.normal_geometric : -surface.normal_geometric;
   seen.normal = front ? surface.normal : -surface.normal;
+#if HAS_SMOOTH
+  seen.normal_side = front ? surface.normal_side : -surface.normal_side;
+  seen.lift = front ? surface.lift : vec2(surface.lift.y, surface.lift.x);
+#endif
 #if HAS_BENT_COAT
   seen.coat_normal = front ? surface.coat_normal : -surface.coat_normal;
 #endif

@@ -69,6 +69,9 @@ Interaction scattered_at(Path path, Flight flight) {
   at.surface.p = path.o + path.d * flight.t;
   at.surface.normal_geometric = -path.d;
   at.surface.normal = -path.d;
+#if HAS_SMOOTH
+  at.surface.normal_side = -path.d;
+#endif
   at.seen = at.surface;
   at.d = path.d;
   at.primitive = NONE;

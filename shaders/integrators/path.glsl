@@ -39,7 +39,7 @@ LocalFrame local_frame(Interaction at) { return frame_around(at.seen.normal); }
 
 vec3 towards_viewer(LocalFrame local, Interaction at) { return seen_from(into_frame(local, -at.d)); }
 
-bool is_before(Interaction at, vec3 d) { return dot3(at.seen.normal_geometric, d) > 0.0f; }
+bool is_before(Interaction at, vec3 d) { return dot3(side_normal(at.seen), d) > 0.0f; }
 
 // Whether the surface may send light on from direction d, `i` in its own frame: it is where normals, which may be bent, have it.
 bool on_its_side(Interaction at, vec3 d, vec3 i) {
@@ -142,8 +142,8 @@ Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) 
       arriving.density = arriving.share * disk_density(s);
     }
 #endif
-    arriving.ray = spawn_ray(at.seen, arriving.direction);
     arriving.distance = s.distance;
+    arriving.ray = spawn_to_light(at.seen, arriving.direction, is_before(at, arriving.direction), arriving.distance);
   }
 #if HAS_EMISSION
   if (light >= LIGHT_COUNT) {
@@ -152,7 +152,7 @@ Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) 
     arriving.direction = normalize3(place.p - at.seen.p);
     // The ray ends as far off the emitter as rays start off surfaces.
     float side = dot3(arriving.direction, place.normal) < 0.0f ? emitter.offset : -emitter.offset;
-    vec3 start = spawn_ray(at.seen, arriving.direction).o;
+    vec3 start = spawn_scattered(at.seen, arriving.direction, is_before(at, arriving.direction)).o;
     vec3 way = place.p + place.normal * side - start;
     arriving.distance = sqrt(dot3(way, way));
     arriving.ray = make_ray(start, way / arriving.distance);
@@ -169,7 +169,7 @@ Arriving environment_arriving(Frame frame, Path path, Interaction at) {
   Arriving arriving = nothing_arriving(at);
   arriving.share = environment_share(frame);
   arriving.direction = chosen.direction;
-  arriving.ray = spawn_ray(at.seen, chosen.direction);
+  arriving.ray = spawn_scattered(at.seen, chosen.direction, is_before(at, chosen.direction));
   arriving.distance = T_MISS;
   arriving.radiance = environment_radiance(frame, chosen.direction);
   arriving.density = arriving.share * chosen.density;
@@ -246,6 +246,7 @@ Continuations scatter_by(Frame frame, Path path, Interaction at, LobeShares shar
   bool lost = !(lobes.density > 0.0f) || !on_its_side(at, next.d, s.i);
   vec3 weight = lobes.value / maximum(lobes.density, 1.0e-30f);
   bool refracted = !before;
+  bool straight_on = s.refracted;
   if (s.mirrored || s.refracted) {
     next.density = 0.0f;
     next.d = reflected_direction(at);
@@ -281,6 +282,7 @@ Continuations scatter_by(Frame frame, Path path, Interaction at, LobeShares shar
     weight = at.bsdf.passed / shares.passed;
     lost = false;
     refracted = true;
+    straight_on = true;
     next.media = at.media_behind;
   }
   if (straight) {
@@ -296,7 +298,8 @@ Continuations scatter_by(Frame frame, Path path, Interaction at, LobeShares shar
 #if RAY_KINDS
   next.refracted = refracted;
 #endif
-  next.o = spawn_ray(at.surface, next.d).o;
+  // A lift would move what is seen through a surface.
+  next.o = straight_on ? spawn_ray(at.surface, next.d).o : spawn_scattered(at.seen, next.d, !refracted).o;
   next.throughput = path.throughput * weight;
 #if HAS_PANES
   if (!straight) next.from = next.o;

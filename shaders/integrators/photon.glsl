@@ -14,12 +14,16 @@ SHADER_BEGIN
 
 #if HAS_PHOTONS
 // A bent normal changes how much light a surface takes from one direction and sends in another, which paths and photons see from
-// opposite ends (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, 5.3).
+// opposite ends (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, 5.3). No path comes from where the triangle is
+// seen from its other side.
 float bent_both_ways(Interaction at, vec3 d) {
   float in_bent = abs(dot3(at.d, at.seen.normal));
   float out_bent = abs(dot3(d, at.seen.normal));
   float in_true = abs(dot3(at.d, at.seen.normal_geometric));
   float out_true = abs(dot3(d, at.seen.normal_geometric));
+#if HAS_SMOOTH
+  if (dot3(d, at.seen.normal_geometric) * dot3(d, side_normal(at.seen)) < 0.0f) return 0.0f;
+#endif
   return (out_true / maximum(out_bent, 1.0e-6f)) * (in_bent / maximum(in_true, 1.0e-6f));
 }
 

@@ -112,7 +112,7 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
 #endif
         vec3 visible = vec3(1.0f, 1.0f, 1.0f) * visibility(occluded);
 #if RANDOM_WALK && HAS_PANES
-        bool beyond = dot3(to_light.d, at.seen.normal_geometric) < 0.0f;
+        bool beyond = dot3(to_light.d, side_normal(at.seen)) < 0.0f;
         if (ANY_PANE) visible = through_panes(frame, to_light, distance, number, beyond ? at.media_behind : path.media, counts);
 #endif
         PROBE(visibility, visible.x);

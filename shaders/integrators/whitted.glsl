@@ -24,12 +24,12 @@ vec3 whitted_emitted(Frame frame, Path path, Interaction at) {
 bool whitted_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution, OUT(uint) light) {
   LightSample s = sample_light(load_light(i), at.seen.p);
   float cosine = dot3(at.seen.normal, s.direction);
-  ray = spawn_ray(at.seen, s.direction);
   distance = s.distance;
+  ray = spawn_to_light(at.seen, s.direction, true, distance);
   float lobe = highlight(at.material, at.seen.normal, s.direction, -at.d);
   contribution = s.color * (at.scattering.diffuse * cosine + at.scattering.specular * lobe);
   light = i;
-  return cosine > 0.0f && dot3(at.seen.normal_geometric, s.direction) > 0.0f;
+  return cosine > 0.0f && dot3(side_normal(at.seen), s.direction) > 0.0f;
 }
 
 // Reflection and refraction, each where it counts for enough. Of both the refracted ray is next.
@@ -38,7 +38,7 @@ Continuations whitted_scatter(Frame frame, Path path, Interaction at) {
   bool deeper = path.depth < frame.max_depth;
   Path reflected = path;
   reflected.d = reflected_direction(at);
-  reflected.o = spawn_ray(at.surface, reflected.d).o;
+  reflected.o = spawn_scattered(at.seen, reflected.d, true).o;
   reflected.throughput = path.throughput * at.scattering.reflected;
   reflected.depth = path.depth + 1u;
 #if RAY_KINDS

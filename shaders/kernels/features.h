@@ -7,6 +7,9 @@
 #ifndef HAS_COLORS  // a mesh's vertices have colours
 #define HAS_COLORS 1
 #endif
+#ifndef HAS_SMOOTH  // a triangle has normals at its corners
+#define HAS_SMOOTH 1
+#endif
 #ifndef HAS_EMISSION  // a material emits light
 #define HAS_EMISSION 1
 #endif
