@@ -3,6 +3,7 @@
 #include "host/bench/field.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/json_depth.hpp"
 
 namespace eyeray::bench {
 
@@ -65,7 +66,7 @@ FieldReport read_field_report(const std::filesystem::path& file) {
   const std::string text = read_file(file);
   try {
     FieldReport report;
-    const Json answer = Json::parse(text);
+    const Json answer = Json::parse(unless_too_deep(text));
     for (const Json& scene : answer.at("field")) {
       SceneReport& entry = report.emplace_back(
           SceneReport{scene.at("scene"), scene.at("family"), scene.at("primitives"), {}, {}});

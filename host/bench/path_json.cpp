@@ -4,6 +4,7 @@
 #include "host/bench/spread_json.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/json_depth.hpp"
 
 namespace eyeray::bench {
 namespace {
@@ -79,7 +80,7 @@ std::vector<PathReport> read_path_reports(const std::filesystem::path& file) {
   const std::string text = read_file(file);
   try {
     std::vector<PathReport> reports;
-    const Json answer = Json::parse(text);
+    const Json answer = Json::parse(unless_too_deep(text));
     for (const Json& json : answer.value("paths", Json::array())) {
       PathReport& report = reports.emplace_back();
       report.scene = json.at("scene");

@@ -4,6 +4,7 @@
 #include "host/bench/spread_json.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/json_depth.hpp"
 
 namespace eyeray::bench {
 namespace {
@@ -52,7 +53,7 @@ std::vector<PictureReport> read_picture_reports(const std::filesystem::path& fil
   const std::string text = read_file(file);
   try {
     std::vector<PictureReport> pictures;
-    const Json answer = Json::parse(text);
+    const Json answer = Json::parse(unless_too_deep(text));
     for (const Json& json : answer.at("bench")) {
       PictureReport& picture = pictures.emplace_back();
       picture.scene = json.at("scene");

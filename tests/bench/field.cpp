@@ -89,7 +89,8 @@ TEST_CASE("what is no report is refused in one line") {
   const std::string good = nlohmann::ordered_json{{"field", to_json(sample(0.1))}}.dump();
   for (const std::string& bad :
        {std::string("{"), std::string("[]"), std::string("{\"field\": 3}"), std::string("{\"field\": [{}]}"),
-        good.substr(0, good.size() / 2), std::string(100'000, '[')}) {
+        good.substr(0, good.size() / 2), std::string(100'000, '['),
+        "{\"field\": [], \"more\": " + std::string(64, '[') + std::string(64, ']') + "}"}) {
     write_text(file, bad);
     try {
       read_field_report(file);
