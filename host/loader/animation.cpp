@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "host/loader/keyframes.hpp"
@@ -63,6 +64,34 @@ constexpr Key table_of_track[] = {
          "(Catmull-Rom).",
      .fallback = "\"linear\"",
      .choices = curves},
+};
+
+// The values that tracks have moved so far. A later track may move a part of an earlier one's value, and
+// nothing that holds an earlier one's, whose keyframes would then count for nothing.
+class MovedValues {
+ public:
+  // Moves the value at `place` (apply_track) by `track`, whose target is at `at`. Of several tracks that undo
+  // the same one, the first is an error.
+  void add(const std::vector<std::string>& place, const SourcePosition& at, TableReader& track) {
+    const auto earlier = tracks_.lower_bound(place);
+    const bool undone = earlier != tracks_.end() && earlier->first.size() >= place.size() &&
+                        std::equal(place.begin(), place.end(), earlier->first.begin());
+    if (!undone) {
+      tracks_.emplace(place, Track{at});
+    } else if (!std::exchange(earlier->second.undone, true)) {
+      const SourcePosition& first = earlier->second.at;
+      track.error("target", fmt::format("the [[track]] at {}:{} moves this already: give one track all its "
+                                        "keyframes",
+                                        printable(first.file), first.line));
+    }
+  }
+
+ private:
+  struct Track {
+    SourcePosition at;
+    bool undone = false;
+  };
+  std::map<std::vector<std::string>, Track> tracks_;
 };
 
 double frame_of(const toml::node& keyframe) {
@@ -127,6 +156,7 @@ Animation apply_animation(toml::table& root, DiagnosticLog& log) {
   toml::array tracks;
   if (toml::node* const list = root.get(track.name)) tracks = std::move(*list->as_array());
   root.erase(track.name);
+  MovedValues moved;
   for (const toml::node& node : tracks) {
     const toml::table& table = *node.as_table();
     TableReader one = read_table({.title = track.title, .table = &table, .keys = {track.keys}}, log);
@@ -140,7 +170,9 @@ Animation apply_animation(toml::table& root, DiagnosticLog& log) {
     const auto value = value_between(keyframes, animation.frame, Curve(one.choice("curve")), log);
     if (!value) continue;
     add_moving(1, frame_of(keyframes.front()), frame_of(keyframes.back()), animation);
-    apply_track(root, target, *value, one.position("target"), one.position("keyframes"), log);
+    const auto place =
+        apply_track(root, target, *value, one.position("target"), one.position("keyframes"), log);
+    if (!place.empty()) moved.add(place, one.position("target"), one);
   }
   return animation;
 }

@@ -45,9 +45,16 @@ class Assignment {
              DiagnosticLog& log)
       : text_(std::move(text)), at_(std::move(at)), value_at_(std::move(value_at)), root_(root), log_(log) {}
 
-  void apply() {
-    if (!parse()) return;
-    if (toml::node* section = enter_section()) assign(*section);
+  // Returns the parts of the key, where elements of lists have their index in place of a name; none after an
+  // error.
+  std::vector<std::string> apply() {
+    if (!parse()) return {};
+    toml::node* const section = enter_section();
+    if (!section || !assign(*section)) return {};
+    std::vector<std::string> place;
+    for (const toml::key& part : path_) place.emplace_back(part.str());
+    if (element_) place[1] = std::to_string(*element_);
+    return place;
   }
 
  private:
@@ -124,10 +131,10 @@ class Assignment {
       const toml::node* name = list->get(i)->as_table()->get("name");
       if (!name || !name->is_string()) continue;
       names.push_back(name->as_string()->get());
-      if (names.back() == wanted) return list->get(i);
+      if (names.back() == wanted) return list->get(element_.emplace(i));
     }
     const auto index = as_index(wanted);
-    if (index && *index < count) return list->get(*index);
+    if (index && *index < count) return list->get(element_.emplace(*index));
 
     const std::string nearest = nearest_name(wanted, names);
     if (count == 0) {
@@ -141,8 +148,8 @@ class Assignment {
     return nullptr;
   }
 
-  // Goes down the other parts, and sets the last.
-  void assign(toml::node& section) {
+  // Goes down the other parts, and sets the last; false after an error.
+  bool assign(toml::node& section) {
     toml::node* node = &section;
     for (; next_ < path_.size(); ++next_) {
       const toml::key& part = path_[next_];
@@ -151,7 +158,7 @@ class Assignment {
         if (last) {
           table->erase(part.str());
           table->insert_or_assign(part, std::move(*value_));
-          return;
+          return true;
         }
         node = table->get(part.str());
         if (!node) node = &table->insert_or_assign(part, toml::table()).first->second;
@@ -159,18 +166,21 @@ class Assignment {
         const auto index = as_index(part.str());
         if (!index || *index >= list->size()) {
           return fail(fmt::format("`{}` has {} elements, counted from 0; `{}` is none of them",
-                                  path_[next_ - 1].str(), list->size(), part.str()));
+                                  path_[next_ - 1].str(), list->size(), part.str())),
+                 false;
         }
         if (last) {
           list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(*index), std::move(*value_));
-          return;
+          return true;
         }
         node = list->get(*index);
       } else {
-        return fail(
-            fmt::format("`{}` holds a single value, so it has no `{}`", path_[next_ - 1].str(), part.str()));
+        return fail(fmt::format("`{}` holds a single value, so it has no `{}`", path_[next_ - 1].str(),
+                                part.str())),
+               false;
       }
     }
+    return false;
   }
 
   const std::string text_;
@@ -179,7 +189,8 @@ class Assignment {
   DiagnosticLog& log_;
   toml::table tree_;
   std::vector<toml::key> path_;
-  size_t next_ = 0;  // the first part of the path that was not followed yet
+  size_t next_ = 0;                // the first part of the path that was not followed yet
+  std::optional<size_t> element_;  // of a list of tables
   toml::node* value_ = nullptr;
 };
 
@@ -192,9 +203,10 @@ void apply_overrides(toml::table& root, std::span<const Override> overrides, Dia
   }
 }
 
-void apply_track(toml::table& root, std::string_view target, std::string_view value, const SourcePosition& at,
-                 const SourcePosition& value_at, DiagnosticLog& log) {
-  Assignment(fmt::format("{}={}", target, value), at, value_at, root, log).apply();
+std::vector<std::string> apply_track(toml::table& root, std::string_view target, std::string_view value,
+                                     const SourcePosition& at, const SourcePosition& value_at,
+                                     DiagnosticLog& log) {
+  return Assignment(fmt::format("{}={}", target, value), at, value_at, root, log).apply();
 }
 
 }  // namespace eyeray::loader

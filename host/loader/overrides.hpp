@@ -4,6 +4,8 @@
 #include <toml++/toml.h>
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "host/loader/scene_file.hpp"
 #include "host/scene/diagnostic_log.hpp"
@@ -14,8 +16,10 @@ namespace eyeray::loader {
 void apply_overrides(toml::table& root, std::span<const Override> overrides, DiagnosticLog& log);
 
 // The same of a value that keyframes have made, as TOML. `at`: where `target`, the key, is written;
-// `value_at`: where its keyframes are, at which what is wrong with the value is reported.
-void apply_track(toml::table& root, std::string_view target, std::string_view value, const SourcePosition& at,
-                 const SourcePosition& value_at, DiagnosticLog& log);
+// `value_at`: where its keyframes are, at which what is wrong with the value is reported. Returns the parts
+// of the key, with indices in place of names: "sphere", "0", "radius". After an error there are none.
+std::vector<std::string> apply_track(toml::table& root, std::string_view target, std::string_view value,
+                                     const SourcePosition& at, const SourcePosition& value_at,
+                                     DiagnosticLog& log);
 
 }  // namespace eyeray::loader

@@ -131,3 +131,35 @@ TEST_CASE("whole numbers stay whole where they are, and a track moves what an ov
   CHECK(scene.animation.first == -4);
   CHECK(scene.animation.last == 6);
 }
+
+TEST_CASE("two tracks on one target are one error, at the second one's line, however many there are") {
+  const auto track = [](const std::string& target, const char* value) {
+    return fmt::format("[[track]]\ntarget = \"{}\"\nkeyframes = [[0, {}]]\n", target, value);
+  };
+  const auto error_of = [&](const std::string& tracks) -> std::string {
+    try {
+      at(tracks, 0);
+    } catch (const InputError& error) {
+      REQUIRE(error.diagnostics().size() == 1);
+      const Diagnostic& diagnostic = error.diagnostics()[0];
+      return fmt::format("{}: {}", diagnostic.position.line, diagnostic.message);
+    }
+    return "";
+  };
+  const std::string message =
+      "the [[track]] at scene.toml:14 moves this already: give one track all its keyframes";
+  // `tracks` begins in line 13 of the scene, and a track has three lines.
+  const std::string eye = track("camera.eye", "[0, 0, 1]"), radius = track("sphere.ball.radius", "2");
+  CHECK(error_of(eye + radius).empty());
+  CHECK(error_of(eye + radius + eye) == "20: " + message);
+  CHECK(error_of(eye + track("camera . eye", "[0, 0, 2]")) == "17: " + message);
+  CHECK(error_of(radius + track("sphere.0.radius", "3")) == "17: " + message);
+  std::string many = eye;
+  for (int i = 0; i < 10'000; ++i) many += eye;
+  CHECK(error_of(many) == "17: " + message);
+
+  // A part of a value that moves may move otherwise; moved the other way round, it would stand still.
+  const std::string x = track("camera.eye.0", "7");
+  CHECK(at(eye + x, 0).camera.eye == Vec3(7, 0, 1));
+  CHECK(error_of(x + eye) == "17: " + message);
+}
