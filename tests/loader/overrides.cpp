@@ -1,5 +1,6 @@
 // -D KEY=VALUE.
 #include <algorithm>
+#include <bit>
 
 #include "host/loader/scene_file.hpp"
 #include "host/scene/integrator.hpp"
@@ -47,6 +48,38 @@ std::string refusal(const char* change) {
     return error.what();
   }
   return "accepted";
+}
+
+// A triangle with its 36 bytes of positions in the file itself, or behind it in a .glb.
+std::string gltf_triangle(bool embedded) {
+  const std::string uri =
+      embedded
+          ? R"("uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",)"
+          : "";
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{)" +
+         uri + R"("byteLength": 36}]})";
+}
+
+// `json` and the triangle's positions as chunks.
+std::string glb_of(std::string json) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::string bytes;
+  const auto word = [&](uint32_t value) {
+    for (int i = 0; i < 4; ++i) bytes += char(value >> (8 * i) & 0xff);
+  };
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  bytes += "glTF";
+  word(2);
+  word(uint32_t(12 + 8 + json.size() + 8 + sizeof positions));
+  word(uint32_t(json.size()));
+  bytes += "JSON" + json;
+  word(sizeof positions);
+  bytes += std::string("BIN\0", 4);
+  for (const float value : positions) word(std::bit_cast<uint32_t>(value));
+  return bytes;
 }
 
 }  // namespace
@@ -126,9 +159,17 @@ TEST_CASE("a file that an override names lies beside the scene, whatever kind of
       "[[material]]\nname = \"m\"\ntype = \"phong\"\n[[mesh]]\nfile = \"other.obj\"\nmaterial = \"m\"\n"
       "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n";
   folder.write("in/parts.toml", shapes);
-  const std::string inputs[] = {folder.write("in/scene.toml", shapes),
-                                folder.write("in/main.toml", "include = [\"parts.toml\"]\n"),
-                                folder.write("in/alone.obj", triangle)};
+  const std::string alone[] = {
+      folder.write("in/alone.obj", triangle),
+      folder.write("in/alone.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                   "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                   "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+      folder.write("in/alone.gltf", gltf_triangle(true)),
+      folder.write("in/alone.glb", glb_of(gltf_triangle(false)))};
+  std::vector<std::string> inputs(std::begin(alone), std::end(alone));
+  inputs.push_back(folder.write("in/scene.toml", shapes));
+  inputs.push_back(folder.write("in/main.toml", "include = [\"parts.toml\"]\n"));
 
   struct Value {
     std::string key, file;
@@ -144,8 +185,7 @@ TEST_CASE("a file that an override names lies beside the scene, whatever kind of
         const std::string change = std::string(value.key).replace(value.key.find("NAME"), 4, name);
         CAPTURE(input);
         CAPTURE(change);
-        const bool alone = input.ends_with(".obj");
-        if (alone && !value.in_mesh) {
+        if (!value.in_mesh && std::ranges::find(alone, input) != std::end(alone)) {
           CHECK_THROWS_AS(load_scene(input, std::vector<Override>{{change}}), InputError);
           continue;
         }
@@ -154,8 +194,16 @@ TEST_CASE("a file that an override names lies beside the scene, whatever kind of
       }
       const std::string missing = std::string(value.key).replace(value.key.find("NAME"), 4, "missing.hdr");
       CHECK_THROWS_AS(load_scene(input, std::vector<Override>{{missing}}), InputError);
-      // Text has no folder.
-      CHECK_THROWS_AS(parse_scene(text, "scene.toml", std::vector<Override>{{missing}}), InputError);
+    }
+  }
+  // Text has no folder, not even for a file that is there.
+  for (const std::string key : {"environment.image=NAME", "material.1.diffuse={image=\"NAME\"}",
+                                "material.1.diffuse={formula={file=\"NAME\"}}"}) {
+    for (const std::string& name :
+         {std::string("missing.hdr"), folder / "in/sky.hdr", folder / "in/colors.glsl"}) {
+      const std::string change = std::string(key).replace(key.find("NAME"), 4, name);
+      CAPTURE(change);
+      CHECK(refusal(change.c_str()).find("error: only a scene in a file can ") != std::string::npos);
     }
   }
 }
