@@ -1,6 +1,6 @@
 #include "host/compare/report.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +62,16 @@ int64_t PhotonTally::may_part() const {
   return std::max<int64_t>(4, int64_t(share * double(sent) * std::max(depth, usual_depth) / usual_depth));
 }
 
+std::string Report::note_of_shaders() const {
+  constexpr size_t shown = 8;
+  if (changed_shaders.empty()) return "";
+  const size_t count = changed_shaders.size();
+  const std::span<const std::string> first(changed_shaders.data(), std::min(count, shown));
+  return fmt::format("shaders that differ from eyeray's own: {}{}{}", fmt::join(first, ", "),
+                     count > shown ? fmt::format(" and {} more", count - shown) : "",
+                     twin_has_changed_shaders ? "" : "; the twin has the built-in ones");
+}
+
 std::vector<std::string> Report::failures() const {
   if (!not_verified.empty())
     return may_stay_unverified ? std::vector<std::string>{}
@@ -109,6 +119,7 @@ std::vector<std::string> Report::failures() const {
       add_failures(failures, golden->value + " against " + golden->file, golden_type, golden->colors);
     if (!golden->refused.empty()) failures.back() += "; it was not updated: " + golden->refused;
   }
+  if (!failures.empty() && !changed_shaders.empty()) failures.insert(failures.begin(), note_of_shaders());
   return failures;
 }
 

@@ -85,8 +85,10 @@ struct Report {
   double seconds = 0;                // that it took to render and compare everything
   std::string options;  // of the command line that change the picture, each with a space before it
   std::string scene;
-  int width = 0, height = 0;  // of the whole picture
-  Rect area;                  // what was compared
+  std::vector<std::string> changed_shaders;  // files that take the place of eyeray's own and differ from them
+  bool twin_has_changed_shaders = false;     // as the gpu does
+  int width = 0, height = 0;                 // of the whole picture
+  Rect area;                                 // what was compared
   int samples = 1;
   std::vector<Participant> participants;
   std::vector<ExactResult> exact;
@@ -98,7 +100,11 @@ struct Report {
   std::map<int32_t, std::string> primitives, materials;
   std::string kept;  // the folder where the evidence lies; empty when nothing was kept
 
-  // Everything that fails, a sentence each, the deepest cause first; empty when the scene passes.
+  // "shaders that differ from eyeray's own: my-shaders/math.glsl; the twin has the built-in ones"; "" if
+  // there are none.
+  std::string note_of_shaders() const;
+  // Everything that fails, a sentence each, the deepest cause first; empty when the scene passes. Shaders
+  // that differ from eyeray's own come before all that fails.
   std::vector<std::string> failures() const;
   bool passes() const { return failures().empty(); }
   // Whether all passes but gate G, which compares with what the scene once was.

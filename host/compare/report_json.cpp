@@ -162,6 +162,7 @@ Json json(const Report& report) {
           {"verdict", report.verdict()},
           {"seconds", report.seconds},
           {"passed", report.passes()},
+          {"changed_shaders", report.changed_shaders},
           {"failures", report.failures()},
           {"diagnosis", report.diagnosis()},
           {"size", {report.width, report.height}},

@@ -186,6 +186,7 @@ std::string to_text(const Report& report) {
   line(text, "{} {} ({}×{} of {}×{} pixels, {} sample{} a pixel)", failures.empty() ? "PASSED" : "FAILED",
        report.scene, report.area.width, report.area.height, report.width, report.height, report.samples,
        report.samples == 1 ? "" : "s");
+  if (failures.empty() && !report.changed_shaders.empty()) line(text, "  {}", report.note_of_shaders());
   for (const std::string& failure : failures) line(text, "  {}", failure);
   if (const std::string diagnosis = report.diagnosis(); !diagnosis.empty())
     line(text, "  diagnosis: {}", diagnosis);

@@ -96,4 +96,16 @@ std::string ShaderFiles::shown(const std::string& name) const {
   return std::filesystem::is_regular_file(path, error) ? path.string() : name;
 }
 
+std::vector<std::string> changed_shaders(const std::filesystem::path& folder) {
+  std::vector<std::string> changed;
+  if (folder.empty()) return changed;
+  for (const EmbeddedFile& shader : embedded_shaders()) {
+    const std::filesystem::path file = folder / shader.name;
+    std::error_code error;
+    if (std::filesystem::is_regular_file(file, error) && read_file(file) != shader.text)
+      changed.push_back(file.string());
+  }
+  return changed;
+}
+
 }  // namespace eyeray::executors

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace eyeray::executors {
 
@@ -32,5 +33,9 @@ class ShaderFiles {
   std::set<std::filesystem::path> looked_for_;
   bool gave_users_ = false;
 };
+
+// The paths in `folder` of the files that take the place of embedded shaders and differ from them; none if it
+// is empty.
+std::vector<std::string> changed_shaders(const std::filesystem::path& folder);
 
 }  // namespace eyeray::executors

@@ -6,11 +6,10 @@
 #include <bit>
 
 #include "host/compare/explain.hpp"
-#include "host/core/atomic_file.hpp"
-#include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
 #include "host/core/termination.hpp"
 #include "host/executors/executors.hpp"
+#include "host/executors/shader_files.hpp"
 #include "host/probe/judge.hpp"
 #include "host/scene/objects.hpp"
 
@@ -166,13 +165,7 @@ class Pixel {
   }
 
   void note_changed_shaders(Findings& findings) const {
-    std::vector<std::string> changed;
-    for (const EmbeddedFile& shader : embedded_shaders()) {
-      const std::filesystem::path file = options_.executor.shader_folder / shader.name;
-      if (!options_.executor.shader_folder.empty() && std::filesystem::is_regular_file(file) &&
-          read_file(file) != shader.text)
-        changed.push_back(file.string());
-    }
+    const std::vector<std::string> changed = executors::changed_shaders(options_.executor.shader_folder);
     if (!changed.empty() && !options_.executor.compile_twin)
       findings.notes.push_back(
           fmt::format("the gpu has {}; the twin has the built-in shaders", fmt::join(changed, ", ")));

@@ -2,6 +2,7 @@
 
 #include "host/core/stopwatch.hpp"
 #include "host/executors/executors.hpp"
+#include "host/executors/shader_files.hpp"
 #include "host/raster/witness.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/scene/integrator.hpp"
@@ -147,6 +148,8 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   compare::Report report;
   report.scene = subject.file;
   report.options = subject.written_options;
+  report.changed_shaders = executors::changed_shaders(options.executor.shader_folder);
+  report.twin_has_changed_shaders = options.executor.compile_twin;
   report.width = scene.image.width;
   report.height = scene.image.height;
   report.area = options.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : options.crop;

@@ -51,6 +51,20 @@ TEST_CASE("the page of a report holds its pictures, numbers and the values of pi
   CHECK(std::filesystem::exists(folder / "report/kept/gpu.pfm"));
 }
 
+TEST_CASE("a report names the shaders of --shaders that differ") {
+  const SceneFolder folder;
+  std::filesystem::create_directories(folder / "my/bsdf");
+  const std::string shader = folder / "my/bsdf/fresnel.glsl";
+  write_text(shader, read_text("shaders/bsdf/fresnel.glsl"));
+  const auto changed = [&] {
+    report_on(folder, {"--shaders", folder / "my"});
+    return data_of(page_of(folder)).at("scenes").at(0).at("changed_shaders");
+  };
+  CHECK(changed().empty());
+  write_text(shader, read_text(shader) + "// changed\n");
+  CHECK(changed() == nlohmann::json{shader});
+}
+
 TEST_CASE("the page of a report shows the golden picture as it was compared") {
   const SceneFolder folder;
   const auto golden_of = [&](std::vector<std::string> options) {

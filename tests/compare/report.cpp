@@ -90,6 +90,27 @@ TEST_CASE("a failing report names the gate, the pixel, the seam, and the command
   CHECK(contains(text, "kept in analytic.verify"));
 }
 
+TEST_CASE("shaders that are not eyeray's own are named before what fails, and when nothing fails") {
+  Frame value = picture_frame();
+  value.color.pixel(50, 30)[1] += 0.5f;
+  for (const bool fails : {true, false}) {
+    CAPTURE(fails);
+    Report report = report_on(fails ? value : picture_frame());
+    for (int i = 0; i < 9; ++i) report.changed_shaders.push_back(fmt::format("my/{}.glsl", i));
+    const std::string text = to_text(report), junit = to_junit(std::span(&report, 1));
+    const std::string note = "shaders that differ from eyeray's own: my/0.glsl, my/1.glsl, ";
+    CHECK(text.substr(text.find('\n')).starts_with("\n  " + note));
+    CHECK(contains(text, "my/7.glsl and 1 more; the twin has the built-in ones\n"));
+    CHECK(contains(junit, (fails ? "<failure message=\"" : "\n  ") + note));
+    const auto scene = nlohmann::json::parse(to_json(std::span(&report, 1)))["scenes"][0];
+    CHECK(scene["changed_shaders"].size() == 9);
+    CHECK(scene["failures"].empty() == !fails);
+    CHECK(contains(to_annotations(std::span(&report, 1)), "::" + note) == fails);
+    report.twin_has_changed_shaders = true;
+    CHECK_FALSE(contains(to_text(report), "the twin has"));
+  }
+}
+
 TEST_CASE("JSON says the same, and a NaN in it is null") {
   Frame value = picture_frame();
   value.color.pixel(50, 30)[1] = std::nanf("");
