@@ -65,14 +65,29 @@ std::string first_failure(const Report& report) {
   return text.substr(0, text.find('\n'));
 }
 
+// Any text as one line of Markdown, where HTML counts, or as one cell of a table.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : log_line(text)) {
+    if (c == '|' || c == '\\') escaped += '\\';
+    if (c == '<')
+      escaped += "&lt;";
+    else if (c == '&')
+      escaped += "&amp;";
+    else
+      escaped += c;
+  }
+  return escaped;
+}
+
 }  // namespace
 
 std::string to_row(const Report& report, size_t width) {
   // The name is padded by hand: fmt counts bytes of what is no UTF-8.
-  const std::string name = printable(report.scene);
+  const std::string name = log_line(report.scene);
   const std::string start = fmt::format("{:<7} {}{}", report.verdict(), name,
                                         std::string(width - std::min(width, name.size()), ' '));
-  if (!report.not_verified.empty()) return fmt::format("{}  {}\n", start, first_failure(report));
+  if (!report.not_verified.empty()) return fmt::format("{}  {}\n", start, log_line(first_failure(report)));
   return fmt::format("{}  {:>5}×{:<5} {:>7} explained {:>7} unexplained {:>8.2f} s\n", start,
                      report.area.width, report.area.height, report.count(explained),
                      report.count(unexplained), report.seconds);
@@ -90,7 +105,7 @@ std::string summary(std::span<const Report> reports) {
     const char* comma = "";
     for (const Report& report : reports) {
       if (report.verdict() != verdict) continue;
-      text += comma + printable(report.scene);
+      text += comma + log_line(report.scene);
       comma = ", ";
     }
     text += ')';
@@ -134,16 +149,15 @@ std::string to_annotations(std::span<const Report> reports) {
 }
 
 std::string to_markdown(std::span<const Report> reports) {
-  std::string text = fmt::format("### eyeray verify\n\n{}\n", summary(reports));
+  std::string all = summary(reports);
+  all.pop_back();
+  std::string text = fmt::format("### eyeray verify\n\n{}\n\n", cell(all));
   text += "| scene | verdict | pixels | explained | unexplained | seconds | first failure |\n";
   text += "| --- | --- | ---: | ---: | ---: | ---: | --- |\n";
   for (const Report& report : reports) {
-    std::string failure = first_failure(report);
-    for (size_t at = 0; (at = failure.find('|', at)) != std::string::npos; at += 2)
-      failure.insert(at, 1, '\\');
-    text += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {} |\n", printable(report.scene),
-                        report.verdict(), report.area.pixels(), report.count(explained),
-                        report.count(unexplained), report.seconds, printable(failure));
+    text += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {} |\n", cell(report.scene), report.verdict(),
+                        report.area.pixels(), report.count(explained), report.count(unexplained),
+                        report.seconds, cell(first_failure(report)));
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "host/compare/report.hpp"
+#include "host/core/github_text.hpp"
 
 namespace eyeray::compare {
 
@@ -181,7 +182,7 @@ std::string to_text(const Report& report) {
   if (!report.not_verified.empty()) {
     line(text, "{} {}", failures.empty() ? "SKIPPED" : "FAILED", report.scene);
     line(text, "  not verified: {}", report.not_verified);
-    return text;
+    return log_lines(text);
   }
   line(text, "{} {} ({}×{} of {}×{} pixels, {} sample{} a pixel)", failures.empty() ? "PASSED" : "FAILED",
        report.scene, report.area.width, report.area.height, report.width, report.height, report.samples,
@@ -223,7 +224,7 @@ std::string to_text(const Report& report) {
   if (const std::string command = report.command_to_look(); !command.empty())
     line(text, "  look closer: {}\n  its rays: {}", command, report.command_to_probe());
   if (!report.kept.empty()) line(text, "  pictures and the command line are kept in {}", report.kept);
-  return text;
+  return log_lines(text);
 }
 
 }  // namespace eyeray::compare

@@ -25,4 +25,16 @@ std::string log_line(std::string_view text) {
   return line;
 }
 
+std::string log_lines(std::string_view text) {
+  std::string lines;
+  while (!text.empty()) {
+    const size_t end = text.find('\n');
+    lines += log_line(text.substr(0, end));
+    if (end == std::string_view::npos) break;
+    lines += '\n';
+    text.remove_prefix(end + 1);
+  }
+  return lines;
+}
+
 }  // namespace eyeray

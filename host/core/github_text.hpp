@@ -14,4 +14,7 @@ std::string github_text(std::string_view text, bool property);
 // columns stay.
 std::string log_line(std::string_view text);
 
+// `text` with each of its lines so; its line ends stay.
+std::string log_lines(std::string_view text);
+
 }  // namespace eyeray

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "host/core/diagnostic.hpp"
+#include "host/core/github_text.hpp"
 #include "tests/support/analytic_picture.hpp"
+#include "tests/support/nasty_strings.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -108,6 +112,57 @@ TEST_CASE("shaders that are not eyeray's own are named before what fails, and wh
     CHECK(contains(to_annotations(std::span(&report, 1)), "::" + note) == fails);
     report.twin_has_changed_shaders = true;
     CHECK_FALSE(contains(to_text(report), "the twin has"));
+  }
+}
+
+TEST_CASE("no name of a scene or of a shader is a command, markup or a column, wherever it is shown") {
+  Frame value = picture_frame();
+  value.color.pixel(50, 30)[1] += 0.5f;
+  const auto count = [](const std::string& text, const std::string& what) {
+    int64_t found = 0;
+    for (size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  // A pipe that ends a cell has an even number of backslashes before it.
+  const auto columns = [](const std::string& text) {
+    int ends = 0, backslashes = 0;
+    for (const char c : text) {
+      ends += c == '|' && backslashes % 2 == 0;
+      backslashes = c == '\\' ? backslashes + 1 : 0;
+    }
+    return ends;
+  };
+  Report plain = report_on(value);
+  plain.changed_shaders = {"a"};
+  const std::span plain_only(&plain, 1);
+  for (const std::string& name : nasty_strings) {
+    CAPTURE(name);
+    Report report = plain;
+    report.scene = name;
+    report.changed_shaders = {name};
+    report.options = " --shaders '" + name + "'";
+    const std::span only(&report, 1);
+    for (const std::string& text : {to_text(report), to_row(report, 10), summary(only)}) {
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);) CHECK(line == log_line(line));
+    }
+    for (const char* mark : {"<", ">", "\""})
+      CHECK(count(to_junit(only), mark) == count(to_junit(plain_only), mark));
+    std::istringstream junit(to_junit(only));
+    for (std::string line; std::getline(junit, line);) CHECK(line == printable(line));
+    const auto table = [](const std::string& markdown) { return markdown.substr(markdown.find("| scene")); };
+    const std::string markdown = table(to_markdown(only)), plain_markdown = table(to_markdown(plain_only));
+    CHECK(count(markdown, "\n") == count(plain_markdown, "\n"));
+    CHECK(columns(markdown) == columns(plain_markdown));
+    CHECK(count(to_markdown(only), "<") == 0);
+    std::istringstream annotations(to_annotations(only));
+    for (std::string line; std::getline(annotations, line);) {
+      REQUIRE(line.starts_with("::error file="));
+      CHECK(count(line.substr(0, line.find(",title=eyeray verify::")), ",") == 0);
+      CHECK(line == printable(line));
+    }
+    const auto scene = nlohmann::json::parse(to_json(only))["scenes"][0];
+    if (name.find('\xff') == std::string::npos) CHECK(scene["scene"] == name);
   }
 }
 

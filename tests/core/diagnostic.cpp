@@ -2,6 +2,7 @@
 
 #include <array>
 #include <sstream>
+#include "tests/support/nasty_strings.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -44,22 +45,7 @@ TEST_CASE("of a long line only what is around the column is shown") {
 }
 
 TEST_CASE("no text of a file is a command to a terminal or to GitHub's workflows") {
-  const std::string nasty[] = {"::stop-commands::x",
-                               "  ::error::x",
-                               "\t::add-mask::x",
-                               "##[error]x",
-                               "a ##[group]b",
-                               "\x1b[2J",
-                               "a\nb",
-                               "a\r::debug::b",
-                               "\xc2\x9b"
-                               "31m",
-                               "::",
-                               "##[##[",
-                               "\x7f",
-                               "a\n::error::b",
-                               std::string("a\0b", 3)};
-  for (const std::string& text : nasty) {
+  for (const std::string& text : test::nasty_strings) {
     CAPTURE(text);
     for (const bool in_file : {false, true}) {
       Diagnostic diagnostic{Severity::error, {in_file ? text : "a.toml", 1, 3}, in_file ? "m" : text, "", 1};
