@@ -1,8 +1,10 @@
 """Every eyeray command that a document shows is one: its words and options are those of --help, its scenes are there,
-and what writes or tells something without rendering is run. Usage: commands.py EYERAY, from the source tree's root."""
+and what writes or tells something without rendering is run. With --all every command runs, small, but for those of NOT_RUN.
+Usage: commands.py EYERAY [--all], from the source tree's root."""
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -11,6 +13,30 @@ ROOT = pathlib.Path.cwd()
 EYERAY = str(pathlib.Path(sys.argv[1]).resolve())
 RUN = {"check", "shaders", "completion", "manual", "new", "generate"}
 SLOW = re.compile(r"terrain|000|--size-factor")
+ALL = "--all" in sys.argv
+SMALL = {"-s": "24x18", "--spp": "1", "--triangles": "2000", "--frames": "0:1"}  # take the place of what stands there
+SIZED = {"render", "verify", "probe"}  # commands that get SMALL's size and samples where they name none, …
+UNSIZED = {"--record": {"-s", "--spp"}, "--classic": {"--spp"}}  # … but for those that an option excludes
+# What a reader brings, by the document's name of it: copies of our own.
+BROUGHT = {
+    "model.glb": "scenes/showcase/chess.glb",
+    "bunny.obj": "scenes/meshes/gem.obj",
+    "gem.mtl": "scenes/meshes/gem.mtl",
+    "scene.toml": "scenes/whitted.toml",
+    "mesh.toml": "scenes/shapes/triangle.toml",
+    "studio.hdr": "scenes/showcase/studio.hdr",
+}
+RENDERED = ("a.pfm", "b.pfm", "new.pfm", "old.pfm")  # brought, too
+# Commands that --all does not run, and why. Each has to be in some document.
+NOT_RUN = {
+    r"^bench\b": "it measures for minutes",
+    r"^dev\b": "it serves until somebody ends it",
+    r"^slurm\b": "it needs a cluster; tests/slurm has one that is made up",
+    r"^verify scenes/( |$)": "it takes every scene, as the tests scene.* do",
+    r"--video": "it needs ffmpeg",
+    r"--checkpoint|--resume": "it is shown being interrupted; tests/cli/long_render.cpp does that",
+    r"[A-Z]{3}|…|<|\$": "it stands for many",
+}
 HIDDEN = {"--inject-fault"}  # of which no --help tells
 
 
@@ -67,14 +93,61 @@ def can_run(words):
             and (words[0] != "check" or scenes or "--schema" in words or "--manual" in words))
 
 
+def made_small(words):
+    """The command with small sizes, and no pixel of a probe outside them."""
+    words = list(words)
+    for option, value in SMALL.items():
+        if option in words:
+            words[words.index(option) + 1] = value
+        elif words[0] in SIZED and option in {"-s", "--spp"}.difference(*(UNSIZED.get(word, ()) for word in words)):
+            words += [option, value]
+    if words[0] == "probe":
+        words[2] = "12,9"
+    return words
+
+
+def run_all(document, all_words, used):
+    """Runs a document's commands one after the other in one scratch folder; returns what goes wrong."""
+    faults = []
+    with tempfile.TemporaryDirectory() as folder:
+        here = pathlib.Path(folder)
+        (here / "scenes").symlink_to(ROOT / "scenes")
+        for name, source in BROUGHT.items():
+            shutil.copy(ROOT / source, here / name)
+        for name in RENDERED:
+            run(["render", "scenes/whitted.toml", "-s", "24x18", "-o", name, "--quiet"], cwd=folder)
+        for words in all_words:
+            reasons = [each for each in NOT_RUN if re.search(each, " ".join(words))]
+            used.update(reasons)
+            if reasons:
+                continue
+            words = made_small(words)
+            if words[0] == "shaders":  # the folder is the document's to make
+                shutil.rmtree(here / "my-shaders", ignore_errors=True)
+            elif "my-shaders" in words and not (here / "my-shaders").exists():
+                run(["shaders", "--export", "my-shaders"], cwd=folder)
+            files = [found for word in words for found in (sorted(map(str, here.glob(word))) if "*" in word else [])]
+            if files:
+                words = [each for word in words for each in (files if "*" in word else [word])]
+                words = [str(pathlib.Path(word).relative_to(here)) if word in files else word for word in words]
+            expected = 1 if "--inject-fault" in words else 0
+            done = run(words, cwd=folder)
+            if done.returncode != expected:
+                faults.append(f"{document}: eyeray {shlex.join(words)}: ended with {done.returncode}: {done.stderr[-600:]}")
+    return faults
+
+
 def main():
-    seen, ran, faults = 0, set(), []
+    seen, ran, faults, used = 0, set(), [], set()
     # What a page of docs/adding-*.md adds is not there yet; tests/additions follows those.
     documents = [each for each in sorted((ROOT / "docs").glob("*.md")) if not each.name.startswith("adding-")]
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "scenes").symlink_to(ROOT / "scenes")
         for document in [ROOT / "README.md", *documents]:
-            for words in filter(None, commands(document.read_text())):
+            found = list(filter(None, commands(document.read_text())))
+            if ALL:
+                faults += run_all(document.relative_to(ROOT), found, used)
+            for words in found:
                 seen += 1
                 line = f"{document.relative_to(ROOT)}: eyeray {shlex.join(words)}"
                 if wrong := fault(words):
@@ -85,6 +158,8 @@ def main():
                     if done.returncode != 0:
                         faults.append(f"{line}: ended with {done.returncode}: {done.stderr}")
     print(f"{seen} commands, {len(ran)} of them run")
+    if ALL:
+        faults += [f"no document has a command like {each}, which NOT_RUN lists" for each in NOT_RUN if each not in used]
     if seen < 70 or len(ran) < 5:
         faults.append("the documents show more commands than these")
     sys.exit("\n".join(faults) or 0)
