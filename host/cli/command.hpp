@@ -107,7 +107,8 @@ void add_crop_option(CLI::App& command, Rect& crop);
 void check_crop(const Rect& crop, const ImageSettings& image);
 
 // Progress on stderr: a bar with rays/s and time left on a terminal, a plain line every few seconds
-// otherwise, nothing under --quiet. NO_COLOR is honoured.
+// otherwise, nothing under --quiet. NO_COLOR is honoured. Call it with Progress() before making the executor:
+// a terminal then shows that kernels compile.
 std::function<void(const render::Progress&)> progress_reporter(bool quiet);
 
 }  // namespace eyeray::cli

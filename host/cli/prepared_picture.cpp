@@ -84,6 +84,7 @@ std::unique_ptr<PreparedPicture> prepare(PictureRequest& request, StageTimes& ti
   executor_options.ray_kinds = request.ray_kinds || pixel_kinds;
   if (!executor_options.shader_folder.empty()) executor_options.compile_twin = true;
   executor_options.search_cost = aov::any_needs(request.aovs, aov::AovNeeds::search_cost);
+  if (progress) progress({});
   prepared->executor = render::make_picture_executor(request.backend, scene, executor_options);
   std::optional<render::Checkpoint>& checkpoint = prepared->checkpoint;
   checkpoint = checkpoint_of(request, scene, *prepared->executor);

@@ -1,5 +1,6 @@
 // How far a render has come.
 #include <fmt/ranges.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "host/cli/command.hpp"
 #include "host/core/readable.hpp"
@@ -17,25 +20,44 @@ namespace {
 constexpr double seconds_between_bars = 0.1;
 constexpr double seconds_between_lines = 5;
 
-// A bar that is drawn over itself, and wiped away when the last copy of the reporter goes, however the render
-// ended.
+// Columns of the terminal on standard error, which may change at any time.
+int terminal_columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+// Columns that a text of single-width characters in UTF-8 takes.
+int columns_of(std::string_view text) {
+  return int(std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+// A line that is drawn over itself, and wiped away when the last copy of the reporter goes, however the
+// render ended. It never fills the terminal's last column, after which a terminal begins another line.
 class Bar {
  public:
   ~Bar() {
     if (drawn_) std::fputs("\r\033[K", stderr);
   }
-  void draw(const std::string& text, double share) {
-    constexpr int width = 30;
-    const int full = int(share * width);
-    std::string bar;
-    for (int i = 0; i < width; ++i) bar += i < full ? "█" : "·";
-    if (colored_) bar = "\033[36m" + bar + "\033[0m";
-    fmt::print(stderr, "\r{} {}\033[K", bar, text);
+  // The first of `texts` that fits, behind a bar where there is room for one.
+  void draw(std::span<const std::string> texts, double share) {
+    const int room = terminal_columns() - 1;
+    const auto text =
+        std::ranges::find_if(texts, [&](const std::string& each) { return columns_of(each) <= room; });
+    if (text == texts.end()) return;
+    const int width = std::min(30, room - columns_of(*text) - 1);
+    fmt::print(stderr, "\r{}{}\033[K", width < 5 ? "" : bar(width, share) + " ", *text);
     std::fflush(stderr);
     drawn_ = true;
   }
 
  private:
+  std::string bar(int width, double share) const {
+    const int full = int(share * width);
+    std::string bar;
+    for (int i = 0; i < width; ++i) bar += i < full ? "█" : "·";
+    return colored_ ? "\033[36m" + bar + "\033[0m" : bar;
+  }
+
   bool drawn_ = false;
   const bool colored_ = !std::getenv("NO_COLOR");
 };
@@ -43,6 +65,13 @@ class Bar {
 bool stderr_is_terminal() {
   const char* type = std::getenv("TERM");
   return isatty(STDERR_FILENO) && type && std::strcmp(type, "dumb") != 0;
+}
+
+// Shown before the first samples.
+const std::string preparing[] = {"building BVHs and compiling kernels", "compiling kernels", "compiling"};
+
+double share_of(const render::Progress& progress) {
+  return double(progress.samples_done) / double(progress.samples_total);
 }
 
 // " band 3 of 32, sample 2 of 4"; what there is only one of is not said.
@@ -54,11 +83,17 @@ std::string place(const render::Progress& progress) {
   return parts.empty() ? "" : fmt::format("  {}", fmt::join(parts, ", "));
 }
 
-std::string describe(const render::Progress& progress, double share) {
-  const double taken = double(progress.samples_done - progress.samples_resumed);
-  const double left = progress.seconds * double(progress.samples_total - progress.samples_done) / taken;
-  return fmt::format("{:3.0f} %{}  {}  {} left", share * 100, place(progress),
-                     format_rate(double(progress.rays) / progress.seconds), format_seconds(left));
+// From the longest text to the shortest. Rate and time left are those since `first`, the first report: the
+// driver may compile kernels until then.
+std::vector<std::string> describe(const render::Progress& progress, const render::Progress& first) {
+  const std::string share = fmt::format("{:3.0f} %", share_of(progress) * 100);
+  if (progress.samples_done == first.samples_done) return {share + place(progress), share};
+  const double seconds = progress.seconds - first.seconds;
+  const double left = seconds * double(progress.samples_total - progress.samples_done) /
+                      double(progress.samples_done - first.samples_done);
+  const std::string rate = "  " + format_rate(double(progress.rays - first.rays) / seconds);
+  const std::string time = fmt::format("  {} left", format_seconds(left));
+  return {share + place(progress) + rate + time, share + rate + time, share + time, share};
 }
 
 }  // namespace
@@ -67,14 +102,20 @@ std::function<void(const render::Progress&)> progress_reporter(bool quiet) {
   if (quiet) return {};
   const std::shared_ptr<Bar> bar = stderr_is_terminal() ? std::make_shared<Bar>() : nullptr;
   const double pause = bar ? seconds_between_bars : seconds_between_lines;
-  return [bar, pause, next = pause](const render::Progress& progress) mutable {
-    if (progress.seconds < next || progress.samples_done <= progress.samples_resumed) return;
+  return [bar, pause, next = pause,
+          first = std::optional<render::Progress>()](const render::Progress& progress) mutable {
+    if (progress.samples_done <= progress.samples_resumed) {
+      if (bar) bar->draw(preparing, 0);
+      return;
+    }
+    if (!first) first = progress;
+    if (progress.seconds < next) return;
     next = progress.seconds + pause;
-    const double share = double(progress.samples_done) / double(progress.samples_total);
+    const std::vector<std::string> texts = describe(progress, *first);
     if (bar) {
-      bar->draw(describe(progress, share), share);
+      bar->draw(texts, share_of(progress));
     } else {
-      fmt::print(stderr, "{}\n", describe(progress, share));
+      fmt::print(stderr, "{}\n", texts[0]);
     }
   };
 }

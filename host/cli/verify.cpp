@@ -192,7 +192,11 @@ ExitCode VerifyCommand::run() {
                   changed.empty() ? " --crop and --max-explained" : changed);
     options.max_explained = most_explained;
   }
-  options.progress = [this] { return progress_reporter(quiet); };
+  options.progress = [this] {
+    auto progress = progress_reporter(quiet);
+    if (progress) progress({});
+    return progress;
+  };
   find_files();
   keep_share();
   check_options();

@@ -36,11 +36,12 @@ auto sample_keeper(const Rect& area, int samples, std::vector<compare::TracedSam
 
 // Renders by one executor, which becomes a participant of the report.
 compare::Frame render_frame(executors::Backend backend, executors::Executor& executor, const Scene& scene,
-                            const Options& options, compare::Report& report) {
+                            const Options& options, std::function<void(const render::Progress&)> progress,
+                            compare::Report& report) {
   render::RenderOptions how;
   how.crop = options.crop;
   how.first_hits = true;
-  if (options.progress) how.progress = options.progress();
+  how.progress = std::move(progress);
   std::vector<compare::TracedSample> samples;
   if (walks_at_random(scene.render.integrator))
     how.witness = sample_keeper(report.area, report.samples, samples);
@@ -173,14 +174,17 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
     report.photons = std::move(judged.tally);
     reference_executor->leave_out(left_out);
   }
+  const auto new_progress = [&] { return options.progress ? options.progress() : nullptr; };
   for (const executors::Backend backend : options.backends) {
+    auto progress = new_progress();
     std::unique_ptr<executors::Executor> executor =
         executors::make_executor(backend, scene, options.executor);
     executor->leave_out(left_out);
-    frames.push_back(render_frame(backend, *executor, scene, options, report));
+    frames.push_back(render_frame(backend, *executor, scene, options, std::move(progress), report));
     if (backend == executors::Backend::twin) twin = std::move(executor);
   }
-  frames.push_back(render_frame(executors::Backend::reference, *reference_executor, scene, options, report));
+  frames.push_back(render_frame(executors::Backend::reference, *reference_executor, scene, options,
+                                new_progress(), report));
 
   compare_backends(frames, options, report);
   const compare::Reference reference = neighbours(scene, *renderer);

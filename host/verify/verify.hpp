@@ -28,8 +28,8 @@ struct Options {
   std::function<void(const compare::Report&, std::span<const compare::Frame>,
                      std::span<const std::vector<compare::PixelOutcome>>)>
       witness;
-  // Asked before each executor renders, for what is told how far it has come; may be empty, and so may its
-  // answer.
+  // Called before each executor is made; returns the function that its progress is reported to. Either may be
+  // empty.
   std::function<std::function<void(const render::Progress&)>()> progress;
 };
 
