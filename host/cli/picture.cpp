@@ -200,10 +200,11 @@ std::string summary(const Picture& picture) {
                        samples_of(picture), picture.rays, picture.parts, picture.parts == 1 ? "" : "s",
                        format_seconds(picture.seconds));
   return fmt::format(
-      "{}: {}, {}, {}{} rays in {} ({}) on {}", fmt::join(names, ", "), size_of(picture), samples_of(picture),
+      "{}: {}, {}, {}{} rays in {} ({}), {} in all, on {}", fmt::join(names, ", "), size_of(picture),
+      samples_of(picture),
       picture.samples_resumed ? fmt::format("resumed with {} rays, then ", picture.rays_resumed) : "",
-      picture.rays - picture.rays_resumed, format_seconds(picture.seconds),
-      format_rate(rays_per_second(picture)), picture.device);
+      picture.rays - picture.rays_resumed, format_seconds(picture.sampling_seconds),
+      format_rate(rays_per_second(picture)), format_seconds(picture.seconds), picture.device);
 }
 
 std::string firefly_warning(const Picture& picture) {

@@ -1,6 +1,8 @@
 // eyeray render, check, shaders and devices where all is well.
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "host/image/image_file.hpp"
 #include "scene.hpp"
@@ -29,6 +31,22 @@ TEST_CASE("render writes what was asked for, and says so on standard error") {
   CHECK(image.pixel(0, 0)[0] == 0.25f);
   CHECK(image.pixel(0, 0)[2] == 0.75f);
   CHECK(image.pixel(32, 24)[0] > image.pixel(32, 24)[2]);
+}
+
+TEST_CASE("the summary's rays, seconds and rate divide") {
+  const SceneFolder folder;
+  const ProcessResult result =
+      run_eyeray({"render", folder.scene(), "-s", "320x240", "--spp", "4", "-o", folder / "a.png"});
+  CAPTURE(result.err);
+  const std::map<std::string, double> units{{"µs", 1e-6}, {"ms", 1e-3}, {"s", 1},
+                                            {"k", 1e3},   {"M", 1e6},   {"G", 1e9}};
+  std::smatch found;
+  REQUIRE(std::regex_search(
+      result.err, found,
+      std::regex(
+          "([0-9]+) rays in ([0-9.e+]+) (µs|ms|s) \\(([0-9.e+]+) ([kMG])rays/s\\), .* in all, on gpu: ")));
+  const double rays = std::stod(found[1]), seconds = std::stod(found[2]) * units.at(found[3]);
+  CHECK(rays / seconds == doctest::Approx(std::stod(found[4]) * units.at(found[5])).epsilon(0.02));
 }
 
 TEST_CASE("the default output is the scene's name, in the current folder") {
