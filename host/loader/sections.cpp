@@ -49,7 +49,11 @@ std::span<const Key> camera_keys() {
 std::span<const Key> light_keys() {
   static const std::vector<std::string_view> names = names_of(lights::types());
   static const Key keys[] = {
-      {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = names},
+      {.name = "type",
+       .type = KeyType::choice,
+       .doc = "Its kind; see below.",
+       .choices = names,
+       .hint = "; a shape whose material has `emission` is an area light"},
       {.name = "intensity",
        .type = KeyType::color,
        .doc = "The light that arrives, at distance 1 from a point light.",
