@@ -40,6 +40,23 @@ def test_defines():
         eyeray.Scene.read(SMALL, defines="image.width=32")
 
 
+def test_defines_that_name_files(tmp_path):
+    sky = tmp_path / "sky.hdr"
+    sky.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81")
+    toml = "\n".join(line for line in pathlib.Path(SMALL).read_text().splitlines() if "background" not in line)
+    (tmp_path / "scene.toml").write_text(toml)
+    (tmp_path / "alone.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    for name in ("sky.hdr", "./sky.hdr", str(sky)):
+        for file in ("scene.toml", "alone.obj"):
+            eyeray.Scene.read(tmp_path / file, defines={"environment.image": name})
+        for scene in (lambda defines: eyeray.Scene.parse(toml, defines=defines),
+                      lambda defines: eyeray.Scene.build(TABLES, defines=defines)):
+            with pytest.raises(eyeray.Error, match="only a scene in a file can have images"):
+                scene({"environment.image": name})
+    with pytest.raises(eyeray.Error, match="missing.hdr"):
+        eyeray.Scene.read(tmp_path / "alone.obj", defines=["environment.image=missing.hdr"])
+
+
 def test_a_mesh_of_arrays():
     plain = eyeray.render(with_mesh(vertices=QUAD, triangles=CORNERS), aovs=["depth"])
     assert np.isfinite(plain.aov("depth")[-1]).all()  # the floor
