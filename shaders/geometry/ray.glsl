@@ -186,6 +186,15 @@ Ray spawn_ray(Surface s, vec3 d) {
   return make_ray(s.p + (steep ? d * (s.offset / abs(cosine)) : s.normal_geometric * side), d);
 }
 
+// Whether scattered rays leave it from elsewhere than its points.
+bool lifts(Surface s) {
+#if HAS_SMOOTH
+  return s.lift.x >= 0.0f;
+#else
+  return false;
+#endif
+}
+
 // The same for a ray that the surface scatters to its front, or behind it. It leaves a smooth triangle from the curved surface that the
 // triangle stands for, and may point into the triangle's plane from there.
 Ray spawn_scattered(Surface s, vec3 d, bool front) {

@@ -94,6 +94,11 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   return at;
 }
 
+// Where a ray starts that the surface scatters in direction d, before or behind it.
+vec3 scattered_origin(Interaction at, vec3 d, bool before) {
+  return lifts(at.surface) ? spawn_scattered(at.seen, d, before).o : spawn_ray(at.surface, d).o;
+}
+
 vec3 reflected_direction(Interaction at) { return normalize3(at.d + at.seen.normal * (2.0f * at.context.cos_view)); }
 
 // Only asked for where refraction is possible.

@@ -299,7 +299,7 @@ Continuations scatter_by(Frame frame, Path path, Interaction at, LobeShares shar
   next.refracted = refracted;
 #endif
   // A lift would move what is seen through a surface.
-  next.o = straight_on ? spawn_ray(at.surface, next.d).o : spawn_scattered(at.seen, next.d, !refracted).o;
+  next.o = straight_on ? spawn_ray(at.surface, next.d).o : scattered_origin(at, next.d, !refracted);
   next.throughput = path.throughput * weight;
 #if HAS_PANES
   if (!straight) next.from = next.o;

@@ -38,7 +38,7 @@ Continuations whitted_scatter(Frame frame, Path path, Interaction at) {
   bool deeper = path.depth < frame.max_depth;
   Path reflected = path;
   reflected.d = reflected_direction(at);
-  reflected.o = spawn_scattered(at.seen, reflected.d, true).o;
+  reflected.o = scattered_origin(at, reflected.d, true);
   reflected.throughput = path.throughput * at.scattering.reflected;
   reflected.depth = path.depth + 1u;
 #if RAY_KINDS
