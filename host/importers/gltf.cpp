@@ -9,11 +9,13 @@
 
 #include "host/importers/formats.hpp"
 #include "host/importers/gltf_animation.hpp"
+#include "host/importers/gltf_camera.hpp"
 #include "host/importers/gltf_instancing.hpp"
 #include "host/importers/gltf_lights.hpp"
 #include "host/importers/gltf_materials.hpp"
 #include "host/importers/gltf_meshes.hpp"
 #include "host/importers/gltf_nodes.hpp"
+#include "host/importers/gltf_properties.hpp"
 #include "host/importers/malformed.hpp"
 #include "host/scene/affine.hpp"
 
@@ -57,6 +59,7 @@ class GltfReader {
     check_extensions();
     if (const auto asset = document_.object("asset"); asset && asset->text("version") != "2.0")
       breaches_.add("versions of glTF above 2.0, read as 2.0", "asset.version");
+    check_properties(json_, breaches_);
     for (const std::string& breach : container_.breaches) breaches_.add(breach, "the file");
     for (size_t i = 0; i < document_.size("materials"); ++i)
       scene_.materials.push_back(materials_.material(i));
@@ -88,7 +91,6 @@ class GltfReader {
   void read_nodes();
   void read_node(size_t index);
   void read_mesh(size_t index, size_t mesh, const Mat4& world);
-  void read_camera(const GltfObject& source, const Mat4& world);
   Mat4 transform(size_t index);
   bool is_flat(const Mat4& world);
   const std::vector<double>* moved(size_t node, const char* key) const;
@@ -242,7 +244,9 @@ void GltfReader::read_node(size_t index) {
   if (!mesh && !camera && !light) return;
   if (mesh && !hidden_[index]) read_mesh(index, *mesh, world);
   if ((camera || light) && is_flat(world)) return;
-  if (camera) read_camera(document_.element("cameras", *camera), world);
+  if (camera && scene_.camera) left_out_.add("cameras but the first");
+  if (camera && !scene_.camera)
+    scene_.camera = gltf_camera(document_.element("cameras", *camera), world, breaches_);
   if (light && !hidden_[index]) {
     const auto shown = light->index("light", lights ? lights->size("lights") : 0);
     if (!shown) light->fail("has no light");
@@ -280,31 +284,6 @@ void GltfReader::read_mesh(size_t index, size_t mesh, const Mat4& world) {
     for (const Mat4& transform : transforms)
       scene_.instances.push_back({part.mesh, transform, part.material, {}});
   }
-}
-
-// The first one: it looks along −z, and y is up.
-void GltfReader::read_camera(const GltfObject& source, const Mat4& world) {
-  if (scene_.camera) return left_out_.add("cameras but the first");
-  ImportedCamera camera;
-  camera.eye = Vec3(world[3]);
-  camera.target = camera.eye - unit(Vec3(world[2])) * std::max(1.0, magnitude(camera.eye));
-  camera.up = unit(Vec3(world[1]));
-  if (source.has("perspective") && source.has("orthographic"))
-    source.fail("is both perspective and orthographic");
-  if (const std::string type = source.text("type"); !type.empty() && !source.has(type.c_str()))
-    breaches_.add("cameras whose type is not that of their values, which count", source.place());
-  if (const auto perspective = source.object("perspective")) {
-    const double degrees = glm::degrees(perspective->number("yfov", 0));
-    if (!(degrees > 0 && degrees < 180)) perspective->fail("has a yfov that no camera has");
-    camera.form = PerspectiveCamera{degrees, FovAxis::vertical};
-  } else if (const auto orthographic = source.object("orthographic")) {
-    const double size = orthographic->number("xmag", 0);
-    if (!(size > 1e-12 && size < 1e12)) orthographic->fail("has an xmag that no camera has");
-    camera.form = OrthographicCamera{size};
-  } else {
-    source.fail("is neither perspective nor orthographic");
-  }
-  scene_.camera = camera;
 }
 
 }  // namespace

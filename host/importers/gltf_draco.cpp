@@ -12,8 +12,8 @@ namespace eyeray::importers {
 
 namespace {
 
-constexpr uint64_t triangle_list = 4;
-constexpr uint64_t triangle_strip = 5;
+constexpr uint64_t list_of_triangles = 4;
+constexpr uint64_t strip_of_triangles = 5;
 
 // What decoding may make of a file: numbers in all its meshes. A vertex and its two triangles have about 30;
 // they are coded in 1.5 bytes where the mesh is smooth, in next to none where it is flat and regular.
@@ -80,11 +80,11 @@ const draco::Mesh& GltfDraco::mesh(const GltfObject& coding) {
 
 // A strip's indices have no count to compare: Draco has triangles.
 void GltfDraco::check(const GltfObject& primitive, const draco::Mesh& mesh) {
-  const uint64_t mode = primitive.count("mode", triangle_list);
-  if (mode != triangle_list && mode != triangle_strip)
+  const uint64_t mode = primitive.count("mode", list_of_triangles);
+  if (mode != list_of_triangles && mode != strip_of_triangles)
     primitive.fail("has a mode other than triangles and strips of them, and Draco data, which have none");
   const auto indices = primitive.index("indices", document_.size("accessors"));
-  if (!indices || mode == triangle_strip) return;
+  if (!indices || mode == strip_of_triangles) return;
   const GltfObject accessor = document_.element("accessors", *indices);
   const uint64_t count = accessor.count("count", 0);
   if (count != uint64_t{3} * mesh.num_faces()) {

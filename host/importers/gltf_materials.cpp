@@ -95,15 +95,19 @@ ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budge
   if (const auto view = image.index("bufferView", document_.size("bufferViews"))) {
     if (image.has("uri")) image.fail("has both a uri and a bufferView: it is one picture");
     bytes = buffers_.view(*view);
+    if (document_.element("bufferViews", *view).has("byteStride"))
+      breaches_.add("pictures in views with a byteStride, which does not count", image.place());
+    if (!image.has("mimeType"))
+      breaches_.add("pictures in views without a mimeType, decoded as what they are", image.place());
   } else {
     data = buffers_.read_uri(image, "the picture");
     bytes = data;
   }
   const std::string type = image.text("mimeType");
-  if ((type == "image/png" && bytes.starts_with("\xff\xd8")) ||
-      (type == "image/jpeg" && bytes.starts_with("\x89PNG")))
+  const bool is_png = bytes.starts_with("\x89PNG"), is_jpeg = bytes.starts_with("\xff\xd8");
+  if (!type.empty() && ((is_png && type != "image/png") || (is_jpeg && type != "image/jpeg")))
     breaches_.add("pictures of another type than their mimeType, decoded as what they are", image.place());
-  if (!bytes.starts_with("\xff\xd8") && !bytes.starts_with("\x89PNG"))
+  if (!is_png && !is_jpeg)
     breaches_.add("pictures that are neither PNG nor JPEG, decoded as what they are", image.place());
   return decode_image_texture(std::as_bytes(std::span(bytes)), image.place(), budget, warnings);
 }
@@ -130,6 +134,7 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
       return code;
     };
     filter = one_of("magFilter", {linear, nearest});
+    one_of("minFilter", {linear, nearest, 9984, 9985, 9986, 9987});  // with mipmaps, which nothing here has
     wrap_s = one_of("wrapS", {repeat, clamp_to_edge, mirrored_repeat});
     wrap_t = one_of("wrapT", {repeat, clamp_to_edge, mirrored_repeat});
   }
@@ -164,9 +169,14 @@ bool GltfMaterials::shares_uv(const GltfObject& material, const GltfObject& refe
 TexturePtr GltfMaterials::emission(const GltfObject& material) {
   const TexturePtr none = textures::make_constant(Vec3(0));
   Vec3 color = share(factors(material, "emissiveFactor", {0, 0, 0}));
-  if (color == Vec3(0)) return none;
-  if (const auto strength = material.extension("KHR_materials_emissive_strength"))
-    color *= std::clamp(not_negative(*strength, "emissiveStrength", 1), 0.0, most_emission);
+  const auto strength = material.extension("KHR_materials_emissive_strength");
+  if (color == Vec3(0)) {
+    if (strength)
+      breaches_.add("emissive strengths of materials without an emissiveFactor, which do not shine",
+                    strength->place());
+    return none;
+  }
+  if (strength) color *= std::clamp(not_negative(*strength, "emissiveStrength", 1), 0.0, most_emission);
   const auto reference = material.object("emissiveTexture");
   if (!reference) return textures::make_constant(color);
   const auto image = texture(*reference, Content::color);
@@ -338,6 +348,11 @@ void GltfMaterials::note_rest(const GltfObject& material) {
   if (!alpha.empty() && alpha != "OPAQUE" && alpha != "MASK" && alpha != "BLEND")
     material.fail("has an alphaMode that glTF does not know");
   if (material.has("occlusionTexture")) left_out_.add("occlusion maps");
+  if (material.has("alphaCutoff") && alpha != "MASK")
+    breaches_.add("alpha cutoffs of materials whose alphaMode is not MASK, left out", material.place());
+  const auto volume = material.extension("KHR_materials_volume");
+  if (volume && !material.extension("KHR_materials_transmission"))
+    breaches_.add("volumes of materials that let no light through, left out", volume->place());
 }
 
 }  // namespace eyeray::importers

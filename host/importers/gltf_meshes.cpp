@@ -134,6 +134,8 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   if (std::ranges::any_of(pool.normals, is_no_unit))
     breaches_.add("normals that are not of unit length, normalised", attributes->place() + ".NORMAL");
   if (tangents) pool.tangents = buffers_.vec4(*tangents);
+  if (std::ranges::any_of(pool.tangents, [](const Vec4& tangent) { return is_no_unit(Vec3(tangent)); }))
+    breaches_.add("tangents that are not of unit length, normalised", attributes->place() + ".TANGENT");
   if (!std::ranges::all_of(pool.tangents, is_direction)) {
     breaches_.add("meshes with tangents that are no directions, made of their uv instead",
                   attributes->place());

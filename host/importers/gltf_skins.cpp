@@ -79,7 +79,7 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
   // Sum up by sets of four: JOINTS_0, JOINTS_1, …
   std::vector<Mat4> sums(vertices.positions.size(), Mat4(0.0));
   std::vector<double> total(vertices.positions.size(), 0.0);
-  bool negative = false;
+  bool negative = false, twice = false;
   if (!attributes.has("JOINTS_0")) attributes.fail("have no JOINTS_0, but the mesh is shown with a skin");
   for (int set = 0;; ++set) {
     const size_t accessors = document.size("accessors");
@@ -103,6 +103,7 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
         if (!(weight > 0)) continue;
         if (!(numbers[i][k] >= 0 && numbers[i][k] < static_cast<double>(joints.size())))
           attributes.fail(fmt::format("name joint {}; there are {}", numbers[i][k], joints.size()));
+        for (int j = 0; j < k; ++j) twice = twice || (numbers[i][j] == numbers[i][k] && weights[i][j] > 0);
         sums[i] += joints[static_cast<size_t>(numbers[i][k])] * weight;
         total[i] += weight;
       }
@@ -110,6 +111,9 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
   }
 
   if (negative) breaches.add("weights below 0, taken as 0", attributes.place() + ".WEIGHTS_0");
+  if (twice)
+    breaches.add("vertices that name a joint twice, whose weights are added",
+                 attributes.place() + ".JOINTS_0");
   if (std::ranges::any_of(total, [](double sum) { return !(std::abs(sum - 1) < 0.02); }))
     breaches.add("weights of joints that do not sum to 1, divided by their sum",
                  attributes.place() + ".WEIGHTS_0");

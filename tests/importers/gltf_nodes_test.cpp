@@ -28,7 +28,8 @@ Vec3 corner(const ImportedScene& scene, size_t instance) {
 TEST_CASE("KHR_node_visibility hides a node and all below it, but moves joints and cameras") {
   GltfFile file = square_file();
   file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
-  file.json["cameras"] = {{{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}}}}};
+  file.json["cameras"] = {
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}, {"znear", 0}, {"zfar", 9}}}}};
   const Json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
   const Json shown = {{"KHR_node_visibility", {{"visible", true}}}};
   file.json["nodes"] = {{{"mesh", 0}, {"extensions", shown}},

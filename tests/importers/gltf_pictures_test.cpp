@@ -22,6 +22,10 @@ TEST_CASE("rules of glTF: samplers, and pictures without uv") {
   CHECK(said_of(file) == "a.gltf: error: samplers[0] has a wrapS that glTF does not know");
   file.json["samplers"][0] = {{"magFilter", 1}};
   CHECK(said_of(file) == "a.gltf: error: samplers[0] has a magFilter that glTF does not know");
+  file.json["samplers"][0] = {{"minFilter", 9988}};
+  CHECK(said_of(file) == "a.gltf: error: samplers[0] has a minFilter that glTF does not know");
+  file.json["samplers"][0] = {{"minFilter", 9987}};
+  CHECK(said_of(file) == "");
   file.json["samplers"][0] = Json::object();
   file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 1;
   CHECK(said_of(file) ==
@@ -40,6 +44,16 @@ TEST_CASE("rules of glTF: samplers, and pictures without uv") {
   CHECK(said_of(file) ==
         "pictures that are neither PNG nor JPEG, decoded as what they are: 1, the first images[0]");
   image = as_it_was;
+  image["mimeType"] = "image/gif";
+  CHECK(said_of(file) ==
+        "pictures of another type than their mimeType, decoded as what they are: 1, the first images[0]");
+  GltfFile in_view = file;
+  in_view.json["images"][0] = {{"bufferView", in_view.add_view(picture)}};
+  in_view.json["bufferViews"].back()["byteStride"] = 4;
+  CHECK(
+      said_of(in_view) ==
+      "pictures in views with a byteStride, which does not count: 1, the first images[0]; pictures in views "
+      "without a mimeType, decoded as what they are: 1, the first images[0]");
   image["bufferView"] = 0;
   CHECK(
       said_of(file) ==

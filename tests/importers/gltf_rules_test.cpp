@@ -50,9 +50,20 @@ std::function<void(GltfFile&)> light(const Json& json) {
   };
 }
 
+// A camera at a node.
+std::function<void(GltfFile&)> camera(const Json& json) {
+  return [=](GltfFile& file) {
+    file.json["cameras"] = Json::array({json});
+    file.json["nodes"][1]["camera"] = 0;
+  };
+}
+
 const std::string light_at = "extensions.KHR_lights_punctual.lights[0]";
 const std::string wrong_cone =
     "spot lights whose angles do not grow from 0 to a quarter turn, clamped: 1, the first " + light_at;
+const std::string out_of_range =
+    "cameras whose aspectRatio, ymag, znear or zfar is out of range, which does not count: 1, the first "
+    "cameras[0].";
 const std::string attributes_at = "meshes[0].primitives[0].attributes";
 
 }  // namespace
@@ -124,8 +135,9 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
        },
        error + "accessors[8] holds inverseBindMatrices, which must be floats"},
       {"weights that sum to 4", attribute("WEIGHTS_0", ones, 5126, "VEC4", 4),
-       "weights of joints that do not sum to 1, divided by their sum: 1, the first " + attributes_at +
-           ".WEIGHTS_0"},
+       "vertices that name a joint twice, whose weights are added: 1, the first " + attributes_at +
+           ".JOINTS_0; weights of joints that do not sum to 1, divided by their sum: 1, the first " +
+           attributes_at + ".WEIGHTS_0"},
       {"a negative weight",
        attribute("WEIGHTS_0", {1, -1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4),
        "weights below 0, taken as 0: 1, the first " + attributes_at + ".WEIGHTS_0"},
@@ -200,7 +212,7 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
        [](GltfFile& file) {
          file.json["nodes"][1]["camera"] = 0;
          file.json["cameras"] = {{{"type", "perspective"},
-                                  {"perspective", {{"yfov", 1}}},
+                                  {"perspective", {{"yfov", 1}, {"znear", 1}}},
                                   {"orthographic", {{"xmag", 1}, {"ymag", 1}}}}};
        },
        error + "cameras[0] is both perspective and orthographic"},
@@ -260,10 +272,65 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
       {"a matrix that shears",
        [](GltfFile& file) { file.json["nodes"][1] = {{"matrix", with(identity, 4, 0.5)}}; },
        "matrices of nodes that shear, taken as they are: 1, the first nodes[1].matrix"},
+      {"a camera without znear", camera({{"type", "perspective"}, {"perspective", {{"yfov", 1}}}}),
+       out_of_range + "perspective"},
+      {"a camera whose zfar is not beyond znear",
+       camera({{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}, {"zfar", 1}}}}),
+       out_of_range + "perspective"},
+      {"a camera of no width",
+       camera({{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}, {"aspectRatio", 0}}}}),
+       out_of_range + "perspective"},
+      {"a camera of no height",
+       camera({{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 0}, {"znear", 0}}}}),
+       out_of_range + "orthographic"},
+      {"a sound orthographic camera",
+       camera({{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}}}}), ""},
+      {"a camera without a type", camera({{"perspective", {{"yfov", 1}, {"znear", 1}}}}),
+       "cameras whose type is not that of their values, which count: 1, the first cameras[0]"},
+      // Properties of other names, or in other places.
+      {"a property in another case", set("/materials/0/alphamode", "BLEND"),
+       "properties that glTF does not define, left out: 1, the first materials[0].alphamode"},
+      {"a property one level too high", set("/materials/0/baseColorFactor", {1, 0, 0, 1}),
+       "properties that glTF does not define, left out: 1, the first materials[0].baseColorFactor"},
+      {"properties of the document and of a primitive",
+       [](GltfFile& file) {
+         file.json["node"] = 1;
+         file.primitive()["attribute"] = 1;
+       },
+       "properties that glTF does not define, left out: 2, the first node"},
+      {"extras and names hold what they like",
+       [](GltfFile& file) {
+         file.json["extras"]["materials"] = {{{"foo", 1}}};
+         file.json["nodes"][1]["extras"] = 5;
+         file.json["nodes"][1]["name"] = "n";
+         file.json["materials"].push_back(7);
+         file.json["materials"].erase(1);
+       },
+       ""},
+      // Materials.
+      {"a cutoff without a mask", set("/materials/0/alphaCutoff", 0.25),
+       "alpha cutoffs of materials whose alphaMode is not MASK, left out: 1, the first materials[0]"},
+      {"a volume that lets no light through",
+       [](GltfFile& file) {
+         file.json["extensionsUsed"] = {"KHR_materials_volume"};
+         file.json["materials"][0]["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1}};
+       },
+       "volumes of materials that let no light through, left out: 1, the first "
+       "materials[0].extensions.KHR_materials_volume"},
+      {"a strength of nothing",
+       [](GltfFile& file) {
+         file.json["extensionsUsed"] = {"KHR_materials_emissive_strength"};
+         file.json["materials"][0]["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 5}};
+       },
+       "emissive strengths of materials without an emissiveFactor, which do not shine: 1, the first "
+       "materials[0].extensions.KHR_materials_emissive_strength"},
+      {"a joint twice at a vertex",
+       attribute("WEIGHTS_0", {0.5, 0.5, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4),
+       "vertices that name a joint twice, whose weights are added: 1, the first " + attributes_at + ".JOINTS_0"},
       {"a camera of the other type",
        [](GltfFile& file) {
          file.json["nodes"][1]["camera"] = 0;
-         file.json["cameras"] = {{{"type", "orthographic"}, {"perspective", {{"yfov", 1}}}}};
+         file.json["cameras"] = {{{"type", "orthographic"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
        },
        "cameras whose type is not that of their values, which count: 1, the first cameras[0]"},
       {"a later version", set("/asset/version", "2.1"),

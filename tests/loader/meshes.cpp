@@ -186,7 +186,7 @@ TEST_CASE("overrides and a file's own camera and lights") {
     "nodes": [{"mesh": 0}, {"camera": 0, "translation": [1, 2, 3]},
               {"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [4, 5, 6]}],
     "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}},
-    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5}}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 1}}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
     "accessors": [{"bufferView": 0, "componentType": 5121, "type": "VEC3", "count": 3}],
     "bufferViews": [{"buffer": 0, "byteLength": 9}],

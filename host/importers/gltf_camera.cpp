@@ -1,0 +1,47 @@
+#include "host/importers/gltf_camera.hpp"
+
+#include <algorithm>
+
+#include "host/scene/affine.hpp"
+
+namespace eyeray::importers {
+
+namespace {
+
+// Of one form of a camera; `sound`: what has to be above 0 beside is.
+void check_planes(const GltfObject& form, bool sound, GltfBreaches& breaches) {
+  if (!sound || (form.has("zfar") && !(form.number("zfar", 0) > form.number("znear", 0))))
+    breaches.add("cameras whose aspectRatio, ymag, znear or zfar is out of range, which does not count",
+                 form.place());
+}
+
+}  // namespace
+
+ImportedCamera gltf_camera(const GltfObject& source, const Mat4& world, GltfBreaches& breaches) {
+  ImportedCamera camera;
+  camera.eye = Vec3(world[3]);
+  camera.target = camera.eye - unit(Vec3(world[2])) * std::max(1.0, magnitude(camera.eye));
+  camera.up = unit(Vec3(world[1]));
+  if (source.has("perspective") && source.has("orthographic"))
+    source.fail("is both perspective and orthographic");
+  if (!source.has(source.text("type").c_str()))
+    breaches.add("cameras whose type is not that of their values, which count", source.place());
+  if (const auto perspective = source.object("perspective")) {
+    const double degrees = glm::degrees(perspective->number("yfov", 0));
+    if (!(degrees > 0 && degrees < 180)) perspective->fail("has a yfov that no camera has");
+    camera.form = PerspectiveCamera{degrees, FovAxis::vertical};
+    check_planes(*perspective,
+                 perspective->number("znear", 0) > 0 && perspective->number("aspectRatio", 1) > 0, breaches);
+  } else if (const auto orthographic = source.object("orthographic")) {
+    const double size = orthographic->number("xmag", 0);
+    if (!(size > 1e-12 && size < 1e12)) orthographic->fail("has an xmag that no camera has");
+    camera.form = OrthographicCamera{size};
+    check_planes(*orthographic, orthographic->number("znear", -1) >= 0 && orthographic->number("ymag", 0) > 0,
+                 breaches);
+  } else {
+    source.fail("is neither perspective nor orthographic");
+  }
+  return camera;
+}
+
+}  // namespace eyeray::importers
