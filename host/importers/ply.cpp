@@ -9,6 +9,8 @@
 #include "host/importers/ply_header.hpp"
 #include "host/importers/ply_values.hpp"
 #include "host/importers/polygon.hpp"
+#include "host/importers/texture_files.hpp"
+#include "host/materials/make.hpp"
 
 namespace eyeray::importers {
 
@@ -268,6 +270,23 @@ std::vector<IndexTriangle> triangulate(const Polygons& polygons, const VertexPoo
   return triangles;
 }
 
+// Makes a material of the picture that the file names, if it has uv for it; returns whether.
+bool show_picture(const PlyHeader& header, MeshFile& file, bool has_uv, ImportedScene& scene) {
+  if (header.pictures.empty()) return false;
+  if (!has_uv || header.pictures.size() > 1) {
+    scene.warnings.emplace_back(
+        fmt::format("its {} (comment TextureFile) left out: {}; give the mesh a `material`",
+                    has_uv ? "pictures were" : "picture was",
+                    has_uv ? "there is more than one" : "its vertices have no uv"));
+    return false;
+  }
+  TextureFiles textures(file.assets, *file.pixels, scene.warnings);
+  const auto picture = textures.load(header.pictures[0]);
+  if (!picture) return false;
+  scene.materials.push_back(materials::make_phong({.diffuse = textures::make_image(picture)}));
+  return true;
+}
+
 template <typename Values>
 ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
   PlyReader<Values> reader(header, file);
@@ -276,8 +295,6 @@ ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
 
   ImportedScene scene;
   scene.warnings = std::move(reader.warnings);
-  if (header.has_picture)
-    scene.warnings.emplace_back("its picture (comment TextureFile) was left out: give the mesh a `material`");
   if (reader.polygons.sizes.empty())
     throw malformed(file.name, "it has no faces: points alone cannot be seen");
   MeshCounts counts;
@@ -289,7 +306,8 @@ ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
   reader.polygons = {};
   scene.meshes.push_back(
       MeshBuilder(reader.vertices, counts).build(raw, file.smooth.value_or(default_smooth)));
-  scene.instances.push_back({0, Mat4(1.0), -1, {}});
+  const bool shown = show_picture(header, file, raw.has_uv, scene);
+  scene.instances.push_back({0, Mat4(1.0), shown ? 0 : -1, {}});
   counts.report(scene.warnings);
   return scene;
 }

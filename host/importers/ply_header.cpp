@@ -39,7 +39,11 @@ class HeaderReader {
       fail("this is no PLY file: it does not start with `ply`");
     for (;;) {
       const std::vector<std::string_view> words = next_line();
-      if (words.size() > 2 && words[0] == "comment" && words[1] == "TextureFile") header_.has_picture = true;
+      if (words.size() > 2 && words[0] == "comment" && words[1] == "TextureFile") {
+        // A name may have blanks.
+        const std::string_view last = words.back();
+        header_.pictures.emplace_back(words[2].data(), last.data() + last.size());
+      }
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
       if (words[0] == "end_header") break;
       if (words[0] == "format") {

@@ -34,8 +34,8 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format;
   std::vector<PlyElement> elements;
-  bool has_picture = false;  // by a comment `TextureFile`, as MeshLab and others write it
-  size_t size = 0;           // bytes up to the data
+  std::vector<std::string> pictures;  // by comments `TextureFile NAME`, as MeshLab and others write them
+  size_t size = 0;                    // bytes up to the data
 };
 
 // InputError with the line where it is wrong.

@@ -208,7 +208,7 @@ TEST_CASE("a header may promise what it likes") {
                  "a list of 4000000000 is longer than the rest of the file"));
 }
 
-TEST_CASE("colours of faces and a picture in a comment are named") {
+TEST_CASE("colours of faces, and a picture without uv, are named") {
   const std::string file =
       "ply\nformat ascii 1.0\ncomment TextureFile wood.png\nelement vertex 3\nproperty float x\n"
       "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
@@ -216,5 +216,33 @@ TEST_CASE("colours of faces and a picture in a comment are named") {
       "3 0 1 2 255 0 0\n";
   const ImportedScene scene = import_sound(file, "a.ply");
   CHECK(warns(scene, "colours of faces"));
-  CHECK(warns(scene, "TextureFile"));
+  CHECK(warns(scene, "its vertices have no uv"));
+}
+
+TEST_CASE("a picture in a comment is shown where vertices have uv") {
+  const Folder folder;
+  std::filesystem::copy_file("tests/image/pictures/rgb.png", folder / "my picture.png");
+  const auto scene_of = [&](const std::string& comments) {
+    return import_file(folder.write(
+        "a.ply",
+        "ply\nformat ascii 1.0\n" + comments +
+            "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float s\n"
+            "property float t\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+            "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n"));
+  };
+  const ImportedScene scene = scene_of("comment TextureFile my picture.png\n");
+  CHECK(scene.warnings.empty());
+  REQUIRE(scene.materials.size() == 1);
+  CHECK(scene.instances[0].material == 0);
+  CHECK(scene.files.size() == 2);
+  // The picture's lower left corner is at the uv of 0, black; its upper row is red, green, blue.
+  const auto color_at = [&](double u, double v) { return scene.materials[0]->base_color(Vec2(u, v)); };
+  CHECK(color_at(1.0 / 6, 1.0 / 4) == Vec3(0));
+  CHECK(color_at(1.0 / 6, 3.0 / 4) == Vec3(1, 0, 0));
+  CHECK(color_at(5.0 / 6, 3.0 / 4) == Vec3(0, 0, 1));
+  CHECK(scene.meshes[0].uv[2] == Vec2(0, 1));
+
+  CHECK(warns(scene_of("comment TextureFile none.png\n"), "a picture was left out"));
+  CHECK(scene_of("comment TextureFile none.png\n").materials.empty());
+  CHECK(warns(scene_of("comment TextureFile a.png\ncomment TextureFile b.png\n"), "there is more than one"));
 }
