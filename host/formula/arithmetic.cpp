@@ -191,17 +191,17 @@ std::optional<Value> whole_arithmetic(Expression& expression, spv::Op op, const 
       case spv::OpISub:
         return x - y;
       case spv::OpIMul:
-        return x * y;
+        return int64_t(uint64_t(x) * uint64_t(y));
       case spv::OpSNegate:
         return -x;
       case spv::OpSDiv:
       case spv::OpUDiv:
-        return y == 0 ? std::nullopt : std::optional(x / y);
+        return y == 0 ? 0 : x / y;
       case spv::OpSRem:
       case spv::OpUMod:
-        return y == 0 ? std::nullopt : std::optional(x % y);
+        return y == 0 ? 0 : x % y;
       case spv::OpSMod:
-        return y == 0 ? std::nullopt : std::optional((x % y + y) % y);
+        return y == 0 ? 0 : (x % y + y) % y;
       case spv::OpBitwiseAnd:
         return x & y;
       case spv::OpBitwiseOr:

@@ -50,6 +50,19 @@ TEST_CASE("whole numbers of constants follow the rules of all whole numbers") {
   CHECK(result_of("return float(int(1e20)) + float(uint(-3.0));") == -2147483648.0f);
 }
 
+TEST_CASE("bounds follow the rules of whole numbers too") {
+  for (const std::string step : {"k += 7 / i;", "k += 7 % i;", "u = u * u; k += int(u / uint(i));"}) {
+    CAPTURE(step);
+    const formula::Formula formula(
+        {"float f(vec3 p) { int k = 0; uint u = 4278190081u; for (int i = 0; i < 3; "
+         "i++) { " +
+             step + " } return p.x + float(k); }",
+         {}},
+        {}, "it");
+    CHECK(formula.straight_line().size() > 0);
+  }
+}
+
 TEST_CASE("constants are computed in float32, one operation after the other") {
   const float third = 1.0f / 3.0f, tenth = 0.1f;
   CHECK(result_of("return 1.0 / 3.0 * 3.0 - 1.0;") == third * 3.0f - 1.0f);
