@@ -2,6 +2,9 @@
 // device. Every two kinds of material stand side by side, and of all other features every pair occurs
 // together.
 #include <array>
+#include <filesystem>
+#include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -39,21 +42,39 @@ const std::vector<std::string> materials = {
     "type = 'principled'\ntransmission = { checker = { even = 0.1, odd = 1, size = 1 } }\nroughness = 0.4",
     "type = 'principled'\ntransmission = 1\nthin = true\nroughness = 0",
     "type = 'principled'\ntransmission = 0.5\nthin = true\nroughness = 0.4\ncoat = 0.5",
+    "type = 'principled'\ncoat = 1\ncoat_normal = { image = 'studs_normal.png' }",
 };
+
+// 80 places, enough for a light BVH.
+std::string many_places() {
+  std::string text;
+  for (int i = 0; i < 80; ++i)
+    text += std::string(i == 0 ? "" : ", ") + "[" + std::to_string(i % 8 - 4) + ", " +
+            std::to_string(4 + i / 8) + ", " + std::to_string(i % 3) + "]";
+  return text;
+}
 
 enum Factor { integrator, camera, light, medium, surface, shape, sampler, storage, factors };
 
 const std::array<std::vector<std::string>, factors> levels = {{
     {"'path'", "'sppm'\nphotons = 256\nphoton_radius = 0.1", "'whitted'", "'raycast'"},
     {"", "aperture = 0.1\nfocus = 4", "type = 'orthographic'", "type = 'fisheye'", "type = 'panorama'",
-     "type = 'cylindrical'"},
+     "type = 'cylindrical'",
+     "type = 'formula'\nfile = 'little_planet.glsl'\nparameters = { zoom = 2.2, aperture = 0.03, focus = 3.5 "
+     "}"},
     {"[[light]]\ntype = 'point'\nposition = [0, 4, 0]\nintensity = 9",
      "[[light]]\ntype = 'spot'\nposition = [0, 4, 0]\ndirection = [0, -1, 0]\nintensity = 9",
      "[[light]]\ntype = 'directional'\ndirection = [0, -1, 0]",
      "[[light]]\ntype = 'directional'\ndirection = [0, -1, 0]\nangle = 3",
      "[[material]]\nname = 'lamp'\ntype = 'phong'\ndiffuse = 0\nemission = 9\n[[sphere]]\ncenter = [0, 5, "
      "0]\nradius = 1\nmaterial = 'lamp'",
-     "[environment]\ntype = 'sky'\nsun = [0, 1, 0]"},
+     "[environment]\ntype = 'sky'\nsun = [0, 1, 0]", "[environment]\nimage = 'studio.hdr'",
+     // Many lamps, for a light BVH, whose light is a texture's and leaves on one side.
+     "[[material]]\nname = 'lamp'\ntype = 'phong'\ndiffuse = 0\nemission_side = 'front'\nemission = { "
+     "checker = "
+     "{ even = 1, odd = 9, size = 1 } }\n[[parallelogram]]\nedge_u = [0.1, 0, 0]\nedge_v = [0, 0, "
+     "0.1]\nmaterial = 'lamp'\nbatch = { origin = [" +
+         many_places() + "] }"},
     {"", "[medium]\nscattering = 0.1", "[medium]\nabsorption = 0.1",
      "[medium]\nscattering = 0.1\nscale_height = 2", "[medium]\nabsorption = 0.1\ntop = 3"},
     {"",
@@ -62,14 +83,37 @@ const std::array<std::vector<std::string>, factors> levels = {{
      "[[disk]]\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 1\nmaterial = 'netting'",
      "[[material]]\nname = 'veil'\ntype = 'phong'\nalpha = 0.5\nalpha_mode = 'blend'\n"
      "[[disk]]\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 1\nmaterial = 'veil'",
-     "bump = { checker = { even = 0, odd = 1, size = 1 } }\nbump_height = 0.1\nbump_width = 0.1"},
+     "bump = { checker = { even = 0, odd = 1, size = 1 } }\nbump_height = 0.1\nbump_width = 0.1",
+     "[[material]]\nname = 'tiles'\ntype = 'phong'\ndiffuse = { formula = { file = 'hexagons.glsl', "
+     "parameters = "
+     "{ tiles = 3, joint = 0.06, light = [0.72, 0.66, 0.55], dark = [0.12, 0.1, 0.09] } } "
+     "}\n[[disk]]\ncenter = "
+     "[0, 0, 0]\nnormal = [0, 0, 1]\nradius = 1\nmaterial = 'tiles'"},
     {"[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'a'",
      "[[triangle]]\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nmaterial = 'a'",
      "[[csg]]\noperation = 'intersection'\nmaterial = 'a'\n[[csg.sphere]]\ncenter = [0, 0, 0]\nradius = "
-     "1\n[[csg.sphere]]\ncenter = [0.5, 0, 0]\nradius = 1"},
-    {"regular", "jittered", "random", "sobol"},
+     "1\n[[csg.sphere]]\ncenter = [0.5, 0, 0]\nradius = 1",
+     "[[material]]\nname = 'lid'\ntype = 'mirror'\n[[csg]]\noperation = 'union'\nmaterial = "
+     "'a'\n[[csg.torus]]\ncenter = [0, 0, 0]\nmajor_radius = "
+     "0.8\nminor_radius = 0.2\n[[csg.sphere]]\ncenter = [0.5, 0, 0]\nradius = 0.4\nmaterial = 'lid'",
+     "[[mesh]]\nfile = 'triangle.gltf'", "[[mesh]]\nfile = 'ring.ply'\nmaterial = 'a'",
+     "[[group]]\nbatch = { transform = [[{ translate = [-1, 0, 0] }], [{ translate = [1, 0, 0] }]] "
+     "}\n[[group.mesh]]\nfile = 'ring.ply'\nmaterial = 'a'\n[[group.sphere]]\ncenter = [0, 0, 0]\nradius = "
+     "0.2\nmaterial = 'a'",
+     "[[implicit]]\nready = 'gyroid'\nmin = [-0.8, -0.8, -0.8]\nmax = [0.8, 0.8, 0.8]\nmaterial = 'a'"},
+    {"pattern = 'regular'", "pattern = 'jittered'", "pattern = 'random'", "pattern = 'sobol'",
+     "pattern = 'sobol'\nfilter = 'gaussian'"},
     {"constants", "buffers"},
 }};
+
+// Materials of glTF that are not doubleSided have a front only.
+constexpr const char* one_sided_triangle =
+    R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+  "nodes": [{"mesh": 0}], "materials": [{}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}],
+  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 
 using Levels = std::array<size_t, factors>;
 
@@ -81,10 +125,11 @@ struct Row {
 // Whether a scene may have both.
 bool possible(const Levels& level) {
   const bool paths = level[integrator] < 2, raycast = level[integrator] == 3;
-  const bool from_afar = level[light] == 2 || level[light] == 3 || level[light] == 5;
+  const bool environment = level[light] == 5 || level[light] == 6;
+  const bool from_afar = level[light] == 2 || level[light] == 3 || environment;
   const bool any_medium = level[medium] > 0, endless = level[medium] == 1 || level[medium] == 2;
   if ((any_medium && !paths) || (endless && from_afar)) return false;
-  if (level[light] == 5 && !paths) return false;
+  if (environment && !paths) return false;
   return !raycast || level[light] == 0;
 }
 
@@ -148,9 +193,10 @@ std::vector<Row> all_rows() {
 
 std::string text_of(const Row& row) {
   const auto at = [&](Factor factor) { return levels[factor][row.level[factor]] + "\n"; };
-  return "[image]\nwidth = 8\nheight = 8\npattern = '" + levels[sampler][row.level[sampler]] +
-         "'\n[camera]\neye = [0, 1, 5]\n" + at(camera) + "[render]\nintegrator = " + at(integrator) +
-         at(light) + at(medium) + "[[material]]\nname = 'a'\n" + materials[row.first] + "\n" + at(surface) +
+  return "[image]\nwidth = 8\nheight = 8\n" + levels[sampler][row.level[sampler]] +
+         "\n[camera]\neye = [0, 1, 5]\n" + at(camera) +
+         "[render]\ngroups = 'instanced'\nintegrator = " + at(integrator) + at(light) + at(medium) +
+         "[[material]]\nname = 'a'\n" + materials[row.first] + "\n" + at(surface) +
          "[[material]]\nname = 'b'\n" + materials[row.second] + "\n" + at(shape) +
          "[[parallelogram]]\norigin = [-2, -1, 1]\nedge_u = [4, 0, 0]\nedge_v = [0, 2, 0]\nmaterial = 'b'\n" +
          // Photons are gathered on it.
@@ -160,30 +206,52 @@ std::string text_of(const Row& row) {
               : "");
 }
 
-void compile(const Row& row, const std::string& file) {
+// The values that each HAS_* has had, in any kernel.
+using Features = std::map<std::string, std::set<std::string>>;
+
+void add_features(const std::string& text, Features& features) {
+  static const std::regex line("#define (HAS_\\w+) (\\w+)");
+  for (std::sregex_iterator at(text.begin(), text.end(), line), end; at != end; ++at)
+    features[(*at)[1]].insert((*at)[2]);
+}
+
+void compile(const Row& row, const std::string& file, Features& features) {
   const records::PackedScene packed = pack::pack(loader::load_scene(file));
   const executors::Specialisation options{.constants = row.level[storage] == 0};
+  add_features(executors::specialise(packed, options), features);
   compile_entry("kernels/render.comp.glsl", packed, options);
   if (row.level[integrator] == 1)
     compile_entry("kernels/photons.comp.glsl", packed, options, "#define SENDS_PHOTONS\n");
 }
 
-void check_compiles(const Row& row) {
+void check_compiles(const Row& row, Features& features) {
   const TemporaryFolder folder;
+  for (const char* file :
+       {"scenes/cameras/little_planet.glsl", "scenes/patterns/hexagons.glsl", "scenes/meshes/ring.ply",
+        "scenes/path/studio.hdr", "scenes/textures/studs_normal.png"})
+    std::filesystem::copy_file(file, folder.path() / std::filesystem::path(file).filename());
+  write_text(folder / "triangle.gltf", one_sided_triangle);
   const std::string text = text_of(row);
   CAPTURE(text);
   write_text(folder / "scene.toml", text);
-  CHECK_NOTHROW(compile(row, folder / "scene.toml"));
+  CHECK_NOTHROW(compile(row, folder / "scene.toml", features));
 }
 
 }  // namespace
 
 TEST_CASE("a pane compiles beside an opaque material of each kind") {
-  for (const size_t beside : {6, 9, 10}) check_compiles({beside, 4, {}});
+  Features features;
+  for (const size_t beside : {6, 9, 10}) check_compiles({beside, 4, {}}, features);
 }
 
 TEST_CASE("all pairs of materials, and of other features, compile" * doctest::test_suite("long")) {
-  for (const Row& row : all_rows()) check_compiles(row);
+  Features features;
+  for (const Row& row : all_rows()) check_compiles(row, features);
+  // No feature is in all of these kernels, or in none.
+  for (const auto& [name, values] : features) {
+    CAPTURE(name);
+    CHECK(values.size() == 2);
+  }
 }
 
 }  // namespace eyeray::pairs
