@@ -1,9 +1,6 @@
 // The page's server, and clients that mean no good.
 #include "host/dev/web_server.hpp"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -11,53 +8,16 @@
 #include <mutex>
 #include <thread>
 
+#include "client.hpp"
 #include "host/core/stopwatch.hpp"
+//
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::dev;
+using eyeray::test::Client;
 
 namespace {
-
-class Client {
- public:
-  explicit Client(int port, const char* address = "127.0.0.1") {
-    socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(uint16_t(port));
-    inet_pton(AF_INET, address, &to.sin_addr);
-    connected_ = ::connect(socket_, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0;
-  }
-  ~Client() { ::close(socket_); }
-  Client(const Client&) = delete;
-  Client& operator=(const Client&) = delete;
-
-  bool connected() const { return connected_; }
-  // Whether the other end still takes it.
-  bool send(const std::string& text) const {
-    for (size_t done = 0; done < text.size();) {
-      const ssize_t count = ::send(socket_, text.data() + done, text.size() - done, MSG_NOSIGNAL);
-      if (count <= 0) return false;
-      done += size_t(count);
-    }
-    return true;
-  }
-  // All that comes until the other end has had enough; or until `text` has come.
-  std::string answer(const std::string& text = "") const {
-    std::string all;
-    char buffer[65536];
-    for (ssize_t count; (count = ::recv(socket_, buffer, sizeof buffer, 0)) > 0;) {
-      all.append(buffer, size_t(count));
-      if (!text.empty() && all.find(text) != std::string::npos) break;
-    }
-    return all;
-  }
-
- private:
-  int socket_;
-  bool connected_;
-};
 
 struct Site {
   Board board;
