@@ -248,9 +248,9 @@ TEST_CASE("all pairs of materials, and of other features, compile" * doctest::te
   Features features;
   for (const Row& row : all_rows()) check_compiles(row, features);
   // No feature is in all of these kernels, or in none.
-  for (const auto& [name, values] : features) {
-    CAPTURE(name);
-    CHECK(values.size() == 2);
+  for (const auto& feature : features) {
+    CAPTURE(feature.first);
+    CHECK(feature.second.size() == 2);
   }
 }
 
