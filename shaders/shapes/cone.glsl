@@ -28,7 +28,7 @@ Surface cone_surface(Primitive s, Ray ray, Hit hit) {
   float taper = object_parameters(s).y;
   vec3 p = at_hit(object_ray(s, ray, 1.4142136f), hit);
   float radius = 1.0f - taper * minimum(maximum(p.y, 0.0f), 1.0f);
-  return revolution_surface(s, ray, p, hit.uv.x, 0.0f, 0.0f, 1.0f, radius, -taper, taper * taper, hit.uv.x == PART_BOTTOM ? 1.0f : 1.0f - taper);
+  return revolution_surface(s, p, hit.uv.x, 0.0f, 1.0f, radius, -taper, hit.uv.x == PART_BOTTOM ? 1.0f : 1.0f - taper);
 }
 
 SHADER_END

@@ -22,7 +22,7 @@ void cylinder_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s,
 
 Surface cylinder_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = at_hit(object_ray(s, ray, 1.4142136f), hit);
-  return revolution_surface(s, ray, p, hit.uv.x, -1.0f, -1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 1.0f);
+  return revolution_surface(s, p, hit.uv.x, -1.0f, 1.0f, 1.0f, 0.0f, 1.0f);
 }
 
 SHADER_END

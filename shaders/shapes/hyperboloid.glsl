@@ -34,7 +34,7 @@ Surface hyperboloid_surface(Primitive s, Ray ray, Hit hit) {
   float top = bottom + 2.0f;
   float y = hit.uv.x == PART_BOTTOM ? bottom : hit.uv.x == PART_TOP ? top : minimum(maximum(p.y, bottom), top);
   float radius = sqrt(parameters.y * y * y + parameters.z);
-  return revolution_surface(s, ray, p, hit.uv.x, bottom, bottom, top, radius, parameters.y * y / radius, parameters.y, radius);
+  return revolution_surface(s, p, hit.uv.x, bottom, top, radius, parameters.y * y / radius, radius);
 }
 
 SHADER_END

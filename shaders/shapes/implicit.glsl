@@ -84,7 +84,7 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
   vec4 slope = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 #define SLOPE_OF(number, name)                              \
   {                                                         \
-    bool wanted = it.formula == number;                     \
+    bool wanted = itself && it.formula == number;           \
     vec4 found = name##_slope(it, p, wanted);               \
     slope = wanted ? found : slope;                         \
   }
@@ -115,9 +115,6 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
   }
   FORMULAS(RAY_OFFSET_OF)
   surface.offset = itself ? surface.offset * (factor + 1.0f) : surface.offset;
-  float room = object_room(s, ray, p);
-  vec3 inward = itself ? inward_of_cut(s, p, gradient, room) : inward_of_cut_face(s, p, hit.uv, slope.w, vec3(slope), room);
-  surface.inward = step_out_of_object(s, inward);
   return surface;
 }
 

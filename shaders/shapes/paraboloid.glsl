@@ -32,7 +32,7 @@ Surface paraboloid_surface(Primitive s, Ray ray, Hit hit) {
   float height = p.y + (squared - p.y) / (4.0f * squared + 1.0f);
   p.y = hit.uv.x == PART_SIDE ? minimum(maximum(height, 0.0f), 1.0f) : p.y;
   float radius = sqrt(maximum(p.y, 0.0f));
-  return revolution_surface(s, ray, p, hit.uv.x, -1.0f, 0.0f, 1.0f, radius, 0.5f / maximum(radius, 1.0e-6f), 0.0f, 1.0f);
+  return revolution_surface(s, p, hit.uv.x, 0.0f, 1.0f, radius, 0.5f / maximum(radius, 1.0e-6f), 1.0f);
 }
 
 SHADER_END

@@ -54,10 +54,7 @@ Surface parallelogram_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal = n;
   surface.uv = inner_uv(vec2(u, v));
   set_gradients(surface, across_v / dot3(across_v, along_u), across_u / dot3(across_u, along_v));
-  vec3 reach = abs3(p) + abs3(vec3(s.a));
-  surface.offset = 8.0f * EPSILON * dot3(abs3(n), reach);
-  vec2 inner = inner_step(surface, vec2(u, v), edge_room(ray, max_component(reach)));
-  surface.inward = along_u * inner.x + along_v * inner.y;
+  surface.offset = 8.0f * EPSILON * dot3(abs3(n), abs3(p) + abs3(vec3(s.a)));
   return surface;
 }
 

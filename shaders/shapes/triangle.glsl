@@ -2,7 +2,7 @@
 // Parameters of a hit: the weights of the second and third vertex.
 #ifndef TRIANGLE_GLSL
 #define TRIANGLE_GLSL
-#include "geometry/edges.glsl"
+#include "geometry/ray.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -107,22 +107,6 @@ void triangle_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   upper = vec3(maximum(s.a.x, maximum(s.b.x, s.c.x)), maximum(s.a.y, maximum(s.b.y, s.c.y)), maximum(s.a.z, maximum(s.b.z, s.c.z)));
 }
 
-// From the point with those weights to the inside of the edges. A weight is 0 at its edge and grows by 1 over the triangle's height there.
-vec3 triangle_inward(Primitive s, vec3 weights, float room) {
-  vec3 ab = vec3(s.b) - vec3(s.a);
-  vec3 bc = vec3(s.c) - vec3(s.b);
-  vec3 ca = vec3(s.a) - vec3(s.c);
-  vec3 across = cross3(ab, ca);
-  float per_height = room / sqrt(dot3(across, across));
-  vec3 least = vec3(sqrt(dot3(bc, bc)), sqrt(dot3(ca, ca)), sqrt(dot3(ab, ab))) * per_height;
-  vec3 missing = vec3(maximum(minimum(least.x, 0.25f) - weights.x, 0.0f), maximum(minimum(least.y, 0.25f) - weights.y, 0.0f),
-                      maximum(minimum(least.z, 0.25f) - weights.z, 0.0f));
-
-  // The greatest weight gives what the others lack.
-  vec3 from = weights.x >= weights.y && weights.x >= weights.z ? vec3(s.a) : weights.y >= weights.z ? vec3(s.b) : vec3(s.c);
-  return ((vec3(s.a) - from) * missing.x + (vec3(s.b) - from) * missing.y) + (vec3(s.c) - from) * missing.z;
-}
-
 Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   float wa = (1.0f - hit.uv.x) - hit.uv.y;
   vec3 a = vec3(s.a) * wa;
@@ -163,7 +147,6 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   }
   vec3 reach = abs3(vec3(s.a)) + abs3(vec3(s.b)) + abs3(vec3(s.c));
   surface.offset = 8.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);
-  surface.inward = triangle_inward(s, vec3(wa, hit.uv.x, hit.uv.y), edge_room(ray, max_component(reach)));
   return surface;
 }
 
