@@ -124,7 +124,7 @@ TEST_CASE("no name of a scene or of a shader is a command, markup or a column, w
     return found;
   };
   // A pipe that ends a cell has an even number of backslashes before it.
-  const auto columns = [](const std::string& text) {
+  const auto cells = [](const std::string& text) {
     int ends = 0, backslashes = 0;
     for (const char c : text) {
       ends += c == '|' && backslashes % 2 == 0;
@@ -153,7 +153,7 @@ TEST_CASE("no name of a scene or of a shader is a command, markup or a column, w
     const auto table = [](const std::string& markdown) { return markdown.substr(markdown.find("| scene")); };
     const std::string markdown = table(to_markdown(only)), plain_markdown = table(to_markdown(plain_only));
     CHECK(count(markdown, "\n") == count(plain_markdown, "\n"));
-    CHECK(columns(markdown) == columns(plain_markdown));
+    CHECK(cells(markdown) == cells(plain_markdown));
     CHECK(count(to_markdown(only), "<") == 0);
     std::istringstream annotations(to_annotations(only));
     for (std::string line; std::getline(annotations, line);) {

@@ -145,14 +145,16 @@ double sent_elsewhere(double roughness, double cosine) {
 // docs/path-tracing.md has these figures.
 TEST_CASE(
     "glass of high roughness mirrors as much as the documents say, beside random walks on the microsurface") {
-  for (const auto& [roughness, cosine, more] : {std::array{0.3, 70.0, -0.012}, std::array{0.7, 70.0, 0.046},
-                                                std::array{1.0, 70.0, 0.178}, std::array{1.0, 0.0, -0.091}}) {
-    CAPTURE(roughness);
-    CAPTURE(cosine);
-    const Mirrored share = mirrored(roughness, std::cos(cosine * M_PI / 180));
-    MESSAGE("glass of roughness " << roughness << " at " << cosine << " degrees: " << share.found
+  struct Expected {
+    double roughness, degrees, more;
+  };
+  for (const Expected& at : {Expected{0.3, 70, -0.012}, {0.7, 70, 0.046}, {1, 70, 0.178}, {1, 0, -0.091}}) {
+    CAPTURE(at.roughness);
+    CAPTURE(at.degrees);
+    const Mirrored share = mirrored(at.roughness, std::cos(at.degrees * M_PI / 180));
+    MESSAGE("glass of roughness " << at.roughness << " at " << at.degrees << " degrees: " << share.found
                                   << " mirrored, by walks " << share.walked);
-    CHECK(std::abs(share.found / share.walked - 1 - more) < 0.02);
+    CHECK(std::abs(share.found / share.walked - 1 - at.more) < 0.02);
   }
 }
 
