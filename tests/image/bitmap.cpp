@@ -18,7 +18,7 @@ const std::vector<BitmapPixel> bitmap_colors = {{255, 0, 0, 255}, {0, 255, 0, 25
                                                 {0, 0, 0, 255},   {255, 255, 255, 255}, {255, 0, 0, 255}};
 constexpr int bitmap_columns = 3, bitmap_rows = 2;
 
-std::string little(uint32_t value, int size) {
+std::string little(uint64_t value, int size) {
   std::string bytes;
   for (int i = 0; i < size; ++i) bytes += char(value >> (8 * i));
   return bytes;
