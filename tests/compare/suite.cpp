@@ -124,5 +124,6 @@ TEST_CASE("GitHub gets an annotation a failure, and a table") {
         "::error file=b%2Cc%3Ad%25.toml,title=eyeray verify::not verified: it has <no> \"camera\"\n");
   const std::string table = to_markdown(reports);
   CHECK(tells(table, "| a.toml | passed | 6912 | 0 | 0 | 1.50 |  |\n"));
-  CHECK(tells(table, "| b,c:d%.toml | failed | 0 | 0 | 0 | 0.00 | not verified: it has &lt;no> \"camera\" |\n"));
+  CHECK(tells(table,
+              "| b,c:d%.toml | failed | 0 | 0 | 0 | 0.00 | not verified: it has &lt;no> \"camera\" |\n"));
 }
