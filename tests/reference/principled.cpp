@@ -77,9 +77,9 @@ double albedo(const Bsdf& bsdf, double cosine) {
   for (int l = 0; l < lobes; ++l)
     for (int x = 0; x < strata; ++x)
       for (int y = 0; y < strata; ++y) {
-        const BsdfSample sample =
-            viewed.sample((l + random.uniform()) / lobes,
-                          {(x + random.uniform()) / strata, (y + random.uniform()) / strata});
+        const double u = (x + random.uniform()) / strata;
+        const double v = (y + random.uniform()) / strata;
+        const BsdfSample sample = viewed.sample((l + random.uniform()) / lobes, {u, v});
         if (sample.kind == BsdfSample::Kind::lobe) {
           const BsdfValue value = viewed.at(sample.i, sample.i.z > 0);
           if (value.density > 0) sum += value.value.x / value.density;
