@@ -6,11 +6,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "host/core/error.hpp"
 #include "host/core/memory_shortage.hpp"
 #include "host/core/option_text.hpp"
 #include "host/core/termination.hpp"
+#include "host/gpu/physical_device.hpp"
 #include "host/gpu/vector_width.hpp"
 
 namespace eyeray::gpu {
@@ -40,9 +42,27 @@ std::string way_out() {
 // driver with less may crash or hang in threads of its own.
 constexpr size_t needed_addresses = size_t{1} << 30;
 
-// Opens the loader once a process, whose drivers then have the vectors they are to have. EYERAY_VULKAN_LOADER
-// names another one than the system's, for tests.
-void open_loader(const DeviceOptions& options) {
+// Whether a driver of this machine makes pictures sooner with wide vectors. Its version is known only once it
+// is loaded; it is loaded again, with the width that it is to have, when this instance is gone.
+bool finds_gain_from_wide_vectors(double timeout_seconds) {
+  DeviceOptions options;
+  options.timeout_seconds = timeout_seconds;
+  const Instance instance(options);
+  return std::ranges::any_of(instance.physical_devices(), [](VkPhysicalDevice device) {
+    return gains_from_wide_vectors(describe(device, 0).driver_version);
+  });
+}
+
+// Once a process, before it has an instance.
+void choose_vector_width(const DeviceOptions& options) {
+  static bool chosen = false;
+  if (std::exchange(chosen, true) || !options.sets_environment) return;
+  set_vector_width(options.wide_vectors && may_widen_vectors() &&
+                   finds_gain_from_wide_vectors(options.timeout_seconds));
+}
+
+// Opens the loader once a process. EYERAY_VULKAN_LOADER names another one than the system's, for tests.
+void open_loader() {
   static bool opened = false;
   if (opened) return;
   const char* chosen = std::getenv("EYERAY_VULKAN_LOADER");
@@ -56,7 +76,6 @@ void open_loader(const DeviceOptions& options) {
         "mesa-vulkan-drivers), or render without Vulkan by {}; {}",
         option_text("backend", "twin"), reason ? reason : "vkGetInstanceProcAddr is missing");
   }
-  if (options.sets_environment) set_vector_width(options.wide_vectors);
   volkInitializeCustom(reinterpret_cast<PFN_vkGetInstanceProcAddr>(entry));
   opened = true;
 }
@@ -106,8 +125,9 @@ Instance::Instance(const DeviceOptions& options) : Instance(options.timeout_seco
         ExitCode::no_device,
         "Vulkan drivers need a GiB of address space, and less is left: allow more (ulimit -v), or use {}",
         option_text("backend", "twin"));
+  choose_vector_width(options);
   const ForeignCall drivers(timeout_seconds_, late_start(timeout_seconds_));
-  open_loader(options);
+  open_loader();
   if (volkGetInstanceVersion() < VK_API_VERSION_1_1)
     throw Error(ExitCode::no_device, "the Vulkan loader is of version 1.0, eyeray needs 1.1 or later");
 

@@ -24,8 +24,16 @@ bool has_wide_vectors() {
 
 }  // namespace
 
+bool may_widen_vectors() {
+  return has_wide_vectors() && !std::getenv(width_variable);
+}
+
+bool gains_from_wide_vectors(std::string_view driver_version) {
+  return driver_version.starts_with("Mesa 22.");
+}
+
 void set_vector_width(bool wide) {
-  if (wide && has_wide_vectors()) setenv(width_variable, "512", 0);
+  if (wide && may_widen_vectors()) setenv(width_variable, "512", 1);
   const char* const width = std::getenv(width_variable);
   if (!width) return;
   const char* const chosen = std::getenv(cache_variable);

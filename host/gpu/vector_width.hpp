@@ -1,13 +1,22 @@
 // The width of the vectors that Mesa's llvmpipe computes in.
 #pragma once
 
+#include <string_view>
+
 namespace eyeray::gpu {
 
-// To be called once, before a driver is loaded, which reads the environment then. Where `wide`, and where the
-// processor has them, llvmpipe is to compute in vectors of 512 bits; a LP_NATIVE_VECTOR_WIDTH that is set
-// already stays as it is. Mesa's shader cache does not know the width of what it keeps. So whoever chose a
-// width, its kernels are kept in a folder of their own: below $MESA_SHADER_CACHE_DIR, or else below eyeray's
-// own cache.
+// Whether llvmpipe can be asked for vectors of 512 bits: the processor has them, and LP_NATIVE_VECTOR_WIDTH
+// is not set.
+bool may_widen_vectors();
+
+// Whether a driver of this version makes pictures sooner with vectors of 512 bits: Mesa 22 does. Later ones
+// gain nothing from them, and take up to six times as long to compile (docs/experiments/wide-vectors.md).
+bool gains_from_wide_vectors(std::string_view driver_version);
+
+// To be called before a driver is loaded, which reads the environment then. Where `wide`, and where it may,
+// llvmpipe is to compute in vectors of 512 bits. Mesa's shader cache does not know the width of what it
+// keeps. So whoever chose a width, its kernels are kept in a folder of their own: below
+// $MESA_SHADER_CACHE_DIR, or else below eyeray's own cache.
 void set_vector_width(bool wide);
 
 }  // namespace eyeray::gpu
