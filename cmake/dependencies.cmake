@@ -1,36 +1,86 @@
-# Everything comes from Debian's packages, 12's or 13's (scripts/setup); nothing is vendored.
-find_package(fmt REQUIRED)
-find_package(glm REQUIRED)
-find_package(TBB REQUIRED)
-find_package(tomlplusplus REQUIRED)
-find_package(nlohmann_json REQUIRED)
-find_package(CLI11 REQUIRED)
-find_package(embree REQUIRED)  # 3 or 4
+# Every dependency is a package of Debian, 12's or 13's; nothing is vendored. A line eyeray_needs…(PACKAGE …) names the package that holds it:
+# scripts/setup installs the packages that these lines name, and what is missing is reported by its package's name, all at once.
+
+# eyeray_needs(PACKAGE NAME): CMake's package NAME.
+macro(eyeray_needs package name)
+  find_package(${name} QUIET)
+  if(NOT ${name}_FOUND)
+    list(APPEND missing_packages ${package})
+  endif()
+endmacro()
+
+# eyeray_needs_module(PACKAGE NAME): pkg-config's module NAME, as the target PkgConfig::NAME.
+macro(eyeray_needs_module package name)
+  if(PkgConfig_FOUND)
+    pkg_check_modules(${name} QUIET IMPORTED_TARGET ${name})
+  endif()
+  if(NOT ${name}_FOUND)
+    list(APPEND missing_packages ${package})
+  endif()
+endmacro()
+
+# eyeray_needs_file(PACKAGE VARIABLE FILE): the folder of a header, as VARIABLE.
+macro(eyeray_needs_file package variable file)
+  find_path(${variable} ${file})
+  if(NOT ${variable})
+    list(APPEND missing_packages ${package})
+  endif()
+endmacro()
+
+# eyeray_needs_program(PACKAGE NAME): the path of a program, as NAME.
+macro(eyeray_needs_program package name)
+  find_program(${name} ${name})
+  if(NOT ${name})
+    list(APPEND missing_packages ${package})
+  endif()
+endmacro()
+
+# Ends the configuration with an error if anything was missing so far.
+macro(eyeray_has_needs)
+  if(missing_packages)
+    list(JOIN missing_packages " " missing_packages)
+    message(FATAL_ERROR "eyeray needs the libraries of these Debian packages: ${missing_packages}. On Debian and Ubuntu, scripts/setup test installs them; "
+      "docs/install.md says how to build on other systems.")
+  endif()
+endmacro()
+
 find_package(Threads REQUIRED)
-find_package(PNG REQUIRED)
-find_package(ZLIB REQUIRED)
-find_package(OpenEXR REQUIRED)
-find_package(draco REQUIRED)
-find_package(meshoptimizer REQUIRED)
-find_package(VulkanHeaders REQUIRED)
-find_package(glslang REQUIRED)
-find_package(SPIRV-Headers REQUIRED)
-find_package(SPIRV-Tools REQUIRED)
-find_package(SPIRV-Tools-opt REQUIRED)
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(stb REQUIRED IMPORTED_TARGET stb)
+eyeray_needs(libfmt-dev fmt)
+eyeray_needs(libglm-dev glm)
+eyeray_needs(libtbb-dev TBB)
+eyeray_needs(libtomlplusplus-dev tomlplusplus)
+eyeray_needs(nlohmann-json3-dev nlohmann_json)
+eyeray_needs(libcli11-dev CLI11)
+eyeray_needs(libembree-dev embree)  # 3 or 4
+eyeray_needs(libpng-dev PNG)
+eyeray_needs(zlib1g-dev ZLIB)
+eyeray_needs(libopenexr-dev OpenEXR)
+eyeray_needs(libdraco-dev draco)
+eyeray_needs(libmeshoptimizer-dev meshoptimizer)
+eyeray_needs(libvulkan-dev VulkanHeaders)
+# CMake's files of glslang-dev end the configuration where this program is missing, although that package does not depend on it.
+eyeray_needs_program(glslang-tools glslangValidator)
+if(glslangValidator)
+  eyeray_needs(glslang-dev glslang)
+endif()
+eyeray_needs(spirv-headers SPIRV-Headers)
+eyeray_needs(spirv-tools SPIRV-Tools)
+eyeray_needs(spirv-tools SPIRV-Tools-opt)
+eyeray_needs(pkg-config PkgConfig)
+eyeray_needs_module(libstb-dev stb)
+eyeray_needs_module(libcpp-httplib-dev cpp-httplib)  # its types depend on how Debian compiled it, which its .pc file says
+eyeray_needs_file(libtinyobjloader-dev TINYOBJ_INCLUDE tiny_obj_loader.h)
+eyeray_needs_file(libvulkan-volk-dev VOLK_INCLUDE volk.c)
+eyeray_has_needs()
+
 add_library(stb ALIAS PkgConfig::stb)
-# Its types depend on how Debian compiled it, which its .pc file says.
-pkg_check_modules(cpp-httplib REQUIRED IMPORTED_TARGET cpp-httplib)
 add_library(httplib ALIAS PkgConfig::cpp-httplib)
 
 # A header with its implementation, compiled into the importers.
-find_path(TINYOBJ_INCLUDE tiny_obj_loader.h REQUIRED)
 add_library(tinyobjloader INTERFACE)
 target_include_directories(tinyobjloader SYSTEM INTERFACE ${TINYOBJ_INCLUDE})
 
 # volk ships as source: one translation unit that loads Vulkan at run time, so that eyeray starts without a loader.
-find_path(VOLK_INCLUDE volk.c REQUIRED)
 add_library(volk INTERFACE)
 target_include_directories(volk SYSTEM INTERFACE ${VOLK_INCLUDE})
 target_compile_definitions(volk INTERFACE VK_NO_PROTOTYPES)
