@@ -22,7 +22,9 @@ machine() {
   printf 'PRETTY_NAME="%s"\n%s\n' "$name" "${2:+VERSION_CODENAME=$2}" >"$work/os-release"
   fake id 'echo 0'
   fake dpkg-query "sed 's/\$/ installed/' '$work/installed'"
-  fake deb-systemd-helper "echo \"deb-systemd-helper \$*\" >>'$work/calls'"
+  # Debian's own refuses to work for others than dpkg.
+  fake deb-systemd-helper "[ -n \"\${DPKG_MAINTSCRIPT_PACKAGE-}\" ] || exit 1; echo \"deb-systemd-helper \$*\" >>'$work/calls'"
+  fake update-rc.d "echo \"update-rc.d \$*\" >>'$work/calls'"
   for tool in npm true; do fake "$tool" 'exit 0'; done
   apt_get ''
 }
@@ -75,11 +77,19 @@ done
 machine 'tests' trixie
 setup 0 test
 for package in doctest-dev librapidcheck-dev pybind11-dev slurmd zsh; do calls " $package "; done
-for service in munge slurmctld slurmd; do calls "deb-systemd-helper disable $service.service"; done
+for service in munge slurmctld slurmd; do
+  calls "deb-systemd-helper disable $service.service"
+  calls "update-rc.d $service disable"
+done
 never ' chromium '
 setup 0 ci
 calls ' chromium '
 calls ' shellcheck '
+
+machine 'the archive' bookworm
+setup 0 bundle
+calls ' patchelf'
+never ' doctest-dev '
 
 machine 'Ubuntu has no package of Chromium' noble
 setup 0 ci
@@ -178,7 +188,7 @@ says "$(uname -s) is not"
 machine 'bad usage' bookworm
 setup 2 all
 setup 2 render --verbose
-says 'usage: scripts/setup [render | test | ci] [--print]'
+says 'usage: scripts/setup [render | test | ci | bundle] [--print]'
 setup 0 render --print
 says glslang-tools
 installs_nothing
