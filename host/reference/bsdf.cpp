@@ -241,7 +241,9 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
       const double sum = n_o * along_o + n_i * along_i;
       const double density = through ? seen * (1 - mirrored) * n_i * n_i * std::abs(along_i) / (sum * sum)
                                      : seen * mirrored / (4 * along_o);
-      const double once = tables::glass_albedo(o_.z, bsdf_.roughness, n_o, n_i);
+      const double once = !adjoint_ ? tables::glass_albedo(o_.z, bsdf_.roughness, n_o, n_i)
+                          : through ? tables::glass_albedo(-i.z, bsdf_.roughness, n_i, n_o)
+                                    : tables::glass_albedo(i.z, bsdf_.roughness, n_o, n_i);
       return {bsdf_.glass * (through ? bsdf_.glass_color : Vec3(1)) * density * both / masking / once,
               density};
     }

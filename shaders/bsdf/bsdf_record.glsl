@@ -20,6 +20,9 @@ float glass_table(float cosine, float roughness, float ior_from, float ior_to) {
   return albedo.x * (1.0f - (z - slice)) + albedo.y * (z - slice);
 }
 
+// Whether a lobe's f(o, i) is not f(i, o).
+#define HAS_ADJOINT (HAS_COAT || HAS_SHEEN || HAS_ROUGH_GLASS)
+
 struct Bsdf {
   vec3 diffuse;            // albedo, under the layer
   float diffuse_roughness;
@@ -59,7 +62,7 @@ struct Bsdf {
 #if HAS_THIN
   vec3 thin;               // throughput of a rough pane, under the layer
 #endif
-#if HAS_COAT || HAS_SHEEN
+#if HAS_ADJOINT
   bool adjoint;            // of a photon, which comes from `o`
 #endif
 };
@@ -145,7 +148,7 @@ Bsdf black_bsdf() {
 #if HAS_THIN
   bsdf.thin = black;
 #endif
-#if HAS_COAT || HAS_SHEEN
+#if HAS_ADJOINT
   bsdf.adjoint = false;
 #endif
   return bsdf;

@@ -1,6 +1,6 @@
 // A rough surface between two media, by microfacets that mirror and refract: Walter et al., "Microfacet Models for Refraction through Rough
 // Surfaces" (EGSR 2007). Of radiance / index², which refraction leaves as it is. What its microfacets throw at each other is given back to
-// both lobes (Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 2019): f(o, i) is not f(i, o) by that.
+// both lobes (Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 2019), by the viewer's direction: a photon's is i.
 #ifndef ROUGH_GLASS_GLSL
 #define ROUGH_GLASS_GLSL
 #include "bsdf/bsdf_record.glsl"
@@ -29,10 +29,12 @@ LobeValue rough_glass_value(Bsdf bsdf, Directions at) {
   float seen = ggx_density(h, width) * along_o / (towards_o * at.o.z);
   float q = along_i + along_o / eta;
   float jacobian = through ? (1.0f - mirrored) * abs(along_i) / maximum(q * q, 1.0e-30f) : mirrored / (4.0f * along_o);
+  float once = bsdf.glass_albedo;
+  if (bsdf.adjoint) once = glass_table(abs(at.i.z), bsdf.roughness, through ? bsdf.ior_to : bsdf.ior_from, through ? bsdf.ior_from : bsdf.ior_to);
   LobeValue result = no_value();
   if (possible) {
     result.density = seen * jacobian;
-    result.value = bsdf.glass * (result.density * towards_o / ((towards_o + ggx_lambda(at.i, width)) * bsdf.glass_albedo));
+    result.value = bsdf.glass * (result.density * towards_o / ((towards_o + ggx_lambda(at.i, width)) * once));
     if (through) result.value = result.value * bsdf.glass_color;
   }
   return result;

@@ -73,7 +73,7 @@ PhotonResult photon_way(Frame frame, uint index, uint number) {
         store_photon(photon);
         result.stored += 1u;
       }
-#if HAS_COAT || HAS_SHEEN
+#if HAS_ADJOINT
       at.bsdf.adjoint = true;
 #endif
       Continuations all = path_scatter(frame, path, at);
