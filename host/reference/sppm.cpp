@@ -36,12 +36,12 @@ Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const 
     const Vec3 apart = photon.position - p;
     const double distance = glm::length(apart);
     const double moved = std::max(0.0, distance - photon_nearer_ * radius);
+    const bool before = leaving(at, photon.direction) == Leaving::in_front;
     if (std::min(distance, moved) >= radius || std::abs(glm::dot(apart, n)) >= 0.1 * radius ||
-        glm::dot(photon.normal, n) <= 0.9 || photon.depth + depth_ > scene_.render.max_depth)
+        glm::dot(photon.normal, before ? n : -n) <= 0.9 || photon.depth + depth_ > scene_.render.max_depth)
       return;
     const Vec3 i = frame.into(photon.direction);
     const double cosine = glm::dot(photon.direction, n);
-    const bool before = leaving(at, photon.direction) == Leaving::in_front;
     const Vec3 brought = wide.at(i, before).value / std::abs(cosine) * photon.flux;
     light += brought * kernel(distance);
     const Vec3 more = brought * (kernel(moved) - kernel(distance));

@@ -33,13 +33,16 @@ vec3 gathered(Frame frame, Path path, Interaction at) {
         Photon photon = load_photon(i);
         vec3 apart = photon.position - p;
         float squared = dot3(apart, apart);
+        // The light comes from where the photon's own surface has it: from behind, too, where the surface transmits.
+        bool before = is_before(at, photon.direction);
+        float facing = dot3(photon.normal, before ? n : -n);
         // Another cell's with the same key is that cell's to count.
         vec3 its = cell_of(photon.position * pass.cells);
         bool counts = its.x == cell.x && its.y == cell.y && its.z == cell.z && squared < pass.radius_squared &&
-                      abs(dot3(apart, n)) < pass.height && dot3(photon.normal, n) > 0.9f && photon.depth + path.depth <= frame.max_depth;
+                      abs(dot3(apart, n)) < pass.height && facing > 0.9f && photon.depth + path.depth <= frame.max_depth;
         if (counts) {
           vec3 i_local = into_frame(local, photon.direction);
-          vec3 value = bsdf_value(at.bsdf, wide, o, i_local, is_before(at, photon.direction)).value / maximum(abs(dot3(photon.direction, n)), 1.0e-6f);
+          vec3 value = bsdf_value(at.bsdf, wide, o, i_local, before).value / maximum(abs(dot3(photon.direction, n)), 1.0e-6f);
           float kernel = 1.0f - squared / pass.radius_squared;
           if (on_its_side(at, photon.direction, i_local)) light = light + value * photon.flux * kernel;
         }
