@@ -142,20 +142,23 @@ PhotonSource from_surface(const Scene& scene, const PhotonSettings& settings, co
 std::vector<std::vector<int>> media_of_lights(const Tracer& tracer) {
   const Scene& scene = tracer.scene();
   const LightChoice& choice = tracer.light_choice();
-  std::vector<std::vector<int>> media(choice.ends.size());
+  std::vector<std::vector<int>> media(2 * choice.ends.size());
   if (std::ranges::none_of(scene.materials,
                            [&](const auto& material) { return fills(*material, scene.render.integrator); }))
     return media;
-  for (size_t i = 0; i < media.size(); ++i) {
+  for (size_t i = 0; i < choice.ends.size(); ++i) {
+    std::vector<int>&before = media[2 * i], &behind = media[2 * i + 1];
     if (i >= scene.lights.size()) {
       const Emitter& emitter = choice.emitters[i - scene.lights.size()];
       const PhotonSource some = from_surface(scene, {}, emitter, Vec2(0.5), Vec2(0.5), Vec2(0));
-      media[i] = media_at(tracer, some.ray.o);
+      before = behind = media_at(tracer, some.ray.o);
+      if (emitter.side == 0 && fills(*scene.materials[size_t(emitter.material)], scene.render.integrator))
+        behind.push_back(emitter.material);
       continue;
     }
     const LightForm form = scene.lights[i]->form();
-    if (const auto* point = std::get_if<PointLight>(&form)) media[i] = media_at(tracer, point->position);
-    if (const auto* spot = std::get_if<SpotLight>(&form)) media[i] = media_at(tracer, spot->position);
+    if (const auto* point = std::get_if<PointLight>(&form)) before = media_at(tracer, point->position);
+    if (const auto* spot = std::get_if<SpotLight>(&form)) before = media_at(tracer, spot->position);
   }
   return media;
 }
@@ -197,7 +200,7 @@ PhotonSource PhotonSources::draw(const std::function<Vec2(uint32_t)>& pair) cons
   if (light < scene.lights.size() && std::isinf(scene.lights[light]->illuminate(source.ray.o).distance))
     weaken_upstream(scene, source, side.x);
   source.light = light;
-  source.media = media_[light];
+  source.media = media_[2 * light + (source.below ? 1 : 0)];
   return source;
 }
 

@@ -23,7 +23,8 @@ inline constexpr uint32_t source_pair = 0, start_pair = 1, heading_pair = 2, sid
 // In place of a pixel, with a sample's number, for its photons.
 inline constexpr uint32_t photons_of = 0x80000000u;
 
-// The materials whose media surround each light, outermost first; lights from afar stand in none.
+// The materials whose media surround each light, outermost first; lights from afar stand in none. Light i has
+// two lists: 2i before its surface, and 2i + 1 behind it, where its own material may be one more medium.
 std::vector<std::vector<int>> media_of_lights(const Tracer& tracer);
 
 class PhotonSources {
@@ -39,7 +40,7 @@ class PhotonSources {
   const Tracer& tracer_;
   PhotonSettings settings_;
   double around_;                  // how likely a photon comes from what is around
-  std::vector<MediaStack> media_;  // of each light
+  std::vector<MediaStack> media_;  // of media_of_lights
 };
 
 }  // namespace eyeray::reference

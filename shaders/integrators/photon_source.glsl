@@ -129,7 +129,7 @@ PhotonSource photon_source(Frame frame, PhotonPass pass, uint pixel, uint number
 #endif
   }
   source.light = light;
-  source.media = light == NONE ? 0u : load_emitter_media(light);
+  source.media = light == NONE ? 0u : load_emitter_media(2u * light + (source.below ? 1u : 0u));
   source.flux = source.flux / share;
 #if HAS_MEDIUM_EXTENT && HAS_ABSORPTION
   bool afar = light == NONE;
