@@ -19,7 +19,7 @@ struct Photon {
   Vec3 position;
   Vec3 direction;   // unit, towards where it came from
   Vec3 normal;      // unit, geometric, on the side that it came to
-  Vec3 flux;        // what it brings times the number of all
+  Vec3 flux;        // what it brings, over index² there, times the number of all
   uint32_t number;  // of those of its sample
   int depth;        // how often it was scattered before
 };

@@ -86,6 +86,9 @@ uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& s
   Ray ray = rays_.start_ray(source.ray);
   vertex_ = ray.o;
   if (source.flux == Vec3(0)) return rays_.sample(Vec3(0)).trail;
+  // Radiance is index² times what paths carry, and so is flux.
+  const auto squared_index = [&](const MediaStack& in) { return std::pow(rays_.medium(in).ior, 2); };
+  const Vec3 sent = source.flux * squared_index(media);
   while (depth_ <= scene_.render.max_depth) {
     ray = with_key(ray, 0);
     const auto hit = rays_.trace(ray);
@@ -103,7 +106,8 @@ uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& s
       const ViewedBsdf bsdf(at.bsdf, frame.seen(-at.d));
       const Vec3 &bent = at.surface.normal, &n = at.surface.normal_geometric;
       if (depth_ > 0 && !bsdf.part(true).black())
-        stopped.push_back({at.surface.position, -at.d, n, source.flux * throughput_, id_.index, depth_});
+        stopped.push_back(
+            {at.surface.position, -at.d, n, sent * throughput_ / squared_index(media), id_.index, depth_});
       next = scatter(at, frame, bsdf.adjoint(), media);
       // Light that comes and goes as a bent normal has it, seen from the light. Veach: Robust Monte Carlo
       // Methods for Light Transport Simulation, 1997, section 5.3.

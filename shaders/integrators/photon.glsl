@@ -1,5 +1,6 @@
 // A photon's way: from a light from surface to surface, as a path goes, until it ends. It stays, for paths to gather, at each surface after
-// the first that scatters widely. Paths carry radiance / index², which goes both ways alike, and so photons go by the paths' own BSDFs.
+// the first that scatters widely. A photon carries flux, which refraction leaves as it is, as it leaves the radiance / index² of paths. So
+// photons go by the paths' own BSDFs.
 #ifndef PHOTON_GLSL
 #define PHOTON_GLSL
 #include "bsdf/parts.glsl"
@@ -27,6 +28,16 @@ float bent_both_ways(Interaction at, vec3 d) {
   return (out_true / maximum(out_bent, 1.0e-6f)) * (in_bent / maximum(in_true, 1.0e-6f));
 }
 
+// Flux is radiance times area times solid angle. So in a medium that is index² times what radiance / index² makes of it.
+float squared_index(uint media) {
+#if HAS_MEDIA
+  float ior = load_medium(innermost_medium(media)).ior;
+  return ior * ior;
+#else
+  return 1.0f;
+#endif
+}
+
 PhotonResult photon_way(Frame frame, uint index, uint number) {
   PhotonPass pass = load_photon_pass();
   uint pixel = PHOTONS_OF | index;
@@ -43,6 +54,7 @@ PhotonResult photon_way(Frame frame, uint index, uint number) {
   }
   Path path = begin(frame, make_ray(source.o, source.d), pixel, number);
   path.media = source.media;
+  vec3 sent = source.flux * squared_index(source.media);
   bool going = max_component(source.flux) > 0.0f;
   uint most_turns = (frame.max_depth + 2u) * (MOST_PANES + 1u);
   for (uint turn = 0u; turn < most_turns; turn++) {
@@ -68,7 +80,7 @@ PhotonResult photon_way(Frame frame, uint index, uint number) {
         photon.number = number;
         photon.normal = at.seen.normal_geometric;
         photon.depth = path.depth;
-        photon.flux = source.flux * path.throughput;
+        photon.flux = sent * path.throughput / squared_index(path.media);
         photon.unused = 0u;
         store_photon(photon);
         result.stored += 1u;

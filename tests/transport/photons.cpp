@@ -1,10 +1,9 @@
-// Photon mapping where the answer is known, and where `path` knows it. All pixels of a picture gather the
-// same photons, so its samples, not its pixels, are estimates independent of each other.
+// Photon mapping where the answer is known, and where `path` knows it.
 #include "host/scene/photons.hpp"
+#include "by_photons.hpp"
 #include "host/optics/fresnel.hpp"
 #include "host/reference/photon_map.hpp"
 #include "host/reference/renderer.hpp"
-#include "patch.hpp"
 #include "tests/support/environments.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -13,43 +12,6 @@ using namespace eyeray;
 using namespace eyeray::test;
 
 namespace {
-
-// Of one pixel, by as many samples.
-Estimate by_samples(const Scene& scene, Backend backend) {
-  const auto executor = executors::make_executor(backend, scene, {});
-  const int count = std::max(8, scene.image.samples * amount(1, 4, 4) / 4);
-  std::vector<double> values;
-  double mean = 0, squares = 0;
-  for (int i = 0; i < count; ++i) {
-    PixelSample sample;
-    executor->sample({0, 0, 1, 1}, uint32_t(i), {&sample, 1});
-    values.push_back(sample.color.x);
-    mean += sample.color.x / count;
-  }
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return {mean, std::sqrt(squares / (double(count) * (count - 1)))};
-}
-
-Scene by_photons(Scene scene, int photons, double radius, int samples, int max_depth) {
-  scene.render.integrator = IntegratorType::sppm;
-  scene.render.photons = photons;
-  scene.render.photon_radius = radius;
-  scene.render.max_depth = max_depth;
-  scene.image.samples = samples;
-  return scene;
-}
-
-void check_photons(const Scene& scene, double expected, double greatest = 0.01, double least_error = 1e-4) {
-  CAPTURE(expected);
-  for (const Backend backend : {Backend::twin, Backend::reference}) {
-    const Estimate found = by_samples(scene, backend);
-    CAPTURE(int(backend));
-    CAPTURE(found.mean);
-    CAPTURE(found.error);
-    CHECK(found.error < greatest * expected * amount(2, 1, 1));
-    CHECK(std::abs(found.mean - expected) < 5 * found.error + least_error * expected);
-  }
-}
 
 // What lights a wall beside the floor.
 enum class WallLight { sphere, ring, parallelogram, box, triangle, spot, environment, sun };
@@ -90,20 +52,7 @@ Scene beside_wall(WallLight light) {
 
 void check_wall(WallLight light, Backend backend, int photons, int samples, double greatest) {
   CAPTURE(int(light));
-  CAPTURE(int(backend));
-  const Scene scene = beside_wall(light);
-  const Estimate path = estimate(scene, Backend::twin);
-  const Estimate near = by_samples(by_photons(beside_wall(light), photons, 0.08, samples, 1), backend);
-  const Estimate wide = by_samples(by_photons(beside_wall(light), photons, 0.16, samples, 1), backend);
-  // Bias grows with the square of the radius (Richardson): of the smaller one a third of the difference.
-  const double bias = (wide.mean - near.mean) / 3;
-  CAPTURE(path.mean);
-  CAPTURE(near.mean);
-  CAPTURE(wide.mean);
-  CAPTURE(near.error);
-  CHECK(near.error < greatest * path.mean * amount(2, 1, 1));
-  CHECK(std::abs(bias) < 0.005 * path.mean + near.error);
-  CHECK(std::abs(near.mean - bias - path.mean) < 5 * std::hypot(1.4 * near.error, wide.error, path.error));
+  check_as_paths([light] { return beside_wall(light); }, backend, photons, 0.08, samples, greatest);
 }
 
 // What all photons bring to surfaces that have `depth` before them; of less than 0, to all.
