@@ -41,7 +41,9 @@ Flight PathSample::fly(const Ray& ray, const MediaStack& media, const std::optio
   }
   const Vec3 extinction = medium.absorption + medium.scattering;
   const Vec2 chance = pair_of(first_flight_pair + surfaces());
-  const Vec3 shares = throughput_ / (throughput_.x + throughput_.y + throughput_.z);
+  // A path that brings nothing goes on until roulette ends it: by the last channel, as in the shaders.
+  const double all = throughput_.x + throughput_.y + throughput_.z;
+  const Vec3 shares = all > 0 ? throughput_ / all : Vec3(0, 0, 1);
   const int channel = chance.x < shares.x ? 0 : chance.x < shares.x + shares.y ? 1 : 2;
   const double drawn = extinction[channel] > 0 ? -std::log1p(-chance.y) / extinction[channel] : infinity;
   if (drawn < length) {

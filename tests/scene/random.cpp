@@ -148,6 +148,44 @@ material = "mirror"
   CHECK(soundness.infinite == 0);
 }
 
+// A direction that the coat chooses below the body's horizon has a density, and brings nothing.
+TEST_CASE("a path that brings nothing has a colour after a flight through fog") {
+  for (const std::string integrator : {"path", "sppm"}) {
+    CAPTURE(integrator);
+    Scene scene = parse_scene("render = { integrator = \"" + integrator + "\" }\n" + R"(
+image = { width = 16, height = 12, samples = 16 }
+medium = { scattering = 0.1 }
+[camera]
+eye = [0, 1, 3]
+[[light]]
+type = "point"
+position = [1, 3, 1]
+falloff = "inverse_square"
+[[material]]
+name = "lacquer"
+type = "principled"
+coat = 1
+coat_roughness = 0.6
+coat_normal = [1, 0.5, 0.6]
+[[sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "lacquer"
+[[disk]]
+center = [0, -1, 0]
+normal = [0, 1, 0]
+radius = 3
+material = "lacquer"
+)",
+                              "scene.toml");
+    scene.render.photons = 1024;
+    scene.render.photon_radius = 0.5;
+    const Soundness soundness = inspect(render_frame(scene, Backend::reference));
+    INFO(describe(soundness));
+    CHECK(soundness.ok());
+  }
+}
+
 TEST_CASE("extreme scenes: the GPU and the twin, bit by bit") {
   const int count = test::amount(4, 16, 16);
   int compared = 0;
