@@ -270,6 +270,11 @@ constexpr FaultType types[] = {
      .file = "lights/photon_aim.glsl",
      .from = "/ (2.0f * PI * sum)",
      .to = "/ (2.01f * PI * sum)"},
+    {.name = "photon_index",
+     .file = "integrators/photon.glsl",
+     .from = " / squared_index(path.media)",
+     .to = ""},
+    {.name = "photon_behind", .file = "integrators/sppm.glsl", .from = "before ? n : -n", .to = "n"},
     // Random numbers.
     {.name = "random", .file = "math/rng.glsl", .from = "2891336453u", .to = "2891336455u"},
     // Packing.

@@ -122,6 +122,8 @@ std::vector<Fault> faults() {
       {"photon_heading", {bits, paths}, {"scenes/sppm/box.toml", "--spp", "1"}},
       {"photon_flux", {bits, paths}, {"scenes/sppm/points.toml", "--spp", "1"}},
       {"photon_aim", {bits, paths}, {"scenes/sppm/points.toml", "--spp", "1"}},
+      {"photon_index", {bits, paths}, {"scenes/sppm/paperweight.toml", "--spp", "1"}},
+      {"photon_behind", {bits, paths}, {"scenes/sppm/frosted.toml", "--spp", "1"}},
   };
 }
 
