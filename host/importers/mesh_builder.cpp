@@ -103,12 +103,21 @@ std::vector<Vec3> MeshBuilder::face_normals(const RawTriangles& raw) {
   return normals;
 }
 
+// Texture coordinates and colours that faces have of their own are the same if their values are.
+bool MeshBuilder::is_same(const Source& a, const Source& b) const {
+  const auto same = [](const auto& values, uint32_t i, uint32_t k) {
+    return i == k || (i != no_index && k != no_index && values[i] == values[k]);
+  };
+  return a.position == b.position && a.normal == b.normal && same(pool_.uv, a.uv, b.uv) &&
+         same(pool_.colors, a.color, b.color);
+}
+
 // no_index where the mesh has none yet.
 uint32_t MeshBuilder::find_vertex(const Source& source) {
   if (mesh_[source.position] != meshes_) return no_index;
   uint32_t vertex = last_[source.position];
   for (int i = 0; i < most_compared && vertex != no_index; ++i) {
-    if (sources_[vertex] == source) return vertex;
+    if (is_same(sources_[vertex], source)) return vertex;
     vertex = next_[vertex];
   }
   return no_index;
@@ -124,7 +133,7 @@ void MeshBuilder::append(Mesh& mesh, const RawTriangles& raw, const Source& sour
   mesh.positions.push_back(pool_.positions[source.position]);
   if (raw.has_normals) mesh.normals.push_back(normal);
   if (raw.has_uv) mesh.uv.push_back(source.uv == no_index ? Vec2(0) : pool_.uv[source.uv]);
-  if (!pool_.colors.empty()) mesh.colors.push_back(pool_.colors[source.position]);
+  if (!pool_.colors.empty()) mesh.colors.push_back(pool_.colors[source.color]);
   if (!pool_.alphas.empty()) mesh.alphas.push_back(pool_.alphas[source.position]);
   if (!pool_.tangents.empty()) {
     const Vec4& tangent = pool_.tangents[source.position];
@@ -152,7 +161,7 @@ Mesh MeshBuilder::build(const RawTriangles& raw, double smooth) {
     IndexTriangle triangle;
     for (size_t i = 0; i < 3; ++i) {
       const uint32_t position = raw.positions[face][i];
-      Source source{position, no_index, no_index};
+      Source source{position, no_index, no_index, raw.colors.empty() ? position : raw.colors[face]};
 
       // A normal that cannot be used is the face's; its vertex is shared with no other face.
       Vec3 normal = faces[face];

@@ -34,7 +34,7 @@ struct VertexPool {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  // of any length
   std::vector<Vec2> uv;
-  std::vector<Vec3> colors;    // linear RGB, one a position, or none
+  std::vector<Vec3> colors;    // linear RGB, one a position or as RawTriangles::colors has it, or none
   std::vector<double> alphas;  // likewise, and only with colours
   std::vector<Vec4> tangents;  // one a position, or none: of any length, and the side of v
 };
@@ -52,6 +52,7 @@ struct RawTriangles {
   std::vector<IndexTriangle> positions;
   std::vector<IndexTriangle> normals;  // empty, where they have some: with the same indices as the positions
   std::vector<IndexTriangle> uv;       // the same
+  std::vector<uint32_t> colors;        // one for all corners of a triangle; empty: as the positions
 };
 
 class MeshBuilder {
@@ -69,10 +70,11 @@ class MeshBuilder {
     uint32_t position;
     uint32_t normal;
     uint32_t uv;
-    bool operator==(const Source&) const = default;
+    uint32_t color;
   };
 
   std::vector<Vec3> face_normals(const RawTriangles& raw);
+  bool is_same(const Source& a, const Source& b) const;
   uint32_t find_vertex(const Source& source);
   void append(Mesh& mesh, const RawTriangles& raw, const Source& source, const Vec3& normal);
 

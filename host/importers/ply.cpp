@@ -45,6 +45,11 @@ constexpr std::pair<std::string_view, Slot> slot_names[] = {
     {"diffuse_blue", blue},
 };
 
+Slot slot_of(std::string_view name) {
+  const auto known = std::ranges::find(slot_names, name, [](const auto& row) { return row.first; });
+  return known == std::end(slot_names) ? none : known->second;
+}
+
 // What a colour is at its brightest.
 double brightest(PlyType type) {
   switch (type) {
@@ -63,6 +68,9 @@ double brightest(PlyType type) {
 struct Polygons {
   std::vector<uint32_t> corners;
   std::vector<uint32_t> sizes;
+  std::vector<Vec2> uv;            // one a corner, not finite where a face has none; or empty
+  std::vector<Vec3> colors;        // linear RGB, one a polygon; or empty
+  std::vector<uint32_t> pictures;  // indices of PlyHeader::pictures, one a polygon; or empty
 };
 
 template <typename Values>
@@ -77,9 +85,9 @@ class PlyReader {
       if (element.name == "vertex") {
         read_vertices(element);
       } else if (element.name == "face") {
-        read_lists(element, [this](uint64_t count, PlyType type) { read_face(count, type); });
+        read_faces(element);
       } else if (element.name == "tristrips") {
-        read_lists(element, [this](uint64_t count, PlyType type) { read_strip(count, type); });
+        read_strips(element);
       } else {
         skip(element);
       }
@@ -88,19 +96,19 @@ class PlyReader {
 
   VertexPool vertices;
   Polygons polygons;
-  std::vector<std::string> warnings;
 
  private:
   void check_count(const PlyElement& element) const;
   void read_vertices(const PlyElement& element);
-  template <typename Read>
-  void read_lists(const PlyElement& element, const Read& read);
+  const PlyProperty& corners_of(const PlyElement& element) const;
+  void read_faces(const PlyElement& element);
+  void read_uv(const PlyProperty& property, std::vector<Vec2>& uv);
+  void read_strips(const PlyElement& element);
   void skip(const PlyElement& element);
   void skip_value(const PlyProperty& property) {
     values_.skip(property.type, property.list ? read_length(property) : 1);
   }
   uint64_t read_length(const PlyProperty& property);
-  void read_face(uint64_t count, PlyType type);
   void read_strip(uint64_t count, PlyType type);
   uint32_t read_index(PlyType type);
 
@@ -127,9 +135,7 @@ void PlyReader<Values>::read_vertices(const PlyElement& element) {
   std::vector<Slot> meaning;
   bool has[none + 1] = {};
   for (const PlyProperty& property : element.properties) {
-    const auto known =
-        std::ranges::find(slot_names, property.name, [](const auto& row) { return row.first; });
-    meaning.push_back(known != std::end(slot_names) && !property.list ? known->second : none);
+    meaning.push_back(property.list ? none : slot_of(property.name));
     has[meaning.back()] = true;
   }
   if (!has[x] || !has[y] || !has[z]) values_.fail("the vertices have no x, y and z");
@@ -159,27 +165,87 @@ void PlyReader<Values>::read_vertices(const PlyElement& element) {
   }
 }
 
-// Reads the list of vertices in each element, and steps over all else.
+// The property that lists the vertices of each element.
 template <typename Values>
-template <typename Read>
-void PlyReader<Values>::read_lists(const PlyElement& element, const Read& read) {
-  const auto wanted = std::ranges::find_if(element.properties, [](const PlyProperty& property) {
+const PlyProperty& PlyReader<Values>::corners_of(const PlyElement& element) const {
+  const auto found = std::ranges::find_if(element.properties, [](const PlyProperty& property) {
     return property.list && (property.name == "vertex_indices" || property.name == "vertex_index");
   });
-  if (wanted == element.properties.end())
+  if (found == element.properties.end())
     values_.fail(fmt::format("the element `{}` has no list of vertex_indices", element.name));
-  const auto has = [&](std::string_view name) {
-    return std::ranges::find(element.properties, name, &PlyProperty::name) != element.properties.end();
-  };
-  if (has("texcoord")) warnings.emplace_back("the uv of faces (texcoord) were left out");
-  if (has("red") || has("diffuse_red") || has("r"))
-    warnings.emplace_back("the colours of faces were left out: only those of vertices are shown");
+  return *found;
+}
+
+// Polygons, with the texture coordinates, the colours and the picture's number that each may have.
+template <typename Values>
+void PlyReader<Values>::read_faces(const PlyElement& element) {
+  const PlyProperty& corners = corners_of(element);
+  std::vector<Slot> meaning;
+  bool has[none + 1] = {};
+  const PlyProperty *uv_list = nullptr, *picture = nullptr;
+  for (const PlyProperty& property : element.properties) {
+    meaning.push_back(property.list ? none : slot_of(property.name));
+    has[meaning.back()] = true;
+    if (property.name == "texcoord" && property.list) uv_list = &property;
+    if (property.name == "texnumber" && !property.list) picture = &property;
+  }
+  const bool colored = has[red] && has[green] && has[blue];
+
   polygons.sizes.reserve(polygons.sizes.size() + element.count);
+  if (uv_list) polygons.uv.resize(polygons.corners.size(), Vec2(NAN));
+  if (colored) polygons.colors.resize(polygons.sizes.size(), Vec3(1));
+  if (picture) polygons.pictures.resize(polygons.sizes.size());
+  std::array<double, none + 1> row{};
+  std::vector<Vec2> uv;
+  for (uint64_t i = 0; i < element.count; ++i) {
+    uint64_t size = 0;
+    for (size_t k = 0; k < meaning.size(); ++k) {
+      const PlyProperty& property = element.properties[k];
+      if (&property == &corners) {
+        size = read_length(property);
+        for (uint64_t n = 0; n < size; ++n) polygons.corners.push_back(read_index(property.type));
+      } else if (&property == uv_list) {
+        read_uv(property, uv);
+      } else if (&property == picture) {
+        polygons.pictures.push_back(read_index(property.type));
+      } else if (colored && meaning[k] >= red && meaning[k] <= blue) {
+        row[meaning[k]] = values_.next(property.type) / brightest(property.type);
+      } else {
+        skip_value(property);
+      }
+    }
+    polygons.sizes.push_back(static_cast<uint32_t>(size));
+    if (colored) polygons.colors.push_back(color_from_display({row[red], row[green], row[blue]}));
+    if (uv_list && !uv.empty() && uv.size() != size)
+      values_.fail(fmt::format("a face of {} corners has {} pairs of texcoord", size, uv.size()));
+    if (uv_list) {
+      uv.resize(size, Vec2(NAN));
+      polygons.uv.insert(polygons.uv.end(), uv.begin(), uv.end());
+    }
+  }
+}
+
+// A pair for each corner, or none.
+template <typename Values>
+void PlyReader<Values>::read_uv(const PlyProperty& property, std::vector<Vec2>& uv) {
+  const uint64_t count = read_length(property);
+  if (count % 2 != 0)
+    values_.fail(fmt::format("a texcoord of {} numbers has no pair for each corner", count));
+  uv.resize(count / 2);
+  for (Vec2& pair : uv) {
+    pair.x = values_.next(property.type);
+    pair.y = values_.next(property.type);
+  }
+}
+
+template <typename Values>
+void PlyReader<Values>::read_strips(const PlyElement& element) {
+  const PlyProperty& corners = corners_of(element);
   for (uint64_t i = 0; i < element.count; ++i) {
     for (const PlyProperty& property : element.properties) {
-      if (&property == &*wanted) {
+      if (&property == &corners) {
         const uint64_t count = read_length(property);
-        read(count, property.type);
+        read_strip(count, property.type);
       } else {
         skip_value(property);
       }
@@ -214,12 +280,6 @@ uint32_t PlyReader<Values>::read_index(PlyType type) {
   return static_cast<uint32_t>(index);
 }
 
-template <typename Values>
-void PlyReader<Values>::read_face(uint64_t count, PlyType type) {
-  for (uint64_t i = 0; i < count; ++i) polygons.corners.push_back(read_index(type));
-  polygons.sizes.push_back(static_cast<uint32_t>(count));
-}
-
 // Each corner makes a triangle with the two before it, every other one turned round; −1 starts anew.
 template <typename Values>
 void PlyReader<Values>::read_strip(uint64_t count, PlyType type) {
@@ -241,50 +301,90 @@ void PlyReader<Values>::read_strip(uint64_t count, PlyType type) {
   }
 }
 
-// The polygons as triangles.
-std::vector<IndexTriangle> triangulate(const Polygons& polygons, const VertexPool& vertices,
-                                       MeshCounts& counts, const std::string& file) {
+// Adds what faces have of their own to the pool; strips, where a file has both, have none. Colours of
+// vertices count more than those of faces.
+void pool_values_of_faces(Polygons& polygons, VertexPool& vertices, std::vector<std::string>& warnings) {
+  if (!polygons.uv.empty()) polygons.uv.resize(polygons.corners.size(), Vec2(NAN));
+  if (!polygons.colors.empty()) polygons.colors.resize(polygons.sizes.size(), Vec3(1));
+  if (!polygons.pictures.empty()) polygons.pictures.resize(polygons.sizes.size());
+  if (!polygons.colors.empty() && !vertices.colors.empty()) {
+    polygons.colors.clear();
+    warnings.emplace_back("the colours of faces were left out: those of vertices are shown");
+  }
+  if (!polygons.colors.empty()) vertices.colors = polygons.colors;
+  if (!polygons.uv.empty() && !vertices.uv.empty())
+    warnings.emplace_back("the uv of vertices were left out: those of faces (texcoord) are shown");
+  if (!polygons.uv.empty()) vertices.uv = std::move(polygons.uv);
+}
+
+// The polygons as triangles: a list for each picture that they show, or a single one.
+std::vector<RawTriangles> triangulate(const Polygons& polygons, const VertexPool& vertices, size_t pictures,
+                                      bool own_uv, MeshCounts& counts, const std::string& file) {
   const auto known = [&](uint32_t corner) { return corner < vertices.positions.size(); };
   if (const auto wrong = std::ranges::find_if_not(polygons.corners, known); wrong != polygons.corners.end()) {
     throw malformed(file, fmt::format("a face refers to vertex {}; there are {}, counted from 0",
                                       *wrong == no_index ? -1 : int64_t{*wrong}, vertices.positions.size()));
   }
-  std::vector<IndexTriangle> triangles;
-  triangles.reserve(polygons.sizes.size());
+  const bool split = pictures > 1 && !polygons.pictures.empty();
+  std::vector<RawTriangles> lists(split ? pictures : 1);
+  for (RawTriangles& raw : lists) {
+    raw.name = file;
+    raw.has_normals = !vertices.normals.empty();
+    raw.has_uv = !vertices.uv.empty();
+  }
+  if (!split) lists[0].positions.reserve(polygons.sizes.size());
   Triangulator triangulator;
   std::vector<Vec3> points;
-  const uint32_t* corner = polygons.corners.data();
-  for (const uint32_t size : polygons.sizes) {
+  uint32_t first = 0;  // the corner with which a polygon begins
+  for (size_t i = 0; i < polygons.sizes.size(); ++i) {
+    const uint32_t picture = split ? polygons.pictures[i] : 0;
+    if (picture >= lists.size())
+      throw malformed(file, fmt::format("a face has the texnumber {}; there are {} pictures, counted from 0",
+                                        picture == no_index ? -1 : int64_t{picture}, lists.size()));
+    RawTriangles& raw = lists[picture];
+    const uint32_t* const corner = &polygons.corners[first];
+    const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
+      raw.positions.push_back({corner[a], corner[b], corner[c]});
+      if (own_uv) raw.uv.push_back({first + a, first + b, first + c});
+      if (!polygons.colors.empty()) raw.colors.push_back(static_cast<uint32_t>(i));
+    };
+    const uint32_t size = polygons.sizes[i];
     if (size == 3) {
-      triangles.push_back({corner[0], corner[1], corner[2]});
+      add(0, 1, 2);
     } else {
       points.clear();
-      for (uint32_t i = 0; i < size; ++i) points.push_back(vertices.positions[corner[i]]);
-      for (const auto& [a, b, c] : triangulator.cut(points))
-        triangles.push_back({corner[a], corner[b], corner[c]});
+      for (uint32_t k = 0; k < size; ++k) points.push_back(vertices.positions[corner[k]]);
+      for (const auto& [a, b, c] : triangulator.cut(points)) add(a, b, c);
       if (size < 3) ++counts.without_area;
     }
-    corner += size;
+    first += size;
   }
   counts.fans += triangulator.fans();
-  return triangles;
+  return lists;
 }
 
-// Makes a material of the picture that the file names, if it has uv for it; returns whether.
-bool show_picture(const PlyHeader& header, MeshFile& file, bool has_uv, ImportedScene& scene) {
-  if (header.pictures.empty()) return false;
-  if (!has_uv || header.pictures.size() > 1) {
+// Makes a material of each picture that the file names, if it has uv for it and faces say which they show.
+// Returns for each the index of its material, or −1.
+std::vector<int> show_pictures(const PlyHeader& header, MeshFile& file, size_t shown, bool has_uv,
+                               ImportedScene& scene) {
+  std::vector<int> materials(shown, -1);
+  const size_t pictures = header.pictures.size();
+  if (pictures == 0) return materials;
+  if (!has_uv || pictures != shown) {
     scene.warnings.emplace_back(
         fmt::format("its {} (comment TextureFile) left out: {}; give the mesh a `material`",
-                    has_uv ? "pictures were" : "picture was",
-                    has_uv ? "there is more than one" : "its vertices have no uv"));
-    return false;
+                    pictures > 1 ? "pictures were" : "picture was",
+                    has_uv ? "no texnumber of its faces says which they show" : "it has no uv"));
+    return materials;
   }
   TextureFiles textures(file.assets, *file.pixels, scene.warnings);
-  const auto picture = textures.load(header.pictures[0]);
-  if (!picture) return false;
-  scene.materials.push_back(materials::make_phong({.diffuse = textures::make_image(picture)}));
-  return true;
+  for (size_t i = 0; i < pictures; ++i) {
+    const auto picture = textures.load(header.pictures[i]);
+    if (!picture) continue;
+    materials[i] = static_cast<int>(scene.materials.size());
+    scene.materials.push_back(materials::make_phong({.diffuse = textures::make_image(picture)}));
+  }
+  return materials;
 }
 
 template <typename Values>
@@ -294,20 +394,22 @@ ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
   free_memory(file.bytes);  // make room
 
   ImportedScene scene;
-  scene.warnings = std::move(reader.warnings);
   if (reader.polygons.sizes.empty())
     throw malformed(file.name, "it has no faces: points alone cannot be seen");
   MeshCounts counts;
-  RawTriangles raw;
-  raw.name = file.name;
-  raw.has_normals = !reader.vertices.normals.empty();
-  raw.has_uv = !reader.vertices.uv.empty();
-  raw.positions = triangulate(reader.polygons, reader.vertices, counts, file.name);
+  const bool own_uv = !reader.polygons.uv.empty();
+  pool_values_of_faces(reader.polygons, reader.vertices, scene.warnings);
+  const std::vector<RawTriangles> lists =
+      triangulate(reader.polygons, reader.vertices, header.pictures.size(), own_uv, counts, file.name);
   reader.polygons = {};
-  scene.meshes.push_back(
-      MeshBuilder(reader.vertices, counts).build(raw, file.smooth.value_or(default_smooth)));
-  const bool shown = show_picture(header, file, raw.has_uv, scene);
-  scene.instances.push_back({0, Mat4(1.0), shown ? 0 : -1, {}});
+  const std::vector<int> materials =
+      show_pictures(header, file, lists.size(), !reader.vertices.uv.empty(), scene);
+  MeshBuilder builder(reader.vertices, counts);
+  for (size_t i = 0; i < lists.size(); ++i) {
+    if (lists.size() > 1 && lists[i].positions.empty()) continue;
+    scene.instances.push_back({static_cast<int>(scene.meshes.size()), Mat4(1.0), materials[i], {}});
+    scene.meshes.push_back(builder.build(lists[i], file.smooth.value_or(default_smooth)));
+  }
   counts.report(scene.warnings);
   return scene;
 }

@@ -208,15 +208,86 @@ TEST_CASE("a header may promise what it likes") {
                  "a list of 4000000000 is longer than the rest of the file"));
 }
 
-TEST_CASE("colours of faces, and a picture without uv, are named") {
-  const std::string file =
-      "ply\nformat ascii 1.0\ncomment TextureFile wood.png\nelement vertex 3\nproperty float x\n"
-      "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
-      "3 0 1 2 255 0 0\n";
-  const ImportedScene scene = import_sound(file, "a.ply");
-  CHECK(warns(scene, "colours of faces"));
-  CHECK(warns(scene, "its vertices have no uv"));
+namespace {
+
+// A square of four vertices and two faces that have what `properties` says.
+std::string two_faces(const std::string& comments, const std::string& properties, const std::string& first,
+                      const std::string& second) {
+  return "ply\nformat ascii 1.0\n" + comments +
+         "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n" +
+         properties + "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + first + "\n" + second + "\n";
+}
+
+const std::string face_corners = "property list uchar int vertex_indices\n";
+const std::string face_colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+const std::string face_uv = "property list uchar float texcoord\n";
+
+}  // namespace
+
+TEST_CASE("colours of faces are shown, and those of vertices before them") {
+  const ImportedScene scene =
+      import_sound(two_faces("", face_corners + face_colors, "3 0 1 2 255 0 0", "3 0 2 3 0 0 255"), "a.ply");
+  CHECK(scene.warnings.empty());
+  const Mesh& mesh = scene.meshes[0];
+  REQUIRE(mesh.triangles.size() == 2);
+  CHECK(mesh.positions.size() == 6);
+  for (const uint32_t corner : mesh.triangles[0]) CHECK(mesh.colors[corner] == Vec3(1, 0, 0));
+  for (const uint32_t corner : mesh.triangles[1]) CHECK(mesh.colors[corner] == Vec3(0, 0, 1));
+  CHECK(glm::length(mesh.normals[0] - Vec3(0, 0, 1)) < 1e-12);
+
+  // Faces of the same colour share vertices; the polygon's colour is that of all its triangles.
+  const ImportedScene grey = import_sound(
+      two_faces("", face_colors + face_corners, "0 0 255 4 0 1 2 3", "0 0 255 3 0 2 3"), "a.ply");
+  CHECK(grey.meshes[0].positions.size() == 4);
+  CHECK(grey.meshes[0].triangles.size() == 3);
+
+  const ImportedScene both = import_sound(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
+          face_colors + "element face 1\n" + face_corners + face_colors +
+          "end_header\n0 0 0 0 255 0\n1 0 0 0 255 0\n0 1 0 0 255 0\n3 0 1 2 255 0 0\n",
+      "a.ply");
+  CHECK(both.meshes[0].colors[0] == Vec3(0, 1, 0));
+  CHECK(both.warnings ==
+        std::vector<std::string>{"the colours of faces were left out: those of vertices are shown"});
+}
+
+TEST_CASE("a picture is shown by the uv of faces, and each of several by its number") {
+  const Folder folder;
+  for (const char* name : {"a.png", "b.png"})
+    std::filesystem::copy_file("tests/image/pictures/rgb.png", folder / name);
+  const auto scene_of = [&](const std::string& text) { return import_file(folder.write("a.ply", text)); };
+  const ImportedScene one = scene_of(two_faces("comment TextureFile a.png\n", face_corners + face_uv,
+                                               "3 0 1 2 6 0 0 0.5 0 0.5 1", "3 0 2 3 6 0 0 0.5 1 0.25 1"));
+  CHECK(one.warnings.empty());
+  REQUIRE(one.materials.size() == 1);
+  CHECK(one.instances[0].material == 0);
+  const Mesh& mesh = one.meshes[0];
+  CHECK(mesh.positions.size() == 4);  // at 0 and at 2 both faces have the same uv
+  for (size_t i = 0; i < mesh.positions.size(); ++i)
+    CHECK(mesh.uv[i] == Vec2(mesh.positions[i].x / 2 + (mesh.positions[i] == Vec3(0, 1, 0) ? 0.25 : 0),
+                             mesh.positions[i].y));
+
+  const std::string numbered = face_corners + face_uv + "property int texnumber\n";
+  const std::string comments = "comment TextureFile a.png\ncomment TextureFile b.png\n";
+  const ImportedScene two = scene_of(two_faces(comments, numbered, "3 0 1 2 6 0 0 1 0 1 1 1", "3 0 2 3 0 0"));
+  REQUIRE(two.materials.size() == 2);
+  REQUIRE(two.instances.size() == 2);
+  for (int i = 0; i < 2; ++i) {
+    CHECK(two.instances[size_t(i)].material == i);
+    CHECK(two.meshes[size_t(i)].triangles.size() == 1);
+  }
+  CHECK(two.meshes[1].positions[two.meshes[1].triangles[0][1]] == Vec3(1, 0, 0));
+  CHECK(two.warnings ==
+        std::vector<std::string>{"3 corners whose uv are not finite or beyond 1e12 got uv 0"});
+
+  const auto refused = [&](const std::string& face) {
+    return refusal(two_faces(comments, numbered, face, "3 0 2 3 0 0"), "a.ply");
+  };
+  CHECK(contains(refused("3 0 1 2 4 0 0 1 0 0"), "a face of 3 corners has 2 pairs of texcoord"));
+  CHECK(contains(refused("3 0 1 2 5 0 0 1 0 1 0"), "a texcoord of 5 numbers has no pair for each corner"));
+  CHECK(contains(refused("3 0 1 2 0 2"), "a face has the texnumber 2; there are 2 pictures, counted from 0"));
+  CHECK(warns(scene_of(two_faces("comment TextureFile a.png\n", face_corners, "3 0 1 2", "3 0 2 3")),
+              "it has no uv"));
 }
 
 TEST_CASE("a picture in a comment is shown where vertices have uv") {
@@ -244,5 +315,6 @@ TEST_CASE("a picture in a comment is shown where vertices have uv") {
 
   CHECK(warns(scene_of("comment TextureFile none.png\n"), "a picture was left out"));
   CHECK(scene_of("comment TextureFile none.png\n").materials.empty());
-  CHECK(warns(scene_of("comment TextureFile a.png\ncomment TextureFile b.png\n"), "there is more than one"));
+  CHECK(warns(scene_of("comment TextureFile a.png\ncomment TextureFile b.png\n"),
+              "no texnumber of its faces says which they show"));
 }
