@@ -12,6 +12,7 @@
 #include "host/importers/gltf_camera.hpp"
 #include "host/importers/gltf_instancing.hpp"
 #include "host/importers/gltf_lights.hpp"
+#include "host/importers/gltf_links.hpp"
 #include "host/importers/gltf_materials.hpp"
 #include "host/importers/gltf_meshes.hpp"
 #include "host/importers/gltf_nodes.hpp"
@@ -22,16 +23,6 @@
 namespace eyeray::importers {
 
 namespace {
-
-// Extensions that are read, or change nothing that is.
-constexpr std::string_view known_extensions[] = {
-    "KHR_lights_punctual",     "KHR_materials_ior",       "KHR_materials_transmission",
-    "KHR_materials_volume",    "KHR_materials_unlit",     "KHR_materials_emissive_strength",
-    "KHR_materials_specular",  "KHR_materials_clearcoat", "KHR_materials_sheen",
-    "KHR_mesh_quantization",   "KHR_texture_transform",   "KHR_materials_pbrSpecularGlossiness",
-    "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression",
-    "KHR_node_visibility",     "EXT_mesh_gpu_instancing",
-};
 
 constexpr size_t most_extensions_named = 16;
 
@@ -60,6 +51,7 @@ class GltfReader {
     if (const auto asset = document_.object("asset"); asset && asset->text("version") != "2.0")
       breaches_.add("versions of glTF above 2.0, read as 2.0", "asset.version");
     check_properties(json_, breaches_);
+    check_links(json_, breaches_);
     for (const std::string& breach : container_.breaches) breaches_.add(breach, "the file");
     for (size_t i = 0; i < document_.size("materials"); ++i)
       scene_.materials.push_back(materials_.material(i));
@@ -127,7 +119,7 @@ void GltfReader::check_extensions() {
   std::string needed;
   size_t unknown = 0;
   for (const std::string& name : names) {
-    if (std::ranges::find(known_extensions, name) != std::end(known_extensions)) continue;
+    if (is_known_extension(name)) continue;
     if (++unknown > most_extensions_named) continue;
     if (required.contains(name)) {
       needed += (needed.empty() ? "" : ", ") + printable(name);

@@ -114,11 +114,22 @@ class AnimationReader {
     if (key == std::end(animated_keys)) target->fail("has a path that glTF does not know");
     if (path != "weights" && document_.element("nodes", *node).has("matrix"))
       target->fail(fmt::format("moves the {} of nodes[{}], which has a matrix", path, *node));
+    if (path == "weights" && !has_targets(*node))
+      return breaches_.add("animated weights of nodes without morph targets, left out", target->place());
     const auto sampler = channel.index("sampler", animation_.size("samplers"));
     if (!sampler) channel.fail("has no sampler");
     if (curves_.contains({*node, path}))
       target->fail(fmt::format("moves the {} of nodes[{}], as another channel does", path, *node));
     curves_.emplace(std::pair(*node, path), read_sampler(animation_.element("samplers", *sampler), *key));
+  }
+
+  bool has_targets(size_t node) {
+    const auto index = document_.element("nodes", node).index("mesh", document_.size("meshes"));
+    if (!index) return false;
+    const GltfObject mesh = document_.element("meshes", *index);
+    for (size_t i = 0; i < mesh.size("primitives"); ++i)
+      if (mesh.element("primitives", i).size("targets") > 0) return true;
+    return false;
   }
 
   KeyCurve read_sampler(const GltfObject& sampler, const AnimatedKey& key) {
@@ -135,6 +146,8 @@ class AnimationReader {
     const GltfObject accessor = document_.element("accessors", *output);
     if (!std::ranges::all_of(curve.values, [](double x) { return std::isfinite(x); }))
       accessor.fail(fmt::format("holds a {} that is not finite", key.name));
+    if (curve.interpolation == Interpolation::cubic && curve.times.size() < 2)
+      breaches_.add("animations along splines of one key, which do not move", sampler.place());
     const size_t parts = curve.times.size() * (curve.interpolation == Interpolation::cubic ? 3 : 1);
     curve.width = key.width > 0 ? key.width : curve.values.size() / parts;
     if (curve.width == 0 || curve.values.size() != parts * curve.width)

@@ -65,6 +65,8 @@ GltfBuffers::GltfBuffers(const GltfObject& document, const GltfContainer& contai
                          GltfBreaches& breaches)
     : document_(document), container_(container), assets_(assets), breaches_(breaches) {
   buffers_.resize(document.size("buffers"));
+  if (container.binary && (buffers_.empty() || document.element("buffers", 0).has("uri")))
+    breaches.add("binary chunks of .glb that no buffer takes, left out", "the file");
   decoded_views_.resize(document.size("bufferViews"));
 }
 
@@ -89,10 +91,13 @@ std::string_view GltfBuffers::buffer(size_t index) {
   if (length > bytes.size())
     source.fail(fmt::format("is to have {} bytes, but there are only {}", length, bytes.size()));
   const size_t padding = source.has("uri") ? 0 : 3;
-  if (source.text("uri").starts_with("data:") || padding > 0) {
-    if (bytes.size() - length > padding)
-      breaches_.add("buffers with more data than their byteLength, left out", source.place());
-  }
+  const std::string uri = source.text("uri");
+  const bool inside = uri.starts_with("data:");
+  if ((inside || padding > 0) && bytes.size() - length > padding)
+    breaches_.add("buffers with more data than their byteLength, left out", source.place());
+  if (inside && !uri.starts_with("data:application/octet-stream;") &&
+      !uri.starts_with("data:application/gltf-buffer;"))
+    breaches_.add("data URIs of buffers of another type than application/octet-stream", source.place());
   return bytes.substr(0, length);
 }
 
@@ -303,7 +308,12 @@ std::vector<uint32_t> GltfBuffers::indices(size_t accessor) {
     source.fail("holds indices, which must be unsigned integers");
   if (source.flag("normalized")) source.fail("holds indices, which cannot be normalized");
   refuse_stride(source, document_.size("bufferViews"));
-  return read<uint32_t>(accessor, "SCALAR", 1);
+  std::vector<uint32_t> all = read<uint32_t>(accessor, "SCALAR", 1);
+  const uint64_t restart = (uint64_t{1} << 8 * bytes_of(type)) - 1;
+  if (std::ranges::find(all, restart) != all.end())
+    breaches_.add("indices that begin a strip anew in other readers, taken as those of vertices",
+                  source.place());
+  return all;
 }
 
 }  // namespace eyeray::importers

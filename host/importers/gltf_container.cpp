@@ -66,7 +66,8 @@ GltfContainer open_gltf(std::string_view bytes, const std::string& file) {
   std::vector<std::string> breaches;
   if (word(bytes, 8) != bytes.size()) breaches.emplace_back("lengths of .glb that are not the file's");
   bytes = bytes.substr(0, word(bytes, 8));
-  for (size_t at = 12; at + 8 <= bytes.size();) {
+  size_t at = 12;
+  for (size_t chunks = 0; at + 8 <= bytes.size(); ++chunks) {
     const uint32_t length = word(bytes, at);
     const uint32_t type = word(bytes, at + 4);
     at += 8;
@@ -77,11 +78,15 @@ GltfContainer open_gltf(std::string_view bytes, const std::string& file) {
       json = bytes.substr(at, length);
     } else if (type == binary_chunk && !binary) {
       binary = bytes.substr(at, length);
+      if (chunks != 1) breaches.emplace_back("binary chunks of .glb that are not the second chunk");
     } else if (type == json_chunk || type == binary_chunk) {
       breaches.emplace_back("second chunks of a type in .glb, left out");
+    } else {
+      breaches.emplace_back("chunks of .glb of a type that glTF does not define, left out");
     }
     at += length;
   }
+  if (at < bytes.size()) breaches.emplace_back("bytes after the last chunk of .glb, left out");
   if (!json) throw malformed(file, "the file ends too early");
   return {*json, binary, std::move(breaches)};
 }

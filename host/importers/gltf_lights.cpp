@@ -44,6 +44,8 @@ void add_gltf_light(const GltfObject& source, const Mat4& world, GltfLeftOut& le
   if (!right) source.fail("has an intensity that no light has");
   if (*std::ranges::max_element(color) > 1)
     breaches.add("colours of lights above 1, taken as they are", source.place());
+  if (source.has("spot") && type != "spot")
+    breaches.add("cones of lights that are no spot lights, left out", source.place());
   if (source.has("range")) left_out.add("ranges of lights");
   if (source.has("range") && !(source.number("range", 0) > 0))
     breaches.add("ranges of lights that are not above 0", source.place());

@@ -65,7 +65,9 @@ std::unique_ptr<Material> GltfMaterials::glass(const GltfObject& material, const
 Vec3 GltfMaterials::absorption(const GltfObject& material) {
   const auto volume = material.extension("KHR_materials_volume");
   if (!volume) return Vec3(0);
-  const double distance = not_negative(*volume, "attenuationDistance", 0);
+  const double distance = volume->number("attenuationDistance", 0);
+  if (volume->has("attenuationDistance") && !(distance > 0))
+    breaches_.add("attenuation distances that are not above 0, left out", volume->place());
   const std::vector<double> color = factors(*volume, "attenuationColor", {1, 1, 1});
   if (!(distance > 1e-12)) return Vec3(0);
   return -glm::log(glm::max(Vec3(color[0], color[1], color[2]), Vec3(1e-6))) / distance;

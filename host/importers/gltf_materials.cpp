@@ -33,6 +33,11 @@ constexpr double most_emission = 1e6;
 // What came before metallic-roughness; of it we take what scatters.
 constexpr const char* specular_glossiness = "KHR_materials_pbrSpecularGlossiness";
 
+// Those that a material which is unlit, or has the extension above, cannot have.
+constexpr const char* lit_extensions[] = {"KHR_materials_ior",       "KHR_materials_transmission",
+                                          "KHR_materials_volume",    "KHR_materials_specular",
+                                          "KHR_materials_clearcoat", "KHR_materials_sheen"};
+
 // The mean of green and blue, linear: roughness and metalness.
 Vec2 mean_green_blue(const ImageTexture& image) {
   Vec2 sum(0);
@@ -103,7 +108,9 @@ ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budge
     data = buffers_.read_uri(image, "the picture");
     bytes = data;
   }
-  const std::string type = image.text("mimeType");
+  std::string type = image.text("mimeType");
+  if (const std::string uri = image.text("uri"); type.empty() && uri.starts_with("data:"))
+    type = uri.substr(5, uri.find(';') - 5);
   const bool is_png = bytes.starts_with("\x89PNG"), is_jpeg = bytes.starts_with("\xff\xd8");
   if (!type.empty() && ((is_png && type != "image/png") || (is_jpeg && type != "image/jpeg")))
     breaches_.add("pictures of another type than their mimeType, decoded as what they are", image.place());
@@ -347,6 +354,10 @@ void GltfMaterials::note_rest(const GltfObject& material) {
   const std::string alpha = material.text("alphaMode");
   if (!alpha.empty() && alpha != "OPAQUE" && alpha != "MASK" && alpha != "BLEND")
     material.fail("has an alphaMode that glTF does not know");
+  const bool excludes = material.extension("KHR_materials_unlit") || material.extension(specular_glossiness);
+  if (excludes && std::ranges::any_of(lit_extensions,
+                                      [&](const char* name) { return material.extension(name).has_value(); }))
+    breaches_.add("materials with extensions that exclude each other", material.place());
   if (material.has("occlusionTexture")) left_out_.add("occlusion maps");
   if (material.has("alphaCutoff") && alpha != "MASK")
     breaches_.add("alpha cutoffs of materials whose alphaMode is not MASK, left out", material.place());

@@ -58,6 +58,7 @@ GltfMeshes::GltfMeshes(const GltfObject& document, GltfBuffers& buffers, const G
       file_(file),
       smooth_(smooth),
       draco_(document, buffers),
+      seen_(document.size("meshes")),
       parts_(document.size("meshes")) {}
 
 const std::vector<GltfMeshes::Part>& GltfMeshes::parts(size_t index) {
@@ -70,9 +71,9 @@ std::vector<GltfMeshes::Part> GltfMeshes::posed_parts(size_t index, const GltfPo
   GltfPose whole = pose;
   if (whole.weights.empty()) whole.weights = mesh.numbers("weights");
   std::vector<Part> parts;
-  if (mesh.size("primitives") == 0) breaches_.add("meshes without primitives", mesh.place());
   for (size_t i = 0; i < mesh.size("primitives"); ++i) {
     const GltfObject primitive = mesh.element("primitives", i);
+    if (!seen_[index]) check_targets(primitive, document_, buffers_, breaches_);
     const auto material = primitive.index("material", document_.size("materials"));
     std::optional<Mesh> made = read_primitive(primitive, material, whole);
     if (!made || made->triangles.empty()) continue;
@@ -81,6 +82,7 @@ std::vector<GltfMeshes::Part> GltfMeshes::posed_parts(size_t index, const GltfPo
     parts.push_back({static_cast<int>(meshes_.size()), material ? static_cast<int>(*material) : -1});
     meshes_.push_back(std::move(*made));
   }
+  seen_[index] = true;
   return parts;
 }
 

@@ -44,6 +44,7 @@ class GltfMeshes {
   GltfDraco draco_;
   MeshCounts counts_;
   std::vector<Mesh> meshes_;
+  std::vector<bool> seen_;                               // of each mesh of the file: in any pose
   std::vector<std::optional<std::vector<Part>>> parts_;  // of each mesh of the file
 };
 

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
 #include <span>
 
 #include "host/core/diagnostic.hpp"
@@ -11,128 +15,376 @@ namespace eyeray::importers {
 
 namespace {
 
-using Names = std::span<const std::string_view>;
+using Json = nlohmann::json;
 
-namespace names {
+enum class Type { object, index, count, number, flag, text, word };
 
-constexpr std::string_view anywhere[] = {"name", "extensions", "extras"};
+// A row of the table: a property of an object.
+struct Property {
+  std::string_view name;  // "*": any name that no other row has
+  Type type;
+  std::string_view of = {};           // the list that an index refers to, or the words that may be written
+  const Property* members = nullptr;  // of an object
+  size_t member_count = 0;
+  bool list = false;  // of such values
+  double least = 0;   // of a count, or the length of a list
+  double most = std::numeric_limits<double>::infinity();
+  bool required = false;
+  bool extension = false;  // in `extensions` of the object
 
-constexpr std::string_view root[] = {"asset",
-                                     "scene",
-                                     "scenes",
-                                     "nodes",
-                                     "meshes",
-                                     "skins",
-                                     "cameras",
-                                     "materials",
-                                     "animations",
-                                     "textures",
-                                     "samplers",
-                                     "images",
-                                     "accessors",
-                                     "bufferViews",
-                                     "buffers",
-                                     "extensionsUsed",
-                                     "extensionsRequired"};
-constexpr std::string_view asset[] = {"version", "generator", "copyright", "minVersion"};
-constexpr std::string_view scene[] = {"nodes"};
-constexpr std::string_view node[] = {"camera",   "children", "skin",        "matrix", "mesh",
-                                     "rotation", "scale",    "translation", "weights"};
-constexpr std::string_view mesh[] = {"primitives", "weights"};
-constexpr std::string_view primitive[] = {"attributes", "indices", "material", "mode", "targets"};
-constexpr std::string_view skin[] = {"inverseBindMatrices", "skeleton", "joints"};
-constexpr std::string_view camera[] = {"type", "perspective", "orthographic"};
-constexpr std::string_view perspective[] = {"aspectRatio", "yfov", "zfar", "znear"};
-constexpr std::string_view orthographic[] = {"xmag", "ymag", "zfar", "znear"};
-constexpr std::string_view animation[] = {"channels", "samplers"};
-constexpr std::string_view channel[] = {"sampler", "target"};
-constexpr std::string_view curve[] = {"input", "interpolation", "output"};
-constexpr std::string_view material[] = {"pbrMetallicRoughness", "normalTexture",  "occlusionTexture",
-                                         "emissiveTexture",      "emissiveFactor", "alphaMode",
-                                         "alphaCutoff",          "doubleSided"};
-constexpr std::string_view metallic_roughness[] = {"baseColorFactor", "baseColorTexture", "metallicFactor",
-                                                   "roughnessFactor", "metallicRoughnessTexture"};
-constexpr std::string_view map[] = {"index", "texCoord"};
-constexpr std::string_view normal_map[] = {"index", "texCoord", "scale"};
-constexpr std::string_view occlusion_map[] = {"index", "texCoord", "strength"};
-constexpr std::string_view texture[] = {"sampler", "source"};
-constexpr std::string_view sampler[] = {"magFilter", "minFilter", "wrapS", "wrapT"};
-constexpr std::string_view image[] = {"uri", "mimeType", "bufferView"};
-constexpr std::string_view accessor[] = {"bufferView", "byteOffset", "componentType", "normalized", "count",
-                                         "type",       "max",        "min",           "sparse"};
-constexpr std::string_view sparse[] = {"count", "indices", "values"};
-constexpr std::string_view view[] = {"buffer", "byteOffset", "byteLength", "byteStride", "target"};
-constexpr std::string_view buffer[] = {"uri", "byteLength"};
+  constexpr Property must() const {
+    Property changed = *this;
+    changed.required = true;
+    return changed;
+  }
+  constexpr Property of_length(double shortest, double longest) const {
+    Property changed = *this;
+    changed.list = true;
+    changed.least = shortest;
+    changed.most = longest;
+    return changed;
+  }
+  constexpr Property of_length(double length) const { return of_length(length, length); }
+  constexpr Property listed() const { return of_length(1, std::numeric_limits<double>::infinity()); }
+};
+using Members = std::span<const Property>;
 
-}  // namespace names
+constexpr Property index(std::string_view name, std::string_view list) {
+  return {.name = name, .type = Type::index, .of = list};
+}
+constexpr Property count(std::string_view name, double least = 0) {
+  return {.name = name, .type = Type::count, .least = least};
+}
+constexpr Property number(std::string_view name) {
+  return {.name = name, .type = Type::number};
+}
+constexpr Property flag(std::string_view name) {
+  return {.name = name, .type = Type::flag};
+}
+constexpr Property text(std::string_view name) {
+  return {.name = name, .type = Type::text};
+}
+// A text or an integer that is one of the words.
+constexpr Property one_of(std::string_view name, std::string_view words) {
+  return {.name = name, .type = Type::word, .of = words};
+}
+template <size_t N>
+constexpr Property object(std::string_view name, const Property (&members)[N]) {
+  return {.name = name, .type = Type::object, .members = members, .member_count = N};
+}
+template <size_t N>
+constexpr Property objects(std::string_view name, const Property (&members)[N]) {
+  return object(name, members).listed();
+}
+template <size_t N>
+constexpr Property extension(std::string_view name, const Property (&members)[N]) {
+  Property property = object(name, members);
+  property.extension = true;
+  return property;
+}
 
-// Objects at a path from the document: of a list each, of an object that one.
-struct Kind {
-  std::vector<std::string_view> path;
-  Names known;
+namespace shapes {
+
+constexpr Property nothing[] = {text("name")};
+constexpr Property asset[] = {text("version").must(), text("generator"), text("copyright"),
+                              text("minVersion")};
+
+// Binary data.
+constexpr Property fallback[] = {flag("fallback")};
+constexpr Property buffer[] = {text("uri"), count("byteLength", 1).must(),
+                               extension("EXT_meshopt_compression", fallback),
+                               extension("KHR_meshopt_compression", fallback)};
+constexpr Property meshopt[] = {index("buffer", "buffers").must(),
+                                count("byteOffset"),
+                                count("byteLength", 1).must(),
+                                count("byteStride").must(),
+                                count("count", 1).must(),
+                                text("mode").must(),
+                                text("filter")};
+constexpr Property view[] = {index("buffer", "buffers").must(),
+                             count("byteOffset"),
+                             count("byteLength", 1).must(),
+                             count("byteStride"),
+                             one_of("target", "34962 34963"),
+                             extension("EXT_meshopt_compression", meshopt),
+                             extension("KHR_meshopt_compression", meshopt)};
+constexpr Property places[] = {index("bufferView", "bufferViews").must(), count("byteOffset"),
+                               one_of("componentType", "5121 5123 5125").must()};
+constexpr Property values[] = {index("bufferView", "bufferViews").must(), count("byteOffset")};
+constexpr Property sparse[] = {count("count", 1).must(), object("indices", places).must(),
+                               object("values", values).must()};
+constexpr Property accessor[] = {index("bufferView", "bufferViews"),
+                                 count("byteOffset"),
+                                 one_of("componentType", "5120 5121 5122 5123 5125 5126").must(),
+                                 flag("normalized"),
+                                 count("count", 1).must(),
+                                 one_of("type", "SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4").must(),
+                                 number("max").of_length(1, 16),
+                                 number("min").of_length(1, 16),
+                                 object("sparse", sparse)};
+
+// Meshes and skins.
+constexpr Property attributes[] = {index("*", "accessors")};
+constexpr Property draco_ids[] = {count("*")};
+constexpr Property draco[] = {index("bufferView", "bufferViews").must(),
+                              object("attributes", draco_ids).must()};
+constexpr Property primitive[] = {
+    object("attributes", attributes).must(), index("indices", "accessors"),
+    index("material", "materials"),          one_of("mode", "0 1 2 3 4 5 6"),
+    objects("targets", attributes),          extension("KHR_draco_mesh_compression", draco)};
+constexpr Property mesh[] = {objects("primitives", primitive).must(), number("weights").listed()};
+constexpr Property skin[] = {index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
+                             index("joints", "nodes").listed().must()};
+
+// Materials.
+constexpr Property transform[] = {number("offset").of_length(2), number("rotation"),
+                                  number("scale").of_length(2), count("texCoord")};
+constexpr Property map[] = {index("index", "textures").must(), count("texCoord"),
+                            extension("KHR_texture_transform", transform)};
+constexpr Property normal_map[] = {index("index", "textures").must(), count("texCoord"), number("scale"),
+                                   extension("KHR_texture_transform", transform)};
+constexpr Property occlusion_map[] = {index("index", "textures").must(), count("texCoord"),
+                                      number("strength"), extension("KHR_texture_transform", transform)};
+constexpr Property metallic_roughness[] = {
+    number("baseColorFactor").of_length(4), object("baseColorTexture", map), number("metallicFactor"),
+    number("roughnessFactor"), object("metallicRoughnessTexture", map)};
+constexpr Property ior[] = {number("ior")};
+constexpr Property transmission[] = {number("transmissionFactor"), object("transmissionTexture", map)};
+constexpr Property volume[] = {number("thicknessFactor"), object("thicknessTexture", map),
+                               number("attenuationDistance"), number("attenuationColor").of_length(3)};
+constexpr Property strength[] = {number("emissiveStrength")};
+constexpr Property specular[] = {number("specularFactor"), object("specularTexture", map),
+                                 number("specularColorFactor").of_length(3),
+                                 object("specularColorTexture", map)};
+constexpr Property clearcoat[] = {
+    number("clearcoatFactor"), object("clearcoatTexture", map), number("clearcoatRoughnessFactor"),
+    object("clearcoatRoughnessTexture", map), object("clearcoatNormalTexture", normal_map)};
+constexpr Property sheen[] = {number("sheenColorFactor").of_length(3), object("sheenColorTexture", map),
+                              number("sheenRoughnessFactor"), object("sheenRoughnessTexture", map)};
+constexpr Property specular_glossiness[] = {number("diffuseFactor").of_length(4),
+                                            object("diffuseTexture", map),
+                                            number("specularFactor").of_length(3), number("glossinessFactor"),
+                                            object("specularGlossinessTexture", map)};
+constexpr Property material[] = {object("pbrMetallicRoughness", metallic_roughness),
+                                 object("normalTexture", normal_map),
+                                 object("occlusionTexture", occlusion_map),
+                                 object("emissiveTexture", map),
+                                 number("emissiveFactor").of_length(3),
+                                 one_of("alphaMode", "OPAQUE MASK BLEND"),
+                                 number("alphaCutoff"),
+                                 flag("doubleSided"),
+                                 extension("KHR_materials_ior", ior),
+                                 extension("KHR_materials_transmission", transmission),
+                                 extension("KHR_materials_volume", volume),
+                                 extension("KHR_materials_unlit", nothing),
+                                 extension("KHR_materials_emissive_strength", strength),
+                                 extension("KHR_materials_specular", specular),
+                                 extension("KHR_materials_clearcoat", clearcoat),
+                                 extension("KHR_materials_sheen", sheen),
+                                 extension("KHR_materials_pbrSpecularGlossiness", specular_glossiness)};
+constexpr Property texture[] = {index("sampler", "samplers"), index("source", "images")};
+constexpr Property sampler[] = {one_of("magFilter", "9728 9729"),
+                                one_of("minFilter", "9728 9729 9984 9985 9986 9987"),
+                                one_of("wrapS", "33071 33648 10497"), one_of("wrapT", "33071 33648 10497")};
+constexpr Property image[] = {text("uri"), text("mimeType"), index("bufferView", "bufferViews")};
+
+// Nodes, and what stands at them.
+constexpr Property perspective[] = {number("aspectRatio"), number("yfov"), number("zfar"), number("znear")};
+constexpr Property orthographic[] = {number("xmag"), number("ymag"), number("zfar"), number("znear")};
+constexpr Property camera[] = {text("type"), object("perspective", perspective),
+                               object("orthographic", orthographic)};
+constexpr Property spot[] = {number("innerConeAngle"), number("outerConeAngle")};
+constexpr Property light[] = {number("color").of_length(3), number("intensity"),
+                              one_of("type", "directional point spot").must(), number("range"),
+                              object("spot", spot)};
+constexpr Property lights[] = {objects("lights", light).must()};
+constexpr Property node_light[] = {count("light").must()};
+constexpr Property visibility[] = {flag("visible")};
+constexpr Property instancing[] = {object("attributes", attributes).must()};
+constexpr Property node[] = {index("camera", "cameras"),
+                             index("children", "nodes").listed(),
+                             index("skin", "skins"),
+                             number("matrix").of_length(16),
+                             index("mesh", "meshes"),
+                             number("rotation").of_length(4),
+                             number("scale").of_length(3),
+                             number("translation").of_length(3),
+                             number("weights").listed(),
+                             extension("KHR_lights_punctual", node_light),
+                             extension("KHR_node_visibility", visibility),
+                             extension("EXT_mesh_gpu_instancing", instancing)};
+constexpr Property scene[] = {index("nodes", "nodes").listed()};
+
+// Animations.
+constexpr Property target[] = {index("node", "nodes"),
+                               one_of("path", "translation rotation scale weights pointer").must()};
+constexpr Property channel[] = {count("sampler").must(), object("target", target).must()};
+constexpr Property curve[] = {index("input", "accessors").must(),
+                              one_of("interpolation", "LINEAR STEP CUBICSPLINE"),
+                              index("output", "accessors").must()};
+constexpr Property animation[] = {objects("channels", channel).must(), objects("samplers", curve).must()};
+
+constexpr Property document[] = {object("asset", asset).must(),
+                                 index("scene", "scenes"),
+                                 objects("scenes", scene),
+                                 objects("nodes", node),
+                                 objects("meshes", mesh),
+                                 objects("skins", skin),
+                                 objects("cameras", camera),
+                                 objects("materials", material),
+                                 objects("animations", animation),
+                                 objects("textures", texture),
+                                 objects("samplers", sampler),
+                                 objects("images", image),
+                                 objects("accessors", accessor),
+                                 objects("bufferViews", view),
+                                 objects("buffers", buffer),
+                                 text("extensionsUsed").listed(),
+                                 text("extensionsRequired").listed(),
+                                 extension("KHR_lights_punctual", lights)};
+
+}  // namespace shapes
+
+// Those that are read, or change nothing that is.
+constexpr std::string_view known_extensions[] = {
+    "KHR_lights_punctual",     "KHR_materials_ior",       "KHR_materials_transmission",
+    "KHR_materials_volume",    "KHR_materials_unlit",     "KHR_materials_emissive_strength",
+    "KHR_materials_specular",  "KHR_materials_clearcoat", "KHR_materials_sheen",
+    "KHR_mesh_quantization",   "KHR_texture_transform",   "KHR_materials_pbrSpecularGlossiness",
+    "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression",
+    "KHR_node_visibility",     "EXT_mesh_gpu_instancing",
 };
 
-const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all = {
-      {{}, names::root},
-      {{"asset"}, names::asset},
-      {{"scenes"}, names::scene},
-      {{"nodes"}, names::node},
-      {{"meshes"}, names::mesh},
-      {{"meshes", "primitives"}, names::primitive},
-      {{"skins"}, names::skin},
-      {{"cameras"}, names::camera},
-      {{"cameras", "perspective"}, names::perspective},
-      {{"cameras", "orthographic"}, names::orthographic},
-      {{"animations"}, names::animation},
-      {{"animations", "channels"}, names::channel},
-      {{"animations", "samplers"}, names::curve},
-      {{"materials"}, names::material},
-      {{"materials", "pbrMetallicRoughness"}, names::metallic_roughness},
-      {{"materials", "pbrMetallicRoughness", "baseColorTexture"}, names::map},
-      {{"materials", "pbrMetallicRoughness", "metallicRoughnessTexture"}, names::map},
-      {{"materials", "emissiveTexture"}, names::map},
-      {{"materials", "normalTexture"}, names::normal_map},
-      {{"materials", "occlusionTexture"}, names::occlusion_map},
-      {{"textures"}, names::texture},
-      {{"samplers"}, names::sampler},
-      {{"images"}, names::image},
-      {{"accessors"}, names::accessor},
-      {{"accessors", "sparse"}, names::sparse},
-      {{"bufferViews"}, names::view},
-      {{"buffers"}, names::buffer},
-  };
-  return all;
+constexpr Property name_of_object = text("name");
+
+const Property* find(Members table, std::string_view name, bool extension) {
+  const auto found = std::ranges::find_if(table, [&](const Property& row) {
+    return (row.name == name || row.name == "*") && row.extension == extension;
+  });
+  return found == table.end() ? nullptr : &*found;
 }
 
-bool holds(Names known, std::string_view name) {
-  return std::ranges::find(known, name) != known.end();
+// An integer from 0; nothing for any other value.
+std::optional<double> as_count(const Json& value) {
+  const double number = value.is_number() ? value.get<double>() : -1;
+  return number >= 0 && number == std::trunc(number) ? std::optional(number) : std::nullopt;
 }
 
-// As deep as the path is long.
-void check_names(const nlohmann::json& value, const std::string& place,
-                 std::span<const std::string_view> path, Names known, GltfBreaches& breaches) {
-  if (value.is_array()) {
-    for (size_t i = 0; i < value.size(); ++i)
-      if (value[i].is_object()) check_names(value[i], fmt::format("{}[{}]", place, i), path, known, breaches);
-    return;
+bool is_word(const Json& value, std::string_view words) {
+  const auto number = as_count(value);
+  const std::string word = value.is_string() ? value.get<std::string>()
+                           : number          ? fmt::format("{}", *number)
+                                             : "";
+  for (size_t end; !words.empty(); words.remove_prefix(std::min(end + 1, words.size()))) {
+    end = std::min(words.find(' '), words.size());
+    if (words.substr(0, end) == word) return true;
   }
-  if (!value.is_object()) return;
-  const std::string before = place.empty() ? "" : place + ".";
-  if (path.empty()) {
-    for (const auto& [key, unused] : value.items())
-      if (!holds(known, key) && !holds(names::anywhere, key))
-        breaches.add("properties that glTF does not define, left out", before + printable(key));
-    return;
-  }
-  if (const auto found = value.find(path[0]); found != value.end())
-    check_names(*found, before + std::string(path[0]), path.subspan(1), known, breaches);
+  return false;
 }
+
+class PropertyCheck {
+ public:
+  PropertyCheck(const Json& document, GltfBreaches& breaches) : document_(document), breaches_(breaches) {}
+
+  // Recursion ends where the table does.
+  void check_object(const Json& object, const std::string& place, Members table) {
+    const std::string before = place.empty() ? "" : place + ".";
+    if (object.empty() && table[0].name == "*") empty(place);
+    for (const auto& [key, value] : object.items()) {
+      if (key == "extras") continue;
+      const std::string here = before + printable(key);
+      if (key == "extensions") {
+        check_extensions(value, here, table);
+      } else if (const Property* row = key == "name" ? &name_of_object : find(table, key, false)) {
+        check_value(value, here, *row);
+      } else {
+        breaches_.add("properties that glTF does not define, left out", here);
+      }
+    }
+    for (const Property& row : table) {
+      if (row.required && !object.contains(row.name))
+        breaches_.add("properties that glTF requires and the file lacks",
+                      fmt::format("{}{}", before, row.name));
+    }
+  }
+
+ private:
+  void check_extensions(const Json& extensions, const std::string& place, Members table) {
+    if (!extensions.is_object()) return mismatch(place);
+    for (const auto& [name, value] : extensions.items()) {
+      const std::string here = place + "." + printable(name);
+      if (const Property* row = find(table, name, true)) {
+        check_value(value, here, *row);
+      } else if (is_known_extension(name)) {
+        breaches_.add("extensions of objects that they are not for, left out", here);
+      }
+    }
+  }
+
+  void check_value(const Json& value, const std::string& here, const Property& row) {
+    if (!row.list) return check_single(value, here, row);
+    if (!value.is_array()) return mismatch(here);
+    const double length = static_cast<double>(value.size());
+    if (length == 0) return empty(here);
+    if (length < row.least || length > row.most) out_of_range(here);
+    std::set<Json> seen;
+    for (size_t i = 0; i < value.size(); ++i) {
+      check_single(value[i], fmt::format("{}[{}]", here, i), row);
+      const bool set = row.type == Type::index || row.type == Type::text;
+      if (set && !seen.insert(value[i]).second) breaches_.add("lists that hold the same element twice", here);
+    }
+  }
+
+  // A value that is no list, or an element of one.
+  void check_single(const Json& value, const std::string& here, const Property& row) {
+    switch (row.type) {
+      case Type::object:
+        return value.is_object() ? check_object(value, here, {row.members, row.member_count})
+                                 : mismatch(here);
+      case Type::index:
+        return as_count(value) ? check_index(*as_count(value), here, row.of) : mismatch(here);
+      case Type::count:
+        if (!as_count(value)) return mismatch(here);
+        return *as_count(value) < row.least ? out_of_range(here) : void();
+      case Type::number:
+        return value.is_number() ? void() : mismatch(here);
+      case Type::flag:
+        return value.is_boolean() ? void() : mismatch(here);
+      case Type::text:
+        return value.is_string() ? void() : mismatch(here);
+      case Type::word:
+        return is_word(value, row.of) ? void() : out_of_range(here);
+    }
+  }
+
+  void check_index(double index, const std::string& here, std::string_view list) {
+    const auto found = document_.find(list);
+    if (found == document_.end() || !found->is_array() || index >= static_cast<double>(found->size()))
+      breaches_.add("indices of objects that the file does not have", here);
+  }
+
+  void empty(const std::string& here) {
+    breaches_.add("lists and objects that are empty, which glTF does not allow", here);
+  }
+  void mismatch(const std::string& here) {
+    breaches_.add("values of another type than glTF gives their property", here);
+  }
+  void out_of_range(const std::string& here) {
+    breaches_.add("values that glTF does not give their property", here);
+  }
+
+  const Json& document_;
+  GltfBreaches& breaches_;
+};
 
 }  // namespace
 
-void check_properties(const nlohmann::json& document, GltfBreaches& breaches) {
-  for (const Kind& kind : kinds()) check_names(document, "", kind.path, kind.known, breaches);
+bool is_known_extension(std::string_view name) {
+  return std::ranges::find(known_extensions, name) != std::end(known_extensions);
+}
+
+void check_properties(const Json& document, GltfBreaches& breaches) {
+  PropertyCheck(document, breaches).check_object(document, "", shapes::document);
 }
 
 }  // namespace eyeray::importers

@@ -1,4 +1,5 @@
-// The properties that glTF 2.0 defines, by object. Private to the importers.
+// The properties that glTF 2.0 and the extensions that are read define, by object. Private to the importers.
+// Source: Khronos Group: glTF 2.0 Specification (2.0.1), 5.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,9 +8,13 @@
 
 namespace eyeray::importers {
 
-// A breach for each property of another name, which no reader looks for: a slip of the pen, or one that
-// stands in the wrong object. Extensions and `extras` may hold whatever they like. Values of another type
-// than glTF has are passed over.
+// Whether the extension is read, or changes nothing that is shown.
+bool is_known_extension(std::string_view name);
+
+// Adds a breach for each property that does not fit the table of properties: one that glTF does not define
+// there, one that is required and missing, and a value of another type, length, range or list. The whole
+// document is checked, shown or not; what a reader refuses or warns of by itself has no range in the table.
+// `extras` and the objects of unknown extensions may hold whatever they like.
 void check_properties(const nlohmann::json& document, GltfBreaches& breaches);
 
 }  // namespace eyeray::importers

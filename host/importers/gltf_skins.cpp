@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/error.hpp"
 #include "host/importers/gltf_components.hpp"
 #include "host/scene/affine.hpp"
 
@@ -61,8 +62,6 @@ void add_targets(const GltfObject& primitive, std::span<const double> weights, c
     const GltfObject target = primitive.element("targets", i);
     const auto add = [&](const char* name, std::vector<Vec3>& to) {
       const auto accessor = target.index(name, document.size("accessors"));
-      if (accessor && to.empty())
-        breaches.add("morph targets of attributes that the mesh has not, left out", target.place());
       if (!accessor || to.empty()) return;
       breaches.check_attribute(name, *accessor);
       const std::vector<Vec3> change = buffers.vec3(*accessor);
@@ -74,12 +73,35 @@ void add_targets(const GltfObject& primitive, std::span<const double> weights, c
   }
 }
 
+void check_targets(const GltfObject& primitive, const GltfObject& document, GltfBuffers& buffers,
+                   GltfBreaches& breaches) {
+  const size_t accessors = document.size("accessors");
+  for (size_t i = 0; i < primitive.size("targets"); ++i) {
+    const GltfObject target = primitive.element("targets", i);
+    const auto attributes = primitive.object("attributes");
+    for (const char* name : {"POSITION", "NORMAL", "TANGENT"}) {
+      try {
+        const auto change = target.index(name, accessors);
+        if (!change) continue;
+        const auto base = attributes ? attributes->index(name, accessors) : std::nullopt;
+        if (!base) {
+          breaches.add("morph targets of attributes that the mesh has not, left out", target.place());
+        } else if (buffers.vec3(*change).size() != document.element("accessors", *base).count("count", 0)) {
+          target.fail("do not all have as many elements");
+        }
+      } catch (const Error&) {
+        breaches.add("morph targets that could not be shown with a weight", target.place());
+      }
+    }
+  }
+}
+
 void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, const GltfObject& document,
                     GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices) {
   // Sum up by sets of four: JOINTS_0, JOINTS_1, …
   std::vector<Mat4> sums(vertices.positions.size(), Mat4(0.0));
   std::vector<double> total(vertices.positions.size(), 0.0);
-  bool negative = false, twice = false;
+  bool no_weight = false, no_joint = false, twice = false;
   if (!attributes.has("JOINTS_0")) attributes.fail("have no JOINTS_0, but the mesh is shown with a skin");
   for (int set = 0;; ++set) {
     const size_t accessors = document.size("accessors");
@@ -99,10 +121,11 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
     for (size_t i = 0; i < numbers.size(); ++i) {
       for (int k = 0; k < 4; ++k) {
         const double weight = weights[i][k];
-        if (weight < 0) negative = true;
+        const bool known = numbers[i][k] >= 0 && numbers[i][k] < static_cast<double>(joints.size());
+        if (!(weight >= 0)) no_weight = true;
+        if (!known && !(weight > 0)) no_joint = true;
         if (!(weight > 0)) continue;
-        if (!(numbers[i][k] >= 0 && numbers[i][k] < static_cast<double>(joints.size())))
-          attributes.fail(fmt::format("name joint {}; there are {}", numbers[i][k], joints.size()));
+        if (!known) attributes.fail(fmt::format("name joint {}; there are {}", numbers[i][k], joints.size()));
         for (int j = 0; j < k; ++j) twice = twice || (numbers[i][j] == numbers[i][k] && weights[i][j] > 0);
         sums[i] += joints[static_cast<size_t>(numbers[i][k])] * weight;
         total[i] += weight;
@@ -110,7 +133,10 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
     }
   }
 
-  if (negative) breaches.add("weights below 0, taken as 0", attributes.place() + ".WEIGHTS_0");
+  if (no_weight) breaches.add("weights below 0 or not finite, taken as 0", attributes.place() + ".WEIGHTS_0");
+  if (no_joint)
+    breaches.add("vertices that name joints beyond the skin's without weight, left out",
+                 attributes.place() + ".JOINTS_0");
   if (twice)
     breaches.add("vertices that name a joint twice, whose weights are added",
                  attributes.place() + ".JOINTS_0");

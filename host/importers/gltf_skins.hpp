@@ -26,6 +26,10 @@ std::vector<Mat4> joint_matrices(const GltfObject& document, GltfBuffers& buffer
 void add_targets(const GltfObject& primitive, std::span<const double> weights, const GltfObject& document,
                  GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices);
 
+// Adds a breach for each morph target that could not be shown, whatever its weight is now.
+void check_targets(const GltfObject& primitive, const GltfObject& document, GltfBuffers& buffers,
+                   GltfBreaches& breaches);
+
 // Moves vertices to where their joints hold them, each by the mean of its joints' matrices.
 void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, const GltfObject& document,
                     GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices);

@@ -1,6 +1,8 @@
 // Small glTF files, made by tests.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <set>
@@ -37,15 +39,32 @@ class GltfFile {
                {"accessors", Json::array()}};
   std::vector<Json> more_buffers;  // after the one that the bytes are in
 
-  // The accessor of the numbers, stored as the component type, in a bufferView of its own.
+  // The accessor of the numbers, stored as the component type, in a bufferView of its own, with their bounds.
+  // Vectors begin at multiples of 4 bytes.
   int add(const std::vector<double>& numbers, int component, const char* type, size_t components,
           bool normalized = false) {
-    const int view = add_view(numbers, component);
-    json["accessors"].push_back({{"bufferView", view},
-                                 {"componentType", component},
-                                 {"type", type},
-                                 {"count", numbers.size() / components},
-                                 {"normalized", normalized}});
+    const size_t size = component < 5122 ? 1 : component < 5125 ? 2 : 4;
+    const size_t padded = components == 1 ? 1 : (components * size + 3) / 4 * 4 / size;
+    std::vector<double> stored, least(components, INFINITY), most(components, -INFINITY);
+    for (size_t i = 0; i < numbers.size(); ++i) {
+      stored.push_back(component == 5126 ? double(float(numbers[i])) : numbers[i]);
+      least[i % components] = std::min(least[i % components], stored.back());
+      most[i % components] = std::max(most[i % components], stored.back());
+      if ((i + 1) % components == 0) stored.resize((i + 1) / components * padded);
+    }
+    const int view = add_view(stored, component);
+    if (padded > components) json["bufferViews"].back()["byteStride"] = padded * size;
+    Json accessor = {{"bufferView", view},
+                     {"componentType", component},
+                     {"type", type},
+                     {"count", numbers.size() / components},
+                     {"normalized", normalized}};
+    const auto finite = [](double number) { return std::isfinite(number); };
+    if (std::ranges::all_of(numbers, finite) && numbers.size() >= components) {
+      accessor["min"] = least;
+      accessor["max"] = most;
+    }
+    json["accessors"].push_back(accessor);
     return int(json["accessors"].size()) - 1;
   }
   int add_view(const std::vector<double>& numbers, int component) {

@@ -1,6 +1,9 @@
 // A glTF file that keeps all rules, for tests that break them one by one.
 #pragma once
 
+#include <functional>
+#include <span>
+
 #include "gltf_files.hpp"
 
 namespace eyeray::test {
@@ -36,6 +39,40 @@ inline std::string said_of(const GltfFile& file) {
   for (const std::string& warning : import_sound(file.gltf(), "a.gltf").warnings)
     all += (all.empty() ? "" : "; ") + warning;
   return all;
+}
+
+// How a file breaks a rule, and what is said of it: a row of a table.
+struct Rule {
+  std::string name;
+  std::function<void(GltfFile&)> breach;
+  std::string said;
+};
+
+inline std::function<void(GltfFile&)> set(const char* pointer, const Json& value) {
+  return [=](GltfFile& file) { file.json[Json::json_pointer(pointer)] = value; };
+}
+inline std::function<void(GltfFile&)> erase(const char* parent, const char* key) {
+  return [=](GltfFile& file) { file.json[Json::json_pointer(parent)].erase(key); };
+}
+// The attribute made of other numbers.
+inline std::function<void(GltfFile&)> attribute(const char* name, const std::vector<double>& numbers,
+                                                int component, const char* type, size_t components,
+                                                bool normalized = false) {
+  return [=](GltfFile& file) {
+    file.primitive()["attributes"][name] = file.add(numbers, component, type, components, normalized);
+  };
+}
+
+const std::string attributes_at = "meshes[0].primitives[0].attributes";
+
+// Breaks each rule in a file of its own.
+inline void check_rules(std::span<const Rule> table) {
+  for (const Rule& rule : table) {
+    GltfFile file = rich_file();
+    rule.breach(file);
+    CAPTURE(rule.name);
+    CHECK(said_of(file) == rule.said);
+  }
 }
 
 }  // namespace eyeray::test

@@ -94,6 +94,7 @@ TEST_CASE("interleaved attributes, normals and uv, whose v starts at the top") {
                                       {"count", 4}});
     file.primitive()["attributes"][name] = file.json["accessors"].size() - 1;
   }
+  file.json["accessors"][0].update({{"min", {0, 0, 0}}, {"max", {1, 1, 0}}});
   file.primitive()["mode"] = 6;
   const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
   check_square(scene);
