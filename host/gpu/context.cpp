@@ -11,6 +11,7 @@
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 #include "host/gpu/device_choice.hpp"
+#include "host/gpu/memory.hpp"
 #include "host/gpu/physical_device.hpp"
 
 namespace eyeray::gpu {
@@ -69,6 +70,7 @@ void Context::create_device() {
   const auto fence_info = make<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
   check(vkCreateFence(device, &fence_info, nullptr, &fence), "create a fence");
   create_timestamps(family.timestamp_bits);
+  require_room_in_files(*this, 0);
 }
 
 void Context::create_timestamps(uint32_t bits) {

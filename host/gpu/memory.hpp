@@ -15,8 +15,13 @@ enum class MemoryKind {
 };
 
 // As much as `requirements` say, for `what` of `bytes` bytes ("buffer 'nodes'"), which are for errors. Error
-// (no_device) with the numbers when it cannot be had. The caller frees it.
+// (no_device) with the numbers when it cannot be had, (file_io) as below. The caller frees it.
 VkDeviceMemory allocate_memory(const Context& context, const VkMemoryRequirements& requirements,
                                MemoryKind kind, size_t bytes, std::string_view what);
+
+// Error (file_io) when a limit on the size of files (RLIMIT_FSIZE) leaves no room for `bytes` more, and some
+// for the driver's own use. llvmpipe keeps all memory in one file since Mesa 24, and does not notice when
+// that file cannot grow: the first access to the memory would end the process by SIGBUS.
+void require_room_in_files(const Context& context, VkDeviceSize bytes);
 
 }  // namespace eyeray::gpu
