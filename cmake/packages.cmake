@@ -1,4 +1,4 @@
-# Debian packages: scripts/packages, or cpack in the build folder. scripts/check-packages installs them on a bare Debian 12.
+# Debian packages: scripts/packages, or cpack in the build folder. scripts/check-packages installs them on a bare Debian.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME eyeray)
 set(CPACK_PACKAGE_CONTACT "The eyeray developers <eyeray@example.org>")

@@ -32,6 +32,7 @@ TEST_CASE("the CI recipe verifies on lavapipe, and leaves a report whatever come
                         {"GITHUB_ACTION_PATH", here + "/.github/actions/verify"},
                         {"GITHUB_STEP_SUMMARY", folder / "summary.md"},
                         {"EYERAY_BINARY", eyeray_binary()},
+                        {"BUNDLE", ""},
                         {"SCENES", folder.path()},
                         {"OPTIONS", options},
                         {"REPORT", folder / "report"}},
@@ -49,4 +50,37 @@ TEST_CASE("the CI recipe verifies on lavapipe, and leaves a report whatever come
   CHECK(read_text(folder / "summary.md").find("| failed |") != std::string::npos);
   CHECK(std::filesystem::exists(folder / "report/index.html"));
   CHECK(std::filesystem::exists(folder / "report/kept/gpu-causes.png"));
+}
+
+TEST_CASE("the CI recipe runs an archive that is given, on the driver in it, and builds nothing") {
+  const SceneFolder folder;
+  const std::string archive = folder / "eyeray-0.1.0";
+  for (const char* name : {"bin", "share/vulkan/icd.d"})
+    std::filesystem::create_directories(archive + "/" + name);
+  std::filesystem::copy("scripts/verify-in-ci", archive + "/bin/verify-in-ci");
+  write_text(archive + "/share/vulkan/icd.d/lvp_icd.json", "");
+  write_text(archive + "/bin/eyeray",
+             "#!/bin/sh\necho \"$VK_DRIVER_FILES $*\" >>\"$REPORT.calls\"\n"
+             "echo '{\"driver\":\"llvmpipe\",\"usable\":true}'\n");
+  std::filesystem::permissions(archive + "/bin/eyeray", std::filesystem::perms::owner_all);
+  REQUIRE(run_process({"tar", "-czf", folder / "eyeray.tar.gz", "-C", folder.path(), "eyeray-0.1.0"}, {}, 60)
+              .code == 0);
+
+  const ProcessResult run = run_process({"sh", "-euc", step()},
+                                        {{"GITHUB_ACTION_PATH", "/nowhere"},
+                                         {"RUNNER_TEMP", folder / "temp"},
+                                         {"EYERAY_BINARY", ""},
+                                         {"BUNDLE", folder / "eyeray.tar.gz"},
+                                         {"SCENES", "a.toml"},
+                                         {"OPTIONS", "-s 16x12"},
+                                         {"REPORT", folder / "report"}},
+                                        60);
+  CAPTURE(run.err);
+  CHECK(run.code == 0);
+  const std::string calls = read_text(folder / "report.calls");
+  CAPTURE(calls);
+  CHECK(calls.find("/share/vulkan/icd.d/lvp_icd.json devices --json\n") != std::string::npos);
+  CHECK(calls.find(" verify --quiet ") != std::string::npos);
+  CHECK(calls.find(" a.toml -s 16x12\n") != std::string::npos);
+  CHECK(calls.starts_with(std::string(folder / "temp") + "/eyeray/"));
 }
