@@ -10,7 +10,7 @@ cp scripts/build "$work/tree/scripts"
 chmod 755 "$work/tree/scripts"/*
 cp cmake/dependencies.cmake "$work/tree/cmake"
 cp tests/CMakeLists.txt "$work/tree/tests"
-for tool in sh sed grep tr env mktemp mkdir touch rm cat uname dirname find install sort; do ln -s "$(command -v "$tool")" "$work/tools/$tool"; done
+for tool in sh sed head grep tr env mktemp mkdir touch rm cat uname dirname find install sort; do ln -s "$(command -v "$tool")" "$work/tools/$tool"; done
 
 fake() { printf '#!/bin/sh\n%s\n' "$2" >"$work/bin/$1"; chmod 755 "$work/bin/$1"; }
 # machine NAME CODENAME: a new one, whose user is root.
@@ -128,9 +128,10 @@ says 'Is there a network? Nothing is installed.'
 installs_nothing
 
 machine 'no network, but lists' bookworm
-apt_get '*" update "*) exit 100 ;; *" --download-only "*) exit 100 ;;'
+apt_get '*" update "*) exit 100 ;; *" --download-only "*) printf "E: cannot fetch %s\n" 1 2 3; exit 100 ;;'
 setup 1
-says 'cannot download the packages. Is there a network? Nothing is installed.'
+says 'cannot download the packages: cannot fetch 1. Is there a network? Nothing is installed.'
+[ "$(wc -l <"$work/said")" = 2 ] || fault 'says more than what it wants and why not'
 installs_nothing
 
 machine 'a source that is out of reach, but none that is needed' bookworm
