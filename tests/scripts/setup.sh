@@ -1,16 +1,17 @@
 #!/bin/sh
-# scripts/setup and scripts/build on made-up machines: copies in a folder, in which apt-get, dpkg-query, sudo and os-release are fakes that write down how
+# scripts/setup, scripts/build and scripts/bare-debian on made-up machines: copies in a folder, in which apt-get, dpkg-query, sudo and os-release are fakes that write down how
 # they are called. Usage: tests/scripts/setup.sh, from the root of the source tree.
+# shellcheck disable=SC2016 # expanded by the fakes
 set -eu
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$work/tree/scripts" "$work/tree/cmake" "$work/tree/tests/cli/page" "$work/tools"
 sed "s|/etc/os-release|$work/os-release|g; s|/usr/sbin/policy-rc.d|$work/policy-rc.d|g" scripts/setup >"$work/tree/scripts/setup"
-cp scripts/build "$work/tree/scripts"
+cp scripts/build scripts/bare-debian "$work/tree/scripts"
 chmod 755 "$work/tree/scripts"/*
 cp cmake/dependencies.cmake "$work/tree/cmake"
 cp tests/CMakeLists.txt "$work/tree/tests"
-for tool in sh sed head grep tr env mktemp mkdir touch rm cat uname dirname find install sort; do ln -s "$(command -v "$tool")" "$work/tools/$tool"; done
+for tool in sh sed head tail awk cp chmod grep tr env mktemp mkdir touch rm cat uname dirname find install sort; do ln -s "$(command -v "$tool")" "$work/tools/$tool"; done
 
 fake() { printf '#!/bin/sh\n%s\n' "$2" >"$work/bin/$1"; chmod 755 "$work/bin/$1"; }
 # machine NAME CODENAME: a new one, whose user is root.
@@ -109,7 +110,6 @@ calls 'policy: mine'
 [ "$(cat "$work/policy-rc.d")" = mine ] || fault 'changes a policy-rc.d that is not its own'
 
 machine 'ended while it installs' bookworm
-# shellcheck disable=SC2016 # expanded by the fake
 apt_get '*" -y install "*) kill -TERM "$PPID" ;;'
 setup 130
 [ ! -e "$work/policy-rc.d" ] || fault 'leaves its policy-rc.d'
@@ -161,7 +161,6 @@ fake sudo 'exit 1'
 setup 1
 says 'apt-get update && apt-get install'
 installs_nothing
-# shellcheck disable=SC2016 # expanded by the fake
 fake sudo 'echo "sudo $*" >>"'"$work"'/calls"; exec "$@"'
 setup 0
 for command in 'env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get' 'install -m 755' 'rm -f'; do calls "sudo $command"; done
@@ -195,7 +194,6 @@ says glslang-tools
 installs_nothing
 
 machine 'first the program, then the tests' bookworm
-# shellcheck disable=SC2016 # expanded by the fake
 fake cmake 'echo "cmake $*" >>"'"$work"'/calls"
   touch build/release/build.ninja
   case "$*" in *EYERAY_TESTS=ON*) touch build/release/CTestTestfile.cmake ;; esac'
@@ -217,5 +215,24 @@ run 0 build release
 run 0 build release test_core
 never cmake
 calls 'ninja --quiet -C build/release test_core'
+
+machine 'a bare Debian' bookworm
+apt_get '*" indextargets "*) printf "Other main trixie http://other\nDebian main trixie-security http://security\nDebian main bookworm http://mirror\n"; exit ;;'
+fake apt-config 'case $1 in shell) echo "http_proxy=http://proxy" ;; esac'
+fake debootstrap 'echo "$http_proxy $*" >>"'"$work"'/calls"; mkdir -p "$5/etc/apt/apt.conf.d" "$5/usr/sbin"'
+run 2 bare-debian trixie
+says 'usage: scripts/bare-debian'
+run 0 bare-debian trixie "$work/root"
+calls "http://proxy --variant=minbase --force-check-gpg --include=ca-certificates trixie $work/root http://mirror"
+[ -x "$work/root/usr/sbin/policy-rc.d" ] || fault 'services may start'
+fake debootstrap 'echo "no such mirror"; exit 1'
+EYERAY_MIRROR=http://mine run 4 bare-debian trixie "$work/other"
+says 'cannot make a Debian trixie of http://mine: no such mirror'
+apt_get '*" indextargets "*) exit ;;'
+run 4 bare-debian trixie "$work/other"
+says 'EYERAY_MIRROR='
+fake id 'echo 1000'
+run 1 bare-debian trixie "$work/other"
+says 'an administrator runs'
 
 [ "$faults" = 0 ] || { echo "$faults faults" >&2; exit 1; }
