@@ -34,24 +34,25 @@ std::string walker(const Folder& folder, const std::string& name = "walker.gltf"
   const auto view = [](int offset, int length) {
     return fmt::format(R"({{"buffer": 0, "byteOffset": {}, "byteLength": {}}})", offset, length);
   };
-  const auto accessor = [](int index, int count, const char* type) {
-    return fmt::format(R"({{"bufferView": {}, "componentType": 5126, "count": {}, "type": "{}"}})", index,
-                       count, type);
+  const auto accessor = [](int index, int count, const char* type, const char* bounds = "") {
+    return fmt::format(R"({{"bufferView": {}, "componentType": 5126, "count": {}, "type": "{}"{}}})", index,
+                       count, type, bounds);
   };
   const std::string binary = name + ".bin";
   folder.write(binary,
                floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 2, 0, 0, 0, float(end.x), float(end.y), float(end.z),
                        0, 0, 0, 0, 8, 0}));
   return folder.write(
-      name, fmt::format(
-                R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [{}]}}], {},
+      name,
+      fmt::format(
+          R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [{}]}}], {},
   "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
   "buffers": [{{"uri": "{}", "byteLength": 92}}], "bufferViews": [{}, {}, {}, {}],
   "accessors": [{}, {}, {}, {}], "animations": [{}, {}]}})",
-                nodes.find("camera") == std::string::npos ? "0" : "0, 1", nodes, binary, view(0, 36),
-                view(36, 8), view(44, 24), view(68, 24), accessor(0, 3, "VEC3"), accessor(1, 2, "SCALAR"),
-                accessor(2, 2, "VEC3"), accessor(3, 2, "VEC3"), animation("Walk", 2, path),
-                animation("Run", 3, "translation")));
+          nodes.find("camera") == std::string::npos ? "0" : "0, 1", nodes, binary, view(0, 36), view(36, 8),
+          view(44, 24), view(68, 24), accessor(0, 3, "VEC3", R"(, "min": [0, 0, 0], "max": [1, 1, 0])"),
+          accessor(1, 2, "SCALAR", R"(, "min": [1], "max": [2])"), accessor(2, 2, "VEC3"),
+          accessor(3, 2, "VEC3"), animation("Walk", 2, path), animation("Run", 3, "translation")));
 }
 
 Scene load(const std::string& file, const std::vector<std::string>& defines = {}) {

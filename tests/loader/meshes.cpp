@@ -188,9 +188,10 @@ TEST_CASE("overrides and a file's own camera and lights") {
     "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}},
     "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 1}}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-    "accessors": [{"bufferView": 0, "componentType": 5121, "type": "VEC3", "count": 3}],
-    "bufferViews": [{"buffer": 0, "byteLength": 9}],
-    "buffers": [{"byteLength": 9, "uri": "data:;base64,AAAAAQAAAAEA"}]})");
+    "accessors": [{"bufferView": 0, "componentType": 5121, "type": "VEC3", "count": 3, "min": [0, 0, 0],
+                   "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 12, "byteStride": 4}],
+    "buffers": [{"byteLength": 12, "uri": "data:application/octet-stream;base64,AAAAAAEAAAAAAQAA"}]})");
   const Scene own = load_scene(gltf);
   CHECK(own.warnings.empty());
   CHECK(own.camera.eye == Vec3(1, 2, 3));
