@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 
 #include "host/cameras/registry.hpp"
@@ -12,6 +13,7 @@
 #include "host/materials/registry.hpp"
 #include "host/pack/environment_records.hpp"
 #include "host/pack/pack.hpp"
+#include "host/scene/extent.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/objects.hpp"
 #include "host/scene/sampler.hpp"
@@ -115,6 +117,43 @@ std::string format_vec(const Vec3& v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x + 0.0, v.y + 0.0, v.z + 0.0);
 }
 
+size_t unbounded_shapes(const Scene& scene) {
+  return size_t(std::ranges::count_if(scene.shapes, [](const auto& shape) {
+    const Bounds box = shape->bounds();
+    return !is_finite(box) && glm::all(glm::lessThanEqual(box.min, box.max));
+  }));
+}
+
+std::string format_bounds(const Scene& scene) {
+  const Bounds all = extent(scene);
+  const size_t unbounded = unbounded_shapes(scene);
+  std::string text =
+      is_finite(all) ? fmt::format("{} to {}", format_vec(all.min), format_vec(all.max)) : "none";
+  if (unbounded > 0)
+    text += fmt::format("{} {} shape{} without end", is_finite(all) ? ", and" : ":", unbounded,
+                        unbounded == 1 ? "" : "s");
+  return text;
+}
+
+// The point in front of the eye through which the plane in focus passes, perpendicular to the view. Nothing
+// where all is sharp, or where a function of the scene decides.
+std::optional<Vec3> focus_point(const Scene& scene) {
+  const Projection& projection = *scene.camera.projection;
+  if (projection.function() || projection.aperture().radius == 0) return std::nullopt;
+  const CameraAxes camera = camera_axes(scene.camera);
+  return camera.eye + projection.aperture().focus * camera.w;
+}
+
+std::string format_focus(const Scene& scene) {
+  const Projection& projection = *scene.camera.projection;
+  if (const std::optional<Vec3> point = focus_point(scene))
+    return fmt::format(
+        "{}, {:.6g} in front of the eye: the plane through this point, perpendicular to w, is sharp",
+        format_vec(*point), projection.aperture().focus);
+  return projection.function() ? "set by the camera's function"
+                               : "everything is sharp: the camera has no aperture";
+}
+
 std::string format_counts(const Counts& counts) {
   std::string text;
   for (const auto& [name, count] : counts)
@@ -142,6 +181,7 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   line("  w forward", format_vec(camera.w));
   for (const CameraFact& fact : scene.camera.projection->facts(image.size()))
     line(fmt::format("  {}", fact.label), fact.text);
+  line("  focus", format_focus(scene));
   const IntegratorType integrator = scene.render.integrator;
   line("integrator",
        fmt::format(
@@ -150,6 +190,7 @@ void print_text(const Scene& scene, const Inventory& inventory) {
            traits_of(integrator).ways > 1 ? fmt::format(", min_throughput {:g}", scene.render.min_throughput)
                                           : ""));
   line("shapes", format_counts(inventory.shapes));
+  line("bounds", format_bounds(scene));
   if (!scene.meshes.empty()) {
     line("meshes", fmt::format("{} of {} triangles, shown {} times", scene.meshes.size(),
                                inventory.mesh_triangles, scene.instances.size()));
@@ -194,11 +235,17 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
             {"type", camera_name(scene)}};
   for (const CameraFact& fact : scene.camera.projection->facts(scene.image.size()))
     for (const auto& [name, number] : fact.numbers) view[std::string(name)] = number;
+  if (const std::optional<Vec3> point = focus_point(scene)) view["focus_point"] = json_of(*point);
+  const Bounds all = extent(scene);
   Json json{
       {"image",
        {{"width", scene.image.width}, {"height", scene.image.height}, {"samples", scene.image.samples}}},
       {"camera", view},
       {"shapes", json_of(inventory.shapes)},
+      {"bounds",
+       {{"min", is_finite(all) ? json_of(all.min) : Json()},
+        {"max", is_finite(all) ? json_of(all.max) : Json()},
+        {"unbounded_shapes", unbounded_shapes(scene)}}},
       {"meshes",
        {{"count", scene.meshes.size()},
         {"triangles", inventory.mesh_triangles},

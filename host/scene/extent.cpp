@@ -7,10 +7,14 @@
 
 namespace eyeray {
 
+bool is_finite(const Bounds& box) {
+  return std::isfinite(glm::length(box.max - box.min));
+}
+
 Bounds extent(const Scene& scene) {
   Bounds all;
   const auto include = [&](const Bounds& box, const Affine& map) {
-    if (!std::isfinite(glm::length(box.max - box.min))) return;
+    if (!is_finite(box)) return;
     for (int corner = 0; corner < 8; ++corner)
       all.include(map.point({(corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
                              (corner & 4 ? box.max : box.min).z}));

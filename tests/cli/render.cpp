@@ -189,6 +189,55 @@ TEST_CASE("check prints the numbers that follow from a scene") {
   CHECK(json.at("lights").at("point") == 1);
 }
 
+TEST_CASE("check prints the box around the shapes, and how many have no end") {
+  const SceneFolder folder;
+  const auto bounds = [&](const std::string& shapes) {
+    const std::string scene = folder / "shapes.toml";
+    write_text(scene, "[[material]]\nname = \"a\"\ntype = \"phong\"\n" + shapes);
+    const std::string text = run_eyeray({"check", scene}).out;
+    const size_t begin = text.find("\nbounds ");
+    REQUIRE(begin != std::string::npos);
+    return std::pair(text.substr(begin + 1, text.find('\n', begin + 1) - begin - 1),
+                     nlohmann::json::parse(run_eyeray({"check", scene, "--json"}).out).at("bounds"));
+  };
+  const std::string sphere = "[[sphere]]\ncenter = [1, 2, 3]\nradius = 0.5\nmaterial = \"a\"\n";
+  const std::string plane = "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"a\"\n";
+  using nlohmann::json;
+  CHECK(bounds(sphere) ==
+        std::pair(std::string("bounds       (0.5, 1.5, 2.5) to (1.5, 2.5, 3.5)"),
+                  json{{"min", {0.5, 1.5, 2.5}}, {"max", {1.5, 2.5, 3.5}}, {"unbounded_shapes", 0}}));
+  CHECK(bounds(sphere + plane).first ==
+        "bounds       (0.5, 1.5, 2.5) to (1.5, 2.5, 3.5), and 1 shape without end");
+  CHECK(bounds(plane + plane) ==
+        std::pair(std::string("bounds       none: 2 shapes without end"),
+                  json{{"min", nullptr}, {"max", nullptr}, {"unbounded_shapes", 2}}));
+  CHECK(bounds("") == std::pair(std::string("bounds       none"),
+                                json{{"min", nullptr}, {"max", nullptr}, {"unbounded_shapes", 0}}));
+}
+
+TEST_CASE("check prints of each kind of camera what is sharp") {
+  const std::string everything = "  focus      everything is sharp: the camera has no aperture\n";
+  for (const char* scene : {"scenes/whitted.toml", "scenes/orthographic.toml", "scenes/cameras/fisheye.toml",
+                            "scenes/cameras/panorama.toml", "scenes/cameras/cylindrical.toml"}) {
+    CAPTURE(scene);
+    CHECK(run_eyeray({"check", scene}).out.find(everything) != std::string::npos);
+  }
+  CHECK(run_eyeray({"check", "scenes/cameras/formula.toml"})
+            .out.find("  focus      set by the camera's function\n") != std::string::npos);
+
+  // A camera at (1, 2, 3) that looks along (0, 3, -4) / 5.
+  const SceneFolder folder;
+  write_text(folder.scene(), "[camera]\neye = [1, 2, 3]\ntarget = [1, 5, -1]\naperture = 0.1\nfocus = 10\n");
+  CHECK(run_eyeray({"check", folder.scene()})
+            .out.find("  focus      (1, 8, -5), 10 in front of the eye: the plane through this point, "
+                      "perpendicular to w, is "
+                      "sharp\n") != std::string::npos);
+  const auto camera = nlohmann::json::parse(run_eyeray({"check", folder.scene(), "--json"}).out).at("camera");
+  CHECK(camera.at("focus") == 10);
+  CHECK(camera.at("focus_point")[1].get<double>() == doctest::Approx(8));
+  CHECK(camera.at("focus_point")[2].get<double>() == doctest::Approx(-5));
+}
+
 TEST_CASE("check --schema is JSON, --manual is Markdown") {
   CHECK(nlohmann::json::parse(run_eyeray({"check", "--schema"}).out).contains("properties"));
   CHECK(run_eyeray({"check", "--manual"}).out.starts_with("#"));
