@@ -1,8 +1,9 @@
 #include "host/core/disk_cache.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
-#include <vector>
 
 #include "host/core/atomic_file.hpp"
 #include "host/core/content_hash.hpp"
@@ -29,6 +30,23 @@ DiskCache DiskCache::of_user() {
   if (auto folder = path_from("XDG_CACHE_HOME"); folder.is_absolute()) return DiskCache(folder / "eyeray");
   if (auto home = path_from("HOME"); home.is_absolute()) return DiskCache(home / ".cache" / "eyeray");
   return DiskCache({});
+}
+
+std::vector<std::string> DiskCache::warnings() const {
+  std::vector<std::filesystem::path> folders{folder_};
+  std::error_code failed;
+  for (std::filesystem::directory_iterator entry(folder_, failed), end; !failed && entry != end;
+       entry.increment(failed))
+    if (entry->path().extension() != ending && std::filesystem::is_directory(entry->path(), failed))
+      folders.push_back(entry->path());
+  std::vector<std::string> warnings;
+  for (const std::filesystem::path& folder : folders) {
+    if (const std::string why = why_not_private(folder); !why.empty())
+      warnings.push_back(fmt::format("the cache {} is not used, so that each start compiles anew: {}",
+                                     folder.string(), why));
+    if (!warnings.empty() && folder == folder_) break;
+  }
+  return warnings;
 }
 
 std::filesystem::path DiskCache::path(std::string_view name) const {

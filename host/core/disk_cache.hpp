@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace eyeray {
 
@@ -21,6 +22,9 @@ class DiskCache {
   static DiskCache of_user();
 
   const std::filesystem::path& folder() const { return folder_; }
+
+  // Warnings, a sentence each: that the folder, or one in it, is there and not used, and why.
+  std::vector<std::string> warnings() const;
 
   // What was stored under `name`, a file name.
   std::optional<std::string> load(std::string_view name) const;

@@ -1,5 +1,6 @@
 #include "host/core/private_folder.hpp"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,6 +23,16 @@ bool is_private_folder(const std::filesystem::path& folder) {
 
 bool is_private_file(const std::filesystem::path& file) {
   return is_private(file, S_IFREG);
+}
+
+std::string why_not_private(const std::filesystem::path& folder) {
+  struct stat status {};
+  if (is_private_folder(folder) || ::lstat(folder.c_str(), &status) != 0) return "";
+  if (S_ISLNK(status.st_mode)) return "it is a symbolic link; name the folder that it leads to";
+  if (!S_ISDIR(status.st_mode)) return "it is no folder";
+  if (status.st_uid != ::geteuid())
+    return fmt::format("it belongs to another user, with the number {}", status.st_uid);
+  return fmt::format("other users may write to it; chmod go-w {} keeps them out", folder.string());
 }
 
 bool make_private_folder(const std::filesystem::path& folder) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace eyeray {
 
@@ -9,6 +10,10 @@ namespace eyeray {
 // write to.
 bool is_private_folder(const std::filesystem::path& folder);
 bool is_private_file(const std::filesystem::path& file);
+
+// Why what is at the path is no private folder, to go on from "it is not used: "; "" if it is one, or nothing
+// is there.
+std::string why_not_private(const std::filesystem::path& folder);
 
 // Makes the folder, and its parents, where there is none. False if there is then no private folder.
 bool make_private_folder(const std::filesystem::path& folder);

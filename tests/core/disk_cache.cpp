@@ -65,3 +65,36 @@ TEST_CASE("what a cache makes is private under every umask") {
   ::umask(before);
   CHECK(cache.load("a") == "bytes");
 }
+
+TEST_CASE("a cache that is not used says why, and one that is used or not there yet says nothing") {
+  const TemporaryFolder folder;
+  const DiskCache cache(folder.path() / "cache");
+  const std::string name = cache.folder().string();
+  const std::string not_used = " is not used, so that each start compiles anew: ";
+  using Warnings = std::vector<std::string>;
+  CHECK(cache.warnings().empty());
+  CHECK(DiskCache({}).warnings().empty());
+  cache.store("a", "bytes");
+  CHECK(cache.warnings().empty());
+  std::filesystem::permissions(cache.folder(), perms(0770));
+  CHECK(cache.warnings() == Warnings{"the cache " + name + not_used +
+                                     "other users may write to it; chmod go-w " + name + " keeps them out"});
+  std::filesystem::permissions(cache.folder(), perms(0700));
+
+  // Modules of the twin and what Mesa compiles lie in folders of their own.
+  std::filesystem::create_directory(cache.folder() / "twin");
+  std::filesystem::permissions(cache.folder() / "twin", perms(0777));
+  const std::string twin = name + "/twin";
+  CHECK(cache.warnings() == Warnings{"the cache " + twin + not_used +
+                                     "other users may write to it; chmod go-w " + twin + " keeps them out"});
+
+  std::filesystem::create_directory_symlink(cache.folder(), folder / "link");
+  CHECK(DiskCache(folder / "link").warnings() ==
+        Warnings{"the cache " + folder / "link" + not_used +
+                 "it is a symbolic link; name the folder that it leads to"});
+  CHECK(DiskCache("/dev/null").warnings() == Warnings{"the cache /dev/null" + not_used + "it is no folder"});
+  if (::geteuid() != 0) return;
+  REQUIRE(::chown(cache.folder().c_str(), 12345, 12345) == 0);
+  CHECK(cache.warnings() ==
+        Warnings{"the cache " + name + not_used + "it belongs to another user, with the number 12345"});
+}
