@@ -10,6 +10,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
+#include "host/core/make_folder.hpp"
 #include "host/core/readable.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
@@ -112,7 +113,7 @@ class Loop {
   std::string scene_file() const { return folder_.path() / "scene.toml"; }
   std::string shader_file() const { return folder_.path() / "shaders" / shader; }
   static void write(const fs::path& file, const std::string& text) {
-    fs::create_directories(file.parent_path());
+    make_folder(file.parent_path());
     write_file_atomically(file, text);
   }
 

@@ -6,6 +6,7 @@
 #include "host/cli/command.hpp"
 #include "host/cli/option_table.hpp"
 #include "host/core/atomic_file.hpp"
+#include "host/core/make_folder.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -19,7 +20,7 @@ ExitCode print_completion(const CLI::App& app, const std::string& shell) {
 }
 
 ExitCode write_manual(const CLI::App& app, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   const CommandRow table = option_table(app);
   for (const CommandRow* each : all_commands(table))
     write_file_atomically(folder / man_page_name(*each), man_page(*each));

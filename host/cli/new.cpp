@@ -8,6 +8,7 @@
 #include "host/cli/json.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/embedded_file.hpp"
+#include "host/core/make_folder.hpp"
 
 namespace fs = std::filesystem;
 
@@ -34,7 +35,7 @@ void NewCommand::write() const {
   try {
     for (const EmbeddedFile& file : project_files()) {
       const fs::path path = fs::path(folder) / file.name;
-      fs::create_directories(path.parent_path());
+      make_folder(path.parent_path());
       write_file_atomically(path, file.text);
       written.push_back(path);
     }

@@ -63,7 +63,7 @@ void sanitize(executors::ExecutorOptions& options, const std::string& list) {
 
 std::pair<int, int> parse_size(const std::string& text) {
   int size[2];
-  if (!parse_integers(text, 'x', size))
+  if (!parse_integers(text, 'x', size) || size[0] < 1 || size[1] < 1)
     throw Error(ExitCode::bad_input, "--size wants WIDTHxHEIGHT, as 640x480, not '{}'", text);
   return {size[0], size[1]};
 }
@@ -91,7 +91,8 @@ void SceneOptions::add_to(CLI::App& command) {
   command
       .add_option("SCENE", file_, "The scene file (docs/scene-file.md), or a mesh: .obj, .ply, .gltf, .glb.")
       ->required()
-      ->option_text(" ");
+      ->option_text(" ")
+      ->check([](const std::string& file) { return file.empty() ? "wants the name of a file" : ""; });
   const auto add = [&](const char* name, auto& value, const char* text, const char* description) {
     return command.add_option(name, value, description)->option_text(text)->group(group);
   };

@@ -10,6 +10,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/diagnostic.hpp"
 #include "host/core/embedded_shaders.hpp"
+#include "host/core/make_folder.hpp"
 
 namespace fs = std::filesystem;
 
@@ -70,7 +71,7 @@ void ShadersCommand::write() const {
   size_t written = 0;
   for (const EmbeddedFile& shader : embedded_shaders()) {
     const fs::path path = fs::path(folder) / shader.name;
-    fs::create_directories(path.parent_path());
+    make_folder(path.parent_path());
     write_file_atomically(path, shader.text);
     ++written;
   }

@@ -13,6 +13,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/build_id.hpp"
 #include "host/core/content_hash.hpp"
+#include "host/core/make_folder.hpp"
 #include "host/loader/scene_edit.hpp"
 #include "host/loader/suite.hpp"
 #include "host/shards/part.hpp"
@@ -201,14 +202,13 @@ ExitCode VerifyCommand::run() {
   keep_share();
   check_options();
   if (!page_folder.empty()) {
-    fs::create_directories(page_folder);
+    make_folder(page_folder);
     check_writable(fs::path(page_folder) / "index.html");
     if (keep.empty()) keep = (fs::path(page_folder) / "kept").string();
     options.witness = [this](const auto&... seen) { page.add(seen...); };
   }
   if (!junit.empty()) {
-    if (const fs::path parent = fs::path(junit).parent_path(); !parent.empty())
-      fs::create_directories(parent);
+    if (const fs::path parent = fs::path(junit).parent_path(); !parent.empty()) make_folder(parent);
     check_writable(junit);
   }
 

@@ -15,6 +15,7 @@
 #include "host/core/disk_cache.hpp"
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
+#include "host/core/make_folder.hpp"
 #include "host/core/private_folder.hpp"
 #include "host/executors/cpp_compiler.hpp"
 #include "host/executors/shader_files.hpp"
@@ -55,7 +56,7 @@ fs::path write_sources(const fs::path& folder) {
 
   const fs::path part = fmt::format("{}.part.{}", place.string(), ::getpid());
   for_each_source([&](const fs::path& name, std::string_view text) {
-    fs::create_directories((part / name).parent_path());
+    make_folder((part / name).parent_path());
     std::ofstream(part / name, std::ios::binary) << text;
   });
   if (!has_sources(part)) throw Error(ExitCode::file_io, "cannot write {}", place.string());
@@ -80,6 +81,11 @@ std::vector<fs::path> shaders_in(const fs::path& folder) {
   return files;
 }
 
+// An empty path, which is no folder, stays empty.
+fs::path absolute_or_empty(const fs::path& folder) {
+  return folder.empty() ? folder : fs::absolute(folder).lexically_normal();
+}
+
 // The compiler's errors, of files as their owner calls them.
 std::vector<Diagnostic> diagnostics_in(const std::string& log, const fs::path& folder,
                                        const fs::path& sources) {
@@ -90,7 +96,7 @@ std::vector<Diagnostic> diagnostics_in(const std::string& log, const fs::path& f
     std::smatch match;
     if (!std::regex_match(line, match, error)) continue;
     const fs::path file = match[1].str();
-    const fs::path of_user = file.lexically_relative(fs::absolute(folder).lexically_normal());
+    const fs::path of_user = file.lexically_relative(absolute_or_empty(folder));
     Diagnostic diagnostic;
     diagnostic.position = {file.string(), std::stoi(match[2]), match[3].matched ? std::stoi(match[3]) : 0};
     if (!folder.empty() && !of_user.empty() && *of_user.begin() != "..")
@@ -137,8 +143,7 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
   }
   const fs::path sources = write_sources(place);
 
-  const fs::path absolute = fs::absolute(folder).lexically_normal();
-  if (!folder.empty()) command.push_back("-I" + absolute.string());
+  if (!folder.empty()) command.push_back("-I" + absolute_or_empty(folder).string());
   for (const std::string& flag : {"-I" + (sources / "shaders").string(), "-I" + sources.string(),
                                   (sources / "host/twin/twin.cpp").string()})
     command.push_back(flag);

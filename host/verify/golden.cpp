@@ -6,6 +6,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/json_depth.hpp"
+#include "host/core/make_folder.hpp"
 #include "host/core/process.hpp"
 #include "host/image/image_file.hpp"
 #include "host/scene/integrator.hpp"
@@ -111,7 +112,7 @@ void bless(const Golden& golden, const Scene& scene, const compare::Frame& frame
     result.refused = "the picture is black";
   if (!result.refused.empty()) return;
 
-  if (const fs::path folder = golden.picture.parent_path(); !folder.empty()) fs::create_directories(folder);
+  if (const fs::path folder = golden.picture.parent_path(); !folder.empty()) make_folder(folder);
   image::write_image(golden.picture, frame.color);
   Json origin_now = origin(golden, scene, report);
   origin_now["commit"] = commit_at(golden.picture);

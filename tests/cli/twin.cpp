@@ -98,6 +98,20 @@ TEST_CASE("what of a user's shaders is no C++ is told as compilers tell it, and 
       contains(dev.err, "warning: this is the twin of eyeray's own shaders: for those of " + users.shaders));
 }
 
+TEST_CASE("the twin of eyeray's own shaders is compiled, too") {
+  const Users users;
+  const auto render = [&](const std::string& picture, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"render", users.scene(), "--backend", "twin", "-o", users / picture};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_eyeray(words, {{"EYERAY_CACHE_DIR", users / "cache"}});
+  };
+  const ProcessResult compiled = render("a.pfm", {"--compile-twin"});
+  CAPTURE(compiled.err);
+  CHECK(compiled.code == 0);
+  REQUIRE(render("b.pfm", {}).code == 0);
+  CHECK(read_text(users / "a.pfm") == read_text(users / "b.pfm"));
+}
+
 TEST_CASE("what others may write to is not loaded, and what is damaged is written anew") {
   const Users users;
   REQUIRE(users.render("twin", "a.pfm").code == 0);
