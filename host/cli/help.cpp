@@ -1,6 +1,9 @@
 #include "host/cli/help.hpp"
 
+#include <filesystem>
 #include <sstream>
+
+#include "host/cli/build_facts.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -25,6 +28,18 @@ std::string wrapped(const std::string& text, size_t columns) {
   return result;
 }
 
+// The folder of README.md, docs/ and scenes/ that belong to this program; empty where they were not
+// installed.
+std::filesystem::path documents() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  for (const std::string_view way : {documents_from_built(), documents_from_installed()}) {
+    std::filesystem::path folder = (program.parent_path() / way).lexically_normal();
+    if (std::filesystem::exists(folder / "docs/command-line.md", error)) return folder;
+  }
+  return {};
+}
+
 class HelpFormatter final : public CLI::Formatter {
  public:
   HelpFormatter() {
@@ -40,6 +55,9 @@ class HelpFormatter final : public CLI::Formatter {
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     std::string text = CLI::Formatter::make_help(app, name, mode);
     for (size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
+    if (const std::filesystem::path folder = documents();
+        mode == CLI::AppFormatMode::Normal && !folder.empty())
+      text += "README.md, docs/ and scenes/ are in " + (folder / "").parent_path().string() + "\n";
     return text;
   }
 };

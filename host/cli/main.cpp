@@ -9,14 +9,17 @@
 #include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <system_error>
 
+#include "host/cli/build_facts.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/help.hpp"
 #include "host/cli/huge_pages.hpp"
 #include "host/cli/json.hpp"
 #include "host/core/diagnostic.hpp"
+#include "host/core/disk_cache.hpp"
 #include "host/core/github_text.hpp"
 #include "host/core/memory_shortage.hpp"
 #include "host/core/standard_streams.hpp"
@@ -25,10 +28,15 @@
 namespace eyeray::cli {
 namespace {
 
+std::string version() {
+  const std::string_view built_from = commit();
+  return "eyeray " EYERAY_VERSION + (built_from.empty() ? "" : fmt::format(" (commit {})", built_from));
+}
+
 void describe(CLI::App& app) {
   app.name("eyeray");
   app.description("eyeray: a ray tracer on Vulkan compute shaders, checked pixel by pixel against the CPU.");
-  app.set_version_flag("--version", "eyeray " EYERAY_VERSION, "Print the version.");
+  app.set_version_flag("--version", version(), "Print the version, and the commit that it was built from.");
   app.set_help_flag("-h,--help", "Print this help; every command has its own.");
   app.formatter(help_formatter());
   app.footer(
@@ -53,13 +61,33 @@ std::string words_before(const CLI::App& command) {
   return parent ? words_before(*parent) + command.get_name() + " " : "";
 }
 
+// What CLI11 says of values, in plain words.
+std::string plain_words(const std::string& text) {
+  static const std::regex missing(R"(^(.+): 1 required \w+ missing$)");
+  static const std::regex not_among(R"(^(.+): (.*) not in \{(.*)\}$)");
+  std::smatch match;
+  if (std::regex_match(text, match, missing)) return fmt::format("{} needs a value", match[1].str());
+  if (!std::regex_match(text, match, not_among)) return text;
+  return fmt::format("{} is one of {}, not '{}'", match[1].str(),
+                     std::regex_replace(match[3].str(), std::regex(","), ", "), match[2].str());
+}
+
+// The option that is meant by other programs' name for it; else the name.
+std::string own_name(const std::string& option) {
+  constexpr std::pair<std::string_view, const char*> foreign[] = {
+      {"--samples", "--spp"}, {"--width", "--size"}, {"--height", "--size"}, {"--resolution", "--size"}};
+  for (const auto& [name, own] : foreign)
+    if (option == name) return own;
+  return option;
+}
+
 // One line about a wrong command line, with the name that was probably meant.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = named_command(app);
   const std::string help = fmt::format("(see eyeray {}--help)", words_before(command));
   const std::vector<std::string> extras = app.remaining(true);
   if (!dynamic_cast<const CLI::ExtrasError*>(&error) || extras.empty())
-    return fmt::format("{} {}", error.what(), help);
+    return fmt::format("{} {}", plain_words(error.what()), help);
 
   // Look for the nearest name of the same kind: option or command.
   std::string word = extras[0];
@@ -79,7 +107,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   if (std::find(names.begin(), names.end(), word) != names.end())
     return fmt::format("'{}' belongs after the command: eyeray {}... {} {}", word, words_before(command),
                        word, help);
-  const std::string nearest = nearest_name(word, candidates);
+  const std::string nearest = nearest_name(is_option ? own_name(word) : word, candidates);
   const char* kind = is_option ? "unknown option" : names.empty() ? "unexpected argument" : "unknown command";
   return fmt::format("{} '{}'{} {}", kind, word,
                      nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest), help);
@@ -102,6 +130,15 @@ void report(const Error& error, bool json) {
       fmt::print(stderr, "{}\n", log_line(rest.substr(0, rest.find('\n'))));
     }
   }
+}
+
+// Once for all that is cached by a command with a device. The worker of dev is another process of one
+// command.
+void warn_of_caches(const CLI::App& command) {
+  const CLI::Option* const worker = command.get_option_no_throw("--worker-socket");
+  if (!command.get_option_no_throw("--device") || (worker && worker->count() > 0)) return;
+  for (const std::string& warning : DiskCache::of_user().warnings())
+    fmt::print(stderr, "eyeray: warning: {}\n", log_line(warning));
 }
 
 // The words behind -- of `eyeray slurm`, which are sbatch's; they are taken off argc.
@@ -151,6 +188,7 @@ int run_command_line(int argc, char** argv) {
     fmt::print(stderr, "{}", app.help());
     return int(ExitCode::bad_input);
   }
+  warn_of_caches(named_command(app));
   return exit_status(run());
 }
 
@@ -173,10 +211,15 @@ int guarded_main(int argc, char** argv) {
     report(out_of_memory(), json);
     return int(out_of_memory().code());
   } catch (const std::filesystem::filesystem_error& error) {
-    report({ExitCode::file_io, "{}", error.what()}, json);
+    report({ExitCode::file_io, "cannot make or read {}: {}", error.path1().string(), error.code().message()},
+           json);
     return int(ExitCode::file_io);
   } catch (const std::system_error& error) {
-    report({ExitCode::file_io, "{}", error.what()}, json);
+    // fmt does not name the stream.
+    if (std::ferror(stdout))
+      report({ExitCode::file_io, "cannot write to standard output: {}", error.code().message()}, json);
+    else
+      report({ExitCode::file_io, "{}", error.what()}, json);
     return int(ExitCode::file_io);
   } catch (const std::exception& error) {
     report(own_fault(error.what()), json);

@@ -71,6 +71,14 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
        folder / "x.gif" + ": a picture's name must end in .png, .pfm, .hdr or .exr"},
       {{"shaders", "--print", "sphere.glsl"}, "no shader 'sphere.glsl' (see eyeray shaders --list)"},
       {{"check"}, "no scene given (see eyeray check --help)"},
+      {{"render", ""}, "SCENE: wants the name of a file (see eyeray render --help)"},
+      {{"render", scene, "-s", "0x0"}, "--size wants WIDTHxHEIGHT, as 640x480, not '0x0'"},
+      {{"render", scene, "-o"}, "--output needs a value (see eyeray render --help)"},
+      {{"render", scene, "--samples", "4"},
+       "unknown option '--samples'; did you mean '--spp'? (see eyeray render --help)"},
+      {{"render", scene, "--resolution=4"},
+       "unknown option '--resolution'; did you mean '--size'? (see eyeray render --help)"},
+      {{"completion", "bsh"}, "SHELL is one of bash, zsh, fish, not 'bsh' (see eyeray completion --help)"},
   };
   for (const Mistake& mistake : mistakes) {
     const ProcessResult result = run_eyeray(mistake.arguments);
@@ -105,10 +113,37 @@ TEST_CASE("every command explains itself with an example, in lines that fit") {
   }
 }
 
-TEST_CASE("the version is printed") {
+TEST_CASE("the version is printed, with the commit where there was one") {
   const ProcessResult result = run_eyeray({"--version"});
   CHECK(result.code == 0);
-  CHECK(result.out.starts_with("eyeray 0."));
+  CHECK(std::regex_match(result.out, std::regex(R"(eyeray 0\.\d+\.\d+( \(commit [0-9a-f]{12}\))?\n)")));
+}
+
+TEST_CASE("the commit is that of the sources' own clone, and there is none without") {
+  const TemporaryFolder folder;
+  const auto facts_of = [&](const std::string& source) {
+    const ProcessResult result =
+        run_process({"cmake", "-D", "GIT=git", "-D", "SOURCE=" + source, "-D", "INSTALLED=a", "-D", "TREE=b",
+                     "-D", "OUTPUT=" + folder / "facts.cpp", "-P", "cmake/write_build_facts.cmake"});
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    const std::string text = read_text(folder / "facts.cpp");
+    const std::string before = "commit() {\n  return \"";
+    const size_t begin = text.find(before) + before.size();
+    return text.substr(begin, text.find('"', begin) - begin);
+  };
+  const std::string clone = folder / "clone", inside = clone + "/inside";
+  REQUIRE(std::filesystem::create_directories(inside));
+  CHECK(facts_of(clone) == "");
+  const ProcessResult made = run_process(
+      {"sh", "-c",
+       "cd " + clone +
+           " && git init -q && git -c user.name=a -c user.email=a@b commit -q --allow-empty -m a && git "
+           "rev-parse HEAD"});
+  CAPTURE(made.err);
+  REQUIRE(made.code == 0);
+  CHECK(facts_of(clone) == made.out.substr(0, 12));
+  CHECK(facts_of(inside) == "");  // as of a source package that was unpacked in another project's clone
 }
 
 TEST_CASE("under --json a failure is JSON on standard output too") {
@@ -132,4 +167,28 @@ TEST_CASE("a reader that goes away is no error, a full disk is") {
   const ProcessResult full = run_process({"sh", "-c", binary + " shaders --list > /dev/full"});
   CHECK(full.code == 4);
   CHECK(full.err == "eyeray: error: cannot write to standard output: No space left on device\n");
+  // Texts that are longer than the buffer of the stream, and a stream that is closed.
+  for (const std::string command : {"check --schema", "completion bash"}) {
+    CAPTURE(command);
+    CHECK(run_process({"sh", "-c", binary + " " + command + " > /dev/full"}).err == full.err);
+    const ProcessResult closed = run_process({"sh", "-c", binary + " " + command + " >&-"});
+    CHECK(closed.code == 4);
+    CHECK(closed.err == "eyeray: error: cannot write to standard output: Bad file descriptor\n");
+  }
+}
+
+TEST_CASE("a folder that cannot be made is named, with the reason, and code 4") {
+  const SceneFolder folder;
+  const std::string below = folder.scene() + "/below";
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"shaders", "--export", below},
+                                             {"new", below},
+                                             {"manual", below},
+                                             {"verify", folder.scene(), "--report", below}}) {
+    CAPTURE(words[0]);
+    const ProcessResult result = run_eyeray(words);
+    CHECK(result.code == 4);
+    CHECK(result.err.starts_with("eyeray: error: cannot make the folder " + below));
+    CHECK(result.err.ends_with(": Not a directory\n"));
+  }
 }

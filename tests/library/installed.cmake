@@ -21,7 +21,7 @@ function(expect text pattern)
 endfunction()
 
 file(REMOVE_RECURSE ${SCRATCH})
-foreach(component IN ITEMS library development)
+foreach(component IN ITEMS library development program)
   run(0 ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component ${component})
 endforeach()
 
@@ -34,6 +34,18 @@ list(FILTER symbols EXCLUDE REGEX " (eyeray::v0::|(typeinfo|typeinfo name|vtable
 if(symbols OR count LESS 30)
   message(FATAL_ERROR "${count} symbols, of them not of the header: ${symbols}")
 endif()
+
+# --help names the documents that were installed with the program, a program that is only built those of its sources.
+file(GLOB documents ${prefix}/share/doc/eyeray*/docs/command-line.md)
+cmake_path(GET documents PARENT_PATH documents)
+cmake_path(GET documents PARENT_PATH documents)
+foreach(command IN ITEMS "" render generate)
+  run(0 ${prefix}/bin/eyeray ${command} --help)
+  expect("${out}" "\nREADME.md, docs/ and scenes/ are in ${documents}\n$")
+  run(0 ${PROGRAM} ${command} --help)
+  expect("${out}" "\nREADME.md, docs/ and scenes/ are in ${CMAKE_SOURCE_DIR}\n$")
+endforeach()
+run(0 ${PROGRAM} check ${documents}/scenes/whitted.toml)
 
 # Another minor version is refused.
 file(WRITE ${SCRATCH}/other/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(other LANGUAGES NONE)\nfind_package(eyeray 0.99 REQUIRED)\n")

@@ -1,0 +1,29 @@
+# cmake -D GIT=… -D SOURCE=… -D INSTALLED=… -D TREE=… -D OUTPUT=… -P write_build_facts.cmake: OUTPUT defines host/cli/build_facts.hpp. A clone
+# that only surrounds SOURCE, as where a source package was unpacked in one, is another project's.
+set(commit "")
+if(GIT)
+  execute_process(COMMAND ${GIT} rev-parse --show-toplevel WORKING_DIRECTORY ${SOURCE}
+    OUTPUT_VARIABLE top OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  file(REAL_PATH "${SOURCE}" real)
+  if("${top}" STREQUAL "${real}")
+    execute_process(COMMAND ${GIT} rev-parse --verify --short=12 HEAD WORKING_DIRECTORY ${SOURCE}
+      OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  endif()
+endif()
+file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
+#include "host/cli/build_facts.hpp"
+
+namespace eyeray::cli {
+
+std::string_view commit() {
+  return "@commit@";
+}
+std::string_view documents_from_installed() {
+  return "@INSTALLED@";
+}
+std::string_view documents_from_built() {
+  return "@TREE@";
+}
+
+}  // namespace eyeray::cli
+]])

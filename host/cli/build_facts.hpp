@@ -1,0 +1,15 @@
+// Facts of the build, which cmake/build_facts.cmake writes into a file of their own.
+#pragma once
+
+#include <string_view>
+
+namespace eyeray::cli {
+
+// The abbreviated hash of the commit that the program was built from; "" where the sources were no git clone.
+std::string_view commit();
+// The folder of README.md, docs/ and scenes/ relative to the folder of the program, installed or as it was
+// built.
+std::string_view documents_from_installed();
+std::string_view documents_from_built();
+
+}  // namespace eyeray::cli
