@@ -59,7 +59,11 @@ bench::ProcessReport BenchCommand::process_report() const {
 }
 
 ExitCode BenchCommand::run() const {
+  // Shown until there is something to print.
+  const auto wait = [] { return show_compiling(", then measuring"); };
+  std::shared_ptr<void> waiting = wait();
   const auto say = [&](const auto& report) {
+    waiting.reset();
     if (json)
       print_json(bench::to_json(report));
     else
@@ -74,7 +78,11 @@ ExitCode BenchCommand::run() const {
   const bench::Report old = older.empty() ? bench::Report() : bench::read_report(older);
 
   const auto print = [&](const std::string& text) {
-    if (!json) fmt::print("{}", text);
+    if (json) return;
+    waiting.reset();
+    fmt::print("{}", text);
+    std::fflush(stdout);
+    waiting = wait();
   };
   bench::Options what = options;
   if (with_paths || paths.cycles || paths.povray) what.paths = path_options();
@@ -82,7 +90,13 @@ ExitCode BenchCommand::run() const {
       what, {.rays = [&](const bench::SceneReport& scene) { print(bench::to_text({scene})); },
              .picture = [&](const bench::PictureReport& picture) { print(bench::to_text(picture)); },
              .paths = [&](const bench::PathReport& each) { print(bench::to_text(each)); },
-             .remark = [](const std::string& text) { fmt::print(stderr, "eyeray: {}\n", text); }});
+             .remark =
+                 [&](const std::string& text) {
+                   waiting.reset();
+                   fmt::print(stderr, "eyeray: {}\n", text);
+                   waiting = wait();
+                 }});
+  waiting.reset();
 
   if (!plot.empty())
     write_file_atomically(plot, what.paths ? bench::to_svg(report.paths) : bench::to_svg(report.field));

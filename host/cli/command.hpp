@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -110,5 +111,10 @@ void check_crop(const Rect& crop, const ImageSettings& image);
 // otherwise, nothing under --quiet. NO_COLOR is honoured. Call it with Progress() before making the executor:
 // a terminal then shows that kernels compile.
 std::function<void(const render::Progress&)> progress_reporter(bool quiet);
+
+// Shows on a terminal that kernels compile, by the same line, for commands that report no progress;
+// `and_then` is added to it. The line is wiped away when what is returned goes: before anything else is
+// printed.
+std::shared_ptr<void> show_compiling(std::string_view and_then = "");
 
 }  // namespace eyeray::cli

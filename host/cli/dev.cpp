@@ -46,6 +46,7 @@ struct DevCommand {
 
   std::string device_;
   bool watching_ = false;
+  std::shared_ptr<void> compiling_;  // the line that says so
 };
 
 // "::error file=a.glsl,line=3,col=5::message", as GitHub's workflows read it.
@@ -116,6 +117,9 @@ void DevCommand::report_failure(const Json& failure) const {
 
 void DevCommand::report(const Json& event, const dev::Board& board) {
   const std::string what = event.value("event", "");
+  // Previews are rows of a picture whose kernel still compiles.
+  if (what != "rows") compiling_.reset();
+  if (what == "stage" && event.value("stage", "") == "compile") compiling_ = show_compiling();
   if (what == "listening") {
     const int listens = event.value("port", 0);
     if (listens != event.value("wanted", 0))

@@ -23,7 +23,9 @@ struct ProbeCommand {
 ExitCode ProbeCommand::run() {
   std::tie(options.x, options.y) = parse_pixel(pixel);
   const Scene scene = scene_options.load();
+  std::shared_ptr<void> compiling = show_compiling();
   const probe::Findings findings = probe::probe_pixel(scene, options);
+  compiling.reset();
   const bool colored = isatty(STDOUT_FILENO) && !std::getenv("NO_COLOR");
   fmt::print("{}", json ? to_json(findings) : to_text(findings, colored));
   return findings.first_difference() ? ExitCode::comparison_failed : ExitCode::ok;

@@ -98,6 +98,15 @@ std::vector<std::string> describe(const render::Progress& progress, const render
 
 }  // namespace
 
+std::shared_ptr<void> show_compiling(std::string_view and_then) {
+  if (!stderr_is_terminal()) return nullptr;
+  std::vector<std::string> texts(std::begin(preparing), std::end(preparing));
+  for (std::string& text : texts) text += and_then;
+  const auto bar = std::make_shared<Bar>();
+  bar->draw(texts, 0);
+  return bar;
+}
+
 std::function<void(const render::Progress&)> progress_reporter(bool quiet) {
   if (quiet) return {};
   const std::shared_ptr<Bar> bar = stderr_is_terminal() ? std::make_shared<Bar>() : nullptr;

@@ -208,6 +208,7 @@ void Supervisor::handle(const Message& message) {
       status["preview"] = json.value("preview", false);
     });
   } else if (event == "stage") {
+    report_(json);
     board_.update([&](Json& status) { status["state"] = json.value("stage", ""); });
   } else if (event == "scene") {
     scene_files_ = paths(json.value("files", Json::array()));

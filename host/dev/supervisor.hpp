@@ -30,8 +30,8 @@ struct SupervisorOptions {
 
 class Supervisor {
  public:
-  // What happened, on the supervisor's thread: the worker's "rows", "done" and "failed" (render_server.hpp),
-  // and
+  // What happened, on the supervisor's thread: the worker's "stage", "rows", "done" and "failed"
+  // (render_server.hpp), and
   // {"event": "changed", "files": […]} or {"event": "listening", "address": …}. A failure's "message" is
   // ready for a terminal.
   using Report = std::function<void(const Json&)>;

@@ -147,3 +147,19 @@ TEST_CASE("a terminal shows that kernels compile, and compiling is no part of th
   }
   verify.wait(600);
 }
+
+TEST_CASE("probe, bench and dev show that kernels compile, and wipe the line away") {
+  const SceneFolder folder;
+  for (const std::string& command :
+       {"probe " + folder.scene() + " 3,3 >/dev/null",
+        "bench " + folder.scene() + " -n 1 --no-pictures >/dev/null", "dev " + folder.scene() + " --once"}) {
+    CAPTURE(command);
+    Terminal terminal(100);
+    Process eyeray(terminal.command(command), xterm);
+    CHECK(terminal.wait_for("building BVHs and compiling kernels"));
+    eyeray.wait(600);
+    CHECK(eyeray.code() == 0);
+    const std::string& shown = terminal.shown();
+    CHECK(shown.rfind("compiling kernels") < shown.rfind("\r\033[K"));
+  }
+}
