@@ -170,6 +170,12 @@ std::shared_ptr<const Projection> parse(TableReader& table) {
   const PerspectiveCamera values{table.number("fov"), static_cast<FovAxis>(table.choice("fov_axis")),
                                  aperture};
   if (table.failed()) return nullptr;
+  for (const char* key : {"focus", "blades", "blade_rotation"})
+    if (aperture.radius == 0 && table.has(key)) {
+      table.warning(key,
+                    fmt::format("`{}` changes nothing without an `aperture`, as everything is sharp", key));
+      break;
+    }
   return make_projection(values);
 }
 

@@ -75,6 +75,14 @@ std::string_view medium_manual() {
 
 Medium read_medium(TableReader& table, IntegratorType integrator) {
   const Medium medium = materials::read_medium(table, 1);
+  if (medium.absorption + medium.scattering == Vec3(0))
+    for (const char* key : {"anisotropy", "min", "top", "scale_height"})
+      if (table.has(key)) {
+        table.warning(key,
+                      "[medium] is invisible: it has neither `absorption` nor `scattering`; give it one of "
+                      "them, or remove the table");
+        break;
+      }
   return walks_at_random(integrator) ? medium : Medium{};
 }
 
