@@ -6,6 +6,7 @@
 #include "host/pack/pack.hpp"
 #include "host/scene/integrator.hpp"
 #include "tests/support/empty_scene.hpp"
+#include "tests/support/meshes.hpp"
 #include "tests/support/random_scene.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -41,6 +42,33 @@ Scene triangles_and_spheres(int scale = 1) {
       test::add(scene, make_sphere(a, 0.3), material);
     else
       test::add(scene, make_triangle(triangle), material);
+  }
+  return scene;
+}
+
+// One-sided squares before a wall, each over a quarter of the picture: the upper two face the viewer, and the
+// left upper one and the right lower one are mirrored.
+Scene one_sided_squares() {
+  Scene scene = test::empty_scene();
+  scene.camera.eye = Vec3(0, 0, 8);
+  scene.image.width = width;
+  scene.image.height = height;
+  scene.image.samples = side * side;
+  scene.render.ambient = Vec3(1);
+  PhongValues square, wall;
+  square.diffuse = textures::make_constant(Vec3(1, 0, 0));
+  wall.diffuse = textures::make_constant(Vec3(0, 0, 1));
+  const int front = test::add(scene, make_phong(square)), behind = test::add(scene, make_phong(wall));
+  scene.materials[size_t(front)]->front_only = true;
+  TriangleValues triangle;
+  triangle.vertices = {Vec3(-90, -90, -2), Vec3(90, -90, -2), Vec3(0, 90, -2)};
+  test::add(scene, make_triangle(triangle), behind);
+  for (const auto& [x, y] : {std::pair(1, 1), {-1, 1}, {-1, -1}, {1, -1}}) {
+    std::vector<std::array<uint32_t, 3>> corners{{0, 1, 2}, {0, 2, 3}};
+    if (y < 0) corners = {{2, 1, 0}, {3, 2, 0}};
+    const int mesh = test::add(
+        scene, test::make_mesh({Vec3(0, 0, 0), Vec3(20, 0, 0), Vec3(20, 20, 0), Vec3(0, 20, 0)}, corners));
+    test::add_instance(scene, mesh, front, glm::scale(Mat4(1.0), Vec3(x, y, 1)));
   }
   return scene;
 }
@@ -118,5 +146,21 @@ TEST_CASE("pictures that start from what is drawn are those of traced eye rays, 
     }
     CAPTURE(different);
     CHECK(different <= traced.size() / 500);
+  }
+}
+
+TEST_CASE("one-sided meshes are drawn from their front alone, mirrored ones too") {
+  const Scene scene = one_sided_squares();
+  for (const PrimaryRays primary : {PrimaryRays::trace, PrimaryRays::raster}) {
+    CAPTURE(int(primary));
+    const std::vector<PixelSample> samples = samples_of(scene, primary);
+    int wrong = 0;
+    for (size_t i = 0; i < samples.size(); ++i) {
+      const int x = int(i) % width, y = int(i) / width % height;
+      if (x == width / 2 || y == height / 2) continue;  // where squares meet
+      const Vec3& color = samples[i].color;
+      wrong += color.x == color.z || (color.x > color.z) != (y < height / 2);
+    }
+    CHECK(wrong == 0);
   }
 }

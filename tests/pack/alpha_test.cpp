@@ -58,12 +58,6 @@ Scene leafy_scene(Random& random, int count, int instances) {
   return scene;
 }
 
-std::vector<shader::QueryRay> random_rays(Random& random, size_t count) {
-  std::vector<shader::QueryRay> rays(count);
-  for (shader::QueryRay& ray : rays) ray = random_ray(random);
-  return rays;
-}
-
 }  // namespace
 
 TEST_CASE("an alpha of the cutoff is there, below it is cut out; behind a cutout the next is hit") {
@@ -131,14 +125,7 @@ TEST_CASE("cutouts on the GPU: in every search what the twin finds" * doctest::t
     const Scene scene = leafy_scene(random, count, instances);
     const PackedScene packed = pack::pack(scene, {});
     const std::vector<shader::QueryRay> rays = random_rays(random, 20'000);
-    for (const bool packets : {true, false}) {
-      Specialisation specialisation;
-      specialisation.profile = {.texel_buffers = packets, .packets = packets, .shift_stack = packets};
-      specialisation.constants = packets;
-      QueryKernel kernel(device, packed, specialisation);
-      for (const bool any : {false, true})
-        CHECK(differences(kernel.ask(rays, any), ask_twin(packed, rays, any)) == 0);
-    }
+    CHECK(differences_on_gpu(device, packed, rays) == 0);
     if (packed.has_bvh && packed.quantised_nodes && instances == 0) {
       const CollapsedBvh bvh4 = collapse(packed.nodes, packed.bvhs[0]);
       QueryKernel kernel(device, packed, {}, &bvh4);

@@ -108,4 +108,19 @@ inline int differences(std::span<const shader::QueryHit> a, std::span<const shad
   return different;
 }
 
+// The same of the GPU's answers and the twin's, over both kinds of queries, by packets and by lanes.
+inline int differences_on_gpu(gpu::Device& device, const records::PackedScene& packed,
+                              std::span<const shader::QueryRay> rays) {
+  int different = 0;
+  for (const bool packets : {true, false}) {
+    executors::Specialisation specialisation;
+    specialisation.profile = {.texel_buffers = packets, .packets = packets, .shift_stack = packets};
+    specialisation.constants = packets;
+    QueryKernel kernel(device, packed, specialisation);
+    for (const bool any : {false, true})
+      different += differences(kernel.ask(rays, any), ask_twin(packed, rays, any));
+  }
+  return different;
+}
+
 }  // namespace eyeray::test

@@ -54,4 +54,10 @@ inline shader::QueryRay random_ray(Random& random) {
   return query_ray(origin, direction, random.below(2) == 0 ? random.uniform(0, 8) : 1e30);
 }
 
+inline std::vector<shader::QueryRay> random_rays(Random& random, size_t count) {
+  std::vector<shader::QueryRay> rays(count);
+  for (shader::QueryRay& ray : rays) ray = random_ray(random);
+  return rays;
+}
+
 }  // namespace eyeray::test
