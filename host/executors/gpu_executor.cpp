@@ -225,7 +225,10 @@ class GpuExecutor final : public Executor {
                            .flatten = profile_.flatten,
                            .validate = options_.validate_spirv};
     if (options_.fast_math || fault_.contracts()) how.strict = std::nullopt;
-    kernels_.emplace(SceneKernels::Workshop{*open_device_, fault_, times_, how, options_.tunables.get()},
+    // A capped driver grants 65 535 iterations to all loops together (docs/lavapipe.md).
+    const uint32_t most_iterations = open_device_->facts().loop_cap ? 50'000 : 1 << 20;
+    kernels_.emplace(SceneKernels::Workshop{*open_device_, fault_, times_, how, options_.tunables.get(),
+                                            most_iterations, options_.ray_kinds},
                      uploaded_, ShaderFiles(options_.shader_folder, specialise(packed, specialisation)));
     if (specialisation.formula_numbers) uploaded_.add(formula_numbers_buffer(numbers.words()));
     if (!nodes.empty()) kernels_->make_bvh4_of(std::move(nodes), packed.bvhs[0]);
@@ -274,14 +277,16 @@ class GpuExecutor final : public Executor {
       push.sample_index = index;
       push.count = uint32_t(pixels);
       push.stride = uint32_t(stride);
-      const std::optional<double> seconds = trace(push, output);
+      const std::optional<double> seconds = kernels_->run([&] { return trace(push, output); });
       if (!seconds) return false;
       times_.add("dispatch", *seconds);
       dispatch_size_.took(int64_t(pixels), *seconds);
 
       times_.measure("read-back", [&] {
         const std::byte* bytes = output.read(pixels * sizeof(Result)).data();
-        take(size_t(row) * size_t(tile.width), std::span(reinterpret_cast<const Result*>(bytes), pixels));
+        const std::span results(reinterpret_cast<const Result*>(bytes), pixels);
+        kernels_->check_loops(results);
+        take(size_t(row) * size_t(tile.width), results);
       });
       row += height;
     }

@@ -36,6 +36,7 @@ size_t bytes_of_results(const gpu::DeviceInfo& device, uint32_t photons) {
 PhotonKernel::PhotonKernel(gpu::Device& device, SceneKernels& kernels, StageTimes& times,
                            const Workgroups& workgroups, const PhotonSettings& settings, const Vec3& eye)
     : device_(device),
+      kernels_(kernels),
       times_(times),
       workgroups_(workgroups),
       settings_(settings),
@@ -79,8 +80,10 @@ bool PhotonKernel::trace(uint32_t index) {
     push.tile_x = first;
     push.sample_index = index;
     push.count = std::min(uint32_t(dispatch_size_.rows(1)), settings_.count - first);
-    const gpu::RunTime time = gpu::dispatch(device_, *kernel_, std::as_bytes(std::span(&push, 1)),
-                                            {workgroups_.of_items(push.count), 1, 1});
+    const gpu::RunTime time = kernels_.run([&] {
+      return gpu::dispatch(device_, *kernel_, std::as_bytes(std::span(&push, 1)),
+                           {workgroups_.of_items(push.count), 1, 1});
+    });
     times_.add("pipeline", time.compile_seconds);
     times_.add("photons", time.seconds);
     dispatch_size_.took(push.count, time.seconds);
@@ -117,9 +120,10 @@ bool PhotonKernel::send_out(uint32_t index, std::span<const uint32_t> left_out) 
     if (!list.photons.empty()) photons_->upload_records(list.photons);
     cells_->upload_records(list.cells);
   });
+  const auto results = results_.read_records<shader::PhotonResult>(settings_.count);
+  kernels_.check_loops(results);
   flags_ = 0;
-  for (const shader::PhotonResult& result : results_.read_records<shader::PhotonResult>(settings_.count))
-    flags_ |= result.flags;
+  for (const shader::PhotonResult& result : results) flags_ |= result.flags & ~FLAG_ENDLESS_LOOP;
   check_ended(flags_);
   sample_ = index;
   return true;

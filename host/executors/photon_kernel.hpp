@@ -33,6 +33,7 @@ class PhotonKernel {
   void make_room(uint32_t photons);
 
   gpu::Device& device_;
+  const SceneKernels& kernels_;
   StageTimes& times_;
   Workgroups workgroups_;
   PhotonSettings settings_;

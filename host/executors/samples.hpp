@@ -12,7 +12,8 @@ void check_ended(uint32_t flags);
 
 // `ray_kinds`: whether the kernel counted them (records.h, SampleResult).
 inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds) {
-  PixelSample sample{Vec3(result.color), result.rays, result.hits, result.flags};
+  // In a kernel without a user's shaders FLAG_ENDLESS_LOOP states no more than FLAG_LOOP_BUDGET.
+  PixelSample sample{Vec3(result.color), result.rays, result.hits, result.flags & ~FLAG_ENDLESS_LOOP};
   if (ray_kinds) {
     sample.flags &= (1u << REFRACTED_SHIFT) - 1;
     sample.refracted = refracted_of(result);

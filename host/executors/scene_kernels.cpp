@@ -16,12 +16,18 @@ std::shared_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::s
   }
   const std::vector<uint32_t> spirv = workshop_.times.measure("shader compile", [&] {
     try {
-      const gpu::ShaderSource text = source(entry);
+      const gpu::ShaderSource text = source(entry, true);
       if (moves_tunables()) defines += "#define TUNABLES 1\n";
-      const auto compile = [&] {
-        return gpu::compile_kernel(text, defines, workshop_.how, workshop_.device.cache()).spirv;
+      const auto compile = [&](const gpu::ShaderSource& source) {
+        return gpu::compile_kernel(source, defines, workshop_.how, workshop_.device.cache()).spirv;
       };
-      return files_.gave_users() ? compile() : of_own_input(compile);
+      if (!files_.gave_users()) return of_own_input([&] { return compile(text); });
+      if (!guard_.active()) return compile(text);
+      try {
+        return compile(text);
+      } catch (const InputError&) {  // its lines are shown as their author wrote them
+        return compile(source(entry));
+      }
     } catch (const InputError& error) {
       std::vector<Diagnostic> diagnostics = error.diagnostics();
       for (Diagnostic& d : diagnostics) d.position.file = files_.shown(d.position.file);
@@ -37,10 +43,13 @@ std::shared_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::s
   return kernel;
 }
 
-gpu::ShaderSource SceneKernels::source(const std::string& entry) {
+gpu::ShaderSource SceneKernels::source(const std::string& entry, bool guarded) {
   const auto read = [&](std::string_view name) {
     auto text = files_.read(name);
     if (text && workshop_.tunables) text = workshop_.tunables->apply(std::string(name), *text);
+    if (const auto original = files_.replaced(name); text && original && guarded)
+      text = guard_.guard(files_.shown(std::string(name)), *text, *original);
+    if (text && name == "scene.glsl" && !files_.folder().empty()) *text = guard_.definitions() + *text;
     return text ? std::optional(workshop_.fault.damage(name, std::move(*text))) : std::nullopt;
   };
   return gpu::read_shader(read, entry);

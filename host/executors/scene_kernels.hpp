@@ -7,9 +7,11 @@
 #include <set>
 #include <string>
 
+#include "host/core/error.hpp"
 #include "host/core/raw_vector.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/executors/fault.hpp"
+#include "host/executors/loop_guard.hpp"
 #include "host/executors/open_device.hpp"
 #include "host/executors/shader_files.hpp"
 #include "host/executors/tunables.hpp"
@@ -33,10 +35,13 @@ class SceneKernels {
     StageTimes& times;
     gpu::KernelOptions how;
     Tunables* tunables;  // null: none
+    // Iterations that counted loops of a user's shaders may make together in one invocation.
+    uint32_t most_iterations;
+    bool ray_kinds;  // whether kernels count them (records.h, SampleResult)
   };
 
   SceneKernels(const Workshop& workshop, UploadedScene& scene, ShaderFiles files)
-      : workshop_(workshop), scene_(scene), files_(std::move(files)) {}
+      : workshop_(workshop), scene_(scene), files_(std::move(files)), guard_(workshop.most_iterations) {}
 
   // Of these nodes a BVH4 is made once a kernel is that traverses it.
   void make_bvh4_of(RawVector<shader::uvec4> nodes, const shader::Bvh& bvh) {
@@ -47,16 +52,35 @@ class SceneKernels {
   std::shared_ptr<gpu::Kernel> make(const std::string& entry, std::string defines = "");
   void upload_tunables();
   // The text of an entry and all that it includes.
-  gpu::ShaderSource source(const std::string& entry);
+  gpu::ShaderSource source(const std::string& entry) { return source(entry, false); }
+  // Runs a dispatch of these kernels. Its time-out names the loops of a user's shaders.
+  template <typename Dispatch>
+  auto run(const Dispatch& dispatch) const {
+    try {
+      return dispatch();
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::timed_out) throw;
+      throw guard_.explained(error);
+    }
+  }
+  // Error (timed_out) where the flags of any of these results state that a loop of a user's shaders did not
+  // end.
+  template <typename Results>
+  void check_loops(const Results& results) const {
+    if (!guard_.active()) return;
+    for (const auto& result : results) guard_.check(result.flags, workshop_.ray_kinds);
+  }
   const std::set<std::filesystem::path>& looked_for() const { return files_.looked_for(); }
 
  private:
+  gpu::ShaderSource source(const std::string& entry, bool guarded);
   void upload_bvh4();
   bool moves_tunables() const;
 
   Workshop workshop_;
   UploadedScene& scene_;
   ShaderFiles files_;
+  LoopGuard guard_;
   RawVector<shader::uvec4> binary_nodes_;  // until they are collapsed
   shader::Bvh bvh_{};
   uint32_t bvh4_stack_ = 1;  // CollapsedBvh::stack_size

@@ -89,6 +89,12 @@ std::optional<std::string> ShaderFiles::read(std::string_view name) {
   return text.empty() ? std::nullopt : std::optional(std::string(text));
 }
 
+std::optional<std::string_view> ShaderFiles::replaced(std::string_view name) const {
+  std::error_code error;
+  const bool is_there = !folder_.empty() && std::filesystem::is_regular_file(folder_ / name, error);
+  return is_there ? std::optional(embedded(name)) : std::nullopt;
+}
+
 std::string ShaderFiles::shown(const std::string& name) const {
   if (folder_.empty()) return name;
   const std::filesystem::path path = folder_ / name;

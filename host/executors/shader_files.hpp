@@ -18,8 +18,11 @@ class ShaderFiles {
   // with.
   ShaderFiles(std::filesystem::path folder, std::string scene_glsl);
 
+  const std::filesystem::path& folder() const { return folder_; }
   // The text of "shapes/sphere.glsl", or nothing.
   std::optional<std::string> read(std::string_view name);
+  // For a file of the folder: eyeray's own text, empty where eyeray has no such file. Else nothing.
+  std::optional<std::string_view> replaced(std::string_view name) const;
   // As people know it: the path in the folder if the text came from there, else the name.
   std::string shown(const std::string& name) const;
   // Whether any text came from the folder: without, what does not compile is a fault of eyeray's own.

@@ -201,6 +201,7 @@
 #endif
 //   TUNABLES              constants that eyeray dev lets people move, from a buffer (executors/tunables.hpp)
 //   LOOP_PROBE            2, from a buffer (kernels/loops.glsl); kernels/bindings.glsl defines it
+//   STOPPED_LOOPS         defined in kernels that may hold a user's shaders: the bit of the loop that was stopped, or 0
 //   LOOP_BUDGET           defined where a driver caps loops: the iterations that a pixel may make (docs/lavapipe.md)
 
 // ---- How the kernel runs ---------------------------------------------------------------------------------------------

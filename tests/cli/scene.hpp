@@ -65,7 +65,7 @@ inline void export_endless_shaders(const std::string& folder) {
   if (run_eyeray({"shaders", "--export", folder}).code != 0)
     throw std::runtime_error("shaders --export failed");
   std::string work;
-  for (int i = 0; i < 64; ++i) work += "    e = sin(e * 1.7 + float(x)) + cos(e + float(y));\n";
+  for (int i = 0; i < 96; ++i) work += "    e = sin(e * 1.7 + float(x)) + cos(e + float(y));\n";
   const std::string pixel = folder + "/kernels/pixel.glsl";
   write_text(pixel, with_pixel_code(read_text(pixel), "  float e = 1.0;\n  do {\n" + work +
                                                           "  } while (e < 100.0);\n  color.x += e;\n"));

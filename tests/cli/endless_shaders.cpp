@@ -1,0 +1,93 @@
+// Loops of --shaders that never end: exit code 5, the loop's file and line, and no picture.
+#include <fmt/format.h>
+
+#include "scene.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray;
+using namespace eyeray::test;
+
+namespace {
+
+// A folder with a scene, and the shaders with `statements` in a sphere's intersection, whose line 35 they
+// are.
+class Shaders : public SceneFolder {
+ public:
+  Shaders() {
+    REQUIRE(run_eyeray({"shaders", "--export", *this / "shaders"}).code == 0);
+    own_ = read_text(sphere());
+  }
+  std::string sphere() const { return *this / "shaders/shapes/sphere.glsl"; }
+  void insert(const std::string& statements) const {
+    const std::string before = "  return discriminant >= 0.0f ? t : T_NONE;\n";
+    write_text(sphere(), replaced(own_, before, statements + before));
+  }
+  ProcessResult run(std::vector<std::string> words, const std::vector<std::string>& more = {}) const {
+    words.insert(words.begin() + 1, scene());
+    words.insert(words.end(), {"--shaders", *this / "shaders"});
+    words.insert(words.end(), more.begin(), more.end());
+    return run_eyeray(words);
+  }
+
+ private:
+  std::string own_;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a loop without an end is an error that names it, however it comes about and however rays are traced") {
+  const Shaders shaders;
+  for (const std::string loop :
+       {// Optimisers see that this one never ends, and remove it with what comes after it.
+        "int i = 0; while (i < 10) t += 0.001f;", "while (true) {}", "for (;;) t += 0.001f;",
+        // This one depends on the ray.
+        "for (float w = 0.0f; w < 1.0f; w += 0.0f * ray.d.x) t += 0.001f;",
+        "do { for (int i = 0; i < 3; i++) t += 0.001f; } while (t > -1e30f);"}) {
+    CAPTURE(loop);
+    shaders.insert("  " + loop + "\n");
+    for (const std::string rays : {"lanes", "packets"}) {
+      const ProcessResult result = shaders.run({"render"}, {"--rays", rays, "-o", shaders / "a.png"});
+      CAPTURE(result.err);
+      CHECK(result.code == 5);
+      CHECK(result.err.starts_with("eyeray: error: a loop of your shaders did not end within "));
+      CHECK(result.err.ends_with(fmt::format("\n{}:35: {}\n", shaders.sphere(), loop)));
+      CHECK_FALSE(shaders.names().contains("a.png"));
+    }
+  }
+}
+
+TEST_CASE("every command that renders says so") {
+  const Shaders shaders;
+  shaders.insert("  while (true) {}\n");
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"verify"},
+           {"verify", "--integrator", "path", "--backends", "gpu"},
+           {"probe", "32,24"},
+           {"dev", "--once", "--no-page"},
+           {"render", "--stats", "-o", shaders / "a.png"},
+           {"render", "--aov", "depth", "--integrator", "path", "-o", shaders / "a.png"}}) {
+    CAPTURE(words[0]);
+    const ProcessResult result = shaders.run(words);
+    CAPTURE(result.err);
+    CHECK(result.code == 5);
+    CHECK(result.err.find("a loop of your shaders did not end within ") != std::string::npos);
+    CHECK(result.err.find(shaders.sphere() + ":35: while (true) {}\n") != std::string::npos);
+  }
+  CHECK_FALSE(shaders.names().contains("a.png"));
+}
+
+TEST_CASE("counted loops that end change no bit, and mistakes are shown as they were written") {
+  const Shaders shaders;
+  shaders.insert(
+      "  float kept = t;\n  for (int i = 0; i < 9; i++) kept = kept * 0.5f;\n  t = kept * 512.0f;\n");
+  REQUIRE(shaders.run({"render"}, {"-o", shaders / "a.pfm"}).code == 0);
+  REQUIRE(run_eyeray({"render", shaders.scene(), "-o", shaders / "b.pfm"}).code == 0);
+  CHECK(read_text(shaders / "a.pfm") == read_text(shaders / "b.pfm"));
+
+  shaders.insert("  while (nonsense) {}\n");
+  const ProcessResult mistake = shaders.run({"render"}, {"-o", shaders / "c.pfm"});
+  CHECK(mistake.code == 2);
+  CHECK(mistake.err.find("  while (nonsense) {}\n") != std::string::npos);
+}
