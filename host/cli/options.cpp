@@ -63,7 +63,7 @@ void sanitize(executors::ExecutorOptions& options, const std::string& list) {
 
 std::pair<int, int> parse_size(const std::string& text) {
   int size[2];
-  if (!parse_integers(text, 'x', size) || size[0] < 1 || size[1] < 1)
+  if (!parse_integers(text, 'x', size))
     throw Error(ExitCode::bad_input, "--size wants WIDTHxHEIGHT, as 640x480, not '{}'", text);
   return {size[0], size[1]};
 }

@@ -72,7 +72,6 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
       {{"shaders", "--print", "sphere.glsl"}, "no shader 'sphere.glsl' (see eyeray shaders --list)"},
       {{"check"}, "no scene given (see eyeray check --help)"},
       {{"render", ""}, "SCENE: wants the name of a file (see eyeray render --help)"},
-      {{"render", scene, "-s", "0x0"}, "--size wants WIDTHxHEIGHT, as 640x480, not '0x0'"},
       {{"render", scene, "-o"}, "--output needs a value (see eyeray render --help)"},
       {{"render", scene, "--samples", "4"},
        "unknown option '--samples'; did you mean '--spp'? (see eyeray render --help)"},
