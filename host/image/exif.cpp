@@ -63,6 +63,25 @@ void for_each_jpeg_segment(std::string_view jpeg,
   }
 }
 
+bool has_jpeg_end(std::string_view jpeg) {
+  const auto byte = [&](size_t at) { return size_t{uint8_t(jpeg[at])}; };
+  for (size_t at = 2; at + 2 <= jpeg.size();) {
+    const size_t marker = byte(at + 1);
+    if (byte(at) != 0xff || marker == 0xff) {
+      ++at;  // coded pixels, or a byte that fills
+    } else if (marker == 0xd9) {
+      return true;
+    } else if (marker == 0 || marker == 1 || (marker >= 0xd0 && marker <= 0xd8)) {
+      at += 2;  // without a length
+    } else if (at + 4 <= jpeg.size()) {
+      at += 2 + (byte(at + 2) << 8 | byte(at + 3));
+    } else {
+      break;
+    }
+  }
+  return false;
+}
+
 CodedImage upright(CodedImage image, int orientation) {
   if (orientation == 1) return image;
   const bool turned = orientation >= 5;  // rows become columns
