@@ -144,6 +144,14 @@ Instance::Instance(const DeviceOptions& options) : Instance(options.timeout_seco
   const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
   const VkValidationFeatureDisableEXT disable = VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT;
   auto features = make<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, &messenger);
+#ifdef VK_EXT_layer_settings
+  // Layers that know settings ignore the buffers that shaders read and write, unless this one is set.
+  const VkBool32 yes = VK_TRUE;
+  const VkLayerSettingEXT shader_accesses{validation_layer, "syncval_shader_accesses_heuristic",
+                                          VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &yes};
+  auto settings =
+      make<VkLayerSettingsCreateInfoEXT>(VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT, &messenger);
+#endif
   const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
   if (!validation.empty()) {
     require_validation_layer();
@@ -152,6 +160,11 @@ Instance::Instance(const DeviceOptions& options) : Instance(options.timeout_seco
       features.pDisabledValidationFeatures = &disable;
       features.enabledValidationFeatureCount = 1;
       features.pEnabledValidationFeatures = &enable;
+#ifdef VK_EXT_layer_settings
+      settings.settingCount = 1;
+      settings.pSettings = &shader_accesses;
+      features.pNext = &settings;
+#endif
     }
     info.pNext = &features;
     info.enabledLayerCount = 1;

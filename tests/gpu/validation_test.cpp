@@ -62,5 +62,5 @@ TEST_CASE("synchronisation validation catches a canary: a missing barrier") {
   use(device, false);
   const std::vector<std::string> messages = device.validation_messages();
   REQUIRE(!messages.empty());
-  CHECK(contains(messages[0], "SYNC-HAZARD-READ-AFTER-WRITE"));
+  CHECK(contains(messages[0], "READ_AFTER_WRITE"));
 }
