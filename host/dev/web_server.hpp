@@ -11,24 +11,16 @@
 #include <string>
 
 #include "host/dev/board.hpp"
+#include "host/dev/http_server.hpp"
 
 namespace eyeray::dev {
 
-struct WebLimits {
-  size_t header_bytes = 16 << 10;  // of a request
-  size_t body_bytes = 1 << 20;
-  double request_seconds = 5;  // for a request to arrive in
-  double write_seconds = 5;    // for a client to take something in
-  int connections = 64;        // at a time; more wait
-  int listeners = 8;           // to the status, which keep their connections
-};
-
 class WebServer {
  public:
-  // What the page asks for: {"view": …}, {"probe": [x, y]}, …; called from any thread.
+  // Gets what the page sends: {"view": …}, {"probe": [x, y]}, …; called from any thread.
   using Command = std::function<void(const Json&)>;
 
-  // Listens on `port`, on another where that is taken; 0: any. Error (file_io) where none can be had.
+  // Listens on `port`, or on another as HttpServer does. Error (file_io) if there is none.
   WebServer(Board& board, Command command, int port, WebLimits limits = {});
   // Ends what is going on.
   ~WebServer();
@@ -38,8 +30,8 @@ class WebServer {
   std::string address() const;
 
  private:
-  struct Servers;
-  std::unique_ptr<Servers> servers_;
+  struct Site;
+  std::unique_ptr<Site> site_;
 };
 
 }  // namespace eyeray::dev

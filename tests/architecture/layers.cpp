@@ -42,7 +42,7 @@ const Library libraries[] = {
     {std::regex(R"(nlohmann/json\.hpp)"),
      {"shards", "slurm", "aov", "bench", "cli", "compare", "dev", "importers", "loader", "verify", "probe"},
      {"importers", "dev"}},
-    {std::regex(R"(httplib\.h)"), {"dev"}, {"dev"}},
+    {std::regex(R"(microhttpd\.h)"), {"dev"}, {}},
     {std::regex(R"(tiny_.*)"), {"importers"}, {}},
     {std::regex(R"(CLI/.*)"), {"cli"}, {"cli"}},
     {std::regex(R"(tbb/.*)"), {"core"}, {"core"}},
