@@ -19,11 +19,23 @@ using eyeray::Report;
 using eyeray::Scene;
 using Path = std::filesystem::path;
 
+// Text for people: what is no UTF-8 in it is shown as \xff.
+py::str text_of(const std::string& text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), py::ssize_t(text.size()), "backslashreplace"));
+}
+
+// The name of a file as Python has it, whatever its bytes: open() takes it.
+py::str file_name_of(const std::string& name) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeFSDefaultAndSize(name.data(), py::ssize_t(name.size())));
+}
+
 py::tuple diagnostics_of(const std::vector<eyeray::Diagnostic>& diagnostics) {
   const py::object type = py::module_::import("eyeray.errors").attr("Diagnostic");
   py::list all;
   for (const eyeray::Diagnostic& each : diagnostics)
-    all.append(type(each.message, each.file, each.line, each.column, each.is_error));
+    all.append(type(text_of(each.message), file_name_of(each.file), each.line, each.column, each.is_error));
   return py::tuple(all);
 }
 
@@ -32,7 +44,7 @@ void raise(std::exception_ptr thrown) {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const eyeray::Error& error) {
     const py::object type = py::module_::import("eyeray.errors").attr("_kinds")[py::int_(int(error.kind()))];
-    const py::object value = type(error.what(), diagnostics_of(error.diagnostics()));
+    const py::object value = type(text_of(error.what()), diagnostics_of(error.diagnostics()));
     PyErr_SetObject(type.ptr(), value.ptr());
   }
 }
@@ -194,7 +206,11 @@ void add_renderer(py::module_& module) {
   py::class_<Report>(module, "Report", "What verify() found; true where every gate passes.")
       .def_readonly("passed", &Report::passed)
       .def_property_readonly("failures",
-                             [](const Report& report) { return py::tuple(py::cast(report.failures)); })
+                             [](const Report& report) {
+                               py::list all;
+                               for (const std::string& each : report.failures) all.append(text_of(each));
+                               return py::tuple(all);
+                             })
       .def_readonly("text", &Report::text)
       .def_readonly("json", &Report::json)
       .def("__bool__", [](const Report& report) { return report.passed; });

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/core/atomic_file.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image_file.hpp"
 #include "host/scene/objects.hpp"
@@ -70,18 +71,13 @@ class MaterialEntries final : public LegendEntries {
   const Scene& scene_;
 };
 
-// File names may hold any bytes; JSON may not.
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 // A legend as it is written, entry by entry.
 class LegendFile {
  public:
   LegendFile(const std::filesystem::path& picture, uint64_t nothing)
       : name_(std::filesystem::path(picture).replace_extension(".json")), file_(name_) {
     text_ = fmt::format("{{\"nothing\": {},\n \"ids\": [",
-                        text_of({{"id", -1}, {"color", color_of(-1)}, {"pixels", nothing}}));
+                        json_text(Json{{"id", -1}, {"color", color_of(-1)}, {"pixels", nothing}}));
   }
 
   // `entry`: a JSON object, to which its pixels are added.
@@ -138,14 +134,14 @@ void Legend::see(std::span<const FirstHit> hits) {
 std::filesystem::path Legend::write(const std::filesystem::path& picture) const {
   LegendFile file(picture, nothing_);
   for (size_t i = 0; i < pixels_.size(); ++i)
-    if (pixels_[i] > 0) file.add(text_of(entries_->entry(i)), pixels_[i]);
+    if (pixels_[i] > 0) file.add(json_text(entries_->entry(i)), pixels_[i]);
   return file.finish();
 }
 
 LegendTally Legend::tally() const {
   LegendTally tally{nothing_, {}};
   for (size_t i = 0; i < pixels_.size(); ++i)
-    if (pixels_[i] > 0) tally.entries[i] = {text_of(entries_->entry(i)), pixels_[i]};
+    if (pixels_[i] > 0) tally.entries[i] = {json_text(entries_->entry(i)), pixels_[i]};
   return tally;
 }
 

@@ -2,31 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "host/core/escaped_text.hpp"
+
 namespace eyeray::bench {
-namespace {
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      default:
-        result += uint8_t(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return result;
-}
-
-}  // namespace
-
 Svg::Svg(double width, double height)
     : body_(
           fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 "
@@ -59,7 +37,7 @@ void Svg::box(const Vec2& corner, const Vec2& size, std::string_view color) {
 
 void Svg::text(const Vec2& at, std::string_view text, std::string_view anchor, double size) {
   body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" font-size=\"{}\">{}</text>\n",
-                       at.x, at.y, anchor, size, escaped(text));
+                       at.x, at.y, anchor, size, xml_text(text));
 }
 
 std::string Svg::finished() const {

@@ -11,6 +11,7 @@
 #include "host/cli/json.hpp"
 #include "host/cli/within.hpp"
 #include "host/core/atomic_file.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/executors/executor.hpp"
 #include "host/image/image_file.hpp"
 
@@ -67,7 +68,7 @@ ExitCode BenchCommand::run() const {
     if (json)
       print_json(bench::to_json(report));
     else
-      fmt::print("{}", bench::to_text(report));
+      print_lines(stdout, "{}", bench::to_text(report));
     return ExitCode::ok;
   };
   if (dev) return say(bench::measure_dev_loop(options.pictures.runs));
@@ -80,7 +81,7 @@ ExitCode BenchCommand::run() const {
   const auto print = [&](const std::string& text) {
     if (json) return;
     waiting.reset();
-    fmt::print("{}", text);
+    print_lines(stdout, "{}", text);
     std::fflush(stdout);
     waiting = wait();
   };
@@ -93,7 +94,7 @@ ExitCode BenchCommand::run() const {
              .remark =
                  [&](const std::string& text) {
                    waiting.reset();
-                   fmt::print(stderr, "eyeray: {}\n", text);
+                   print_lines(stderr, "eyeray: {}\n", text);
                    waiting = wait();
                  }});
   waiting.reset();
@@ -102,7 +103,7 @@ ExitCode BenchCommand::run() const {
     write_file_atomically(plot, what.paths ? bench::to_svg(report.paths) : bench::to_svg(report.field));
   if (!older.empty() && !json) {
     const std::string changed = bench::changes(old, report);
-    fmt::print("since {}:\n{}", older, changed.empty() ? "nothing in common\n" : changed);
+    print_lines(stdout, "since {}:\n{}", older, changed.empty() ? "nothing in common\n" : changed);
   }
   if (json) print_json(bench::to_json(report));
   return ExitCode::ok;

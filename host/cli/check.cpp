@@ -8,6 +8,7 @@
 #include "host/cameras/registry.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/lights/registry.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/materials/registry.hpp"
@@ -62,7 +63,7 @@ size_t bytes(const Records& records) {
   return std::span(records).size_bytes();
 }
 
-// As often as they are shown.
+// Counts each shape as often as it is shown.
 uint64_t shapes_in_groups(const Scene& scene) {
   uint64_t count = 0;
   for (const GroupInstance& instance : scene.group_instances)
@@ -169,7 +170,7 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   const ImageSettings& image = scene.image;
   const CameraAxes camera = camera_axes(scene.camera);
   const auto line = [](std::string_view name, const std::string& text) {
-    fmt::print("{:<12} {}\n", name, text);
+    print_lines(stdout, "{:<12} {}\n", name, text);
   };
 
   line("image", fmt::format("{}×{} pixels, {} sample{} a pixel, {}", image.width, image.height, image.samples,

@@ -9,6 +9,7 @@
 #include "host/cli/within.hpp"
 #include "host/compare/report.hpp"
 #include "host/core/free_memory.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image_file.hpp"
 
@@ -43,7 +44,8 @@ std::string describe_size(const image::Image& image) {
                      image.channels() == 1 ? "" : "s");
 }
 
-// Of data, unlike colours, any value may be right. What is not finite and the same in both counts as equal.
+// Any value may be right in data, unlike in colours. Values that are not finite count as equal where both are
+// the same.
 void take_as_data(image::Image& a, image::Image& b) {
   if (!a.same_size(b)) return;
   for (size_t i = 0; i < a.sample_count(); ++i) {
@@ -95,7 +97,7 @@ void compare_alpha(const CompareCommand& command, Comparison& result) {
                                           command.max_different));
 }
 
-// As data, or for people in false colour from `low` to `high`, or without these over its own range.
+// Writes data, or false colour for people, from `low` to `high`, or without these over its own range.
 void write_map(const std::string& file, const image::Image& map, std::span<const float> range = {}) {
   const image::ImageFormat format = image::image_format(file);
   if (format == image::ImageFormat::pfm || format == image::ImageFormat::exr)
@@ -152,14 +154,14 @@ ExitCode CompareCommand::run() const {
         throw Error(ExitCode::bad_input, "{} is compared, and {} would overwrite it", file, option);
     }
   }
-  // Of a layer and a file of its own, as --aov writes them, either may be the .exr.
+  // --aov writes a layer of an .exr, or a file for each AOV: either of the two may be the .exr.
   if (!layer.empty() && image::image_format(a) != image::ImageFormat::exr &&
       image::image_format(b) != image::ImageFormat::exr)
     throw Error(ExitCode::bad_input, "--layer {}: neither {} nor {} is an .exr", layer, a, b);
   std::vector<std::string> warnings;
   image::Image image_a = image::read_image(a, layer, warnings),
                image_b = image::read_image(b, layer, warnings);
-  for (const std::string& warning : warnings) fmt::print(stderr, "eyeray: warning: {}\n", warning);
+  for (const std::string& warning : warnings) print_lines(stderr, "eyeray: warning: {}\n", warning);
   if (!layer.empty()) take_as_data(image_a, image_b);
   if (image_a.channels() != image_b.channels())  // grey is equal red, green and blue
     for (image::Image* grey : {&image_a, &image_b}) *grey = image::in_color(std::move(*grey));
@@ -170,12 +172,12 @@ ExitCode CompareCommand::run() const {
   if (json) {
     print_json(json_of(result));
   } else {
-    fmt::print("{} {} {}\n", result.failures.empty() ? "PASSED" : "FAILED", a, b);
-    for (const std::string& failure : result.failures) fmt::print("  {}\n", failure);
+    print_lines(stdout, "{} {} {}\n", result.failures.empty() ? "PASSED" : "FAILED", a, b);
+    for (const std::string& failure : result.failures) print_lines(stdout, "  {}\n", failure);
     if (result.metrics) {
       if (result.different <= max_different)
-        fmt::print("  {} of {} pixels differ by more than {} · max(1, |b|)\n", result.different,
-                   result.pixels, tolerance);
+        print_lines(stdout, "  {} of {} pixels differ by more than {} · max(1, |b|)\n", result.different,
+                    result.pixels, tolerance);
       fmt::print("{}", to_lines(*result.metrics, "  "));
     }
   }

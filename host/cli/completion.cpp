@@ -5,16 +5,12 @@
 #include <algorithm>
 
 #include "host/cli/option_table.hpp"
+#include "host/core/escaped_text.hpp"
 
 namespace eyeray::cli {
 namespace {
 
-std::string shell_quoted(std::string text) {
-  for (size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 4) text.replace(at, 1, "'\\''");
-  return "'" + text + "'";
-}
-
-// What a list of completions shows of a description: its first sentence.
+// The first sentence of a description, for lists of completions.
 std::string brief(const std::string& text) {
   const size_t end = text.find_first_of(".:;(");
   return text.substr(0, text.find_last_not_of(' ', end == std::string::npos ? end : end - 1) + 1);
@@ -29,7 +25,7 @@ std::vector<std::string> names_of(const std::vector<CommandRow>& commands) {
 // "'render -o'|'render --output'": the options as bash's case sees them behind their command.
 std::string pattern(const CommandRow& command, const OptionRow& option) {
   std::vector<std::string> cases;
-  for (const std::string& name : option.names) cases.push_back(shell_quoted(command.words + " " + name));
+  for (const std::string& name : option.names) cases.push_back(shell_word(command.words + " " + name));
   return fmt::format("{}", fmt::join(cases, "|"));
 }
 
@@ -37,8 +33,8 @@ std::string bash_command(const CommandRow& command) {
   std::vector<std::string> words = names_of(command.commands);
   for (const OptionRow& option : command.options)
     if (!option.is_argument) words.insert(words.end(), option.names.begin(), option.names.end());
-  return fmt::format("    {}) words={} ;;\n", shell_quoted(command.words),
-                     shell_quoted(fmt::format("{}", fmt::join(words, " "))));
+  return fmt::format("    {}) words={} ;;\n", shell_word(command.words),
+                     shell_word(fmt::format("{}", fmt::join(words, " "))));
 }
 
 std::string bash_values(const CommandRow& command) {
@@ -46,7 +42,7 @@ std::string bash_values(const CommandRow& command) {
   for (const OptionRow& option : command.options) {
     if (option.value.empty()) continue;
     text += fmt::format("    {}) words={} value=1 ;;\n", pattern(command, option),
-                        shell_quoted(fmt::format("{}", fmt::join(option.choices, " "))));
+                        shell_word(fmt::format("{}", fmt::join(option.choices, " "))));
   }
   return text;
 }
@@ -76,7 +72,7 @@ std::string zsh_options(const CommandRow& command) {
       rest += fmt::format(":value:({})", fmt::join(option.choices, " "));
     else if (!option.value.empty())
       rest += ":value:_files";
-    for (const std::string& name : option.names) text += " \\\n    " + shell_quoted("*" + name + rest);
+    for (const std::string& name : option.names) text += " \\\n    " + shell_word("*" + name + rest);
   }
   return text;
 }
@@ -89,7 +85,7 @@ std::string zsh_command(const CommandRow& command) {
           " \\\n    '1:command:->command' '*::rest:->rest'\n  case $state in\n    command)\n      local -a "
           "commands=(";
   for (const CommandRow& each : command.commands)
-    text += "\n        " + shell_quoted(last_word(each) + ":" + zsh_text(each.text));
+    text += "\n        " + shell_word(last_word(each) + ":" + zsh_text(each.text));
   text += ")\n      _describe command commands ;;\n    rest)\n      case $words[1] in\n";
   for (const CommandRow& each : command.commands)
     text += fmt::format("        {}) {} ;;\n", last_word(each), zsh_function(each));
@@ -117,7 +113,7 @@ std::string bash_completion(const CommandRow& table) {
   std::vector<std::string> commands;
   std::string words, values;
   for (const CommandRow* each : all_commands(table)) {
-    if (!each->words.empty()) commands.push_back(shell_quoted(each->words));
+    if (!each->words.empty()) commands.push_back(shell_word(each->words));
     words += bash_command(*each);
     values += bash_values(*each);
   }
@@ -154,22 +150,22 @@ std::string fish_completion(const CommandRow& table) {
     std::string condition = fish_condition(*command);
     for (const OptionRow& option : command->options) {
       if (option.is_argument) continue;
-      text += "complete -c eyeray -n " + shell_quoted(condition);
+      text += "complete -c eyeray -n " + shell_word(condition);
       for (const std::string& name : option.names)
         text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
       if (!option.choices.empty())
-        text += " -x -a " + shell_quoted(fmt::format("{}", fmt::join(option.choices, " ")));
+        text += " -x -a " + shell_word(fmt::format("{}", fmt::join(option.choices, " ")));
       else if (!option.value.empty())
         text += " -r";
-      text += " -d " + shell_quoted(brief(option.text)) + "\n";
+      text += " -d " + shell_word(brief(option.text)) + "\n";
     }
     // A second word of a command's own, as long as none stands there.
     const std::vector<std::string> names = names_of(command->commands);
     if (!command->words.empty() && !names.empty())
       condition += fmt::format("; and not __fish_seen_subcommand_from {}", fmt::join(names, " "));
     for (const CommandRow& each : command->commands)
-      text += fmt::format("complete -c eyeray -n {} -f -a {} -d {}\n", shell_quoted(condition),
-                          last_word(each), shell_quoted(brief(each.text)));
+      text += fmt::format("complete -c eyeray -n {} -f -a {} -d {}\n", shell_word(condition), last_word(each),
+                          shell_word(brief(each.text)));
   }
   return text;
 }

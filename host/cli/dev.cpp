@@ -7,9 +7,11 @@
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
 #include "host/core/atomic_file.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/github_text.hpp"
 #include "host/core/process.hpp"
 #include "host/core/readable.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/dev/render_server.hpp"
 #include "host/dev/supervisor.hpp"
 #include "host/dev/terminal.hpp"
@@ -65,12 +67,12 @@ void DevCommand::report_picture(const Json& done, const dev::Board& board) {
     if (tev)
       if (const std::string failure = tev->show(fmt::format("{} {}", scene.file(), view), shown);
           !failure.empty())
-        fmt::print(stderr, "eyeray: warning: {}\n", failure);
+        print_lines(stderr, "eyeray: warning: {}\n", failure);
     try {
       for (const std::string& output : outputs) image::write_image(output, image);
     } catch (const Error& error) {  // the next one may find room
       if (once) throw;
-      fmt::print(stderr, "eyeray: error: {}\n", error.what());
+      print_lines(stderr, "eyeray: error: {}\n", error.what());
       return;
     }
   }
@@ -82,16 +84,16 @@ void DevCommand::report_picture(const Json& done, const dev::Board& board) {
     print_json({{"picture", std::move(answer)}});
   }
   const std::string device = done.value("device", "");
-  if (device != device_) fmt::print(stderr, "{}\n", device);
+  if (device != device_) print_lines(stderr, "{}\n", device);
   device_ = device;
   std::vector<std::string> stages;
   const Json times = done.value("stages", Json::object());
   for (const auto& [stage, seconds] : times.items())
     stages.push_back(fmt::format("{} {}", stage, format_seconds(seconds)));
   for (const std::string& doubt : done.value("doubts", std::vector<std::string>{}))
-    fmt::print(stderr, "eyeray: warning: {}\n", doubt);
-  fmt::print(stderr, "rendered {}in {} ({})\n", outputs.empty() ? "" : outputs[0] + " ",
-             format_seconds(done.value("seconds", 0.0)), fmt::join(stages, ", "));
+    print_lines(stderr, "eyeray: warning: {}\n", doubt);
+  print_lines(stderr, "rendered {}in {} ({})\n", outputs.empty() ? "" : outputs[0] + " ",
+              format_seconds(done.value("seconds", 0.0)), fmt::join(stages, ", "));
 }
 
 void DevCommand::report_failure(const Json& failure) const {
@@ -104,15 +106,13 @@ void DevCommand::report_failure(const Json& failure) const {
   }
   const std::string message = failure.value("message", "");
   if (diagnostics == "json") {
-    fmt::print(stderr, "{}\n",
-               Json{{"message", message}, {"diagnostics", diagnostics_found}}.dump(
-                   -1, ' ', false, Json::error_handler_t::replace));
+    fmt::print(stderr, "{}\n", json_text(Json{{"message", message}, {"diagnostics", diagnostics_found}}));
   } else if (diagnostics == "github" && !diagnostics_found.empty()) {
     for (const Json& each : diagnostics_found) fmt::print(stderr, "{}\n", github_annotation(each));
   } else {
-    fmt::print(stderr, "{}{}\n", diagnostics_found.empty() ? "eyeray: error: " : "", message);
+    print_lines(stderr, "{}{}\n", diagnostics_found.empty() ? "eyeray: error: " : "", message);
   }
-  if (!once && !outputs.empty()) fmt::print(stderr, "{} stays as it was\n", outputs[0]);
+  if (!once && !outputs.empty()) print_lines(stderr, "{} stays as it was\n", outputs[0]);
 }
 
 void DevCommand::report(const Json& event, const dev::Board& board) {
@@ -123,17 +123,17 @@ void DevCommand::report(const Json& event, const dev::Board& board) {
   if (what == "listening") {
     const int listens = event.value("port", 0);
     if (listens != event.value("wanted", 0))
-      fmt::print(stderr, "port {} is in use; the page is on port {}\n", event.value("wanted", 0), listens);
-    fmt::print(stderr, "look at {}\nfrom another machine, first: ssh -L {}:127.0.0.1:{} THIS-MACHINE\n",
-               event.value("address", ""), listens, listens);
+      print_lines(stderr, "port {} is in use; the page is on port {}\n", event.value("wanted", 0), listens);
+    print_lines(stderr, "look at {}\nfrom another machine, first: ssh -L {}:127.0.0.1:{} THIS-MACHINE\n",
+                event.value("address", ""), listens, listens);
   }
   if (what == "changed")
-    fmt::print(stderr, "\n{} changed\n", fmt::join(event.value("files", std::vector<std::string>{}), ", "));
+    print_lines(stderr, "\n{} changed\n", fmt::join(event.value("files", std::vector<std::string>{}), ", "));
   if (what == "done") report_picture(event, board);
   if (what == "failed") report_failure(event);
   if ((what == "done" || what == "failed") && !once && !watching_) {
     watching_ = true;
-    fmt::print(stderr, "watching for changes; Ctrl-C ends\n");
+    print_lines(stderr, "watching for changes; Ctrl-C ends\n");
   }
   std::fflush(stdout);
 }

@@ -5,6 +5,7 @@
 
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/gpu/device.hpp"
 
 namespace eyeray::cli {
@@ -34,13 +35,14 @@ std::string format_bytes(uint64_t bytes) {
 
 void print_text(const gpu::DeviceInfo& device) {
   const gpu::DeviceLimits& limits = device.limits;
-  fmt::print("{}  {} ({})\n", device.index, device.name, type_name(device.type));
-  fmt::print("   driver     {} {}, Vulkan {}\n", device.driver, device.driver_version, device.api_version);
-  fmt::print("   memory     {}, {} a buffer\n", format_bytes(limits.heap),
-             format_bytes(limits.storage_range));
-  fmt::print("   groups     {} invocations, subgroups of {}, {} shared\n", limits.group_invocations,
-             limits.subgroup_size, format_bytes(limits.shared_memory));
-  if (!device.usable) fmt::print("   unusable   {}\n", device.why_not);
+  print_lines(stdout, "{}  {} ({})\n", device.index, device.name, type_name(device.type));
+  print_lines(stdout, "   driver     {} {}, Vulkan {}\n", device.driver, device.driver_version,
+              device.api_version);
+  print_lines(stdout, "   memory     {}, {} a buffer\n", format_bytes(limits.heap),
+              format_bytes(limits.storage_range));
+  print_lines(stdout, "   groups     {} invocations, subgroups of {}, {} shared\n", limits.group_invocations,
+              limits.subgroup_size, format_bytes(limits.shared_memory));
+  if (!device.usable) print_lines(stdout, "   unusable   {}\n", device.why_not);
 }
 
 Json as_json(const gpu::DeviceInfo& device) {

@@ -11,6 +11,7 @@
 
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/process.hpp"
 
 namespace fs = std::filesystem;
@@ -28,7 +29,7 @@ std::optional<int> as_number(std::string_view text) {
   return number;
 }
 
-// Of %d or %0Nd.
+// A place for a number in a name: %d or %0Nd.
 struct Place {
   size_t begin;
   size_t end;
@@ -46,14 +47,6 @@ std::optional<Place> place_of_number(std::string_view pattern) {
   const auto digits = as_number(inner);
   if (inner[0] != '0' || !digits || *digits < 1 || *digits > 9) return std::nullopt;
   return Place{begin, end + 1, *digits};
-}
-
-// In a list of ffmpeg's, within single quotes.
-std::string quoted(const fs::path& file) {
-  std::string text = "'";
-  for (const char c : fs::absolute(file).string())
-    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
 }
 
 }  // namespace
@@ -102,7 +95,7 @@ void check_video(const std::string& output) {
   try {
     if (run_process({"ffmpeg", "-version"}).code == 0) return;
   } catch (const Error&) {
-    // As where it fails.
+    // A program that is not there is handled like one that fails.
   }
   throw Error(ExitCode::file_io,
               "--video is made by ffmpeg, which is not there: install it (Debian: ffmpeg)");
@@ -110,12 +103,13 @@ void check_video(const std::string& output) {
 
 void make_video(const std::vector<fs::path>& pictures, double frames_per_second, const std::string& output) {
   const fs::path list = fmt::format("{}.list.{}", output, getpid());
-  // ffmpeg tells what to write by the ending.
+  // ffmpeg chooses the format by the ending.
   const fs::path part = fs::path(output).replace_extension(
       fmt::format(".part.{}{}", getpid(), fs::path(output).extension().string()));
   std::string text = "ffconcat version 1.0\n";
   for (const fs::path& picture : pictures)
-    text += fmt::format("file {}\nduration {}\n", quoted(picture), 1 / frames_per_second);
+    text += fmt::format("file {}\nduration {}\n", shell_word(fs::absolute(picture).string()),
+                        1 / frames_per_second);
   write_file_atomically(list, text);
   const ProcessResult result =
       run_process({"ffmpeg", "-hide_banner", "-loglevel", "error", "-y", "-f", "concat", "-safe", "0", "-i",

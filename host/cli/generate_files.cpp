@@ -7,7 +7,10 @@
 
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
+#include "host/core/diagnostic.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/readable.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/generate/ply_file.hpp"
 
@@ -31,11 +34,6 @@ void check_target(const fs::path& path, bool force) {
   check_writable(path);
 }
 
-// A string as TOML writes it.
-std::string quoted(const std::string& text) {
-  return Json(text).dump();
-}
-
 struct Mesh {
   uint64_t vertices = 0;
   uint64_t triangles = 0;
@@ -57,8 +55,8 @@ void report(const GenerateOutput& output, const Generated& made, const Mesh& mes
   for (const auto& [what, number] : counts)
     parts.push_back(fmt::format("{} {}", number, number == 1 ? what.substr(0, what.size() - 1) : what));
   const std::string files = output.scene.string() + (made.mesh ? " and " + output.mesh().string() : "");
-  fmt::print(stderr, "wrote {}: {}, {:.1f} MB, in {}\n", files, fmt::join(parts, ", "), double(bytes) / 1e6,
-             format_seconds(seconds));
+  print_lines(stderr, "wrote {}: {}, {:.1f} MB, in {}\n", files, fmt::join(parts, ", "), double(bytes) / 1e6,
+              format_seconds(seconds));
   if (!output.json) return;
 
   Json json{{"scene", output.scene.string()}};
@@ -80,6 +78,11 @@ void write_generated(const GenerateOutput& output, bool with_mesh, const std::fu
   const Stopwatch watch;
   if (output.scene.extension() != ".toml")
     throw Error(ExitCode::bad_input, "{}: a scene's name must end in .toml", output.scene.string());
+  if (const std::string mesh = output.mesh().filename().string(); with_mesh && printable(mesh) != mesh)
+    throw Error(
+        ExitCode::bad_input,
+        "{}: the scene names its mesh after itself: choose a name in UTF-8, without control characters",
+        output.scene.string());
   check_target(output.scene, output.force);
   if (with_mesh) check_target(output.mesh(), output.force);
 
@@ -88,8 +91,8 @@ void write_generated(const GenerateOutput& output, bool with_mesh, const std::fu
   std::string scene = fmt::format("# {}: {}\n", made_by, made.recipe) + made.scene;
   if (with_mesh) {
     mesh = write_mesh(output.mesh(), made);
-    scene +=
-        fmt::format("\n[[mesh]]\nfile = {}\n{}", quoted(output.mesh().filename().string()), made.mesh_keys);
+    scene += fmt::format("\n[[mesh]]\nfile = {}\n{}", toml_string(output.mesh().filename().string()),
+                         made.mesh_keys);
   }
   write_file_atomically(output.scene, scene);
   report(output, made, mesh, mesh.bytes + scene.size(), watch.seconds());

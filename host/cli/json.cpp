@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/core/escaped_text.hpp"
 #include "host/core/termination.hpp"
 
 namespace eyeray::cli {
@@ -32,8 +33,7 @@ Json to_json(const StageTimes& times) {
 }
 
 void print_json(const Json& json) {
-  // File names may hold any bytes; JSON may not.
-  fmt::print("{}\n", json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  fmt::print("{}\n", json_text(json));
 }
 
 }  // namespace eyeray::cli

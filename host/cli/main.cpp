@@ -20,7 +20,6 @@
 #include "host/cli/json.hpp"
 #include "host/core/diagnostic.hpp"
 #include "host/core/disk_cache.hpp"
-#include "host/core/github_text.hpp"
 #include "host/core/memory_shortage.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/core/termination.hpp"
@@ -120,15 +119,9 @@ void report(const Error& error, bool json) {
   if (json) print_json({{"error", to_json(error)}});
   if (const auto* input = dynamic_cast<const InputError*>(&error)) {
     const size_t count = input->diagnostics().size();
-    fmt::print(stderr, "{}\n{} error{}\n", input->what(), count, count == 1 ? "" : "s");
+    print_lines(stderr, "{}\n{} error{}\n", input->what(), count, count == 1 ? "" : "s");
   } else {
-    // A name in it may hold a line break: each line is a line of a log.
-    std::string_view rest = error.what();
-    fmt::print(stderr, "eyeray: error: {}\n", log_line(rest.substr(0, rest.find('\n'))));
-    for (size_t end; (end = rest.find('\n')) != std::string_view::npos;) {
-      rest.remove_prefix(end + 1);
-      fmt::print(stderr, "{}\n", log_line(rest.substr(0, rest.find('\n'))));
-    }
+    print_lines(stderr, "eyeray: error: {}\n", error.what());
   }
 }
 

@@ -7,6 +7,8 @@
 #include "host/cli/picture_files.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/build_id.hpp"
+#include "host/core/escaped_text.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/core/termination.hpp"
 #include "host/image/image_file.hpp"
 #include "host/render/flags.hpp"
@@ -117,15 +119,15 @@ ExitCode MergeCommand::report_faults(const shards::PartSet& set) const {
     return faults.damaged.empty() ? ExitCode::bad_input : ExitCode::file_io;
   }
   if (!quiet && !json)
-    fmt::print("{} parts are all of {}, {}×{}, and sound\n", set.parts().size(), set.header()->scene,
-               set.header()->area.width, set.header()->area.height);
+    print_lines(stdout, "{} parts are all of {}, {}×{}, and sound\n", set.parts().size(), set.header()->scene,
+                set.header()->area.width, set.header()->area.height);
   return ExitCode::ok;
 }
 
 ExitCode MergeCommand::merge_reports() const {
   if (outputs.size() > 1) throw Error(ExitCode::bad_input, "reports are merged into one file");
   const Json merged = merged_report(parts);
-  const std::string text = merged.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = json_text(merged) + "\n";
   if (outputs.empty())
     fmt::print("{}", text);
   else
@@ -141,13 +143,13 @@ ExitCode MergeCommand::run() {
   const shards::PartHeader& header = *set.header();
   check_outputs(header);
   if (header.build != build_id())
-    fmt::print(stderr, "eyeray: warning: the parts were rendered by another build of eyeray than this\n");
+    print_lines(stderr, "eyeray: warning: the parts were rendered by another build of eyeray than this\n");
   const Picture picture = merge(set);
   const uint64_t flagged = std::max(picture.flagged_pixels, picture.flagged_hits);
   for (const std::string& warning :
        {render::flag_warning(picture.flags, flagged), clamp_warning(picture), firefly_warning(picture)})
-    if (!warning.empty()) fmt::print(stderr, "eyeray: warning: {}\n", warning);
-  if (!quiet) fmt::print(stderr, "{}\n", summary(picture));
+    if (!warning.empty()) print_lines(stderr, "eyeray: warning: {}\n", warning);
+  if (!quiet) print_lines(stderr, "{}\n", summary(picture));
   if (json) print_json(to_json(picture));
   return ExitCode::ok;
 }

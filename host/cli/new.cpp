@@ -8,7 +8,9 @@
 #include "host/cli/json.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/embedded_file.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/make_folder.hpp"
+#include "host/core/standard_streams.hpp"
 
 namespace fs = std::filesystem;
 
@@ -49,8 +51,8 @@ void NewCommand::write() const {
 ExitCode NewCommand::run() const {
   write();
   const std::string scene = (fs::path(folder) / "scene.toml").string();
-  fmt::print(stderr, "{} files written to {}; look at them with\n  eyeray dev {}\n", project_files().size(),
-             folder, scene);
+  print_lines(stderr, "{} files written to {}; look at them with\n  eyeray dev {}\n", project_files().size(),
+              folder, shell_word(scene));
   if (json) {
     Json names = Json::array();
     for (const EmbeddedFile& file : project_files()) names.push_back(file.name);

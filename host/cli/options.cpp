@@ -6,7 +6,9 @@
 
 #include "host/cli/command.hpp"
 #include "host/core/embedded_shaders.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/process.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/executors/cpp_compiler.hpp"
 #include "host/executors/formula_check.hpp"
 #include "host/loader/scene_file.hpp"
@@ -41,8 +43,8 @@ void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
       if (std::filesystem::path(shader.name).filename() == place.filename()) namesake = &shader;
     }
     if (namesake)
-      fmt::print(stderr, "eyeray: warning: {} takes no shader's place; did you mean {}?\n",
-                 entry.path().string(), (folder / namesake->name).string());
+      print_lines(stderr, "eyeray: warning: {} takes no shader's place; did you mean {}?\n",
+                  entry.path().string(), (folder / namesake->name).string());
   }
 }
 
@@ -121,9 +123,9 @@ void SceneOptions::add_to(CLI::App& command) {
 
 std::string SceneOptions::as_written() const {
   std::string text;
-  for (const std::string& define : defines_) text += fmt::format(" -D '{}'", define);
+  for (const std::string& define : defines_) text += " -D " + shell_word(define);
   const auto add = [&](const char* name, const std::string& value) {
-    if (!value.empty()) text += fmt::format(" {} {}", name, value);
+    if (!value.empty()) text += fmt::format(" {} {}", name, shell_word(value));
   };
   add("-s", size_);
   add("--spp", samples_);
@@ -157,7 +159,7 @@ Scene SceneOptions::load() const {
   executors::check_formulas(scene);
   for (Diagnostic& doubt : executors::doubt_lipschitz_constants(scene))
     scene.warnings.push_back(std::move(doubt));
-  for (const Diagnostic& warning : scene.warnings) fmt::print(stderr, "{}\n", format_diagnostic(warning));
+  for (const Diagnostic& warning : scene.warnings) print_lines(stderr, "{}\n", format_diagnostic(warning));
   return scene;
 }
 
@@ -183,7 +185,7 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
       ->check([](const std::string& folder) {
         if (!std::filesystem::is_directory(folder))
           throw Error(ExitCode::file_io, "--shaders {}: no such folder; eyeray shaders --export {} makes one",
-                      folder, folder);
+                      folder, shell_word(folder));
         warn_of_misplaced_shaders(folder);
         return std::string();
       });

@@ -4,6 +4,7 @@
 
 #include "host/cli/identity.hpp"
 #include "host/cli/picture_files.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/render/corners.hpp"
 #include "host/render/shutter.hpp"
 #include "host/scene/integrator.hpp"
@@ -21,7 +22,7 @@ void make_classic(Scene& scene) {
   scene.render.min_throughput = 0;
 }
 
-// What `noise` needs of a scene: that samples may end anywhere. Without --spp the scene's samples, which are
+// `noise` needs a scene whose samples may end anywhere. Without --spp the scene's samples, which are
 // chosen for pictures that all have the same, are no limit.
 void prepare_for_noise(const PictureRequest& request, Scene& scene) {
   if (sample_count_of(scene.image.pattern) != SampleCount::any)
@@ -32,7 +33,7 @@ void prepare_for_noise(const PictureRequest& request, Scene& scene) {
   if (!request.scene.gives_samples()) scene.image.samples = most_samples_by_default;
 }
 
-// What a denoiser asks for is of paths alone: an error, or where all AOVs are wanted left out.
+// Only paths have the AOVs for a denoiser: others get an error, or lose these AOVs where all are wanted.
 void check_auxiliary(std::vector<aov::Aov>& aovs, const Scene& scene) {
   if (walks_at_random(scene.render.integrator) || !aov::any_needs(aovs, aov::AovNeeds::auxiliary)) return;
   if (aovs.size() != aov::aov_types().size())
@@ -104,7 +105,7 @@ std::unique_ptr<PreparedPicture> prepare(PictureRequest& request, StageTimes& ti
   options.progress = [&checkpoint, progress, warned = false](const render::Progress& now) mutable {
     if (progress) progress(now);
     if (!warned && checkpoint && !checkpoint->failure().empty()) {
-      fmt::print(stderr, "eyeray: warning: no more checkpoints are written: {}\n", checkpoint->failure());
+      print_lines(stderr, "eyeray: warning: no more checkpoints are written: {}\n", checkpoint->failure());
       warned = true;
     }
   };

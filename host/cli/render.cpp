@@ -8,7 +8,9 @@
 #include "host/cli/picture.hpp"
 #include "host/cli/picture_files.hpp"
 #include "host/cli/within.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/readable.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/render/flags.hpp"
 #include "host/shards/part.hpp"
 
@@ -33,13 +35,13 @@ struct RenderCommand {
 
 void print_stages(const Picture& picture) {
   for (const auto& [stage, seconds] : picture.times.stages())
-    fmt::print(stderr, "  {:<16} {:>10}\n", stage, format_seconds(seconds));
-  fmt::print(stderr, "  {:<16} {:>10}\n", "all in all", format_seconds(picture.seconds));
+    print_lines(stderr, "  {:<16} {:>10}\n", stage, format_seconds(seconds));
+  print_lines(stderr, "  {:<16} {:>10}\n", "all in all", format_seconds(picture.seconds));
 }
 
 void print_rays(const RayCounts& kinds, double seconds) {
   const auto line = [](std::string_view kind, uint64_t rays, const std::string& more = "") {
-    fmt::print(stderr, "  {:<16} {:>10}{}\n", kind, rays, more);
+    print_lines(stderr, "  {:<16} {:>10}{}\n", kind, rays, more);
   };
   line("eye rays", kinds.eye, fmt::format(", {} of them hit", kinds.eye_hits));
   line("reflected rays", kinds.reflected);
@@ -52,7 +54,7 @@ void print_rays(const RayCounts& kinds, double seconds) {
   line("rays", kinds.total(), fmt::format(", {}", format_rate(double(kinds.total()) / seconds)));
 }
 
-// Of a picture that was interrupted.
+// A sentence on a picture that was interrupted.
 std::string what_was_kept(const Picture& picture, bool aovs) {
   const std::string file = picture.checkpoint.string();
   std::string text;
@@ -73,7 +75,7 @@ std::string what_was_kept(const Picture& picture, bool aovs) {
   }
   if (file.empty()) return text;
   return fmt::format("{}; {} has {:.1f} % of the work: to go on, give the same options and --resume {}", text,
-                     file, 100 * picture.share, file);
+                     file, 100 * picture.share, shell_word(file));
 }
 
 void add_frame_options(CLI::App& command, RenderCommand& options) {
@@ -122,20 +124,20 @@ ExitCode RenderCommand::run_picture(PictureRequest wanted, Json& said) {
 
   const uint64_t flagged = std::max(picture.flagged_pixels, picture.flagged_hits);
   if (const std::string warning = render::flag_warning(picture.flags, flagged); !warning.empty())
-    fmt::print(stderr, "eyeray: warning: {}\n", warning);
+    print_lines(stderr, "eyeray: warning: {}\n", warning);
   if (picture.interrupted && picture.files.empty())
     throw Error(ExitCode::interrupted, "{}", what_was_kept(picture, false));
   if (const std::string warning = noise_warning(picture); !warning.empty())
-    fmt::print(stderr, "eyeray: warning: {}\n", warning);
+    print_lines(stderr, "eyeray: warning: {}\n", warning);
   // A part's are its picture's to say.
   for (const std::string& warning : {clamp_warning(picture), firefly_warning(picture), picture.illegible})
-    if (!warning.empty() && !share) fmt::print(stderr, "eyeray: warning: {}\n", warning);
-  if (!quiet) fmt::print(stderr, "{}\n", summary(picture));
+    if (!warning.empty() && !share) print_lines(stderr, "eyeray: warning: {}\n", warning);
+  if (!quiet) print_lines(stderr, "{}\n", summary(picture));
   if (stats) print_stages(picture);
   if (picture.ray_kinds) print_rays(*picture.ray_kinds, picture.sampling_seconds);
   said = to_json(picture);
   if (!picture.interrupted) return ExitCode::ok;
-  fmt::print(stderr, "eyeray: {}\n", what_was_kept(picture, aovs));
+  print_lines(stderr, "eyeray: {}\n", what_was_kept(picture, aovs));
   return ExitCode::interrupted;
 }
 
@@ -196,8 +198,8 @@ ExitCode RenderCommand::run_frames() {
     return code;
   }
   if (kept > 0 && !quiet)
-    fmt::print(stderr, "{} of {} frames were there and are kept; --overwrite renders them anew\n", kept,
-               wanted.size());
+    print_lines(stderr, "{} of {} frames were there and are kept; --overwrite renders them anew\n", kept,
+                wanted.size());
   if (!video.empty()) make_video(pictures, animation.frames_per_second, video);
   said["kept"] = kept;
   if (json) print_json(said);

@@ -10,7 +10,9 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/diagnostic.hpp"
 #include "host/core/embedded_shaders.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/make_folder.hpp"
+#include "host/core/standard_streams.hpp"
 
 namespace fs = std::filesystem;
 
@@ -75,7 +77,8 @@ void ShadersCommand::write() const {
     write_file_atomically(path, shader.text);
     ++written;
   }
-  fmt::print(stderr, "{} shaders written to {}; render with --shaders {}\n", written, folder, folder);
+  print_lines(stderr, "{} shaders written to {}; render with --shaders {}\n", written, folder,
+              shell_word(folder));
   if (json) print_json({{"folder", folder}, {"files", written}});
 }
 

@@ -12,6 +12,7 @@
 #include "host/cli/within.hpp"
 #include "host/core/build_id.hpp"
 #include "host/core/content_hash.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/core/termination.hpp"
 #include "host/slurm/array_render.hpp"
 
@@ -74,7 +75,7 @@ void SlurmCommand::check_options() const {
   if (!video.empty()) check_video_name(video);
 }
 
-// What the array makes: pictures that a merge writes, or frames, each by a share of them.
+// Adds the products of the array: pictures that a merge writes, or frames, each by a share of them.
 void SlurmCommand::add_outputs(slurm::ArrayRequest& array) const {
   const fs::path name = fs::path(array.scene).filename();
   std::vector<std::string> outputs = request.outputs;
@@ -98,7 +99,7 @@ void SlurmCommand::add_outputs(slurm::ArrayRequest& array) const {
 
 slurm::ArrayRequest SlurmCommand::array_of(const std::string& scene) const {
   const SceneOptions options = request.scene.for_file(scene);
-  // What is wrong with a scene is to be said now, not by the nodes.
+  // Faults of a scene are errors now, not on the nodes.
   const Scene loaded = options.load();
   check_crop(request.crop, loaded.image);
 
@@ -139,7 +140,7 @@ void SlurmCommand::watch(std::vector<slurm::ArrayRender>& renders) const {
       const slurm::ArrayProgress progress = renders[i].look();
       done[i] = progress.done;
       const std::string text = text_of(renders[i], progress);
-      if (!quiet && text != said[i]) fmt::print(stderr, "{}\n", text);
+      if (!quiet && text != said[i]) print_lines(stderr, "{}\n", text);
       said[i] = text;
     }
     if (submit_only || std::ranges::all_of(done, std::identity())) return;

@@ -13,7 +13,9 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/build_id.hpp"
 #include "host/core/content_hash.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/make_folder.hpp"
+#include "host/core/standard_streams.hpp"
 #include "host/loader/scene_edit.hpp"
 #include "host/loader/suite.hpp"
 #include "host/shards/part.hpp"
@@ -120,14 +122,14 @@ std::string VerifyCommand::report_in_json(std::span<const compare::Report> repor
   // A share of no scenes has none that fails.
   if (reports.empty()) report["passed"] = true;
   report["shard"] = shard_of_report(*shard, suite_size, suite);
-  return report.dump() + "\n";
+  return json_text(report) + "\n";
 }
 
 compare::Report VerifyCommand::report_on(const SceneOptions& scene_file) const {
   const Scene scene = scene_file.load();
   check_crop(options.crop, scene.image);
   const fs::path& folder = options.executor.shader_folder;
-  std::string shaders = folder.empty() ? "" : fmt::format(" --shaders '{}'", folder.string());
+  std::string shaders = folder.empty() ? "" : " --shaders " + shell_word(folder.string());
   if (options.executor.compile_twin) shaders += " --compile-twin";
   return verify::verify_scene({scene, scene_file.file(), scene_file.as_written() + shaders,
                                folder_for(scene_file.file()), keep_passed, golden_of(scene_file.file())},
@@ -154,10 +156,10 @@ void VerifyCommand::record_allowance(const compare::Report& report) const {
   if (!allowance) return;
   const std::string share = *allowance > 0 ? fmt::format("{:.5f}", *allowance) : "0";
   loader::set_value(report.scene, "verify", "max_explained", share);
-  fmt::print(stderr, "eyeray: recorded max_explained = {} in {}\n", share, report.scene);
+  print_lines(stderr, "eyeray: recorded max_explained = {} in {}\n", share, report.scene);
 }
 
-// What was found, beside standard output's text or JSON.
+// Writes the findings to files, beside standard output's text or JSON.
 void VerifyCommand::write_reports(std::span<const compare::Report> reports) const {
   if (!junit.empty()) write_file_atomically(junit, to_junit(reports));
   if (!page_folder.empty()) {
@@ -174,7 +176,7 @@ void VerifyCommand::write_reports(std::span<const compare::Report> reports) cons
   }
 }
 
-// What CLI11 cannot tell.
+// Checks that CLI11 cannot make.
 void VerifyCommand::check_options() const {
   if (update != verify::Update::never && against.empty())
     throw Error(ExitCode::bad_input, "--update needs --against: which picture is to be updated?");
@@ -223,14 +225,14 @@ ExitCode VerifyCommand::run() {
     const compare::Report& report = reports.back();
     if (record) record_allowance(report);
     if (json) continue;
-    if (files.size() > 1) fmt::print("{}", to_row(report, width));
-    if (files.size() == 1 || !report.passes()) fmt::print("{}", to_text(report));
+    if (files.size() > 1) print_lines(stdout, "{}", to_row(report, width));
+    if (files.size() == 1 || !report.passes()) print_lines(stdout, "{}", to_text(report));
     std::fflush(stdout);
   }
   if (json)
     fmt::print("{}", report_in_json(reports));
   else if (reports.size() > 1)
-    fmt::print("{}", summary(reports));
+    print_lines(stdout, "{}", summary(reports));
   write_reports(reports);
   return std::ranges::all_of(reports, &compare::Report::passes) ? ExitCode::ok : ExitCode::comparison_failed;
 }

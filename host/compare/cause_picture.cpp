@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/core/error.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/image/srgb.hpp"
 
 namespace eyeray::compare {
@@ -25,7 +26,7 @@ constexpr std::pair<Cause, uint32_t> colors[] = {
 };
 static_assert(std::size(colors) == cause_count);
 
-// Of a pixel that does not match.
+// The class of a pixel that does not match.
 std::optional<Class> class_of(const PixelOutcome& pixel) {
   if (pixel.outcome == Outcome::unexamined) return Class{"unexamined", 0x800000};
   if (pixel.outcome == Outcome::unexplained) return Class{"unexplained", 0xff0000};
@@ -61,7 +62,7 @@ std::string cause_legend(const std::vector<PixelOutcome>& outcomes) {
     if (entry.is_null()) entry = {{"color", fmt::format("#{:06x}", found->color)}, {"pixels", 0}};
     entry["pixels"] = entry["pixels"].get<int64_t>() + 1;
   }
-  return legend.dump(2) + "\n";
+  return json_text(legend, 2) + "\n";
 }
 
 }  // namespace eyeray::compare

@@ -1,4 +1,5 @@
 #include "host/compare/report.hpp"
+#include "host/core/escaped_text.hpp"
 
 #include <fmt/ranges.h>
 
@@ -194,13 +195,13 @@ std::string Report::command_to_look() const {
   if (!pixel) return "";
   const int w = std::min(9, width), h = std::min(9, height);
   const int x = std::clamp(pixel->x - w / 2, 0, width - w), y = std::clamp(pixel->y - h / 2, 0, height - h);
-  return fmt::format("eyeray verify {}{}{} --crop {},{},{},{}", scene, options,
+  return fmt::format("eyeray verify {}{}{} --crop {},{},{},{}", shell_word(scene), options,
                      raster.empty() ? "" : " --raster", x, y, w, h);
 }
 
 std::string Report::command_to_probe() const {
   const std::optional<Pixel> pixel = pixel_to_look_at();
-  return pixel ? fmt::format("eyeray probe {} {},{}{}", scene, pixel->x, pixel->y, options) : "";
+  return pixel ? fmt::format("eyeray probe {} {},{}{}", shell_word(scene), pixel->x, pixel->y, options) : "";
 }
 
 std::string_view Report::verdict() const {

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/compare/report.hpp"
+#include "host/core/escaped_text.hpp"
 
 namespace eyeray::compare {
 
@@ -227,9 +228,7 @@ std::string to_json(std::span<const Report> reports) {
     passed = passed && report.passes();
     scenes.push_back(json(report));
   }
-  // File names may hold any bytes; JSON may not.
-  return Json{{"passed", passed}, {"scenes", scenes}}.dump(-1, ' ', false, Json::error_handler_t::replace) +
-         "\n";
+  return json_text(Json{{"passed", passed}, {"scenes", scenes}}) + "\n";
 }
 
 }  // namespace eyeray::compare

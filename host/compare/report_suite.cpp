@@ -1,11 +1,10 @@
-// What is said of several scenes: a table, JUnit's XML, GitHub's annotations.
+// Reports on several scenes: a table, JUnit's XML, GitHub's annotations.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "host/compare/report.hpp"
-#include "host/core/diagnostic.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/github_text.hpp"
 
 namespace eyeray::compare {
@@ -23,34 +22,6 @@ int64_t count(std::span<const Report> reports, std::string_view verdict) {
   return std::ranges::count(reports, verdict, &Report::verdict);
 }
 
-// Of any bytes, what XML can hold.
-std::string xml(std::string_view text) {
-  std::string escaped;
-  std::istringstream lines{std::string(text)};
-  for (std::string line; std::getline(lines, line);) {
-    if (!escaped.empty()) escaped += '\n';
-    for (const char c : printable(line)) {
-      switch (c) {
-        case '&':
-          escaped += "&amp;";
-          break;
-        case '<':
-          escaped += "&lt;";
-          break;
-        case '>':
-          escaped += "&gt;";
-          break;
-        case '"':
-          escaped += "&quot;";
-          break;
-        default:
-          escaped += c;
-      }
-    }
-  }
-  return escaped;
-}
-
 int64_t explained(const Tally& tally) {
   return tally.explained_pixels();
 }
@@ -58,7 +29,7 @@ int64_t unexplained(const Tally& tally) {
   return tally.unexplained + tally.unexamined;
 }
 
-// Of a report, in a cell of a table: the first thing that fails.
+// The first failure of a report, for a cell of a table.
 std::string first_failure(const Report& report) {
   const std::vector<std::string> failures = report.failures();
   const std::string text = failures.empty() ? report.not_verified : failures.front();
@@ -124,16 +95,16 @@ std::string to_junit(std::span<const Report> reports) {
       "<testsuite name=\"eyeray verify\" {0}>\n",
       totals);
   for (const Report& report : reports) {
-    const std::string name = xml(report.scene);
+    const std::string name = xml_text(report.scene);
     text += fmt::format(R"(<testcase classname="eyeray.verify" name="{0}" file="{0}" time="{1:.3f}">)", name,
                         report.seconds);
     if (report.verdict() == "failed")
-      text += fmt::format("\n<failure message=\"{}\">{}</failure>", xml(first_failure(report)),
-                          xml(to_text(report)));
+      text += fmt::format("\n<failure message=\"{}\">{}</failure>", xml_text(first_failure(report)),
+                          xml_text(to_text(report)));
     else if (report.verdict() == "skipped")
-      text += fmt::format("\n<skipped message=\"{}\"/>", xml(first_failure(report)));
+      text += fmt::format("\n<skipped message=\"{}\"/>", xml_text(first_failure(report)));
     else
-      text += fmt::format("\n<system-out>{}</system-out>", xml(to_text(report)));
+      text += fmt::format("\n<system-out>{}</system-out>", xml_text(to_text(report)));
     text += "\n</testcase>\n";
   }
   return text + "</testsuite>\n</testsuites>\n";

@@ -7,6 +7,9 @@
 #include <csignal>
 #include <cstdio>
 #include <initializer_list>
+#include <string>
+
+#include "host/core/github_text.hpp"
 
 namespace eyeray {
 namespace {
@@ -55,6 +58,11 @@ void make_standard_streams_safe() {
   for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
   replace(stderr, write_words, _IONBF);
   replace(stdout, write_data, ::isatty(STDOUT_FILENO) ? _IOLBF : _IOFBF);
+}
+
+void print_text(std::FILE* stream, std::string_view text) {
+  const std::string lines = log_lines(text);
+  std::fwrite(lines.data(), 1, lines.size(), stream);
 }
 
 }  // namespace eyeray

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "host/core/escaped_text.hpp"
 #include "host/image/image_file.hpp"
 
 namespace eyeray::dev {
@@ -97,7 +98,7 @@ std::optional<std::string> Board::next_status(uint64_t& seen, double seconds) co
                     [&] { return closed_ || version_ != seen; });
   if (closed_ || version_ == seen) return std::nullopt;
   seen = version_;
-  return status_.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(status_);
 }
 
 void Board::close() {

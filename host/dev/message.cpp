@@ -11,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "host/core/escaped_text.hpp"
 #include "host/core/json_depth.hpp"
 #include "host/core/stopwatch.hpp"
 
@@ -53,7 +54,7 @@ void MessageSocket::close() {
 }
 
 bool MessageSocket::send(const Message& message) {
-  const std::string text = message.json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = json_text(message.json);
   const Sizes sizes{uint32_t(text.size()), uint32_t(message.bytes.size())};
   return !closed() && send_all(descriptor_, reinterpret_cast<const char*>(sizes.data()), sizeof sizes) &&
          send_all(descriptor_, text.data(), text.size()) &&

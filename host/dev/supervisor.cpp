@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "host/aov/aov.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/readable.hpp"
 #include "host/core/termination.hpp"
 
@@ -315,7 +316,7 @@ void Supervisor::obey(const Json& command) {
       if (value.is_null())
         defines_.erase(key);
       else
-        defines_[key] = value.is_string() ? value.get<std::string>() : value.dump();
+        defines_[key] = value.is_string() ? value.get<std::string>() : json_text(value);
     }
     begin_revision();
   }

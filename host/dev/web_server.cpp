@@ -12,6 +12,7 @@
 
 #include "host/core/embedded_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/json_depth.hpp"
 #include "host/image/image_file.hpp"
 
@@ -38,7 +39,7 @@ Answer refusal(int status, const std::string& why) {
   return {status, "text/plain; charset=utf-8", why + "\n"};
 }
 
-// As HTTP says it.
+// The type of a file for HTTP.
 const char* content_type(std::string_view file) {
   return file.ends_with(".html")  ? "text/html; charset=utf-8"
          : file.ends_with(".css") ? "text/css; charset=utf-8"
@@ -101,7 +102,7 @@ Answer values(const Board& board, Request& request) {
       rows.push_back(std::move(pixel));
     }
   }
-  return {200, "application/json", rows.dump()};
+  return {200, "application/json", json_text(rows)};
 }
 
 }  // namespace
@@ -160,8 +161,7 @@ Answer WebServer::Site::answer(Request& request) const {
   if (name == "events") return {200, "text/event-stream", "", true};
   if (name == "frame") return picture(board, request);
   if (name == "values") return values(board, request);
-  if (name == "probe")
-    return {200, "application/json", board.probe().dump(-1, ' ', false, Json::error_handler_t::replace)};
+  if (name == "probe") return {200, "application/json", json_text(board.probe())};
   for (const EmbeddedFile& file : page_files())
     if (name == (file.name == "index.html" ? "" : file.name))
       return {200, content_type(file.name), std::string(file.text)};

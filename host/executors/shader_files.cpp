@@ -9,6 +9,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/input_file.hpp"
 #include "host/core/option_text.hpp"
 
@@ -67,7 +68,7 @@ ShaderFiles::ShaderFiles(std::filesystem::path folder, std::string scene_glsl)
     : folder_(std::move(folder)), scene_glsl_(std::move(scene_glsl)) {
   if (!folder_.empty() && !std::filesystem::is_directory(folder_))
     throw Error(ExitCode::file_io, "{}: not a folder; `eyeray shaders --export {}` makes one",
-                option_text("shaders", folder_.string()), folder_.string());
+                option_text("shaders", folder_.string()), shell_word(folder_.string()));
   if (!folder_.empty())
     for (const std::string_view shared : shared_files) check_records(folder_, shared);
 }

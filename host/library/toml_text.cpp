@@ -7,24 +7,11 @@
 #include <cmath>
 #include <vector>
 
+#include "host/core/escaped_text.hpp"
 #include "host/library/toml_text.hpp"
 
 namespace eyeray::library {
 namespace {
-
-std::string quoted(std::string_view text) {
-  std::string toml = "\"";
-  for (const char each : text) {
-    const auto code = static_cast<unsigned char>(each);
-    if (each == '"' || each == '\\')
-      toml += fmt::format("\\{}", each);
-    else if (code < 0x20 || code == 0x7f)
-      toml += fmt::format("\\u{:04X}", code);
-    else
-      toml += each;
-  }
-  return toml + "\"";
-}
 
 // to_chars writes the shortest that is read back the same; what has neither point nor exponent is read as an
 // integer, which every key that wants a number takes, and keys that want an integer take from 3.0.
@@ -51,7 +38,7 @@ bool is_bare(std::string_view key) {
 }  // namespace
 
 std::string key_text(std::string_view key) {
-  return is_bare(key) ? std::string(key) : quoted(key);
+  return is_bare(key) ? std::string(key) : toml_string(key);
 }
 
 std::string lines(const v0::Table& table) {
@@ -68,8 +55,8 @@ Value::Value(bool value) : toml_(value ? "true" : "false") {}
 Value::Value(int value) : toml_(std::to_string(value)) {}
 Value::Value(int64_t value) : toml_(std::to_string(value)) {}
 Value::Value(double value) : toml_(library::number(value)) {}
-Value::Value(const char* value) : toml_(library::quoted(value)) {}
-Value::Value(const std::string& value) : toml_(library::quoted(value)) {}
+Value::Value(const char* value) : toml_(toml_string(value)) {}
+Value::Value(const std::string& value) : toml_(toml_string(value)) {}
 Value::Value(std::initializer_list<Value> list) : toml_(library::list_of(list.begin(), list.end())) {}
 Value::Value(const std::vector<Value>& list)
     : toml_(library::list_of(list.data(), list.data() + list.size())) {}

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cameras/registry.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/lights/registry.hpp"
 #include "host/loader/environments.hpp"
 #include "host/loader/scene_file.hpp"
@@ -88,7 +89,7 @@ Json transform_schema() {
   return list_schema(std::move(step));
 }
 
-// What a value of the key may be, without its description.
+// The schema of a key's value, without its description.
 Json value_schema(const Key& key) {
   Key positive = key;
   positive.min = std::max(key.min, 0.0);
@@ -198,8 +199,8 @@ Json kinds_schema(const Section& section, std::span<const Type* const> types) {
   return {{"oneOf", std::move(alternatives)}};
 }
 
-// Of a shape or mesh in the world, or in a group: unlike a CSG object's part it needs what its table requires
-// beside the definition.
+// The schema of a shape or mesh in the world, or in a group: unlike a CSG object's part it needs what its
+// table requires beside the definition.
 Json world_ray(const Section& section) {
   Json schema = reference_to(section.name);
   if (section.shape && !section.is_combined())
@@ -283,7 +284,7 @@ std::string scene_schema() {
       {"properties", std::move(properties)},
       {"additionalProperties", false},
       {"$defs", std::move(definitions)}};
-  return schema.dump(2) + "\n";
+  return json_text(schema, 2) + "\n";
 }
 
 }  // namespace eyeray::loader

@@ -1,6 +1,7 @@
 // The tree for programs.
 #include <nlohmann/json.hpp>
 
+#include "host/core/escaped_text.hpp"
 #include "host/probe/judge.hpp"
 #include "host/probe/probe.hpp"
 
@@ -98,7 +99,7 @@ std::string to_json(const Findings& findings) {
     }
     json["first_difference"] = place;
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace eyeray::probe

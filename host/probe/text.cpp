@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host/core/github_text.hpp"
 #include "host/probe/judge.hpp"
 #include "host/probe/probe.hpp"
 
@@ -17,7 +18,7 @@ constexpr const char* red = "\033[31m";
 constexpr const char* yellow = "\033[33m";
 constexpr const char* plain = "\033[0m";
 
-// As many columns of a terminal as the text takes.
+// The columns of a terminal that the text takes.
 size_t width_of(std::string_view text) {
   return size_t(std::ranges::count_if(text, [](char c) { return (uint8_t(c) & 0xc0) != 0x80; }));
 }
@@ -93,12 +94,19 @@ class Table {
            (verdict == Verdict::explained ? " (explained)" : "");
   }
 
+  // Names in it may come from files.
+  void add_row(Row row) {
+    row.label = log_line(row.label);
+    row.remark = log_line(row.remark);
+    rows_.push_back(std::move(row));
+  }
+
   void add_ray(size_t i) {
     const Ray& ray = findings_.overlay.rays()[i];
     if (ray.kind == RayKind::pixel) return;
     std::string label = indent(i, 0) + describe(ray);
     if (!findings_.hits[i].empty()) label += " → " + findings_.hits[i];
-    rows_.push_back(
+    add_row(
         {label, {}, ray.verdict, remark_of(ray.verdict, ray.difference, is_first(i, {})), is_first(i, {})});
   }
 
@@ -128,7 +136,7 @@ class Table {
     }
     std::string remark = remark_of(line.verdict, line.difference, is_first(i, k));
     if (!remark.empty()) remark += place;
-    rows_.push_back({indent(i, 1) + line.name, cells, line.verdict, remark, is_first(i, k)});
+    add_row({indent(i, 1) + line.name, cells, line.verdict, remark, is_first(i, k)});
   }
 
   const Findings& findings_;
@@ -155,7 +163,7 @@ std::string to_text(const Findings& findings, bool colored) {
                   findings.width, findings.height, findings.sample, findings.samples, verdict(findings));
   for (const Participant& p : findings.participants) text += fmt::format("  {}\n", p.description);
   for (const std::string& note : findings.notes) text += fmt::format("  note: {}\n", note);
-  return text + Table(findings).text(colored);
+  return log_lines(text) + Table(findings).text(colored);
 }
 
 }  // namespace eyeray::probe

@@ -7,6 +7,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
+#include "host/core/escaped_text.hpp"
 
 namespace eyeray::render {
 namespace {
@@ -37,7 +38,7 @@ std::string as_text(const std::vector<IdentityPart>& identity) {
   return text;
 }
 
-// What `text` says of a part; nothing when it does not know it.
+// The value of a part in `text`; nothing when the text lacks it.
 std::string_view value_in(std::string_view text, const std::string& name) {
   const std::string begin = name + ": ";
   while (!text.empty()) {
@@ -61,7 +62,7 @@ Checkpoint Checkpoint::begin(std::filesystem::path file, std::vector<IdentityPar
   if (std::filesystem::exists(file, ignored))
     throw Error(ExitCode::bad_input,
                 "the checkpoint {} is there already: --resume {} goes on from it, or remove it",
-                file.string(), file.string());
+                file.string(), shell_word(file.string()));
   check_writable(file);
   check_writable(rows_of(file));
   return {std::move(file), std::move(identity), seconds};

@@ -9,6 +9,7 @@
 
 #include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/json_depth.hpp"
 #include "host/core/json_number.hpp"
 
@@ -17,20 +18,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// As scenes allow them (docs/scene-reference.md).
+// Limits of scenes (docs/scene-reference.md).
 constexpr int64_t most_pixels_of_picture = int64_t{1} << 28;
 constexpr int most_pixels_of_side = 65536;
-
-// File names may hold any bytes; JSON may not.
-std::string dumped(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 [[noreturn]] void nonsense(const char* what) {
   throw Error(ExitCode::file_io, "it is damaged: {}", what);
 }
 
-// What read(json) makes of a text that was written by this program; Error (file_io) where it was not.
+// Parses a text and returns read(json). Error (file_io) where this program has not written it.
 template <typename Read>
 auto read_json(const std::string& text, const char* what, const Read& read) {
   try {
@@ -70,7 +66,7 @@ aov::LegendTally legend_of(const Json& json) {
   return legend;
 }
 
-// Where the counts are not 0: most are.
+// The counts that are not 0, with their places: most counts are 0.
 Json to_json(const render::Brightness& brightness) {
   Json json = Json::array();
   for (size_t i = 0; i < brightness.counts().size(); ++i)
@@ -86,18 +82,18 @@ std::string to_text(const PartHeader& header) {
     identity.push_back({part.name, part.value, part.shown});
   for (const aov::Aov aov : header.aovs) aovs.push_back(aov->name);
   const Rect& area = header.area;
-  return dumped({{"shard", {header.shard.index, header.shard.count}},
-                 {"scene", header.scene},
-                 {"area", {area.x, area.y, area.width, area.height}},
-                 {"samples", header.samples},
-                 {"exposure", header.tone.exposure},
-                 {"curve", int(header.tone.curve)},
-                 {"clamp", header.clamp},
-                 {"random_paths", header.random_paths},
-                 {"device", header.device},
-                 {"build", header.build},
-                 {"aovs", aovs},
-                 {"identity", identity}});
+  return json_text(Json{{"shard", {header.shard.index, header.shard.count}},
+                        {"scene", header.scene},
+                        {"area", {area.x, area.y, area.width, area.height}},
+                        {"samples", header.samples},
+                        {"exposure", header.tone.exposure},
+                        {"curve", int(header.tone.curve)},
+                        {"clamp", header.clamp},
+                        {"random_paths", header.random_paths},
+                        {"device", header.device},
+                        {"build", header.build},
+                        {"aovs", aovs},
+                        {"identity", identity}});
 }
 
 PartHeader header_of(const std::string& text) {
@@ -137,16 +133,16 @@ PartHeader header_of(const std::string& text) {
 std::string to_text(const PartTotals& totals) {
   Json legends = Json::array();
   for (const aov::LegendTally& legend : totals.legends) legends.push_back(to_json(legend));
-  return dumped({{"rays", totals.rays},
-                 {"flagged_pixels", totals.flagged_pixels},
-                 {"flagged_hits", totals.flagged_hits},
-                 {"flags", totals.flags},
-                 {"clamped", totals.clamped},
-                 {"brightness", to_json(totals.brightness)},
-                 {"ray_kinds", totals.ray_kinds ? to_json(*totals.ray_kinds) : Json()},
-                 {"seconds", totals.seconds},
-                 {"processor_seconds", totals.processor_seconds},
-                 {"legends", legends}});
+  return json_text(Json{{"rays", totals.rays},
+                        {"flagged_pixels", totals.flagged_pixels},
+                        {"flagged_hits", totals.flagged_hits},
+                        {"flags", totals.flags},
+                        {"clamped", totals.clamped},
+                        {"brightness", to_json(totals.brightness)},
+                        {"ray_kinds", totals.ray_kinds ? to_json(*totals.ray_kinds) : Json()},
+                        {"seconds", totals.seconds},
+                        {"processor_seconds", totals.processor_seconds},
+                        {"legends", legends}});
 }
 
 PartTotals totals_of(const std::string& text) {

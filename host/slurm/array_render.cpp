@@ -10,6 +10,7 @@
 
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/json_depth.hpp"
 #include "host/slurm/scripts.hpp"
 
@@ -277,7 +278,7 @@ void ArrayRender::write_state() const {
                    {"merge", merge_},
                    {"attempts", attempts},
                    {"checkpoints", checkpoints}};
-  write_file_atomically(file("render.json"), state.dump() + "\n");
+  write_file_atomically(file("render.json"), json_text(state) + "\n");
 }
 
 }  // namespace eyeray::slurm

@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/core/escaped_text.hpp"
+
 namespace eyeray::slurm {
 namespace {
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
-  for (const std::string& word : words) text += " " + quoted(word);
+  for (const std::string& word : words) text += " " + shell_word(word);
   return text;
 }
 
-// What both begin with. A job is told to end by SIGTERM, and so is eyeray then, which saves its checkpoint:
-// the shell waits for it, and again, since `wait` ends with the signal.
+// The beginning of both scripts. SIGTERM ends a job, which passes it on to eyeray, which saves its
+// checkpoint: the shell waits for it, and again, since `wait` ends with the signal.
 std::string head(const ArrayRequest& request) {
   return fmt::format(
       "#!/bin/sh\n"
@@ -33,28 +35,18 @@ std::string head(const ArrayRequest& request) {
       "  done\n"
       "  trap - TERM\n"
       "}}\n",
-      quoted(std::filesystem::current_path().string()), quoted(request.folder.string()));
+      shell_word(std::filesystem::current_path().string()), shell_word(request.folder.string()));
 }
 
-// Tells what failed: beside the parts, and in Slurm's own output.
+// Reports a failure: beside the parts, and in Slurm's own output.
 constexpr const char* tail =
     "[ $code -eq 0 ] && exit 0\n"
     "{ echo \"$code ${SLURMD_NODENAME:-$(hostname)}\"; cat \"$log\"; } >\"$failed\"\n"
     "cat \"$log\" >&2\n"
     "exit $code\n";
 
-}  // namespace
-
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
-namespace {
-
 std::string render_of(const ArrayRequest& request) {
-  return fmt::format("{} render {}{} --quiet", quoted(request.program), quoted(request.scene),
+  return fmt::format("{} render {}{} --quiet", shell_word(request.program), shell_word(request.scene),
                      joined(request.render_words));
 }
 
@@ -80,14 +72,14 @@ std::string share_of_frames(const ArrayRequest& request) {
       render_of(request), joined(request.frame_words), request.shards);
 }
 
-// What makes one of all shares; of frames without a video there is nothing to make.
+// The command that merges all shares; frames without a video need none.
 std::string merge_of(const ArrayRequest& request) {
   if (request.frame_words.empty())
-    return fmt::format("run {} merge \"$folder\"/*-of-{}.eyeray --quiet{}\n", quoted(request.program),
+    return fmt::format("run {} merge \"$folder\"/*-of-{}.eyeray --quiet{}\n", shell_word(request.program),
                        request.shards, joined(request.merge_words));
   if (request.video.empty()) return "code=0\n";
   return fmt::format("run {}{} --video {}\n", render_of(request), joined(request.frame_words),
-                     quoted(request.video));
+                     shell_word(request.video));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What Slurm's jobs run, as scripts of the shell.
+// The shell scripts that Slurm's jobs run.
 #pragma once
 
 #include <string>
@@ -7,9 +7,6 @@
 #include "host/slurm/array_render.hpp"
 
 namespace eyeray::slurm {
-
-// As a word of the shell, whatever is in it.
-std::string quoted(const std::string& word);
 
 // Renders one share: its number is the task's and the script's argument. It goes on from a checkpoint that a
 // job before it left, and leaves NUMBER.failed with the code, the node and the words where it fails.

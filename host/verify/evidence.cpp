@@ -1,10 +1,9 @@
 #include "host/verify/evidence.hpp"
 
-#include <fstream>
-#include <iterator>
-
 #include "host/compare/cause_picture.hpp"
 #include "host/core/error.hpp"
+#include "host/core/escaped_text.hpp"
+#include "host/core/process.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image_file.hpp"
 
@@ -15,23 +14,9 @@ namespace {
 
 // The words that this process was started with, as a shell takes them.
 std::string own_command_line() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  const std::string words(std::istreambuf_iterator<char>(file), {});
-  std::string line;
-  for (size_t begin = 0; begin < words.size();) {
-    const std::string word = words.c_str() + begin;
-    begin += word.size() + 1;
-    if (!line.empty()) line += ' ';
-    if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/-+=,:@%") ==
-            std::string::npos &&
-        !word.empty()) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) line += c == '\'' ? "'\\''" : std::string(1, c);
-    line += '\'';
-  }
+  const std::vector<std::string> words = own_command();
+  std::string line = "eyeray";
+  for (size_t i = 1; i < words.size(); ++i) line += " " + shell_word(words[i]);
   return line;
 }
 

@@ -5,6 +5,7 @@
 
 #include "host/core/atomic_file.hpp"
 #include "host/core/content_hash.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/json_depth.hpp"
 #include "host/core/make_folder.hpp"
 #include "host/core/process.hpp"
@@ -22,7 +23,7 @@ fs::path sidecar(const fs::path& picture) {
   return fs::path(picture).replace_extension(".json");
 }
 
-// Of the repository in which the picture lies; empty where there is none, or no git.
+// The commit of the repository in which the picture lies; empty where there is none, or no git.
 std::string commit_at(const fs::path& picture) {
   const fs::path folder = fs::absolute(picture).parent_path();
   try {
@@ -33,7 +34,7 @@ std::string commit_at(const fs::path& picture) {
   }
 }
 
-// What a picture is made of, by the names that people read.
+// Everything that a picture is made of, by the names that people read.
 Json origin(const Golden& golden, const Scene& scene, const compare::Report& report) {
   return {{"scene", report.scene},
           {"scene hash", hash_of_files(scene.files)},
@@ -116,7 +117,7 @@ void bless(const Golden& golden, const Scene& scene, const compare::Frame& frame
   image::write_image(golden.picture, frame.color);
   Json origin_now = origin(golden, scene, report);
   origin_now["commit"] = commit_at(golden.picture);
-  write_file_atomically(sidecar(golden.picture), origin_now.dump(2) + "\n");
+  write_file_atomically(sidecar(golden.picture), json_text(origin_now, 2) + "\n");
   result.updated = true;
 }
 

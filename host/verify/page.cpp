@@ -9,6 +9,7 @@
 #include "host/compare/cause_picture.hpp"
 #include "host/core/base64.hpp"
 #include "host/core/embedded_file.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/image/image_file.hpp"
 #include "host/image/srgb.hpp"
 
@@ -69,7 +70,7 @@ Json values(const compare::Frame& frame, int x, int y) {
                                                         hit.material, hit.t)}};
 }
 
-// Of those that do not match the most telling ones: unexplained before explained.
+// The most telling pixels that do not match: unexplained before explained.
 Json pixels(const compare::Report& report, std::span<const compare::Frame> frames,
             const std::vector<compare::PixelOutcome>& outcomes) {
   std::vector<size_t> chosen;
@@ -95,17 +96,13 @@ Json scene_of(const compare::Report& report) {
   return scene;
 }
 
-std::string as_text(const Json& scene) {
-  return scene.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 }  // namespace
 
 void Page::add(const compare::Report& report, std::span<const compare::Frame> frames,
                std::span<const std::vector<compare::PixelOutcome>> outcomes) {
   Json scene = scene_of(report);
   const size_t executor = compared(report);
-  if (outcomes[executor].empty()) return scenes_.push_back(as_text(scene));
+  if (outcomes[executor].empty()) return scenes_.push_back(json_text(scene));
 
   Json& pictures = scene["pictures"] = Json::object();
   for (size_t i = 0; i < frames.size(); ++i)
@@ -118,15 +115,15 @@ void Page::add(const compare::Report& report, std::span<const compare::Frame> fr
   pictures["causes"] = data_url(compare::cause_picture(reference, outcomes[executor]));
   scene["causes"] = Json::parse(compare::cause_legend(outcomes[executor]));
   scene["pixels"] = pixels(report, frames, outcomes[executor]);
-  scenes_.push_back(as_text(scene));
+  scenes_.push_back(json_text(scene));
 }
 
 void Page::add(const compare::Report& report) {
-  scenes_.push_back(as_text(scene_of(report)));
+  scenes_.push_back(json_text(scene_of(report)));
 }
 
 std::string Page::html(const std::string& summary) const {
-  std::string data = fmt::format("{{\"summary\":{},\"scenes\":[", as_text(Json(summary)));
+  std::string data = fmt::format("{{\"summary\":{},\"scenes\":[", json_text(Json(summary)));
   for (size_t i = 0; i < scenes_.size(); ++i) data += (i == 0 ? "" : ",") + scenes_[i];
   data += "]}";
   // Neither a script's end nor "<!--<script>", which hides that end: < stands in JSON's strings alone.

@@ -10,6 +10,7 @@
 
 #include "host/core/error.hpp"
 #include "tests/cli/scene.hpp"
+#include "tests/support/nasty_strings.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -175,4 +176,36 @@ keyframes = [[0, [-2, 1, 0]], [10, [2, 1, 0]]]
   CHECK(run_process({"sh", jobs.file("merge.sh")}, {{"PATH", path}}, 600).code == 0);
   CHECK(std::filesystem::exists(jobs.file("merged")));
   CHECK(read_text(jobs.request.video).find("f4.png") != std::string::npos);
+}
+
+TEST_CASE("a job's program gets the words that were given, from any folder, whatever they hold") {
+  for (const std::string& text : nasty_strings) {
+    if (text.find('\0') != std::string::npos) continue;  // no word holds it
+    CAPTURE(text);
+    const TemporaryFolder folder;
+    ArrayRequest request;
+    request.program = folder / ("x" + text + "/program");
+    request.scene = text;
+    request.render_words = {"-D", text};
+    request.merge_words = {"-o", text};
+    request.folder = folder / ("y" + text);
+    std::filesystem::create_directories(std::filesystem::path(request.program).parent_path());
+    std::filesystem::create_directories(request.folder);
+    write_text(request.program, "#!/bin/sh\nprintf '%s\\n' \"$@\" >>\"$WORDS\"\n");
+    std::filesystem::permissions(request.program, std::filesystem::perms::owner_all);
+    write_text(request.folder / "share.sh", share_script(request));
+    write_text(request.folder / "merge.sh", merge_script(request));
+    write_text(request.folder / "1-of-1.eyeray", "");
+    const Environment words{{"WORDS", folder / "words"}};
+    CHECK(run_process({"sh", request.folder / "merge.sh"}, words, 600).code == 0);
+    const std::string part = (request.folder / "1-of-1.eyeray").string();
+    CHECK(read_text(folder / "words") == "merge\n" + part + "\n--quiet\n-o\n" + text + "\n");
+
+    std::filesystem::remove(part);
+    std::filesystem::remove(folder / "words");
+    Environment task = words;
+    task.emplace_back("SLURM_ARRAY_TASK_ID", "1");
+    CHECK(run_process({"sh", request.folder / "share.sh", "0"}, task, 600).code == 0);
+    CHECK(read_text(folder / "words").starts_with("render\n" + text + "\n-D\n" + text + "\n--quiet\n"));
+  }
 }

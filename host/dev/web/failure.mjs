@@ -1,4 +1,4 @@
-// What is wrong, over the picture, and warnings beside it: each message with its place, which opens in the editor, and its source.
+// Errors over the picture and warnings beside it: each message with its place, which opens in the editor, and its source.
 
 const make = (tag, text) => Object.assign(document.createElement(tag), text === undefined ? {} : { textContent: text });
 
@@ -6,7 +6,7 @@ function item_of(diagnostic) {
   const item = make('div');
   const where = [diagnostic.file, diagnostic.line, diagnostic.column].filter(Boolean).join(':');
   const link = make(diagnostic.path ? 'a' : 'span', where);
-  if (diagnostic.path) link.href = `vscode://file${encodeURI(diagnostic.path)}:${diagnostic.line}:${diagnostic.column || 1}`;
+  if (diagnostic.path) link.href = `vscode://file${diagnostic.path.split('/').map(encodeURIComponent).join('/')}:${diagnostic.line}:${diagnostic.column || 1}`;
   item.append(link, ': ', make('strong', diagnostic.severity), `: ${diagnostic.message}`);
   if (diagnostic.source) {
     const caret = diagnostic.column ? '\n' + ' '.repeat(Math.max(0, diagnostic.column - diagnostic.source_column)) + '^' : '';
