@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "host/bench/scratch_folder.hpp"
@@ -87,42 +88,99 @@ std::string edited_shader(int edit) {
   return text.insert(at + std::string_view(place).size(), fmt::format("\n  low *= 1.0f + {}e-7f;", edit));
 }
 
+// A column on a floor. Its formula has other operations for each number, so no kernel is there for it.
+std::string formula_text(int edit) {
+  std::string operations;
+  for (int bit = 0; bit < 20; ++bit) operations += (edit >> bit & 1) ? "  e *= p.y;\n" : "  e += p.y;\n";
+  return fmt::format(R"([image]
+width = 480
+height = 320
+samples = 4
+
+[camera]
+eye = [1.9, 2.3, 4.6]
+target = [0, 0.7, 0]
+fov = 44
+
+[render]
+background = [0.66, 0.76, 0.86]
+ambient = 0.3
+max_depth = 3
+
+[[light]]
+type = "point"
+position = [2.5, 5, 4.5]
+intensity = 44
+
+[[material]]
+name = "clay"
+type = "phong"
+diffuse = [0.75, 0.36, 0.2]
+specular = 0.35
+reflectance = 0.12
+
+[[disk]]
+center = [0, 0, 0]
+normal = [0, 1, 0]
+radius = 2
+material = "clay"
+
+[[implicit]]
+code = """float f(vec3 p) {{
+  float e = p.x;
+{}  float c = cos(1.5 * p.y);
+  float s = sin(1.5 * p.y);
+  vec3 q = vec3(c * p.x - s * p.z, p.y - 0.8, s * p.x + c * p.z);
+  vec3 beyond = abs(q) - vec3(0.28, 0.68, 0.28);
+  return length(max(beyond, 0.0)) - 0.12 + 1e-12 * clamp(e, -1.0, 1.0);
+}}"""
+min = [-0.7, 0, -0.7]
+max = [0.7, 1.7, 0.7]
+lipschitz = 2.2
+material = "clay"
+)",
+                     operations);
+}
+
+// A dev loop of a scene, and of a shader where it is given one.
 class Loop {
  public:
-  explicit Loop(int edits) : edits_(edits) {
-    write(shader_file(), text_of(shader));
-    write(scene_file(), scene_text(1.25));
+  Loop(const std::string& scene, const std::string& shader_text) {
+    write(scene_file(), scene);
     dev::SupervisorOptions options;
-    options.worker = {"/proc/self/exe",           "dev",       scene_file(),     "--shaders",
-                      folder_.path() / "shaders", "--no-page", "--worker-socket"};
+    options.worker = {"/proc/self/exe", "dev", scene_file(), "--no-page", "--worker-socket"};
     options.scene = scene_file();
-    options.shader_folder = folder_.path() / "shaders";
+    if (!shader_text.empty()) {
+      write(shader_file(), shader_text);
+      options.shader_folder = folder_.path() / "shaders";
+      options.worker.insert(options.worker.end() - 1, {"--shaders", options.shader_folder});
+    }
     supervisor_.emplace(options, [this](const dev::Json& event) { take(event); });
-  }
-
-  DevLoopReport measure() {
     supervisor_->begin();
     wait();
-    // Once each, so that what is made at the first edit of a kind is there.
-    for (int i = 0; i <= edits_; ++i) add(i, report_.shader, shader_file(), edited_shader(salt_ + i));
-    for (int i = 0; i <= edits_; ++i) add(i, report_.scene, scene_file(), scene_text(1.2 + 1e-4 * i));
-    return report_;
+  }
+
+  std::string scene_file() const { return folder_.path() / "scene.toml"; }
+  std::string shader_file() const { return folder_.path() / "shaders" / shader; }
+  const std::string& device() const { return device_; }
+
+  // Makes so many edits of a file and measures each. One edit before them fills the caches.
+  std::vector<Edit> measure(int count, const std::string& file, const std::function<std::string(int)>& text) {
+    std::vector<Edit> edits;
+    for (int i = 0; i <= count; ++i) {
+      edit_ = {};
+      watch_ = {};
+      write(file, text(i));
+      wait();
+      if (i > 0) edits.push_back(edit_);
+    }
+    return edits;
   }
 
  private:
-  std::string scene_file() const { return folder_.path() / "scene.toml"; }
-  std::string shader_file() const { return folder_.path() / "shaders" / shader; }
   static void write(const fs::path& file, const std::string& text) {
     make_folder(file.parent_path());
     write_file_atomically(file, text);
-  }
-
-  void add(int number, std::vector<Edit>& edits, const std::string& file, const std::string& text) {
-    edit_ = {};
-    watch_ = {};
-    write(file, text);
-    wait();
-    if (number > 0) edits.push_back(edit_);
   }
 
   void wait() {
@@ -137,22 +195,25 @@ class Loop {
 
   void take(const dev::Json& event) {
     const std::string what = event.value("event", "");
-    if (what == "rows" && edit_.first_pixels == 0) edit_.first_pixels = watch_.seconds();
+    const double processor = event.value("processor_seconds", 0.0);
+    if (what == "rows" && edit_.first_pixels == 0) {
+      edit_.first_pixels = watch_.seconds();
+      edit_.first_processor = processor;
+    }
     if (what == "failed")
       throw Error(ExitCode(event.value("code", 2)), "{}", event.value("message", std::string()));
     if (what != "done") return;
     done_ = true;
     edit_.whole = watch_.seconds();
+    edit_.processor = processor;
     const dev::Json stages = event.value("stages", dev::Json::object());
     for (const char* stage : {"shader compile", "pipeline"}) edit_.compiling += stages.value(stage, 0.0);
-    report_.device = event.value("device", "");
+    device_ = event.value("device", "");
   }
 
-  int edits_;
-  int salt_ = int(::getpid() % 1000) * 1000;  // of this run
   ScratchFolder folder_;
   std::optional<dev::Supervisor> supervisor_;
-  DevLoopReport report_;
+  std::string device_;
   Edit edit_;
   Stopwatch watch_;
   bool done_ = false;
@@ -168,19 +229,32 @@ double median(const std::vector<Edit>& edits, double Edit::*what) {
 }  // namespace
 
 DevLoopReport measure_dev_loop(int edits) {
-  return Loop(edits).measure();
+  const int salt = int(::getpid() % 1000) * 1000;  // of this run
+  DevLoopReport report;
+  Loop whitted(scene_text(1.25), text_of(shader));
+  report.device = whitted.device();
+  report.shader =
+      whitted.measure(edits, whitted.shader_file(), [&](int i) { return edited_shader(salt + i); });
+  report.scene =
+      whitted.measure(edits, whitted.scene_file(), [](int i) { return scene_text(1.2 + 1e-4 * i); });
+  Loop column(formula_text(salt), "");
+  report.formula =
+      column.measure(edits, column.scene_file(), [&](int i) { return formula_text(salt + 1 + i); });
+  return report;
 }
 
 std::string to_text(const DevLoopReport& report) {
-  std::string text = fmt::format("{}\n{:<24}{:>14}{:>14}{:>14}{:>14}\n", report.device, "median of an edit",
-                                 "first pixels", "compiling", "the rest", "all pixels");
-  for (const auto& [name, edits] : {std::pair("a shader", &report.shader), {"the scene", &report.scene}}) {
-    std::vector<Edit> rest = *edits;
-    for (Edit& edit : rest) edit.compiling = edit.first_pixels - edit.compiling;
-    text += fmt::format(
-        "{:<24}{:>14}{:>14}{:>14}{:>14}\n", fmt::format("{} ({})", name, edits->size()),
-        format_seconds(median(*edits, &Edit::first_pixels)), format_seconds(median(*edits, &Edit::compiling)),
-        format_seconds(median(rest, &Edit::compiling)), format_seconds(median(*edits, &Edit::whole)));
+  std::string text =
+      fmt::format("{}\n{:<18}{:>14}{:>14}{:>14}{:>14}{:>14}\n", report.device, "median of an edit",
+                  "first pixels", "of processors", "compiling", "all pixels", "of processors");
+  for (const auto& [name, edits] : {std::pair("a shader", &report.shader),
+                                    {"the scene", &report.scene},
+                                    {"a formula", &report.formula}}) {
+    text += fmt::format("{:<18}", fmt::format("{} ({})", name, edits->size()));
+    for (const auto what :
+         {&Edit::first_pixels, &Edit::first_processor, &Edit::compiling, &Edit::whole, &Edit::processor})
+      text += fmt::format("{:>14}", format_seconds(median(*edits, what)));
+    text += '\n';
   }
   return text;
 }
@@ -189,11 +263,17 @@ nlohmann::ordered_json to_json(const DevLoopReport& report) {
   const auto list = [](const std::vector<Edit>& edits) {
     Json json = Json::array();
     for (const Edit& edit : edits)
-      json.push_back(
-          {{"first_pixels", edit.first_pixels}, {"compiling", edit.compiling}, {"whole", edit.whole}});
+      json.push_back({{"first_pixels", edit.first_pixels},
+                      {"first_processor", edit.first_processor},
+                      {"compiling", edit.compiling},
+                      {"whole", edit.whole},
+                      {"processor", edit.processor}});
     return json;
   };
-  return {{"device", report.device}, {"shader", list(report.shader)}, {"scene", list(report.scene)}};
+  return {{"device", report.device},
+          {"shader", list(report.shader)},
+          {"scene", list(report.scene)},
+          {"formula", list(report.formula)}};
 }
 
 }  // namespace eyeray::bench

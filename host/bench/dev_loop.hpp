@@ -9,23 +9,26 @@ namespace eyeray::bench {
 
 // One save, in seconds.
 struct Edit {
-  double first_pixels = 0;  // from before the file is written until the page can show something new
-  double compiling = 0;     // of these glslang, SPIRV-Tools and the driver
-  double whole = 0;         // until the picture is done
+  double first_pixels = 0;     // from before the file is written until the page can show something new
+  double first_processor = 0;  // processor seconds of the worker in that time
+  double compiling = 0;        // glslang, SPIRV-Tools and the driver, until the picture is done
+  double whole = 0;            // until the picture is done
+  double processor = 0;        // processor seconds of the worker in that time
 };
 
 struct DevLoopReport {
   std::string device;
-  std::vector<Edit> shader, scene;  // of a shape's code; of a sphere's radius
+  std::vector<Edit> shader, scene, formula;  // of a shape's code; of a sphere's radius; of a formula's code
 };
 
-// So many edits of each kind, of Whitted's scene at 640 × 480, by a dev loop of its own. Error (no_device)
-// where there is none.
+// So many edits of each kind, each by a dev loop: shader and scene of Whitted's scene at 640 × 480, and the
+// formula of a column at 480 × 320. Error (no_device) where there is no device.
 DevLoopReport measure_dev_loop(int edits);
 
 // A table of medians.
 std::string to_text(const DevLoopReport& report);
-// {"device", "shader": [{"first_pixels", "compiling", "whole"}, …], "scene": […]}, seconds.
+// {"device", "shader": [{"first_pixels", "first_processor", "compiling", "whole", "processor"}, …],
+// "scene": […], "formula": […]}, seconds.
 nlohmann::ordered_json to_json(const DevLoopReport& report);
 
 }  // namespace eyeray::bench

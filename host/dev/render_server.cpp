@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "host/core/atomic_file.hpp"
+#include "host/core/processor_time.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 #include "host/dev/scene_tunables.hpp"
@@ -79,6 +80,7 @@ void RenderServer::send_failure(const Error& error) {
 
 void RenderServer::render(const Json& request) {
   generation_ = request.value("generation", int64_t{0});
+  processor_seconds_ = processor_seconds();
   try {
     previews_ = request.value("previews", false);
     if (request.value("revision", int64_t{0}) != revision_) load(request);
@@ -290,7 +292,8 @@ void RenderServer::paint(const std::string& name, bool last) {
                 {"rays", painted->rays},
                 {"samples", scene_->image.samples},
                 {"doubts", doubts(view, *painted)},
-                {"files", std::move(files)}});
+                {"files", std::move(files)},
+                {"processor_seconds", processor_seconds() - processor_seconds_}});
 }
 
 void RenderServer::send_rows(const std::string& name, const View& view, const PaintedRows& painted,
@@ -304,7 +307,8 @@ void RenderServer::send_rows(const std::string& name, const View& view, const Pa
             {"stride", painted.stride},
             {"channels", rows.channels()},
             {"sample", painted.sample},
-            {"preview", is_preview}};
+            {"preview", is_preview},
+            {"processor_seconds", processor_seconds() - processor_seconds_}};
   if (view.aov) json["shown_as"] = int(view.aov->shown_as);
   send("rows", std::move(json),
        {reinterpret_cast<const char*>(rows.samples().data()), rows.sample_count() * sizeof(float)});

@@ -33,9 +33,9 @@ namespace eyeray::dev {
 //             "scene_tunables", as below
 //   "tunables"  what moves in the shaders, each with "id", "owner", "name", "type", "low", "high",
 //             "written", "value"
-//   "rows"    see Board::put_rows; "preview": whether the twin made them
+//   "rows"    see Board::put_rows; "preview": whether the twin made them; "processor_seconds"
 //   "done"    a view is complete, whether it is the "last": "device", "seconds", "stages", "rays",
-//             "samples", "doubts" (sentences), "files"
+//             "samples", "doubts" (sentences), "files", "processor_seconds": all threads' since the request
 //   "failed"  "code", "message", "diagnostics"
 //   "probed"  what probe::to_json says, as "findings", and its "text"; or "message" where it failed
 class RenderServer {
@@ -54,7 +54,7 @@ class RenderServer {
   void render(const Json& request);
   void load(const Json& request);
   void paint(const std::string& view, bool last);
-  // What is to be known of a picture that is not what it seems, a sentence each.
+  // Warnings about a picture that may be wrong, a sentence each.
   std::vector<std::string> doubts(const View& view, const Painted& painted) const;
   void choose_tunables(const Json& values);
   void send_tunables();
@@ -82,11 +82,12 @@ class RenderServer {
   MessageSocket socket_;
   int64_t generation_ = 0;
   int64_t revision_ = -1;
-  bool own_kernel_ = true;  // of this revision
+  double processor_seconds_ = 0;  // when the request came
+  bool own_kernel_ = true;        // of this revision
   std::shared_ptr<executors::Tunables> tunables_;
   bool previews_ = false;
   std::shared_ptr<const Scene> scene_;
-  // Of this revision; by what they count.
+  // Executors of this revision, by what they count.
   std::map<std::pair<executors::Backend, aov::AovNeeds>, std::unique_ptr<executors::Executor>> executors_;
   int64_t made_of_ = -1;  // revision
   std::future<std::unique_ptr<executors::Executor>> being_made_;
