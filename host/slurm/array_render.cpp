@@ -21,12 +21,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What of a share's failures no other node and no other time will mend.
+// Whether a share fails on every node and at any time.
 bool is_for_good(int code) {
   return code == int(ExitCode::bad_input) || code == 70;
 }
 
-// Of what a job ended with, which is not eyeray's own where there is no eyeray, or no more of it.
+// Maps a job's exit code to ours. A code that eyeray never returns (program missing, node killed) becomes
+// file_io.
 ExitCode told_as(int code) {
   const bool own = (code >= 1 && code <= int(ExitCode::timed_out)) || code == 70;
   return own ? ExitCode(code) : ExitCode::file_io;
@@ -42,6 +43,11 @@ int64_t written_at(const fs::path& file) {
 }  // namespace
 
 ArrayRender::ArrayRender(ArrayRequest request) : request_(std::move(request)) {
+  request_.folder = fs::absolute(request_.folder);  // its name may begin like an option
+  if (request_.folder.string().find('\\') != std::string::npos)
+    throw Error(ExitCode::bad_input,
+                "the folder {} has a backslash in its path, where Slurm writes no output: choose another",
+                request_.folder.string());
   std::error_code error;
   fs::create_directories(request_.folder, error);
   if (error)
@@ -50,6 +56,13 @@ ArrayRender::ArrayRender(ArrayRequest request) : request_(std::move(request)) {
   read_state();
   write_scripts();
   write_state();
+}
+
+// Slurm replaces %j and its like in the path of an output; %% is a percent sign.
+std::string ArrayRender::folder_in_pattern() const {
+  std::string pattern;
+  for (const char c : request_.folder.string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+  return pattern;
 }
 
 std::string ArrayRender::part_name(int number) const {
@@ -163,7 +176,8 @@ ArrayProgress ArrayRender::look() {
   return progress;
 }
 
-// Of the shares that ended without a part: throws where none of them is to be tried again, or one not.
+// Counts the attempts of the shares that ended without a part. Error where one of them must not be tried
+// again.
 void ArrayRender::judge(const std::vector<int>& numbers) {
   for (const int number : numbers) {
     // Slurm did not take its array.
@@ -206,7 +220,7 @@ void ArrayRender::submit_shares(const std::vector<int>& numbers) {
       written[numbers[i]] = written_at(file(fmt::format("{}.work", numbers[i])));
     }
     std::vector<std::string> words{"--job-name=eyeray",
-                                   fmt::format("--output={}", file("%A_%a.output").string()), "--requeue",
+                                   fmt::format("--output={}/%A_%a.output", folder_in_pattern()), "--requeue",
                                    "--signal=B:TERM@60"};
     words.insert(words.end(), request_.sbatch_words.begin(), request_.sbatch_words.end());
     words.push_back("--array=" + task_list(tasks));
@@ -224,7 +238,7 @@ void ArrayRender::submit_shares(const std::vector<int>& numbers) {
 // When all arrays are done; at once when all parts are there.
 void ArrayRender::submit_merge() {
   std::vector<std::string> words{"--job-name=eyeray-merge",
-                                 fmt::format("--output={}", file("merge.output").string())};
+                                 fmt::format("--output={}/merge.output", folder_in_pattern())};
   words.insert(words.end(), request_.sbatch_words.begin(), request_.sbatch_words.end());
   if (!missing().empty()) {
     std::string after = "--dependency=afterok";

@@ -70,6 +70,7 @@ class ArrayRender {
   };
 
   std::filesystem::path file(const std::string& name) const { return request_.folder / name; }
+  std::string folder_in_pattern() const;
   std::string part_name(int number) const;
   std::filesystem::path failure_file(int number) const;
   std::vector<int> missing() const;

@@ -193,6 +193,31 @@ TEST_CASE("a node without Vulkan says so, and is not asked for ever") {
   CHECK(happens([&] { return cluster().ask({"squeue", "-h"}).out.empty(); }));
 }
 
+TEST_CASE("the folder of an array may have any name without a backslash") {
+  for (const std::string name : {"-x", "100%j", "it's %%A", "a \\ b"}) {
+    CAPTURE(name);
+    const SceneFolder folder;
+    const std::string work = folder / name;
+    const ProcessResult result = run_eyeray(Words{"slurm", folder.scene(), "--shards", "2", "--folder", work,
+                                                  "--poll", "0.1", "-o", folder / "merged.pfm"} +
+                                                quick,
+                                            cluster().environment());
+    CAPTURE(result.err);
+    if (name.find('\\') != std::string::npos) {
+      CHECK(result.code == 2);
+      CHECK(result.err.find("backslash") != std::string::npos);
+      continue;
+    }
+    CHECK(result.code == 0);
+    CHECK(std::filesystem::exists(folder / "merged.pfm"));
+    std::set<std::string> outputs;
+    for (const auto& entry : std::filesystem::directory_iterator(work))
+      if (entry.path().extension() == ".output") outputs.insert(entry.path().filename());
+    CHECK(outputs.size() == 3);
+    CHECK(outputs.contains("merge.output"));
+  }
+}
+
 TEST_CASE("a folder that vanishes is told" * doctest::test_suite("long")) {
   const ArrayOf array(slow);
   const auto watcher = array.start();
