@@ -108,10 +108,10 @@ function tell() {
   document.title = `${status.state === 'failed' ? '✗ ' : ''}${name} – eyeray dev`;
   const { state } = status;
   const note = status.preview && state === 'compile' ? 'A preview: the CPU computes the same picture while the kernel compiles.'
-    : status.stale && state !== 'failed' && Object.keys(status.pictures).length > 0 ? 'The last picture stays until there is a new one.'
-    : status.view === 'difference' && state === 'render' ? 'What is grey is not compared yet.' : '';
+    : status.stale && Object.keys(status.pictures).length > 0 ? 'The last picture stays until there is a new one.'
+    : status.view === 'difference' && state === 'render' ? 'Grey pixels are not compared yet.' : '';
   $('state').textContent = words[state] ?? state;
-  if (note) $('times').textContent = note;
+  $('times').textContent = note;
   $('state').className = `badge ${status.state}`;
   document.body.dataset.state = status.state;
   document.body.dataset.generation = status.generation;
@@ -119,7 +119,7 @@ function tell() {
     const compile = ['shader compile', 'pipeline', 'compile'].reduce((sum, stage) => sum + (status.stages[stage] ?? 0), 0);
     const tracing = status.stages.dispatch ?? status.stages.trace ?? status.seconds;
     $('times').textContent = `${status.width}×${status.height}, ${ms(status.seconds)}, of which compiling ${ms(compile)}; ` +
-      `${(status.rays / Math.max(tracing, 1e-6) / 1e6).toPrecision(3)} Mrays/s`;
+      `${(status.rays / Math.max(tracing, 1e-6) / 1e6).toPrecision(3)}\u00a0Mrays/s`;
     $('stages').textContent = [...Object.entries(status.stages).map(([name, s]) => `${name.padEnd(16)} ${ms(s)}`), '', status.device].join('\n');
   }
   // Another page may have moved it since.
@@ -142,7 +142,7 @@ function tell() {
   tell_whether_stale();
   refresh();
 }
-const ms = seconds => seconds < 1 ? `${(seconds * 1000).toFixed(0)} ms` : `${seconds.toFixed(2)} s`;
+const ms = seconds => seconds < 1 ? `${(seconds * 1000).toFixed(0)}\u00a0ms` : `${seconds.toFixed(2)}\u00a0s`;
 
 function show_views() {
   const names = Object.keys(keys);

@@ -1,4 +1,4 @@
-// The rays of one pixel, as `eyeray probe` tells them: a value once where all agree, and what differs marked.
+// The rays of one pixel, as `eyeray probe` prints them: a value once where all agree, and differences marked.
 
 const make = (tag, text, name) => {
   const node = document.createElement(tag);
@@ -7,17 +7,19 @@ const make = (tag, text, name) => {
   return node;
 };
 
-const number = x => typeof x === 'number' && !Number.isInteger(x) ? String(Number(x.toPrecision(9))) : String(x);
-const text = value => value === undefined ? '–' : Array.isArray(value) ? value.map(number).join(' ') : number(value);
+const all_digits = 9, digits_in_a_line = 6;
+const number = (x, digits) => typeof x === 'number' && !Number.isInteger(x) ? String(Number(x.toPrecision(digits))) : String(x);
+const text = (value, digits) => value === undefined ? '–' : [value].flat().map(x => number(x, digits)).join(' ');
 
 function line(value, executors) {
   const row = make('div', undefined, `line ${value.verdict ?? ''}`);
   row.append(make('span', value.name, 'name'));
-  const texts = executors.map(name => text(value[name]));
-  if (!value.verdict) {
-    row.append(make('span', texts.find(each => each !== '–') ?? '–'));
+  if (!value.verdict) {  // numbers that agree are short, so that a vector fits in a line
+    const agreed = executors.map(name => value[name]).find(each => each !== undefined);
+    row.append(Object.assign(make('span', text(agreed, digits_in_a_line)), { title: text(agreed, all_digits) }));
     return row;
   }
+  const texts = executors.map(name => text(value[name], all_digits));
   const all = make('span');
   executors.forEach((name, i) => all.append(make('div', `${texts[i]}  ${name}`)));
   all.append(make('div', `${value.verdict}: ${value.difference}`, 'why'));

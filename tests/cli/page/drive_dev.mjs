@@ -157,4 +157,11 @@ assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= inne
 const small = await page.locator('#stage').boundingBox();
 assert.ok(Math.abs(small.width / small.height - 64 / 48) < 0.02 && small.y < 150, 'the picture has bars around it, or is not at the top');
 await page.screenshot({ path: `${folder}/dark.png` });
+
+// Names are text, however long they are and whatever they hold.
+const nasty = `</script><img src=x onerror=alert(1)> &lt;b&gt; ${'x'.repeat(80)}`;
+await next('gpu', () => writeFileSync(scene_file, scene.replaceAll('"matte"', `"${nasty}"`).replace(/^diffuse = (.*)$/m, 'diffuse = $1  # @color')));
+assert.equal(await page.locator('#tunables legend').first().textContent(), nasty);
+assert.equal(await page.locator('img').count(), 0);
+assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'a long name makes the page wider than a phone');
 await browser.close();
