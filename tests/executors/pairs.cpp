@@ -1,6 +1,8 @@
-// Kernels of scenes that combine features as no scene of the project does: each is compiled, without a
-// device. Every two kinds of material stand side by side, and of all other features every pair occurs
-// together.
+// Scenes that combine features as no scene of the project does. Their kernels are compiled without a device:
+// every two kinds of material stand side by side, and every pair of other features occurs together. Random
+// ones are verified.
+#include <fmt/format.h>
+
 #include <array>
 #include <filesystem>
 #include <map>
@@ -11,6 +13,7 @@
 
 #include "host/loader/scene_file.hpp"
 #include "host/pack/pack.hpp"
+#include "host/verify/verify.hpp"
 #include "tests/support/entries.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/random.hpp"
@@ -191,10 +194,10 @@ std::vector<Row> all_rows() {
   return rows;
 }
 
-std::string text_of(const Row& row) {
+std::string text_of(const Row& row, const std::string& eye = "[0, 1, 5]") {
   const auto at = [&](Factor factor) { return levels[factor][row.level[factor]] + "\n"; };
   return "[image]\nwidth = 8\nheight = 8\n" + levels[sampler][row.level[sampler]] +
-         "\n[camera]\neye = [0, 1, 5]\n" + at(camera) +
+         "\n[camera]\neye = " + eye + "\n" + at(camera) +
          "[render]\ngroups = 'instanced'\nintegrator = " + at(integrator) + at(light) + at(medium) +
          "[[material]]\nname = 'a'\n" + materials[row.first] + "\n" + at(surface) +
          "[[material]]\nname = 'b'\n" + materials[row.second] + "\n" + at(shape) +
@@ -224,17 +227,71 @@ void compile(const Row& row, const std::string& file, Features& features) {
     compile_entry("kernels/photons.comp.glsl", packed, options, "#define SENDS_PHOTONS\n");
 }
 
-void check_compiles(const Row& row, Features& features) {
-  const TemporaryFolder folder;
+// Returns the scene's file, beside those that it names.
+std::string write_scene(const TemporaryFolder& folder, const std::string& text) {
   for (const char* file :
        {"scenes/cameras/little_planet.glsl", "scenes/patterns/hexagons.glsl", "scenes/meshes/ring.ply",
         "scenes/path/studio.hdr", "scenes/textures/studs_normal.png"})
     std::filesystem::copy_file(file, folder.path() / std::filesystem::path(file).filename());
   write_text(folder / "triangle.gltf", one_sided_triangle);
+  write_text(folder / "scene.toml", text);
+  return folder / "scene.toml";
+}
+
+void check_compiles(const Row& row, Features& features) {
+  const TemporaryFolder folder;
   const std::string text = text_of(row);
   CAPTURE(text);
-  write_text(folder / "scene.toml", text);
-  CHECK_NOTHROW(compile(row, folder / "scene.toml", features));
+  CHECK_NOTHROW(compile(row, write_scene(folder, text), features));
+}
+
+std::string toml(const Vec3& v) {
+  return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+}
+
+// A shape of either material, anywhere around the middle.
+std::string any_shape(Random& random) {
+  static const std::string kinds[] = {
+      "[[sphere]]\ncenter = [0, 0, 0]\nradius = 0.5",
+      "[[box]]\nmin = [-0.4, -0.3, -0.5]\nmax = [0.4, 0.3, 0.5]",
+      "[[torus]]\ncenter = [0, 0, 0]\nmajor_radius = 0.5\nminor_radius = 0.2",
+      "[[cylinder]]\nfrom = [0, -0.4, 0]\nto = [0, 0.4, 0]\nradius = 0.3",
+      "[[ellipsoid]]\ncenter = [0, 0, 0]\nradii = [0.3, 0.5, 0.4]",
+      "[[disk]]\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nradius = 0.6",
+  };
+  return fmt::format(
+      "{}\nmaterial = '{}'\ntransform = [{{ rotate = {{ axis = {}, degrees = {} }} }}, {{ translate = {} "
+      "}}]\n",
+      kinds[random.below(int(std::size(kinds)))], random.below(2) ? 'a' : 'b', toml(random.direction()),
+      random.uniform(0, 360), toml(random.point(1.4)));
+}
+
+// Gates A to D, on a scene that the seed makes up.
+void check_verified(uint64_t seed) {
+  Random random(seed);
+  const auto material = [&] { return size_t(random.below(int(materials.size()))); };
+  const Row row{material(), material(), any_levels(random)};
+  Vec3 eye = random.direction() * 5.0;
+  eye.y = std::abs(eye.y);  // above the floor
+  std::string text = text_of(row, toml(eye));
+  for (int i = 0; i < 3; ++i) text += any_shape(random);
+  const TemporaryFolder folder;
+  Scene scene = loader::load_scene(write_scene(folder, text));
+  scene.image.width = 24;
+  scene.image.height = 18;
+  scene.image.samples = 4;
+  scene.render.seed = uint32_t(seed);
+  if (scene.render.integrator == IntegratorType::sppm) {
+    scene.render.photons = 2048;
+    scene.render.photon_radius = 0.3;
+  }
+  verify::Options options;
+  options.executor.constants = row.level[storage] == 0;
+  options.max_explained = 0.05;
+  const compare::Report report = verify::verify_scene({scene, fmt::format("seed {}", seed), "", ""}, options);
+  INFO(text);
+  INFO(to_text(report));
+  CHECK(report.passes());
 }
 
 }  // namespace
@@ -252,6 +309,14 @@ TEST_CASE("all pairs of materials, and of other features, compile" * doctest::te
     CAPTURE(feature.first);
     CHECK(feature.second.size() == 2);
   }
+}
+
+TEST_CASE("random scenes that combine everything pass every gate") {
+  for (uint64_t seed = 1; seed <= 3; ++seed) check_verified(seed);
+}
+
+TEST_CASE("… 60 of them" * doctest::test_suite("long")) {
+  for (uint64_t seed = 1; seed <= 60; ++seed) check_verified(seed);
 }
 
 }  // namespace eyeray::pairs
