@@ -131,7 +131,7 @@ void warn_of_caches(const CLI::App& command) {
   const CLI::Option* const worker = command.get_option_no_throw("--worker-socket");
   if (!command.get_option_no_throw("--device") || (worker && worker->count() > 0)) return;
   for (const std::string& warning : DiskCache::of_user().warnings())
-    fmt::print(stderr, "eyeray: warning: {}\n", log_line(warning));
+    print_lines(stderr, "eyeray: warning: {}\n", warning);
 }
 
 // The words behind -- of `eyeray slurm`, which are sbatch's; they are taken off argc.
