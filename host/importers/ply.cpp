@@ -5,10 +5,9 @@
 
 #include "host/core/free_memory.hpp"
 #include "host/importers/formats.hpp"
-#include "host/importers/mesh_builder.hpp"
 #include "host/importers/ply_header.hpp"
+#include "host/importers/ply_polygons.hpp"
 #include "host/importers/ply_values.hpp"
-#include "host/importers/polygon.hpp"
 #include "host/importers/texture_files.hpp"
 #include "host/materials/make.hpp"
 
@@ -64,15 +63,6 @@ double brightest(PlyType type) {
   }
 }
 
-// The corners of polygons, one after the other.
-struct Polygons {
-  std::vector<uint32_t> corners;
-  std::vector<uint32_t> sizes;
-  std::vector<Vec2> uv;            // one a corner, not finite where a face has none; or empty
-  std::vector<Vec3> colors;        // linear RGB, one a polygon; or empty
-  std::vector<uint32_t> pictures;  // indices of PlyHeader::pictures, one a polygon; or empty
-};
-
 template <typename Values>
 class PlyReader {
  public:
@@ -95,7 +85,7 @@ class PlyReader {
   }
 
   VertexPool vertices;
-  Polygons polygons;
+  PlyPolygons polygons;
 
  private:
   void check_count(const PlyElement& element) const;
@@ -301,68 +291,6 @@ void PlyReader<Values>::read_strip(uint64_t count, PlyType type) {
   }
 }
 
-// Adds what faces have of their own to the pool; strips, where a file has both, have none. Colours of
-// vertices count more than those of faces.
-void pool_values_of_faces(Polygons& polygons, VertexPool& vertices, std::vector<std::string>& warnings) {
-  if (!polygons.uv.empty()) polygons.uv.resize(polygons.corners.size(), Vec2(NAN));
-  if (!polygons.colors.empty()) polygons.colors.resize(polygons.sizes.size(), Vec3(1));
-  if (!polygons.pictures.empty()) polygons.pictures.resize(polygons.sizes.size());
-  if (!polygons.colors.empty() && !vertices.colors.empty()) {
-    polygons.colors.clear();
-    warnings.emplace_back("the colours of faces were left out: those of vertices are shown");
-  }
-  if (!polygons.colors.empty()) vertices.colors = polygons.colors;
-  if (!polygons.uv.empty() && !vertices.uv.empty())
-    warnings.emplace_back("the uv of vertices were left out: those of faces (texcoord) are shown");
-  if (!polygons.uv.empty()) vertices.uv = std::move(polygons.uv);
-}
-
-// The polygons as triangles: a list for each picture that they show, or a single one.
-std::vector<RawTriangles> triangulate(const Polygons& polygons, const VertexPool& vertices, size_t pictures,
-                                      bool own_uv, MeshCounts& counts, const std::string& file) {
-  const auto known = [&](uint32_t corner) { return corner < vertices.positions.size(); };
-  if (const auto wrong = std::ranges::find_if_not(polygons.corners, known); wrong != polygons.corners.end()) {
-    throw malformed(file, fmt::format("a face refers to vertex {}; there are {}, counted from 0",
-                                      *wrong == no_index ? -1 : int64_t{*wrong}, vertices.positions.size()));
-  }
-  const bool split = pictures > 1 && !polygons.pictures.empty();
-  std::vector<RawTriangles> lists(split ? pictures : 1);
-  for (RawTriangles& raw : lists) {
-    raw.name = file;
-    raw.has_normals = !vertices.normals.empty();
-    raw.has_uv = !vertices.uv.empty();
-  }
-  if (!split) lists[0].positions.reserve(polygons.sizes.size());
-  Triangulator triangulator;
-  std::vector<Vec3> points;
-  uint32_t first = 0;  // the corner with which a polygon begins
-  for (size_t i = 0; i < polygons.sizes.size(); ++i) {
-    const uint32_t picture = split ? polygons.pictures[i] : 0;
-    if (picture >= lists.size())
-      throw malformed(file, fmt::format("a face has the texnumber {}; there are {} pictures, counted from 0",
-                                        picture == no_index ? -1 : int64_t{picture}, lists.size()));
-    RawTriangles& raw = lists[picture];
-    const uint32_t* const corner = &polygons.corners[first];
-    const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
-      raw.positions.push_back({corner[a], corner[b], corner[c]});
-      if (own_uv) raw.uv.push_back({first + a, first + b, first + c});
-      if (!polygons.colors.empty()) raw.colors.push_back(static_cast<uint32_t>(i));
-    };
-    const uint32_t size = polygons.sizes[i];
-    if (size == 3) {
-      add(0, 1, 2);
-    } else {
-      points.clear();
-      for (uint32_t k = 0; k < size; ++k) points.push_back(vertices.positions[corner[k]]);
-      for (const auto& [a, b, c] : triangulator.cut(points)) add(a, b, c);
-      if (size < 3) ++counts.without_area;
-    }
-    first += size;
-  }
-  counts.fans += triangulator.fans();
-  return lists;
-}
-
 // Makes a material of each picture that the file names, if it has uv for it and faces say which they show.
 // Returns for each the index of its material, or −1.
 std::vector<int> show_pictures(const PlyHeader& header, MeshFile& file, size_t shown, bool has_uv,
@@ -398,7 +326,7 @@ ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
     throw malformed(file.name, "it has no faces: points alone cannot be seen");
   MeshCounts counts;
   const bool own_uv = !reader.polygons.uv.empty();
-  pool_values_of_faces(reader.polygons, reader.vertices, scene.warnings);
+  add_values_of_faces(reader.polygons, reader.vertices, scene.warnings);
   const std::vector<RawTriangles> lists =
       triangulate(reader.polygons, reader.vertices, header.pictures.size(), own_uv, counts, file.name);
   reader.polygons = {};

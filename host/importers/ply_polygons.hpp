@@ -1,0 +1,31 @@
+// The polygons of a PLY file, and what each has of its own. Private to the importers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/importers/mesh_builder.hpp"
+
+namespace eyeray::importers {
+
+// The corners of polygons, one after the other.
+struct PlyPolygons {
+  std::vector<uint32_t> corners;
+  std::vector<uint32_t> sizes;
+  std::vector<Vec2> uv;            // one a corner, not finite where a face has none; or empty
+  std::vector<Vec3> colors;        // linear RGB, one a polygon; or empty
+  std::vector<uint32_t> pictures;  // indices of PlyHeader::pictures, one a polygon; or empty
+};
+
+// Adds what faces have of their own to the pool; strips, where a file has both, have none. Colours of
+// vertices count more than those of faces.
+void add_values_of_faces(PlyPolygons& polygons, VertexPool& vertices, std::vector<std::string>& warnings);
+
+// The polygons as triangles: a list for each picture that they show, or a single one. `own_uv`: the pool's uv
+// are one a corner. InputError for a corner or a picture that there is not.
+std::vector<RawTriangles> triangulate(const PlyPolygons& polygons, const VertexPool& vertices,
+                                      size_t pictures, bool own_uv, MeshCounts& counts,
+                                      const std::string& file);
+
+}  // namespace eyeray::importers
