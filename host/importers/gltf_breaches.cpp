@@ -11,6 +11,9 @@ namespace eyeray::importers {
 
 namespace {
 
+// A hostile file may have more; to remember them takes far more memory than the file.
+constexpr size_t most_places = 65536;
+
 // A set of component types: a bit for each, and one more for each that is normalized.
 using Types = uint32_t;
 
@@ -59,13 +62,13 @@ GltfBreaches::GltfBreaches(const GltfObject& document)
 
 void GltfBreaches::add(std::string_view kind, const std::string& place) {
   auto known = std::ranges::find(kinds_, kind, &Kind::name);
-  if (known == kinds_.end()) known = kinds_.insert(known, {std::string(kind), place, {}});
-  known->places.insert(place);
+  if (known == kinds_.end()) known = kinds_.insert(known, {std::string(kind), place});
+  if (known->places.size() == most_places || known->places.insert(place).second) ++known->count;
 }
 
 void GltfBreaches::report(std::vector<std::string>& warnings) const {
   for (const Kind& kind : kinds_)
-    warnings.push_back(fmt::format("{}: {}, the first {}", kind.name, kind.places.size(), kind.first));
+    warnings.push_back(fmt::format("{}: {}, the first {}", kind.name, kind.count, kind.first));
 }
 
 void GltfBreaches::check_attribute(std::string_view name, size_t index) {

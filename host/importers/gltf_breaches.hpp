@@ -17,7 +17,7 @@ class GltfBreaches {
   explicit GltfBreaches(const GltfObject& document);
 
   // `kind` is a plural with what is made of it, such as "rotations that are not of unit length, normalised".
-  // The same place counts once.
+  // The same place counts once, as long as the kind has at most 65536 places.
   void add(std::string_view kind, const std::string& place);
   // "rotations that are not of unit length, normalised: 3, the first nodes[1].rotation".
   void report(std::vector<std::string>& warnings) const;
@@ -34,7 +34,8 @@ class GltfBreaches {
   struct Kind {
     std::string name;
     std::string first;
-    std::set<std::string> places;
+    size_t count = 0;
+    std::set<std::string> places = {};
   };
   const GltfObject& document_;
   bool quantization_declared_;
