@@ -359,4 +359,10 @@ TEST_CASE("rules of glTF: a kind is said once, with its count and first place") 
   }
   CHECK(said_of(file) ==
         "rotations that are not of unit length, normalised: 38, the first nodes[2].rotation");
+
+  // More places than are remembered one by one.
+  GltfFile many = square_file();
+  for (int i = 0; i < 70'000; ++i) many.json["nodes"].push_back({{"name", i}});
+  CHECK(said_of(many) ==
+        "values of another type than glTF gives their property: 70000, the first nodes[1].name");
 }
