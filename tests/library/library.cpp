@@ -185,6 +185,23 @@ TEST_CASE("errors are of a kind, and a scene's have places") {
         ErrorKind::bad_input);
 }
 
+TEST_CASE("a loop of a renderer's shaders that does not end is an error that names it") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("eyeray-endless-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder / "shapes");
+  std::string text = bytes_of("shaders/shapes/sphere.glsl");
+  const std::string end = "  return discriminant >= 0.0f ? t : T_NONE;\n";
+  REQUIRE(text.find(end) != std::string::npos);
+  text.insert(text.find(end), "  while (true) {}\n");
+  std::ofstream(folder / "shapes/sphere.glsl") << text;
+  const Error error = thrown_by([&] { Renderer({.shaders = folder}).render(Scene::read(small)); });
+  std::filesystem::remove_all(folder);
+  CHECK(error.kind() == ErrorKind::timed_out);
+  const std::string message = error.what();
+  CHECK(message.find((folder / "shapes/sphere.glsl:").string()) != std::string::npos);
+  CHECK(message.ends_with(": while (true) {}"));
+}
+
 TEST_CASE("a scene built in code is the same as one from a file") {
   SceneBuilder builder;
   builder.set("image", Table().set("width", 64).set("height", 48));
