@@ -221,3 +221,23 @@ TEST_CASE("each way to trace incoherent rays races by itself; an unknown one is 
   CHECK(refused.code == 2);
   CHECK(refused.err.find("--incoherent is cooperative, lanes or packets, not 'wider'") != std::string::npos);
 }
+
+TEST_CASE("an edit of a formula shows the twin's pixels long before its kernel is there" *
+          doctest::test_suite("long")) {
+  const ProcessResult result = run_eyeray({"bench", "--dev", "-n", "2", "--json"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  const auto report = nlohmann::json::parse(result.out);
+  for (const char* kind : {"shader", "scene", "formula"}) {
+    REQUIRE(report.at(kind).size() == 2);
+    for (const auto& edit : report.at(kind)) {
+      CHECK(edit.at("first_pixels") > 0);
+      CHECK(edit.at("first_pixels") <= edit.at("whole"));
+      CHECK(edit.at("first_processor") <= edit.at("processor"));
+    }
+  }
+  for (const auto& edit : report.at("formula")) {
+    CHECK(edit.at("compiling") > 0.1);
+    CHECK(edit.at("first_processor").get<double>() < edit.at("processor").get<double>() / 4);
+  }
+}
