@@ -49,7 +49,7 @@ run(0 ${PROGRAM} check ${documents}/scenes/whitted.toml)
 
 # Another minor version is refused.
 file(WRITE ${SCRATCH}/other/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(other LANGUAGES NONE)\nfind_package(eyeray 0.99 REQUIRED)\n")
-run(1 ${CMAKE_COMMAND} -S ${SCRATCH}/other -B ${SCRATCH}/other/build -D CMAKE_PREFIX_PATH=${prefix})
+run(1 ${CMAKE_COMMAND} -G Ninja -S ${SCRATCH}/other -B ${SCRATCH}/other/build -D CMAKE_PREFIX_PATH=${prefix})
 expect("${err}" "requested version \"0.99\"")
 
 run(0 ${CMAKE_COMMAND} -G Ninja -S examples -B ${examples} -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_CXX_COMPILER=${COMPILER}
