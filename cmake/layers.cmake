@@ -43,15 +43,23 @@ function(eyeray_precompiled target)
   endif()
 endfunction()
 
-# Where headers take most of a compiler's time, some files are compiled at a time, in the same builds: names in anonymous namespaces may
-# not be the same in two files of such a target. (CMake's own UNITY_BUILD names files by where they lie, so that no other
+# Headers take most of a compiler's time, so eight files are compiled at a time, in the same builds: names in anonymous namespaces may
+# not be the same in two files of a target. Files of a kind (a shape, a material, a generator, …) are compiled alone: all kinds have the
+# same names, such as `manual`, `keys`, `parse` and `scene`. (CMake's own UNITY_BUILD names files by where they lie, so that no other
 # clone would find in ccache what this one compiled.)
 function(eyeray_in_batches target)
   if(NOT EYERAY_PRECOMPILED)
     return()
   endif()
-  get_target_property(sources ${target} SOURCES)
-  list(FILTER sources INCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/.*\\.cpp$")
+  get_target_property(all ${target} SOURCES)
+  list(FILTER all INCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/.*\\.cpp$")
+  set(sources "")
+  foreach(source IN LISTS all)
+    file(STRINGS ${source} kind REGEX "^constexpr std::string_view manual =|^std::string scene[(]" LIMIT_COUNT 1)
+    if(NOT kind)
+      list(APPEND sources ${source})
+    endif()
+  endforeach()
   set_source_files_properties(${sources} PROPERTIES HEADER_FILE_ONLY ON)
   set(number 0)
   while(sources)
@@ -83,5 +91,8 @@ function(eyeray_layer name)
   endif()
   target_compile_options(${name} PRIVATE ${options})
   eyeray_precompiled(${name} OPTIONS ${options})
+  if(NOT EYERAY_SANITIZE)  # there each file includes what it uses of ours
+    eyeray_in_batches(${name})
+  endif()
   set_property(GLOBAL APPEND PROPERTY EYERAY_LAYERS ${name})
 endfunction()

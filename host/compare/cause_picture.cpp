@@ -19,20 +19,20 @@ struct Class {
   uint32_t color;  // sRGB, 0xrrggbb
 };
 
-constexpr std::pair<Cause, uint32_t> colors[] = {
+constexpr std::pair<Cause, uint32_t> cause_colors[] = {
     {Cause::silhouette, 0x0072b2},  {Cause::texture_edge, 0x56b4e9}, {Cause::refraction_branch, 0xcc79a7},
     {Cause::shadow_edge, 0xf0e442}, {Cause::rounding, 0x009e73},     {Cause::crease, 0xe69f00},
     {Cause::grazing, 0xd55e00},     {Cause::undecidable, 0xffffff},  {Cause::parted, 0x999933},
 };
-static_assert(std::size(colors) == cause_count);
+static_assert(std::size(cause_colors) == cause_count);
 
 // The class of a pixel that does not match.
 std::optional<Class> class_of(const PixelOutcome& pixel) {
   if (pixel.outcome == Outcome::unexamined) return Class{"unexamined", 0x800000};
   if (pixel.outcome == Outcome::unexplained) return Class{"unexplained", 0xff0000};
   if (pixel.outcome != Outcome::explained) return std::nullopt;
-  const auto color = std::ranges::find(colors, pixel.cause, &std::pair<Cause, uint32_t>::first);
-  CHECK(color != std::end(colors));
+  const auto color = std::ranges::find(cause_colors, pixel.cause, &std::pair<Cause, uint32_t>::first);
+  CHECK(color != std::end(cause_colors));
   return Class{name(pixel.cause), color->second};
 }
 

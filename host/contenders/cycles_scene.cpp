@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <span>
 
+#include "host/contenders/append.hpp"
 #include "host/core/embedded_file.hpp"
 #include "host/core/error.hpp"
 #include "host/scene/affine.hpp"
@@ -20,12 +20,6 @@ namespace {
 
 // Planes have no end in eyeray.
 constexpr double plane_size = 100;  // of the scene's
-
-// Formats onto the end of a string.
-template <typename... Args>
-void append(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-}
 
 std::string tuple(const Vec3& v) {
   const Vec3 plain = v + 0.0;  // no −0

@@ -2,19 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-#include <utility>
-
+#include "host/contenders/append.hpp"
 #include "host/core/error.hpp"
 
 namespace eyeray::contenders {
 namespace {
-
-// Formats onto the end of a string.
-template <typename... Args>
-void append(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-}
 
 std::string vector(const Vec3& v) {
   const Vec3 plain = v + 0.0;  // no −0

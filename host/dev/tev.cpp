@@ -17,7 +17,7 @@
 namespace eyeray::dev {
 namespace {
 
-constexpr int patience = 2000;  // milliseconds
+constexpr int most_milliseconds_to_wait = 2000;
 constexpr std::array<const char*, 3> channels{"R", "G", "B"};
 
 // A packet is its length, itself included, and what follows, little-endian.
@@ -102,7 +102,7 @@ bool Tev::connect() {
     pollfd polled{socket_, POLLOUT, 0};
     int failure = 0;
     socklen_t size = sizeof failure;
-    if (begun && ::poll(&polled, 1, patience) > 0 &&
+    if (begun && ::poll(&polled, 1, most_milliseconds_to_wait) > 0 &&
         ::getsockopt(socket_, SOL_SOCKET, SO_ERROR, &failure, &size) == 0 && failure == 0)
       return true;
     close();
@@ -113,7 +113,7 @@ bool Tev::connect() {
 bool Tev::send(const std::string& packet) {
   for (size_t done = 0; done < packet.size();) {
     pollfd polled{socket_, POLLOUT, 0};
-    if (::poll(&polled, 1, patience) <= 0) return false;
+    if (::poll(&polled, 1, most_milliseconds_to_wait) <= 0) return false;
     const ssize_t count = ::send(socket_, packet.data() + done, packet.size() - done, MSG_NOSIGNAL);
     if (count < 0 && errno != EINTR && errno != EAGAIN) return false;
     if (count > 0) done += size_t(count);

@@ -24,7 +24,6 @@ namespace {
 
 constexpr int most_values = 4096;     // pixels of one answer
 constexpr float not_compared = 0.2f;  // the grey of pixels whose difference is not known yet
-constexpr double longest_wait = 10;
 
 std::string random_token() {
   std::array<unsigned char, 16> bytes;
@@ -171,8 +170,7 @@ Answer WebServer::Site::answer(Request& request) const {
 // Sends the status now and whenever it changes.
 void WebServer::Site::tell() {
   for (uint64_t seen = 0; !board.closed();)
-    if (const auto status = board.next_status(seen, longest_wait))
-      server.publish("data: " + *status + "\n\n");
+    if (const auto status = board.next_status(seen, 3600)) server.publish("data: " + *status + "\n\n");
 }
 
 WebServer::WebServer(Board& board, Command command, int port, WebLimits limits)

@@ -10,7 +10,7 @@
 namespace eyeray::executors {
 namespace {
 
-bool varies(const shader::Texture& texture) {
+bool texture_varies(const shader::Texture& texture) {
   return std::ranges::find(texture_rows, texture.kind, &TextureRow::number)->varies;
 }
 
@@ -19,7 +19,7 @@ bool bends(const shader::Material& material) {
 }
 
 bool is_black(const shader::Texture& texture) {
-  return !varies(texture) && texture.color == shader::vec3(0);
+  return !texture_varies(texture) && texture.color == shader::vec3(0);
 }
 
 bool any_flag(const records::PackedScene& scene, uint32_t flag) {
@@ -41,7 +41,7 @@ bool varies(const records::PackedScene& scene, const shader::Material& material)
   return bends(material) ||
          std::ranges::any_of(rows::material_textures, [&](const rows::MaterialTexture& one) {
            const uint32_t index = material.*one.texture;
-           return index != NONE && varies(scene.textures[index]);
+           return index != NONE && texture_varies(scene.textures[index]);
          });
 }
 
@@ -89,7 +89,8 @@ bool any_rough_diffuse(const records::PackedScene& scene) {
 
 bool any_specular_varies(const records::PackedScene& scene) {
   return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
-    return varies(scene.textures[material.specular_level]) || varies(scene.textures[material.specular_color]);
+    return texture_varies(scene.textures[material.specular_level]) ||
+           texture_varies(scene.textures[material.specular_color]);
   });
 }
 

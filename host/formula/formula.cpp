@@ -35,7 +35,7 @@ struct Compiled {
 namespace {
 
 // Of straight-line code: each is a call in kernels, and drivers take more than a second for a hundred.
-constexpr size_t most_steps = 512;
+constexpr size_t most_straight_steps = 512;
 
 // As glslang mangles it.
 std::string mangled(const Entry& entry) {
@@ -229,12 +229,12 @@ const expression::StraightLine& Formula::straight_line() const {
       Execution execution(compiled_->module, expression);
       straight_line_ =
           expression::straight_line(expression, execution.run(mangled(entry_of(compiled_->kind))));
-      if (straight_line_.size() > most_steps)
+      if (straight_line_.size() > most_straight_steps)
         throw InputError(
             {{Severity::error,
               {},
               fmt::format("without loops, calls and branches the function has {} operations, and may have {}",
-                          straight_line_.size(), most_steps),
+                          straight_line_.size(), most_straight_steps),
               ""}});
     } catch (const InputError& error) {
       std::vector<Diagnostic> diagnostics = in_text(error, compiled_->text);

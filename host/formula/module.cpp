@@ -1,4 +1,3 @@
-#define SPV_ENABLE_UTILITY_CODE
 #include "host/formula/module.hpp"
 
 #include <fmt/format.h>

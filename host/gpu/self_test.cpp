@@ -13,7 +13,7 @@ namespace eyeray::gpu {
 namespace {
 
 // As in kernels/selftest.comp.glsl.
-constexpr uint32_t count = 256;
+constexpr uint32_t invocations = 256;
 constexpr uint32_t words_an_invocation = 8;
 constexpr uint32_t loop_iterations = 100000;
 constexpr uint32_t denormal = 0x00000100u;
@@ -36,21 +36,21 @@ float random_float(uint32_t seed) {
 struct Inputs {
   std::vector<uint32_t> words;
 
-  Inputs() : words(3 * count + 2) {
-    for (uint32_t i = 0; i < count; ++i) {
+  Inputs() : words(3 * invocations + 2) {
+    for (uint32_t i = 0; i < invocations; ++i) {
       const float a = random_float(3 * i), b = random_float(3 * i + 1);
       // Half of the sums cancel, so that the product's lost digits are all that a fused operation leaves.
       const float c = i % 2 == 0 ? -(a * b) : random_float(3 * i + 2);
       words[i] = std::bit_cast<uint32_t>(a);
-      words[count + i] = std::bit_cast<uint32_t>(b);
-      words[2 * count + i] = std::bit_cast<uint32_t>(c);
+      words[invocations + i] = std::bit_cast<uint32_t>(b);
+      words[2 * invocations + i] = std::bit_cast<uint32_t>(c);
     }
-    words[3 * count] = denormal;
-    words[3 * count + 1] = std::bit_cast<uint32_t>(0.0f);
+    words[3 * invocations] = denormal;
+    words[3 * invocations + 1] = std::bit_cast<uint32_t>(0.0f);
   }
   float a(uint32_t i) const { return std::bit_cast<float>(words[i]); }
-  float b(uint32_t i) const { return std::bit_cast<float>(words[count + i]); }
-  float c(uint32_t i) const { return std::bit_cast<float>(words[2 * count + i]); }
+  float b(uint32_t i) const { return std::bit_cast<float>(words[invocations + i]); }
+  float c(uint32_t i) const { return std::bit_cast<float>(words[2 * invocations + i]); }
 };
 
 void expect(const Device& device, const char* what, uint32_t index, uint32_t expected, uint32_t found) {
@@ -75,13 +75,13 @@ bool arithmetic_is_exact(const Inputs& inputs, uint32_t i, const uint32_t* found
 DeviceFacts judge(const Device& device, const Inputs& inputs, std::span<const uint32_t> outputs) {
   DeviceFacts facts;
   facts.exact_arithmetic = true;
-  for (uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < invocations; ++i) {
     const uint32_t* found = &outputs[words_an_invocation * i];
     expect(device, "an integer hash", i, hash(i ^ inputs.words[i]), found[0]);
-    expect(device, "an indexed load", i, inputs.words[count - 1 - i], found[1]);
+    expect(device, "an indexed load", i, inputs.words[invocations - 1 - i], found[1]);
     facts.exact_arithmetic = facts.exact_arithmetic && arithmetic_is_exact(inputs, i, found);
   }
-  const uint32_t* special = &outputs[words_an_invocation * count];
+  const uint32_t* special = &outputs[words_an_invocation * invocations];
   facts.denormals_kept = special[0] == denormal / 2;
   facts.infinities_kept = special[1] == 0x7f800000u;
   facts.loop_iterations = special[2];
@@ -106,13 +106,13 @@ DeviceFacts self_test(Device& device, const SourceProvider& shaders, const DiskC
 
   const Inputs inputs;
   Buffer input(device, inputs.words.size() * sizeof(uint32_t), "self-test inputs");
-  Buffer output(device, (words_an_invocation * count + 4) * sizeof(uint32_t), "self-test outputs");
+  Buffer output(device, (words_an_invocation * invocations + 4) * sizeof(uint32_t), "self-test outputs");
   input.upload_records(inputs.words);
   kernel.set_buffer(0, input);
   kernel.set_buffer(1, output);
-  const uint32_t push_constants[] = {count, loop_iterations};
+  const uint32_t push_constants[] = {invocations, loop_iterations};
   dispatch(device, kernel, std::as_bytes(std::span(push_constants)),
-           {count / kernel.reflection().local_size[0]});
+           {invocations / kernel.reflection().local_size[0]});
 
   DeviceFacts facts = judge(device, inputs, output.read_records<uint32_t>(output.size() / sizeof(uint32_t)));
   facts.seconds = watch.seconds();

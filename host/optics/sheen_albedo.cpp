@@ -6,25 +6,25 @@
 namespace eyeray::optics {
 namespace {
 
-constexpr int turns = 16, heights = 64;
+constexpr int sheen_turns = 16, sheen_heights = 64;
 
 // Over the half sphere, half of all turns; heights as squares, most of them low, where sheen is.
 template <typename Weakening>
 double integral(double mu, double roughness, const Weakening& weakening) {
   const double level = std::sqrt(1 - mu * mu);
   double sum = 0;
-  for (int k = 0; k < heights; ++k) {
-    const double x = (k + 0.5) / heights, z = x * x, aside = std::sqrt(1 - z * z);
+  for (int k = 0; k < sheen_heights; ++k) {
+    const double x = (k + 0.5) / sheen_heights, z = x * x, aside = std::sqrt(1 - z * z);
     double of_turns = 0;
-    for (int t = 0; t < turns; ++t) {
-      const double along = level + aside * std::cos(M_PI * (t + 0.5) / turns);
-      const double across = aside * std::sin(M_PI * (t + 0.5) / turns), up = mu + z;
+    for (int t = 0; t < sheen_turns; ++t) {
+      const double along = level + aside * std::cos(M_PI * (t + 0.5) / sheen_turns);
+      const double across = aside * std::sin(M_PI * (t + 0.5) / sheen_turns), up = mu + z;
       const double length = std::sqrt(along * along + across * across + up * up);
       of_turns += sheen(std::min(up / length, 1.0), mu, z, roughness);
     }
     sum += of_turns * weakening(z) * z * (2 * x);
   }
-  return sum * 2 * M_PI / (turns * heights);
+  return sum * 2 * M_PI / (sheen_turns * sheen_heights);
 }
 
 }  // namespace

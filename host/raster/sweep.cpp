@@ -11,10 +11,6 @@ namespace {
 constexpr int least_sides = 8, most_sides = 1024;
 constexpr int deepest = 24;
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
 // How far the tip of the triangle that chord and tangents make is from the chord. Of a straight piece 0;
 // where a tangent is unknown, or square to the chord and beyond, the chord's length.
 double sagitta(const CurvePoint& a, const CurvePoint& b) {
@@ -22,7 +18,8 @@ double sagitta(const CurvePoint& a, const CurvePoint& b) {
   const double length = glm::length(chord);
   if (length == 0) return 0;
   const auto rise = [&](const Vec2& normal) {  // the tangent of the angle between curve and chord
-    const double along = std::fabs(cross(normal, chord)), aside = std::fabs(glm::dot(normal, chord));
+    const double along = std::fabs(normal.x * chord.y - normal.y * chord.x),
+                 aside = std::fabs(glm::dot(normal, chord));
     return along > 0 ? aside / along : std::numeric_limits<double>::infinity();
   };
   const double at_a = rise(a.normal), at_b = rise(b.normal);

@@ -11,18 +11,14 @@
 
 namespace eyeray {
 
-namespace {
-
-struct Row {
-  const Key* key;
-  const toml::node* node;  // null: not written
-  Value value;             // checked; a stand-in after an error
-  bool failed;
-};
-
-}  // namespace
-
 struct TableReader::Table {
+  struct Row {
+    const Key* key;
+    const toml::node* node;  // null: not written
+    Value value;             // checked; a stand-in after an error
+    bool failed;
+  };
+
   Table(const TableSource& from, DiagnosticLog& to) : source(from), log(to) {
     for (const std::span<const Key> keys : source.keys) {
       for (const Key& key : keys) rows.push_back(read(key));
@@ -60,7 +56,7 @@ const toml::node* TableReader::Table::find(std::string_view name) const {
   return source.table ? source.table->get(name) : nullptr;
 }
 
-Row TableReader::Table::read(const Key& key) {
+TableReader::Table::Row TableReader::Table::read(const Key& key) {
   const toml::node* node = find(key.name);
   if (!node && key.fallback.empty()) {
     const bool wrong = !key.optional && !log.damaged();
@@ -114,7 +110,7 @@ void TableReader::Table::error(const SourcePosition& at, std::string message) {
   log.error(at, std::move(message));
 }
 
-const Row& TableReader::Table::row(std::string_view name) const {
+const TableReader::Table::Row& TableReader::Table::row(std::string_view name) const {
   const auto found = std::ranges::find(rows, name, [](const Row& row) { return row.key->name; });
   if (found == rows.end())
     detail::check_failed(__FILE__, __LINE__, "key is declared", fmt::format(" ({})", name));
@@ -201,7 +197,7 @@ std::shared_ptr<const ImageTexture> TableReader::load_image(std::string_view key
 }
 
 void TableReader::error(std::string_view key, std::string message, std::initializer_list<size_t> element) {
-  const Row& row = table_->row(key);
+  const Table::Row& row = table_->row(key);
   if (row.failed) return;
   if (!row.node && table_->log.damaged()) {  // it may stand in what could not be parsed
     table_->failed = true;

@@ -22,11 +22,11 @@ constexpr double least_width = 1e-14;
 constexpr int most_values = 400000;
 
 // ShadingData through a segment, from its start on.
-class Search {
+class LipschitzSearch {
  public:
   // `rate`: how fast f can change along the ray; `unit`: by how much a length of 1 changes the ray's
   // parameter.
-  Search(const FormulaSurface& surface, const Ray& ray, double rate, double unit)
+  LipschitzSearch(const FormulaSurface& surface, const Ray& ray, double rate, double unit)
       : surface_(surface), ray_(ray), rate_(rate), unit_(unit) {}
 
   struct Sample {
@@ -143,8 +143,8 @@ std::optional<FormulaSurface::Change> FormulaSurface::first_change(const Ray& ra
   const double unit = 1 / glm::length(ray.d);
   if (use_.lipschitz == 0)
     return SeriesSearch(*this, ray, unit).between(start, end, value(ray.o + ray.d * start) < 0);
-  Search search(*this, ray, use_.lipschitz * glm::length(extent_ * ray.d), unit);
-  const Search::Sample first = search.sample(start);
+  LipschitzSearch search(*this, ray, use_.lipschitz * glm::length(extent_ * ray.d), unit);
+  const LipschitzSearch::Sample first = search.sample(start);
   return search.between(first, search.sample(end), first.f < 0);
 }
 
