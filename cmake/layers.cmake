@@ -53,6 +53,7 @@ function(eyeray_in_batches target)
   endif()
   get_target_property(all ${target} SOURCES)
   list(FILTER all INCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/.*\\.cpp$")
+  list(FILTER all EXCLUDE REGEX "^${CMAKE_BINARY_DIR}/")  # generated files do not exist yet
   set(sources "")
   foreach(source IN LISTS all)
     file(STRINGS ${source} kind REGEX "^constexpr std::string_view manual =|^std::string scene[(]" LIMIT_COUNT 1)
