@@ -182,7 +182,7 @@ void PlyReader<Values>::read_faces(const PlyElement& element) {
   const bool colored = has[red] && has[green] && has[blue];
 
   polygons.sizes.reserve(polygons.sizes.size() + element.count);
-  if (uv_list) polygons.uv.resize(polygons.corners.size(), Vec2(NAN));
+  if (uv_list) polygons.uv.resize(polygons.corners.size(), Vec2(double(NAN)));
   if (colored) polygons.colors.resize(polygons.sizes.size(), Vec3(1));
   if (picture) polygons.pictures.resize(polygons.sizes.size());
   std::array<double, none + 1> row{};
@@ -209,7 +209,7 @@ void PlyReader<Values>::read_faces(const PlyElement& element) {
     if (uv_list && !uv.empty() && uv.size() != size)
       values_.fail(fmt::format("a face of {} corners has {} pairs of texcoord", size, uv.size()));
     if (uv_list) {
-      uv.resize(size, Vec2(NAN));
+      uv.resize(size, Vec2(double(NAN)));
       polygons.uv.insert(polygons.uv.end(), uv.begin(), uv.end());
     }
   }

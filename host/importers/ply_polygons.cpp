@@ -9,7 +9,7 @@
 namespace eyeray::importers {
 
 void add_values_of_faces(PlyPolygons& polygons, VertexPool& vertices, std::vector<std::string>& warnings) {
-  if (!polygons.uv.empty()) polygons.uv.resize(polygons.corners.size(), Vec2(NAN));
+  if (!polygons.uv.empty()) polygons.uv.resize(polygons.corners.size(), Vec2(double(NAN)));
   if (!polygons.colors.empty()) polygons.colors.resize(polygons.sizes.size(), Vec3(1));
   if (!polygons.pictures.empty()) polygons.pictures.resize(polygons.sizes.size());
   if (!polygons.colors.empty() && !vertices.colors.empty()) {
