@@ -219,7 +219,7 @@ class Loop {
   bool done_ = false;
 };
 
-double median(const std::vector<Edit>& edits, double Edit::*what) {
+double median(const std::vector<Edit>& edits, double Edit::* what) {
   std::vector<double> values;
   for (const Edit& edit : edits) values.push_back(edit.*what);
   std::ranges::sort(values);

@@ -56,7 +56,7 @@ struct ReferenceComparison {
 struct TallyType {
   const char* gate;
   const char* of;  // "first hits"
-  Tally ReferenceComparison::*tally;
+  Tally ReferenceComparison::* tally;
   const char* unit = "pixels";
 };
 inline constexpr TallyType tally_types[] = {

@@ -65,7 +65,7 @@ void keep_mode(int part, const struct stat& replaced) {
 
 AtomicFile::AtomicFile(const fs::path& path, unsigned mode) : named_(path), path_(behind_links(path)) {
   // stat() through the link, too: the system refuses links that others left in a folder that all may write.
-  struct stat replaced {};
+  struct stat replaced{};
   const bool replaces = ::stat(named_.c_str(), &replaced) == 0;
   if (!replaces && errno != ENOENT) fail("write", named_, errno);
   // A rename would replace a folder, or a device such as /dev/null.

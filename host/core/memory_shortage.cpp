@@ -49,7 +49,7 @@ bool address_space_left(size_t bytes) {
 
 void report_memory_shortage() {
   usual_end = std::set_terminate(on_uncaught);
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = on_crash;
   sigemptyset(&action.sa_mask);
   CHECK_EQ(::sigaction(SIGABRT, &action, &usual_abort), 0);

@@ -10,7 +10,7 @@ namespace eyeray {
 namespace {
 
 bool is_private(const std::filesystem::path& path, mode_t type) {
-  struct stat status {};
+  struct stat status{};
   return ::lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == type &&
          status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
@@ -26,7 +26,7 @@ bool is_private_file(const std::filesystem::path& file) {
 }
 
 std::string why_not_private(const std::filesystem::path& folder) {
-  struct stat status {};
+  struct stat status{};
   if (is_private_folder(folder) || ::lstat(folder.c_str(), &status) != 0) return "";
   if (S_ISLNK(status.st_mode)) return "it is a symbolic link; name the folder that it leads to";
   if (!S_ISDIR(status.st_mode)) return "it is no folder";

@@ -130,12 +130,12 @@ extern "C" void* watching_thread(void* report) {
 }
 
 void catch_signals() {
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction before {};
+    struct sigaction before{};
     CHECK_EQ(::sigaction(number, nullptr, &before), 0);
     if (number == SIGHUP && before.sa_handler == SIG_IGN) continue;
     CHECK_EQ(::sigaction(number, &action, nullptr), 0);

@@ -18,7 +18,7 @@ constexpr const char* unknown_hash = "?";
 }  // namespace
 
 SourceFiles::Stamp SourceFiles::stamp_of(const std::filesystem::path& file) {
-  struct stat info {};
+  struct stat info{};
   if (::stat(file.c_str(), &info) != 0) return {};
   return {info.st_ino, uint64_t(info.st_size), info.st_mtim.tv_sec, info.st_mtim.tv_nsec};
 }

@@ -110,8 +110,7 @@ struct WebServer::Site {
   Site(Board& shown_board, Command obey, int port, const WebLimits& limits)
       : board(shown_board),
         command(std::move(obey)),
-        server(
-            port, [this](Request request) { return answer(request); }, limits) {}
+        server(port, [this](Request request) { return answer(request); }, limits) {}
   ~Site() {
     board.close();
     teller.join();

@@ -43,9 +43,8 @@ double GpuQueries::ask_some(gpu::Kernel& kernel, Rays how, std::span<const Query
   shader::Dispatch push{};
   push.count = count;
   const uint32_t groups = how == Rays::packets ? workgroups_.of_packets(count) : workgroups_.of_items(count);
-  const gpu::RunTime time = kernels_.run([&] {
-    return gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)), {groups, 1, 1});
-  });
+  const gpu::RunTime time = kernels_.run(
+      [&] { return gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)), {groups, 1, 1}); });
 
   const std::vector<shader::QueryHit> answers = output_->read_records<shader::QueryHit>(count);
   kernels_.check_loops(answers);

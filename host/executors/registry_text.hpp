@@ -38,7 +38,7 @@ inline constexpr Row samplers[] = {SAMPLERS(ROW)};
 
 struct MaterialTexture {
   std::string_view name;
-  uint32_t shader::Material::*texture;
+  uint32_t shader::Material::* texture;
 };
 #define ROW(name) {#name, &shader::Material::name},
 inline constexpr MaterialTexture material_textures[] = {MATERIAL_TEXTURES(ROW)};

@@ -117,10 +117,7 @@ const Classic mount_classic = {
     .size_factor = 6,
     .largest = 14,
     .limit = most_triangles,
-    .counts =
-        [](int) {
-          return std::vector<Count>{{"spheres", 4}};
-        },
+    .counts = [](int) { return std::vector<Count>{{"spheres", 4}}; },
     .scene = scene,
     .mesh = mount_mesh,
     .mesh_keys = "material = \"rock\"\nsmooth = 0\n",

@@ -122,10 +122,7 @@ const Classic teapot_classic = {
     .size_factor = 6,
     .largest = 1000,
     .limit = most_text,
-    .counts =
-        [](int n) {
-          return std::vector<Count>{{"squares", uint64_t(n) * uint64_t(n)}};
-        },
+    .counts = [](int n) { return std::vector<Count>{{"squares", uint64_t(n) * uint64_t(n)}}; },
     .scene = scene,
     .mesh = teapot_mesh,
     .mesh_keys = "material = \"teapot\"\n",

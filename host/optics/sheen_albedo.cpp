@@ -39,7 +39,7 @@ double sheen(double cosine_half_way, double cosine_o, double cosine_i, double ro
 std::vector<SheenAlbedo> sheen_albedo_row(int places, double roughness) {
   std::vector<SheenAlbedo> row(static_cast<size_t>(places));
   const double step = 1.0 / (places - 1);
-  const auto of_each = [&](double SheenAlbedo::*member, const auto& weakening) {
+  const auto of_each = [&](double SheenAlbedo::* member, const auto& weakening) {
     for (int i = 0; i < places; ++i) {
       SheenAlbedo& at = row[size_t(i)];
       at.*member = integral(std::max((i * step) * (i * step), 1e-6), roughness,

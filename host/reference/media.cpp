@@ -50,9 +50,8 @@ std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
       bool any_medium = false;
       objects.for_each_material(i, [&](int material) { any_medium = any_medium || has_medium(material); });
       if (!any_medium) continue;
-      collect(Object<Holder>{holder, objects, i}, [&](const TriangleHit& hit) {
-        return objects.material({hit, i});
-      });
+      collect(Object<Holder>{holder, objects, i},
+              [&](const TriangleHit& hit) { return objects.material({hit, i}); });
     }
   };
   collect_all(tracer.world(), tracer.world());

@@ -47,8 +47,7 @@ Objects::Objects(std::span<const std::unique_ptr<Shape>> shapes, std::span<const
     reach_ = std::max(reach_, instances_[i].reach());
     growth_ = std::max(growth_, instances_[i].growth());
   }
-  bvh_ = Bvh(
-      uint32_t(boxes_.size()), [this](uint32_t i) { return boxes_[i]; }, acceleration);
+  bvh_ = Bvh(uint32_t(boxes_.size()), [this](uint32_t i) { return boxes_[i]; }, acceleration);
 }
 
 int Objects::material(const Hit& hit) const {

@@ -57,8 +57,8 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration)
     groups_reach_ = std::max(groups_reach_, groups_.back().reach());
     groups_growth_ = std::max(groups_growth_, groups_.back().growth());
   }
-  group_bvh_ = Bvh(
-      uint32_t(groups_.size()), [this](uint32_t i) { return groups_[i].bounds(); }, acceleration);
+  group_bvh_ =
+      Bvh(uint32_t(groups_.size()), [this](uint32_t i) { return groups_[i].bounds(); }, acceleration);
   if (walks_at_random(scene.render.integrator)) light_choice_ = eyeray::light_choice(scene);
 }
 

@@ -75,7 +75,7 @@ void PartReader::read_at(uint64_t offset, std::span<std::byte> bytes) const {
 }
 
 void PartReader::read_header() {
-  struct stat status {};
+  struct stat status{};
   if (::fstat(descriptor_, &status) != 0) refuse_for(errno);
   if (!S_ISREG(status.st_mode)) refuse("it is not a regular file");
   bytes_ = uint64_t(status.st_size);

@@ -40,7 +40,7 @@ std::span<const double> glass_albedos(int end) {
 
 optics::GgxAlbedo ggx_albedo(double cosine, double roughness) {
   using optics::GgxAlbedo;
-  const auto at = [&](double GgxAlbedo::*member) {
+  const auto at = [&](double GgxAlbedo::* member) {
     return between(ggx_albedos(), ggx_side, cosine, roughness,
                    [&](const GgxAlbedo& of) { return of.*member; });
   };
@@ -49,7 +49,7 @@ optics::GgxAlbedo ggx_albedo(double cosine, double roughness) {
 
 optics::SheenAlbedo sheen_albedo(double cosine, double roughness) {
   using optics::SheenAlbedo;
-  const auto at = [&](double SheenAlbedo::*member) {
+  const auto at = [&](double SheenAlbedo::* member) {
     return between(sheen_albedos(), sheen_side, cosine, roughness,
                    [&](const SheenAlbedo& of) { return of.*member; });
   };

@@ -27,10 +27,8 @@ RayRecorder& recorder_of(void* recorder) {
 SceneView view_of(const records::PackedScene& scene) {
   const FormulaView formulas{
       .scene = &scene,
-      .value =
-          [](const void* all, uint32_t i, const vec3& p) {
-            return formula_of(all, i).value(std::array{p.x, p.y, p.z});
-          },
+      .value = [](const void* all, uint32_t i,
+                  const vec3& p) { return formula_of(all, i).value(std::array{p.x, p.y, p.z}); },
       .gradient =
           [](const void* all, uint32_t i, const vec3& p) {
             const std::array<float, 3> gradient = formula_of(all, i).gradient(std::array{p.x, p.y, p.z});

@@ -39,8 +39,8 @@ struct Subject {
   std::string file;             // Report::scene
   std::string written_options;  // Report::options
   std::filesystem::path
-      evidence;  // the folder where pictures are left when a gate fails (evidence.hpp), if any …
-  bool keep_always = false;        // … or when none does, too
+      evidence;              // the folder where pictures are left when a gate fails (evidence.hpp), if any …
+  bool keep_always = false;  // … or when none does, too
   std::optional<Golden> golden{};  // what gate G compares with
 };
 

@@ -127,8 +127,7 @@ TEST_CASE("a mesh for Cycles keeps its normals, and the environment its texels a
   Scene scene = parse_scene(cycles_stage + "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n",
                             "scene.toml");
   CHECK(!cycles_environment(scene));
-  scene.environment = test::environment(
-      4, 2, [](const Vec3& d) { return Vec3(1 + d.x, 1 + d.y, 2); }, 0.25);
+  scene.environment = test::environment(4, 2, [](const Vec3& d) { return Vec3(1 + d.x, 1 + d.y, 2); }, 0.25);
   scene.meshes.push_back({.name = "mesh",
                           .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                           .triangles = {{0, 1, 2}},

@@ -43,7 +43,7 @@ void check_struct(const gpu::Reflection& reflection, const char* name, size_t si
 
 #define MEMBER(type, name)              \
   Expected {                            \
-#name, offsetof(shader::type, name) \
+    #name, offsetof(shader::type, name) \
   }
 
 }  // namespace

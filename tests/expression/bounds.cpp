@@ -140,8 +140,8 @@ TEST_CASE("each function of GLSL: 10 000 pieces, and no value escapes") {
     CAPTURE(std::string(row.glsl));
     const expression::StraightLine function = test::straight_line(
         fmt::format("float f(vec3 p) {{ float x = p.x, y = p.y, z = p.z; return {}; }}", row.glsl));
-    const Report report = bound_often(
-        function, [&](const Vec3& p) { return row.f(p.x, p.y, p.z); }, row.reach, 10'000);
+    const Report report =
+        bound_often(function, [&](const Vec3& p) { return row.f(p.x, p.y, p.z); }, row.reach, 10'000);
     CAPTURE(report.where.x);
     CAPTURE(report.where.y);
     CAPTURE(report.where.z);

@@ -66,7 +66,9 @@ TEST_CASE("a list that was not run leaves the device usable") {
   gpu::Kernel kernel(device(), word_kernel("data[i] = 5u;", 1), "five", no_cache);
   gpu::Buffer buffer(device(), 4, "data");
   kernel.set_buffer(0, buffer);
-  { gpu::CommandList(device()).dispatch(kernel, {}, {}); }
+  {
+    gpu::CommandList(device()).dispatch(kernel, {}, {});
+  }
   CHECK(buffer.read_records<uint32_t>(1)[0] == 0);
   gpu::dispatch(device(), kernel, {}, {});
   CHECK(buffer.read_records<uint32_t>(1)[0] == 5);

@@ -99,9 +99,8 @@ TEST_CASE("float modes are declared on the entry point, and the module stays val
 
 TEST_CASE("what is not SPIR-V is refused") {
   std::vector<uint32_t> words = compile(arithmetic);
-  CHECK(error_of([] {
-          gpu::decorate_no_contraction(std::vector<uint32_t>{1, 2, 3});
-        }).second == ExitCode::bad_input);
+  CHECK(error_of([] { gpu::decorate_no_contraction(std::vector<uint32_t>{1, 2, 3}); }).second ==
+        ExitCode::bad_input);
   words.back() = 0x00090001u;  // an instruction that reaches past the end
   CHECK(contains(error_of([&] { gpu::reflect(words); }).first, "breaks off"));
   words.back() = 0;

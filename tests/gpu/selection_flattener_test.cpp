@@ -91,7 +91,6 @@ TEST_CASE("what has an effect, or may fault, is done only where it is asked for"
 }
 
 TEST_CASE("what is not SPIR-V is not flattened") {
-  CHECK(error_of([] {
-          gpu::flatten_selections(std::vector<uint32_t>{1, 2, 3});
-        }).second == ExitCode::bad_input);
+  CHECK(error_of([] { gpu::flatten_selections(std::vector<uint32_t>{1, 2, 3}); }).second ==
+        ExitCode::bad_input);
 }

@@ -98,10 +98,7 @@ TEST_CASE("rules of glTF: properties, their types, ranges and lists") {
       {"an extension used twice", set("/extensionsUsed", {"KHR_materials_ior", "KHR_materials_ior"}),
        said_twice + "extensionsUsed"},
       {"a joint that a skin lists twice",
-       [](GltfFile& file) {
-         file.json["skins"][0] = {{"joints", {1, 1}}};
-       },
-       said_twice + "skins[0].joints"},
+       [](GltfFile& file) { file.json["skins"][0] = {{"joints", {1, 1}}}; }, said_twice + "skins[0].joints"},
       {"a skeleton that there is not", set("/skins/0/skeleton", 7), said_nowhere + "skins[0].skeleton"},
       {"an image that there is not, in a texture that nothing shows", set("/textures", {{{"source", 0}}}),
        said_nowhere + "textures[0].source"},

@@ -65,7 +65,7 @@ TEST_CASE("a process that renders keeps its environment and its signals") {
   const auto handlers = [] {
     std::vector<void (*)(int)> all;
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-      struct sigaction action {};
+      struct sigaction action{};
       REQUIRE(sigaction(number, nullptr, &action) == 0);
       all.push_back(action.sa_handler);
     }
@@ -178,9 +178,8 @@ TEST_CASE("errors are of a kind, and a scene's have places") {
   CHECK(thrown_by([] { Renderer({.device = "no such device"}).render(Scene::read(small)); }).kind() ==
         ErrorKind::no_device);
   CHECK(thrown_by([] { Renderer({.shaders = "no-such-folder"}); }).kind() == ErrorKind::file_io);
-  CHECK(thrown_by([] {
-          renderer().render(Scene::read(small), {.crop = {60, 0, 10, 10}});
-        }).kind() == ErrorKind::bad_input);
+  CHECK(thrown_by([] { renderer().render(Scene::read(small), {.crop = {60, 0, 10, 10}}); }).kind() ==
+        ErrorKind::bad_input);
   CHECK(thrown_by([] { renderer().render(Scene::read(small), {.aovs = {"deepth"}}); }).kind() ==
         ErrorKind::bad_input);
 }

@@ -82,7 +82,7 @@ TEST_CASE("triangle record") {
 }
 
 TEST_CASE("material records") {
-  const auto color = [](const PackedScene& scene, uint32_t shader::Material::*texture) {
+  const auto color = [](const PackedScene& scene, uint32_t shader::Material::* texture) {
     return scene.textures.at(scene.materials.at(0).*texture).color;
   };
   const Highlight blinn{textures::make_constant(Vec3(0.25)), 50, true};

@@ -25,10 +25,8 @@ struct Function {
   double most = 2.5e-7;  // the error, absolute or relative, whichever is less
 };
 
-#define AS_IN_C(name, ...)                                                                                  \
-  {                                                                                                         \
-#name, [](float x) { return shader::fn_##name(x); }, [](double x) { return std::name(x); }, __VA_ARGS__ \
-  }
+#define AS_IN_C(name, ...) \
+  {#name, [](float x) { return shader::fn_##name(x); }, [](double x) { return std::name(x); }, __VA_ARGS__}
 
 const std::vector<Function> functions{
     AS_IN_C(sin, -100, 100),

@@ -97,9 +97,8 @@ TEST_CASE("a shaft around 32 rays hits every box that one of them hits, and not 
       const Vec3 half = glm::abs(random.point(size)) * Vec3(random.below(4) > 0, 1, 1);
       const glm::vec3 lower(middle - half);
       const glm::vec3 upper(middle + half);
-      const bool any = std::ranges::any_of(rays, [&](const shader::Ray& r) {
-        return meets(r, double(t_max), {Vec3(lower), Vec3(upper)});
-      });
+      const bool any = std::ranges::any_of(
+          rays, [&](const shader::Ray& r) { return meets(r, double(t_max), {Vec3(lower), Vec3(upper)}); });
       const bool by_shaft = shader::entry_of(shaft, lower, upper, FAR_AWAY) != FAR_AWAY;
       ++(any ? met : missed);
       wrong += any && !by_shaft;

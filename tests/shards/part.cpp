@@ -187,7 +187,9 @@ TEST_CASE("a part that was not finished is not there, and one before it is as it
   const TemporaryFolder folder;
   const PartHeader header = header_of_shard({0, 1});
   const render::ShardTiles tiles(area, header.shard);
-  { const PartWriter part(folder / "new.eyeray", header, tiles); }
+  {
+    const PartWriter part(folder / "new.eyeray", header, tiles);
+  }
   CHECK(folder.names().empty());
   write_text(folder / "old.eyeray", "old");
   {

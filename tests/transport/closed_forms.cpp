@@ -163,8 +163,8 @@ TEST_CASE("an environment L(1 + a ω·z), its axis at an angle γ to the floor's
   for (const double turn : {0.0, 0.37}) {
     const Vec3 axis = glm::normalize(Vec3(0.3, 0.6, -0.7));
     Scene scene = floor();
-    scene.environment = environment(
-        256, 128, [&](const Vec3& d) { return Vec3(2 * (1 + 0.9 * glm::dot(d, axis))); }, turn);
+    scene.environment =
+        environment(256, 128, [&](const Vec3& d) { return Vec3(2 * (1 + 0.9 * glm::dot(d, axis))); }, turn);
     check(scene, shown(M_PI * 2 * (1 + 2.0 / 3 * 0.9 * axis.y)), 2e-4);
   }
 }
