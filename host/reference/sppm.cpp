@@ -29,22 +29,27 @@ Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const 
   const Vec3 &n = at.surface.normal_geometric, &p = at.surface.position;
   const auto kernel = [&](double distance) {
     const double share = distance * distance / (radius * radius);
-    return share < 1 ? 2 / (M_PI * radius * radius) * (1 - share) : 0;
+    return 2 / (M_PI * radius * radius) * (1 - share);
   };
   Vec3 light(0), most(0);  // the most that one photon brings more, or less, where it lies nearer
   photons.near(p, [&](const Photon& photon) {
     const Vec3 apart = photon.position - p;
     const double distance = glm::length(apart);
-    const double moved = std::max(0.0, distance - photon_nearer_ * radius);
     const bool before = leaving(at, photon.direction) == Leaving::in_front;
-    if (std::min(distance, moved) >= radius || std::abs(glm::dot(apart, n)) >= 0.1 * radius ||
-        glm::dot(photon.normal, before ? n : -n) <= 0.9 || photon.depth + depth_ > scene_.render.max_depth)
-      return;
+    // What it counts for by this share of the radius nearer, also to the plane and to facing as it does.
+    const auto weight = [&](double nearer) {
+      const double moved = std::max(0.0, distance - nearer * radius);
+      const bool counts = moved < radius && std::abs(glm::dot(apart, n)) < (0.1 + nearer) * radius &&
+                          glm::dot(photon.normal, before ? n : -n) > 0.9 - nearer;
+      return counts ? kernel(moved) : 0;
+    };
+    const double here = weight(0), nearer = weight(photon_nearer_);
+    if ((here == 0 && nearer == 0) || photon.depth + depth_ > scene_.render.max_depth) return;
     const Vec3 i = frame.into(photon.direction);
     const double cosine = glm::dot(photon.direction, n);
     const Vec3 brought = wide.at(i, before).value / std::abs(cosine) * photon.flux;
-    light += brought * kernel(distance);
-    const Vec3 more = brought * (kernel(moved) - kernel(distance));
+    light += brought * here;
+    const Vec3 more = brought * (nearer - here);
     if (glm::length(more) > glm::length(most)) most = more;
   });
   return (light + most) / double(photons.count());

@@ -45,7 +45,7 @@ class GltfFile {
           bool normalized = false) {
     const size_t size = component < 5122 ? 1 : component < 5125 ? 2 : 4;
     const size_t padded = components == 1 ? 1 : (components * size + 3) / 4 * 4 / size;
-    std::vector<double> stored, least(components, INFINITY), most(components, -INFINITY);
+    std::vector<double> stored, least(components, double(INFINITY)), most(components, -double(INFINITY));
     for (size_t i = 0; i < numbers.size(); ++i) {
       stored.push_back(component == 5126 ? double(float(numbers[i])) : numbers[i]);
       least[i % components] = std::min(least[i % components], stored.back());

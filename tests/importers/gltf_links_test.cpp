@@ -145,7 +145,7 @@ TEST_CASE("rules of glTF: properties, their types, ranges and lists") {
        "vertices that name joints beyond the skin's without weight, left out: 1, the first " + attributes_at +
            ".JOINTS_0"},
       {"a weight that is no number",
-       attribute("WEIGHTS_0", {1, NAN, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4),
+       attribute("WEIGHTS_0", {1, double(NAN), 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4),
        "weights below 0 or not finite, taken as 0: 1, the first " + attributes_at + ".WEIGHTS_0"},
       {"a morph target of fewer vertices, without weight", hidden_target("/accessors/7/count", 3),
        said_hidden},
