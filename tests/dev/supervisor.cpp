@@ -11,9 +11,10 @@ using namespace eyeray::dev;
 
 namespace {
 
-// Renders nothing. The first probe takes it until a newer request has come.
+// Renders nothing. The first probe takes it until a newer request has come. On a busy machine the supervisor
+// may start it anew meanwhile: a file counts the probes of both.
 constexpr const char* worker = R"(
-import json, socket, struct, sys
+import json, os, socket, struct, sys
 end = socket.socket(fileno=int(sys.argv[1]))
 def read(count):
     data = b''
@@ -30,11 +31,12 @@ def receive():
 def send(**message):
     text = json.dumps(message).encode()
     end.sendall(struct.pack('<II', len(text), 0) + text)
-generation, probes = 0, 0
+generation = 0
 while True:
     message = receive()
     if message['do'] == 'probe':
-        probes += 1
+        with open(os.environ['PROBES'], 'a') as file: file.write('.')
+        probes = os.path.getsize(os.environ['PROBES'])
         newer = receive() if probes == 1 else None
         send(event='probed', generation=generation, x=message['x'], y=message['y'], number=probes)
         if newer is None: continue
@@ -75,7 +77,7 @@ class Supervised {
  private:
   SupervisorOptions options() const {
     SupervisorOptions options;
-    options.worker = {"/usr/bin/python3", "-c", worker};
+    options.worker = {"/usr/bin/env", "PROBES=" + folder_ / "probes", "/usr/bin/python3", "-c", worker};
     options.scene = folder_ / "scene.toml";
     options.port = 0;
     return options;
