@@ -23,20 +23,16 @@ struct RayOffset {
   bool along_normal = false;  // they always leave along it; and what a ray runs along shows its other side
   uint32_t seed = 0;          // of where aside
   TextureChoice textures = TextureChoice::at_hit;
-  bool coincident = false;    // of two surfaces that float32 cannot tell apart, the farther one is hit
-  uint32_t numbers = 0;       // unless 0, a seed of how far each random number is off, by some units of 2^-24
-  double off = 1;             // how much of `share` they start off, at least; aside it is all
-  double photon_nearer = 0;   // by this share of the radius, of those gathered the one that tells most
-  bool inside_edges = false;  // and float32_room inside of the edges of the surface that they leave
+  bool coincident = false;   // of two surfaces that float32 cannot tell apart, the farther one is hit
+  uint32_t numbers = 0;      // unless 0, a seed of how far each random number is off, by some units of 2^-24
+  double off = 1;            // how much of `share` they start off, at least; aside it is all
+  double photon_nearer = 0;  // by this share of the radius, of those gathered the one that tells most
   double pivot = 0;  // unless 0, the eye's ray is turned: so far along it stays, and before that it is aside
 };
 
 // RayOffset::share of what is rendered in float32: of a triangle, 8 ε for each of its three vertices
 // (docs/numerics.md).
 inline constexpr double float32_ray_offset = 24 * 0x1p-24;
-// How far inside of a surface's edges the shaders start rays (shaders/geometry/edges.glsl), of |position −
-// eye|: 128 ε for each of a triangle's three vertices.
-inline constexpr double float32_room = 3 * 128 * 0x1p-24;
 
 // A sample: its pixel, counted along the rows, and which of the pixel's it is.
 struct SampleId {
