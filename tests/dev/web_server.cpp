@@ -142,7 +142,7 @@ TEST_CASE("a page that is closed leaves its place to the next") {
   CHECK(watch.seconds() < 8);  // not at the next sign of life, which is sent every ten seconds
 }
 
-TEST_CASE("all pages are told of a status, however long") {
+TEST_CASE("all pages get a status, however long") {
   Site site;
   const auto pages = clients(site, 3);
   for (const auto& page : pages)

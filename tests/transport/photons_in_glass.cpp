@@ -83,7 +83,7 @@ void check_equilibrium(std::initializer_list<Between> all, int photons, double g
   }
 }
 
-// A matte disk in a ball of glass, with a lamp above it.
+// A matte disk in a ball of glass, with an area light above it.
 Scene disk_in_ball() {
   Scene scene = patch({2, 3, 0}, {0, -0.2, 0}, 2048);
   scene.render.max_depth = 16;
@@ -106,7 +106,7 @@ Scene shining_box(double disk) {
   return scene;
 }
 
-// A lamp above a slab of frosted glass.
+// An area light above a slab of frosted glass.
 Scene frosted_slab(const Vec3& eye, const Vec3& target) {
   Scene scene = patch(eye, target, 2048);
   scene.render.max_depth = 12;
@@ -116,7 +116,7 @@ Scene frosted_slab(const Vec3& eye, const Vec3& target) {
   return scene;
 }
 
-// A ball of frosted glass below a lamp, seen from under it where its light falls on a floor.
+// A ball of frosted glass below an area light, seen from under it where its light falls on a floor.
 Scene below_frosted_ball() {
   Scene scene = patch({-0.5, 0.15, 0.6}, {0, 0, 0}, 1024);
   scene.render.max_depth = 12;
