@@ -6,10 +6,10 @@
 #include "host/bench/own_contenders.hpp"
 #include "host/bench/programs.hpp"
 #include "host/bench/rasterizer_contender.hpp"
-#include "host/bench/scratch_folder.hpp"
 #include "host/bench/standard_scenes.hpp"
 #include "host/contenders/povray_scene.hpp"
 #include "host/core/atomic_file.hpp"
+#include "host/core/scratch_folder.hpp"
 #include "host/loader/scene_file.hpp"
 
 namespace fs = std::filesystem;

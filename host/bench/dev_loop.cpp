@@ -7,12 +7,12 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "host/bench/scratch_folder.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
 #include "host/core/make_folder.hpp"
 #include "host/core/readable.hpp"
+#include "host/core/scratch_folder.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 #include "host/dev/supervisor.hpp"

@@ -7,12 +7,12 @@
 
 #include "host/bench/paths.hpp"
 #include "host/bench/programs.hpp"
-#include "host/bench/scratch_folder.hpp"
 #include "host/bench/welch.hpp"
 #include "host/contenders/cycles_scene.hpp"
 #include "host/contenders/povray_scene.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/scratch_folder.hpp"
 #include "host/image/image_file.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/scene/integrator.hpp"

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "host/bench/programs.hpp"
-#include "host/bench/scratch_folder.hpp"
 #include "host/core/error.hpp"
+#include "host/core/scratch_folder.hpp"
 
 namespace fs = std::filesystem;
 

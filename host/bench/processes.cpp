@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/bench/programs.hpp"
-#include "host/bench/scratch_folder.hpp"
 #include "host/core/readable.hpp"
+#include "host/core/scratch_folder.hpp"
 #include "host/core/termination.hpp"
 
 namespace eyeray::bench {

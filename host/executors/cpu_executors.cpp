@@ -70,6 +70,10 @@ class TwinExecutor final : public Executor {
       times_.measure("compile", [&] { module_.emplace(options.shader_folder, options.sanitizers); });
     times_.measure("pack", [&] { packed_ = pack::pack(scene, options.pack); });
     view_ = twin::view_of(packed_);
+    if (module_)
+      view_.loops = {&module_->loops(), module_->loops().most(), [](const void* guard, uint32_t loop) {
+                       static_cast<const LoopGuard*>(guard)->stop(loop);
+                     }};
     if (sends_photons(scene.render.integrator)) {
       photon_settings_ = photon_settings(scene);
       // Until there are any, samples see none.

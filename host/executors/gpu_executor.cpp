@@ -226,7 +226,7 @@ class GpuExecutor final : public Executor {
                            .validate = options_.validate_spirv};
     if (options_.fast_math || fault_.contracts()) how.strict = std::nullopt;
     // A capped driver grants 65 535 iterations to all loops together (docs/lavapipe.md).
-    const uint32_t most_iterations = open_device_->facts().loop_cap ? 50'000 : 1 << 20;
+    const uint32_t most_iterations = open_device_->facts().loop_cap ? 50'000 : LoopGuard().most();
     kernels_.emplace(SceneKernels::Workshop{*open_device_, fault_, times_, how, options_.tunables.get(),
                                             most_iterations, options_.ray_kinds},
                      uploaded_, ShaderFiles(options_.shader_folder, specialise(packed, specialisation)));

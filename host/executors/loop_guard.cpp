@@ -183,23 +183,25 @@ std::string LoopGuard::list(uint32_t wanted) const {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-void LoopGuard::check(uint32_t flags, bool ray_kinds) const {
-  if (!(flags & FLAG_ENDLESS_LOOP) || !active()) return;
-  constexpr uint32_t all = ~0u << first_bit;
-  const uint32_t stopped = ray_kinds ? all : flags & all;
+void LoopGuard::stop(uint32_t stopped) const {
   const std::string loops = list(stopped);
-  if (loops.empty())
-    throw Error(
-        ExitCode::timed_out,
-        "the driver stopped a loop after 65 535 iterations, in a kernel with your {}: look there for a "
-        "loop that does not end",
-        fmt::join(files_, ", "));
   throw Error(ExitCode::timed_out,
               "a loop of your shaders did not end within {} iterations in one sample of a pixel; {}:\n{}",
               most_,
               loops.find('\n') == std::string::npos ? "it is this one, or one inside of it"
                                                     : "it is one of these, or one inside of them",
               loops);
+}
+
+void LoopGuard::check(uint32_t flags, bool ray_kinds) const {
+  if (!(flags & FLAG_ENDLESS_LOOP) || !active()) return;
+  constexpr uint32_t all = ~0u << first_bit;
+  const uint32_t stopped = ray_kinds ? all : flags & all;
+  if (!list(stopped).empty()) stop(stopped);
+  throw Error(ExitCode::timed_out,
+              "the driver stopped a loop after 65 535 iterations, in a kernel with your {}: look there for a "
+              "loop that does not end",
+              fmt::join(files_, ", "));
 }
 
 Error LoopGuard::explained(const Error& time_out) const {

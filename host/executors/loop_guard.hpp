@@ -13,11 +13,12 @@ namespace eyeray::executors {
 
 class LoopGuard {
  public:
-  // `most`: the iterations that all counted loops of one invocation may make together.
-  explicit LoopGuard(uint32_t most) : most_(most) {}
+  // `most`: the iterations that all counted loops of one invocation may make together. The default is for
+  // executors that do not cap loops.
+  explicit LoopGuard(uint32_t most = 1 << 20) : most_(most) {}
 
   // The definitions that guarded text needs, as GLSL: for the scene's text, which every kernel includes
-  // first.
+  // first. The twin has its own (twin/shader_functions.hpp).
   std::string definitions() const;
   // `text` of a file that takes the place of eyeray's `original`, called `shown` in messages. Counts the
   // loops of all functions that `original` does not have; no line moves.
@@ -25,6 +26,9 @@ class LoopGuard {
   // Whether any text that was guarded differs from eyeray's.
   bool active() const { return !files_.empty(); }
 
+  uint32_t most() const { return most_; }
+  // Error (timed_out), which names the loops of these bits: the twin calls it where a count is used up.
+  [[noreturn]] void stop(uint32_t stopped) const;
   // Error (timed_out), which names the loops that may be meant, where the flags of a result state that a loop
   // did not end. `ray_kinds`: whether the kernel counted them (records.h, SampleResult).
   void check(uint32_t flags, bool ray_kinds) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -15,6 +16,7 @@
 #include "host/core/disk_cache.hpp"
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
+#include "host/core/input_file.hpp"
 #include "host/core/make_folder.hpp"
 #include "host/core/private_folder.hpp"
 #include "host/executors/cpp_compiler.hpp"
@@ -112,6 +114,16 @@ std::vector<Diagnostic> diagnostics_in(const std::string& log, const fs::path& f
   return found;
 }
 
+// A copy of `file` with other text, line by line: compilers and debuggers show the file itself.
+void write_copy(const fs::path& copy, const fs::path& file, std::string_view text) {
+  make_folder(copy.parent_path());
+  std::string quoted;
+  for (const char c : file.string()) quoted += (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
+  std::ofstream stream(copy, std::ios::binary);
+  stream << "#line 1 \"" << quoted << "\"\n" << text;
+  if (!stream.flush()) throw Error(ExitCode::file_io, "cannot write {}", copy.string());
+}
+
 // The newest stay, of modules and of what they are made of.
 void drop_old(const fs::path& folder) {
   std::error_code failed;
@@ -136,29 +148,51 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
 
   fs::path place = DiskCache::of_user().folder();
   if (place.empty() || !make_private_folder(place) || !make_private_folder(place /= "twin") ||
-      ::access(place.c_str(), W_OK) != 0) {
-    std::string name = (fs::temp_directory_path() / "eyeray-twin-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw Error(ExitCode::file_io, "cannot make a folder like {}", name);
-    place = scratch_ = name;
-  }
+      ::access(place.c_str(), W_OK) != 0)
+    place = scratch_.emplace().path();
   const fs::path sources = write_sources(place);
 
-  if (!folder.empty()) command.push_back("-I" + absolute_or_empty(folder).string());
-  for (const std::string& flag : {"-I" + (sources / "shaders").string(), "-I" + sources.string(),
-                                  (sources / "host/twin/twin.cpp").string()})
-    command.push_back(flag);
+  std::vector<std::string> inputs;
+  if (!folder.empty()) inputs.push_back("-I" + absolute_or_empty(folder).string());
+  for (const std::string& input : {"-I" + (sources / "shaders").string(), "-I" + sources.string(),
+                                   (sources / "host/twin/twin.cpp").string()})
+    inputs.push_back(input);
   ContentHash hash;
-  for (const std::string& word : command) hash.add(word);
+  for (const auto* const words : {&command, &inputs})
+    for (const std::string& word : *words) hash.add(word);
   std::error_code failed;
   const auto made = fs::last_write_time(fs::canonical(command[0], failed), failed).time_since_epoch().count();
   hash.add(std::to_string(made));
-  for (const fs::path& file : files_) hash.add(file.string()).add(read_file(file));
+  std::map<fs::path, std::string> counted;
+  for (const fs::path& file : files_) {
+    const fs::path name = file.lexically_relative(folder);
+    std::string text = read_file(file);
+    drop_byte_order_mark(text);
+    std::string guarded =
+        loops_.guard(checked.shown(name), text, checked.replaced(name.string()).value_or(""));
+    hash.add(file.string()).add(guarded);
+    if (guarded != text) counted.emplace(name, std::move(guarded));
+  }
   const fs::path module = place / (hash.hex() + ".so");
 
   if (!is_private_file(module)) {
     const fs::path part = fmt::format("{}.part.{}", module.string(), ::getpid());
-    command.insert(command.end(), {"-o", part.string()});
-    const ProcessResult result = run_process(command, compiler_environment(), longest_compilation);
+    inputs.insert(inputs.end(), {"-o", part.string()});
+    const auto compile = [&](const std::vector<std::string>& before) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), before.begin(), before.end());
+      words.insert(words.end(), inputs.begin(), inputs.end());
+      return run_process(words, compiler_environment(), longest_compilation);
+    };
+    ProcessResult result;
+    if (!counted.empty()) {
+      const ScratchFolder copies;
+      for (const auto& [name, text] : counted)
+        write_copy(copies.path() / name, absolute_or_empty(folder / name), text);
+      result = compile({"-I" + copies.path().string()});
+    }
+    // Mistakes are shown as their author wrote them.
+    if (counted.empty() || result.code != 0) result = compile({});
     if (result.code != 0) {
       fs::remove(part, failed);
       std::vector<Diagnostic> diagnostics = diagnostics_in(result.err, folder, sources);
@@ -177,8 +211,6 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
 
 TwinModule::~TwinModule() {
   if (handle_) ::dlclose(handle_);
-  std::error_code ignored;
-  if (!scratch_.empty()) fs::remove_all(scratch_, ignored);
 }
 
 }  // namespace eyeray::executors

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host/core/scratch_folder.hpp"
+#include "host/executors/loop_guard.hpp"
 #include "host/twin/scene_view.hpp"
 
 namespace eyeray::executors {
@@ -22,11 +25,14 @@ class TwinModule {
   const twin::Functions& functions() const { return *functions_; }
   // "g++": what made it.
   const std::string& compiler() const { return compiler_; }
+  // Counts the loops of `folder`.
+  const LoopGuard& loops() const { return loops_; }
   // The shaders in `folder`.
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:
-  std::filesystem::path scratch_;  // removed at the end; empty: the cache has it
+  std::optional<ScratchFolder> scratch_;  // what the cache cannot take
+  LoopGuard loops_;
   std::vector<std::filesystem::path> files_;
   std::string compiler_;
   void* handle_ = nullptr;

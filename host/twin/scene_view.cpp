@@ -82,6 +82,7 @@ SceneView view_of(const records::PackedScene& scene) {
           .photons = nullptr,
           .photon_cells = nullptr,
           .formulas = formulas,
+          .loops = {},
           .stop_if_interrupted = [] { stop_if_interrupted(); }};
 }
 

@@ -21,6 +21,15 @@ struct FormulaView {
   bool (*by_bounds)(const void* scene, uint32_t number);
 };
 
+// Of a user's shaders, which the twin counts: `stop` throws once loops of one invocation have made `most`
+// iterations. It is given `guard`, and the bit of the loop that made the last one
+// (executors/loop_guard.hpp).
+struct LoopView {
+  const void* guard;
+  uint32_t most;
+  void (*stop)(const void* guard, uint32_t loop);
+};
+
 // What records::PackedScene has.
 struct SceneView {
   const shader::Frame* frame;
@@ -48,6 +57,7 @@ struct SceneView {
   const shader::Photon* photons;
   const uint32_t* photon_cells;
   FormulaView formulas;
+  LoopView loops;
   void (*stop_if_interrupted)();  // throws
 
   // Of the primitives of `kind` in no BVH.

@@ -13,6 +13,7 @@ namespace {
 thread_local const twin::SceneView* bound_scene = nullptr;
 thread_local const twin::Spectator* bound_spectator = nullptr;
 thread_local const twin::PhotonSink* bound_sink = nullptr;
+thread_local uint32_t counted_iterations = 0;
 
 // Lets shader functions on this thread read `scene` for its lifetime, and show what they PROBE to
 // `spectator`, if there is one, and store photons in `sink`.
@@ -24,6 +25,7 @@ class Binding {
     bound_scene = &scene_;
     bound_spectator = spectator;
     bound_sink = sink;
+    counted_iterations = 0;
   }
   ~Binding() {
     bound_scene = nullptr;
@@ -105,6 +107,13 @@ class Binding {
 }
 [[maybe_unused]] void store_photon(const Photon& photon) {
   bound_sink->store(bound_sink->to, photon);
+}
+
+// Stands in the condition of each loop of a user's shaders. Debuggers step over it.
+[[maybe_unused, gnu::always_inline, gnu::artificial]] inline bool may_iterate(uint loop) {
+  if (++counted_iterations == bound_scene->loops.most)
+    bound_scene->loops.stop(bound_scene->loops.guard, loop);
+  return true;
 }
 
 // PROBE, where somebody looks.

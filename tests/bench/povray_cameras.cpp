@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "host/bench/programs.hpp"
-#include "host/bench/scratch_folder.hpp"
 #include "host/cameras/make.hpp"
 #include "host/contenders/povray_scene.hpp"
 #include "host/core/atomic_file.hpp"
+#include "host/core/scratch_folder.hpp"
 #include "host/image/image_file.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/reference/renderer.hpp"

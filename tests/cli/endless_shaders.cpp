@@ -78,16 +78,46 @@ TEST_CASE("every command that renders says so") {
   CHECK_FALSE(shaders.names().contains("a.png"));
 }
 
+TEST_CASE("the twin of a user's shaders stops there, too") {
+  const Shaders shaders;
+  for (const std::string loop :
+       {"while (true) {}", "for (float w = 0.0f; w < 1.0f; w += 0.0f * ray.d.x) t += 0.001f;"}) {
+    CAPTURE(loop);
+    shaders.insert("  " + loop + "\n");
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"render", "--backend", "twin", "-o", shaders / "a.png"},
+                                               {"render", "--backend", "twin", "--integrator", "path",
+                                                "--aov", "albedo", "-o", shaders / "a.exr"},
+                                               {"verify", "--backends", "twin", "--compile-twin"},
+                                               {"probe", "32,24", "--backends", "twin", "--compile-twin"},
+                                               {"dev", "--once", "--no-page", "--backend", "twin"}}) {
+      CAPTURE(words[0]);
+      const ProcessResult result = shaders.run(words, {"--timeout", "30"});
+      CAPTURE(result.err);
+      CHECK(result.code == 5);
+      CHECK(result.err.find("a loop of your shaders did not end within 1048576 iterations in one sample of a "
+                            "pixel; it is this one, or one inside of it:\n" +
+                            shaders.sphere() + ":35: " + loop + "\n") != std::string::npos);
+    }
+  }
+  CHECK_FALSE(shaders.names().contains("a.png"));
+}
+
 TEST_CASE("counted loops that end change no bit, and mistakes are shown as they were written") {
   const Shaders shaders;
-  shaders.insert(
-      "  float kept = t;\n  for (int i = 0; i < 9; i++) kept = kept * 0.5f;\n  t = kept * 512.0f;\n");
-  REQUIRE(shaders.run({"render"}, {"-o", shaders / "a.pfm"}).code == 0);
-  REQUIRE(run_eyeray({"render", shaders.scene(), "-o", shaders / "b.pfm"}).code == 0);
-  CHECK(read_text(shaders / "a.pfm") == read_text(shaders / "b.pfm"));
+  for (const std::string backend : {"gpu", "twin"}) {
+    CAPTURE(backend);
+    shaders.insert(
+        "  float kept = t;\n  for (int i = 0; i < 9; i++) kept = kept * 0.5f;\n  t = kept * 512.0f;\n");
+    REQUIRE(shaders.run({"render"}, {"--backend", backend, "-o", shaders / "a.pfm"}).code == 0);
+    REQUIRE(run_eyeray({"render", shaders.scene(), "--backend", backend, "-o", shaders / "b.pfm"}).code == 0);
+    CHECK(read_text(shaders / "a.pfm") == read_text(shaders / "b.pfm"));
 
-  shaders.insert("  while (nonsense) {}\n");
-  const ProcessResult mistake = shaders.run({"render"}, {"-o", shaders / "c.pfm"});
-  CHECK(mistake.code == 2);
-  CHECK(mistake.err.find("  while (nonsense) {}\n") != std::string::npos);
+    shaders.insert("  while (nonsense) {}\n");
+    const ProcessResult mistake = shaders.run({"render"}, {"--backend", backend, "-o", shaders / "c.pfm"});
+    CAPTURE(mistake.err);
+    CHECK(mistake.code == 2);
+    CHECK(mistake.err.find(shaders.sphere() + ":35:") != std::string::npos);
+    CHECK(mistake.err.find("  while (nonsense) {}\n") != std::string::npos);
+  }
 }

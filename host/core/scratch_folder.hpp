@@ -10,14 +10,14 @@
 #include "host/core/error.hpp"
 #include "host/core/unfinished_files.hpp"
 
-namespace eyeray::bench {
+namespace eyeray {
 
 // A folder that is gone at the end, with all that is in it, however the program ends. Error (file_io) where
 // none can be made.
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "eyeray-bench-XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "eyeray-XXXXXX").string();
     UnfinishedFiles unfinished;
     if (!mkdtemp(name.data()))
       throw Error(ExitCode::file_io, "cannot make a folder in {}: {}",
@@ -39,4 +39,4 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace eyeray::bench
+}  // namespace eyeray
