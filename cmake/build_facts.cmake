@@ -1,4 +1,5 @@
 # build_facts.cpp: what --version and --help print of the build. Written anew when the HEAD of the clone moves; no other file is compiled then.
+# So it is when a source changes: their sum, with the compiler and its flags, is what checkpoints and parts know the program by.
 find_package(Git QUIET)
 set(head "")
 if(GIT_FOUND)
@@ -14,8 +15,13 @@ file(RELATIVE_PATH installed ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_D
 file(RELATIVE_PATH tree ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR})
 set(facts ${CMAKE_BINARY_DIR}/generated/build_facts.cpp)
 set(script ${CMAKE_SOURCE_DIR}/cmake/write_build_facts.cmake)
-add_custom_command(OUTPUT ${facts} DEPENDS ${head} ${script} COMMENT "Writing build_facts.cpp" VERBATIM
-  COMMAND ${CMAKE_COMMAND} -D GIT=${GIT_EXECUTABLE} -D SOURCE=${CMAKE_SOURCE_DIR} -D INSTALLED=${installed} -D TREE=${tree} -D OUTPUT=${facts} -P ${script})
+include(cmake/program_sources.cmake)
+program_sources(sources ${CMAKE_SOURCE_DIR})
+list(TRANSFORM sources PREPEND ${CMAKE_SOURCE_DIR}/)
+string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
+set(compiler "${CMAKE_SYSTEM_PROCESSOR} ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}} ${EYERAY_SANITIZE}")
+add_custom_command(OUTPUT ${facts} DEPENDS ${head} ${sources} COMMENT "Writing build_facts.cpp" VERBATIM
+  COMMAND ${CMAKE_COMMAND} -D GIT=${GIT_EXECUTABLE} -D SOURCE=${CMAKE_SOURCE_DIR} -D COMPILER=${compiler} -D INSTALLED=${installed} -D TREE=${tree} -D OUTPUT=${facts} -P ${script})
 target_sources(eyeray PRIVATE ${facts})
 
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

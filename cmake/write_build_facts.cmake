@@ -1,5 +1,5 @@
-# cmake -D GIT=… -D SOURCE=… -D INSTALLED=… -D TREE=… -D OUTPUT=… -P write_build_facts.cmake: OUTPUT defines host/cli/build_facts.hpp. A clone
-# that only surrounds SOURCE, as where a source package was unpacked in one, is another project's.
+# cmake -D GIT=… -D SOURCE=… -D COMPILER=… -D INSTALLED=… -D TREE=… -D OUTPUT=… -P write_build_facts.cmake: OUTPUT defines
+# host/cli/build_facts.hpp. A clone that only surrounds SOURCE, as where a source package was unpacked in one, is another project's.
 set(commit "")
 if(GIT)
   execute_process(COMMAND ${GIT} rev-parse --show-toplevel WORKING_DIRECTORY ${SOURCE}
@@ -10,6 +10,14 @@ if(GIT)
       OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   endif()
 endif()
+include(${CMAKE_CURRENT_LIST_DIR}/program_sources.cmake)
+program_sources(sources ${SOURCE})
+set(sums "${COMPILER}")
+foreach(source IN LISTS sources)
+  file(SHA256 ${SOURCE}/${source} sum)
+  string(APPEND sums "\n${source} ${sum}")
+endforeach()
+string(SHA256 sum "${sums}")
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
 #include "host/cli/build_facts.hpp"
 
@@ -17,6 +25,9 @@ namespace eyeray::cli {
 
 std::string_view commit() {
   return "@commit@";
+}
+std::string_view sum_of_sources() {
+  return "@sum@";
 }
 std::string_view documents_from_installed() {
   return "@INSTALLED@";

@@ -2,7 +2,7 @@
 
 #include <fmt/ranges.h>
 
-#include "host/core/build_id.hpp"
+#include "host/cli/build_facts.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/host_arithmetic.hpp"
 #include "host/shards/part.hpp"
@@ -27,7 +27,7 @@ std::vector<render::IdentityPart> identity_of_picture(const PictureRequest& requ
       {"--fast-math", request.executor.fast_math ? "on" : "off"},
       {"--inject-fault", request.executor.fault},
       {"version of eyeray", EYERAY_VERSION},
-      {"build of eyeray", build_id(), false},
+      {"sources of eyeray", std::string(sum_of_sources()), false},
   };
 }
 

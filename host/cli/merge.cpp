@@ -2,11 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "host/cli/build_facts.hpp"
 #include "host/cli/merged_report.hpp"
 #include "host/cli/picture.hpp"
 #include "host/cli/picture_files.hpp"
 #include "host/core/atomic_file.hpp"
-#include "host/core/build_id.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/core/termination.hpp"
@@ -142,7 +142,7 @@ ExitCode MergeCommand::run() {
   set.faults().refuse();
   const shards::PartHeader& header = *set.header();
   check_outputs(header);
-  if (header.build != build_id())
+  if (header.build != sum_of_sources())
     print_lines(stderr, "eyeray: warning: the parts were rendered by another build of eyeray than this\n");
   const Picture picture = merge(set);
   const uint64_t flagged = std::max(picture.flagged_pixels, picture.flagged_hits);

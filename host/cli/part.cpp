@@ -2,9 +2,9 @@
 #include <optional>
 
 #include "host/aov/values.hpp"
+#include "host/cli/build_facts.hpp"
 #include "host/cli/identity.hpp"
 #include "host/cli/prepared_picture.hpp"
-#include "host/core/build_id.hpp"
 #include "host/core/termination.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/shards/part_writer.hpp"
@@ -23,7 +23,7 @@ shards::PartHeader header_of(const PictureRequest& request, const PreparedPictur
   header.clamp = request.clamp;
   header.random_paths = walks_at_random(scene.render.integrator);
   header.device = prepared.executor->description();
-  header.build = build_id();
+  header.build = sum_of_sources();
   header.aovs = request.aovs;
   header.identity = identity_of_parts(request, scene, *prepared.executor);
   return header;

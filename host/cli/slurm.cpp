@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "host/cli/build_facts.hpp"
 #include "host/cli/frames.hpp"
 #include "host/cli/picture.hpp"
 #include "host/cli/within.hpp"
-#include "host/core/build_id.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/core/termination.hpp"
@@ -113,7 +113,7 @@ slurm::ArrayRequest SlurmCommand::array_of(const std::string& scene) const {
   array.shards = shards;
   array.retries = retries;
   ContentHash hash;
-  hash.add(hash_of_files(loaded.files)).add(build_id()).add(std::to_string(shards));
+  hash.add(hash_of_files(loaded.files)).add(sum_of_sources()).add(std::to_string(shards));
   for (const std::string& word : render_words) hash.add(word);
   for (const std::string& word : array.frame_words) hash.add(word);
   array.identity = hash.hex();

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "host/cli/build_facts.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/merged_report.hpp"
 #include "host/cli/within.hpp"
 #include "host/core/atomic_file.hpp"
-#include "host/core/build_id.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/core/make_folder.hpp"
@@ -106,7 +106,7 @@ void VerifyCommand::find_files() {
 void VerifyCommand::keep_share() {
   ContentHash hash;
   for (const std::string& file : files) hash.add(file);
-  suite = hash.add(scene_options.as_written()).add(build_id()).hex();
+  suite = hash.add(scene_options.as_written()).add(sum_of_sources()).hex();
   suite_size = files.size();
   if (!shard) return;
   std::vector<std::string> share;

@@ -18,6 +18,25 @@ struct Mistake {
   std::string message;  // all of standard error
 };
 
+// What a function of build_facts.cpp returns.
+std::string fact_in(const std::string& text, const std::string& name) {
+  const std::string before = name + "() {\n  return \"";
+  const size_t begin = text.find(before) + before.size();
+  return text.substr(begin, text.find('"', begin) - begin);
+}
+
+// The same, of a program that is built of the sources in a folder.
+std::string build_fact(const std::string& name, const std::string& source,
+                       const std::string& compiler = "a compiler") {
+  const TemporaryFolder folder;
+  const ProcessResult result = run_process(
+      {"cmake", "-D", "GIT=git", "-D", "SOURCE=" + source, "-D", "COMPILER=" + compiler, "-D", "INSTALLED=a",
+       "-D", "TREE=b", "-D", "OUTPUT=" + folder / "facts.cpp", "-P", "cmake/write_build_facts.cmake"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  return fact_in(read_text(folder / "facts.cpp"), name);
+}
+
 }  // namespace
 
 TEST_CASE("docs/command-line.md says what each AOV holds") {
@@ -120,17 +139,7 @@ TEST_CASE("the version is printed, with the commit where there was one") {
 
 TEST_CASE("the commit is that of the sources' own clone, and there is none without") {
   const TemporaryFolder folder;
-  const auto facts_of = [&](const std::string& source) {
-    const ProcessResult result =
-        run_process({"cmake", "-D", "GIT=git", "-D", "SOURCE=" + source, "-D", "INSTALLED=a", "-D", "TREE=b",
-                     "-D", "OUTPUT=" + folder / "facts.cpp", "-P", "cmake/write_build_facts.cmake"});
-    CAPTURE(result.err);
-    REQUIRE(result.code == 0);
-    const std::string text = read_text(folder / "facts.cpp");
-    const std::string before = "commit() {\n  return \"";
-    const size_t begin = text.find(before) + before.size();
-    return text.substr(begin, text.find('"', begin) - begin);
-  };
+  const auto facts_of = [](const std::string& source) { return build_fact("commit", source); };
   const std::string clone = folder / "clone", inside = clone + "/inside";
   REQUIRE(std::filesystem::create_directories(inside));
   CHECK(facts_of(clone) == "");
@@ -143,6 +152,47 @@ TEST_CASE("the commit is that of the sources' own clone, and there is none witho
   REQUIRE(made.code == 0);
   CHECK(facts_of(clone) == made.out.substr(0, 12));
   CHECK(facts_of(inside) == "");  // as of a source package that was unpacked in another project's clone
+}
+
+TEST_CASE("parts know the program by its sources and its compiler, not by the commit or where it was built") {
+  const TemporaryFolder folder;
+  const auto tree = [&](const std::string& name) {
+    const std::filesystem::path root = folder / name;
+    for (const char* const file : {"CMakeLists.txt", "host/core/a.cpp", "shaders/a.glsl", "docs/a.md"}) {
+      std::filesystem::create_directories((root / file).parent_path());
+      write_text(root / file, file);
+    }
+    return root.string();
+  };
+  const std::string one = tree("one"), two = tree("two");
+  const std::string sum = build_fact("sum_of_sources", one);
+  CHECK(sum.size() == 64);
+  REQUIRE(run_process({"sh", "-c",
+                       "cd " + two +
+                           " && git init -q && git -c user.name=a -c user.email=a@b commit -q --allow-empty "
+                           "-m a"})
+              .code == 0);
+  write_text(two + "/docs/a.md", "changed");
+  CHECK(build_fact("commit", two) != build_fact("commit", one));
+  CHECK(build_fact("sum_of_sources", two) == sum);
+  CHECK(build_fact("sum_of_sources", one, "another compiler") != sum);
+  for (const char* const file :
+       {"/CMakeLists.txt", "/host/core/a.cpp", "/shaders/a.glsl", "/shaders/new.glsl"}) {
+    CAPTURE(file);
+    const std::string changed = tree("changed");
+    write_text(changed + file, "changed");
+    CHECK(build_fact("sum_of_sources", changed) != sum);
+    std::filesystem::remove_all(changed);
+  }
+
+  // The part's own is that of what was built.
+  const SceneFolder scene;
+  REQUIRE(run_eyeray({"render", scene.scene(), "--shard", "1/2", "-o", scene / "a.eyeray"}).code == 0);
+  const std::string part = read_text(scene / "a.eyeray");
+  const std::string facts = read_text(BUILD_FACTS);
+  CHECK(part.find("[\"sources of eyeray\",\"" + fact_in(facts, "sum_of_sources") + "\",") !=
+        std::string::npos);
+  CHECK(part.find("\"build\":\"" + fact_in(facts, "sum_of_sources") + "\"") != std::string::npos);
 }
 
 TEST_CASE("under --json a failure is JSON on standard output too") {

@@ -1,0 +1,11 @@
+# program_sources(VARIABLE SOURCE): all files below SOURCE that make the program, relative to it and sorted.
+function(program_sources variable source)
+  set(patterns CMakeLists.txt)
+  foreach(folder IN ITEMS cmake host include shaders)
+    list(APPEND patterns ${folder}/*)
+  endforeach()
+  list(TRANSFORM patterns PREPEND ${source}/)
+  file(GLOB_RECURSE files RELATIVE ${source} ${patterns})
+  list(SORT files)
+  set(${variable} ${files} PARENT_SCOPE)
+endfunction()
