@@ -49,6 +49,13 @@ class HelpFormatter final : public CLI::Formatter {
     label("REQUIRED", "");
     label("SUBCOMMAND", "COMMAND");
   }
+  // Without the value that a flag stands for, which CLI11 puts in braces.
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    std::string name = CLI::Formatter::make_option_name(option, is_positional);
+    for (size_t open; (open = name.find('{')) != std::string::npos;)
+      name.erase(open, name.find('}', open) + 1 - open);
+    return name;
+  }
   std::string make_option_desc(const CLI::Option* option) const override {
     return wrapped(option->get_description(), text_columns);
   }

@@ -10,6 +10,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <span>
 #include <sstream>
 #include <system_error>
 
@@ -80,6 +81,21 @@ std::string own_name(const std::string& option) {
   return option;
 }
 
+// One line about a long option that is written with one dash, as other programs have it, and which CLI11
+// reads as -s with the value "pp"; "" if there is none.
+std::string single_dash_message(const CLI::App& app, std::span<char* const> words) {
+  const CLI::App& command = named_command(app);
+  for (const std::string_view word : words) {
+    const std::string name(word.substr(0, word.find('=')));
+    if (name.size() < 3 || name[0] != '-' || name[1] == '-') continue;
+    const std::string meant = own_name("-" + name);
+    if (command.get_option_no_throw(meant))
+      return fmt::format("unknown option '{}'; did you mean '{}'? (see eyeray {}--help)", name, meant,
+                         words_before(command));
+  }
+  return "";
+}
+
 // One line about a wrong command line, with the name that was probably meant.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = named_command(app);
@@ -148,6 +164,7 @@ std::vector<std::string> take_sbatch_words(int& argc, char** argv) {
 
 int run_command_line(int argc, char** argv) {
   const std::vector<std::string> sbatch_words = take_sbatch_words(argc, argv);
+  const std::span<char* const> words(argv + 1, size_t(std::max(argc, 1) - 1));
   CLI::App app;
   describe(app);
   Run run;
@@ -175,8 +192,11 @@ int run_command_line(int argc, char** argv) {
     fmt::print("{}", text.str());
     return code;
   } catch (const CLI::ParseError& error) {
-    throw Error(ExitCode::bad_input, usage_message(app, error));
+    const std::string message = single_dash_message(app, words);
+    throw Error(ExitCode::bad_input, message.empty() ? usage_message(app, error) : message);
   }
+  if (const std::string message = single_dash_message(app, words); !message.empty())
+    throw Error(ExitCode::bad_input, message);
   if (!run) {
     fmt::print(stderr, "{}", app.help());
     return int(ExitCode::bad_input);

@@ -142,18 +142,19 @@ Scene SceneOptions::load() const {
   for (const std::string& define : defines_) overrides.push_back({define});
   if (!size_.empty()) {
     const auto [width, height] = parse_size(size_);
-    overrides.push_back({fmt::format("image.width={}", width)});
-    overrides.push_back({fmt::format("image.height={}", height)});
+    overrides.push_back({fmt::format("image.width={}", width), "-s " + size_});
+    overrides.push_back({fmt::format("image.height={}", height), "-s " + size_});
   }
-  const auto add = [&](const char* key, const std::string& value) {
-    if (!value.empty()) overrides.push_back({fmt::format("{}={}", key, value)});
+  const auto add = [&](const char* option, const char* key, const std::string& value) {
+    if (!value.empty())
+      overrides.push_back({fmt::format("{}={}", key, value), fmt::format("{} {}", option, value)});
   };
-  add("image.samples", samples_);
-  add("image.exposure", exposure_);
-  add("render.integrator", integrator_);
-  add("render.max_depth", max_depth_);
-  add("render.seed", seed_);
-  add("render.triangle", triangle_);
+  add("--spp", "image.samples", samples_);
+  add("--exposure", "image.exposure", exposure_);
+  add("--integrator", "render.integrator", integrator_);
+  add("--max-depth", "render.max_depth", max_depth_);
+  add("--seed", "render.seed", seed_);
+  add("--triangle", "render.triangle", triangle_);
 
   Scene scene = loader::load_scene(file_, overrides, trust_);
   executors::check_formulas(scene);

@@ -276,7 +276,8 @@ void add_verify(CLI::App& app, Run& run) {
                  "Where nothing else fails, store the scene's picture as the golden one: of scenes that "
                  "differ from it or have none; with =force, of all.")
       ->transform(CLI::CheckedTransformer(std::map<std::string, verify::Update>{
-          {"failing", verify::Update::failing}, {"force", verify::Update::all}}));
+          {"failing", verify::Update::failing}, {"force", verify::Update::all}}))
+      ->option_text("[=force]");
   command->add_flag("--record", options->record,
                     "Where nothing else fails, write twice the share that is explained into the scene's "
                     "[verify].");

@@ -198,7 +198,8 @@ class Assignment {
 
 void apply_overrides(toml::table& root, std::span<const Override> overrides, DiagnosticLog& log) {
   for (const Override& change : overrides) {
-    const SourcePosition at{fmt::format("-D {}", printable(change.text)), 0, 0};
+    const std::string written = change.written.empty() ? "-D " + change.text : change.written;
+    const SourcePosition at{printable(written), 0, 0};
     Assignment(change.text, at, at, root, log).apply();
   }
 }

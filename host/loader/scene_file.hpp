@@ -17,6 +17,7 @@ namespace eyeray::loader {
 // TOML; a bare word is taken as a string.
 struct Override {
   std::string text;
+  std::string written = {};  // as its author did: "-s 640x480"; empty: "-D TEXT"
 };
 
 // What a scene file is trusted with.

@@ -107,7 +107,7 @@ TEST_CASE("absurd sizes on the command line") {
     CAPTURE(size);
     const ProcessResult result = run_eyeray({"render", folder.scene(), "-s", size, "-o", folder / "a.png"});
     CHECK(result.code == 2);
-    CHECK(result.err.starts_with("-D image."));
+    CHECK(result.err.starts_with("-s " + size + ": error: "));
     CHECK(result.err.ends_with("1 error\n"));
   }
   const ProcessResult billion =

@@ -96,6 +96,12 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
        "unknown option '--samples'; did you mean '--spp'? (see eyeray render --help)"},
       {{"render", scene, "--resolution=4"},
        "unknown option '--resolution'; did you mean '--size'? (see eyeray render --help)"},
+      {{"render", "-spp", "4", scene},
+       "unknown option '-spp'; did you mean '--spp'? (see eyeray render --help)"},
+      {{"render", "-seed", scene},
+       "unknown option '-seed'; did you mean '--seed'? (see eyeray render --help)"},
+      {{"verify", scene, "-samples=4"},
+       "unknown option '-samples'; did you mean '--spp'? (see eyeray verify --help)"},
       {{"completion", "bsh"}, "SHELL is one of bash, zsh, fish, not 'bsh' (see eyeray completion --help)"},
   };
   for (const Mistake& mistake : mistakes) {
@@ -127,8 +133,27 @@ TEST_CASE("every command explains itself with an example, in lines that fit") {
     for (std::string line; std::getline(lines, line);) {
       CAPTURE(line);
       CHECK(line.size() <= 125);
+      // What CLI11 writes of its own, of flags that stand for a value.
+      const bool is_option = line.starts_with("  -");
+      CHECK_FALSE(
+          (is_option && (line.find('{') != std::string::npos || line.find(" :value") != std::string::npos)));
     }
   }
+}
+
+TEST_CASE("a value that an option lays over the scene is reported as it was written") {
+  const SceneFolder folder;
+  for (const std::string written : {"-s 0x48", "--spp 0", "--exposure high", "--integrator whited",
+                                    "--max-depth -1", "--seed -1", "--triangle no"}) {
+    const size_t space = written.find(' ');
+    const ProcessResult result =
+        run_eyeray({"check", folder.scene(), written.substr(0, space), written.substr(space + 1)});
+    CAPTURE(result.err);
+    CHECK(result.code == 2);
+    CHECK(result.err.starts_with(written + ": error: "));
+  }
+  CHECK(run_eyeray({"check", folder.scene(), "-D", "image.width=0"})
+            .err.starts_with("-D image.width=0: error: "));
 }
 
 TEST_CASE("the version is printed, with the commit where there was one") {
