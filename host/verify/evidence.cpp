@@ -13,9 +13,11 @@ namespace eyeray::verify {
 namespace {
 
 // The words that this process was started with, as a shell takes them.
+// As a shell runs it, wherever it is.
 std::string own_command_line() {
   const std::vector<std::string> words = own_command();
-  std::string line = "eyeray";
+  std::string line = fmt::format("cd {} && {}", shell_word(fs::current_path().string()),
+                                 shell_word(fs::read_symlink("/proc/self/exe").string()));
   for (size_t i = 1; i < words.size(); ++i) line += " " + shell_word(words[i]);
   return line;
 }

@@ -150,6 +150,26 @@ void expect_noticed(const Fault& fault) {
 
 }  // namespace
 
+TEST_CASE("command.txt, run by a shell as it stands, finds the same again") {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "it's a $scene.toml", kept = folder / "kept";
+  std::filesystem::copy_file("scenes/whitted.toml", scene);
+  const ProcessResult first = verify(folder, "bit", {scene, "-D", "render.max_depth=2"});
+  CAPTURE(first.err);
+  REQUIRE(first.code == 1);
+  const std::string picture = read_text(kept + "/gpu.pfm"), command = read_text(kept + "/command.txt");
+  CAPTURE(command);
+  write_text(folder / "command.txt", command);
+  std::filesystem::remove_all(kept);
+  const ProcessResult again = run_process({"sh", "-c", "cd / && exec sh " + (folder / "command.txt")},
+                                          {{"PATH", "/usr/bin:/bin"}}, 600);
+  CAPTURE(again.err);
+  CHECK(again.code == 1);
+  CHECK(again.out.substr(0, again.out.find('\n')) == first.out.substr(0, first.out.find('\n')));
+  CHECK(read_text(kept + "/gpu.pfm") == picture);
+  CHECK(read_text(kept + "/command.txt") == command);
+}
+
 TEST_CASE("without a fault verify passes and keeps nothing") {
   const TemporaryFolder folder;
   const ProcessResult result = verify(folder, "");
