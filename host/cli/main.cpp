@@ -24,6 +24,7 @@
 #include "host/core/memory_shortage.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/core/termination.hpp"
+#include "host/gpu/vector_width.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -146,8 +147,10 @@ void report(const Error& error, bool json) {
 void warn_of_caches(const CLI::App& command) {
   const CLI::Option* const worker = command.get_option_no_throw("--worker-socket");
   if (!command.get_option_no_throw("--device") || (worker && worker->count() > 0)) return;
-  for (const std::string& warning : DiskCache::of_user().warnings())
-    print_lines(stderr, "eyeray: warning: {}\n", warning);
+  std::vector<std::string> warnings = DiskCache::of_user().warnings();
+  if (std::string warning = gpu::driver_cache_warning(); !warning.empty())
+    warnings.push_back(std::move(warning));
+  for (const std::string& warning : warnings) print_lines(stderr, "eyeray: warning: {}\n", warning);
 }
 
 // The words behind -- of `eyeray slurm`, which are sbatch's; they are taken off argc.

@@ -1,8 +1,11 @@
 #include "host/gpu/vector_width.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "host/core/disk_cache.hpp"
 #include "host/core/private_folder.hpp"
@@ -22,6 +25,21 @@ bool has_wide_vectors() {
 #endif
 }
 
+// Where Mesa keeps what it compiles: one of them, by its version.
+std::vector<std::filesystem::path> driver_caches() {
+  if (const char* const chosen = std::getenv(cache_variable)) return {chosen};
+  if (std::getenv(width_variable)) return {};  // below eyeray's own
+  const char* const caches = std::getenv("XDG_CACHE_HOME");
+  const char* const home = std::getenv("HOME");
+  if (!caches && !home) return {};
+  const std::filesystem::path folder = caches ? caches : std::filesystem::path(home) / ".cache";
+  return {folder / "mesa_shader_cache", folder / "mesa_shader_cache_db"};
+}
+
+void disable_driver_cache() {
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+}
+
 }  // namespace
 
 bool may_widen_vectors() {
@@ -34,6 +52,7 @@ bool gains_from_wide_vectors(std::string_view driver_version) {
 
 void set_vector_width(bool wide) {
   if (wide && may_widen_vectors()) setenv(width_variable, "512", 1);
+  if (!driver_cache_warning().empty()) return disable_driver_cache();
   const char* const width = std::getenv(width_variable);
   if (!width) return;
   const char* const chosen = std::getenv(cache_variable);
@@ -44,7 +63,15 @@ void set_vector_width(bool wide) {
   if (!folder.empty() && make_private_folder(folder) && make_private_folder(folder / own))
     setenv(cache_variable, (folder / own).c_str(), 1);
   else
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    disable_driver_cache();
+}
+
+std::string driver_cache_warning() {
+  for (const std::filesystem::path& folder : driver_caches())
+    if (const std::string why = why_not_private(folder); !why.empty())
+      return fmt::format("Mesa's shader cache {} is not used, so that each start compiles anew: {}",
+                         folder.string(), why);
+  return "";
 }
 
 }  // namespace eyeray::gpu

@@ -1,6 +1,7 @@
 // The width of the vectors that Mesa's llvmpipe computes in.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace eyeray::gpu {
@@ -18,5 +19,8 @@ bool gains_from_wide_vectors(std::string_view driver_version);
 // keeps. So whoever chose a width, its kernels are kept in a folder of their own: below
 // $MESA_SHADER_CACHE_DIR, or else below eyeray's own cache.
 void set_vector_width(bool wide);
+
+// A warning that Mesa's shader cache is then not used, since others could have changed it; "" where it is.
+std::string driver_cache_warning();
 
 }  // namespace eyeray::gpu

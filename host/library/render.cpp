@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
+#include "host/core/disk_cache.hpp"
 #include "host/library/picture.hpp"
 #include "host/library/renderer.hpp"
 #include "host/library/scene.hpp"
@@ -123,8 +125,14 @@ void render_into(v0::Picture::Data& picture, v0::Renderer::Data& renderer, const
     picture.complete = collector.trace_first_hits(*executor);
   if (!picture.complete)
     std::erase_if(picture.aovs, [](const auto& each) { return each.first->is_of_first_hits(); });
-  picture.warning = render::flag_warning(totals.flags | collector.flags,
-                                         std::max(totals.flagged_pixels, collector.flagged_hits));
+  std::vector<std::string> warnings;
+  if (backend != executors::Backend::reference && !std::exchange(renderer.warned_of_caches, true))
+    warnings = DiskCache::of_user().warnings();
+  if (std::string flags = render::flag_warning(totals.flags | collector.flags,
+                                               std::max(totals.flagged_pixels, collector.flagged_hits));
+      !flags.empty())
+    warnings.push_back(std::move(flags));
+  picture.warning = fmt::format("{}", fmt::join(warnings, "\n"));
   picture.seconds = watch.seconds();
 }
 

@@ -21,6 +21,7 @@ struct Cancellation::Data {
 struct Renderer::Data {
   RendererOptions options;
   std::shared_ptr<executors::OpenDevice> device = nullptr;  // once the backend gpu was used
+  bool warned_of_caches = false;
 };
 
 }  // namespace eyeray::v0

@@ -207,7 +207,8 @@ class EYERAY_API Picture {
   uint64_t rays() const noexcept;     // eye, reflected, refracted and shadow rays
   double seconds() const noexcept;    // of all of render()
   double sampling_seconds() const noexcept;
-  // What to know of it: pixels that may be wrong, and why; else empty.
+  // What to know of it, a line each: pixels that may be wrong, and why; and of a renderer's first picture,
+  // that a cache is not used since others could have changed it. Else empty.
   std::string warning() const;
 
   // The colours as .png (sRGB, with the scene's exposure and tone curve), .pfm, .hdr or .exr (linear

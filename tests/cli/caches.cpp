@@ -40,3 +40,27 @@ TEST_CASE("commands with a device warn once of a cache that they do not use, and
   }
   CHECK(run_eyeray({"check", folder.scene()}, environment).err == "");
 }
+
+TEST_CASE("Mesa's cache is not used where others may write to it, and a warning says so") {
+  const SceneFolder folder;
+  const std::string chosen = folder / "mesa", usual = folder / "home/mesa_shader_cache";
+  for (const std::string& cache : {chosen, usual}) {
+    REQUIRE(std::filesystem::create_directories(cache));
+    REQUIRE(chmod(cache.c_str(), 0777) == 0);
+  }
+  const std::string own = folder / "own";
+  for (const Environment& environment : std::vector<Environment>{
+           {{"MESA_SHADER_CACHE_DIR", chosen}, {"EYERAY_CACHE_DIR", own}},
+           {{"MESA_SHADER_CACHE_DIR", chosen}, {"EYERAY_CACHE_DIR", own}, {"LP_NATIVE_VECTOR_WIDTH", "256"}},
+           {{"XDG_CACHE_HOME", folder / "home"}, {"EYERAY_CACHE_DIR", own}}}) {
+    const std::string& cache = environment[0].first == "XDG_CACHE_HOME" ? usual : chosen;
+    CAPTURE(cache);
+    const ProcessResult result =
+        run_eyeray({"render", folder.scene(), "-q", "-o", folder / "a.png"}, environment);
+    CAPTURE(result.err);
+    CHECK(result.code == 0);
+    CHECK(count(result.err, "eyeray: warning: Mesa's shader cache " + cache + " is not used") == 1);
+    CHECK(std::filesystem::is_empty(cache));
+    std::filesystem::remove_all(own);
+  }
+}

@@ -79,6 +79,25 @@ TEST_CASE("a process that renders keeps its environment and its signals") {
   CHECK((handlers() == handlers_before));
 }
 
+TEST_CASE("a renderer's first picture warns of a cache that others may write to") {
+  const std::string cache = std::filesystem::temp_directory_path() / "eyeray-open-cache-XXXXXX";
+  std::string folder = cache;
+  REQUIRE(mkdtemp(folder.data()));
+  std::filesystem::permissions(folder, std::filesystem::perms::all);
+  const char* const before = std::getenv("EYERAY_CACHE_DIR");
+  const std::string kept = before ? before : "";
+  setenv("EYERAY_CACHE_DIR", folder.c_str(), 1);
+  Renderer one;
+  const auto warning = [&](Backend backend) {
+    return one.render(Scene::read(small), {.backend = backend}).warning();
+  };
+  CHECK(warning(Backend::reference) == "");
+  CHECK(warning(Backend::gpu).starts_with("the cache " + folder + " is not used"));
+  CHECK(warning(Backend::gpu) == "");
+  before ? setenv("EYERAY_CACHE_DIR", kept.c_str(), 1) : unsetenv("EYERAY_CACHE_DIR");
+  std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("a picture's planes have the shapes that the header says") {
   const Picture picture = renderer().render(Scene::read(small), {.aovs = {"depth", "normal", "hits"}});
   CHECK(picture.complete());
