@@ -18,6 +18,11 @@ enum class Leaving { straight, in_front, behind };
 Vec3 spawn_origin(const SurfacePoint& point, const Vec3& d, double least = 0, bool along_normal = false,
                   Leaving leaving = Leaving::straight);
 
+// The way from a triangle's point to where it is `room` inside of each edge, or a quarter of the triangle's
+// height if that is less; 0 on any other surface. As the shaders do (triangle_inward), it is perpendicular to
+// the edge that is nearest unless another one is near.
+Vec3 way_inside(const SurfacePoint& point, double room);
+
 // Many more than the surfaces of a mesh that a ray can sensibly cross.
 inline constexpr int most_crossings = 1 << 20;
 

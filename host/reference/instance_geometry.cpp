@@ -27,6 +27,7 @@ SurfacePoint InstanceGeometry::surface(const Ray&, const TriangleHit& hit) const
   point.position -= point.normal_geometric * glm::dot(point.normal_geometric, point.position - v[0]);
   point.position_error = 1e-13 * std::max({magnitude(v[0]), magnitude(v[1]), magnitude(v[2])});
   point.normal = point.normal_geometric;
+  set_edges(point, v, hit);
   if (!mesh.normals.empty())
     set_smooth(point, v, {mesh.normals[triangle[0]], mesh.normals[triangle[1]], mesh.normals[triangle[2]]},
                {1 - hit.u - hit.v, hit.u, hit.v});

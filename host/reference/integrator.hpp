@@ -27,12 +27,15 @@ struct RayOffset {
   uint32_t numbers = 0;      // unless 0, a seed of how far each random number is off, by some units of 2^-24
   double off = 1;            // how much of `share` they start off, at least; aside it is all
   double photon_nearer = 0;  // by this share of the radius, of those gathered the one that tells most
+  double room = 0;           // and that far inside of the edges of the surface that they leave
   double pivot = 0;  // unless 0, the eye's ray is turned: so far along it stays, and before that it is aside
 };
 
 // RayOffset::share of what is rendered in float32: of a triangle, 8 ε for each of its three vertices
 // (docs/numerics.md).
 inline constexpr double float32_ray_offset = 24 * 0x1p-24;
+// RayOffset::room of what is rendered in float32, in ray offsets (shaders/geometry/edges.glsl).
+inline constexpr double float32_room = 16 * float32_ray_offset;
 
 // A sample: its pixel, counted along the rows, and which of the pixel's it is.
 struct SampleId {

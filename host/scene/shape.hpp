@@ -57,9 +57,11 @@ struct SurfacePoint {
   Vec3 color{1.0};        // of a mesh's vertices
   Vec3 coat_normal{0.0};  // unit, as normal; of a clear coat, once its material has said it
   // How far a triangle with normals at its corners lifts its scattered rays along its interpolated normal, in
-  // front and behind (docs/numerics.md); −1 of any other surface. And the triangle's edges.
+  // front and behind (docs/numerics.md); −1 of any other surface.
   Vec2 lift{-1.0};
+  // A triangle's edges, from each corner to the next, and the weights of its corners; 0 of any other surface.
   std::array<Vec3, 3> edges{};
+  Vec3 weights{0.0};
   // Unit; decides on which side of the surface a direction is, once the surface is in the world. It is the
   // interpolated normal where rays are lifted, else normal_geometric.
   Vec3 normal_side{0.0};

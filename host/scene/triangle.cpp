@@ -52,7 +52,11 @@ void set_smooth(SurfacePoint& point, const Corners& corners, const Corners& norm
     (height < 0 ? point.lift.x : point.lift.y) += std::abs(height);
   }
   point.normal = unit(across);
+}
+
+void set_edges(SurfacePoint& point, const Corners& corners, const Intersection& hit) {
   point.edges = {corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
+  point.weights = {1 - hit.u - hit.v, hit.u, hit.v};
 }
 
 CornerNormals::CornerNormals(const Affine& map)

@@ -36,9 +36,12 @@ std::pair<Vec3, Vec3> along_uv(const Corners& corners, const std::array<Vec2, 3>
 inline constexpr std::array<Vec2, 3> corner_weights{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
 
 // The surface of a triangle with normals at its corners, of any length but 0, where the corners have these
-// weights: sets `normal`, `lift` and `edges` of the point, whose normal_geometric is known.
+// weights: sets `normal` and `lift` of the point, whose normal_geometric is known.
 void set_smooth(SurfacePoint& point, const Corners& corners, const Corners& normals,
                 const std::array<double, 3>& weights);
+
+// Sets `edges` and `weights` of the point that was hit.
+void set_edges(SurfacePoint& point, const Corners& corners, const Intersection& hit);
 
 // Takes shading normals at corners along where a map takes the triangle. To interpolate in the object's space
 // and then map is to interpolate between what this makes of the corners' normals, for it is linear: they are

@@ -4,9 +4,6 @@
 
 namespace eyeray::shapes {
 
-namespace {
-
-// Newell's, from the first vertex: of all triangles together, in squares of the size.
 Vec3 area_of(const Outline& outer) {
   double size = 0;
   for (const Vec3& vertex : outer) size = std::max(size, magnitude(vertex - outer[0]));
@@ -15,8 +12,6 @@ Vec3 area_of(const Outline& outer) {
     sum += glm::cross((outer[i] - outer[0]) / size, (outer[i + 1] - outer[0]) / size);
   return sum;
 }
-
-}  // namespace
 
 size_t PlanarRegion::size() const {
   size_t count = outer.size();

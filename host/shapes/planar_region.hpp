@@ -32,6 +32,9 @@ struct PlanarRegion {
 // Why a region in the world cannot be computed with in float32, or "".
 std::string why_out_of_range(const PlanarRegion& region);
 
+// Newell's area vector from the outline's first vertex, of all triangles together, in squares of the
+// outline's size: it points to where the outline runs counter-clockwise.
+Vec3 area_of(const Outline& outline);
 // Twice the area within an outline, signed: above 0 where it runs counter-clockwise.
 double signed_area(std::span<const Vec2> outline);
 // How often an outline winds round a point, counter-clockwise.

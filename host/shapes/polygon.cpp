@@ -89,16 +89,19 @@ class Polygon final : public Shape {
         records::to_bits(records::to_vec4(u_gradient_, -glm::dot(u_gradient_, first))),
         records::to_bits(records::to_vec4(v_gradient_, -glm::dot(v_gradient_, first)))};
     const size_t path_begin = vertices.size();
-    const auto go_to = [&](const Vec3& vertex) {
-      vertices.push_back(records::to_bits(records::to_vec4(packer.relative(vertex))));
+    const auto go_to = [&](const Vec3& vertex, bool along_edge = false) {
+      vertices.push_back(records::to_bits(records::to_vec4(packer.relative(vertex), along_edge)));
     };
-    const auto go_round = [&](const Outline& outline) {
-      for (const Vec3& vertex : outline) go_to(vertex);
+    // With the polygon to the left.
+    const auto go_round = [&](const Outline& outline, const Vec3& up) {
+      const bool as_given = glm::dot(area_of(outline), up) > 0;
+      const size_t n = outline.size();
       go_to(outline[0]);
+      for (size_t i = 1; i <= n; ++i) go_to(outline[as_given ? i % n : n - i], true);
     };
-    go_round(region_.outer);
+    go_round(region_.outer, normal_);
     for (const Outline& hole : region_.holes) {
-      go_round(hole);
+      go_round(hole, -normal_);
       go_to(origin());
     }
     while ((vertices.size() - path_begin - 1) % 4 != 0) go_to(origin());

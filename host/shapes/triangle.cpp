@@ -94,6 +94,7 @@ class Triangle final : public Shape {
     point.position_error = 1e-13 * std::max({magnitude(v0), magnitude(v1), magnitude(v2)});
     point.normal_geometric = normal_;
     point.normal = normal_;
+    set_edges(point, vertices_, hit);
     if (normals_) set_smooth(point, vertices_, *normals_, {1 - hit.u - hit.v, hit.u, hit.v});
     point.uv = uv_ ? interpolate(*uv_, hit) : Vec2(hit.u, hit.v);
     std::tie(point.along_u, point.along_v) = along_uv(vertices_, uv_.value_or(corner_weights));

@@ -53,6 +53,8 @@ compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& rend
       result.rounded.push_back(of(rendered({reference::float32_ray_offset, along_normal, seed, textures})));
     };
     for (const bool along_normal : {false, true}) add_rounded(along_normal, TextureChoice::at_hit);
+    result.rounded.push_back(of(
+        rendered({.share = reference::float32_ray_offset, .seed = seed, .room = reference::float32_room})));
     if (walks_at_random(scene.render.integrator)) {
       // Weights ask how far off a ray starts, where a lamp or the surface's own curve is as near as that: so
       // twice as far, and eight times, as a bilinear patch has it (docs/numerics.md). Long paths bring other
@@ -100,7 +102,7 @@ compare::PathReference path_neighbours(const Scene& scene, const reference::Rend
     if (reference::trail_of(events) != trail) events.clear();
     return events;
   };
-  paths.variants = 9;
+  paths.variants = 11;
   if (sends_photons(scene.render.integrator)) paths.shared = photon_radius(photon_settings(scene), 0);
   paths.reference = [&](compare::Pixel pixel, int sample, const Vec2& shift, int variant) {
     const uint32_t seed = seed_of(shift) | 1;
@@ -114,7 +116,9 @@ compare::PathReference path_neighbours(const Scene& scene, const reference::Rend
         {.share = share, .along_normal = true, .seed = seed, .coincident = true},
         {.share = 2 * share, .seed = seed},
         {.share = 8 * share, .seed = seed},
-        {.pivot = variant == 8 ? renderer.pivot(pixel.x, pixel.y, seed) : 0},
+        {.share = share, .seed = seed, .room = reference::float32_room},
+        {.share = share / 8, .seed = seed, .room = reference::float32_room},
+        {.pivot = variant == 10 ? renderer.pivot(pixel.x, pixel.y, seed) : 0},
     };
     std::vector<uint32_t> events;
     renderer.sample(pixel.x, pixel.y, uint32_t(sample), shift, ways[variant], reference::Observer(events));

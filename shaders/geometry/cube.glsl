@@ -50,6 +50,47 @@ vec3 onto_cube(vec3 p, vec2 face) {
   return vec3(face.x == 0.0f ? face.y : q.x, face.x == 1.0f ? face.y : q.y, face.x == 2.0f ? face.y : q.z);
 }
 
+// The level of the cube at the point q of object space.
+vec4 cube_level(Primitive s, vec3 q) {
+  vec3 side = vec3(q.x < 0.0f ? -1.0f : 1.0f, q.y < 0.0f ? -1.0f : 1.0f, q.z < 0.0f ? -1.0f : 1.0f);
+  vec4 x = level_out_of_object(s, vec3(side.x, 0.0f, 0.0f), abs(q.x) - 1.0f);
+  vec4 y = level_out_of_object(s, vec3(0.0f, side.y, 0.0f), abs(q.y) - 1.0f);
+  vec4 z = level_out_of_object(s, vec3(0.0f, 0.0f, side.z), abs(q.z) - 1.0f);
+  return outer_level(x, outer_level(y, z));
+}
+
+// From a point on a face to the inside of that face's edges; `margins`: how far inside in each coordinate.
+vec3 inward_of_cube(vec3 p, vec2 face, vec3 margins) {
+  vec3 inner = vec3(inside_ends(p.x, -1.0f, 1.0f, margins.x), inside_ends(p.y, -1.0f, 1.0f, margins.y),
+                    inside_ends(p.z, -1.0f, 1.0f, margins.z)) - p;
+  return vec3(face.x == 0.0f ? 0.0f : inner.x, face.x == 1.0f ? 0.0f : inner.y, face.x == 2.0f ? 0.0f : inner.z);
+}
+
+// From p, on a face of the cube, to the inside of its edges and of a surface within the cube that has `value` and `gradient` there, as inward_of_face.
+vec3 inward_of_cut_face(Primitive s, vec3 p, vec2 face, float value, vec3 gradient, float room) {
+  vec3 inward = inward_of_cube(p, face, coordinate_steepness(s) * room);
+  float squared = dot3(gradient, gradient);
+  vec3 along = gradient - cube_normal(face) * dot3(cube_normal(face), gradient);
+  float missing = (value + dot3(gradient, inward)) + room * steepness(s, gradient);
+  return missing > 0.0f && squared > 0.0f ? inward - along * (missing / maximum(dot3(along, along), 0.015625f * squared)) : inward;
+}
+
+// From p, on that surface, to the inside of the cube's faces.
+vec3 inward_of_cut(Primitive s, vec3 p, vec3 gradient, float room) {
+  float squared = dot3(gradient, gradient);
+  vec3 n = squared > 0.0f ? gradient / sqrt(squared) : vec3(0.0f, 0.0f, 0.0f);
+  vec3 margins = coordinate_steepness(s) * room;
+  vec3 inward = vec3(0.0f, 0.0f, 0.0f);
+  for (uint axis = 0u; axis < 3u; axis++) {
+    vec3 outward = vec3(axis == 0u ? 1.0f : 0.0f, axis == 1u ? 1.0f : 0.0f, axis == 2u ? 1.0f : 0.0f);
+    float at = dot3(outward, p + inward);
+    float step = inside_ends(at, -1.0f, 1.0f, dot3(outward, margins)) - at;
+    vec3 along = outward - n * dot3(n, outward);
+    inward = inward + along * (step / maximum(dot3(along, along), 0.015625f));
+  }
+  return inward;
+}
+
 // Seen from outside u runs to the right and v up; what is up on top is −z, below +z.
 UvField cube_uv(vec3 p, vec2 face) {
   float u = face.x == 0.0f ? -p.z * face.y : face.x == 1.0f ? p.x : p.x * face.y;

@@ -49,6 +49,8 @@ LocalRay into_instance(Ray ray, Instance instance, uint index) {
   LocalRay local;
   local.ray = continue_ray(ray, map_direction(instance.to_local, ray.o - map_offset(instance.to_world)),
                            map_direction(instance.to_local, ray.d));
+  vec3 offset = abs3(map_offset(instance.to_world));
+  local.ray.reach = max_component(map_size(instance.to_local, abs3(ray.o) + (offset + offset)));
   local.instance = index;
   local.first_id = instance.first_id;
   local.first_triangle = first_triangle_of(instance);
@@ -75,6 +77,7 @@ Surface out_of_instance(Surface surface, Instance instance) {
   world.tangent = vec4(tangent.x, tangent.y, tangent.z, turned < 0.0f ? -surface.tangent.w : surface.tangent.w);
   vec3 local = abs3(surface.p) + map_size(instance.to_local, abs3(world.p - map_offset(instance.to_world)));
   vec3 reach = map_size(instance.to_world, local) + (abs3(world.p) + abs3(map_offset(instance.to_world)));
+  world.inward = map_direction(instance.to_world, surface.inward);
   world.offset = surface.offset / shrinks + 8.0f * EPSILON * dot3(abs3(world.normal_geometric), reach);
   return world;
 }

@@ -3,7 +3,7 @@
 //   extra   = the first of its vertices: three with the rows of the map back, then the shape's own parameters
 #ifndef OBJECT_SPACE_GLSL
 #define OBJECT_SPACE_GLSL
-#include "geometry/ray.glsl"
+#include "geometry/edges.glsl"
 #include "geometry/uv_field.glsl"
 #include "records.h"
 
@@ -99,6 +99,44 @@ Surface object_surface(Primitive s, vec3 p, vec3 gradient, UvField field) {
   vec3 back = vec3(dot3(abs3(vec3(s.a)), size), dot3(abs3(vec3(s.b)), size), dot3(abs3(vec3(s.c)), size));
   surface.offset = 4.0f * EPSILON * (dot3(abs3(surface.normal_geometric), here) + dot3(abs3(gradient), back) / slope);
   return surface;
+}
+
+// A point of the world in object space.
+vec3 point_into_object(Primitive s, vec3 p) { return into_object(s, p - vec3(s.a.w, s.b.w, s.c.w)); }
+
+// How far inside of edges rays start in the world from the point p of object space (geometry/edges.glsl).
+float object_room(Primitive s, Ray ray, vec3 p) {
+  vec4 x = bits_to_floats(load_vertex(s.extra));
+  vec4 y = bits_to_floats(load_vertex(s.extra + 1u));
+  vec4 z = bits_to_floats(load_vertex(s.extra + 2u));
+  vec3 size = abs3(p);
+  vec3 reach = vec3(dot3(abs3(vec3(x)), size), dot3(abs3(vec3(y)), size), dot3(abs3(vec3(z)), size));
+  return edge_room(ray, max_component(reach) + 2.0f * max_component(abs3(vec3(s.a.w, s.b.w, s.c.w))));
+}
+
+// What a step of 1 in the world, along the gradient of a function of object space, adds to that.
+float steepness(Primitive s, vec3 gradient) {
+  vec3 n = gradient_out_of_object(s, gradient);
+  return sqrt(dot3(n, n));
+}
+
+// The same for the three coordinates.
+vec3 coordinate_steepness(Primitive s) {
+  return vec3(sqrt(dot3(vec3(s.a), vec3(s.a))), sqrt(dot3(vec3(s.b), vec3(s.b))), sqrt(dot3(vec3(s.c), vec3(s.c))));
+}
+
+// A level, the gradient and the value of a function that is below 0 inside of a shape, brought from object space into the world.
+vec4 level_out_of_object(Primitive s, vec3 gradient, float value) { return vec4(gradient_out_of_object(s, gradient), value); }
+
+// Of two levels in the world, that of the function whose zero is farther outside: the level of what is inside of both.
+vec4 outer_level(vec4 a, vec4 b) {
+  return a.w * sqrt(dot3(vec3(b), vec3(b))) > b.w * sqrt(dot3(vec3(a), vec3(a))) ? a : b;
+}
+
+// A displacement in object space, in the world.
+vec3 step_out_of_object(Primitive s, vec3 d) {
+  return vec3(dot3(vec3(bits_to_floats(load_vertex(s.extra))), d), dot3(vec3(bits_to_floats(load_vertex(s.extra + 1u))), d),
+              dot3(vec3(bits_to_floats(load_vertex(s.extra + 2u))), d));
 }
 
 SHADER_END

@@ -1,7 +1,7 @@
 // Outlines of straight edges, and what a ray passes within.
 #ifndef OUTLINE_GLSL
 #define OUTLINE_GLSL
-#include "geometry/ray.glsl"
+#include "geometry/edges.glsl"
 #include "records.h"
 
 SHADER_BEGIN

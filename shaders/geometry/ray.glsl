@@ -13,6 +13,9 @@ struct Ray {
   vec3 inverse;  // 1 / d, finite: a component of d so small that it does not count is taken as a little larger
   uint major;    // the axis along which d is longest
   vec2 shear;    // Woop's, the same for every triangle (shapes/triangle.glsl)
+#if HAS_INSTANCES
+  float reach;   // how far the coordinates reach that the ray was mapped from, in the space that it is in now; 0 in the world
+#endif
 #if HAS_CSG
   // A ray that asks a leaf of a CSG object for its next crossing: that behind which t, and on which side of the leaf the ray is until then.
   float after;
@@ -63,6 +66,7 @@ struct Surface {
 #endif
   vec2 uv;
   float offset;  // a ray that starts this far off p along the geometric normal does not hit the surface again
+  vec3 inward;   // from p to the inside of the surface's edges, where rays start (geometry/edges.glsl); 0 far from edges
   // What bent normals ask (materials/bent_normal.glsl).
   vec3 u_gradient;  // how u and v grow around p; what is not along the surface does not count
   vec3 v_gradient;
@@ -73,6 +77,7 @@ void set_gradients(INOUT(Surface) surface, vec3 u_gradient, vec3 v_gradient) {
   surface.u_gradient = u_gradient;
   surface.v_gradient = v_gradient;
   surface.tangent = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+  surface.inward = vec3(0.0f, 0.0f, 0.0f);
 }
 
 // The same, from how p moves with u and with v.
@@ -145,6 +150,9 @@ Ray make_ray(vec3 o, vec3 d) {
   ray.major = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
   vec3 p = permute(d, ray.major);
   ray.shear = vec2(p.x / p.z, p.y / p.z);
+#if HAS_INSTANCES
+  ray.reach = 0.0f;
+#endif
 #if HAS_CSG
   ray.after = 0.0f;
   ray.side = SIDE_UNKNOWN;
@@ -183,7 +191,7 @@ Ray spawn_ray(Surface s, vec3 d) {
   float cosine = dot3(d, s.normal_geometric);
   float side = cosine < 0.0f ? -s.offset : s.offset;
   bool steep = abs(cosine) > 0.125f;
-  return make_ray(s.p + (steep ? d * (s.offset / abs(cosine)) : s.normal_geometric * side), d);
+  return make_ray((s.p + s.inward) + (steep ? d * (s.offset / abs(cosine)) : s.normal_geometric * side), d);
 }
 
 // Whether scattered rays leave it from elsewhere than its points.
@@ -203,7 +211,7 @@ Ray spawn_scattered(Surface s, vec3 d, bool front) {
     float up = front ? 1.0f : -1.0f;
     float cosine = dot3(d, s.normal_geometric) * up;
     vec3 off = cosine > 0.125f ? d * (s.offset / cosine) : s.normal_geometric * (up * s.offset);
-    return make_ray(s.p + s.normal_side * (up * (front ? s.lift.x : s.lift.y)) + off, d);
+    return make_ray((s.p + s.inward) + s.normal_side * (up * (front ? s.lift.x : s.lift.y)) + off, d);
   }
 #endif
   return spawn_ray(s, d);

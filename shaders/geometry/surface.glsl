@@ -1,6 +1,7 @@
 // From a hit to the surface there: asks the shape that was hit, and brings an instance's into the world.
 #ifndef SURFACE_GLSL
 #define SURFACE_GLSL
+#include "geometry/clear_of_planes.glsl"
 #include "geometry/instance.glsl"
 #include "geometry/lift.glsl"
 #include "geometry/ray.glsl"
@@ -42,6 +43,7 @@ Surface surface_at(Primitive primitive, Ray ray, Hit hit) {
 #if HAS_INSTANCES
   if (hit.instance != NONE) surface = out_of_instance(surface, load_instance(hit.instance));
 #endif
+  surface = clear_of_planes(surface, ray, hit.slot);
   // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
   bool turned = !(dot3(surface.normal, surface.normal_geometric) > 0.0f);
   if (turned) surface.normal = surface.normal_geometric;

@@ -7,7 +7,7 @@
 #ifndef BEZIER_GLSL
 #define BEZIER_GLSL
 #include "shapes/bezier/section.glsl"
-#include "geometry/ray.glsl"
+#include "geometry/edges.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -200,7 +200,10 @@ Surface bezier_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal = surface.normal_geometric;
   surface.uv = inner_uv(hit.uv);
   set_tangents(surface, at.du, at.dv);
-  surface.offset = 8.0f * EPSILON * dot3(abs3(n), abs3(surface.p) + abs3(o)) + 48.0f * EPSILON * patch_ball.w;
+  vec3 reach = abs3(surface.p) + abs3(o);
+  surface.offset = 8.0f * EPSILON * dot3(abs3(n), reach) + 48.0f * EPSILON * patch_ball.w;
+  vec2 inner = inner_step(surface, hit.uv, edge_room(ray, max_component(reach) + 6.0f * patch_ball.w));
+  if (inner.x != 0.0f || inner.y != 0.0f) surface.inward = bezier_at(net, hit.uv.x + inner.x, hit.uv.y + inner.y).p - at.p;
   return surface;
 }
 

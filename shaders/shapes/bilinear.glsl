@@ -2,7 +2,7 @@
 // normal is the other one
 #ifndef BILINEAR_GLSL
 #define BILINEAR_GLSL
-#include "geometry/ray.glsl"
+#include "geometry/edges.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -85,6 +85,8 @@ Surface bilinear_surface(Primitive s, Ray ray, Hit hit) {
   vec3 reach = (abs3(p00) + abs3(vec3(s.b))) + (abs3(vec3(s.c)) + abs3(vec3(s.a.w, s.b.w, s.c.w)));
   set_tangents(surface, across_v, along_v);
   surface.offset = 48.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);
+  vec2 inner = inner_step(surface, hit.uv, edge_room(ray, 6.0f * max_component(reach)));
+  surface.inward = (across_v * inner.x + along_v * inner.y) + (right - left) * (inner.x * inner.y);
   return surface;
 }
 

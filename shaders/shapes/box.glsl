@@ -20,9 +20,15 @@ bool box_reject(Primitive s, Ray ray) { return false; }
 
 void box_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 
+vec4 box_level(Primitive s, vec3 p) {
+  return cube_level(s, point_into_object(s, p));
+}
+
 Surface box_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = onto_cube(at_hit(object_ray(s, ray, BOX_REACH), hit), hit.uv);
-  return object_surface(s, p, cube_normal(hit.uv), cube_uv(p, hit.uv));
+  Surface surface = object_surface(s, p, cube_normal(hit.uv), cube_uv(p, hit.uv));
+  surface.inward = step_out_of_object(s, inward_of_cube(p, hit.uv, coordinate_steepness(s) * object_room(s, ray, p)));
+  return surface;
 }
 
 SHADER_END

@@ -42,6 +42,13 @@ bool capsule_reject(Primitive s, Ray ray) { return false; }
 
 void capsule_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, object_parameters(s).x + 1.0f, 1.0f), lower, upper); }
 
+vec4 capsule_level(Primitive s, vec3 p) {
+  float half_length = object_parameters(s).x;
+  vec3 q = point_into_object(s, p);
+  q.y = q.y - minimum(maximum(q.y, -half_length), half_length);
+  return level_out_of_object(s, q, 0.5f * (dot3(q, q) - 1.0f));
+}
+
 Surface capsule_surface(Primitive s, Ray ray, Hit hit) {
   float half_length = object_parameters(s).x;
   vec3 p = at_hit(object_ray(s, ray, half_length + 1.0f), hit);

@@ -24,11 +24,18 @@ bool cone_reject(Primitive s, Ray ray) { return false; }
 
 void cone_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 
+vec4 cone_level(Primitive s, vec3 p) {
+  float taper = object_parameters(s).y;
+  vec3 q = point_into_object(s, p);
+  float distance = maximum(sqrt(q.x * q.x + q.z * q.z), 1.0e-20f);
+  return revolution_level(s, vec3(q.x / distance, taper, q.z / distance), distance - (1.0f - taper * q.y), q.y, 0.0f, 1.0f);
+}
+
 Surface cone_surface(Primitive s, Ray ray, Hit hit) {
   float taper = object_parameters(s).y;
   vec3 p = at_hit(object_ray(s, ray, 1.4142136f), hit);
   float radius = 1.0f - taper * minimum(maximum(p.y, 0.0f), 1.0f);
-  return revolution_surface(s, p, hit.uv.x, 0.0f, 1.0f, radius, -taper, hit.uv.x == PART_BOTTOM ? 1.0f : 1.0f - taper);
+  return revolution_surface(s, ray, p, hit.uv.x, 0.0f, 0.0f, 1.0f, radius, -taper, taper * taper, hit.uv.x == PART_BOTTOM ? 1.0f : 1.0f - taper);
 }
 
 SHADER_END

@@ -5,7 +5,7 @@
 // without. The last node is the CSG object.
 #ifndef CSG_GLSL
 #define CSG_GLSL
-#include "geometry/ray.glsl"
+#include "geometry/edges.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -256,6 +256,65 @@ void csg_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
 // The leaf whose surface was hit.
 Primitive csg_leaf(Primitive s, Hit hit) { return load_leaf(csg_leaf_at(s, uint(hit.uv.x) >> 2u)); }
 
+vec4 leaf_level(Primitive leaf, vec3 p) {
+  vec4 level = vec4(0.0f, 0.0f, 0.0f, T_MISS);
+#define LEAF_LEVEL(name, number) \
+  if (kind_of(leaf) == number) level = name##_level(leaf, p);
+  CLOSED_SHAPES(LEAF_LEVEL)
+  return level;
+}
+
+// Whether the leaf `own`, as a bit, bounds the CSG object where the ray is within the leaves `within`.
+bool bounds_csg(Primitive s, uint own, uint within) {
+  uvec4 head = load_outline(s.extra);
+  uvec2 holds = csg_holds(s.extra + 1u, head.x, uvec2((within | own) ^ head.y, (within & ~own) ^ head.y));
+  return holds.x != holds.y;
+}
+
+// `surface` of the leaf `own`, as a bit, with what the surfaces of other leaves add to `inward`, where they cut it.
+Surface clear_of_leaves(Primitive s, Surface surface, Ray ray, uint own) {
+  uvec4 head = load_outline(s.extra);
+  uint leaves = s.extra + 1u + head.x;
+  vec3 p = surface.p;
+  float room = edge_room(ray, 2.0f * max_component(abs3(p)) + max_component(abs3(vec3(s.a)) + vec3(s.b)));
+
+  // The leaves that p is within, and those whose surface is near.
+  uint within = 0u;
+  uint near = 0u;
+  uint bit = 1u;
+  for (uint at = leaves; at < leaves + LEAF_WORDS * head.z; at += LEAF_WORDS) {
+    vec3 beyond = abs3(p - vec3(bits_to_floats(load_outline(at + 4u)))) - vec3(bits_to_floats(load_outline(at + 5u)));
+    if (bit != own && max_component(beyond) < room) {
+      vec4 level = leaf_level(load_leaf(at), p);
+      within = level.w < 0.0f ? within | bit : within;
+      near = abs(level.w) < 2.0f * room * sqrt(dot3(vec3(level), vec3(level))) ? near | bit : near;
+    }
+    bit = bit << 1u;
+  }
+
+  // Rounding may have taken p to the other side of a surface that is near, where `own` is no surface of the CSG object.
+  for (uint rest = near; rest != 0u && !bounds_csg(s, own, within); rest = rest & (rest - 1u)) {
+    uint one = rest & (~rest + 1u);
+    within = bounds_csg(s, own, within ^ one) ? within ^ one : within;
+  }
+
+  // Twice, for leaves that have edges themselves, and for several that cut each other. Each time back onto the leaf's own surface, which bends.
+  Surface clear = surface;
+  Primitive leaf = load_leaf(leaves + LEAF_WORDS * lowest_bit(own));
+  for (uint i = 0u; near != 0u && i < 2u; i++) {
+    for (uint rest = near; rest != 0u; rest = rest & (rest - 1u)) {
+      vec4 level = leaf_level(load_leaf(leaves + LEAF_WORDS * lowest_bit(rest)), p + clear.inward);
+      vec3 gradient = (within & rest & (~rest + 1u)) != 0u ? vec3(level) : -vec3(level);
+      float value = ((within & rest & (~rest + 1u)) != 0u ? level.w : -level.w) - dot3(gradient, clear.inward);
+      clear.inward = inward_of_face(clear.inward, surface.normal_geometric, value, gradient, room);
+    }
+    vec4 level = leaf_level(leaf, p + clear.inward);
+    float squared = dot3(vec3(level), vec3(level));
+    if (level.w * level.w < room * room * squared) clear.inward = clear.inward - vec3(level) * (level.w / squared);
+  }
+  return clear;
+}
+
 Surface csg_surface(Primitive s, Ray ray, Hit hit) {
   uint leaf = uint(hit.uv.x);
   Primitive primitive = csg_leaf(s, hit);
@@ -270,6 +329,7 @@ Surface csg_surface(Primitive s, Ray ray, Hit hit) {
     surface = name##_surface(primitive, ray, own);                           \
   }
   CLOSED_SHAPES(LEAF_SURFACE)
+  surface = clear_of_leaves(s, surface, ray, 1u << (leaf >> 2u));
 
   // What is taken away is seen from within.
   if (((load_outline(s.extra).y >> (leaf >> 2u)) & 1u) != 0u) {

@@ -20,9 +20,14 @@ bool cylinder_reject(Primitive s, Ray ray) { return false; }
 
 void cylinder_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 
+vec4 cylinder_level(Primitive s, vec3 p) {
+  vec3 q = point_into_object(s, p);
+  return revolution_level(s, vec3(q.x, 0.0f, q.z), 0.5f * ((q.x * q.x + q.z * q.z) - 1.0f), q.y, -1.0f, 1.0f);
+}
+
 Surface cylinder_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = at_hit(object_ray(s, ray, 1.4142136f), hit);
-  return revolution_surface(s, p, hit.uv.x, -1.0f, 1.0f, 1.0f, 0.0f, 1.0f);
+  return revolution_surface(s, ray, p, hit.uv.x, -1.0f, -1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 1.0f);
 }
 
 SHADER_END

@@ -27,6 +27,11 @@ bool ellipsoid_reject(Primitive s, Ray ray) { return false; }
 
 void ellipsoid_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 
+vec4 ellipsoid_level(Primitive s, vec3 p) {
+  vec3 q = point_into_object(s, p);
+  return level_out_of_object(s, q, 0.5f * (dot3(q, q) - 1.0f));
+}
+
 Surface ellipsoid_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = at_hit(object_ray(s, ray, 1.0f), hit);
   p = dot3(p, p) > 0.0f ? normalize3(p) : vec3(0.0f, 1.0f, 0.0f);

@@ -27,6 +27,13 @@ bool hyperboloid_reject(Primitive s, Ray ray) { return false; }
 
 void hyperboloid_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 2.0f, 1.0f), lower, upper); }
 
+vec4 hyperboloid_level(Primitive s, vec3 p) {
+  vec4 parameters = object_parameters(s);
+  vec3 q = point_into_object(s, p);
+  float value = (q.x * q.x + q.z * q.z) - (parameters.y * q.y * q.y + parameters.z);
+  return revolution_level(s, vec3(q.x, -parameters.y * q.y, q.z), 0.5f * value, q.y, parameters.w, parameters.w + 2.0f);
+}
+
 Surface hyperboloid_surface(Primitive s, Ray ray, Hit hit) {
   vec4 parameters = object_parameters(s);
   vec3 p = at_hit(object_ray(s, ray, HYPERBOLOID_REACH), hit);
@@ -34,7 +41,7 @@ Surface hyperboloid_surface(Primitive s, Ray ray, Hit hit) {
   float top = bottom + 2.0f;
   float y = hit.uv.x == PART_BOTTOM ? bottom : hit.uv.x == PART_TOP ? top : minimum(maximum(p.y, bottom), top);
   float radius = sqrt(parameters.y * y * y + parameters.z);
-  return revolution_surface(s, p, hit.uv.x, bottom, top, radius, parameters.y * y / radius, radius);
+  return revolution_surface(s, ray, p, hit.uv.x, bottom, bottom, top, radius, parameters.y * y / radius, parameters.y, radius);
 }
 
 SHADER_END

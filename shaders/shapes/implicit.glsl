@@ -72,6 +72,26 @@ bool implicit_reject(Primitive s, Ray ray) { return false; }
 
 void implicit_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 
+// The formula's gradient and value at a point of the cube.
+vec4 formula_slope(Implicit it, vec3 p) {
+  vec4 slope = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+#define SLOPE_OF(number, name)                              \
+  {                                                         \
+    bool wanted = it.formula == number;                     \
+    vec4 found = name##_slope(it, p, wanted);               \
+    slope = wanted ? found : slope;                         \
+  }
+  FORMULAS(SLOPE_OF)
+  return slope;
+}
+
+vec4 implicit_level(Primitive s, vec3 p) {
+  Implicit it = load_implicit(s);
+  vec3 q = point_into_object(s, p);
+  vec4 slope = formula_slope(it, q);
+  return outer_level(level_out_of_object(s, vec3(slope), slope.w), cube_level(s, q));
+}
+
 Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
   Implicit it = load_implicit(s);
   ObjectRay r = object_ray(s, ray, IMPLICIT_REACH);
@@ -81,14 +101,7 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
 
   // Step onto it along the gradient. Where there is none, it is taken to face the ray. It is made a unit vector: that of a box 1e12 wide may be so short,
   // or long, that its squares are lost on the way into the world.
-  vec4 slope = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-#define SLOPE_OF(number, name)                              \
-  {                                                         \
-    bool wanted = itself && it.formula == number;           \
-    vec4 found = name##_slope(it, p, wanted);               \
-    slope = wanted ? found : slope;                         \
-  }
-  FORMULAS(SLOPE_OF)
+  vec4 slope = formula_slope(it, p);
   vec3 gradient = vec3(slope);
   float squared = dot3(gradient, gradient);
   bool steep = squared > 1.0e-30f && squared < 1.0e30f;
@@ -115,6 +128,9 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
   }
   FORMULAS(RAY_OFFSET_OF)
   surface.offset = itself ? surface.offset * (factor + 1.0f) : surface.offset;
+  float room = object_room(s, ray, p);
+  vec3 inward = itself ? inward_of_cut(s, p, gradient, room) : inward_of_cut_face(s, p, hit.uv, slope.w, vec3(slope), room);
+  surface.inward = step_out_of_object(s, inward);
   return surface;
 }
 

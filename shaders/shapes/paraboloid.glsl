@@ -24,6 +24,11 @@ bool paraboloid_reject(Primitive s, Ray ray) { return false; }
 
 void paraboloid_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 
+vec4 paraboloid_level(Primitive s, vec3 p) {
+  vec3 q = point_into_object(s, p);
+  return revolution_level(s, vec3(2.0f * q.x, -1.0f, 2.0f * q.z), (q.x * q.x + q.z * q.z) - q.y, q.y, -1.0f, 1.0f);
+}
+
 Surface paraboloid_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = at_hit(object_ray(s, ray, PARABOLOID_REACH), hit);
 
@@ -32,7 +37,7 @@ Surface paraboloid_surface(Primitive s, Ray ray, Hit hit) {
   float height = p.y + (squared - p.y) / (4.0f * squared + 1.0f);
   p.y = hit.uv.x == PART_SIDE ? minimum(maximum(height, 0.0f), 1.0f) : p.y;
   float radius = sqrt(maximum(p.y, 0.0f));
-  return revolution_surface(s, p, hit.uv.x, 0.0f, 1.0f, radius, 0.5f / maximum(radius, 1.0e-6f), 1.0f);
+  return revolution_surface(s, ray, p, hit.uv.x, -1.0f, 0.0f, 1.0f, radius, 0.5f / maximum(radius, 1.0e-6f), 0.0f, 1.0f);
 }
 
 SHADER_END

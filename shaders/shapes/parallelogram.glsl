@@ -48,13 +48,19 @@ Surface parallelogram_surface(Primitive s, Ray ray, Hit hit) {
   float u = dot3(across_v, p - vec3(s.a)) / dot3(across_v, along_u);
   float v = dot3(across_u, p - vec3(s.a)) / dot3(across_u, along_v);
 
+  // The hit of a ray that grazes the plane may be far beyond an edge.
+  p = p + (along_u * (minimum(maximum(u, 0.0f), 1.0f) - u) + along_v * (minimum(maximum(v, 0.0f), 1.0f) - v));
+
   Surface surface;
   surface.p = p;
   surface.normal_geometric = n;
   surface.normal = n;
   surface.uv = inner_uv(vec2(u, v));
   set_gradients(surface, across_v / dot3(across_v, along_u), across_u / dot3(across_u, along_v));
-  surface.offset = 8.0f * EPSILON * dot3(abs3(n), abs3(p) + abs3(vec3(s.a)));
+  vec3 reach = abs3(p) + abs3(vec3(s.a));
+  surface.offset = 8.0f * EPSILON * dot3(abs3(n), reach);
+  vec2 inner = inner_step(surface, vec2(u, v), edge_room(ray, max_component(reach)));
+  surface.inward = along_u * inner.x + along_v * inner.y;
   return surface;
 }
 

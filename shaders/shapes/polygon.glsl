@@ -1,7 +1,8 @@
 // a = unit normal, turns of the loop below    b = centre of the bounds, on the plane    c = half of their size
 // extra: U, U0 and V, V0 (u = U·x + U0, v = V·x + V0), then a path: a vertex, and four more a turn.
 // The path runs round the outline, then for each hole over to it, round it, and back. It comes back on the way that it went over, so
-// that the two cancel to the last bit. Where it is done it stays.
+// that the two cancel to the last bit. Where it is done it stays. The polygon is to the left of its edges, seen from where the normal points. A
+// vertex's w is 1 if an edge leads to it, 0 if the way does.
 #ifndef POLYGON_GLSL
 #define POLYGON_GLSL
 #include "geometry/outline.glsl"
@@ -9,6 +10,33 @@
 SHADER_BEGIN
 
 vec3 path_vertex(Ray ray, uint i) { return seen_along(ray, vec3(bits_to_floats(load_outline(i)))); }
+
+// t, brought to the polygon's nearest edge if no part of the polygon is there. The polygon is cut, as in shapes/triangle.glsl, by the plane through
+// the ray and the sheared x or y axis, whichever is less along the polygon's plane: the ray is within where it has passed an odd number of edges.
+float t_between_edges(Primitive s, Ray ray, float t, uint at, uint end) {
+  vec3 steep = permute(abs3(vec3(s.a)), ray.major);
+  bool across_x = steep.x < steep.y;
+  float inverse = permute(ray.inverse, ray.major).z;
+  bool within = false;
+  float below = -T_MISS;
+  float above = T_MISS;
+  vec3 a = path_vertex(ray, at);
+  for (; at < end; at++) {
+    vec4 next = bits_to_floats(load_outline(at + 1u));
+    vec3 b = seen_along(ray, vec3(next));
+    float from = across_x ? a.x : a.y;
+    float to = across_x ? b.x : b.y;
+    if (next.w != 0.0f && (from > 0.0f) != (to > 0.0f)) {
+      float crossing = (a.z + (b.z - a.z) * (from / (from - to))) * inverse;
+      bool passed = crossing < t;
+      within = within != passed;
+      below = passed ? maximum(below, crossing) : below;
+      above = passed ? above : minimum(above, crossing);
+    }
+    a = b;
+  }
+  return within ? t : t - below < above - t ? below : above;
+}
 
 // Only a ray that passes the bounds goes round: what is beside the polygon costs no turn.
 float polygon_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
@@ -33,7 +61,11 @@ float polygon_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     }
     at += 4u;
   } while (at < end);
-  return inside ? t : -1.0f;
+
+  // Along a ray that grazes the plane, t may be off by more than rays start inside of edges (geometry/edges.glsl).
+  float slope = dot3(n, ray.d);
+  if (inside && slope * slope < 0.00390625f * dot3(ray.d, ray.d)) t = t_between_edges(s, ray, t, s.extra + 2u, end);
+  return inside && t > 0.0f ? t : -1.0f;
 }
 
 bool polygon_reject(Primitive s, Ray ray) { return false; }
@@ -41,6 +73,28 @@ bool polygon_reject(Primitive s, Ray ray) { return false; }
 void polygon_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   lower = vec3(s.b) - vec3(s.c);
   upper = vec3(s.b) + vec3(s.c);
+}
+
+// From p to the inside of the edges.
+vec3 polygon_inward(Primitive s, vec3 p, float room) {
+  vec3 inward = vec3(0.0f, 0.0f, 0.0f);
+  uint at = s.extra + 2u;
+  uint end = at + 4u * uint(s.a.w);
+  vec3 a = vec3(bits_to_floats(load_outline(at)));
+  for (; at < end; at++) {
+    vec4 next = bits_to_floats(load_outline(at + 1u));
+    vec3 b = vec3(next);
+    vec3 along = b - a;
+    float squared = dot3(along, along);
+    vec3 outward = cross3(along, vec3(s.a));
+    float share = dot3(along, p + inward - a);
+    float beyond = room * sqrt(squared);
+    float value = dot3(outward, p - a);
+    if (next.w != 0.0f && abs(value) < 2.0f * beyond && share > -beyond && share < squared + beyond)
+      inward = inward_of_face(inward, vec3(s.a), value, outward, room);
+    a = b;
+  }
+  return inward;
 }
 
 Surface polygon_surface(Primitive s, Ray ray, Hit hit) {
@@ -56,7 +110,9 @@ Surface polygon_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal = n;
   surface.uv = vec2(dot3(vec3(u), p) + u.w, dot3(vec3(v), p) + v.w);
   set_gradients(surface, vec3(u), vec3(v));
-  surface.offset = 8.0f * EPSILON * dot3(abs3(n), abs3(p) + abs3(vec3(s.b)));
+  vec3 reach = abs3(p) + abs3(vec3(s.b));
+  surface.offset = 8.0f * EPSILON * dot3(abs3(n), reach);
+  surface.inward = polygon_inward(s, p, edge_room(ray, max_component(reach + vec3(s.c))));
   return surface;
 }
 

@@ -89,18 +89,67 @@ bool prism_reject(Primitive s, Ray ray) { return false; }
 
 void prism_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 
+// From a point of a cap to the inside of all walls that it is near to.
+vec3 prism_cap_inward(Primitive s, vec3 p, float room) {
+  vec3 inward = vec3(0.0f, 0.0f, 0.0f);
+  uint walls = uint(object_parameters(s).x);
+  uint first = s.extra + OBJECT_PARAMETERS + 3u;
+  for (uint i = 0u; i < walls; i++) {
+    vec4 edge = bits_to_floats(load_outline(first + i));
+    vec4 more = bits_to_floats(load_outline(first + walls + i));
+    vec3 n = vec3(more.z, 0.0f, more.w);
+    vec3 along = vec3(edge.z - edge.x, 0.0f, edge.w - edge.y);
+    along = along / dot3(along, along);
+    vec3 from = p + inward - vec3(edge.x, p.y, edge.y);
+    float margin = room * steepness(s, n);
+    float beyond = room * steepness(s, along);
+    float beside = dot3(n, from);
+    float share = dot3(along, from);
+    if (abs(beside) < margin && share > -beyond && share < 1.0f + beyond) inward = inward - n * (beside + margin);
+  }
+  return inward;
+}
+
+vec4 prism_level(Primitive s, vec3 p) {
+  vec3 q = point_into_object(s, p);
+  uint at = s.extra + OBJECT_PARAMETERS + 3u;
+  uint walls = uint(object_parameters(s).x);
+  bool inside = false;
+  float nearest = T_MISS;
+  vec3 gradient = vec3(0.0f, 1.0f, 0.0f);
+  for (uint end = at + walls; at < end; at++) {
+    vec4 edge = bits_to_floats(load_outline(at));
+    vec4 more = bits_to_floats(load_outline(at + walls));
+    vec2 along = vec2(edge.z - edge.x, edge.w - edge.y);
+    vec2 from = vec2(q.x - edge.x, q.z - edge.y);
+    float share = (from.x * along.x + from.y * along.y) / (along.x * along.x + along.y * along.y);
+    vec2 off = from - along * minimum(maximum(share, 0.0f), 1.0f);
+    float squared = off.x * off.x + off.y * off.y;
+    gradient = squared < nearest ? vec3(more.z, 0.0f, more.w) : gradient;
+    nearest = minimum(nearest, squared);
+    bool right = from.x * along.y < from.y * along.x;
+    inside = inside != ((edge.y > q.z) != (edge.w > q.z) && right != (along.y < 0.0f));
+  }
+  vec4 wall = level_out_of_object(s, gradient, inside ? -sqrt(nearest) : sqrt(nearest));
+  vec4 cap = level_out_of_object(s, vec3(0.0f, q.y < 0.0f ? -1.0f : 1.0f, 0.0f), abs(q.y) - 1.0f);
+  return outer_level(wall, cap);
+}
+
 Surface prism_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = at_hit(object_ray(s, ray, 1.7320508f), hit);
   uint first = s.extra + OBJECT_PARAMETERS;
   vec4 sizes = object_parameters(s);
   vec3 gradient = vec3(0.0f, hit.uv.x == PRISM_BOTTOM ? -1.0f : 1.0f, 0.0f);
   UvField field = uv_field(vec2(0.0f, 0.0f), gradient, gradient);
+  float room = object_room(s, ray, p);
+  vec3 inward = vec3(0.0f, 0.0f, 0.0f);
   if (hit.uv.x < PRISM_WALLS) {
     vec4 u = bits_to_floats(load_vertex(first + 1u));
     vec4 v = bits_to_floats(load_vertex(first + 2u));
     p.y = gradient.y;
     field = uv_field(vec2(((u.x * p.x + u.y * p.z) + u.z) * gradient.y, (v.x * p.x + v.y * p.z) + v.z),
                      vec3(u.x, 0.0f, u.y) * gradient.y, vec3(v.x, 0.0f, v.y));
+    inward = prism_cap_inward(s, p, room);
   } else {
     uint wall = uint(hit.uv.x - PRISM_WALLS);
     vec4 edge = bits_to_floats(load_outline(first + 3u + wall));
@@ -113,12 +162,17 @@ Surface prism_surface(Primitive s, Ray ray, Hit hit) {
     float slope = (more.y - more.x) / (along.x * along.x + along.y * along.y);
     field = uv_field(vec2(more.x + (more.y - more.x) * share, sizes.y * (0.5f * p.y + 0.5f)),
                      vec3(along.x * slope, 0.0f, along.y * slope), vec3(0.0f, 0.5f * sizes.y, 0.0f));
+    vec3 per_share = vec3(along.x, 0.0f, along.y) / (along.x * along.x + along.y * along.y);
+    float aside = inside_ends(share, 0.0f, 1.0f, room * steepness(s, per_share)) - share;
+    float rise = inside_ends(p.y, -1.0f, 1.0f, room * coordinate_steepness(s).y) - p.y;
+    inward = vec3(along.x * aside, rise, along.y * aside);
   }
   Surface surface = object_surface(s, p, gradient, field);
 
   // A wall is where its ends are, and those are rounded however close to the middle it passes.
   vec3 slope = gradient_out_of_object(s, gradient);
   surface.offset += 8.0f * EPSILON / sqrt(dot3(slope, slope));
+  surface.inward = step_out_of_object(s, inward);
   return surface;
 }
 

@@ -39,6 +39,27 @@ vec3 quadric_equation(Quadric quadric, ObjectRay r) {
               (0.5f * dot3(here, r.o) + dot3(linear, r.o)) + quadric.products.w);
 }
 
+// From p on a face of the cube to the inside of the face's edges and of the quadric, by Newton's steps.
+vec3 quadric_inward_of_face(Primitive s, vec3 p, vec2 face, float room) {
+  Quadric quadric = load_quadric(s);
+  vec3 inward = vec3(0.0f, 0.0f, 0.0f);
+  for (uint i = 0u; i < 3u; i++) {
+    vec3 at = p + inward;
+    vec3 bend = quadric_slope(vec3(quadric.squares), vec3(quadric.products), at);
+    float f = (0.5f * dot3(bend, at) + dot3(vec3(quadric.linear), at)) + quadric.products.w;
+    inward = inward + inward_of_cut_face(s, at, face, f, bend + vec3(quadric.linear), room);
+  }
+  return inward;
+}
+
+// The step in q's direction along a quadric that p is on: `along`, brought back onto it.
+vec3 quadric_step(Quadric quadric, vec3 p, vec3 along) {
+  vec3 slope = quadric_slope(vec3(quadric.squares), vec3(quadric.products), p) + vec3(quadric.linear);
+  vec3 bend = quadric_slope(vec3(quadric.squares), vec3(quadric.products), along);
+  float f = dot3(slope, along) + 0.5f * dot3(bend, along);
+  return along - slope * (f / maximum(dot3(slope, slope), 1.0e-12f));
+}
+
 // uv: the axis and the side of the cube's face, or QUADRIC_ITSELF.
 float quadric_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   Quadric quadric = load_quadric(s);
@@ -55,11 +76,21 @@ bool quadric_reject(Primitive s, Ray ray) { return false; }
 
 void quadric_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 
+vec4 quadric_level(Primitive s, vec3 p) {
+  Quadric quadric = load_quadric(s);
+  vec3 q = point_into_object(s, p);
+  vec3 bend = quadric_slope(vec3(quadric.squares), vec3(quadric.products), q);
+  float f = (0.5f * dot3(bend, q) + dot3(vec3(quadric.linear), q)) + quadric.products.w;
+  return outer_level(level_out_of_object(s, bend + vec3(quadric.linear), f), cube_level(s, q));
+}
+
 Surface quadric_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = at_hit(object_ray(s, ray, QUADRIC_REACH), hit);
   if (hit.uv.x != QUADRIC_ITSELF) {
     p = onto_cube(p, hit.uv);
-    return object_surface(s, p, cube_normal(hit.uv), cube_uv(p, hit.uv));
+    Surface face = object_surface(s, p, cube_normal(hit.uv), cube_uv(p, hit.uv));
+    face.inward = step_out_of_object(s, quadric_inward_of_face(s, p, hit.uv, object_room(s, ray, p)));
+    return face;
   }
 
   // Step onto it along the gradient. `noise`: how far off f may be by rounding. Where the gradient is as good as 0, as at an apex, f is a
@@ -87,6 +118,8 @@ Surface quadric_surface(Primitive s, Ray ray, Hit hit) {
   Surface surface = object_surface(s, p, gradient, cube_uv(p, vec2(axis, towards < 0.0f ? -1.0f : 1.0f)));
   vec3 slope = gradient_out_of_object(s, gradient);
   surface.offset = surface.offset + noise / sqrt(dot3(slope, slope));
+  vec3 inward = inward_of_cut(s, p, gradient, object_room(s, ray, p));
+  surface.inward = step_out_of_object(s, quadric_step(quadric, p, inward));
   return surface;
 }
 

@@ -64,6 +64,11 @@ void sphere_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   upper = vec3(s.a) + r;
 }
 
+vec4 sphere_level(Primitive s, vec3 p) {
+  vec3 f = (p - vec3(s.a)) / s.a.w;
+  return vec4(f, 0.5f * s.a.w * (dot3(f, f) - 1.0f));
+}
+
 Surface sphere_surface(Primitive s, Ray ray, Hit hit) {
   vec3 centre = vec3(s.a);
   // A sphere smaller than the rounding of its distance may be hit at its very centre.

@@ -72,6 +72,11 @@ void superellipsoid_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper);
 }
 
+vec4 superellipsoid_level(Primitive s, vec3 p) {
+  vec4 norm = superellipsoid_norm(point_into_object(s, p), object_parameters(s));
+  return level_out_of_object(s, vec3(norm), norm.w - 1.0f);
+}
+
 Surface superellipsoid_surface(Primitive s, Ray ray, Hit hit) {
   // Onto the surface, towards the centre: there the norm is in proportion.
   vec4 parameters = object_parameters(s);

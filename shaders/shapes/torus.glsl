@@ -112,6 +112,14 @@ void torus_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   object_box(s, vec3(1.0f + minor, minor, 1.0f + minor), lower, upper);
 }
 
+vec4 torus_level(Primitive s, vec3 p) {
+  float minor = object_parameters(s).x;
+  vec3 q = point_into_object(s, p);
+  float distance = maximum(sqrt(q.x * q.x + q.z * q.z), 1.0e-20f);
+  float share = 1.0f - 1.0f / distance;
+  return level_out_of_object(s, vec3(q.x * share, q.y, q.z * share), 0.5f * torus_depth(q, minor));
+}
+
 Surface torus_surface(Primitive s, Ray ray, Hit hit) {
   // Onto the tube, along its own radius.
   float minor = object_parameters(s).x;

@@ -2,7 +2,7 @@
 // Parameters of a hit: the weights of the second and third vertex.
 #ifndef TRIANGLE_GLSL
 #define TRIANGLE_GLSL
-#include "geometry/ray.glsl"
+#include "geometry/edges.glsl"
 #include "records.h"
 
 SHADER_BEGIN
@@ -107,6 +107,29 @@ void triangle_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   upper = vec3(maximum(s.a.x, maximum(s.b.x, s.c.x)), maximum(s.a.y, maximum(s.b.y, s.c.y)), maximum(s.a.z, maximum(s.b.z, s.c.z)));
 }
 
+// From the point with those weights to the inside of the edges. A weight is 0 at its edge and grows by 1 over the triangle's height there.
+vec3 triangle_inward(Primitive s, vec3 weights, float room) {
+  vec3 ab = vec3(s.b) - vec3(s.a);
+  vec3 bc = vec3(s.c) - vec3(s.b);
+  vec3 ca = vec3(s.a) - vec3(s.c);
+  vec3 across = cross3(ab, ca);
+  float per_height = room / sqrt(dot3(across, across));
+  vec3 edges = vec3(sqrt(dot3(bc, bc)), sqrt(dot3(ca, ca)), sqrt(dot3(ab, ab)));
+  vec3 missing = vec3(minimum(edges.x * per_height, 0.25f), minimum(edges.y * per_height, 0.25f), minimum(edges.z * per_height, 0.25f)) - weights;
+
+  // Away from the edge that is farthest too near, perpendicular to it; or as askew as the two other edges ask. The weights that are missing are that
+  // edge's and those of the next two.
+  vec3 distance = missing / edges;
+  bool first = distance.x >= distance.y && distance.x >= distance.z;
+  bool second = !first && distance.y >= distance.z;
+  vec3 m = first ? missing : second ? vec3(missing.y, missing.z, missing.x) : vec3(missing.z, missing.x, missing.y);
+  vec3 up = first ? ca : second ? ab : bc;
+  vec3 along = first ? -bc : second ? -ca : -ab;
+  float rise = maximum(m.x, 0.0f);
+  float slide = -rise * dot3(up, along) / dot3(along, along);
+  return up * rise + along * minimum(maximum(slide, m.y), -m.z - rise);
+}
+
 Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   float wa = (1.0f - hit.uv.x) - hit.uv.y;
   vec3 a = vec3(s.a) * wa;
@@ -147,6 +170,7 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   }
   vec3 reach = abs3(vec3(s.a)) + abs3(vec3(s.b)) + abs3(vec3(s.c));
   surface.offset = 8.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);
+  surface.inward = triangle_inward(s, vec3(wa, hit.uv.x, hit.uv.y), edge_room(ray, max_component(reach)));
   return surface;
 }
 

@@ -194,3 +194,62 @@ TEST_CASE("a closed gear: no ray from within passes at edges or vertices, walls 
     }
   }
 }
+
+TEST_CASE("a ray that grazes a polygon or a parallelogram hits it within its outline") {
+  const std::vector<Vec2> outlines[] = {{{0, 0}, {1, 0}, {0.2, 0.9}},
+                                        {{0, 0}, {1, 0}, {1, 1}, {0.9, 0.1}},
+                                        {{0, 0}, {1, 0.1}, {1.3, 1}, {0.3, 0.9}}};
+  const auto beyond = [](const std::vector<Vec2>& outline, const Vec2& point) {
+    if (winding(outline, point) != 0) return 0.0;
+    double least = INFINITY;
+    for (size_t i = 0; i < outline.size(); ++i) {
+      const Vec2 from = outline[i], along = outline[(i + 1) % outline.size()] - from;
+      const double share = glm::clamp(glm::dot(point - from, along) / glm::dot(along, along), 0.0, 1.0);
+      least = std::min(least, glm::distance(point, from + share * along));
+    }
+    return least;
+  };
+  Random random(3);
+  int hits = 0;
+  double farthest = 0;
+  for (int i = 0; i < rays_a_place() / 4; ++i) {
+    const Vec3 n = random.direction(), u = glm::normalize(glm::cross(n, random.direction()));
+    const Vec3 origin = random.point(1), v = glm::cross(n, u);
+    const auto on_plane = [&](const Vec2& p) { return origin + p.x * u + p.y * v; };
+    const size_t chosen = size_t(random.below(3));
+    const std::vector<Vec2>& outline = outlines[chosen];
+    Shapes shapes;
+    Outline vertices;
+    for (const Vec2& p : outline) vertices.push_back(on_plane(p));
+    if (chosen == 2)
+      shapes.add(make_parallelogram(vertices[0], vertices[1] - vertices[0], vertices[3] - vertices[0]));
+    else
+      shapes.add({vertices});
+    const shader::Binding binding(twin::view_of(shapes.packer.scene));
+    const shader::Primitive& primitive = shapes.packer.scene.primitives[0];
+    for (int ray = 0; ray < 40; ++ray) {
+      const Vec2 target(random.uniform(0, 1), random.uniform(0, 1));
+      const double angle = random.uniform(0, 2 * std::numbers::pi);
+      const Vec3 from =
+          on_plane(target + 2.0 * Vec2(std::cos(angle), std::sin(angle))) + random.log_uniform(1e-8, 0.3) * n;
+      const shader::Ray r =
+          shader::make_ray(glm::vec3(from), glm::vec3(glm::normalize(on_plane(target) - from)));
+      shader::Hit hit{};
+      hit.t = -1;
+      shader::Surface surface{};
+#define HIT(name, number)                                               \
+  if (kind_of(primitive) == number) {                                   \
+    hit.t = shader::name##_intersect(primitive, r, hit.uv);             \
+    if (hit.t > 0) surface = shader::name##_surface(primitive, r, hit); \
+  }
+      SHAPES(HIT)
+      if (!(hit.t > 0)) continue;
+      ++hits;
+      const Vec3 offset = Vec3(surface.p) - origin;
+      farthest = std::max(farthest, beyond(outline, {glm::dot(offset, u), glm::dot(offset, v)}));
+    }
+  }
+  MESSAGE(fmt::format("{} hits, at most {:.2g} beyond the outline", hits, farthest));
+  CHECK(hits > rays_a_place());
+  CHECK(farthest < 4e-6);
+}

@@ -1,0 +1,35 @@
+// Planes have no edges of their own, and cut whatever they pass through: a spawned ray is kept on the side of each that it came on.
+#ifndef CLEAR_OF_PLANES_GLSL
+#define CLEAR_OF_PLANES_GLSL
+#include "geometry/edges.glsl"
+#include "records.h"
+
+SHADER_BEGIN
+
+// `inward` of a surface in the world that `ray` has hit, with what plane `s` adds where it is that near.
+vec3 inward_of_plane(Primitive s, Surface surface, Ray ray) {
+  vec3 n = vec3(s.a);
+  float room = edge_room(ray, 3.0f * max_component(abs3(surface.p)) + abs(s.a.w));
+  float value = dot3(n, surface.p) - s.a.w;
+  bool below = dot3(n, ray.o) < s.a.w;
+  if (abs(value) >= room) return surface.inward;
+  return inward_of_face(surface.inward, surface.normal_geometric, below ? value : -value, below ? n : -n, room);
+}
+
+// `slot`: that of the primitive that was hit.
+Surface clear_of_planes(Surface surface, Ray ray, uint slot) {
+  Surface clear = surface;
+#ifdef SCENE_PRIMITIVES
+#define CLEAR_OF(name, index, constants) \
+  if (kind_of(constants) == KIND_plane && slot != index) clear.inward = inward_of_plane(constants, clear, ray);
+  SCENE_PRIMITIVES(CLEAR_OF)
+#else
+  if (KIND_FIRST(plane) < KIND_END(plane))
+    for (uint i = KIND_FIRST(plane); i < KIND_END(plane); i++)
+      if (i != slot) clear.inward = inward_of_plane(load_primitive(i), clear, ray);
+#endif
+  return clear;
+}
+
+SHADER_END
+#endif

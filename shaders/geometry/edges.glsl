@@ -1,0 +1,43 @@
+// Spawned rays start inside of a surface's edges. There the neighbour is closer than rounding can say: a start that is put off one face
+// (spawn_ray) may lie behind the other, and nothing would stop its ray (docs/numerics.md).
+#ifndef EDGES_GLSL
+#define EDGES_GLSL
+#include "geometry/ray.glsl"
+
+SHADER_BEGIN
+
+// How far inside of edges rays start on a surface whose `offset` is at most 8 EPSILON * reach: 16 of these. spawn_ray displaces a start sideways by at
+// most 8; the rest is for faces that enclose a small angle.
+float edge_room(Ray ray, float reach) {
+#if HAS_INSTANCES
+  reach = reach + ray.reach;
+#endif
+  return 128.0f * EPSILON * reach;
+}
+
+// x, brought inside of `low` and `high` by `room`; between them where there is less.
+float inside_ends(float x, float low, float high, float room) {
+  float least = minimum(room, 0.5f * (high - low));
+  return minimum(maximum(x, low + least), high - least);
+}
+
+// The step that brings (u, v), of a surface that is 1 wide, inside of its four edges. The surface has the gradients of u and v.
+vec2 inner_step(Surface surface, vec2 uv, float room) {
+  return vec2(inside_ends(uv.x, 0.0f, 1.0f, room * sqrt(dot3(surface.u_gradient, surface.u_gradient))),
+              inside_ends(uv.y, 0.0f, 1.0f, room * sqrt(dot3(surface.v_gradient, surface.v_gradient)))) - uv;
+}
+
+// `inward`, a displacement along a surface, and what is missing until value + gradient · displacement ≤ −room · |gradient|: then the start is on
+// the inner side of another surface, and clear of it. It goes along the edge that it has been moved away from before, if any. `n`: the unit normal of the
+// surface itself.
+vec3 inward_of_face(vec3 inward, vec3 n, float value, vec3 gradient, float room) {
+  float squared = dot3(gradient, gradient);
+  float missing = (value + dot3(gradient, inward)) + room * sqrt(squared);
+  vec3 along = gradient - n * dot3(gradient, n);
+  float moved = dot3(inward, inward);
+  if (moved > 0.0f) along = along - inward * (dot3(along, inward) / moved);
+  return missing > 0.0f ? inward - along * (missing / maximum(dot3(along, along), 0.015625f * squared)) : inward;
+}
+
+SHADER_END
+#endif
