@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "host/shapes/make.hpp"
@@ -201,7 +202,7 @@ TEST_CASE("a ray that grazes a polygon or a parallelogram hits it within its out
                                         {{0, 0}, {1, 0.1}, {1.3, 1}, {0.3, 0.9}}};
   const auto beyond = [](const std::vector<Vec2>& outline, const Vec2& point) {
     if (winding(outline, point) != 0) return 0.0;
-    double least = INFINITY;
+    double least = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < outline.size(); ++i) {
       const Vec2 from = outline[i], along = outline[(i + 1) % outline.size()] - from;
       const double share = glm::clamp(glm::dot(point - from, along) / glm::dot(along, along), 0.0, 1.0);
