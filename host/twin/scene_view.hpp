@@ -21,8 +21,8 @@ struct FormulaView {
   bool (*by_bounds)(const void* scene, uint32_t number);
 };
 
-// Of a user's shaders, which the twin counts: `stop` throws once loops of one invocation have made `most`
-// iterations. It is given `guard`, and the bit of the loop that made the last one
+// Loops of a user's shaders, which the twin counts: `stop` throws once loops of one invocation have made
+// `most` iterations. It is given `guard`, and the bit of the loop that made the last one
 // (executors/loop_guard.hpp).
 struct LoopView {
   const void* guard;

@@ -128,7 +128,7 @@ vec3 coordinate_steepness(Primitive s) {
 // A level, the gradient and the value of a function that is below 0 inside of a shape, brought from object space into the world.
 vec4 level_out_of_object(Primitive s, vec3 gradient, float value) { return vec4(gradient_out_of_object(s, gradient), value); }
 
-// Of two levels in the world, that of the function whose zero is farther outside: the level of what is inside of both.
+// The level of the intersection of two shapes in the world: that whose zero is farther outside.
 vec4 outer_level(vec4 a, vec4 b) {
   return a.w * sqrt(dot3(vec3(b), vec3(b))) > b.w * sqrt(dot3(vec3(a), vec3(a))) ? a : b;
 }

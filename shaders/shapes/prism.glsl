@@ -163,9 +163,9 @@ Surface prism_surface(Primitive s, Ray ray, Hit hit) {
     field = uv_field(vec2(more.x + (more.y - more.x) * share, sizes.y * (0.5f * p.y + 0.5f)),
                      vec3(along.x * slope, 0.0f, along.y * slope), vec3(0.0f, 0.5f * sizes.y, 0.0f));
     vec3 per_share = vec3(along.x, 0.0f, along.y) / (along.x * along.x + along.y * along.y);
-    float aside = inside_ends(share, 0.0f, 1.0f, room * steepness(s, per_share)) - share;
+    float slide = inside_ends(share, 0.0f, 1.0f, room * steepness(s, per_share)) - share;
     float rise = inside_ends(p.y, -1.0f, 1.0f, room * coordinate_steepness(s).y) - p.y;
-    inward = vec3(along.x * aside, rise, along.y * aside);
+    inward = vec3(along.x * slide, rise, along.y * slide);
   }
   Surface surface = object_surface(s, p, gradient, field);
 

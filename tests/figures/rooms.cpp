@@ -276,7 +276,7 @@ bool same_face(const Seen& a, const Seen& b) {
          glm::dot(Vec3(a.surface.normal_geometric), Vec3(b.surface.normal_geometric)) > 0.9;
 }
 
-// Of all directions between two that see different faces, one that sees the edge between them.
+// A direction towards the edge between the faces that `a` and `b` see, where these differ.
 glm::vec3 towards_edge(const auto& start, const Vec3& a, const Vec3& b) {
   Vec3 low = a, high = b;
   const Seen there = look(start(glm::vec3(a)));
